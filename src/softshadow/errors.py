@@ -1,0 +1,59 @@
+"""What softshadow raises and warns of: one message says what was wrong, where, and what was expected."""
+
+import builtins
+import difflib
+from collections.abc import Iterable
+
+
+class SoftShadowError(Exception):
+    """Base of all errors of this package that a user's input can cause."""
+
+
+class SceneError(SoftShadowError):
+    """A scene or scene file is wrong: names the file, the key and what was expected."""
+
+
+class MeshError(SceneError):
+    """A model file or mesh cannot be used: names the file and what was expected."""
+
+
+class StateError(SoftShadowError):
+    """A GL state or a buffer does not allow the operation."""
+
+
+class Warning(builtins.UserWarning):  # noqa: A001 - `softshadow.Warning` is the documented name
+    """Base of all warnings: legal but surprising input, and what will look wrong."""
+
+
+class OpenMesh(Warning):
+    """A caster has boundary edges: every face casts, re-oriented towards the light."""
+
+
+class NonManifoldMesh(Warning):
+    """More than two faces meet in an edge, or neighbours disagree about the outside."""
+
+
+class LightInsideCaster(Warning):
+    """A light lies inside a closed caster: everything outside it is in shadow."""
+
+
+class NearClipZPass(Warning):
+    """The near rectangle cuts a shadow volume: z-pass counts from a wrong start value."""
+
+
+class CounterSaturated(Warning):
+    """A stencil counter reached its largest value (or wrapped): counts above it are lost."""
+
+
+def nearest(name: str, choices: Iterable[str]) -> str:
+    """Return the end of an "unknown name" message: the nearest name, and what there is.
+
+    Examples
+    --------
+    >>> nearest("volume-zfial", ["planar", "volume-zfail"])
+    "did you mean 'volume-zfail'? (there are: planar, volume-zfail)"
+    """
+    known = list(choices)
+    close = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
+    guess = f"did you mean {close[0]!r}? " if close else ""
+    return f"{guess}(there are: {', '.join(known)})"

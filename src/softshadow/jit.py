@@ -1,0 +1,67 @@
+"""The one spelling of a kernel, and the folder its machine code is kept in.
+
+Numba's own cache does not see that a function in another file has changed. The folder is therefore named after a hash of all
+sources that can take part in a kernel: an edit is answered by new code, never by a stale result.
+"""
+
+import hashlib
+import os
+import sys
+import tempfile
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numba
+
+KERNEL_BLOCKS = ("jit.py", "tokens.py", "pipeline", "programs", "truth", "scene")
+
+
+@cache
+def source_hash() -> str:
+    """Return the hash of every source that kernels are made of, 16 hex digits."""
+    root = Path(__file__).parent
+    digest = hashlib.blake2b(digest_size=8)
+    for block in KERNEL_BLOCKS:
+        path = root / block
+        for file in [path] if path.is_file() else sorted(path.rglob("*.py")):
+            digest.update(str(file.relative_to(root)).encode())
+            digest.update(file.read_bytes())
+    return digest.hexdigest()
+
+
+@cache
+def cache_folder() -> Path | None:
+    """Return the folder for compiled kernels, or None where none can be written (then nothing is kept)."""
+    if "NUMBA_CACHE_DIR" in os.environ:
+        base = Path(os.environ["NUMBA_CACHE_DIR"])
+    elif sys.platform == "win32":
+        base = Path(os.environ.get("LOCALAPPDATA", Path.home() / "AppData" / "Local"))
+    elif sys.platform == "darwin":
+        base = Path.home() / "Library" / "Caches"
+    else:
+        base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    folder = base / "softshadow" / source_hash()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError:
+        return None
+
+
+def kernel(function: Callable[..., Any]) -> Any:
+    """Compile a function of the fragment, vertex or geometry loops (decorator).
+
+    IEEE arithmetic as written (no fastmath), no bounds or division checks, runs without the interpreter lock.
+    With ``NUMBA_DISABLE_JIT=1`` the function stays plain Python.
+    """
+    folder = cache_folder()
+    kept = numba.config.CACHE_DIR
+    # the folder is read when the decorator runs, so a user's own setting is back before anybody else can see ours
+    numba.config.CACHE_DIR = str(folder) if folder else ""
+    try:
+        return numba.njit(cache=folder is not None, nogil=True, error_model="numpy")(function)
+    finally:
+        numba.config.CACHE_DIR = kept
