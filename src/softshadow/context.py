@@ -1,0 +1,177 @@
+"""The current context: state, matrices, bound objects, and the recording of every command.
+
+`softshadow.gl` spells the calls and checks their arguments; what they do to a context is done here.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.errors import StateError
+from softshadow.framebuffer import Storage, default_framebuffer
+from softshadow.pipeline.commands import Command, Draw, Vertices
+from softshadow.programs import Program
+from softshadow.state import TEXTURE_UNITS, State
+
+MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
+
+
+@dataclass
+class Frame:
+    """The recording: what the window was made with, every command, and where each step ends.
+
+    `steps` holds (title, number of commands until its end).
+    """
+
+    size: tuple[int, int]
+    depth_format: str
+    stencil_bits: int
+    precision: str
+    commands: list[Command] = field(default_factory=list)
+    steps: list[tuple[str, int]] = field(default_factory=list)
+
+    def fresh_storage(self) -> Storage:
+        """Return storage as it was before the first command."""
+        window = default_framebuffer(*self.size, self.depth_format, self.stencil_bits, self.precision)
+        return Storage({window.name: window})
+
+
+@dataclass
+class CurrentVertex:
+    """The current values that a vertex takes along: glColor, glNormal, glTexCoord."""
+
+    color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
+    normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    texcoords: list[tuple[float, float, float, float]] = field(
+        default_factory=lambda: [(0.0, 0.0, 0.0, 1.0)] * TEXTURE_UNITS
+    )
+
+
+class Context:
+    """A GL context in its initial state, with a window of the given size.
+
+    Parameters
+    ----------
+    width, height : int, pixels
+    depth_format : "d24" or "d32f"
+    stencil_bits : 1 to 8; counters saturate at ``2**stencil_bits - 1``
+    precision : "mesa" (float32, the bits of llvmpipe) or "exact" (float64, depth not rounded)
+    polygon_offset_slope : "max", "length" or "slide" (no absolute value, as printed on the slide)
+    polygon_offset_unit : "mesa" (two depth steps) or "spec" (one)
+    raise_errors : raise `GLError` besides recording the error for glGetError
+    """
+
+    def __init__(
+        self,
+        width: int,
+        height: int,
+        depth_format: str = "d24",
+        stencil_bits: int = 8,
+        precision: str = "mesa",
+        polygon_offset_slope: str = "max",
+        polygon_offset_unit: str = "mesa",
+        raise_errors: bool = True,
+    ) -> None:
+        if polygon_offset_slope not in ("max", "length", "slide"):
+            raise ValueError(f"polygon_offset_slope={polygon_offset_slope!r}: expected 'max', 'length' or 'slide'")
+        if polygon_offset_unit not in ("mesa", "spec"):
+            raise ValueError(f"polygon_offset_unit={polygon_offset_unit!r}: expected 'mesa' or 'spec'")
+        self.frame = Frame((width, height), depth_format, stencil_bits, precision)
+        self.storage = self.frame.fresh_storage()
+        self.offset_slope, self.offset_unit = polygon_offset_slope, polygon_offset_unit
+        self.raise_errors = raise_errors
+        self.error = gl.GL_NO_ERROR
+        viewport = replace(State().viewport, width=width, height=height)
+        scissor = replace(State().scissor, width=width, height=height)
+        self.state = replace(State(), viewport=viewport, scissor=scissor)
+        self.real: type[np.floating] = np.float64 if precision == "exact" else np.float32
+        self.current = CurrentVertex()
+        self.matrix_mode = gl.GL_MODELVIEW
+        self.active_unit = 0
+        identity = self.frozen(np.eye(4))
+        self.modelview_stack = [identity]
+        self.projection_stack = [identity]
+        self.texture_stacks = [[identity] for _ in range(TEXTURE_UNITS)]
+        self.programs: dict[int, Program] = {}
+        self.uniforms: dict[int, dict[str, Any]] = {}
+        self.labels: list[str] = []
+
+    # -- state ---------------------------------------------------------------------------------------------------------
+    def set(self, **groups: Any) -> None:
+        """Replace whole groups of the state, by their names."""
+        self.state = replace(self.state, **groups)
+
+    def frozen(self, values: Any) -> np.ndarray:
+        """Return the values as a read-only array of the context's precision."""
+        array = np.array(values, self.real)
+        array.setflags(write=False)
+        return array
+
+    @property
+    def matrix_stack(self) -> list[np.ndarray]:
+        """The stack that matrix calls work on; its last entry is the current matrix."""
+        if self.matrix_mode == gl.GL_PROJECTION:
+            return self.projection_stack
+        return self.texture_stacks[self.active_unit] if self.matrix_mode == gl.GL_TEXTURE else self.modelview_stack
+
+    # -- commands ------------------------------------------------------------------------------------------------------
+    def execute(self, command: Command) -> None:
+        """Carry a command out, then record it: a command that raises has changed nothing."""
+        command.apply(self.storage)
+        self.frame.commands.append(command)
+
+    def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:
+        """Draw primitives under the present state. The arrays must be read-only and the caller's own no more."""
+        self.execute(
+            Draw(
+                state=self.state,
+                mode=mode,
+                vertices=vertices,
+                indices=indices,
+                modelview=self.modelview_stack[-1],
+                projection=self.projection_stack[-1],
+                texture_matrices=tuple(stack[-1] for stack in self.texture_stacks),
+                uniforms=self._uniform_values(),
+                program_name=self.programs[self.state.program].name if self.state.program else "",
+                label="/".join(self.labels),
+                offset_slope=self.offset_slope,
+                offset_unit=self.offset_unit,
+            )
+        )
+
+    def _uniform_values(self) -> Mapping[str, Any]:
+        return dict(self.uniforms[self.state.program]) if self.state.program else {}
+
+    def end_step(self, title: str) -> None:
+        """Mark the end of a step of the recording."""
+        self.frame.steps.append((title, len(self.frame.commands)))
+
+
+_thread = threading.local()
+
+
+def current() -> Context:
+    """Return this thread's current context.
+
+    Raises
+    ------
+    StateError
+        There is none yet.
+    """
+    context = getattr(_thread, "context", None)
+    if context is None:
+        raise StateError("no current context: call softshadow.gl.create_context(width, height) first")
+    return context
+
+
+def make_current(context: Context | None) -> Context | None:
+    """Make a context this thread's current one; return the one before."""
+    before = getattr(_thread, "context", None)
+    _thread.context = context
+    return before

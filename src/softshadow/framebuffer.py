@@ -1,0 +1,132 @@
+"""Framebuffers and the storage of a context: everything that a command can change.
+
+The default framebuffer is rasterised and stored top row first, framebuffer objects bottom row first, as llvmpipe does
+(the last bits of an interpolated depth depend on it).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.errors import StateError
+from softshadow.image import D24, D32F, EXACT_DEPTH, FORMATS, STENCIL8, Format, Image
+from softshadow.texture import Texture
+
+DEFAULT = 0
+DEPTH_FORMATS = {"d24": D24, "d32f": D32F}
+LARGEST_SIDE = 16384  # Mesa's own limit; 8 sub-pixel bits keep integer coverage exact far beyond
+
+
+@dataclass(frozen=True)
+class Attachment:
+    """A level of a texture (or a renderbuffer's image) that stands as a buffer of a framebuffer object."""
+
+    image: Image
+    texture: int = 0
+    face: int = 0
+    level: int = 0
+    renderbuffer: int = 0
+
+
+@dataclass(eq=False)
+class Framebuffer:
+    """The buffers that a draw writes. A missing buffer is None: its test passes and nothing is written.
+
+    `flipped` says that row 0 is the top row (the default framebuffer).
+    """
+
+    name: int
+    attachments: dict[int, Attachment] = field(default_factory=dict)
+    flipped: bool = False
+    draw_buffer: int = gl.GL_COLOR_ATTACHMENT0
+    read_buffer: int = gl.GL_COLOR_ATTACHMENT0
+    accumulation: np.ndarray | None = None
+
+    def image(self, attachment: int) -> Image | None:
+        found = self.attachments.get(attachment)
+        return found.image if found else None
+
+    @property
+    def color(self) -> Image | None:
+        """The image that colours are written to, or None (GL_NONE, or nothing attached)."""
+        return None if self.draw_buffer == gl.GL_NONE else self.image(gl.GL_COLOR_ATTACHMENT0)
+
+    @property
+    def depth(self) -> Image | None:
+        return self.image(gl.GL_DEPTH_ATTACHMENT)
+
+    @property
+    def stencil(self) -> Image | None:
+        return self.image(gl.GL_STENCIL_ATTACHMENT)
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """(width, height) of the smallest attachment, (0, 0) without any."""
+        images = [a.image for a in self.attachments.values()]
+        return (min(i.width for i in images), min(i.height for i in images)) if images else (0, 0)
+
+    def gl_row(self, y: int) -> int:
+        """Return the stored row of GL's window row `y`."""
+        return self.size[1] - 1 - y if self.flipped else y
+
+
+def default_framebuffer(
+    width: int, height: int, depth_format: str = "d24", stencil_bits: int = 8, precision: str = "mesa"
+) -> Framebuffer:
+    """Return the window: RGBA8 cleared to 0, depth cleared to 1, stencil cleared to 0.
+
+    Raises
+    ------
+    ValueError
+        A size, depth format, number of stencil bits (1-8) or precision that does not exist; sizes are 1 to 16384.
+    """
+    for name, value in (("width", width), ("height", height)):
+        if not isinstance(value, int | np.integer) or not 1 <= value <= LARGEST_SIDE:
+            raise ValueError(f"{name}={value!r}: expected a whole number of pixels from 1 to {LARGEST_SIDE}")
+    if depth_format not in DEPTH_FORMATS:
+        raise ValueError(f"depth_format={depth_format!r}: expected 'd24' or 'd32f'")
+    if stencil_bits not in range(1, 9):
+        raise ValueError(f"stencil_bits={stencil_bits!r}: expected 1 to 8")
+    if precision not in ("mesa", "exact"):
+        raise ValueError(f"precision={precision!r}: expected 'mesa' or 'exact'")
+    depth_cells = EXACT_DEPTH if precision == "exact" else DEPTH_FORMATS[depth_format]
+    stencil_cells = Format(gl.GL_STENCIL_INDEX, "stencil", np.uint8, 1, (1 << stencil_bits) - 1)
+    try:
+        color = Image.new(FORMATS[gl.GL_RGBA8], int(width), int(height), gl.GL_RGBA8)
+        depth = Image.new(depth_cells, int(width), int(height), gl.GL_DEPTH_COMPONENT24)
+        stencil = Image.new(stencil_cells, int(width), int(height), gl.GL_STENCIL_INDEX8)
+    except MemoryError:
+        raise StateError(f"a {width} x {height} framebuffer does not fit in memory") from None
+    depth.cells[:] = depth_cells.largest or 1.0
+    return Framebuffer(
+        DEFAULT,
+        {
+            gl.GL_COLOR_ATTACHMENT0: Attachment(color),
+            gl.GL_DEPTH_ATTACHMENT: Attachment(depth),
+            gl.GL_STENCIL_ATTACHMENT: Attachment(stencil),
+        },
+        flipped=True,
+        draw_buffer=gl.GL_BACK,
+        read_buffer=gl.GL_BACK,
+    )
+
+
+@dataclass(eq=False)
+class Storage:
+    """The objects of one context by name: framebuffers (0 is the window), textures, renderbuffers and query results."""
+
+    framebuffers: dict[int, Framebuffer]
+    textures: dict[int, Texture] = field(default_factory=dict)
+    renderbuffers: dict[int, Image] = field(default_factory=dict)
+    queries: dict[int, int] = field(default_factory=dict)
+    active_query: int = 0
+
+    @property
+    def window(self) -> Framebuffer:
+        return self.framebuffers[DEFAULT]
+
+
+__all__ = ["DEFAULT", "STENCIL8", "Attachment", "Framebuffer", "Storage", "default_framebuffer"]

@@ -1,0 +1,118 @@
+"""A plane of pixels or texels: what a buffer of a framebuffer and a level of a texture are made of.
+
+The same `Image` serves as depth attachment and as depth texture, so rendering into a texture copies nothing.
+Depth is held in buffer units: integers (in float32, exact up to 2**24) for fixed-point formats, z itself for float formats.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+
+PITCH = 32  # a row is padded to whole chunks of 32 pixels: kernels may run over its end, never into the next row
+
+
+@dataclass(frozen=True)
+class Format:
+    """What one cell holds.
+
+    `base` is GL's base internal format, `kind` one of "unorm8", "float", "depth", "stencil"; `largest` is the integer that
+    stands for 1.0 in a fixed-point depth format (0 for float depth) and the largest count of a stencil format.
+    """
+
+    base: int
+    kind: str
+    dtype: type[np.generic]
+    channels: int
+    largest: int = 0
+
+
+def _unorm8(base: int) -> Format:
+    return Format(base, "unorm8", np.uint8, 4, 255)
+
+
+def _float(base: int) -> Format:
+    return Format(base, "float", np.float32, 4)
+
+
+def _depth(bits: int) -> Format:
+    return Format(gl.GL_DEPTH_COMPONENT, "depth", np.float32, 1, (1 << bits) - 1 if bits else 0)
+
+
+D24, D32F = _depth(24), _depth(0)
+EXACT_DEPTH = Format(gl.GL_DEPTH_COMPONENT, "depth", np.float64, 1)  # unrounded z of the "exact" precision
+STENCIL8 = Format(gl.GL_STENCIL_INDEX, "stencil", np.uint8, 1, 255)
+
+FORMATS: dict[int, Format] = {
+    gl.GL_RGBA: _unorm8(gl.GL_RGBA),
+    gl.GL_RGBA8: _unorm8(gl.GL_RGBA),
+    gl.GL_RGB: _unorm8(gl.GL_RGB),
+    gl.GL_RGB8: _unorm8(gl.GL_RGB),
+    gl.GL_RED: _unorm8(gl.GL_RED),
+    gl.GL_R8: _unorm8(gl.GL_RED),
+    gl.GL_RG: _unorm8(gl.GL_RG),
+    gl.GL_RG8: _unorm8(gl.GL_RG),
+    gl.GL_ALPHA: _unorm8(gl.GL_ALPHA),
+    gl.GL_ALPHA8: _unorm8(gl.GL_ALPHA),
+    gl.GL_LUMINANCE: _unorm8(gl.GL_LUMINANCE),
+    gl.GL_LUMINANCE8: _unorm8(gl.GL_LUMINANCE),
+    gl.GL_LUMINANCE_ALPHA: _unorm8(gl.GL_LUMINANCE_ALPHA),
+    gl.GL_LUMINANCE8_ALPHA8: _unorm8(gl.GL_LUMINANCE_ALPHA),
+    gl.GL_INTENSITY: _unorm8(gl.GL_INTENSITY),
+    gl.GL_INTENSITY8: _unorm8(gl.GL_INTENSITY),
+    gl.GL_RGBA32F: _float(gl.GL_RGBA),
+    gl.GL_RGB32F: _float(gl.GL_RGB),
+    gl.GL_RG32F: _float(gl.GL_RG),
+    gl.GL_R32F: _float(gl.GL_RED),
+    gl.GL_DEPTH_COMPONENT: D24,
+    gl.GL_DEPTH_COMPONENT16: _depth(16),
+    gl.GL_DEPTH_COMPONENT24: D24,
+    gl.GL_DEPTH_COMPONENT32: _depth(32),
+    gl.GL_DEPTH_COMPONENT32F: D32F,
+}
+
+
+def padded(height: int, width: int, format: Format) -> np.ndarray:
+    """Return a zeroed plane of `height` rows, each padded to a multiple of `PITCH` pixels."""
+    pitch = -(-width // PITCH) * PITCH
+    shape: tuple[int, ...] = (height, pitch) if format.channels == 1 else (height, pitch, format.channels)
+    return np.zeros(shape, format.dtype)
+
+
+@dataclass(eq=False)
+class Image:
+    """One plane: `cells` is (height, pitch[, channels]), of which the first `width` columns count.
+
+    `internal_format` is the token it was made with, for queries.
+    """
+
+    format: Format
+    width: int
+    height: int
+    cells: np.ndarray
+    internal_format: int = 0
+
+    @classmethod
+    def new(cls, format: Format, width: int, height: int, internal_format: int = 0) -> Image:
+        return cls(format, width, height, padded(height, width, format), internal_format)
+
+    @property
+    def view(self) -> np.ndarray:
+        """The cells without the padding, (height, width[, channels])."""
+        return self.cells[:, : self.width]
+
+    def copy(self) -> Image:
+        return Image(self.format, self.width, self.height, self.cells.copy(), self.internal_format)
+
+    def same_as(self, other: Any) -> bool:
+        """Return whether the other image has the same format and, bit for bit, the same cells."""
+        return (
+            isinstance(other, Image)
+            and self.format == other.format
+            and self.view.shape == other.view.shape
+            and self.view.tobytes() == other.view.tobytes()
+        )

@@ -1,0 +1,3 @@
+"""placeholder"""
+def draw(command, storage): raise NotImplementedError
+def clear(command, storage): raise NotImplementedError

@@ -1,0 +1,215 @@
+"""The commands that a context records: what changed a buffer, a texture or a framebuffer, with all it depends on.
+
+A command never changes after it was made, so the list of them is a recording: applied in order to fresh storage it gives
+every buffer again, bit for bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, Protocol
+
+import numpy as np
+
+from softshadow import pipeline
+from softshadow import tokens as gl
+from softshadow.framebuffer import DEFAULT, Attachment, Framebuffer, Storage
+from softshadow.image import FORMATS, Image
+from softshadow.pipeline import transfer
+from softshadow.state import State
+from softshadow.texture import Sampler, Texture
+
+
+class Command(Protocol):
+    """Anything that changes storage, and nothing else."""
+
+    def apply(self, storage: Storage) -> None: ...
+
+
+@dataclass(frozen=True, eq=False)
+class Vertices:
+    """The vertices of a draw, read-only: position (V, 4), color (V, 4), normal (V, 3), one texcoord (V, 4) per unit."""
+
+    position: np.ndarray
+    color: np.ndarray
+    normal: np.ndarray
+    texcoords: tuple[np.ndarray, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Draw:
+    """Primitives with everything that decides about their pixels.
+
+    `mode` is GL_POINTS ... GL_POLYGON, `indices` (N,) int32 into the vertices, or None for all in order; `label` names the
+    debug groups the draw stands in ("step/torus"); `uniforms` are those of the program in use.
+    """
+
+    state: State
+    mode: int
+    vertices: Vertices
+    indices: np.ndarray | None
+    modelview: np.ndarray
+    projection: np.ndarray
+    texture_matrices: tuple[np.ndarray, ...]
+    uniforms: Mapping[str, Any] = field(default_factory=dict)
+    program_name: str = ""
+    label: str = ""
+    offset_slope: str = "max"
+    offset_unit: str = "mesa"
+
+    def apply(self, storage: Storage) -> None:
+        pipeline.draw(self, storage)
+
+
+@dataclass(frozen=True, eq=False)
+class Clear:
+    """glClear: under scissor, colour mask, depth mask and the front stencil write mask."""
+
+    state: State
+    mask: int
+
+    def apply(self, storage: Storage) -> None:
+        pipeline.clear(self, storage)
+
+
+@dataclass(frozen=True, eq=False)
+class DefineImage:
+    """glTexImage2D. `cells` is in the storage's own layout, (height, width[, channels]), or None for zeros."""
+
+    texture: int
+    face: int
+    level: int
+    internal_format: int
+    width: int
+    height: int
+    cells: np.ndarray | None
+
+    def apply(self, storage: Storage) -> None:
+        image = Image.new(FORMATS[self.internal_format], self.width, self.height, self.internal_format)
+        if self.cells is not None:
+            image.view[:] = self.cells
+        storage.textures[self.texture].images[self.face, self.level] = image
+
+
+@dataclass(frozen=True, eq=False)
+class UpdateImage:
+    """glTexSubImage2D. `cells` is in the storage's own layout."""
+
+    texture: int
+    face: int
+    level: int
+    x: int
+    y: int
+    cells: np.ndarray
+
+    def apply(self, storage: Storage) -> None:
+        height, width = self.cells.shape[:2]
+        image = storage.textures[self.texture].images[self.face, self.level]
+        image.view[self.y : self.y + height, self.x : self.x + width] = self.cells
+
+
+@dataclass(frozen=True, eq=False)
+class CopyToTexture:
+    """glCopyTexSubImage2D from a framebuffer; pixels outside the framebuffer leave their texels untouched."""
+
+    framebuffer: int
+    texture: int
+    face: int
+    level: int
+    x_offset: int
+    y_offset: int
+    x: int
+    y: int
+    width: int
+    height: int
+
+    def apply(self, storage: Storage) -> None:
+        transfer.copy_to_texture(self, storage)
+
+
+@dataclass(frozen=True, eq=False)
+class CreateTexture:
+    texture: int
+    target: int
+
+    def apply(self, storage: Storage) -> None:
+        storage.textures[self.texture] = Texture(self.texture, self.target)
+
+
+@dataclass(frozen=True, eq=False)
+class SetSampler:
+    """glTexParameter: texture objects keep their sampler, so it is part of the recording."""
+
+    texture: int
+    sampler: Sampler
+
+    def apply(self, storage: Storage) -> None:
+        storage.textures[self.texture].sampler = self.sampler
+
+
+@dataclass(frozen=True, eq=False)
+class DeleteTextures:
+    textures: tuple[int, ...]
+
+    def apply(self, storage: Storage) -> None:
+        for name in self.textures:
+            storage.textures.pop(name, None)
+
+
+@dataclass(frozen=True, eq=False)
+class CreateFramebuffer:
+    framebuffer: int
+
+    def apply(self, storage: Storage) -> None:
+        storage.framebuffers[self.framebuffer] = Framebuffer(self.framebuffer)
+
+
+@dataclass(frozen=True, eq=False)
+class DeleteFramebuffers:
+    framebuffers: tuple[int, ...]
+
+    def apply(self, storage: Storage) -> None:
+        for name in self.framebuffers:
+            if name != DEFAULT:
+                storage.framebuffers.pop(name, None)
+
+
+@dataclass(frozen=True, eq=False)
+class AttachTexture:
+    """glFramebufferTexture2D; texture 0 detaches. The texture's own image becomes the buffer."""
+
+    framebuffer: int
+    attachment: int
+    texture: int
+    face: int = 0
+    level: int = 0
+
+    def apply(self, storage: Storage) -> None:
+        attachments = storage.framebuffers[self.framebuffer].attachments
+        if self.texture == 0:
+            attachments.pop(self.attachment, None)
+        else:
+            image = storage.textures[self.texture].images[self.face, self.level]
+            attachments[self.attachment] = Attachment(image, self.texture, self.face, self.level)
+
+
+@dataclass(frozen=True, eq=False)
+class SelectBuffers:
+    """glDrawBuffer and glReadBuffer: they belong to the framebuffer object. None leaves a choice as it is."""
+
+    framebuffer: int
+    draw_buffer: int | None = None
+    read_buffer: int | None = None
+
+    def apply(self, storage: Storage) -> None:
+        target = storage.framebuffers[self.framebuffer]
+        if self.draw_buffer is not None:
+            target.draw_buffer = self.draw_buffer
+        if self.read_buffer is not None:
+            target.read_buffer = self.read_buffer
+
+
+def with_state(command: Draw, **groups: Any) -> Draw:
+    """Return the draw under another state."""
+    return replace(command, state=replace(command.state, **groups))

@@ -1,0 +1,94 @@
+"""Shading programs: a vertex stage, a batch fragment stage, and the GLSL twin that real GL compiles.
+
+A program is data: functions and sources, no class hierarchy. `shade` is called once per draw with all fragments, so it may be
+plain NumPy; the programs of this package call one cached kernel each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from softshadow.errors import StateError, nearest
+
+
+@dataclass(frozen=True)
+class VertexInputs:
+    """What a vertex stage sees: per-vertex arrays in object space, and the matrices (column vectors, ``M @ v``).
+
+    position (V, 4), color (V, 4), normal (V, 3), texcoords one (V, 4) per texture unit; float32 (float64 in "exact").
+    """
+
+    position: np.ndarray
+    color: np.ndarray
+    normal: np.ndarray
+    texcoords: tuple[np.ndarray, ...]
+    modelview: np.ndarray
+    projection: np.ndarray
+    texture_matrices: tuple[np.ndarray, ...]
+    uniforms: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Varyings:
+    """What the vertex stage hands on: values (V, k) to be interpolated, perspective-correct.
+
+    `flat` (k,) bool marks columns that take the provoking vertex's value; `back` (V, k) replaces `values` on back-facing
+    triangles (two-sided lighting).
+    """
+
+    values: np.ndarray
+    flat: np.ndarray
+    back: np.ndarray | None = None
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program of the register.
+
+    Attributes
+    ----------
+    vertex : VertexInputs -> Varyings
+    shade : (inputs (N, k), uniforms, out (N, 4)) -> None
+        Fill `out` with RGBA, unclamped; a sampler's uniform is the `Texture` that is bound to its unit.
+    uniforms : name -> initial value
+        Ints, floats, tuples or (4, 4) float32 matrices; their shape is the uniform's type.
+    samplers : names of the uniforms that are texture units
+    glsl_vertex, glsl_fragment : GLSL 1.20 sources that compute the same
+    """
+
+    name: str
+    vertex: Callable[[VertexInputs], Varyings]
+    shade: Callable[[np.ndarray, Mapping[str, Any], np.ndarray], None]
+    uniforms: Mapping[str, Any] = field(default_factory=dict)
+    samplers: tuple[str, ...] = ()
+    glsl_vertex: str = ""
+    glsl_fragment: str = ""
+
+
+_REGISTER: dict[str, Program] = {}
+
+
+def register(program: Program) -> Program:
+    """Make a program known by its name to `gl.program`; a later one of the same name replaces it."""
+    _REGISTER[program.name] = program
+    return program
+
+
+def get(name: str) -> Program:
+    """Return the program of that name.
+
+    Raises
+    ------
+    StateError
+        There is none; the message names the nearest.
+    """
+    from softshadow.programs import builtin  # the kernels compile where a program is first asked for
+
+    builtin.load()
+    if name not in _REGISTER:
+        raise StateError(f"program {name!r} is not known: {nearest(name, sorted(_REGISTER))}")
+    return _REGISTER[name]

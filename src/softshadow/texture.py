@@ -1,0 +1,47 @@
+"""Texture objects: levels and faces of images, and the sampler that reads them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from softshadow import tokens as gl
+from softshadow.image import Image
+
+
+@dataclass(frozen=True)
+class Sampler:
+    """What glTexParameter sets; initial values are GL's."""
+
+    min_filter: int = gl.GL_NEAREST_MIPMAP_LINEAR
+    mag_filter: int = gl.GL_LINEAR
+    wrap_s: int = gl.GL_REPEAT
+    wrap_t: int = gl.GL_REPEAT
+    wrap_r: int = gl.GL_REPEAT
+    border_color: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    compare_mode: int = gl.GL_NONE
+    compare_func: int = gl.GL_LEQUAL
+    depth_mode: int = gl.GL_LUMINANCE
+    base_level: int = 0
+    max_level: int = 1000
+    min_lod: float = -1000.0
+    max_lod: float = 1000.0
+    lod_bias: float = 0.0
+    generate_mipmap: bool = False
+    priority: float = 1.0
+
+
+@dataclass(eq=False)
+class Texture:
+    """A texture object: images by (face, level); the face of a 2-D texture is 0, row 0 of an image is at the bottom."""
+
+    name: int
+    target: int
+    sampler: Sampler = Sampler()
+    images: dict[tuple[int, int], Image] = field(default_factory=dict)
+
+    def base(self, face: int = 0) -> Image | None:
+        """The image of the base level, or None while it has not been defined."""
+        return self.images.get((face, self.sampler.base_level))
+
+    def copy(self) -> Texture:
+        return Texture(self.name, self.target, self.sampler, {k: i.copy() for k, i in self.images.items()})
