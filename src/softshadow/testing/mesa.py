@@ -1,0 +1,269 @@
+"""Run a GL program on Mesa in a process beside this one, and bring its buffers back.
+
+One worker process per driver is kept alive; it is replaced after `PROGRAMS_PER_WORKER` programs (a context costs
+2.5 MiB and is never destroyed), after a crash and after a time-out. llvmpipe runs without fused multiply-add, so that
+its results do not depend on the CPU.
+"""
+
+import atexit
+import contextlib
+import ctypes.util
+import importlib.util
+import os
+import pickle
+import queue
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from softshadow.errors import SoftShadowError, nearest
+from softshadow.testing.messages import read_message, write_message
+
+EXPECTED_VERSION = "22.3.6"  # the one whose arithmetic softshadow follows
+DRIVERS = ("llvmpipe", "softpipe")
+PROGRAMS_PER_WORKER = 200
+START_TIMEOUT = 60.0  # seconds until a worker has imported PyOpenGL and made its first context
+LARGEST_SIDE = 16384  # Mesa's own limit
+INSTALL = "install them with: apt install libosmesa6 libglu1-mesa; pip install 'softshadow[mesa]'"
+
+
+class MesaError(SoftShadowError):
+    """Mesa is missing, its process ended, or a program failed there; `err` is GL's code where it was a GL error."""
+
+    def __init__(self, message: str, err: int | None = None) -> None:
+        super().__init__(message)
+        self.err = err
+
+
+class RemoteTraceback(Exception):
+    """Where in the worker a program failed: the cause of the exception that `run_on_mesa` raises."""
+
+    def __str__(self) -> str:
+        return f'\n"""\n{self.args[0]}"""'
+
+
+@dataclass(frozen=True, eq=False)
+class MesaResult:
+    """The default framebuffer after a program, first row = bottom row, and what the program returned.
+
+    color (h, w, 4) uint8; depth (h, w) uint32 in units of 1/(2^24 - 1); stencil (h, w) uint8;
+    errors: (name of the call, GL error code) of every GL error the program met, in order.
+    """
+
+    color: np.ndarray
+    depth: np.ndarray
+    stencil: np.ndarray
+    returned: Any
+    errors: tuple[tuple[str, int], ...]
+
+
+@cache
+def mesa_reason() -> str:
+    """Return why programs cannot run on Mesa here and how to change that; the empty string where they can."""
+    missing = [
+        f"the Python package {name}" for name in ("OpenGL", "cloudpickle") if importlib.util.find_spec(name) is None
+    ]
+    missing += [f"the library lib{name}" for name in ("OSMesa", "GLU") if ctypes.util.find_library(name) is None]
+    return f"Mesa is not available: {' and '.join(missing)} not found; {INSTALL}" if missing else ""
+
+
+def mesa_available() -> bool:
+    """Return whether programs can run on Mesa here; `mesa_reason` says why not."""
+    return not mesa_reason()
+
+
+def mesa_version(driver: str = "llvmpipe") -> str:
+    """Return Mesa's version, such as "22.3.6"; `EXPECTED_VERSION` is the one whose results softshadow reproduces."""
+    with _lock:
+        version = _worker(driver).introduction["version"]  # "4.5 (Compatibility Profile) Mesa 22.3.6"
+    return version.rpartition("Mesa ")[2].split()[0]
+
+
+def mesa_gl() -> Any:
+    """Return Mesa's namespace (functions and tokens of GL and GLU) inside a program that `run_on_mesa` runs.
+
+    Raises
+    ------
+    RuntimeError                 in any other process: PyOpenGL is imported in Mesa's own process only
+    """
+    door = sys.modules.get("softshadow.testing.opengl")
+    if door is None:
+        raise RuntimeError("mesa_gl() works inside a program given to softshadow.testing.run_on_mesa(program, size)")
+    return door.current()
+
+
+def run_on_mesa(
+    program: Callable[[Any], Any],
+    size: tuple[int, int],
+    driver: str = "llvmpipe",
+    *,
+    raise_errors: bool = True,
+    timeout: float = 60.0,
+) -> MesaResult:
+    """Return the buffers that a program leaves in a fresh context of Mesa.
+
+    Parameters
+    ----------
+    program : callable           ``program(gl)`` gets PyOpenGL's names; what it returns must be picklable
+    size : (width, height) of the default framebuffer (RGBA8, 24-bit depth, 8-bit stencil; cleared to 0, 1, 0)
+    driver : "llvmpipe" or "softpipe"
+    raise_errors : bool          False: GL errors are recorded only, as in plain GL
+    timeout : float              seconds
+
+    Raises
+    ------
+    MesaError                    Mesa is missing, crashed or took too long, or the program met a GL error (see `err`)
+    Exception                    whatever the program raised, with the worker's traceback as its cause
+    """
+    width, height = size
+    if not (1 <= width <= LARGEST_SIDE and 1 <= height <= LARGEST_SIDE):
+        raise ValueError(f"size={size!r}: width and height must be between 1 and {LARGEST_SIDE}")
+    request = {
+        "program": _pickled(program),
+        "size": (int(width), int(height)),
+        "raise_errors": raise_errors,
+        "path": [entry or os.getcwd() for entry in sys.path],
+    }
+    with _lock:
+        answer = _worker(driver).ask(pickle.dumps(request), timeout)
+    if "failure" in answer:
+        raise _failure(answer["failure"])
+    answer["errors"] = tuple(answer["errors"])
+    return MesaResult(**answer)
+
+
+def _pickled(program: Callable[[Any], Any]) -> bytes:
+    import cloudpickle
+
+    # a user's module travels as it is now, not as a worker imported it some edits ago
+    module = sys.modules.get(getattr(program, "__module__", None) or "")
+    own = module is not None and module.__name__ != "__main__" and not module.__name__.startswith("softshadow")
+    try:
+        if own:
+            cloudpickle.register_pickle_by_value(module)
+        return cloudpickle.dumps(program)
+    except Exception as error:
+        raise MesaError(f"program {program!r} cannot be sent to Mesa's process: {error}") from error
+    finally:
+        if own:
+            cloudpickle.unregister_pickle_by_value(module)
+
+
+def _failure(failure: dict[str, Any]) -> Exception:
+    error: Any = None
+    if failure["exception"] is not None:
+        with contextlib.suppress(Exception):  # its class may exist in the worker only; then its text has to do
+            error = pickle.loads(failure["exception"])
+    if not isinstance(error, Exception):
+        error = MesaError(f"on Mesa: {failure['type']}: {failure['message']}", failure["err"])
+    error.__cause__ = RemoteTraceback(failure["traceback"])
+    return error
+
+
+class Worker:
+    """One Mesa process and the pipes to it."""
+
+    def __init__(self, driver: str) -> None:
+        environment = {
+            **os.environ,
+            "PYTHONPATH": os.pathsep.join(entry or os.getcwd() for entry in sys.path),
+            "PYOPENGL_PLATFORM": "osmesa",
+            "GALLIUM_DRIVER": driver,
+            "GALLIUM_OVERRIDE_CPU_CAPS": "sse4.1",  # no fused multiply-add
+            "LP_NUM_THREADS": "0",
+        }
+        self.driver = driver
+        self.programs = 0
+        self.process = subprocess.Popen(
+            # -P: the current folder stays out of the import path, so that nobody's random.py is imported by numpy
+            [sys.executable, "-P", "-m", "softshadow.testing.mesa_worker"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env=environment,
+        )
+        self.answers: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
+        self.reader = threading.Thread(target=self._read, name=f"mesa {driver}", daemon=True)
+        self.reader.start()
+        self.introduction = self._receive(START_TIMEOUT)
+        if "failed" in self.introduction:
+            self.stop()
+            raise MesaError(f"Mesa does not start ({INSTALL}):\n{self.introduction['failed']}")
+
+    def ask(self, request: bytes, timeout: float) -> dict[str, Any]:
+        """Return the answer to a request; without one, end the process: a late answer would be taken for the next."""
+        self.programs += 1
+        assert self.process.stdin is not None
+        with contextlib.suppress(OSError):  # it has ended: the missing answer says so
+            write_message(self.process.stdin, request)
+        return self._receive(timeout)
+
+    def _receive(self, timeout: float) -> dict[str, Any]:
+        try:
+            answer = self.answers.get(timeout=timeout)
+        except queue.Empty:
+            self.stop()
+            raise MesaError(
+                f"Mesa ({self.driver}) has not answered within {timeout:g} s; its process was ended"
+            ) from None
+        except BaseException:  # Ctrl-C while waiting: the answer would come out of turn
+            self.stop()
+            raise
+        if answer is None:
+            code = self.process.wait()
+            self.stop()
+            raise MesaError(f"Mesa's process ({self.driver}) ended while it ran a program (exit code {code})")
+        result: dict[str, Any] = pickle.loads(answer)
+        return result
+
+    def _read(self) -> None:
+        assert self.process.stdout is not None
+        message: bytes | None = b""
+        while message is not None:
+            message = read_message(self.process.stdout)
+            self.answers.put(message)
+
+    def stop(self) -> None:
+        """End the process and close the pipes."""
+        self.process.kill()
+        self.process.wait()
+        self.reader.join()
+        for pipe in (self.process.stdin, self.process.stdout):
+            assert pipe is not None
+            with contextlib.suppress(OSError):  # closing flushes what a dead process never read
+                pipe.close()
+
+    @property
+    def usable(self) -> bool:
+        return self.process.poll() is None and self.programs < PROGRAMS_PER_WORKER
+
+
+_workers: dict[str, Worker] = {}
+_lock = threading.Lock()  # one program at a time
+
+
+def _worker(driver: str) -> Worker:
+    if driver not in DRIVERS:
+        raise ValueError(f"driver={driver!r}: {nearest(driver, DRIVERS)}")
+    if not mesa_available():
+        raise MesaError(mesa_reason())
+    worker = _workers.get(driver)
+    if worker is not None and not worker.usable:
+        _workers.pop(driver).stop()
+        worker = None
+    if worker is None:
+        worker = _workers[driver] = Worker(driver)
+    return worker
+
+
+@atexit.register
+def stop_workers() -> None:
+    """End all Mesa processes; the next program starts a new one."""
+    with _lock:
+        while _workers:
+            _workers.popitem()[1].stop()

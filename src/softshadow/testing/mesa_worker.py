@@ -1,0 +1,134 @@
+"""The Mesa worker: runs GL programs on OSMesa, one fresh context each, and sends the buffers back.
+
+Started by `softshadow.testing.mesa` as ``python -m softshadow.testing.mesa_worker`` with Mesa's environment set.
+Requests come in on standard input, answers go out on what was standard output; what a program prints goes to standard
+error.
+"""
+
+import os
+import pickle
+import signal
+import sys
+import traceback
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+
+from softshadow.testing.messages import read_message, write_message
+
+ERROR_NAMES = {
+    0x0500: "GL_INVALID_ENUM",
+    0x0501: "GL_INVALID_VALUE",
+    0x0502: "GL_INVALID_OPERATION",
+    0x0503: "GL_STACK_OVERFLOW",
+    0x0504: "GL_STACK_UNDERFLOW",
+    0x0505: "GL_OUT_OF_MEMORY",
+    0x0506: "GL_INVALID_FRAMEBUFFER_OPERATION",
+}
+
+# contexts and the memory they draw into; a context is never destroyed (destroying one after another became current
+# crashes Mesa 22.3), the parent restarts the worker instead
+_contexts: list[tuple[Any, np.ndarray]] = []
+
+
+def main() -> None:
+    """Say which Mesa this is, then answer requests until the parent closes the pipe."""
+    requests = os.fdopen(os.dup(0), "rb")
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+    os.dup2(2, 1)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's; it closes the pipe
+    write_message(answers, pickle.dumps(introduction()))
+    while (request := read_message(requests)) is not None:
+        answer = answer_request(pickle.loads(request))
+        sys.stdout.flush()
+        write_message(answers, answer)
+
+
+def introduction() -> dict[str, str]:
+    """Return the version and renderer strings, or {"failed": why}."""
+    try:
+        gl = fresh_context(1, 1, raise_errors=True)
+        return {"version": gl.glGetString(gl.GL_VERSION).decode(), "renderer": gl.glGetString(gl.GL_RENDERER).decode()}
+    except Exception:
+        return {"failed": traceback.format_exc()}
+
+
+def fresh_context(width: int, height: int, raise_errors: bool) -> Any:
+    """Return the namespace of a new context in GL's initial state: colour 0, depth 1, stencil 0."""
+    from OpenGL import GL, osmesa
+
+    from softshadow.testing.opengl import MesaGL
+
+    context = osmesa.OSMesaCreateContextExt(osmesa.OSMESA_RGBA, 24, 8, 16, None)
+    pixels = np.zeros((height, width, 4), np.uint8)
+    if not context or not osmesa.OSMesaMakeCurrent(context, pixels, GL.GL_UNSIGNED_BYTE, width, height):
+        raise RuntimeError(f"OSMesa makes no context of {width} x {height} pixels")
+    _contexts.append((context, pixels))
+    end_primitive()
+    everything = GL.GL_COLOR_BUFFER_BIT | GL.GL_DEPTH_BUFFER_BIT | GL.GL_STENCIL_BUFFER_BIT | GL.GL_ACCUM_BUFFER_BIT
+    GL.glClear(everything)
+    gl = MesaGL(raise_errors)
+    gl.make_current()
+    return gl
+
+
+def end_primitive() -> None:
+    """Leave a glBegin that a program has left open; PyOpenGL checks no errors between glBegin and glEnd."""
+    from OpenGL import GL
+
+    with suppress(GL.GLError):
+        GL.glEnd()
+
+
+def answer_request(request: dict[str, Any]) -> bytes:
+    """Return the pickled answer: buffers and the returned value, or what the program raised."""
+    import cloudpickle
+
+    sys.path[:] = request["path"]
+    errors: list[tuple[str, int]] = []
+    try:
+        program: Callable[[Any], Any] = pickle.loads(request["program"])
+        width, height = request["size"]
+        gl = fresh_context(width, height, request["raise_errors"])
+        errors = gl.errors
+        returned = program(gl)
+        return cloudpickle.dumps(
+            {"returned": returned, "errors": errors, **read_default_framebuffer(gl, width, height)}
+        )
+    except BaseException as error:  # sys.exit() in a program ends the program, not the worker
+        failure = {
+            "type": type(error).__name__,
+            "message": describe(error),
+            "err": getattr(error, "err", None),
+            "traceback": traceback.format_exc(),
+            "errors": errors,
+        }
+        failure["exception"] = None
+        if failure["err"] is None:  # a GLError holds pointers; the program's own exceptions may hold anything, too
+            with suppress(Exception):
+                failure["exception"] = cloudpickle.dumps(error)
+        return pickle.dumps({"failure": failure})
+
+
+def describe(error: BaseException) -> str:
+    """Return an exception's text; for PyOpenGL's GLError the call and GL's name of the error."""
+    call = getattr(getattr(error, "baseOperation", None), "__name__", None)
+    return str(error) if call is None else f"{call}: {ERROR_NAMES.get(getattr(error, 'err', 0), 'GL error')}"
+
+
+def read_default_framebuffer(gl: Any, width: int, height: int) -> dict[str, np.ndarray]:
+    """Return color (h, w, 4) uint8, depth (h, w) uint32 in 24-bit units, stencil (h, w) uint8; first row = bottom."""
+    end_primitive()
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+    gl.glReadBuffer(gl.GL_FRONT)  # an OSMesa context has no back buffer
+    gl.glBindBuffer(gl.GL_PIXEL_PACK_BUFFER, 0)
+    color = gl.glReadPixels(0, 0, width, height, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
+    packed = gl.glReadPixels(0, 0, width, height, gl.GL_DEPTH_STENCIL, gl.GL_UNSIGNED_INT_24_8)
+    return {"color": color, "depth": packed >> np.uint32(8), "stencil": (packed & np.uint32(255)).astype(np.uint8)}
+
+
+if __name__ == "__main__":
+    main()

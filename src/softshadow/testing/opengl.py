@@ -1,0 +1,244 @@
+"""Mesa's side of a program: the names of OpenGL.GL and OpenGL.GLU with the read-out conventions of `softshadow.gl`.
+
+The one door to PyOpenGL. Import it only in a Mesa worker: PyOpenGL chooses its platform when it is imported.
+What differs from plain PyOpenGL:
+
+- glReadPixels and glGetTexImage return (h, w) or (h, w, channels), first row = bottom row, without row padding, and
+  know GL_UNSIGNED_INT_24_8; images handed in are read without row padding too, whatever GL_UNPACK_ALIGNMENT says.
+- glGen* return a plain int for one name.
+- A GL error is raised as GL.GLError, and glGetError still answers its code afterwards, as in `softshadow.gl`.
+- `program(name)` compiles the GLSL twin of a softshadow program and returns a name for glUseProgram.
+"""
+
+import ctypes
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+from OpenGL import GL, GLU, images
+from OpenGL.raw.GL.VERSION import GL_1_0 as raw
+
+# unknown to PyOpenGL 3.1's image tables; one 32-bit word per pixel
+images.TYPE_TO_ARRAYTYPE[GL.GL_UNSIGNED_INT_24_8] = GL.GL_UNSIGNED_INT
+
+CHANNELS = {
+    **dict.fromkeys((GL.GL_RED, GL.GL_GREEN, GL.GL_BLUE, GL.GL_ALPHA, GL.GL_LUMINANCE), 1),
+    **dict.fromkeys((GL.GL_DEPTH_COMPONENT, GL.GL_STENCIL_INDEX, GL.GL_DEPTH_STENCIL), 1),
+    **dict.fromkeys((GL.GL_LUMINANCE_ALPHA, GL.GL_RG), 2),
+    **dict.fromkeys((GL.GL_RGB, GL.GL_BGR), 3),
+    **dict.fromkeys((GL.GL_RGBA, GL.GL_BGRA), 4),
+}
+DTYPES = {
+    GL.GL_UNSIGNED_BYTE: np.uint8,
+    GL.GL_BYTE: np.int8,
+    GL.GL_UNSIGNED_SHORT: np.uint16,
+    GL.GL_SHORT: np.int16,
+    GL.GL_UNSIGNED_INT: np.uint32,
+    GL.GL_INT: np.int32,
+    GL.GL_HALF_FLOAT: np.float16,
+    GL.GL_FLOAT: np.float32,
+    GL.GL_UNSIGNED_INT_24_8: np.uint32,
+}
+LARGEST_PIXEL = 16  # bytes; room for the read-out whose format or type GL is about to refuse
+
+_current: "MesaGL | None" = None
+
+
+def current() -> "MesaGL":
+    """Return the namespace of the context that is current; RuntimeError where there is none."""
+    if _current is None:
+        raise RuntimeError("no Mesa context is current")
+    return _current
+
+
+class MesaGL:
+    """Every function and token of GL and GLU for one context.
+
+    Parameters
+    ----------
+    raise_errors : bool          False: a GL error is only recorded, as plain GL does
+
+    Attributes
+    ----------
+    errors : list of (name of the call, GL error code), in order
+    """
+
+    def __init__(self, raise_errors: bool = True) -> None:
+        self.errors: list[tuple[str, int]] = []
+        self._raise_errors = raise_errors
+        self._pending = GL.GL_NO_ERROR
+        self._programs: dict[str, int] = {}
+
+    def make_current(self) -> None:
+        """Make this the namespace that `current` answers; its context is current already."""
+        global _current
+        _current = self
+
+    def __getattr__(self, name: str) -> Any:
+        value = OWN.get(name)
+        if value is None:
+            module = GLU if name.startswith(("glu", "GLU_")) else GL
+            value = getattr(module, name, None)
+        if value is None:
+            raise AttributeError(f"OpenGL has no {name}")
+        if callable(value) and name.startswith("gl"):
+            value = self._recorded(name, value)
+        setattr(self, name, value)  # found directly from now on
+        return value
+
+    def _recorded(self, name: str, function: Callable[..., Any]) -> Callable[..., Any]:
+        def call(*arguments: Any, **named: Any) -> Any:
+            try:
+                return function(*arguments, **named)
+            except GL.GLError as error:
+                self.errors.append((name, int(error.err)))
+                self._pending = self._pending or int(error.err)
+                if self._raise_errors:
+                    raise
+                return None
+
+        return call
+
+    def glGetError(self) -> int:
+        """Return the first error code since the last call; PyOpenGL has read it from GL already."""
+        code, self._pending = self._pending or int(GL.glGetError()), GL.GL_NO_ERROR
+        return code
+
+    def program(self, name: str) -> int:
+        """Return a GL program made from the GLSL twin of the softshadow program `name`, compiled once per context."""
+        if name not in self._programs:
+            from softshadow import programs  # its kernels are not needed by programs that have no use for it
+
+            twin = programs.get(name)
+            self._programs[name] = link_program(name, twin.glsl_vertex, twin.glsl_fragment)
+        return self._programs[name]
+
+
+def link_program(name: str, vertex_source: str, fragment_source: str) -> int:
+    """Return a linked GL program; ValueError with the compiler's log where GLSL refuses a source."""
+    program = GL.glCreateProgram()
+    for kind, label, source in (
+        (GL.GL_VERTEX_SHADER, "vertex", vertex_source),
+        (GL.GL_FRAGMENT_SHADER, "fragment", fragment_source),
+    ):
+        shader = GL.glCreateShader(kind)
+        GL.glShaderSource(shader, source)
+        GL.glCompileShader(shader)
+        if not GL.glGetShaderiv(shader, GL.GL_COMPILE_STATUS):
+            raise ValueError(f"program {name!r}, {label} shader:\n{_text(GL.glGetShaderInfoLog(shader))}")
+        GL.glAttachShader(program, shader)
+    GL.glLinkProgram(program)
+    if not GL.glGetProgramiv(program, GL.GL_LINK_STATUS):
+        raise ValueError(f"program {name!r} does not link:\n{_text(GL.glGetProgramInfoLog(program))}")
+    return int(program)
+
+
+def _text(log: bytes | str) -> str:
+    return log.decode(errors="replace") if isinstance(log, bytes) else log
+
+
+def _image(width: int, height: int, pixel_format: int, pixel_type: int) -> np.ndarray:
+    """Return an empty image for a read-out; bytes enough for any pixel where GL will refuse the combination."""
+    channels, dtype = CHANNELS.get(pixel_format), DTYPES.get(pixel_type)
+    if channels is None or dtype is None:
+        return np.zeros(max(0, width) * max(0, height) * LARGEST_PIXEL, np.uint8)
+    shape = (max(0, height), max(0, width))
+    return np.zeros(shape if channels == 1 else (*shape, channels), dtype)
+
+
+def _checked(array: np.ndarray, expected: np.ndarray, call: str) -> np.ndarray:
+    if not isinstance(array, np.ndarray) or array.dtype != expected.dtype or array.size != expected.size:
+        raise ValueError(f"{call}: array must be {expected.dtype} with shape {expected.shape}, got {array!r:.80}")
+    if not array.flags.c_contiguous or not array.flags.writeable:
+        raise ValueError(f"{call}: array must be C-contiguous and writeable")
+    return array
+
+
+@contextmanager
+def _tight_rows() -> Iterator[None]:
+    """Restore the pixel store state after a transfer (PyOpenGL's upload functions change the pack alignment, too)."""
+    before = [(name, int(GL.glGetIntegerv(name))) for name in (GL.GL_PACK_ALIGNMENT, GL.GL_UNPACK_ALIGNMENT)]
+    try:
+        yield
+    finally:
+        for name, value in before:
+            GL.glPixelStorei(name, value)
+
+
+def glReadPixels(
+    x: int, y: int, width: int, height: int, format: int, type: int, array: np.ndarray | None = None
+) -> np.ndarray:
+    """Return the pixels of a rectangle of the read buffer, first row = bottom row, or fill `array` with them."""
+    expected = _image(width, height, format, type)
+    out = expected if array is None else _checked(array, expected, "glReadPixels")
+    with _tight_rows():
+        GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
+        raw.glReadPixels(x, y, width, height, format, type, ctypes.c_void_p(out.ctypes.data))
+    return out
+
+
+def glGetTexImage(target: int, level: int, format: int, type: int, array: np.ndarray | None = None) -> np.ndarray:
+    """Return a texture's level, first row = the row of t = 0, or fill `array` with it."""
+    width = GL.glGetTexLevelParameteriv(target, level, GL.GL_TEXTURE_WIDTH)
+    height = GL.glGetTexLevelParameteriv(target, level, GL.GL_TEXTURE_HEIGHT)
+    expected = _image(int(width), int(height), format, type)
+    out = expected if array is None else _checked(array, expected, "glGetTexImage")
+    with _tight_rows():
+        GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
+        raw.glGetTexImage(target, level, format, type, ctypes.c_void_p(out.ctypes.data))
+    return out
+
+
+def _with_tight_rows(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return an upload function that reads the image it is given without row padding."""
+
+    def upload(*arguments: Any) -> Any:
+        with _tight_rows():
+            GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)
+            return function(*arguments)
+
+    return upload
+
+
+def _with_plain_names(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a glGen* function that answers an int for one name, an array for several."""
+
+    def generate(n: int) -> Any:
+        names = np.atleast_1d(function(n))
+        return int(names[0]) if n == 1 else names
+
+    return generate
+
+
+def _with_unknown_names(function: Callable[..., Any], ctype: Any) -> Callable[..., Any]:
+    """Return a glGet* function that lets GL itself refuse a name PyOpenGL has no size for."""
+    raw_function = getattr(raw, function.__name__, None) or function
+
+    def get(name: int) -> Any:
+        try:
+            return function(name)
+        except KeyError:
+            return raw_function(name, (ctype * LARGEST_PIXEL)())
+
+    return get
+
+
+OWN: dict[str, Callable[..., Any]] = {
+    "glReadPixels": glReadPixels,
+    "glGetTexImage": glGetTexImage,
+    **{name: _with_tight_rows(getattr(GL, name)) for name in ("glTexImage2D", "glTexSubImage2D", "glDrawPixels")},
+    **{
+        name: _with_plain_names(getattr(GL, name))
+        for name in ("glGenTextures", "glGenFramebuffers", "glGenRenderbuffers", "glGenBuffers", "glGenQueries")
+    },
+    **{
+        name: _with_unknown_names(getattr(GL, name), ctype)
+        for name, ctype in (
+            ("glGetBooleanv", ctypes.c_ubyte),
+            ("glGetIntegerv", ctypes.c_int),
+            ("glGetFloatv", ctypes.c_float),
+            ("glGetDoublev", ctypes.c_double),
+        )
+    },
+}
