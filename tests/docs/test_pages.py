@@ -1,0 +1,42 @@
+"""The pages of docs/ name what is there: every file of the package, every technique, every warning."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from softshadow import errors, techniques
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+PACKAGE = ROOT / "src" / "softshadow"
+
+
+def page(name: str) -> str:
+    return (DOCS / name).read_text(encoding="utf-8")
+
+
+def test_layout_names_every_file_of_the_package() -> None:
+    named = set(re.findall(r"^\| `([\w/]+\.py)`", page("pipeline.md"), re.MULTILINE))
+    present = {str(file.relative_to(PACKAGE)) for file in PACKAGE.rglob("*.py")}
+    assert sorted(present - named) == []
+    assert sorted(named - present) == []
+
+
+def test_every_technique_has_a_section() -> None:
+    headings = " ".join(re.findall(r"^## .*", page("techniques.md"), re.MULTILINE))
+    assert [name for name in techniques.names() if f"`{name}`" not in headings] == []
+
+
+@pytest.mark.parametrize("base", [errors.Warning, errors.SoftShadowError])
+def test_every_message_class_is_explained(base: type) -> None:
+    text = page("messages.md")
+    classes = [kind for kind in vars(errors).values() if isinstance(kind, type) and issubclass(kind, base)]
+    assert [kind.__name__ for kind in classes if f"`{kind.__name__}`" not in text] == []
+
+
+def test_every_cited_paper_has_an_entry() -> None:
+    entries = set(re.findall(r"@\w+\{([A-Za-z]+)(\d{4}),", page("papers.bib")))
+    cited = re.findall(r"\*([A-Z]\w+)(?:[^*\"]*?) (\d{4}), \"", page("techniques.md"))
+    assert cited, "techniques.md cites no paper"
+    assert [f"{author} {year}" for author, year in cited if (author, year) not in entries] == []
