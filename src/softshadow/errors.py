@@ -34,7 +34,15 @@ class NonManifoldMesh(Warning):
 
 
 class LightInsideCaster(Warning):
-    """A light lies inside a closed caster: everything outside it is in shadow."""
+    """A light lies inside a closed caster: volumes let its light out, maps and rays keep it in."""
+
+
+class InsideOutMesh(Warning):
+    """The triangles of a closed caster run clockwise seen from outside."""
+
+
+class PartlyReadFile(Warning):
+    """A model file has parts that are left out: says which and why."""
 
 
 class NearClipZPass(Warning):

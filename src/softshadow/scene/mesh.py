@@ -1,0 +1,142 @@
+"""A mesh as it is drawn: its vertices may share a position (creases, texture seams), the topology is beside them."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from softshadow.errors import MeshError
+from softshadow.scene.checked import keep
+from softshadow.scene.topology import Topology
+
+# squared lengths of coordinates and their reciprocals must stay finite float32 (largest 3.4e38)
+LARGEST_COORDINATE = 1e18
+
+
+@dataclass(frozen=True, eq=False, init=False, repr=False)
+class Mesh:
+    """Triangles over drawing vertices, checked once here: every kernel below assumes what this class promises.
+
+    Parameters
+    ----------
+    positions : (V, 3) float32    object space; converted, copied and made read-only
+    triangles : (T, 3) int32      counter-clockwise seen from outside, drawn in this order
+    normals : (V, 3) float32      unit; when not given, the area-weighted mean over the triangles of each drawing vertex
+    texcoords : (V, 2) float32    (0, 0) at the bottom left, as in GL
+    colors : (V, 4) float32       0 to 1
+    name : str                    what messages call the mesh
+
+    Raises
+    ------
+    ValueError                    an array of the wrong shape or kind
+    MeshError                     no vertices or triangles, an index out of range, a coordinate that is not finite or is
+                                  too large for float32 arithmetic, nothing but triangles without area
+    """
+
+    positions: np.ndarray
+    triangles: np.ndarray
+    normals: np.ndarray
+    texcoords: np.ndarray | None
+    colors: np.ndarray | None
+    name: str
+
+    def __init__(
+        self,
+        positions: ArrayLike,
+        triangles: ArrayLike,
+        normals: ArrayLike | None = None,
+        texcoords: ArrayLike | None = None,
+        colors: ArrayLike | None = None,
+        name: str = "mesh",
+    ) -> None:
+        points = _array("positions", positions, 3)
+        faces = _indices(triangles)
+        _check_content(name, points, faces)
+        optional = {
+            "normals": vertex_normals(points, faces) if normals is None else _array("normals", normals, 3),
+            "texcoords": None if texcoords is None else _array("texcoords", texcoords, 2),
+            "colors": None if colors is None else _array("colors", colors, 4),
+        }
+        for key, array in optional.items():
+            if array is not None and len(array) != len(points):
+                raise ValueError(f"{key}: expected one row per vertex ({len(points)}), got {len(array)}")
+            if array is not None and not np.isfinite(array).all():
+                raise MeshError(f"{name}: {key} are not all finite; expected finite numbers")
+        keep(self, positions=points, triangles=faces, name=name, **optional)
+
+    @cached_property
+    def topology(self) -> Topology:
+        """How the triangles hang together by exact position; computed at the first use and kept."""
+        return Topology(self.positions, self.triangles)
+
+    @cached_property
+    def bounds(self) -> np.ndarray:
+        """(2, 3) float64: smallest and largest coordinates of the vertices that a triangle uses."""
+        used = self.positions[np.unique(self.triangles)].astype(np.float64)
+        return np.stack([used.min(axis=0), used.max(axis=0)])
+
+    def __repr__(self) -> str:
+        return f"Mesh({self.name!r}, {len(self.positions)} vertices, {len(self.triangles)} triangles)"
+
+
+def face_normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Return (T, 3) float64 normals, twice the triangle's area long, from the float32 positions."""
+    a, b, c = (positions[triangles[:, corner]].astype(np.float64) for corner in range(3))
+    return np.cross(b - a, c - a)
+
+
+def vertex_normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Return (V, 3) float32 unit normals: the area-weighted mean over the triangles of each drawing vertex.
+
+    A vertex without any area gets (0, 0, 1), so that lighting stays finite.
+    """
+    weighted = face_normals(positions, triangles)
+    corners = triangles.ravel()
+    sums = np.stack(
+        [np.bincount(corners, np.repeat(weighted[:, axis], 3), minlength=len(positions)) for axis in range(3)], axis=1
+    )
+    length = np.linalg.norm(sums, axis=1, keepdims=True)
+    unit = np.divide(sums, length, out=np.tile([0.0, 0.0, 1.0], (len(sums), 1)), where=length > 0)
+    return np.ascontiguousarray(unit, dtype=np.float32)
+
+
+def _array(key: str, value: ArrayLike, width: int) -> np.ndarray:
+    given = np.asarray(value)
+    if given.dtype.kind not in "fiu" or given.ndim != 2 or given.shape[1] != width:
+        raise ValueError(f"{key}: expected numbers of shape (V, {width}), got {given.dtype} of shape {given.shape}")
+    with np.errstate(over="ignore"):  # too large for float32: becomes infinite, which the content check names
+        return np.array(given, dtype=np.float32, order="C")
+
+
+def _indices(value: ArrayLike) -> np.ndarray:
+    given = np.asarray(value)
+    if given.dtype.kind not in "iu" and given.size:
+        raise ValueError(f"triangles: expected integers of shape (T, 3), got {given.dtype} of shape {given.shape}")
+    if given.size and (given.ndim != 2 or given.shape[1] != 3):
+        raise ValueError(f"triangles: expected integers of shape (T, 3), got shape {given.shape}")
+    # compared before the conversion to int32, which would wrap a huge index into a legal one
+    clipped = np.clip(given.reshape(-1, 3), -1, np.iinfo(np.int32).max)
+    return np.array(clipped, dtype=np.int32, order="C")
+
+
+def _check_content(name: str, positions: np.ndarray, triangles: np.ndarray) -> None:
+    if not len(positions) or not len(triangles):
+        raise MeshError(
+            f"{name}: {len(positions)} vertices and {len(triangles)} triangles; expected at least one triangle"
+        )
+    outside = np.flatnonzero((triangles < 0).any(axis=1) | (triangles >= len(positions)).any(axis=1))
+    if len(outside):
+        raise MeshError(
+            f"{name}: {len(outside)} triangles use vertices that do not exist, the first is triangle {outside[0]} "
+            f"with vertices {triangles[outside[0]].tolist()}; expected indices 0 to {len(positions) - 1}"
+        )
+    with np.errstate(invalid="ignore"):
+        bad = np.flatnonzero(~(np.abs(positions) <= LARGEST_COORDINATE).all(axis=1))
+    if len(bad):
+        raise MeshError(
+            f"{name}: {len(bad)} vertices have coordinates that are NaN, infinite or beyond {LARGEST_COORDINATE:g}, "
+            f"the first is vertex {bad[0]} at {positions[bad[0]].tolist()}; expected finite coordinates"
+        )
+    if not face_normals(positions, triangles).any():
+        raise MeshError(f"{name}: none of the {len(triangles)} triangles has an area; expected at least one that has")

@@ -1,0 +1,125 @@
+"""How triangles hang together: by exact position only, so that split normals and texture seams do not open a mesh.
+
+Nothing here moves, merges or reorders a drawing vertex: the light cap of a shadow volume is drawn with the mesh's own
+vertices, and only equal bits give equal depth. Edge sums of open and non-manifold meshes are Bergeron's (1986,
+"A general version of Crow's shadow volumes").
+"""
+
+from functools import cached_property
+
+import numpy as np
+
+
+class Topology:
+    """Vertices by position, edges, and the chain sum of all faces on every edge.
+
+    Parameters
+    ----------
+    positions : (V, 3) float32
+    triangles : (T, 3) int32
+
+    Attributes
+    ----------
+    vertex_ids : (V,) int32           number of the vertex's position, 0 to P - 1; equal positions have equal numbers
+    representatives : (P,) int32      for each position the first drawing vertex that has it
+    triangles : (T, 3) int32          over position numbers, same order as the drawing triangles
+    edges : (E, 2) int32              position numbers, smaller first; an edge between equal positions is none
+    face_edges : (T, 3) int32         the edge from corner i to corner i + 1
+    face_signs : (T, 3) int8          +1 where the face runs along its stored edge, -1 against, 0 where there is none
+    edge_faces : (E,) int32           number of faces at the edge
+    edge_sums : (E,) int32            sum of the face signs: 0 on every edge of a closed, consistently oriented mesh
+    boundary_edges : int              edges with one face
+    nonmanifold_edges : int           edges with more than two faces, or with two that disagree about the outside
+    degenerate_faces : int            faces with two corners at the same position; they belong to no edge
+    closed : bool                     no edge has a sum other than 0
+    """
+
+    def __init__(self, positions: np.ndarray, triangles: np.ndarray) -> None:
+        self.vertex_ids, self.representatives = weld(positions)
+        self.triangles = self.vertex_ids[triangles]
+        start = self.triangles
+        end = np.roll(start, -1, axis=1)
+        degenerate = (start == end).any(axis=1)
+
+        count = len(self.representatives)
+        keys = np.minimum(start, end).astype(np.int64) * count + np.maximum(start, end)
+        proper, inverse = np.unique(keys[~degenerate], return_inverse=True)
+        self.edges = np.stack([proper // count, proper % count], axis=1).astype(np.int32)
+        self.face_edges = np.zeros(start.shape, dtype=np.int32)
+        self.face_edges[~degenerate] = inverse.reshape(-1, 3)
+        self.face_signs = np.where(start < end, 1, -1).astype(np.int8)
+        self.face_signs[degenerate] = 0
+
+        self.edge_faces = np.bincount(inverse.ravel(), minlength=len(self.edges)).astype(np.int32)
+        self.edge_sums = self.chain_sum(np.arange(len(start)))
+        self.boundary_edges = int((self.edge_faces == 1).sum())
+        self.nonmanifold_edges = int(((self.edge_faces > 2) | ((self.edge_faces == 2) & (self.edge_sums != 0))).sum())
+        self.degenerate_faces = int(degenerate.sum())
+        self.closed = not self.edge_sums.any()
+
+    def chain_sum(self, faces: np.ndarray, reversed_faces: np.ndarray | None = None) -> np.ndarray:
+        """Return (E,) int32: how often the faces run along each stored edge minus how often against it.
+
+        Parameters
+        ----------
+        faces : (C,) int             faces as stored
+        reversed_faces : (R,) int    faces to be taken the other way round
+        """
+        edges, signs = self.face_edges[faces], self.face_signs[faces].astype(np.float64)
+        if reversed_faces is not None and len(reversed_faces):
+            edges = np.concatenate([edges, self.face_edges[reversed_faces]])
+            signs = np.concatenate([signs, -self.face_signs[reversed_faces].astype(np.float64)])
+        return np.bincount(edges.ravel(), signs.ravel(), minlength=len(self.edges)).astype(np.int32)
+
+    @cached_property
+    def face_bodies(self) -> np.ndarray:
+        """(T,) int32: number of the connected piece (over shared positions) that each face belongs to."""
+        labels = np.arange(len(self.representatives))
+        pairs = self.triangles[:, [0, 1, 1, 2]].reshape(-1, 2)
+        while True:
+            low = labels[pairs].min(axis=1)
+            before = labels.copy()
+            # the smaller label goes to both ends and to their former representatives, then paths are halved
+            for end in range(2):
+                np.minimum.at(labels, before[pairs[:, end]], low)
+                np.minimum.at(labels, pairs[:, end], low)
+            labels = labels[labels]
+            if np.array_equal(labels, before):
+                break
+        return np.unique(labels[self.triangles[:, 0]], return_inverse=True)[1].astype(np.int32)
+
+    @property
+    def bodies(self) -> int:
+        """Number of connected pieces."""
+        return int(self.face_bodies.max()) + 1
+
+    def describe(self) -> str:
+        """Return one line: closed or open, how many bodies, and what is odd about the mesh."""
+        kind = "closed" if self.closed else "open"
+        odd = [
+            f"{number} {_plural(number, what)}"
+            for number, what in (
+                (self.boundary_edges, "boundary edge"),
+                (self.nonmanifold_edges, "non-manifold edge"),
+                (self.degenerate_faces, "degenerate face"),
+            )
+            if number
+        ]
+        text = f"{kind}, {self.bodies} {'body' if self.bodies == 1 else 'bodies'}"
+        return f"{text}: {', '.join(odd)}" if odd else text
+
+
+def weld(positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return (V,) int32 numbers of exactly equal positions (-0 equals 0) and (P,) int32 first vertices."""
+    bits = (positions + np.float32(0)).view(np.uint32)  # adding 0 turns -0 into 0
+    order = np.lexsort((bits[:, 2], bits[:, 1], bits[:, 0]))  # stable: within a group the first vertex comes first
+    ordered = bits[order]
+    starts = np.ones(len(order), dtype=bool)
+    starts[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    ids = np.empty(len(order), dtype=np.int32)
+    ids[order] = np.cumsum(starts, dtype=np.int32) - 1
+    return ids, order[starts].astype(np.int32)
+
+
+def _plural(number: int, what: str) -> str:
+    return what if number == 1 else f"{what}s"
