@@ -58,3 +58,14 @@ def test_extra_and_group_test_install_the_same() -> None:
 def test_version_stands_in_changelog_and_citation() -> None:
     assert softshadow.__version__ in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     assert f"version: {softshadow.__version__}" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+
+
+def test_pages_that_the_sources_point_at_exist() -> None:
+    missing = [
+        f"{file.relative_to(ROOT)}: {name}"
+        for top in ("src", "tests", "docs")
+        for file in sorted((ROOT / top).rglob("*.py"))
+        for name in re.findall(r"[\w/]+\.md\b", file.read_text(encoding="utf-8"))
+        if not (ROOT / name).exists() and not (ROOT / "docs" / name).exists()
+    ]
+    assert missing == []
