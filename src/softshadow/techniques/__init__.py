@@ -1,0 +1,89 @@
+"""The shadow techniques, and the register that knows them by name.
+
+Each technique is a file that reads like its slide: a generator ``steps(gl, scene, *, size, **options)`` written in
+the calls of OpenGL, which yields the title of every step it has finished, with named maps where it has some. `gl` is
+`softshadow.gl`, or any other namespace with the same names.
+"""
+
+from softshadow.errors import nearest
+from softshadow.techniques import map, planar, volume_zfail, volume_zpass
+from softshadow.techniques.technique import Option, Steps, Technique
+
+__all__ = ["Option", "Steps", "Technique", "describe", "get", "names"]
+
+REGISTER = {
+    technique.name: technique
+    for technique in (
+        Technique(
+            "planar",
+            "Projected planar shadows",
+            "planar",
+            "Blinn 1988, Me and my (fake) shadow",
+            planar.steps,
+            planar.OPTIONS,
+        ),
+        Technique(
+            "volume-zpass",
+            "Shadow volumes, z-pass",
+            "volume",
+            "Heidmann 1991, Real shadows, real time",
+            volume_zpass.steps,
+            volume_zpass.OPTIONS,
+        ),
+        Technique(
+            "volume-zfail",
+            "Shadow volumes, z-fail",
+            "volume",
+            "Everitt & Kilgard 2002, Practical and robust stenciled shadow volumes",
+            volume_zfail.steps,
+            volume_zfail.OPTIONS,
+        ),
+        Technique(
+            "map",
+            "Shadow map",
+            "map",
+            "Williams 1978, Casting curved shadows on curved surfaces",
+            map.steps,
+            map.OPTIONS,
+        ),
+    )
+}
+
+
+def names() -> list[str]:
+    """Return the names of all techniques.
+
+    Examples
+    --------
+    >>> names()
+    ['planar', 'volume-zpass', 'volume-zfail', 'map']
+    """
+    return list(REGISTER)
+
+
+def get(name: str) -> Technique:
+    """Return a technique by its name.
+
+    Raises
+    ------
+    ValueError                   there is none of that name; the message has the nearest one
+    """
+    if name not in REGISTER:
+        raise ValueError(f"unknown technique {name!r}: {nearest(str(name), REGISTER)}")
+    return REGISTER[name]
+
+
+def describe(name: str) -> str:
+    """Return what a technique does, where it comes from, how it fails, and its options, as text.
+
+    Raises
+    ------
+    ValueError                   there is none of that name; the message has the nearest one
+    """
+    technique = get(name)
+    module = technique.steps.__globals__
+    lines = [f"{technique.name}: {technique.title}", "", module["__doc__"].strip(), "", "Options:"]
+    for key, option in technique.options.items():
+        default = "from the scene" if option.default is None else option.default
+        lines += [f"  {key} = {default}", f"      {option.help} ({option.expected})"]
+    return "\n".join(lines)

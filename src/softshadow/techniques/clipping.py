@@ -1,0 +1,85 @@
+"""Clip triangles against planes, in double precision, before anything is projected.
+
+The first fixed-function pipelines had glClipPlane for this; clipping here keeps the cut visible to the reader and to
+tests.
+"""
+
+import numpy as np
+
+
+def clip_triangles(triangles: np.ndarray, plane: np.ndarray) -> np.ndarray:
+    """Return the parts of the triangles on the positive side of a plane, as triangles of the same orientation.
+
+    Parameters
+    ----------
+    triangles : (T, 3, 3) float64
+    plane : (4,)                 a, b, c, d: kept is a·x + b·y + c·z + d ≥ 0
+
+    Returns
+    -------
+    (U, 3, 3) float64            U ≤ 2·T; two triangles that shared an edge share the cut point on it, to the bit
+
+    References
+    ----------
+    Sutherland & Hodgman 1974, "Reentrant polygon clipping".
+    """
+    distance = triangles @ plane[:3] + plane[3]
+    inside = distance >= 0
+    count = inside.sum(axis=1)
+    pieces = [triangles[count == 3]]
+    for kept in (1, 2):
+        cut = count == kept
+        # turn the corners so that the lonely one (the only one inside, or the only one outside) comes first
+        lonely = np.argmax(inside[cut] == (kept == 1), axis=1)
+        order = (lonely[:, None] + np.arange(3)) % 3
+        corner = np.take_along_axis(triangles[cut], order[:, :, None], axis=1)
+        height = np.take_along_axis(distance[cut], order, axis=1)
+        first, second, third = corner[:, 0], corner[:, 1], corner[:, 2]
+        if kept == 1:
+            to_second = _crossing(first, height[:, 0], second, height[:, 1])
+            to_third = _crossing(first, height[:, 0], third, height[:, 2])
+            pieces.append(np.stack([first, to_second, to_third], axis=1))
+        else:
+            from_second = _crossing(second, height[:, 1], first, height[:, 0])
+            from_third = _crossing(third, height[:, 2], first, height[:, 0])
+            pieces.append(np.stack([from_second, second, third], axis=1))
+            pieces.append(np.stack([from_second, third, from_third], axis=1))
+    return np.concatenate(pieces)
+
+
+def _crossing(inner: np.ndarray, above: np.ndarray, outer: np.ndarray, below: np.ndarray) -> np.ndarray:
+    """The points where edges cross the plane; always from the inner end, so that both triangles of an edge agree."""
+    return inner + (above / (above - below))[:, None] * (outer - inner)
+
+
+def clip_to_planes(triangles: np.ndarray, planes: np.ndarray) -> np.ndarray:
+    """Return the parts of the triangles on the positive side of every plane (K, 4)."""
+    for plane in planes:
+        triangles = clip_triangles(triangles, plane)
+    return triangles
+
+
+def pyramid_between(light: np.ndarray, rectangle: np.ndarray) -> np.ndarray:
+    """Return the planes that bound all segments from a light to the points of a rectangle.
+
+    Parameters
+    ----------
+    light : (4,)                 homogeneous; w = 0 gives the prism of the rays towards the light
+    rectangle : (4, 3)           corners in order
+
+    Returns
+    -------
+    (5, 4) float64               four sides and the rectangle's own plane, positive inside
+    """
+    centre = rectangle.mean(axis=0)
+    position, w = light[:3], light[3]
+    planes = []
+    for a, b in zip(rectangle, np.roll(rectangle, -1, axis=0), strict=True):
+        # the plane through a, b and the light: direction to the light is position - w·a, also for w = 0
+        normal = np.cross(b - a, position - w * a)
+        normal *= 1.0 if normal @ (centre - a) >= 0 else -1.0
+        planes.append([*normal, -normal @ a])
+    normal = np.cross(rectangle[1] - rectangle[0], rectangle[2] - rectangle[1])
+    normal *= 1.0 if normal @ (position - w * centre) >= 0 else -1.0
+    planes.append([*normal, -normal @ centre])
+    return np.array(planes)

@@ -1,0 +1,213 @@
+"""What all techniques draw with: the camera, the light, objects by vertex arrays, and the read-out of buffers.
+
+Every draw stands in a debug group that carries the name of its object, so that a recorded or traced frame says what
+it drew.
+"""
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+
+from softshadow import matrices
+from softshadow.scene import Camera, Light, Scene, SceneObject
+
+
+def column_major(matrix: np.ndarray) -> np.ndarray:
+    """Return a matrix in the memory order of glMultMatrixd."""
+    return np.ascontiguousarray(np.asarray(matrix, np.float64).T)
+
+
+# -- frame and camera --------------------------------------------------------------------------------------------------
+
+
+def begin_frame(gl: Any, scene: Scene) -> None:
+    """Clear all buffers (E61: only glClear does) and set the state a frame starts from."""
+    gl.glClearColor(*scene.background, 1.0)
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    gl.glDepthFunc(gl.GL_LESS)
+    gl.glEnable(gl.GL_NORMALIZE)  # object_to_world may scale
+
+
+def set_camera(gl: Any, camera: Camera, size: tuple[int, int], far: str = "finite") -> None:
+    """Set viewport, projection and view.
+
+    `far` is "finite", "infinite" (the matrix has no far plane) or "clamp" (GL_DEPTH_CLAMP: nothing is cut at near and far).
+    """
+    width, height = size
+    gl.glViewport(0, 0, width, height)
+    gl.glMatrixMode(gl.GL_PROJECTION)
+    gl.glLoadIdentity()
+    if far == "infinite":
+        gl.glMultMatrixd(column_major(matrices.infinite_perspective(camera.fov_y, width / height, camera.near)))
+    else:
+        gl.gluPerspective(camera.fov_y, width / height, camera.near, camera.far)
+    if far == "clamp":
+        gl.glEnable(gl.GL_DEPTH_CLAMP)
+    gl.glMatrixMode(gl.GL_MODELVIEW)
+    gl.glLoadIdentity()
+    gl.gluLookAt(*camera.eye, *camera.target, *camera.up)
+
+
+# -- light -------------------------------------------------------------------------------------------------------------
+
+
+def light_ambient_only(gl: Any, scene: Scene) -> None:
+    """Light what follows by the ambient light alone: what a surface looks like in shadow."""
+    gl.glEnable(gl.GL_LIGHTING)
+    gl.glLightModelfv(gl.GL_LIGHT_MODEL_AMBIENT, (*scene.ambient, 1.0))
+    for index in range(len(scene.lights)):
+        gl.glDisable(gl.GL_LIGHT0 + index)
+
+
+def light_by(gl: Any, scene: Scene, lights: Iterable[Light], ambient: bool) -> None:
+    """Light what follows by some of the scene's lights; call it while the modelview matrix is the view.
+
+    A pass that is added to an earlier one must not bring the ambient light again.
+    """
+    light_ambient_only(gl, scene)
+    if not ambient:
+        gl.glLightModelfv(gl.GL_LIGHT_MODEL_AMBIENT, (0.0, 0.0, 0.0, 1.0))
+    for index, light in enumerate(scene.lights):
+        if any(light is other for other in lights):
+            gl.glEnable(gl.GL_LIGHT0 + index)
+            gl.glLightfv(gl.GL_LIGHT0 + index, gl.GL_POSITION, tuple(float(v) for v in light.position))
+            for term in (gl.GL_DIFFUSE, gl.GL_SPECULAR):
+                gl.glLightfv(gl.GL_LIGHT0 + index, term, (*light.color, 1.0))
+
+
+@contextmanager
+def added(gl: Any) -> Iterator[None]:
+    """Add the colours of what is drawn to those in the buffer, at the pixels of the very same surface."""
+    gl.glEnable(gl.GL_BLEND)
+    gl.glBlendFunc(gl.GL_ONE, gl.GL_ONE)
+    gl.glDepthFunc(gl.GL_LEQUAL)  # E2: the second draw has equal depth
+    gl.glDepthMask(gl.GL_FALSE)
+    yield
+    gl.glDepthMask(gl.GL_TRUE)
+    gl.glDepthFunc(gl.GL_LESS)
+    gl.glDisable(gl.GL_BLEND)
+
+
+def title_of(title: str, scene: Scene, light: Light) -> str:
+    """Return a step's title, with the light's name where there are several."""
+    return title if len(scene.lights) == 1 else f"{title}: {light.name}"
+
+
+# -- objects -----------------------------------------------------------------------------------------------------------
+
+
+@contextmanager
+def object_space(gl: Any, thing: SceneObject) -> Iterator[None]:
+    """Draw in the space of an object, under its name."""
+    gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, thing.name)
+    gl.glPushMatrix()
+    gl.glMultMatrixd(column_major(thing.object_to_world))
+    yield
+    gl.glPopMatrix()
+    gl.glPopDebugGroup()
+
+
+def draw_objects(gl: Any, objects: Iterable[SceneObject]) -> None:
+    """Draw objects with normals and materials, for passes with lighting."""
+    for thing in objects:
+        with object_space(gl, thing):
+            set_material(gl, thing)
+            draw_mesh(gl, thing, shaded=True)
+
+
+def draw_shapes(gl: Any, objects: Iterable[SceneObject]) -> None:
+    """Draw objects by their positions alone, for passes without lighting."""
+    for thing in objects:
+        with object_space(gl, thing):
+            draw_mesh(gl, thing, shaded=False)
+
+
+def set_material(gl: Any, thing: SceneObject) -> None:
+    """Set an object's reflectances."""
+    material = thing.material
+    gl.glMaterialfv(gl.GL_FRONT_AND_BACK, gl.GL_AMBIENT_AND_DIFFUSE, (*material.color, 1.0))
+    gl.glMaterialfv(gl.GL_FRONT_AND_BACK, gl.GL_SPECULAR, (*material.specular, 1.0))
+    gl.glMaterialf(gl.GL_FRONT_AND_BACK, gl.GL_SHININESS, material.shininess)
+
+
+def draw_mesh(gl: Any, thing: SceneObject, shaded: bool, texture_coordinates: bool = False) -> None:
+    """Draw an object's mesh: always the same positions in the same order, so that every pass has the same depths.
+
+    With `texture_coordinates` the positions are handed over as texture coordinates, too: the texture matrix takes
+    them on.
+    """
+    mesh = thing.mesh
+    if shaded:
+        gl.glEnableClientState(gl.GL_NORMAL_ARRAY)
+        gl.glNormalPointer(gl.GL_FLOAT, 0, mesh.normals)
+    if shaded and mesh.colors is not None:
+        gl.glEnable(gl.GL_COLOR_MATERIAL)
+        gl.glEnableClientState(gl.GL_COLOR_ARRAY)
+        gl.glColorPointer(4, gl.GL_FLOAT, 0, mesh.colors)
+    if texture_coordinates:
+        gl.glEnableClientState(gl.GL_TEXTURE_COORD_ARRAY)
+        gl.glTexCoordPointer(3, gl.GL_FLOAT, 0, mesh.positions)
+    draw_triangles(gl, mesh.positions, mesh.triangles)
+    gl.glDisableClientState(gl.GL_TEXTURE_COORD_ARRAY)
+    gl.glDisableClientState(gl.GL_COLOR_ARRAY)
+    gl.glDisable(gl.GL_COLOR_MATERIAL)
+    gl.glDisableClientState(gl.GL_NORMAL_ARRAY)
+
+
+def draw_triangles(gl: Any, positions: np.ndarray, triangles: np.ndarray) -> None:
+    """Draw triangles (T, 3) int32 over positions (V, 3) float32."""
+    if len(triangles) == 0:
+        return
+    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, positions)
+    gl.glDrawElements(gl.GL_TRIANGLES, triangles.size, gl.GL_UNSIGNED_INT, triangles.view(np.uint32))
+    gl.glDisableClientState(gl.GL_VERTEX_ARRAY)
+
+
+def draw_polygons(gl: Any, polygons: np.ndarray) -> None:
+    """Draw triangles (N, 3, k) or quads (N, 4, k) float32, each with corners of its own; k = 4 is homogeneous."""
+    if len(polygons) == 0:
+        return
+    count, corners, components = polygons.shape
+    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glVertexPointer(components, gl.GL_FLOAT, 0, polygons)
+    gl.glDrawArrays(gl.GL_TRIANGLES if corners == 3 else gl.GL_QUADS, 0, count * corners)
+    gl.glDisableClientState(gl.GL_VERTEX_ARRAY)
+
+
+# -- read-out ----------------------------------------------------------------------------------------------------------
+
+
+def read_depth(gl: Any, size: tuple[int, int]) -> np.ndarray:
+    """Return the depth buffer, (h, w) float32, first row = bottom."""
+    return gl.glReadPixels(0, 0, *size, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT)
+
+
+def read_stencil(gl: Any, size: tuple[int, int]) -> np.ndarray:
+    """Return the stencil buffer, (h, w) uint8, first row = bottom."""
+    return gl.glReadPixels(0, 0, *size, gl.GL_STENCIL_INDEX, gl.GL_UNSIGNED_BYTE)
+
+
+def visibility_maps(scene: Scene, lit: list[np.ndarray], valid: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the visibility of the lights done so far as maps, 1 lit and 0 in shadow.
+
+    Parameters
+    ----------
+    lit : one (h, w) bool per light done, in the scene's order
+    valid : (h, w) bool          where visibility is defined; elsewhere the maps hold 1
+
+    Returns
+    -------
+    dict                         "visibility of NAME" float32 for each light done, where there are several; once all
+                                 are done "visibility" (the mean over the lights) and "valid"
+    """
+    visible = [np.where(valid, one, True).astype(np.float32) for one in lit]
+    maps = {}
+    if len(scene.lights) > 1:
+        maps = {f"visibility of {light.name}": one for light, one in zip(scene.lights, visible, strict=False)}
+    if len(lit) == len(scene.lights):
+        maps |= {"visibility": np.mean(visible, axis=0, dtype=np.float32), "valid": valid}
+    return maps

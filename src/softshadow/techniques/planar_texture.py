@@ -1,0 +1,150 @@
+"""Planar shadows kept in a texture on each receiver, the fifth method of `planar`.
+
+The casters are flattened not onto the screen but into the receiver's own (u, v); the texture is then laid over the
+receiver. It is drawn once and stays right for as long as light, casters and receiver stand still (E56); the camera
+may move. Slides: Zimányi & Valient, Projekčné tiene, "Možné renderovanie do textúry".
+"""
+
+from typing import Any
+
+import numpy as np
+
+from softshadow.scene import Light, Scene, SceneObject
+from softshadow.techniques.drawing import (
+    added,
+    column_major,
+    draw_mesh,
+    draw_objects,
+    light_ambient_only,
+    light_by,
+    object_space,
+    read_depth,
+    read_stencil,
+    set_camera,
+    set_material,
+    title_of,
+)
+from softshadow.techniques.flattened import draw_flattened, draw_the_casters
+from softshadow.techniques.technique import Steps
+
+# lit from half a texel's weight on; 127.5 would sit between two of the 8-bit values that the alpha test compares
+HALF = 127 / 255
+
+
+def texture(gl: Any, scene: Scene, size: tuple[int, int], clip: bool, texture_size: int) -> Steps:
+    """Shadow into each receiver's texture, receiver without light, light where the texture says so, caster."""
+    # 1. flatten the casters into a texture for each receiver and light
+    shadows = {}
+    maps = {}
+    for light in scene.lights:
+        for receiver in scene.receivers:
+            name, image = shadow_texture(gl, scene, receiver, light, clip, texture_size)
+            shadows[light.name, receiver.name] = name
+            maps[title_of(f"texture of {receiver.name}", scene, light)] = image
+    set_camera(gl, scene.camera, size)
+    yield "draw the flattened casters into the receivers' textures", maps
+
+    # 2. draw the receivers and the casters without light
+    light_ambient_only(gl, scene)
+    draw_objects(gl, scene.receivers)
+    yield "draw the receivers without the light"
+
+    # 3. add the light where the texture has no shadow
+    receivers = read_depth(gl, size)
+    lit = []
+    for light in scene.lights:
+        add_light_through_textures(gl, scene, light, shadows)
+        lit.append(read_stencil(gl, size) != 0)
+        yield title_of("add the light where the texture is white", scene, light)
+    for name in shadows.values():
+        gl.glDeleteTextures([name])
+
+    # 4. draw the casters
+    yield from draw_the_casters(gl, scene, size, receivers < 1, lit)
+
+
+def world_to_receiver(receiver: SceneObject) -> np.ndarray:
+    """Return the matrix (4, 4) that takes the world to a receiver's (u, v, 0, 1), its outline filling 0 to 1."""
+    assert receiver.plane is not None
+    normal = receiver.plane[:3]
+    # the world axis that lies flattest on the plane gives u its direction
+    axis = np.eye(3)[np.abs(normal).argmin()]
+    along_u = axis - (axis @ normal) * normal
+    along_u /= np.linalg.norm(along_u)
+    along_v = np.cross(normal, along_u)
+    matrix = np.zeros((4, 4))
+    matrix[3, 3] = 1
+    for row, direction in enumerate((along_u, along_v)):
+        extent = receiver.world_positions @ direction
+        matrix[row, :3] = direction / np.ptp(extent)
+        matrix[row, 3] = -extent.min() / np.ptp(extent)
+    return matrix
+
+
+def shadow_texture(
+    gl: Any, scene: Scene, receiver: SceneObject, light: Light, clip: bool, texture_size: int
+) -> tuple[int, np.ndarray]:
+    """Return a texture that is 1 where the receiver is lit and 0 in shadow, and the same as an array (n, n) float32."""
+    name = gl.glGenTextures(1)
+    gl.glBindTexture(gl.GL_TEXTURE_2D, name)
+    for parameter, value in (
+        (gl.GL_TEXTURE_MIN_FILTER, gl.GL_LINEAR),
+        (gl.GL_TEXTURE_MAG_FILTER, gl.GL_LINEAR),
+        (gl.GL_TEXTURE_WRAP_S, gl.GL_CLAMP_TO_EDGE),
+        (gl.GL_TEXTURE_WRAP_T, gl.GL_CLAMP_TO_EDGE),
+    ):
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, parameter, value)
+    gl.glTexImage2D(
+        gl.GL_TEXTURE_2D, 0, gl.GL_RGBA8, texture_size, texture_size, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, None
+    )
+    framebuffer = gl.glGenFramebuffers(1)
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
+    gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, name, 0)
+    gl.glViewport(0, 0, texture_size, texture_size)
+    gl.glClearColor(1.0, 1.0, 1.0, 1.0)
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT)
+
+    gl.glMatrixMode(gl.GL_PROJECTION)
+    gl.glLoadIdentity()
+    gl.glOrtho(0, 1, 0, 1, -1, 1)
+    gl.glMatrixMode(gl.GL_MODELVIEW)
+    gl.glLoadIdentity()
+    gl.glMultMatrixd(column_major(world_to_receiver(receiver)))
+    gl.glDisable(gl.GL_LIGHTING)
+    gl.glColor4f(0.0, 0.0, 0.0, 0.0)
+    draw_flattened(gl, scene, receiver, light, clip)
+
+    image = gl.glReadPixels(0, 0, texture_size, texture_size, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+    gl.glDeleteFramebuffers(1, [framebuffer])
+    gl.glClearColor(*scene.background, 1.0)
+    return name, image[:, :, 3].astype(np.float32) / 255
+
+
+def add_light_through_textures(gl: Any, scene: Scene, light: Light, shadows: dict[tuple[str, str], int]) -> None:
+    """Add a light to the receivers where their textures are white, and leave 1 in the stencil buffer there."""
+    gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
+    gl.glEnable(gl.GL_STENCIL_TEST)
+    gl.glStencilFunc(gl.GL_ALWAYS, 1, 0xFF)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
+    gl.glEnable(gl.GL_ALPHA_TEST)
+    gl.glAlphaFunc(gl.GL_GREATER, HALF)
+    gl.glEnable(gl.GL_TEXTURE_2D)
+    gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, gl.GL_MODULATE)
+    light_by(gl, scene, [light], ambient=False)
+    with added(gl):
+        for receiver in scene.receivers:
+            gl.glBindTexture(gl.GL_TEXTURE_2D, shadows[light.name, receiver.name])
+            gl.glMatrixMode(gl.GL_TEXTURE)
+            gl.glLoadIdentity()
+            gl.glMultMatrixd(column_major(world_to_receiver(receiver) @ receiver.object_to_world))
+            gl.glMatrixMode(gl.GL_MODELVIEW)
+            with object_space(gl, receiver):
+                set_material(gl, receiver)
+                draw_mesh(gl, receiver, shaded=True, texture_coordinates=True)
+    gl.glDisable(gl.GL_TEXTURE_2D)
+    gl.glDisable(gl.GL_ALPHA_TEST)
+    gl.glDisable(gl.GL_STENCIL_TEST)
+    gl.glMatrixMode(gl.GL_TEXTURE)
+    gl.glLoadIdentity()
+    gl.glMatrixMode(gl.GL_MODELVIEW)
