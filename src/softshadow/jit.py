@@ -65,3 +65,8 @@ def kernel(function: Callable[..., Any]) -> Any:
         return numba.njit(cache=folder is not None, nogil=True, error_model="numpy")(function)
     finally:
         numba.config.CACHE_DIR = kept
+
+
+def inlined(function: Callable[..., Any]) -> Any:
+    """Compile a function into each kernel that calls it (decorator): what it is called with there is folded away."""
+    return numba.njit(inline="always", nogil=True, error_model="numpy")(function)

@@ -1,3 +1,140 @@
-"""placeholder"""
-def draw(command, storage): raise NotImplementedError
-def clear(command, storage): raise NotImplementedError
+"""The pipeline: one file per stage, and this file is the diagram.
+
+::
+
+    Draw --> geometry ---------------------------------------------> triangles
+             vertex > clip > window > setup                              |
+                                                                         v
+             opaque:   fill (coverage, depth, process_fragment) ----> triangle per pixel --> shade --> write
+             ordered:  list fragments --> shade --> process_fragment, blend ------------------------> write
+
+Opaque draws shade each visible pixel once, after the fill; draws whose colours depend on the order of their fragments (alpha
+test, blending, logic op) take the ordered path. Both leave the same buffers.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from softshadow.errors import StateError
+from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.pipeline.bands import set_threads, threads
+from softshadow.pipeline.binding import VERDICT_COUNTS, fill, use_binding
+from softshadow.pipeline.blend import needs_order, to_unorm8, write_colors
+from softshadow.pipeline.clear import clear
+from softshadow.pipeline.fragment_ops import PASSED, VERDICTS, fragment_ops
+from softshadow.pipeline.fragments import Fragments, list_fragments, test_fragments
+from softshadow.pipeline.geometry import Geometry, depth_range_of, process_geometry, region_of
+from softshadow.pipeline.interpolate import inputs_of
+
+if TYPE_CHECKING:
+    from softshadow.pipeline.commands import Draw
+
+__all__ = ["VERDICTS", "clear", "draw", "set_threads", "shade", "threads", "use_binding"]
+
+NO_BUFFER = np.zeros((1, 1))
+
+
+def draw(command: Draw, storage: Storage, verdicts: np.ndarray | None = None) -> None:
+    """Draw: change the buffers of the framebuffer that the command's state names.
+
+    Parameters
+    ----------
+    verdicts : (6,) int64, optional
+        Receives the number of fragments per verdict (`VERDICTS`), and last that of changed stencil values.
+
+    Raises
+    ------
+    StateError
+        The framebuffer has no buffers, or the draw needs what is not part of this subset. Nothing is drawn.
+    """
+    target = storage.framebuffers[command.state.draw_framebuffer]
+    if not target.attachments:
+        raise StateError(f"framebuffer {target.name} has nothing attached to draw to")
+    with np.errstate(all="ignore"):  # infinities of vertices that clipping removes; interpreted kernels would warn
+        geometry = process_geometry(command, target, storage)
+        if not len(geometry.triangles.ids):
+            return
+        writes_color = target.color is not None and any(command.state.color.mask)
+        if needs_order(command.state):
+            _draw_in_order(command, target, geometry, writes_color, verdicts)
+        else:
+            _draw_opaque(command, target, geometry, writes_color, verdicts)
+
+
+def _draw_opaque(
+    command: Draw, target: Framebuffer, geometry: Geometry, writes_color: bool, verdicts: np.ndarray | None
+) -> None:
+    state, triangles = command.state, geometry.triangles
+    region = _rows_of(geometry, region_of(state, target))
+    if region.first_row >= region.end_row:
+        return
+    depth, stencil = _planes(target, geometry.window.dtype)
+    ids = np.full((region.end_row - region.first_row, depth.shape[1]), -1, np.int32) if writes_color else None
+    numbered = triangles._replace(ids=np.arange(len(triangles.ids), dtype=np.int32))
+    front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
+    fill(
+        front, back, numbered, region, depth_range_of(state, geometry.window.dtype.type), depth, stencil, ids, verdicts
+    )
+    if ids is not None and target.color is not None:
+        rows, columns = np.nonzero(ids >= 0)
+        visible = Fragments(
+            (rows + region.first_row).astype(np.int32),
+            columns.astype(np.int32),
+            np.ascontiguousarray(ids[rows, columns]),
+        )
+        write_colors(state, target.color, visible, shade(geometry, visible))
+
+
+def _draw_in_order(
+    command: Draw, target: Framebuffer, geometry: Geometry, writes_color: bool, verdicts: np.ndarray | None
+) -> None:
+    state, triangles = command.state, geometry.triangles
+    region = region_of(state, target)
+    fragments = list_fragments(triangles, region)
+    colors = shade(geometry, fragments)
+    depth, stencil = _planes(target, geometry.window.dtype)
+    front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
+    verdict = np.empty(len(fragments.row), np.uint8)
+    changed = test_fragments(
+        front, back, fragments, to_unorm8(colors[:, 3]), triangles, depth_range_of(state, geometry.window.dtype.type),
+        np.arange(max(depth.shape), dtype=geometry.window.dtype), depth, stencil, verdict,
+    )  # fmt: skip
+    if verdicts is not None:
+        verdicts[:-1] += np.bincount(verdict, minlength=VERDICT_COUNTS - 1)
+        verdicts[-1] += changed
+    if writes_color and target.color is not None:
+        passed = verdict == PASSED
+        write_colors(state, target.color, Fragments(*(a[passed] for a in fragments)), colors[passed])
+
+
+def shade(geometry: Geometry, fragments: Fragments) -> np.ndarray:
+    """Return the colours (n, 4) of fragments, unclamped: interpolate, then call the program once."""
+    inputs = inputs_of(
+        fragments,
+        geometry.triangles,
+        geometry.window,
+        geometry.values,
+        geometry.back,
+        geometry.flat,
+        geometry.provoking,
+    )
+    out = np.empty((len(inputs), 4), inputs.dtype)
+    geometry.program.shade(inputs, geometry.uniforms, out)
+    return out
+
+
+def _rows_of(geometry: Geometry, region):  # type: ignore[no-untyped-def]
+    rows = geometry.triangles.corners[:, 1::2]
+    first, end = (int(rows.min()) + 255) >> 8, (int(rows.max()) >> 8) + 1
+    return region._replace(first_row=max(region.first_row, first), end_row=min(region.end_row, end))
+
+
+def _planes(target: Framebuffer, real: np.dtype) -> tuple[np.ndarray, np.ndarray]:
+    """Return depth and stencil cells; a buffer that is missing is stood in for by scratch, its test is off."""
+    shape = next(iter(target.attachments.values())).image.cells.shape[:2]
+    depth = target.depth.cells if target.depth is not None else np.zeros(shape, real)
+    stencil = target.stencil.cells if target.stencil is not None else np.zeros(shape, np.uint8)
+    return depth, stencil

@@ -13,7 +13,6 @@ from typing import Any, Protocol
 import numpy as np
 
 from softshadow import pipeline
-from softshadow import tokens as gl
 from softshadow.framebuffer import DEFAULT, Attachment, Framebuffer, Storage
 from softshadow.image import FORMATS, Image
 from softshadow.pipeline import transfer

@@ -1,2 +1,5 @@
 """placeholder"""
-def copy_to_texture(command, storage): raise NotImplementedError
+
+
+def copy_to_texture(command, storage):
+    raise NotImplementedError

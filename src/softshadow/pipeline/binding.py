@@ -1,0 +1,142 @@
+"""How the fill stage gets its state: closed over and compiled per state, or as an argument.
+
+*Specialised*: a closure over the numbers that change the code; the compiler folds them away and vectorises the loop; kept on
+disk per state. *Generic*: the state is an argument; nothing to compile, but slow. A state starts generic and is specialised
+once it has drawn enough fragments to pay for the compilation, at once when its code is on disk already.
+"""
+
+import hashlib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+
+from softshadow.jit import cache_folder, inlined, kernel
+from softshadow.pipeline.bands import in_bands
+from softshadow.pipeline.fill import DepthRange, Region, fill_triangles
+from softshadow.pipeline.fragment_ops import FragmentOps
+from softshadow.pipeline.setup import Setup
+
+PAYS_AFTER = (
+    40_000_000  # fragments of one state; measured: about 0.4 s of compilation at the speed of the generic binding
+)
+VERDICT_COUNTS = 6  # one per verdict, and the number of stencil values that changed
+
+_compiled: dict[tuple[int, ...], Callable[..., None]] = {}
+_drawn: dict[tuple[int, ...], int] = {}
+_policy = ["auto"]
+
+
+@contextmanager
+def use_binding(policy: str) -> Iterator[None]:
+    """Inside, draws use the "generic" binding, the "specialised" one, or "auto": what pays.
+
+    Results are the same; for tests, `warmup` and the ledger.
+    """
+    _policy.append(policy)
+    try:
+        yield
+    finally:
+        _policy.pop()
+
+
+@kernel
+def generic(
+    front, back, two_sided, writes_ids, counts, triangles, region, depth_range, columns, depth, stencil, ids, verdicts
+):
+    """`fill_triangles` with the state as an argument."""
+    fill_triangles(
+        front, back, two_sided, writes_ids, counts, triangles, region, depth_range, columns, depth, stencil, ids, verdicts
+    )  # fmt: skip
+
+
+@inlined
+def with_numbers(code, numbers):
+    """Return the operations of `code` with the reference values and masks of `numbers`."""
+    return FragmentOps(
+        code.alpha_test, code.alpha_func, code.stencil_test, code.stencil_func, code.sfail, code.zfail, code.zpass,
+        code.stencil_largest, code.depth_test, code.depth_func, code.depth_write, code.depth_largest,
+        numbers.alpha_ref, numbers.ref, numbers.read_mask, numbers.write_mask,
+    )  # fmt: skip
+
+
+def specialise(front_code: FragmentOps, back_code: FragmentOps, two_sided: int, writes_ids: int) -> Callable[..., None]:
+    """Return `fill_triangles` compiled for the code of one state; reference values and masks are still arguments."""
+
+    @kernel
+    def fill(front, back, triangles, region, depth_range, columns, depth, stencil, ids, verdicts):
+        fill_triangles(
+            with_numbers(front_code, front), with_numbers(back_code, back), two_sided, writes_ids, 0,
+            triangles, region, depth_range, columns, depth, stencil, ids, verdicts,
+        )  # fmt: skip
+
+    return fill
+
+
+def _marker(key: tuple[int, ...]) -> Path | None:
+    """The empty file that says that a state's code is on disk."""
+    folder = cache_folder()
+    return folder / f"state-{hashlib.blake2b(repr(key).encode(), digest_size=8).hexdigest()}" if folder else None
+
+
+def _pays(key: tuple[int, ...], fragments: int) -> bool:
+    if _policy[-1] != "auto":
+        return _policy[-1] == "specialised"
+    _drawn[key] = _drawn.get(key, 0) + fragments
+    marker = _marker(key)
+    return _drawn[key] > PAYS_AFTER or (marker is not None and marker.exists())
+
+
+def fill(
+    front: FragmentOps,
+    back: FragmentOps,
+    triangles: Setup,
+    region: Region,
+    depth_range: DepthRange,
+    depth: np.ndarray,
+    stencil: np.ndarray,
+    ids: np.ndarray | None = None,
+    verdicts: np.ndarray | None = None,
+) -> None:
+    """Process all fragments of the triangles inside the region, on the binding that pays.
+
+    Parameters
+    ----------
+    ids : (rows of the region, pitch) int32, or None
+        Receives the number of the triangle whose fragment passed last.
+    verdicts : (6,) int64, or None
+        Counts the fragments by verdict, and last the stencil values changed; one band only, generic binding.
+    """
+    columns = np.arange(max(*depth.shape, region.right, region.end_row), dtype=depth.dtype)
+    two_sided, writes_ids = int(front != back), int(ids is not None)
+    id_rows = np.empty((1, 1), np.int32) if ids is None else ids
+    planes = (columns, depth, stencil)
+    if verdicts is not None:
+        generic(front, back, two_sided, writes_ids, 1, triangles, region, depth_range, *planes, id_rows, verdicts)
+        return
+    nothing = np.zeros(VERDICT_COUNTS, np.int64)
+    front_code, back_code = front.code(), back.code()
+    key = (*front_code, *back_code, two_sided, writes_ids, depth.dtype.itemsize)
+    if key not in _compiled and _pays(key, _area(triangles)):
+        _compiled[key] = specialise(front_code, back_code, two_sided, writes_ids)
+        marker = _marker(key)
+        if marker is not None:
+            marker.touch()
+    bound = None if _policy[-1] == "generic" else _compiled.get(key)
+
+    def band(first_row: int, end_row: int) -> None:
+        part = region._replace(first_row=first_row, end_row=end_row)
+        rows = id_rows[first_row - region.first_row :] if writes_ids else id_rows
+        if bound is None:
+            generic(front, back, two_sided, writes_ids, 0, triangles, part, depth_range, *planes, rows, nothing)
+        else:
+            bound(front, back, triangles, part, depth_range, *planes, rows, nothing)
+
+    in_bands(band, region.first_row, region.end_row, _area(triangles))
+
+
+def _area(triangles: Setup) -> int:
+    """Return the area of all triangles in pixels: about the number of their fragments."""
+    x0, y0, x1, y1, x2, y2 = triangles.corners.astype(np.float64).T
+    return int(np.abs((x0 - x1) * (y2 - y0) - (x2 - x0) * (y0 - y1)).sum()) >> 17

@@ -1,0 +1,157 @@
+"""Clipping in homogeneous space, before the division: left, right, bottom, top, near, far.
+
+There is no guard band: x and y are clipped exactly to the frustum, as llvmpipe does, because the last bits of what is
+interpolated depend on where the pieces end (GL_RULES.md 2).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from softshadow.jit import kernel
+from softshadow.pipeline.constants import ZERO
+
+# plane k keeps a x + b y + c z + d w >= 0; the order is the order of clipping
+FRUSTUM = np.array([[-1, 0, 0, 1], [1, 0, 0, 1], [0, -1, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [0, 0, -1, 1]], np.float32)
+NEAR_FAR = 0b110000
+ADDED_PER_PLANE = 2  # a plane cuts a convex polygon in two new vertices
+
+
+class Clipped(NamedTuple):
+    """What is left after clipping.
+
+    clip (V', 4) and values (V', k): the vertices, the old ones first and unchanged; triangles (T', 3) int32; source (T',)
+    int32: which input triangle each is a piece of.
+    """
+
+    clip: np.ndarray
+    values: np.ndarray
+    triangles: np.ndarray
+    source: np.ndarray
+
+
+def clip_triangles(
+    clip: np.ndarray, values: np.ndarray, triangles: np.ndarray, depth_clamp: bool, user_planes: np.ndarray
+) -> Clipped:
+    """Return the parts of the triangles inside the frustum and the user planes, in drawing order.
+
+    Parameters
+    ----------
+    clip : (V, 4) clip positions
+    values : (V, k) what is interpolated along with them
+    triangles : (T, 3) int32
+    depth_clamp : GL_DEPTH_CLAMP: near and far do not clip
+    user_planes : (P, 4) in clip space; a vertex is kept where its dot product is not negative
+    """
+    codes = outcodes(clip, depth_clamp, user_planes)
+    used = codes[triangles]
+    outside = (used[:, 0] & used[:, 1] & used[:, 2]) != 0
+    crossing = ((used[:, 0] | used[:, 1] | used[:, 2]) != 0) & ~outside
+    cut = int(np.count_nonzero(crossing))
+    if cut == 0:
+        kept = np.flatnonzero(~outside).astype(np.int32)
+        return Clipped(clip, values, np.ascontiguousarray(triangles[kept]), kept)
+    planes = np.concatenate([FRUSTUM, user_planes]).astype(clip.dtype)
+    room = len(planes) * ADDED_PER_PLANE
+    more_clip = np.empty((len(clip) + cut * room, 4), clip.dtype)
+    more_values = np.empty((len(clip) + cut * room, values.shape[1]), values.dtype)
+    more_clip[: len(clip)], more_values[: len(clip)] = clip, values
+    pieces = np.empty((len(triangles) + cut * (len(planes) + 1), 3), np.int32)
+    source = np.empty(len(pieces), np.int32)
+    count, vertices = cut_triangles(
+        triangles, codes, planes, more_clip, more_values, len(clip), pieces, source, np.zeros((2, room + 3), np.int32)
+    )
+    return Clipped(
+        np.ascontiguousarray(more_clip[:vertices]),
+        np.ascontiguousarray(more_values[:vertices]),
+        pieces[:count].copy(),
+        source[:count].copy(),
+    )
+
+
+def outcodes(clip: np.ndarray, depth_clamp: bool, user_planes: np.ndarray) -> np.ndarray:
+    """Return, per vertex, a bit for each plane it is outside of; on the boundary counts as inside."""
+    x, y, z, w = clip.T
+    tests = [x > w, x + w < 0, y > w, y + w < 0, z + w < 0, z > w]
+    tests += [((x * p[0] + y * p[1]) + z * p[2]) + w * p[3] < 0 for p in user_planes.astype(clip.dtype)]
+    codes = np.zeros(len(clip), np.int32)
+    for bit, test in enumerate(tests):
+        codes |= test.astype(np.int32) << bit
+    return codes & ~NEAR_FAR if depth_clamp else codes
+
+
+@kernel
+def distance(plane, position):
+    return ((position[0] * plane[0] + position[1] * plane[1]) + position[2] * plane[2]) + position[3] * plane[3]
+
+
+@kernel
+def cut_triangles(triangles, codes, planes, clip, values, vertices, pieces, source, polygons):
+    """Clip triangle by triangle (Sutherland & Hodgman 1974); new vertices are appended from row `vertices` on.
+
+    Returns the number of pieces and the number of vertices. `polygons` is scratch: two lists of vertex numbers.
+    """
+    count = 0
+    for t in range(triangles.shape[0]):
+        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        if codes[a] & codes[b] & codes[c]:
+            continue
+        union = codes[a] | codes[b] | codes[c]
+        polygons[0, 0], polygons[0, 1], polygons[0, 2] = a, b, c
+        corners, now = 3, 0
+        for p in range(planes.shape[0]):
+            if union >> p & 1:
+                corners, vertices = cut_polygon(
+                    planes[p], polygons[now], corners, polygons[1 - now], clip, values, vertices
+                )
+                now = 1 - now
+        if union == 0:
+            pieces[count, 0], pieces[count, 1], pieces[count, 2] = a, b, c
+            source[count] = t
+            count += 1
+        else:
+            for i in range(2, corners):
+                pieces[count, 0], pieces[count, 1] = polygons[now, i - 1], polygons[now, i]
+                pieces[count, 2] = polygons[now, 0]
+                source[count] = t
+                count += 1
+    return count, vertices
+
+
+@kernel
+def cut_polygon(plane, polygon, corners, out, clip, values, vertices):
+    """Keep the part of a convex polygon on the positive side of a plane; returns its corners and the vertex count.
+
+    A distance that is not finite drops the polygon.
+    """
+    if corners < 3:
+        return 0, vertices
+    kept = 0
+    previous = polygon[0]
+    before = distance(plane, clip[previous])
+    if not np.isfinite(before):
+        return 0, vertices
+    for i in range(1, corners + 1):
+        current = polygon[i] if i < corners else polygon[0]
+        now = distance(plane, clip[current])
+        if not np.isfinite(now):
+            return 0, vertices
+        if before >= ZERO:
+            out[kept] = previous
+            kept += 1
+        if (before >= ZERO) != (now >= ZERO):
+            # from the vertex that is nearer to the plane, for the better conditioned t
+            span = now - before
+            if (-now < before) if now < ZERO else (-before >= now):
+                first, second, t = current, previous, now / span
+            else:
+                first, second, t = previous, current, -before / span
+            for k in range(4):
+                clip[vertices, k] = clip[first, k] + t * (clip[second, k] - clip[first, k])
+            for k in range(values.shape[1]):
+                values[vertices, k] = values[first, k] + t * (values[second, k] - values[first, k])
+            out[kept] = vertices
+            kept += 1
+            vertices += 1
+        previous, before = current, now
+    return kept, vertices

@@ -1,0 +1,10 @@
+"""The numbers of the float32 kernels, named: a literal such as 0.5 would be float64 once compiled."""
+
+import numpy as np
+
+ZERO = np.float32(0.0)
+ONE = np.float32(1.0)
+TWO = np.float32(2.0)
+HALF = np.float32(0.5)
+SUBPIXEL_BITS = 8
+SUBPIXELS = np.float32(1 << SUBPIXEL_BITS)

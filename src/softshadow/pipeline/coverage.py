@@ -1,0 +1,57 @@
+"""Coverage: which pixel centres of a row a triangle covers, in integers.
+
+An edge function of snapped corners is exact in int64, so every sample on an edge that two triangles share belongs to one of
+them: left and bottom edges are inside, right and top edges outside (GL_RULES.md 4).
+"""
+
+from softshadow.jit import kernel
+
+FIRST_COLUMN, END_COLUMN = -(1 << 30), 1 << 30
+
+
+@kernel
+def bounds(corners, t):
+    """Return first and end row of a triangle's samples (end exclusive)."""
+    y0, y1, y2 = int(corners[t, 1]), int(corners[t, 3]), int(corners[t, 5])
+    return (min(y0, min(y1, y2)) + 255) >> 8, (max(y0, max(y1, y2)) >> 8) + 1
+
+
+@kernel
+def narrow(x0, y0, x1, y1, row, downwards, first, end):
+    """Return the columns of [first, end) that lie inside the edge from corner 0 to corner 1."""
+    across, along = y0 - y1, x0 - x1
+    inclusive = across < 0 or (across == 0 and ((along < 0) == (downwards == 1)))
+    # inside: value - across * 256 * column >= 0, with the edge itself counted where it is inclusive
+    value = across * x0 + along * ((row << 8) - y0) + (0 if inclusive else -1)
+    if across > 0:
+        end = min(end, value // (across << 8) + 1)
+    elif across < 0:
+        first = max(first, -(value // (-across << 8)))
+    elif value < 0:
+        end = first
+    return first, end
+
+
+@kernel
+def row_span(corners, t, row, downwards):
+    """Return first and end column (end exclusive) of triangle `t` in a row; `downwards` is 1 where rows grow downwards."""
+    x0, y0 = int(corners[t, 0]), int(corners[t, 1])
+    x1, y1 = int(corners[t, 2]), int(corners[t, 3])
+    x2, y2 = int(corners[t, 4]), int(corners[t, 5])
+    first, end = narrow(x0, y0, x1, y1, row, downwards, FIRST_COLUMN, END_COLUMN)
+    first, end = narrow(x1, y1, x2, y2, row, downwards, first, end)
+    return narrow(x2, y2, x0, y0, row, downwards, first, end)
+
+
+@kernel
+def triangles_at(corners, column, row, downwards, found):
+    """Write the numbers of the triangles that cover one pixel to `found`; returns how many there are."""
+    count = 0
+    for t in range(corners.shape[0]):
+        first, end = bounds(corners, t)
+        if first <= row < end:
+            left, right = row_span(corners, t, row, downwards)
+            if left <= column < right:
+                found[count] = t
+                count += 1
+    return count

@@ -1,0 +1,77 @@
+"""Fragments one by one: the ordered path of draws with alpha test, blending or logic op, and of pixel histories.
+
+Their colours must be known before (alpha test) or in drawing order (blending), so they are listed, shaded in one batch, then
+tested and blended one after the other with the same `process_fragment`.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from softshadow.jit import kernel
+from softshadow.pipeline.coverage import bounds, row_span
+from softshadow.pipeline.fill import Region, depth_units
+from softshadow.pipeline.fragment_ops import process_fragment
+from softshadow.pipeline.setup import Setup
+
+
+class Fragments(NamedTuple):
+    """Fragments in drawing order: row, column (n,) int32 of the stored planes; triangle (n,) int32, a row of `Setup`."""
+
+    row: np.ndarray
+    column: np.ndarray
+    triangle: np.ndarray
+
+
+def list_fragments(triangles: Setup, region: Region) -> Fragments:
+    """Return all fragments of the triangles inside the region, in drawing order, each row from left to right."""
+    nothing = np.empty(0, np.int32)
+    count = collect(triangles.corners, region, nothing, nothing, nothing)
+    made = Fragments(np.empty(count, np.int32), np.empty(count, np.int32), np.empty(count, np.int32))
+    collect(triangles.corners, region, *made)
+    return made
+
+
+@kernel
+def collect(corners, region, rows, columns, numbers):
+    """Write the fragments, as far as there is room; returns how many there are."""
+    count, room = 0, rows.shape[0]
+    for t in range(corners.shape[0]):
+        first, end = bounds(corners, t)
+        for row in range(max(first, region.first_row), min(end, region.end_row)):
+            left, right = row_span(corners, t, row, region.downwards)
+            left, right = max(left, region.left), min(right, region.right)
+            if room:
+                for column in range(left, right):
+                    rows[count], columns[count], numbers[count] = row, column, t
+                    count += 1
+            else:
+                count += max(right - left, 0)
+    return count
+
+
+@kernel
+def fragment_depth(planes, t, row, column, depth_range, largest):
+    """Return the depth of triangle `t` at a pixel, in buffer units: the rule of the fill stage for one pixel."""
+    z = ((planes[t, 1] * column + planes[t, 0]) + planes[t, 2] * row) + planes[t, 3]
+    return depth_units(z, depth_range, largest)
+
+
+@kernel
+def test_fragments(front, back, fragments, alpha, triangles, depth_range, columns, depth, stencil, verdicts):
+    """Process listed fragments in order: changes depth and stencil, writes the verdict of each to `verdicts` (n,).
+
+    `alpha` (n,) uint8; `columns` holds 0, 1, 2 ... in the precision of depth. Returns how many stencil values changed.
+    """
+    changed = 0
+    for n in range(fragments.row.shape[0]):
+        row, column, t = fragments.row[n], fragments.column[n], fragments.triangle[n]
+        ops = front if triangles.front[t] else back
+        z = fragment_depth(triangles.depth, t, columns[row], columns[column], depth_range, ops.depth_largest)
+        verdict, s, stored_z = process_fragment(ops, True, int(alpha[n]), z, depth[row, column], stencil[row, column])
+        verdicts[n] = verdict
+        changed += 1 if s != stencil[row, column] else 0
+        stencil[row, column] = s
+        if ops.depth_write:
+            depth[row, column] = stored_z
+    return changed

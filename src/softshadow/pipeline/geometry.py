@@ -1,0 +1,131 @@
+"""From a draw command to triangles in the window: assembly, vertex stage, clipping, viewport, setup."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from softshadow import matrices, programs
+from softshadow import tokens as gl
+from softshadow.errors import StateError
+from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.pipeline.clip import clip_triangles
+from softshadow.pipeline.fill import DepthRange, Region
+from softshadow.pipeline.primitives import assemble, through_indices
+from softshadow.pipeline.setup import Setup, add_float_units, offset_of, set_up
+from softshadow.pipeline.vertex import to_clip, to_window
+from softshadow.programs import Program, VertexInputs
+from softshadow.state import State
+
+if TYPE_CHECKING:
+    from softshadow.pipeline.commands import Draw
+
+NO_PLANES = np.empty((0, 4), np.float32)
+FILLED = (gl.GL_TRIANGLES, gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_QUADS, gl.GL_QUAD_STRIP, gl.GL_POLYGON)
+
+
+class Geometry(NamedTuple):
+    """What the fill and shade stages need of a draw.
+
+    triangles: those that are not culled and have an area; window (V', 4): x, y, z, 1/w; values, back (V', k) and flat (k,): what
+    the vertex stage hands on; source (T',) which assembled triangle each clipped one is a piece of; provoking (T',).
+    """
+
+    triangles: Setup
+    window: np.ndarray
+    values: np.ndarray
+    back: np.ndarray | None
+    flat: np.ndarray
+    source: np.ndarray
+    provoking: np.ndarray
+    program: Program
+    uniforms: Mapping[str, Any]
+
+
+def process_geometry(command: Draw, target: Framebuffer, storage: Storage) -> Geometry:
+    """Return the triangles of a draw in the window of `target`.
+
+    Raises
+    ------
+    StateError
+        The draw asks for something that is not part of this subset.
+    """
+    state, vertices = command.state, command.vertices
+    if command.mode not in FILLED or (state.polygon.mode_front, state.polygon.mode_back) != (gl.GL_FILL, gl.GL_FILL):
+        raise StateError("points, lines and glPolygonMode other than GL_FILL are not part of this subset yet")
+    assembled = assemble(command.mode, len(vertices.position) if command.indices is None else len(command.indices))
+    if command.indices is not None:
+        assembled = through_indices(assembled, command.indices)
+    program, uniforms = program_of(command, storage)
+    varyings = program.vertex(
+        VertexInputs(
+            vertices.position,
+            vertices.color,
+            vertices.normal,
+            vertices.texcoords,
+            command.modelview,
+            command.projection,
+            command.texture_matrices,
+            uniforms,
+        )  # fmt: skip
+    )
+    clip = to_clip(matrices.multiply(command.projection, command.modelview), vertices.position)
+    columns = varyings.values if varyings.back is None else np.hstack([varyings.values, varyings.back])
+    clipped = clip_triangles(clip, columns, assembled.corners, state.depth.clamp, NO_PLANES)
+    window = to_window(clipped.clip, state.viewport, target.size[1], target.flipped)
+    offset = offset_of(
+        state.polygon, target.depth, window.dtype.type, command.offset_slope, command.offset_unit, target.flipped
+    )
+    triangles = set_up(window, clipped.triangles, state.cull, offset, target.flipped)
+    if state.polygon.offset_fill and target.depth is not None and not target.depth.format.largest:
+        add_float_units(triangles.depth[:, 3], window[triangles.vertices, 2], state.polygon.units)
+    k = varyings.values.shape[1]
+    return Geometry(
+        triangles,
+        window,
+        np.ascontiguousarray(clipped.values[:, :k]),
+        None if varyings.back is None else np.ascontiguousarray(clipped.values[:, k:]),
+        varyings.flat,
+        clipped.source,
+        assembled.provoking[clipped.source],
+        program,
+        uniforms,
+    )
+
+
+def program_of(command: Draw, storage: Storage) -> tuple[Program, Mapping[str, Any]]:
+    """Return the program of a draw and its uniforms, samplers resolved to textures."""
+    units = command.state.units
+    bound = {i: storage.textures[u.bound_2d] for i, u in enumerate(units) if u.bound_2d in storage.textures}
+    if not command.program_name:
+        from softshadow.programs import fixed_function
+
+        used = {i: texture for i, texture in bound.items() if units[i].enabled_2d}
+        return fixed_function.program(command.state, used), command.uniforms
+    program = programs.get(command.program_name)
+    return program, {
+        name: bound.get(value) if name in program.samplers else value for name, value in command.uniforms.items()
+    }
+
+
+def region_of(state: State, target: Framebuffer) -> Region:
+    """Return where a draw may write: the buffers, inside the scissor box if that test is on."""
+    width, height = target.size
+    left, right, bottom, top = 0, width, 0, height
+    if state.scissor.enabled:
+        box = state.scissor
+        left, right = max(left, box.x), min(right, box.x + box.width)
+        bottom, top = max(bottom, box.y), min(top, box.y + box.height)
+    right, top = max(left, right), max(bottom, top)
+    first, end = (height - top, height - bottom) if target.flipped else (bottom, top)
+    return Region(left, right, first, end, int(target.flipped))
+
+
+def depth_range_of(state: State, real: type) -> DepthRange:
+    """Return what z is clamped to: [0, 1], with GL_DEPTH_CLAMP the depth range."""
+    if not state.depth.clamp:
+        return DepthRange(real(0), real(1))
+    near, far = real(state.viewport.near), real(state.viewport.far)
+    return DepthRange(min(near, far), max(near, far))

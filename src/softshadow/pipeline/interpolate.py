@@ -1,0 +1,85 @@
+"""Interpolation of what the vertex stage hands on: planes per triangle, values per fragment, perspective-correct."""
+
+import numpy as np
+
+from softshadow.jit import kernel
+from softshadow.pipeline.constants import ONE
+from softshadow.pipeline.fragments import Fragments
+from softshadow.pipeline.setup import Setup, edge_differences, plane
+
+
+@kernel
+def attribute_planes(window, values, back, vertices, front, wanted, flat, provoking, planes):
+    """Fill planes (n, k + 1, 3): of value / w for each column, last of 1 / w; flat columns hold the value itself.
+
+    `vertices` (n, 3) are vertex numbers in the order of positive area, as for depth, `front` (n,) facing, `wanted` (n,) which
+    triangles are needed, `provoking` (n,) the vertex that flat columns take.
+    """
+    k = values.shape[1]
+    for t in range(vertices.shape[0]):
+        if not wanted[t]:
+            continue
+        v0, v1, v2 = vertices[t, 0], vertices[t, 1], vertices[t, 2]
+        source = values if front[t] else back
+        dx01, dy01, dx20, dy20, over_area = edge_differences(window, v0, v1, v2)
+        dx01, dy01, dx20, dy20 = dx01 * over_area, dy01 * over_area, dx20 * over_area, dy20 * over_area
+        w0, w1, w2 = window[v0, 3], window[v1, 3], window[v2, 3]
+        for c in range(k):
+            if flat[c]:
+                planes[t, c, 0] = source[provoking[t], c]
+            else:
+                planes[t, c, 0], planes[t, c, 1], planes[t, c, 2] = plane(
+                    window[v0, 0], window[v0, 1], dx01, dy01, dx20, dy20,
+                    source[v0, c] * w0, source[v1, c] * w1, source[v2, c] * w2,
+                )  # fmt: skip
+        planes[t, k, 0], planes[t, k, 1], planes[t, k, 2] = plane(
+            window[v0, 0], window[v0, 1], dx01, dy01, dx20, dy20, w0, w1, w2
+        )
+
+
+@kernel
+def interpolate(planes, rows, columns, numbers, coordinates, flat, out):
+    """Write the values of each fragment, (n, k); `coordinates` holds 0, 1, 2 ... in the precision of the planes."""
+    k = out.shape[1]
+    for n in range(rows.shape[0]):
+        t = numbers[n]
+        i, j = coordinates[columns[n]], coordinates[rows[n]]
+        w = ONE / ((planes[t, k, 1] * i + planes[t, k, 0]) + planes[t, k, 2] * j)
+        for c in range(k):
+            if flat[c]:
+                out[n, c] = planes[t, c, 0]
+            else:
+                out[n, c] = ((planes[t, c, 1] * i + planes[t, c, 0]) + planes[t, c, 2] * j) * w
+
+
+def inputs_of(
+    fragments: Fragments,
+    triangles: Setup,
+    window: np.ndarray,
+    values: np.ndarray,
+    back: np.ndarray | None,
+    flat: np.ndarray,
+    provoking: np.ndarray,
+) -> np.ndarray:
+    """Return what the fragment stage of a program gets: (n, k), one row per fragment.
+
+    Parameters
+    ----------
+    fragments : their `triangle` is a row of `triangles`
+    window : (V, 4) window x, y, z, 1/w
+    values, back : (V, k) from the vertex stage, for front- and back-facing triangles
+    flat : (k,) bool
+    provoking : (T,) int32, by the triangles that ``triangles.ids`` numbers
+    """
+    k = values.shape[1]
+    wanted = np.zeros(len(triangles.ids), np.uint8)
+    wanted[fragments.triangle] = 1
+    planes = np.zeros((len(triangles.ids), k + 1, 3), window.dtype)
+    attribute_planes(
+        window, values, values if back is None else back, triangles.vertices, triangles.front, wanted, flat,
+        provoking[triangles.ids], planes,
+    )  # fmt: skip
+    size = int(max(fragments.row.max(initial=0), fragments.column.max(initial=0))) + 1
+    out = np.empty((len(fragments.row), k), window.dtype)
+    interpolate(planes, *fragments, np.arange(size, dtype=window.dtype), flat, out)
+    return out

@@ -1,0 +1,169 @@
+"""Triangle setup: snapped corners, facing, culling, the depth plane and its polygon offset."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.image import Image
+from softshadow.jit import kernel
+from softshadow.pipeline.constants import HALF, ONE, SUBPIXELS
+from softshadow.state import Cull, Polygon
+
+SLOPES = {"max": 0, "length": 1, "slide": 2}
+MAX_SLOPE, LENGTH_SLOPE = 0, 1
+CULL_NONE, CULL_FRONT, CULL_BACK = 0, 1, 2
+MANTISSA_BITS = 23
+
+
+class Setup(NamedTuple):
+    """The triangles that reach the pixels, in drawing order.
+
+    corners (n, 6) int64: snapped X0 Y0 X1 Y1 X2 Y2 in 1/256 pixel, sample (i, j) at (256 i, 256 j), turned so that the area is
+    positive; vertices (n, 3) int32 in the same order; depth (n, 4): z at pixel (0, 0), dz/di, dz/dj, offset; front (n,) uint8;
+    ids (n,) int32: which triangle each is.
+    """
+
+    corners: np.ndarray
+    vertices: np.ndarray
+    depth: np.ndarray
+    front: np.ndarray
+    ids: np.ndarray
+
+
+class Offset(NamedTuple):
+    """Polygon offset, slope * factor + constant. `downwards`: stored rows grow downwards, GL's dz/dy is the negative."""
+
+    slope: int
+    factor: np.floating
+    constant: np.floating
+    downwards: int
+
+
+def offset_of(polygon: Polygon, depth: Image | None, real: type, slope: str, unit: str, flipped: bool) -> Offset:
+    """Return the polygon offset of filled polygons for the depth format that is drawn to.
+
+    `unit` "mesa" makes one unit two steps of a fixed-point format, as llvmpipe does; "spec" one (GL 2.1, sec. 3.5.5).
+    The constant of float depth depends on the triangle: `add_float_units`.
+    """
+    factor, units = (polygon.factor, polygon.units) if polygon.offset_fill else (0.0, 0.0)
+    largest = depth.format.largest if depth else 0
+    constant = units * (1.0 / largest) * (2 if unit == "mesa" else 1) if largest else 0.0
+    return Offset(SLOPES[slope], real(factor), real(constant), int(flipped))
+
+
+def add_float_units(offsets: np.ndarray, window_z: np.ndarray, units: float) -> None:
+    """Add `units` last places of each triangle's largest abs(z), window_z (n, 3), to its offset: float depth formats."""
+    _, exponent = np.frexp(np.abs(window_z).max(axis=1))
+    step = np.ldexp(offsets.dtype.type(1), exponent - 1 - MANTISSA_BITS)
+    tiny = step < np.finfo(np.float32).tiny
+    offsets += offsets.dtype.type(units) * np.where(tiny, offsets.dtype.type(0), step)
+
+
+def culling(cull: Cull) -> tuple[int, bool]:
+    """Return what is culled (CULL_NONE, _FRONT, _BACK or both) and whether counter-clockwise is front."""
+    faces = {gl.GL_FRONT: CULL_FRONT, gl.GL_BACK: CULL_BACK, gl.GL_FRONT_AND_BACK: CULL_FRONT | CULL_BACK}
+    return (faces[cull.face] if cull.enabled else CULL_NONE), cull.front_face == gl.GL_CCW
+
+
+def set_up(window: np.ndarray, triangles: np.ndarray, cull: Cull, offset: Offset, flipped: bool) -> Setup:
+    """Return the triangles with an area that are not culled.
+
+    Parameters
+    ----------
+    window : (V, 4) window x, y (stored rows), z, 1/w
+    triangles : (T, 3) int32
+    """
+    culled, ccw_is_front = culling(cull)
+    n = len(triangles)
+    made = Setup(
+        np.empty((n, 6), np.int64),
+        np.empty((n, 3), np.int32),
+        np.empty((n, 4), window.dtype),
+        np.empty(n, np.uint8),
+        np.empty(n, np.int32),
+    )
+    # stored rows that grow downwards mirror the picture: there, a positive area is counter-clockwise
+    kept = set_up_triangles(window, triangles, culled, int(ccw_is_front == flipped), offset, *made)
+    return Setup(*(array[:kept] for array in made))
+
+
+@kernel
+def snap(coordinate):
+    """Return a window coordinate in 1/256 pixel, samples on multiples of 256 (rounded half to even)."""
+    return int(np.rint((coordinate - HALF) * SUBPIXELS))
+
+
+@kernel
+def plane(x0, y0, dx01, dy01, dx20, dy20, a0, a1, a2):
+    """Return (value at pixel (0, 0), d/di, d/dj) of the plane through three vertices, in llvmpipe's order of operations.
+
+    dx.. and dy.. are the differences of the unsnapped positions, the last two pairs already divided by twice the area.
+    """
+    da01, da20 = a0 - a1, a2 - a0
+    di = da01 * dy20 - da20 * dy01
+    dj = da20 * dx01 - da01 * dx20
+    return a0 - (di * (x0 - HALF) + dj * (y0 - HALF)), di, dj
+
+
+@kernel
+def edge_differences(window, v0, v1, v2):
+    """Return dx01, dy01, dx20, dy20 of a triangle, and 1 / (twice its area)."""
+    dx01, dy01 = window[v0, 0] - window[v1, 0], window[v0, 1] - window[v1, 1]
+    dx20, dy20 = window[v2, 0] - window[v0, 0], window[v2, 1] - window[v0, 1]
+    return dx01, dy01, dx20, dy20, ONE / (dx01 * dy20 - dy01 * dx20)
+
+
+@kernel
+def polygon_offset(offset, dx01, dy01, dz01, dx20, dy20, dz20, over_area):
+    """Return what is added to z: GL 2.1, eq. (3.12), with the slope form and the unit that the context asks for."""
+    di = -((dz20 * dy01 - dy20 * dz01) * over_area)
+    dj = -((dx20 * dz01 - dz20 * dx01) * over_area)
+    if offset.slope == MAX_SLOPE:
+        slope = max(abs(di), abs(dj))
+    elif offset.slope == LENGTH_SLOPE:
+        slope = np.sqrt(di * di + dj * dj)
+    else:
+        slope = max(di, -dj if offset.downwards else dj)
+    return offset.constant + slope * offset.factor
+
+
+@kernel
+def set_up_triangles(window, triangles, culled, positive_is_front, offset, corners, vertices, depth, front, ids):
+    """Fill the arrays of `Setup`; returns how many triangles are left."""
+    kept = 0
+    for t in range(triangles.shape[0]):
+        v0, v1, v2 = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        finite = True
+        for v in (v0, v1, v2):
+            for k in range(3):
+                finite = finite and np.isfinite(window[v, k])
+        if not finite:
+            continue
+        x0, y0 = snap(window[v0, 0]), snap(window[v0, 1])
+        x1, y1 = snap(window[v1, 0]), snap(window[v1, 1])
+        x2, y2 = snap(window[v2, 0]), snap(window[v2, 1])
+        area = (x0 - x1) * (y2 - y0) - (x2 - x0) * (y0 - y1)
+        if area == 0:
+            continue
+        facing = 1 if (area > 0) == (positive_is_front == 1) else 0
+        if (facing == 1 and culled & CULL_FRONT) or (facing == 0 and culled & CULL_BACK):
+            continue
+        if area < 0:
+            v0, v1 = v1, v0
+            x0, y0, x1, y1 = x1, y1, x0, y0
+        corners[kept, 0], corners[kept, 1], corners[kept, 2], corners[kept, 3] = x0, y0, x1, y1
+        corners[kept, 4], corners[kept, 5] = x2, y2
+        vertices[kept, 0], vertices[kept, 1], vertices[kept, 2] = v0, v1, v2
+        dx01, dy01, dx20, dy20, over_area = edge_differences(window, v0, v1, v2)
+        z0, z1, z2 = window[v0, 2], window[v1, 2], window[v2, 2]
+        at_origin, di, dj = plane(
+            window[v0, 0], window[v0, 1], dx01 * over_area, dy01 * over_area, dx20 * over_area, dy20 * over_area,
+            z0, z1, z2,
+        )  # fmt: skip
+        depth[kept, 0], depth[kept, 1], depth[kept, 2] = at_origin, di, dj
+        depth[kept, 3] = polygon_offset(offset, dx01, dy01, z0 - z1, dx20, dy20, z2 - z0, over_area)
+        front[kept] = facing
+        ids[kept] = t
+        kept += 1
+    return kept
