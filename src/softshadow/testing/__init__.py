@@ -1,9 +1,9 @@
 """Run one GL program on softshadow and on Mesa, and say where they differ."""
 
+from softshadow.testing.comparison import Comparison, Difference, compare, difference, differences, run_here
 from softshadow.testing.mesa import (
     EXPECTED_VERSION,
     MesaError,
-    MesaResult,
     mesa_available,
     mesa_gl,
     mesa_reason,
@@ -11,15 +11,25 @@ from softshadow.testing.mesa import (
     run_on_mesa,
     stop_workers,
 )
+from softshadow.testing.result import ProgramResult
+from softshadow.testing.tracing import Divergence, diff_programs
 
 __all__ = [
     "EXPECTED_VERSION",
+    "Comparison",
+    "Difference",
+    "Divergence",
     "MesaError",
-    "MesaResult",
+    "ProgramResult",
+    "compare",
+    "diff_programs",
+    "difference",
+    "differences",
     "mesa_available",
     "mesa_gl",
     "mesa_reason",
     "mesa_version",
+    "run_here",
     "run_on_mesa",
     "stop_workers",
 ]

@@ -8,6 +8,7 @@ its results do not depend on the CPU.
 import atexit
 import contextlib
 import ctypes.util
+import functools
 import importlib.util
 import os
 import pickle
@@ -16,14 +17,11 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cache
 from typing import Any
-
-import numpy as np
 
 from softshadow.errors import SoftShadowError, nearest
 from softshadow.testing.messages import read_message, write_message
+from softshadow.testing.result import ProgramResult
 
 EXPECTED_VERSION = "22.3.6"  # the one whose arithmetic softshadow follows
 DRIVERS = ("llvmpipe", "softpipe")
@@ -48,29 +46,13 @@ class RemoteTraceback(Exception):
         return f'\n"""\n{self.args[0]}"""'
 
 
-@dataclass(frozen=True, eq=False)
-class MesaResult:
-    """The default framebuffer after a program, first row = bottom row, and what the program returned.
-
-    color (h, w, 4) uint8; depth (h, w) uint32 in units of 1/(2^24 - 1); stencil (h, w) uint8;
-    errors: (name of the call, GL error code) of every GL error the program met, in order.
-    """
-
-    color: np.ndarray
-    depth: np.ndarray
-    stencil: np.ndarray
-    returned: Any
-    errors: tuple[tuple[str, int], ...]
-
-
-@cache
+@functools.cache
 def mesa_reason() -> str:
     """Return why programs cannot run on Mesa here and how to change that; the empty string where they can."""
-    missing = [
-        f"the Python package {name}" for name in ("OpenGL", "cloudpickle") if importlib.util.find_spec(name) is None
-    ]
-    missing += [f"the library lib{name}" for name in ("OSMesa", "GLU") if ctypes.util.find_library(name) is None]
-    return f"Mesa is not available: {' and '.join(missing)} not found; {INSTALL}" if missing else ""
+    packages = {"OpenGL": "PyOpenGL", "cloudpickle": "cloudpickle"}
+    missing = [f"Python package {name}" for key, name in packages.items() if importlib.util.find_spec(key) is None]
+    missing += [f"library lib{name}" for name in ("OSMesa", "GLU") if ctypes.util.find_library(name) is None]
+    return f"Mesa is not available, not found: {', '.join(missing)} ({INSTALL})" if missing else ""
 
 
 def mesa_available() -> bool:
@@ -105,7 +87,7 @@ def run_on_mesa(
     *,
     raise_errors: bool = True,
     timeout: float = 60.0,
-) -> MesaResult:
+) -> ProgramResult:
     """Return the buffers that a program leaves in a fresh context of Mesa.
 
     Parameters
@@ -134,24 +116,27 @@ def run_on_mesa(
         answer = _worker(driver).ask(pickle.dumps(request), timeout)
     if "failure" in answer:
         raise _failure(answer["failure"])
-    answer["errors"] = tuple(answer["errors"])
-    return MesaResult(**answer)
+    result: ProgramResult = answer["result"]
+    return result
 
 
 def _pickled(program: Callable[[Any], Any]) -> bytes:
     import cloudpickle
 
-    # a user's module travels as it is now, not as a worker imported it some edits ago
-    module = sys.modules.get(getattr(program, "__module__", None) or "")
-    own = module is not None and module.__name__ != "__main__" and not module.__name__.startswith("softshadow")
+    function = program
+    while isinstance(function, functools.partial):
+        function = function.func
+    module = sys.modules.get(getattr(function, "__module__", None) or "")
+    # a user's module travels as it is now, not as the worker imported it some edits ago
+    travels = module is not None and module.__name__ != "__main__" and not module.__name__.startswith("softshadow")
     try:
-        if own:
+        if travels:
             cloudpickle.register_pickle_by_value(module)
         return cloudpickle.dumps(program)
     except Exception as error:
         raise MesaError(f"program {program!r} cannot be sent to Mesa's process: {error}") from error
     finally:
-        if own:
+        if travels:
             cloudpickle.unregister_pickle_by_value(module)
 
 
@@ -208,9 +193,7 @@ class Worker:
             answer = self.answers.get(timeout=timeout)
         except queue.Empty:
             self.stop()
-            raise MesaError(
-                f"Mesa ({self.driver}) has not answered within {timeout:g} s; its process was ended"
-            ) from None
+            raise MesaError(f"Mesa ({self.driver}) gave no answer within {timeout:g} s and was ended") from None
         except BaseException:  # Ctrl-C while waiting: the answer would come out of turn
             self.stop()
             raise

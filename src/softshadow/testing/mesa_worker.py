@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.testing.messages import read_message, write_message
+from softshadow.testing.result import read_result
 
 ERROR_NAMES = {
     0x0500: "GL_INVALID_ENUM",
@@ -50,18 +51,19 @@ def main() -> None:
 def introduction() -> dict[str, str]:
     """Return the version and renderer strings, or {"failed": why}."""
     try:
-        gl = fresh_context(1, 1, raise_errors=True)
+        gl = fresh_context((1, 1), raise_errors=True)
         return {"version": gl.glGetString(gl.GL_VERSION).decode(), "renderer": gl.glGetString(gl.GL_RENDERER).decode()}
     except Exception:
         return {"failed": traceback.format_exc()}
 
 
-def fresh_context(width: int, height: int, raise_errors: bool) -> Any:
+def fresh_context(size: tuple[int, int], raise_errors: bool) -> Any:
     """Return the namespace of a new context in GL's initial state: colour 0, depth 1, stencil 0."""
     from OpenGL import GL, osmesa
 
     from softshadow.testing.opengl import MesaGL
 
+    width, height = size
     context = osmesa.OSMesaCreateContextExt(osmesa.OSMESA_RGBA, 24, 8, 16, None)
     pixels = np.zeros((height, width, 4), np.uint8)
     if not context or not osmesa.OSMesaMakeCurrent(context, pixels, GL.GL_UNSIGNED_BYTE, width, height):
@@ -91,13 +93,14 @@ def answer_request(request: dict[str, Any]) -> bytes:
     errors: list[tuple[str, int]] = []
     try:
         program: Callable[[Any], Any] = pickle.loads(request["program"])
-        width, height = request["size"]
-        gl = fresh_context(width, height, request["raise_errors"])
+        gl = fresh_context(request["size"], request["raise_errors"])
         errors = gl.errors
         returned = program(gl)
-        return cloudpickle.dumps(
-            {"returned": returned, "errors": errors, **read_default_framebuffer(gl, width, height)}
-        )
+        end_primitive()
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+        gl.glReadBuffer(gl.GL_FRONT)  # an OSMesa context has no back buffer
+        result = read_result(gl, request["size"], returned, tuple(errors))
+        return cloudpickle.dumps({"result": result})
     except BaseException as error:  # sys.exit() in a program ends the program, not the worker
         failure = {
             "type": type(error).__name__,
@@ -117,17 +120,6 @@ def describe(error: BaseException) -> str:
     """Return an exception's text; for PyOpenGL's GLError the call and GL's name of the error."""
     call = getattr(getattr(error, "baseOperation", None), "__name__", None)
     return str(error) if call is None else f"{call}: {ERROR_NAMES.get(getattr(error, 'err', 0), 'GL error')}"
-
-
-def read_default_framebuffer(gl: Any, width: int, height: int) -> dict[str, np.ndarray]:
-    """Return color (h, w, 4) uint8, depth (h, w) uint32 in 24-bit units, stencil (h, w) uint8; first row = bottom."""
-    end_primitive()
-    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
-    gl.glReadBuffer(gl.GL_FRONT)  # an OSMesa context has no back buffer
-    gl.glBindBuffer(gl.GL_PIXEL_PACK_BUFFER, 0)
-    color = gl.glReadPixels(0, 0, width, height, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
-    packed = gl.glReadPixels(0, 0, width, height, gl.GL_DEPTH_STENCIL, gl.GL_UNSIGNED_INT_24_8)
-    return {"color": color, "depth": packed >> np.uint32(8), "stencil": (packed & np.uint32(255)).astype(np.uint8)}
 
 
 if __name__ == "__main__":

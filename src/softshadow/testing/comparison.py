@@ -1,0 +1,106 @@
+"""Run one program here and on Mesa, or two programs here, and say where the first pixel differs."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from softshadow.testing.mesa import run_on_mesa
+from softshadow.testing.result import ProgramResult, read_result
+
+Program = Callable[[Any], Any]
+
+
+@dataclass(frozen=True, eq=False)
+class Difference:
+    """Where two buffers of one name differ.
+
+    Attributes
+    ----------
+    buffer : "color", "depth", "stencil" or "returned[2]", the third array that the program returned
+    count : int                  differing pixels (texels, elements)
+    x, y : int                   the first of them by rows from the bottom, as in GL
+    y_from_top : int             the same row in an image whose row 0 is on top
+    ours, theirs : the two values there
+    """
+
+    buffer: str
+    count: int
+    x: int
+    y: int
+    y_from_top: int
+    ours: Any
+    theirs: Any
+
+    def __str__(self) -> str:
+        where = f"x={self.x}, y={self.y} (row {self.y_from_top} from the top)"
+        return f"{self.buffer}: {self.count} differ, first at {where}: {self.ours} and {self.theirs}"
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Two results of a program and their differences; true where there are none."""
+
+    ours: ProgramResult
+    theirs: ProgramResult
+    differences: tuple[Difference, ...]
+
+    def __bool__(self) -> bool:
+        return not self.differences
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self.differences)) or "no pixel differs"
+
+
+def difference(buffer: str, ours: np.ndarray, theirs: np.ndarray) -> Difference | None:
+    """Return where two arrays of shape (h, w[, c]) differ, or None; NaN equals NaN, and 0.0 differs from -0.0 never.
+
+    Raises
+    ------
+    ValueError                   the shapes differ
+    """
+    ours, theirs = np.asarray(ours), np.asarray(theirs)
+    if ours.shape != theirs.shape:
+        raise ValueError(f"{buffer}: shapes {ours.shape} and {theirs.shape} cannot be compared")
+    differs = np.atleast_1d((ours != theirs) & ~((ours != ours) & (theirs != theirs)))
+    pixels = differs.any(axis=-1) if differs.ndim == 3 else np.atleast_2d(differs)
+    count = int(np.count_nonzero(pixels))
+    if count == 0:
+        return None
+    y, x = (int(index) for index in np.argwhere(pixels)[0])
+    rows = [np.atleast_2d(array) if array.ndim < 3 else array for array in (ours, theirs)]
+    return Difference(buffer, count, x, y, pixels.shape[0] - 1 - y, rows[0][y, x].tolist(), rows[1][y, x].tolist())
+
+
+def differences(ours: ProgramResult, theirs: ProgramResult) -> tuple[Difference, ...]:
+    """Return the differences of colour, depth, stencil and of the arrays that the two programs returned."""
+    pairs = [(name, getattr(ours, name), getattr(theirs, name)) for name in ("color", "depth", "stencil")]
+    if isinstance(ours.returned, list | tuple) and isinstance(theirs.returned, list | tuple):
+        for index, (mine, other) in enumerate(zip(ours.returned, theirs.returned, strict=True)):
+            if isinstance(mine, np.ndarray) and isinstance(other, np.ndarray):
+                pairs.append((f"returned[{index}]", mine, other))
+    found = (difference(name, mine, other) for name, mine, other in pairs)
+    return tuple(one for one in found if one is not None)
+
+
+def run_here(program: Program, size: tuple[int, int]) -> ProgramResult:
+    """Return the buffers that a program leaves in a fresh context of `softshadow.gl` of (width, height) pixels."""
+    from softshadow import gl  # brings the kernels, which a Mesa worker has no use for
+
+    with gl.create_context(*size):
+        returned = program(gl)
+        return read_result(gl, size, returned)
+
+
+def compare(program: Program, size: tuple[int, int] = (640, 480), driver: str = "llvmpipe") -> Comparison:
+    """Return what a program leaves here and on Mesa, and every difference.
+
+    Parameters
+    ----------
+    program : callable           ``program(gl)`` with PyOpenGL's names; arrays in a list it returns are compared, too
+    size : (width, height) of the default framebuffer
+    driver : "llvmpipe" or "softpipe"
+    """
+    ours, theirs = run_here(program, size), run_on_mesa(program, size, driver)
+    return Comparison(ours, theirs, differences(ours, theirs))
