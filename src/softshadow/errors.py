@@ -21,7 +21,7 @@ class StateError(SoftShadowError):
     """A GL state or a buffer does not allow the operation."""
 
 
-class Warning(builtins.UserWarning):  # noqa: A001 - `softshadow.Warning` is the documented name
+class Warning(builtins.UserWarning):
     """Base of all warnings: legal but surprising input, and what will look wrong."""
 
 
@@ -47,6 +47,10 @@ class PartlyReadFile(Warning):
 
 class NearClipZPass(Warning):
     """The near rectangle cuts a shadow volume: z-pass counts from a wrong start value."""
+
+
+class OutsideLightFrustum(Warning):
+    """A point light stands among its casters: what its one shadow map does not see counts as lit."""
 
 
 class CounterSaturated(Warning):

@@ -34,7 +34,7 @@ def begin_frame(gl: Any, scene: Scene) -> None:
 def set_camera(gl: Any, camera: Camera, size: tuple[int, int], far: str = "finite") -> None:
     """Set viewport, projection and view.
 
-    `far` is "finite", "infinite" (the matrix has no far plane) or "clamp" (GL_DEPTH_CLAMP: nothing is cut at near and far).
+    `far` is "finite", "infinite" (the matrix has no far plane) or "clamp" (GL_DEPTH_CLAMP: near and far cut nothing).
     """
     width, height = size
     gl.glViewport(0, 0, width, height)

@@ -18,10 +18,12 @@ too much of it; edges have steps as large as a texel; a point light among the ca
 `storage` = copy leaves texels beyond the window empty (E62).
 """
 
+import warnings
 from typing import Any
 
 import numpy as np
 
+from softshadow.errors import OutsideLightFrustum
 from softshadow.scene import Light, Scene
 from softshadow.techniques.drawing import (
     added,
@@ -84,6 +86,7 @@ def steps(
     """Draw the scene with one shadow map per light; see `OPTIONS`."""
     begin_frame(gl, scene)
     cameras = [light_camera(scene, light) for light in scene.lights]
+    warn_of_casters_outside(scene, cameras)
 
     # pass 1: the depth of the casters, seen from the light
     shadow_maps = []
@@ -127,6 +130,19 @@ def steps(
             maps | visibility_maps(scene, lit, valid),
         )
     gl.glDeleteTextures(shadow_maps)
+
+
+def warn_of_casters_outside(scene: Scene, cameras: list[LightCamera]) -> None:
+    """Warn of casters that a light's one camera does not see."""
+    for light, camera in zip(scene.lights, cameras, strict=True):
+        names = [caster.name for caster in scene.casters if not camera.sees(caster.world_positions).all()]
+        if names:
+            warnings.warn(
+                f"light {light.name!r} stands among its casters: its map does not see all of {', '.join(names)}; "
+                "their shadows are missing outside the map (a cube of six maps would see them)",
+                OutsideLightFrustum,
+                stacklevel=3,
+            )
 
 
 # -- pass 1 ------------------------------------------------------------------------------------------------------------

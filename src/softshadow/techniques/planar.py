@@ -9,10 +9,10 @@ Paper: Blinn 1988, "Me and my (fake) shadow".
 Slides: Andújar, Ombres per projecció (un pla; amb stencil; completa); Zimányi & Valient, Projekčné tiene.
 
 Known failures: receivers have to be flat, casters have no shadow on themselves or on each other, edges are hard.
-depth-off paints over whatever stands nearer, and beyond the edge of the receiver; offset paints beyond the edge, and
-fights for depth when factor and units are 0; both paint every light's shadow as dark as if no other light were there.
-stencil-blend darkens instead of leaving out the light. `clip` = False shows the false shadow of what is behind a
-receiver.
+depth-off paints over whatever stands nearer, and beyond the edge of the receiver; offset paints beyond the edge and
+over the feet of casters, and fights for depth when factor and units are 0; both paint every light's shadow as dark as
+if no other light were there. stencil-blend darkens instead of leaving out the light. `clip` = False shows the false
+shadow of what is behind a receiver.
 """
 
 from collections.abc import Callable

@@ -55,7 +55,7 @@ def texture(gl: Any, scene: Scene, size: tuple[int, int], clip: bool, texture_si
     for light in scene.lights:
         add_light_through_textures(gl, scene, light, shadows)
         lit.append(read_stencil(gl, size) != 0)
-        yield title_of("add the light where the texture is white", scene, light)
+        yield title_of("add the light where the texture has no shadow", scene, light)
     for name in shadows.values():
         gl.glDeleteTextures([name])
 
@@ -84,7 +84,7 @@ def world_to_receiver(receiver: SceneObject) -> np.ndarray:
 def shadow_texture(
     gl: Any, scene: Scene, receiver: SceneObject, light: Light, clip: bool, texture_size: int
 ) -> tuple[int, np.ndarray]:
-    """Return a texture that is 1 where the receiver is lit and 0 in shadow, and the same as an array (n, n) float32."""
+    """Return a texture whose alpha is 1 where the receiver is lit and 0 in shadow, and the same as an array (n, n) float32."""
     name = gl.glGenTextures(1)
     gl.glBindTexture(gl.GL_TEXTURE_2D, name)
     for parameter, value in (
@@ -111,7 +111,7 @@ def shadow_texture(
     gl.glLoadIdentity()
     gl.glMultMatrixd(column_major(world_to_receiver(receiver)))
     gl.glDisable(gl.GL_LIGHTING)
-    gl.glColor4f(0.0, 0.0, 0.0, 0.0)
+    gl.glColor4f(1.0, 1.0, 1.0, 0.0)  # shadow is in alpha, which is tested; in colour it would fade the lit edge
     draw_flattened(gl, scene, receiver, light, clip)
 
     image = gl.glReadPixels(0, 0, texture_size, texture_size, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
@@ -122,7 +122,7 @@ def shadow_texture(
 
 
 def add_light_through_textures(gl: Any, scene: Scene, light: Light, shadows: dict[tuple[str, str], int]) -> None:
-    """Add a light to the receivers where their textures are white, and leave 1 in the stencil buffer there."""
+    """Add a light to the receivers where their textures have no shadow, and leave 1 in the stencil buffer there."""
     gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
     gl.glEnable(gl.GL_STENCIL_TEST)
     gl.glStencilFunc(gl.GL_ALWAYS, 1, 0xFF)

@@ -157,7 +157,7 @@ def warn_when_near_rectangle_in_shadow(scene: Scene, light: Light, size: tuple[i
     names = [caster.name for caster in scene.casters if shadows_near_rectangle(caster, light, scene.camera, size, far)]
     if names:
         warnings.warn(
-            f"light {light.name!r}: the camera's near rectangle lies at least partly in the shadow of {', '.join(names)}; "
+            f"light {light.name!r}: the camera's near rectangle lies at least partly in shadow of {', '.join(names)}; "
             "z-pass starts from 0 there and shows shadow as light and light as shadow (volume-zfail does not)",
             NearClipZPass,
             stacklevel=3,
