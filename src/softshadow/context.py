@@ -16,6 +16,7 @@ from softshadow import tokens as gl
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.pipeline.commands import Command, Draw, Vertices
+from softshadow.pixel_store import PixelStore
 from softshadow.programs import Program
 from softshadow.state import TEXTURE_UNITS, State
 
@@ -101,6 +102,10 @@ class Context:
         self.programs: dict[int, Program] = {}
         self.uniforms: dict[int, dict[str, Any]] = {}
         self.labels: list[str] = []
+        self.pack_store, self.unpack_store = PixelStore(), PixelStore()
+        # names that glGen* has given out; an object exists in storage once it has been bound
+        self.names: dict[str, set[int]] = {kind: set() for kind in ("texture", "framebuffer", "renderbuffer", "query")}
+        self.renderbuffer = 0
 
     # -- state ---------------------------------------------------------------------------------------------------------
     def set(self, **groups: Any) -> None:

@@ -6,7 +6,7 @@ The default framebuffer is rasterised and stored top row first, framebuffer obje
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -18,6 +18,16 @@ from softshadow.texture import Texture
 DEFAULT = 0
 DEPTH_FORMATS = {"d24": D24, "d32f": D32F}
 LARGEST_SIDE = 16384  # Mesa's own limit; 8 sub-pixel bits keep integer coverage exact far beyond
+
+
+NOTHING = Format(gl.GL_NONE, "none", np.uint8, 1)  # of an attached level or renderbuffer that has no image yet
+
+
+def plane_for(image: Image, attachment: int) -> Image:
+    """Return the plane of an image that serves an attachment point: of packed depth-stencil images, the stencil."""
+    if attachment == gl.GL_STENCIL_ATTACHMENT and image.stencil is not None:
+        return image.stencil
+    return image
 
 
 @dataclass(frozen=True)
@@ -52,7 +62,17 @@ class Framebuffer:
     @property
     def color(self) -> Image | None:
         """The image that colours are written to, or None (GL_NONE, or nothing attached)."""
-        return None if self.draw_buffer == gl.GL_NONE else self.image(gl.GL_COLOR_ATTACHMENT0)
+        return self._color_buffer(self.draw_buffer)
+
+    @property
+    def read_color(self) -> Image | None:
+        """The image that colours are read from, or None."""
+        return self._color_buffer(self.read_buffer)
+
+    def _color_buffer(self, choice: int) -> Image | None:
+        # the window has one colour buffer, whatever it is called (GL_BACK, GL_FRONT, GL_LEFT ...)
+        named = gl.GL_COLOR_ATTACHMENT0 if self.name == DEFAULT and choice != gl.GL_NONE else choice
+        return self.image(named)
 
     @property
     def depth(self) -> Image | None:
@@ -127,6 +147,13 @@ class Storage:
     @property
     def window(self) -> Framebuffer:
         return self.framebuffers[DEFAULT]
+
+    def reattach(self, texture: int, face: int, level: int, image: Image) -> None:
+        """Let framebuffer objects follow a level of a texture to its new image."""
+        for target in self.framebuffers.values():
+            for point, attachment in target.attachments.items():
+                if (attachment.texture, attachment.face, attachment.level) == (texture, face, level) and texture:
+                    target.attachments[point] = replace(attachment, image=plane_for(image, point))
 
 
 __all__ = ["DEFAULT", "STENCIL8", "Attachment", "Framebuffer", "Storage", "default_framebuffer"]

@@ -1,7 +1,8 @@
 """A plane of pixels or texels: what a buffer of a framebuffer and a level of a texture are made of.
 
 The same `Image` serves as depth attachment and as depth texture, so rendering into a texture copies nothing.
-Depth is held in buffer units: integers (in float32, exact up to 2**24) for fixed-point formats, z itself for float formats.
+Depth is held in buffer units: integers (in float32, exact up to 2**24) for fixed-point formats, z itself for float
+formats.
 """
 
 from __future__ import annotations
@@ -20,8 +21,8 @@ PITCH = 32  # a row is padded to whole chunks of 32 pixels: kernels may run over
 class Format:
     """What one cell holds.
 
-    `base` is GL's base internal format, `kind` one of "unorm8", "float", "depth", "stencil"; `largest` is the integer that
-    stands for 1.0 in a fixed-point depth format (0 for float depth) and the largest count of a stencil format.
+    `base` is GL's base internal format, `kind` one of "unorm8", "float", "depth", "stencil"; `largest` is the integer
+    that stands for 1.0 in a fixed-point depth format (0 for float depth) and the largest count of a stencil format.
     """
 
     base: int
@@ -48,6 +49,10 @@ EXACT_DEPTH = Format(gl.GL_DEPTH_COMPONENT, "depth", np.float64, 1)  # unrounded
 STENCIL8 = Format(gl.GL_STENCIL_INDEX, "stencil", np.uint8, 1, 255)
 
 FORMATS: dict[int, Format] = {
+    1: _unorm8(gl.GL_LUMINANCE),  # GL 1.0 named internal formats by their number of components
+    2: _unorm8(gl.GL_LUMINANCE_ALPHA),
+    3: _unorm8(gl.GL_RGB),
+    4: _unorm8(gl.GL_RGBA),
     gl.GL_RGBA: _unorm8(gl.GL_RGBA),
     gl.GL_RGBA8: _unorm8(gl.GL_RGBA),
     gl.GL_RGB: _unorm8(gl.GL_RGB),
@@ -73,7 +78,26 @@ FORMATS: dict[int, Format] = {
     gl.GL_DEPTH_COMPONENT24: D24,
     gl.GL_DEPTH_COMPONENT32: _depth(32),
     gl.GL_DEPTH_COMPONENT32F: D32F,
+    gl.GL_DEPTH_STENCIL: D24,  # with a stencil plane beside it, see `Image.new`
+    gl.GL_DEPTH24_STENCIL8: D24,
+    gl.GL_STENCIL_INDEX: STENCIL8,
+    gl.GL_STENCIL_INDEX8: STENCIL8,
 }
+WITH_STENCIL = (gl.GL_DEPTH_STENCIL, gl.GL_DEPTH24_STENCIL8)
+
+
+def storage_format(internal_format: int, type: int = gl.GL_FLOAT) -> Format:
+    """Return what stores an internal format; unsized depth takes the client's integer size, as in Mesa.
+
+    Raises
+    ------
+    KeyError
+        The internal format is not part of this subset.
+    """
+    if internal_format == gl.GL_DEPTH_COMPONENT and type in (gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT):
+        sized = gl.GL_DEPTH_COMPONENT16 if type == gl.GL_UNSIGNED_SHORT else gl.GL_DEPTH_COMPONENT32
+        return FORMATS[sized]
+    return FORMATS[internal_format]
 
 
 def padded(height: int, width: int, format: Format) -> np.ndarray:
@@ -83,11 +107,16 @@ def padded(height: int, width: int, format: Format) -> np.ndarray:
     return np.zeros(shape, format.dtype)
 
 
+def _has_stencil(format: Format, internal_format: int) -> bool:
+    return format.kind == "depth" and internal_format in WITH_STENCIL
+
+
 @dataclass(eq=False)
 class Image:
     """One plane: `cells` is (height, pitch[, channels]), of which the first `width` columns count.
 
-    `internal_format` is the token it was made with, for queries.
+    `internal_format` is the token it was made with, for queries. Packed depth-stencil formats are two planes: the stencil
+    values are the image `stencil` of the depth image.
     """
 
     format: Format
@@ -95,10 +124,13 @@ class Image:
     height: int
     cells: np.ndarray
     internal_format: int = 0
+    stencil: Image | None = None
 
     @classmethod
     def new(cls, format: Format, width: int, height: int, internal_format: int = 0) -> Image:
-        return cls(format, width, height, padded(height, width, format), internal_format)
+        """Return a zeroed image, with a stencil plane where the internal format has one."""
+        stencil = cls.new(STENCIL8, width, height, internal_format) if _has_stencil(format, internal_format) else None
+        return cls(format, width, height, padded(height, width, format), internal_format, stencil)
 
     @property
     def view(self) -> np.ndarray:
@@ -106,7 +138,8 @@ class Image:
         return self.cells[:, : self.width]
 
     def copy(self) -> Image:
-        return Image(self.format, self.width, self.height, self.cells.copy(), self.internal_format)
+        stencil = self.stencil.copy() if self.stencil else None
+        return Image(self.format, self.width, self.height, self.cells.copy(), self.internal_format, stencil)
 
     def same_as(self, other: Any) -> bool:
         """Return whether the other image has the same format and, bit for bit, the same cells."""
@@ -115,4 +148,5 @@ class Image:
             and self.format == other.format
             and self.view.shape == other.view.shape
             and self.view.tobytes() == other.view.tobytes()
+            and (self.stencil is None or self.stencil.same_as(other.stencil))
         )

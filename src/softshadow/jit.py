@@ -1,7 +1,7 @@
 """The one spelling of a kernel, and the folder its machine code is kept in.
 
-Numba's own cache does not see that a function in another file has changed. The folder is therefore named after a hash of all
-sources that can take part in a kernel: an edit is answered by new code, never by a stale result.
+Numba's own cache does not see that a function in another file has changed. The folder is therefore named after a hash
+of all sources that can take part in a kernel: an edit is answered by new code, never by a stale result.
 """
 
 import hashlib

@@ -103,9 +103,7 @@ class Stencil:
 
     def calls(self) -> list[str]:
         faces = (
-            self.front.calls()
-            if self.front == self.back
-            else self.front.calls("GL_FRONT") + self.back.calls("GL_BACK")
+            self.front.calls() if self.front == self.back else self.front.calls("GL_FRONT") + self.back.calls("GL_BACK")
         )
         return [_switch("GL_STENCIL_TEST", self.enabled), *faces, f"glClearStencil({self.clear})"]
 
@@ -394,7 +392,8 @@ TEXTURE_UNITS = 8
 
 @dataclass(frozen=True)
 class State:
-    """The whole state that a draw depends on, besides matrices, current vertex attributes and bound objects' contents."""
+    """The whole state that a draw depends on, besides matrices, current vertex attributes and bound objects'
+    contents."""
 
     viewport: Viewport = Viewport()
     scissor: Scissor = Scissor()

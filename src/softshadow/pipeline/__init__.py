@@ -8,8 +8,8 @@
              opaque:   fill (coverage, depth, process_fragment) ----> triangle per pixel --> shade --> write
              ordered:  list fragments --> shade --> process_fragment, blend ------------------------> write
 
-Opaque draws shade each visible pixel once, after the fill; draws whose colours depend on the order of their fragments (alpha
-test, blending, logic op) take the ordered path. Both leave the same buffers.
+Opaque draws shade each visible pixel once, after the fill; draws whose colours depend on the order of their fragments
+(alpha test, blending, logic op) take the ordered path. Both leave the same buffers.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from softshadow.pipeline.bands import set_threads, threads
 from softshadow.pipeline.binding import VERDICT_COUNTS, fill, use_binding
 from softshadow.pipeline.blend import needs_order, to_unorm8, write_colors
 from softshadow.pipeline.clear import clear
+from softshadow.pipeline.fill import Region
 from softshadow.pipeline.fragment_ops import PASSED, VERDICTS, fragment_ops
 from softshadow.pipeline.fragments import Fragments, list_fragments, test_fragments
 from softshadow.pipeline.geometry import Geometry, depth_range_of, process_geometry, region_of
@@ -126,7 +127,8 @@ def shade(geometry: Geometry, fragments: Fragments) -> np.ndarray:
     return out
 
 
-def _rows_of(geometry: Geometry, region):  # type: ignore[no-untyped-def]
+def _rows_of(geometry: Geometry, region: Region) -> Region:
+    """Return the part of the region between the topmost and the lowest triangle."""
     rows = geometry.triangles.corners[:, 1::2]
     first, end = (int(rows.min()) + 255) >> 8, (int(rows.max()) >> 8) + 1
     return region._replace(first_row=max(region.first_row, first), end_row=min(region.end_row, end))

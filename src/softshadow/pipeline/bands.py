@@ -1,4 +1,7 @@
-"""Threads: bands of rows on a persistent pool. Each pixel is processed in drawing order by one thread, whatever their number."""
+"""Threads:
+
+Bands of rows on a persistent pool. Each pixel is processed in drawing order by one thread, whatever their number.
+"""
 
 import os
 from collections.abc import Callable

@@ -1,8 +1,8 @@
 """How the fill stage gets its state: closed over and compiled per state, or as an argument.
 
-*Specialised*: a closure over the numbers that change the code; the compiler folds them away and vectorises the loop; kept on
-disk per state. *Generic*: the state is an argument; nothing to compile, but slow. A state starts generic and is specialised
-once it has drawn enough fragments to pay for the compilation, at once when its code is on disk already.
+*Specialised*: a closure over the numbers that change the code; the compiler folds them away and vectorises the loop;
+kept on disk per state. *Generic*: the state is an argument; nothing to compile, but slow. A state starts generic and is
+specialised once it has drawn enough fragments to pay for the compilation, at once when its code is on disk already.
 """
 
 import hashlib
@@ -14,7 +14,7 @@ import numpy as np
 
 from softshadow.jit import cache_folder, inlined, kernel
 from softshadow.pipeline.bands import in_bands
-from softshadow.pipeline.fill import DepthRange, Region, fill_triangles
+from softshadow.pipeline.fill import DepthRange, Planes, Region, fill_triangles
 from softshadow.pipeline.fragment_ops import FragmentOps
 from softshadow.pipeline.setup import Setup
 
@@ -42,13 +42,9 @@ def use_binding(policy: str) -> Iterator[None]:
 
 
 @kernel
-def generic(
-    front, back, two_sided, writes_ids, counts, triangles, region, depth_range, columns, depth, stencil, ids, verdicts
-):
+def generic(front, back, two_sided, writes_ids, counts, triangles, region, depth_range, planes):
     """`fill_triangles` with the state as an argument."""
-    fill_triangles(
-        front, back, two_sided, writes_ids, counts, triangles, region, depth_range, columns, depth, stencil, ids, verdicts
-    )  # fmt: skip
+    fill_triangles(front, back, two_sided, writes_ids, counts, triangles, region, depth_range, planes)
 
 
 @inlined
@@ -65,11 +61,9 @@ def specialise(front_code: FragmentOps, back_code: FragmentOps, two_sided: int, 
     """Return `fill_triangles` compiled for the code of one state; reference values and masks are still arguments."""
 
     @kernel
-    def fill(front, back, triangles, region, depth_range, columns, depth, stencil, ids, verdicts):
-        fill_triangles(
-            with_numbers(front_code, front), with_numbers(back_code, back), two_sided, writes_ids, 0,
-            triangles, region, depth_range, columns, depth, stencil, ids, verdicts,
-        )  # fmt: skip
+    def fill(front, back, triangles, region, depth_range, planes):
+        now_front, now_back = with_numbers(front_code, front), with_numbers(back_code, back)
+        fill_triangles(now_front, now_back, two_sided, writes_ids, 0, triangles, region, depth_range, planes)
 
     return fill
 
@@ -101,39 +95,47 @@ def fill(
 ) -> None:
     """Process all fragments of the triangles inside the region, on the binding that pays.
 
-    Parameters
-    ----------
-    ids : (rows of the region, pitch) int32, or None
-        Receives the number of the triangle whose fragment passed last.
-    verdicts : (6,) int64, or None
-        Counts the fragments by verdict, and last the stencil values changed; one band only, generic binding.
+    `ids` and `verdicts` are those of `Planes`; verdicts are counted by the generic binding in one band.
     """
     columns = np.arange(max(*depth.shape, region.right, region.end_row), dtype=depth.dtype)
-    two_sided, writes_ids = int(front != back), int(ids is not None)
-    id_rows = np.empty((1, 1), np.int32) if ids is None else ids
-    planes = (columns, depth, stencil)
-    if verdicts is not None:
-        generic(front, back, two_sided, writes_ids, 1, triangles, region, depth_range, *planes, id_rows, verdicts)
-        return
-    nothing = np.zeros(VERDICT_COUNTS, np.int64)
-    front_code, back_code = front.code(), back.code()
-    key = (*front_code, *back_code, two_sided, writes_ids, depth.dtype.itemsize)
-    if key not in _compiled and _pays(key, _area(triangles)):
+    two_sided, writes_ids, counts = int(front != back), int(ids is not None), int(verdicts is not None)
+    planes = Planes(
+        columns,
+        depth,
+        stencil,
+        np.empty((1, 1), np.int32) if ids is None else ids,
+        np.zeros(VERDICT_COUNTS, np.int64) if verdicts is None else verdicts,
+    )
+    area = _area(triangles)
+    compiled = None if counts else _compiled_for(front.code(), back.code(), two_sided, writes_ids, area)
+
+    def band(first_row: int, end_row: int) -> None:
+        part = region._replace(first_row=first_row, end_row=end_row)
+        rows = planes._replace(ids=planes.ids[first_row - region.first_row :]) if writes_ids else planes
+        if compiled is None:
+            generic(front, back, two_sided, writes_ids, counts, triangles, part, depth_range, rows)
+        else:
+            compiled(front, back, triangles, part, depth_range, rows)
+
+    if counts:
+        band(region.first_row, region.end_row)
+    else:
+        in_bands(band, region.first_row, region.end_row, area)
+
+
+def _compiled_for(
+    front_code: FragmentOps, back_code: FragmentOps, two_sided: int, writes_ids: int, fragments: int
+) -> Callable[..., None] | None:
+    """Return the specialised fill of a state, compiling it where that pays; None where the generic one is better."""
+    if _policy[-1] == "generic":
+        return None
+    key = (*front_code, *back_code, two_sided, writes_ids)
+    if key not in _compiled and _pays(key, fragments):
         _compiled[key] = specialise(front_code, back_code, two_sided, writes_ids)
         marker = _marker(key)
         if marker is not None:
             marker.touch()
-    bound = None if _policy[-1] == "generic" else _compiled.get(key)
-
-    def band(first_row: int, end_row: int) -> None:
-        part = region._replace(first_row=first_row, end_row=end_row)
-        rows = id_rows[first_row - region.first_row :] if writes_ids else id_rows
-        if bound is None:
-            generic(front, back, two_sided, writes_ids, 0, triangles, part, depth_range, *planes, rows, nothing)
-        else:
-            bound(front, back, triangles, part, depth_range, *planes, rows, nothing)
-
-    in_bands(band, region.first_row, region.end_row, _area(triangles))
+    return _compiled.get(key)
 
 
 def _area(triangles: Setup) -> int:

@@ -37,18 +37,16 @@ def to_unorm8(values: np.ndarray) -> np.ndarray:
 
 def blend_ops(blend: Blend) -> BlendOps:
     """Return the blend state as numbers; a logic op takes the place of blending (GL 2.1, sec. 4.1.10)."""
-    constant = to_unorm8(np.array(blend.color, np.float32))
-    return BlendOps(
-        blend.src_rgb, blend.dst_rgb, blend.src_alpha, blend.dst_alpha, blend.equation_rgb, blend.equation_alpha,
-        *(int(c) for c in constant), blend.logic_op if blend.logic_enabled else 0,
-    )  # fmt: skip
+    red, green, blue, alpha = (int(c) for c in to_unorm8(np.array(blend.color, np.float32)))
+    factors = (blend.src_rgb, blend.dst_rgb, blend.src_alpha, blend.dst_alpha)
+    logic_op = blend.logic_op if blend.logic_enabled else 0
+    return BlendOps(*factors, blend.equation_rgb, blend.equation_alpha, red, green, blue, alpha, logic_op)
 
 
 def needs_order(state: State) -> bool:
     """Return whether a draw's colours depend on the order of its fragments, or its fragments on their colours."""
-    return state.blend.enabled or state.blend.logic_enabled or (
-        state.alpha.enabled and state.alpha.func != gl.GL_ALWAYS
-    )  # fmt: skip
+    tests_alpha = state.alpha.enabled and state.alpha.func != gl.GL_ALWAYS
+    return tests_alpha or state.blend.enabled or state.blend.logic_enabled
 
 
 @kernel

@@ -1,4 +1,7 @@
-"""glClear: colour under its mask, depth under its mask, stencil under the front write mask, all inside the scissor box."""
+"""glClear:
+
+Colour under its mask, depth under its mask, stencil under the front write mask, all inside the scissor box.
+"""
 
 from __future__ import annotations
 
@@ -36,8 +39,7 @@ def clear(command: Clear, storage: Storage) -> None:
         cells[:] = (cells & (largest ^ mask)) | (state.stencil.clear & mask)
 
 
-def clear_depth(value: float, depth: Image) -> np.floating:
+def clear_depth(value: float, depth: Image) -> float:
     """Return the clear depth in buffer units: rounded in double precision for fixed-point formats."""
     clamped = min(max(value, 0.0), 1.0)
-    real = depth.format.dtype
-    return real(np.rint(clamped * depth.format.largest) if depth.format.largest else clamped)  # type: ignore[call-arg]
+    return float(np.rint(clamped * depth.format.largest)) if depth.format.largest else clamped

@@ -1,7 +1,7 @@
 """Clipping in homogeneous space, before the division: left, right, bottom, top, near, far.
 
 There is no guard band: x and y are clipped exactly to the frustum, as llvmpipe does, because the last bits of what is
-interpolated depend on where the pieces end (GL_RULES.md 2).
+interpolated depend on where the pieces end (docs/exactness.md, 2).
 """
 
 from typing import NamedTuple
@@ -20,8 +20,8 @@ ADDED_PER_PLANE = 2  # a plane cuts a convex polygon in two new vertices
 class Clipped(NamedTuple):
     """What is left after clipping.
 
-    clip (V', 4) and values (V', k): the vertices, the old ones first and unchanged; triangles (T', 3) int32; source (T',)
-    int32: which input triangle each is a piece of.
+    clip (V', 4) and values (V', k): the vertices, the old ones first and unchanged; triangles (T', 3) int32; source
+    (T',) int32: which input triangle each is a piece of.
     """
 
     clip: np.ndarray

@@ -1,7 +1,7 @@
 """The commands that a context records: what changed a buffer, a texture or a framebuffer, with all it depends on.
 
-A command never changes after it was made, so the list of them is a recording: applied in order to fresh storage it gives
-every buffer again, bit for bit.
+A command never changes after it was made, so the list of them is a recording: applied in order to fresh storage it
+gives every buffer again, bit for bit.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from typing import Any, Protocol
 import numpy as np
 
 from softshadow import pipeline
-from softshadow.framebuffer import DEFAULT, Attachment, Framebuffer, Storage
-from softshadow.image import FORMATS, Image
+from softshadow.framebuffer import DEFAULT, NOTHING, Attachment, Framebuffer, Storage, plane_for
+from softshadow.image import Format, Image
 from softshadow.pipeline import transfer
 from softshadow.state import State
 from softshadow.texture import Sampler, Texture
@@ -40,8 +40,8 @@ class Vertices:
 class Draw:
     """Primitives with everything that decides about their pixels.
 
-    `mode` is GL_POINTS ... GL_POLYGON, `indices` (N,) int32 into the vertices, or None for all in order; `label` names the
-    debug groups the draw stands in ("step/torus"); `uniforms` are those of the program in use.
+    `mode` is GL_POINTS ... GL_POLYGON, `indices` (N,) int32 into the vertices, or None for all in order; `label` names
+    the debug groups the draw stands in ("step/torus"); `uniforms` are those of the program in use.
     """
 
     state: State
@@ -74,38 +74,49 @@ class Clear:
 
 @dataclass(frozen=True, eq=False)
 class DefineImage:
-    """glTexImage2D. `cells` is in the storage's own layout, (height, width[, channels]), or None for zeros."""
+    """glTexImage2D. `cells` is in the storage's own layout, (height, width[, channels]), or None for zeros; so is `stencil`.
+
+    A framebuffer object that the level is attached to gets the new image.
+    """
 
     texture: int
     face: int
     level: int
+    format: Format
     internal_format: int
     width: int
     height: int
-    cells: np.ndarray | None
+    cells: np.ndarray | None = None
+    stencil: np.ndarray | None = None
 
     def apply(self, storage: Storage) -> None:
-        image = Image.new(FORMATS[self.internal_format], self.width, self.height, self.internal_format)
+        image = Image.new(self.format, self.width, self.height, self.internal_format)
         if self.cells is not None:
             image.view[:] = self.cells
+        if self.stencil is not None and image.stencil is not None:
+            image.stencil.view[:] = self.stencil
         storage.textures[self.texture].images[self.face, self.level] = image
+        storage.reattach(self.texture, self.face, self.level, image)
 
 
 @dataclass(frozen=True, eq=False)
 class UpdateImage:
-    """glTexSubImage2D. `cells` is in the storage's own layout."""
+    """glTexSubImage2D. `cells` and `stencil` are in the storage's own layout; None leaves a plane as it is."""
 
     texture: int
     face: int
     level: int
     x: int
     y: int
-    cells: np.ndarray
+    cells: np.ndarray | None
+    stencil: np.ndarray | None = None
 
     def apply(self, storage: Storage) -> None:
-        height, width = self.cells.shape[:2]
         image = storage.textures[self.texture].images[self.face, self.level]
-        image.view[self.y : self.y + height, self.x : self.x + width] = self.cells
+        for plane, cells in ((image, self.cells), (image.stencil, self.stencil)):
+            if plane is not None and cells is not None:
+                height, width = cells.shape[:2]
+                plane.view[self.y : self.y + height, self.x : self.x + width] = cells
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,6 +186,34 @@ class DeleteFramebuffers:
 
 
 @dataclass(frozen=True, eq=False)
+class DefineRenderbuffer:
+    """glRenderbufferStorage (zeros), or with no format the making of the name."""
+
+    renderbuffer: int
+    format: Format | None = None
+    internal_format: int = 0
+    width: int = 0
+    height: int = 0
+
+    def apply(self, storage: Storage) -> None:
+        image = Image.new(self.format or NOTHING, self.width, self.height, self.internal_format)
+        storage.renderbuffers[self.renderbuffer] = image
+        for target in storage.framebuffers.values():
+            for point, attachment in target.attachments.items():
+                if attachment.renderbuffer == self.renderbuffer:
+                    target.attachments[point] = replace(attachment, image=plane_for(image, point))
+
+
+@dataclass(frozen=True, eq=False)
+class DeleteRenderbuffers:
+    renderbuffers: tuple[int, ...]
+
+    def apply(self, storage: Storage) -> None:
+        for name in self.renderbuffers:
+            storage.renderbuffers.pop(name, None)
+
+
+@dataclass(frozen=True, eq=False)
 class AttachTexture:
     """glFramebufferTexture2D; texture 0 detaches. The texture's own image becomes the buffer."""
 
@@ -189,8 +228,27 @@ class AttachTexture:
         if self.texture == 0:
             attachments.pop(self.attachment, None)
         else:
-            image = storage.textures[self.texture].images[self.face, self.level]
-            attachments[self.attachment] = Attachment(image, self.texture, self.face, self.level)
+            images = storage.textures[self.texture].images
+            image = images.get((self.face, self.level)) or Image.new(NOTHING, 0, 0)
+            plane = plane_for(image, self.attachment)
+            attachments[self.attachment] = Attachment(plane, self.texture, self.face, self.level)
+
+
+@dataclass(frozen=True, eq=False)
+class AttachRenderbuffer:
+    """glFramebufferRenderbuffer; renderbuffer 0 detaches."""
+
+    framebuffer: int
+    attachment: int
+    renderbuffer: int
+
+    def apply(self, storage: Storage) -> None:
+        attachments = storage.framebuffers[self.framebuffer].attachments
+        if self.renderbuffer == 0:
+            attachments.pop(self.attachment, None)
+        else:
+            plane = plane_for(storage.renderbuffers[self.renderbuffer], self.attachment)
+            attachments[self.attachment] = Attachment(plane, renderbuffer=self.renderbuffer)
 
 
 @dataclass(frozen=True, eq=False)

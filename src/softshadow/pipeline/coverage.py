@@ -1,7 +1,7 @@
 """Coverage: which pixel centres of a row a triangle covers, in integers.
 
-An edge function of snapped corners is exact in int64, so every sample on an edge that two triangles share belongs to one of
-them: left and bottom edges are inside, right and top edges outside (GL_RULES.md 4).
+An edge function of snapped corners is exact in int64, so every sample on an edge that two triangles share belongs to
+one of them: left and bottom edges are inside, right and top edges outside (docs/exactness.md, 4).
 """
 
 from softshadow.jit import kernel
@@ -34,7 +34,10 @@ def narrow(x0, y0, x1, y1, row, downwards, first, end):
 
 @kernel
 def row_span(corners, t, row, downwards):
-    """Return first and end column (end exclusive) of triangle `t` in a row; `downwards` is 1 where rows grow downwards."""
+    """Return first and end column (end exclusive) of triangle `t` in a row;
+
+    `downwards` is 1 where rows grow downwards.
+    """
     x0, y0 = int(corners[t, 0]), int(corners[t, 1])
     x1, y1 = int(corners[t, 2]), int(corners[t, 3])
     x2, y2 = int(corners[t, 4]), int(corners[t, 5])

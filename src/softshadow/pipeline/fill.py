@@ -29,16 +29,32 @@ class DepthRange(NamedTuple):
     high: np.floating
 
 
+class Planes(NamedTuple):
+    """What the fill stage reads and writes, full rows with their padding.
+
+    columns: 0, 1, 2 ... in the precision of depth; depth and stencil (H, pitch); ids (rows of the region, pitch) int32
+    receives the number of the triangle whose fragment passed last; verdicts (6,) int64 counts the fragments by verdict,
+    and last the stencil values that changed.
+    """
+
+    columns: np.ndarray
+    depth: np.ndarray
+    stencil: np.ndarray
+    ids: np.ndarray
+    verdicts: np.ndarray
+
+
 @kernel
 def depth_units(z, depth_range, largest):
-    """Return z clamped, in buffer units: rounded to an integer for fixed-point formats (half to even), else as it is."""
+    """Return z clamped, in buffer units: fixed-point formats round half to even, float formats keep z."""
     z = depth_range.low if z < depth_range.low else depth_range.high if z > depth_range.high else z
     return np.rint(z * np.float32(largest)) if largest else z
 
 
 @inlined
-def fill_span(ops, writes_ids, z0, dz, row_z, offset, depth_range, columns, left, right, number, depth, stencil, ids):
-    """Process the fragments of one row of one triangle."""
+def fill_span(ops, writes_ids, plane, row_z, depth_range, columns, left, right, number, depth, stencil, ids):
+    """Process the fragments of one row of one triangle; `plane` is (z at pixel 0, dz/di, dz/dj, offset)."""
+    z0, dz, offset = plane[0], plane[1], plane[3]
     for column in range(left, right):
         i = np.uint64(column)  # unsigned: no wrap-around of negative indices is compiled in
         z = depth_units(((dz * columns[i] + z0) + row_z) + offset, depth_range, ops.depth_largest)
@@ -52,47 +68,43 @@ def fill_span(ops, writes_ids, z0, dz, row_z, offset, depth_range, columns, left
 
 
 @kernel
-def count_span(ops, z0, dz, row_z, offset, depth_range, columns, left, right, depth, stencil, verdicts):
-    """Count the verdicts of the fragments of one row, before they are processed; the last count is changed stencil values."""
+def count_span(ops, plane, row_z, depth_range, columns, left, right, depth, stencil, verdicts):
+    """Count what will happen to the fragments of one row, before they are processed."""
     for i in range(left, right):
-        z = depth_units(((dz * columns[i] + z0) + row_z) + offset, depth_range, ops.depth_largest)
+        z = depth_units(((plane[1] * columns[i] + plane[0]) + row_z) + plane[3], depth_range, ops.depth_largest)
         verdict, s, _ = process_fragment(ops, True, 0, z, depth[i], stencil[i])
         verdicts[verdict] += 1
         verdicts[verdicts.shape[0] - 1] += 1 if s != stencil[i] else 0
 
 
 @inlined
-def fill_triangles(
-    front, back, two_sided, writes_ids, counts, triangles, region, depth_range, columns, depth, stencil, ids, verdicts
-):
+def fill_triangles(front, back, two_sided, writes_ids, counts, triangles, region, depth_range, planes):
     """Process all fragments of the triangles inside the region, in drawing order.
 
-    The state is `front`, and for back-facing triangles `back` where `two_sided` is 1. `columns` holds 0, 1, 2 ... in the precision of depth. `depth`, `stencil` and, where `writes_ids` is 1, `ids` (rows from
-    the region's first row on) are changed; where `counts` is 1, `verdicts` counts what happened.
+    The state is `front`, and for back-facing triangles `back` where `two_sided` is 1. Depth and stencil change, the ids
+    where `writes_ids` is 1, the verdicts where `counts` is 1.
     """
-    corners, planes = triangles.corners, triangles.depth
-    for t in range(corners.shape[0]):
-        first, end = bounds(corners, t)
+    for t in range(triangles.corners.shape[0]):
+        first, end = bounds(triangles.corners, t)
+        plane = triangles.depth[t]
+        is_back = two_sided and not triangles.front[t]
         for row in range(max(first, region.first_row), min(end, region.end_row)):
-            left, right = row_span(corners, t, row, region.downwards)
+            left, right = row_span(triangles.corners, t, row, region.downwards)
             left, right = max(left, region.left), min(right, region.right)
             if left >= right:
                 continue
-            z0, dz, row_z, offset = planes[t, 0], planes[t, 1], planes[t, 2] * columns[row], planes[t, 3]
-            ids_row = ids[row - region.first_row] if writes_ids else ids[0]
-            is_back = two_sided and not triangles.front[t]
+            row_z = plane[2] * planes.columns[row]
+            depth, stencil = planes.depth[row], planes.stencil[row]
+            ids = planes.ids[row - region.first_row] if writes_ids else planes.ids[0]
             if counts:
                 ops = back if is_back else front
-                count_span(
-                    ops, z0, dz, row_z, offset, depth_range, columns, left, right, depth[row], stencil[row], verdicts
-                )
+                count_span(ops, plane, row_z, depth_range, planes.columns, left, right, depth, stencil, planes.verdicts)
+            # two calls: each is compiled for its own state
             if is_back:
                 fill_span(
-                    back, writes_ids, z0, dz, row_z, offset, depth_range, columns, left, right, triangles.ids[t],
-                    depth[row], stencil[row], ids_row,
-                )  # fmt: skip
+                    back, writes_ids, plane, row_z, depth_range, planes.columns, left, right, t, depth, stencil, ids
+                )
             else:
                 fill_span(
-                    front, writes_ids, z0, dz, row_z, offset, depth_range, columns, left, right, triangles.ids[t],
-                    depth[row], stencil[row], ids_row,
-                )  # fmt: skip
+                    front, writes_ids, plane, row_z, depth_range, planes.columns, left, right, t, depth, stencil, ids
+                )

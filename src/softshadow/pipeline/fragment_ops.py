@@ -1,7 +1,7 @@
 """The per-fragment operations: one textbook function in the order of the specification.
 
-It is bound to its state in two ways (`fill.py`): closed over plain numbers, so that the compiler folds the state away, or
-with the state as an argument. Called from Python it narrates the history of a pixel.
+It is bound to its state in two ways (`fill.py`): closed over plain numbers, so that the compiler folds the state away,
+or with the state as an argument. Called from Python it narrates the history of a pixel.
 """
 
 from typing import NamedTuple
@@ -54,23 +54,26 @@ class FragmentOps(NamedTuple):
 def fragment_ops(state: State, depth: Image | None, stencil: Image | None, front: bool) -> FragmentOps:
     """Return the per-fragment state of one facing, for a framebuffer with these buffers.
 
-    Without a depth buffer the depth test passes, without a stencil buffer the stencil test; a disabled depth test writes no
-    depth (GL 2.1, sec. 4.1.4-4.1.5).
+    Without a depth buffer the depth test passes, without a stencil buffer the stencil test; a disabled depth test
+    writes no depth (GL 2.1, sec. 4.1.4-4.1.5).
     """
     alpha, face = state.alpha, state.stencil.front if front else state.stencil.back
     alpha_test = alpha.enabled and alpha.func != ALWAYS
     stencil_test = state.stencil.enabled and stencil is not None
     depth_test = state.depth.enabled and depth is not None
     largest = stencil.format.largest if stencil is not None else 0
-    ref = max(0, min(face.ref, largest))
+    stencil_ops = (face.func, face.sfail, face.zfail, face.zpass, largest)
+    numbers = (max(0, min(face.ref, largest)), face.read_mask & largest, face.write_mask & largest)
+    alpha_ref = int(np.rint(np.float32(alpha.ref) * np.float32(255)))
     depth_largest = depth.format.largest if depth is not None else 0
     return FragmentOps(
         *((1, alpha.func) if alpha_test else (0, ALWAYS)),
-        *((1, face.func, face.sfail, face.zfail, face.zpass, largest) if stencil_test else (0, ALWAYS, KEEP, KEEP, KEEP, 0)),
-        *((1, state.depth.func, int(state.depth.write), depth_largest) if depth_test else (0, ALWAYS, 0, depth_largest)),
-        int(np.rint(np.float32(alpha.ref) * np.float32(255))) if alpha_test else 0,
-        *((ref, face.read_mask & largest, face.write_mask & largest) if stencil_test else (0, 0, 0)),
-    )  # fmt: skip
+        *((1, *stencil_ops) if stencil_test else (0, ALWAYS, KEEP, KEEP, KEEP, 0)),
+        *((1, state.depth.func, int(state.depth.write)) if depth_test else (0, ALWAYS, 0)),
+        depth_largest,
+        alpha_ref if alpha_test else 0,
+        *(numbers if stencil_test else (0, 0, 0)),
+    )
 
 
 @kernel
@@ -95,7 +98,10 @@ def compare(func, a, b):
 
 @kernel
 def stencil_op(op, s, ref, largest):
-    """Return the stencil value after an operation; all values uint8. Branch-free, so that a loop over it is vectorised."""
+    """Return the stencil value after an operation;
+
+    All values uint8. Branch-free, so that a loop over it is vectorised.
+    """
     if op == KEEP:
         return s
     if op == CLEAR:

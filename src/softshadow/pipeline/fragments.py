@@ -1,7 +1,7 @@
 """Fragments one by one: the ordered path of draws with alpha test, blending or logic op, and of pixel histories.
 
-Their colours must be known before (alpha test) or in drawing order (blending), so they are listed, shaded in one batch, then
-tested and blended one after the other with the same `process_fragment`.
+Their colours must be known before (alpha test) or in drawing order (blending), so they are listed, shaded in one batch,
+then tested and blended one after the other with the same `process_fragment`.
 """
 
 from typing import NamedTuple
@@ -16,7 +16,10 @@ from softshadow.pipeline.setup import Setup
 
 
 class Fragments(NamedTuple):
-    """Fragments in drawing order: row, column (n,) int32 of the stored planes; triangle (n,) int32, a row of `Setup`."""
+    """Fragments in drawing order:
+
+    Row, column (n,) int32 of the stored planes; triangle (n,) int32, a row of `Setup`.
+    """
 
     row: np.ndarray
     column: np.ndarray

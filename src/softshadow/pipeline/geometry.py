@@ -29,8 +29,9 @@ FILLED = (gl.GL_TRIANGLES, gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_QUADS
 class Geometry(NamedTuple):
     """What the fill and shade stages need of a draw.
 
-    triangles: those that are not culled and have an area; window (V', 4): x, y, z, 1/w; values, back (V', k) and flat (k,): what
-    the vertex stage hands on; source (T',) which assembled triangle each clipped one is a piece of; provoking (T',).
+    triangles: those that are not culled and have an area; window (V', 4): x, y, z, 1/w; values, back (V', k) and flat
+    (k,): what the vertex stage hands on; source (T',) which assembled triangle each clipped one is a piece of;
+    provoking (T',).
     """
 
     triangles: Setup
@@ -59,18 +60,9 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage) -> Ge
     if command.indices is not None:
         assembled = through_indices(assembled, command.indices)
     program, uniforms = program_of(command, storage)
-    varyings = program.vertex(
-        VertexInputs(
-            vertices.position,
-            vertices.color,
-            vertices.normal,
-            vertices.texcoords,
-            command.modelview,
-            command.projection,
-            command.texture_matrices,
-            uniforms,
-        )  # fmt: skip
-    )
+    arrays = (vertices.position, vertices.color, vertices.normal, vertices.texcoords)
+    transforms = (command.modelview, command.projection, command.texture_matrices)
+    varyings = program.vertex(VertexInputs(*arrays, *transforms, uniforms))
     clip = to_clip(matrices.multiply(command.projection, command.modelview), vertices.position)
     columns = varyings.values if varyings.back is None else np.hstack([varyings.values, varyings.back])
     clipped = clip_triangles(clip, columns, assembled.corners, state.depth.clamp, NO_PLANES)

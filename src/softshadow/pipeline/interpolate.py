@@ -12,8 +12,8 @@ from softshadow.pipeline.setup import Setup, edge_differences, plane
 def attribute_planes(window, values, back, vertices, front, wanted, flat, provoking, planes):
     """Fill planes (n, k + 1, 3): of value / w for each column, last of 1 / w; flat columns hold the value itself.
 
-    `vertices` (n, 3) are vertex numbers in the order of positive area, as for depth, `front` (n,) facing, `wanted` (n,) which
-    triangles are needed, `provoking` (n,) the vertex that flat columns take.
+    `vertices` (n, 3) are vertex numbers in the order of positive area, as for depth, `front` (n,) facing, `wanted` (n,)
+    which triangles are needed, `provoking` (n,) the vertex that flat columns take.
     """
     k = values.shape[1]
     for t in range(vertices.shape[0]):

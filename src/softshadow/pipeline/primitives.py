@@ -8,14 +8,17 @@ from softshadow import tokens as gl
 
 
 class Triangles(NamedTuple):
-    """corners (T, 3) int32 vertex numbers in drawing order; provoking (T,) int32: the vertex that gives flat colours."""
+    """corners (T, 3) int32 vertex numbers in drawing order;
+
+    Provoking (T,) int32: the vertex that gives flat colours.
+    """
 
     corners: np.ndarray
     provoking: np.ndarray
 
 
-# Each row: vertices of one triangle relative to the first vertex of its primitive, then the provoking one. The order of the
-# vertices decides the last bits of interpolated values, so it is llvmpipe's (GL_RULES.md 5).
+# Each row: vertices of one triangle relative to the first vertex of its primitive, then the provoking one. The order of
+# the vertices decides the last bits of interpolated values, so it is llvmpipe's (docs/exactness.md, 5).
 TRIANGLE = ((0, 1, 2, 2),)
 QUAD = ((0, 1, 2, 3), (0, 2, 3, 3))
 QUAD_OF_STRIP = ((0, 1, 3, 3), (0, 3, 2, 3))

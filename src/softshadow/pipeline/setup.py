@@ -19,9 +19,9 @@ MANTISSA_BITS = 23
 class Setup(NamedTuple):
     """The triangles that reach the pixels, in drawing order.
 
-    corners (n, 6) int64: snapped X0 Y0 X1 Y1 X2 Y2 in 1/256 pixel, sample (i, j) at (256 i, 256 j), turned so that the area is
-    positive; vertices (n, 3) int32 in the same order; depth (n, 4): z at pixel (0, 0), dz/di, dz/dj, offset; front (n,) uint8;
-    ids (n,) int32: which triangle each is.
+    corners (n, 6) int64: snapped X0 Y0 X1 Y1 X2 Y2 in 1/256 pixel, sample (i, j) at (256 i, 256 j), turned so that the
+    area is positive; vertices (n, 3) int32 in the same order; depth (n, 4): z at pixel (0, 0), dz/di, dz/dj, offset;
+    front (n,) uint8; ids (n,) int32: which triangle each is.
     """
 
     corners: np.ndarray
@@ -32,7 +32,10 @@ class Setup(NamedTuple):
 
 
 class Offset(NamedTuple):
-    """Polygon offset, slope * factor + constant. `downwards`: stored rows grow downwards, GL's dz/dy is the negative."""
+    """Polygon offset, slope * factor + constant.
+
+    `downwards`: stored rows grow downwards, GL's dz/dy is the negative.
+    """
 
     slope: int
     factor: np.floating
@@ -53,7 +56,10 @@ def offset_of(polygon: Polygon, depth: Image | None, real: type, slope: str, uni
 
 
 def add_float_units(offsets: np.ndarray, window_z: np.ndarray, units: float) -> None:
-    """Add `units` last places of each triangle's largest abs(z), window_z (n, 3), to its offset: float depth formats."""
+    """Add `units` last places of each triangle's largest abs(z), window_z (n, 3), to its offset:
+
+    Float depth formats.
+    """
     _, exponent = np.frexp(np.abs(window_z).max(axis=1))
     step = np.ldexp(offsets.dtype.type(1), exponent - 1 - MANTISSA_BITS)
     tiny = step < np.finfo(np.float32).tiny
@@ -96,7 +102,8 @@ def snap(coordinate):
 
 @kernel
 def plane(x0, y0, dx01, dy01, dx20, dy20, a0, a1, a2):
-    """Return (value at pixel (0, 0), d/di, d/dj) of the plane through three vertices, in llvmpipe's order of operations.
+    """Return (value at pixel (0, 0), d/di, d/dj) of the plane through three vertices, in llvmpipe's order of
+    operations.
 
     dx.. and dy.. are the differences of the unsnapped positions, the last two pairs already divided by twice the area.
     """

@@ -1,5 +1,77 @@
-"""placeholder"""
+"""Transfers between images: framebuffer to texture, and the view of a framebuffer that GL's rows count in."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.image import Image
+from softshadow.pixels import color_as_float, quantized_depth, sampled_depth, to_base
+
+if TYPE_CHECKING:
+    from softshadow.pipeline.commands import CopyToTexture
 
 
-def copy_to_texture(command, storage):
-    raise NotImplementedError
+def gl_rows(target: Framebuffer, image: Image) -> np.ndarray:
+    """Return the cells of one of the framebuffer's images as a view with row 0 at the bottom: the one place that flips."""
+    return image.view[::-1] if target.flipped else image.view
+
+
+def clipped(target: Framebuffer, x: int, y: int, width: int, height: int) -> tuple[slice, slice, int, int]:
+    """Return the rows and columns of a rectangle inside the framebuffer, and by how much its left lower corner moved."""
+    total_width, total_height = target.size
+    left, bottom = min(max(x, 0), total_width), min(max(y, 0), total_height)
+    right, top = min(max(x + width, left), total_width), min(max(y + height, bottom), total_height)
+    return np.s_[bottom:top], np.s_[left:right], left - x, bottom - y
+
+
+def copy_to_texture(command: CopyToTexture, storage: Storage) -> None:
+    """Copy a rectangle of the read framebuffer into a texture's image, as llvmpipe does.
+
+    The texture's format says what is copied: depth (with stencil in packed formats) or colour.
+
+    A copy between equal formats is plain, out of the flipped window it is not: there, as between formats, a texel goes through
+    float32, and of 24-bit depth up to a quarter of the values grows by one (GL_RULES.md, sec. 10).
+    """
+    source = storage.framebuffers[command.framebuffer]
+    image = storage.textures[command.texture].images[command.face, command.level]
+    rows, columns, moved_x, moved_y = clipped(source, command.x, command.y, command.width, command.height)
+    left, bottom = command.x_offset + moved_x, command.y_offset + moved_y
+    for plane, from_plane in _planes(source, image):
+        cells = gl_rows(source, from_plane)[rows, columns]
+        height, width = cells.shape[:2]
+        convert = _convert_depth if plane.format.kind == "depth" else _convert_plain
+        plane.view[bottom : bottom + height, left : left + width] = convert(
+            cells.copy(), from_plane, plane, source.flipped
+        )
+
+
+def _planes(source: Framebuffer, image: Image) -> list[tuple[Image, Image]]:
+    """Return (plane of the texture, plane of the framebuffer) pairs; the caller has made sure that they exist."""
+    if image.format.kind != "depth":
+        assert source.read_color is not None
+        return [(image, source.read_color)]
+    assert source.depth is not None
+    pairs = [(image, source.depth)]
+    if image.stencil is not None and source.stencil is not None:
+        pairs.append((image.stencil, source.stencil))
+    return pairs
+
+
+def _convert_depth(cells: np.ndarray, source: Image, image: Image, flipped: bool) -> np.ndarray:
+    if source.format == image.format and not flipped:
+        return cells
+    return quantized_depth(sampled_depth(cells, source.format), image.format)
+
+
+def _convert_plain(cells: np.ndarray, source: Image, image: Image, flipped: bool) -> np.ndarray:
+    if image.format.kind == "stencil":
+        return cells
+    if source.format.kind != image.format.kind:
+        if image.format.kind == "float":
+            cells = color_as_float(cells)
+        else:
+            cells = np.rint(np.clip(cells, np.float32(0), np.float32(1)) * np.float32(255)).astype(np.uint8)
+    return to_base(cells, image.format.base)

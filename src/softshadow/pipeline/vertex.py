@@ -28,8 +28,9 @@ def to_clip(model_view_projection: np.ndarray, positions: np.ndarray) -> np.ndar
 def to_window(clip: np.ndarray, viewport: Viewport, framebuffer_height: int, flipped: bool) -> np.ndarray:
     """Return window x, y, z and 1/w (V, 4) of clip positions (V, 4).
 
-    x and y are in pixels of the stored rows: y grows downwards in a flipped framebuffer (the window), upwards in an FBO.
-    z is in the depth range. Vertices with w = 0 become infinite or NaN; no triangle that is left after clipping has one.
+    x and y are in pixels of the stored rows: y grows downwards in a flipped framebuffer (the window), upwards in an
+    FBO. z is in the depth range. Vertices with w = 0 become infinite or NaN; no triangle that is left after clipping
+    has one.
 
     References
     ----------
