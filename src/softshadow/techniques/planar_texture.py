@@ -84,7 +84,7 @@ def world_to_receiver(receiver: SceneObject) -> np.ndarray:
 def shadow_texture(
     gl: Any, scene: Scene, receiver: SceneObject, light: Light, clip: bool, texture_size: int
 ) -> tuple[int, np.ndarray]:
-    """Return a texture whose alpha is 1 where the receiver is lit and 0 in shadow, and the same as an array (n, n) float32."""
+    """Return a texture with alpha 1 where the receiver is lit and 0 in shadow, and the same as (n, n) float32."""
     name = gl.glGenTextures(1)
     gl.glBindTexture(gl.GL_TEXTURE_2D, name)
     for parameter, value in (
