@@ -203,6 +203,8 @@ class Writer:
             self.call("glRotatef", self.pick([90.0, 180.0, self.number(-360, 360)]), *axis)
         if self.chance(0.2):
             self.call("glScalef", self.number(0.2, 2), self.number(-2, 2), self.number(0.2, 2))
+        for name in ("GL_PROJECTION_MATRIX", "GL_MODELVIEW_MATRIX"):
+            self.call("glGetFloatv", name)
         self.spread = 3.0
 
     # --- textures

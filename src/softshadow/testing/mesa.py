@@ -10,6 +10,7 @@ import contextlib
 import ctypes.util
 import functools
 import importlib.util
+import inspect
 import os
 import pickle
 import queue
@@ -123,9 +124,9 @@ def run_on_mesa(
 def _pickled(program: Callable[[Any], Any]) -> bytes:
     import cloudpickle
 
-    function = program
+    function = inspect.unwrap(program)
     while isinstance(function, functools.partial):
-        function = function.func
+        function = inspect.unwrap(function.func)
     module = sys.modules.get(getattr(function, "__module__", None) or "")
     # a user's module travels as it is now, not as the worker imported it some edits ago
     travels = module is not None and module.__name__ != "__main__" and not module.__name__.startswith("softshadow")

@@ -54,14 +54,14 @@ class TracedProgram:
     """
 
     def __init__(self, program: Program, size: tuple[int, int], stop_at: int | None = None) -> None:
-        self.program = program
+        self.__wrapped__ = program  # where functools.wraps puts it
         self.size = size
         self.stop_at = stop_at
 
     def __call__(self, gl: Any) -> Any:
         window = TracedNames(gl, self.size, self.stop_at)
         try:
-            self.program(window)
+            self.__wrapped__(window)
         except Reached as reached:
             return reached.buffers
         return window.calls if self.stop_at is None else window.buffers()
