@@ -1,7 +1,7 @@
 """Shading programs: a vertex stage, a batch fragment stage, and the GLSL twin that real GL compiles.
 
-A program is data: functions and sources, no class hierarchy. `shade` is called once per draw with all fragments, so it may be
-plain NumPy; the programs of this package call one cached kernel each.
+A program is data: functions and sources, no class hierarchy. `shade` is called once per draw with all fragments, so it
+may be plain NumPy; the programs of this package call one cached kernel each.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ class VertexInputs:
 class Varyings:
     """What the vertex stage hands on: values (V, k) to be interpolated, perspective-correct.
 
-    `flat` (k,) bool marks columns that take the provoking vertex's value; `back` (V, k) replaces `values` on back-facing
-    triangles (two-sided lighting).
+    `flat` (k,) bool marks columns that take the provoking vertex's value; `back` (V, k) replaces `values` on
+    back-facing triangles (two-sided lighting).
     """
 
     values: np.ndarray

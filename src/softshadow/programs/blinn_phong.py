@@ -1,0 +1,117 @@
+"""Lighting per pixel by the half vector, with one light: what the fixed function does per vertex.
+
+References: Blinn 1977, "Models of light reflection for computer synthesized pictures"; Phong 1975, "Illumination for
+computer generated pictures" (interpolated normals).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from softshadow.jit import kernel
+from softshadow.programs import Program, Varyings, VertexInputs
+from softshadow.programs.approximations import power
+from softshadow.programs.inverse import inverse
+from softshadow.programs.texture_coordinates import transform
+
+ZERO, ONE = np.float32(0.0), np.float32(1.0)
+
+VERTEX = """#version 120
+varying vec4 color;
+varying vec3 eyePosition;
+varying vec3 normal;
+
+void main()
+{
+    color = gl_Color;
+    eyePosition = (gl_ModelViewMatrix * gl_Vertex).xyz;
+    normal = gl_NormalMatrix * gl_Normal;
+    gl_Position = ftransform();
+}
+"""
+
+FRAGMENT = """#version 120
+uniform vec4 lightPosition;  // eye space; w = 0: a direction towards the light
+uniform vec3 ambient;
+uniform vec3 diffuse;
+uniform vec3 specular;
+uniform float shininess;
+varying vec4 color;
+varying vec3 eyePosition;
+varying vec3 normal;
+
+void main()
+{
+    vec3 n = normalize(normal);
+    vec3 towardsLight = normalize(lightPosition.xyz - lightPosition.w * eyePosition);
+    vec3 halfway = normalize(towardsLight - normalize(eyePosition));
+    float facing = max(dot(n, towardsLight), 0.0);
+    float highlight = facing > 0.0 ? pow(max(dot(n, halfway), 0.0), shininess) : 0.0;
+    gl_FragColor = vec4(color.rgb * (ambient + facing * diffuse) + highlight * specular, color.a);
+}
+"""
+
+
+def vertex(vertices: VertexInputs) -> Varyings:
+    """Return color, eyePosition and normal."""
+    eye = transform(vertices.modelview, vertices.position)[:, :3]
+    normal_matrix = inverse(vertices.modelview)[:3, :3].T
+    values = np.concatenate([vertices.color, eye, transform(normal_matrix, vertices.normal)], axis=1)
+    return Varyings(values, np.zeros(10, bool))
+
+
+def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
+    """Fill `out` (N, 4) with the lit colours."""
+    names = ("lightPosition", "ambient", "diffuse", "specular")
+    light, ambient, diffuse, specular = (np.array(uniforms[name], inputs.dtype) for name in names)
+    light_pixels(inputs, light, ambient, diffuse, specular, inputs.dtype.type(uniforms["shininess"]), out)
+
+
+@kernel
+def dot(a, b):
+    """Return the dot product of 3-vectors as tuples, added from z to x as llvmpipe adds."""
+    return (a[2] * b[2] + a[1] * b[1]) + a[0] * b[0]
+
+
+@kernel
+def normalize(v):
+    scale = ONE / np.sqrt(dot(v, v))
+    return v[0] * scale, v[1] * scale, v[2] * scale
+
+
+@kernel
+def light_pixels(inputs, light, ambient, diffuse, specular, shininess, out):
+    """Light pixels with inputs (N, 10): color, eye position, normal."""
+    for n in range(len(inputs)):
+        eye = (inputs[n, 4], inputs[n, 5], inputs[n, 6])
+        normal = normalize((inputs[n, 7], inputs[n, 8], inputs[n, 9]))
+        w = light[3]
+        towards_light = normalize((light[0] - w * eye[0], light[1] - w * eye[1], light[2] - w * eye[2]))
+        view = normalize(eye)
+        halfway = normalize((towards_light[0] - view[0], towards_light[1] - view[1], towards_light[2] - view[2]))
+        facing = max(dot(normal, towards_light), ZERO)
+        highlight = ZERO
+        if facing > ZERO:
+            highlight = power(max(dot(normal, halfway), ZERO), shininess)
+        for c in range(3):
+            out[n, c] = inputs[n, c] * (ambient[c] + facing * diffuse[c]) + highlight * specular[c]
+        out[n, 3] = inputs[n, 3]
+
+
+BLINN_PHONG = Program(
+    "blinn-phong",
+    vertex,
+    shade,
+    uniforms={
+        "lightPosition": (0.0, 0.0, 1.0, 0.0),
+        "ambient": (0.2, 0.2, 0.2),
+        "diffuse": (0.8, 0.8, 0.8),
+        "specular": (0.0, 0.0, 0.0),
+        "shininess": 1.0,
+    },
+    glsl_vertex=VERTEX,
+    glsl_fragment=FRAGMENT,
+)

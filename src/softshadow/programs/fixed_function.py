@@ -1,0 +1,124 @@
+"""GL's fixed function as a program: lighting and coordinates per vertex; texturing, specular sum and fog per fragment.
+
+Columns of the varyings: primary RGBA; secondary RGB where GL_SEPARATE_SPECULAR_COLOR keeps it apart; (s, t, r, q) of
+every texture unit in use; the fog distance last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.errors import StateError
+from softshadow.programs import Program, Varyings, VertexInputs
+from softshadow.programs.lighting import Colors, clamped, light_vertices, needs_eye_position
+from softshadow.programs.texture_coordinates import dot, texture_coordinates, transform
+from softshadow.state import State
+from softshadow.texture import Texture
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A texture unit in use: its number and its texture."""
+
+    index: int
+    texture: Texture
+
+
+def program(state: State, textures: Mapping[int, Texture]) -> Program:
+    """Return the fixed function under a state.
+
+    Parameters
+    ----------
+    textures : unit -> Texture   what is bound to the units whose target is enabled; an incomplete one disables its unit
+
+    Raises
+    ------
+    StateError                   the state asks for something that is not supported; the message names what to set
+    """
+    units = units_in_use(state, textures)
+
+    def vertex(vertices: VertexInputs) -> Varyings:
+        return process_vertices(state, units, vertices)
+
+    def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
+        shade_fragments(state, units, inputs, out)
+
+    return Program("fixed function", vertex, shade)
+
+
+def units_in_use(state: State, textures: Mapping[int, Texture]) -> list[Unit]:
+    """Return the texture units that take part in texturing."""
+    units = []
+    for index, unit in enumerate(state.units):
+        if unit.enabled_cube:
+            raise StateError(
+                f"texture unit {index}: GL_TEXTURE_CUBE_MAP is enabled: cube maps are not sampled by the fixed function"
+            )
+        if not unit.enabled_2d or index not in textures:
+            continue
+        from softshadow.programs import sampling, texture_environment  # kernels: not for draws without texture
+
+        if sampling.is_complete(textures[index]):
+            texture_environment.check_mode(index, unit.env_mode)
+            units.append(Unit(index, textures[index]))
+    return units
+
+
+def is_separate(state: State) -> bool:
+    return state.lighting.enabled and state.lighting.color_control == gl.GL_SEPARATE_SPECULAR_COLOR
+
+
+def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) -> Varyings:
+    """Return the varyings of the vertices; the colour columns are flat under GL_FLAT."""
+    lighting, back = state.lighting, None
+    if lighting.enabled:
+        eye_linear = any(gen.enabled and gen.mode == gl.GL_EYE_LINEAR for unit in state.units for gen in unit.gen)
+        front, back = light_vertices(lighting, vertices, eye_linear)
+    else:
+        front = Colors(clamped(vertices.color), None)
+    rest = [texture_coordinates(unit.index, state.units[unit.index], vertices) for unit in units]
+    if state.fog.enabled:
+        rest.append(fog_distance(state, vertices)[:, np.newaxis])
+    values = columns(front, rest)
+    flat = np.zeros(values.shape[1], bool)
+    flat[: 7 if is_separate(state) else 4] = lighting.shade_model == gl.GL_FLAT
+    return Varyings(values, flat, None if back is None else columns(back, rest))
+
+
+def columns(colors: Colors, rest: list[np.ndarray]) -> np.ndarray:
+    parts = [colors.primary] if colors.secondary is None else [colors.primary, colors.secondary]
+    return np.concatenate(parts + rest, axis=1)
+
+
+def fog_distance(state: State, vertices: VertexInputs) -> np.ndarray:
+    """Return |z| in eye space (V,), in the order of operations that Mesa's vertex program has at this point."""
+    if state.lighting.enabled and needs_eye_position(state.lighting):
+        return abs(transform(vertices.modelview, vertices.position)[:, 2])
+    return abs(dot(vertices.position, np.asarray(vertices.modelview[2], vertices.position.dtype)))
+
+
+def shade_fragments(state: State, units: list[Unit], inputs: np.ndarray, out: np.ndarray) -> None:
+    """Fill `out` (N, 4) with the colours of fragments from their interpolated columns `inputs` (N, k)."""
+    out[:] = inputs[:, :4]
+    column = 7 if is_separate(state) else 4
+    if units:
+        from softshadow.programs.sampling import base_format, project, sample
+        from softshadow.programs.texture_environment import apply_environment
+
+        texel = np.empty_like(out)
+        for unit in units:
+            setting = state.units[unit.index]
+            sample(unit.texture, project(inputs[:, column : column + 4]), texel)
+            apply_environment(out, texel, setting.env_mode, base_format(unit.texture), setting.env_color)
+            column += 4
+    if is_separate(state):
+        out[:, :3] += inputs[:, 4:7]
+    if state.fog.enabled:
+        from softshadow.programs.fog import apply_fog
+
+        apply_fog(out, state.fog, inputs[:, column])

@@ -1,0 +1,47 @@
+"""Fog: the distance of a vertex, and the share of the fog's colour in a fragment.
+
+References: GL 2.1 sec. 3.10. The factor is llvmpipe's 2^x (`approximations`), with constants folded as Mesa folds them.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.errors import StateError
+from softshadow.programs.approximations import exp2_of_all
+from softshadow.state import Fog
+
+ZERO, ONE = np.float32(0.0), np.float32(1.0)
+
+
+def exp2(x: np.ndarray) -> np.ndarray:
+    raised = np.empty_like(x)
+    exp2_of_all(x, raised)
+    return raised
+
+
+def fog_factor(fog: Fog, distance: np.ndarray) -> np.ndarray:
+    """Return the share (N,) in [0, 1] of the fragment's own colour at distances (N,) from the eye."""
+    real = np.float32
+    if fog.mode == gl.GL_LINEAR:
+        slope = ONE if fog.end == fog.start else -ONE / (real(fog.end) - real(fog.start))
+        factor = distance * slope + real(fog.end) * -slope
+    elif fog.mode == gl.GL_EXP:
+        factor = exp2(-(distance * real(real(fog.density) * math.log2(math.e))))
+    elif fog.mode == gl.GL_EXP2:
+        scaled = distance * real(real(fog.density) * (1 / math.sqrt(math.log(2))))
+        factor = exp2(-(scaled * scaled))
+    else:
+        raise StateError(f"GL_FOG_MODE is {gl.token_name(fog.mode)}: expected GL_LINEAR, GL_EXP or GL_EXP2")
+    share: np.ndarray = np.fmin(np.fmax(factor, ZERO), ONE)
+    return share
+
+
+def apply_fog(fragment: np.ndarray, fog: Fog, distance: np.ndarray) -> None:
+    """Mix the fog's colour into the RGB of fragments (N, 4) at distances (N,); alpha stays."""
+    factor = fog_factor(fog, distance)[:, np.newaxis]
+    color = np.array(fog.color[:3], np.float32).clip(ZERO, ONE)
+    fragment[:, :3] = color * (ONE - factor) + fragment[:, :3] * factor

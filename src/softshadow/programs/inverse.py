@@ -1,0 +1,180 @@
+"""The inverse of a 4x4 matrix in float32, by the kind of the matrix, as Mesa inverts: for normals, planes and lights.
+
+A rotation is transposed, a scale divided, and so on: other formulas give other last bits, and a generated texture
+coordinate carries them into a shadow comparison. The kind is read off the elements, as Mesa does for loaded matrices.
+
+References: m_matrix.c of Mesa 22.3 (analyse_from_scratch and the inversion functions).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+TOLERANCE = np.float32(1e-6) * np.float32(1e-6)  # on squares: what still counts as a rotation
+SMALLEST_DETERMINANT = np.float32(1e-25)
+ONE = np.float32(1.0)
+
+
+def dot(a: np.ndarray, b: np.ndarray) -> np.float32:
+    """Return the sum of products, from left to right, each step rounded."""
+    total = a[0] * b[0]
+    for x, y in zip(a[1:], b[1:], strict=True):
+        total = total + x * y
+    return np.float32(total)
+
+
+def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]], np.float32)
+
+
+def squared(x: np.float32) -> np.float32:
+    return x * x
+
+
+def is_affine(m: np.ndarray) -> bool:
+    return bool((m[3] == (0, 0, 0, 1)).all())
+
+
+def scales_only(m: np.ndarray) -> bool:
+    """Return whether the upper left 3x3 is diagonal."""
+    return not (m[:3, :3] * (1 - np.eye(3, dtype=np.float32))).any()
+
+
+def lies_flat(m: np.ndarray) -> bool:
+    """Return whether an affine matrix leaves z alone."""
+    return bool((m[2] == (0, 0, 1, 0)).all() and (m[:2, 2] == 0).all())
+
+
+def scale_kind(m: np.ndarray) -> str:
+    """Return "none", "uniform" or "general" for an affine matrix."""
+    c1, c2, c3 = (m[:3, i] for i in range(3))
+    if lies_flat(m):
+        if scales_only(m):
+            return "none" if m[0, 0] == 1 and m[1, 1] == 1 else "general"
+        kept = squared(dot(c1[:2], c1[:2]) - ONE) <= TOLERANCE and squared(dot(c2[:2], c2[:2]) - ONE) <= TOLERANCE
+        return "none" if kept else "general"
+    sizes = (m[0, 0], m[1, 1], m[2, 2]) if scales_only(m) else (dot(c1, c1), dot(c2, c2), dot(c3, c3))
+    if squared(sizes[0] - sizes[1]) < TOLERANCE and squared(sizes[0] - sizes[2]) < TOLERANCE:
+        return "uniform" if squared(sizes[0] - ONE) > TOLERANCE else "none"
+    return "general"
+
+
+def keeps_angles(m: np.ndarray) -> bool:
+    """Return whether the columns of an affine matrix are orthogonal, up to one scale per matrix, and right-handed."""
+    if scales_only(m):
+        return True
+    c1, c2, c3 = (m[:3, i] for i in range(3))
+    if lies_flat(m):
+        return bool(squared(dot(c1[:2], c2[:2])) <= TOLERANCE)
+    if squared(dot(c1, c2)) >= TOLERANCE:
+        return False
+    rest = cross(c1, c2) - c3
+    return bool(dot(rest, rest) < TOLERANCE)
+
+
+def is_length_preserving(matrix: np.ndarray) -> bool:
+    """Return whether a (4, 4) float32 matrix is made of rotations and translations, as Mesa finds out."""
+    with np.errstate(all="ignore"):
+        return is_affine(matrix) and scale_kind(matrix) == "none" and keeps_angles(matrix)
+
+
+def inverse(matrix: np.ndarray) -> np.ndarray:
+    """Return the inverse of a (4, 4) matrix in float32; the identity where the matrix is singular, as Mesa has it."""
+    m = np.asarray(matrix, np.float32)
+    with np.errstate(all="ignore"):
+        if not is_affine(m):
+            found = inverse_of_general(m)
+        elif scales_only(m):
+            found = inverse_of_scale(m)
+        elif keeps_angles(m) and scale_kind(m) != "general":
+            found = inverse_of_rotation(m, scale_kind(m) == "uniform")
+        else:
+            found = inverse_of_affine(m)
+    return np.eye(4, dtype=np.float32) if found is None else found
+
+
+def with_translation(m: np.ndarray, linear: np.ndarray) -> np.ndarray:
+    """Return the affine inverse whose 3x3 part is known."""
+    out = np.eye(4, dtype=np.float32)
+    out[:3, :3] = linear
+    if m[:3, 3].any():
+        out[:3, 3] = [-dot(m[:3, 3], linear[i]) for i in range(3)]
+    return out
+
+
+def inverse_of_scale(m: np.ndarray) -> np.ndarray | None:
+    sizes = np.diagonal(m)[:3]
+    if (sizes == 0).any():
+        return None
+    out = np.diag(np.append(ONE / sizes, ONE))
+    if m[:3, 3].any():
+        out[:3, 3] = -(m[:3, 3] * (ONE / sizes))
+    return out
+
+
+def inverse_of_rotation(m: np.ndarray, scaled: bool) -> np.ndarray | None:
+    if not scaled:
+        return with_translation(m, m[:3, :3].T)
+    scale = dot(m[0, :3], m[0, :3])
+    return None if scale == 0 else with_translation(m, (ONE / scale) * m[:3, :3].T)
+
+
+def inverse_of_affine(m: np.ndarray) -> np.ndarray | None:
+    """Return the inverse by cofactors; positive and negative terms of the determinant are summed apart."""
+    terms = [
+        m[0, 0] * m[1, 1] * m[2, 2],
+        m[1, 0] * m[2, 1] * m[0, 2],
+        m[2, 0] * m[0, 1] * m[1, 2],
+        -m[2, 0] * m[1, 1] * m[0, 2],
+        -m[1, 0] * m[0, 1] * m[2, 2],
+        -m[0, 0] * m[2, 1] * m[1, 2],
+    ]
+    positive = negative = np.float32(0)
+    for term in terms:
+        if term >= 0:
+            positive = positive + term
+        else:
+            negative = negative + term
+    determinant = positive + negative
+    if abs(determinant) < SMALLEST_DETERMINANT:
+        return None
+    d = ONE / determinant
+    linear = np.array(
+        [
+            [
+                (m[1, 1] * m[2, 2] - m[2, 1] * m[1, 2]) * d,
+                -(m[0, 1] * m[2, 2] - m[2, 1] * m[0, 2]) * d,
+                (m[0, 1] * m[1, 2] - m[1, 1] * m[0, 2]) * d,
+            ],
+            [
+                -(m[1, 0] * m[2, 2] - m[2, 0] * m[1, 2]) * d,
+                (m[0, 0] * m[2, 2] - m[2, 0] * m[0, 2]) * d,
+                -(m[0, 0] * m[1, 2] - m[1, 0] * m[0, 2]) * d,
+            ],
+            [
+                (m[1, 0] * m[2, 1] - m[2, 0] * m[1, 1]) * d,
+                -(m[0, 0] * m[2, 1] - m[2, 0] * m[0, 1]) * d,
+                (m[0, 0] * m[1, 1] - m[1, 0] * m[0, 1]) * d,
+            ],
+        ],
+        np.float32,
+    )
+    return with_translation(m, linear)
+
+
+def inverse_of_general(m: np.ndarray) -> np.ndarray | None:
+    """Return the inverse by Gaussian elimination; the pivot rises row by row, which is not a full search."""
+    rows = np.concatenate([m, np.eye(4, dtype=np.float32)], axis=1)
+    for k in range(4):
+        for i in range(3, k, -1):
+            if abs(rows[i, k]) > abs(rows[i - 1, k]):
+                rows[[i, i - 1]] = rows[[i - 1, i]]
+        if rows[k, k] == 0:
+            return None
+        for i in range(k + 1, 4):
+            rows[i, k + 1 :] -= (rows[i, k] / rows[k, k]) * rows[k, k + 1 :]
+    for k in range(3, -1, -1):
+        rows[k, 4:] = (ONE / rows[k, k]) * rows[k, 4:]
+        for i in range(k):
+            rows[i, 4:] -= rows[k, 4:] * rows[i, k]
+    return rows[:, 4:].copy()

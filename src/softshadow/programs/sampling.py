@@ -1,0 +1,243 @@
+"""Texture sampling for a batch of coordinates, bit for bit as llvmpipe samples.
+
+`sample` is the door: it reads the texture's sampler, picks the kernel, and leaves the texture's RGBA. Three kernels do
+the work: `filter_texels` (nearest, or linear in float), `filter_fixed_point` (linear, 8-bit formats under GL_REPEAT and
+GL_CLAMP_TO_EDGE, which llvmpipe filters in 8-bit integers) and `compare_depth` (shadow maps).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.errors import StateError
+from softshadow.jit import kernel
+from softshadow.programs.wrapping import (
+    FIXED_POINT_WRAPS,
+    ONE,
+    ZERO,
+    fixed_point_texels,
+    linear_texels,
+    nearest_texel,
+)
+from softshadow.texture import Texture
+from softshadow.tokens import (
+    GL_ALWAYS,
+    GL_EQUAL,
+    GL_GEQUAL,
+    GL_GREATER,
+    GL_LEQUAL,
+    GL_LESS,
+    GL_LINEAR,
+    GL_NEAREST,
+    GL_NOTEQUAL,
+    token_name,
+)
+
+UNORM8_STEP = ONE / np.float32(255.0)
+
+# where R, G, B, A of the result come from: a channel of the cells, or a constant
+CONSTANT_ZERO, CONSTANT_ONE = 4, 5
+SOURCES = {
+    gl.GL_RGBA: (0, 1, 2, 3),
+    gl.GL_RGB: (0, 1, 2, CONSTANT_ONE),
+    gl.GL_RG: (0, 1, CONSTANT_ZERO, CONSTANT_ONE),
+    gl.GL_RED: (0, CONSTANT_ZERO, CONSTANT_ZERO, CONSTANT_ONE),
+    gl.GL_ALPHA: (CONSTANT_ZERO, CONSTANT_ZERO, CONSTANT_ZERO, 3),
+    gl.GL_LUMINANCE: (0, 0, 0, CONSTANT_ONE),
+    gl.GL_LUMINANCE_ALPHA: (0, 0, 0, 3),
+    gl.GL_INTENSITY: (0, 0, 0, 0),
+}
+DEPTH_SOURCES = {**SOURCES, gl.GL_ALPHA: (CONSTANT_ZERO, CONSTANT_ZERO, CONSTANT_ZERO, 0)}
+
+
+def base_format(texture: Texture) -> int:
+    """Return the base internal format that texture environments go by; that of a depth texture is its depth mode."""
+    image = texture.base()
+    if image is None:
+        raise StateError(f"texture {texture.name}: no image; define one with glTexImage2D")
+    return texture.sampler.depth_mode if image.format.kind == "depth" else image.format.base
+
+
+def is_complete(texture: Texture) -> bool:
+    """Return whether the texture can be sampled: its base image exists, and all levels where the filter uses mipmaps.
+
+    References: GL 2.1 sec. 3.8.10.
+    """
+    sampler, image = texture.sampler, texture.base()
+    if image is None or image.width == 0 or image.height == 0:
+        return False
+    if sampler.min_filter in (GL_NEAREST, GL_LINEAR):
+        return True
+    width, height, level = image.width, image.height, sampler.base_level
+    while (width, height) != (1, 1) and level < sampler.max_level:
+        width, height, level = max(width // 2, 1), max(height // 2, 1), level + 1
+        image_of_level = texture.images.get((0, level))
+        if (
+            image_of_level is None
+            or (image_of_level.width, image_of_level.height) != (width, height)
+            or image_of_level.format != image.format
+        ):
+            return False
+    return True
+
+
+def project(coordinates: np.ndarray) -> np.ndarray:
+    """Return (s, t, r) / q of coordinates (N, 4), computed as s * (1/q)."""
+    with np.errstate(all="ignore"):  # q = 0 gives infinities, as in GL
+        projected: np.ndarray = coordinates[:, :3] * (ONE / coordinates[:, 3:])
+    return projected
+
+
+def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
+    """Fill `out` (N, 4) with the texture's RGBA at coordinates (N, 3): s, t, and r for depth comparison.
+
+    An incomplete texture gives (0, 0, 0, 1), as programs see it.
+
+    Raises
+    ------
+    StateError                   the filters need a level of detail (mipmaps, or two different filters)
+    """
+    image, sampler = texture.base(), texture.sampler
+    if image is None or not is_complete(texture):
+        out[:] = (0.0, 0.0, 0.0, 1.0)
+        return
+    if sampler.min_filter != sampler.mag_filter:
+        raise StateError(
+            f"texture {texture.name}: GL_TEXTURE_MIN_FILTER is {token_name(sampler.min_filter)} and "
+            f"GL_TEXTURE_MAG_FILTER {token_name(sampler.mag_filter)}: mipmaps and two different filters are not "
+            "sampled yet; set both to GL_NEAREST or both to GL_LINEAR"
+        )
+    linear = sampler.mag_filter == GL_LINEAR
+    cells = image.view if image.view.ndim == 3 else image.view[:, :, np.newaxis]
+    wraps = sampler.wrap_s, sampler.wrap_t
+    border = np.array(sampler.border_color, np.float32)
+    if image.format.kind == "depth":
+        largest = image.format.largest
+        unit = ONE / np.float32(largest) if largest else ONE
+        sources = np.array(DEPTH_SOURCES[sampler.depth_mode])
+        if largest:
+            border = border.clip(ZERO, ONE)
+        if sampler.compare_mode != gl.GL_NONE:
+            compare_depth(
+                coordinates, cells, wraps, border, unit, linear, sampler.compare_func, largest > 0, sources, out
+            )
+        else:
+            filter_texels(coordinates, cells, wraps, border, unit, linear, sources, out)
+        return
+    sources = np.array(SOURCES[image.format.base])
+    if image.format.kind == "float":
+        filter_texels(coordinates, cells, wraps, border, ONE, linear, sources, out)
+    elif linear and set(wraps) <= set(FIXED_POINT_WRAPS):
+        filter_fixed_point(coordinates, cells, wraps, sources, out)
+    else:
+        filter_texels(coordinates, cells, wraps, border.clip(ZERO, ONE), UNORM8_STEP, linear, sources, out)
+
+
+@kernel
+def fetch(cells, border, unit, i, j, channel):
+    """Return one channel of a texel in [0, 1] units, or of the border colour outside the image."""
+    if i >= 0 and i < cells.shape[1] and j >= 0 and j < cells.shape[0]:
+        return np.float32(cells[j, i, channel]) * unit
+    return border[channel]
+
+
+@kernel
+def mix(weight, a, b):
+    """Return a + weight * (b - a), rounded at each step."""
+    return weight * (b - a) + a
+
+
+@kernel
+def mix_fixed_point(weight, a, b):
+    """Return a + weight/256 * (b - a) in integers, rounded as llvmpipe's 8-bit interpolation rounds."""
+    return a + (((b - a) * weight * 128 + 16384) >> 15)
+
+
+@kernel
+def filter_texels(coordinates, cells, wraps, border, unit, linear, sources, out):
+    """Sample with GL_NEAREST or, in float, GL_LINEAR; `unit` is the value of one cell unit."""
+    height, width = cells.shape[0], cells.shape[1]
+    for n in range(len(coordinates)):
+        if linear:
+            i0, i1, x_weight = linear_texels(coordinates[n, 0], width, wraps[0])
+            j0, j1, y_weight = linear_texels(coordinates[n, 1], height, wraps[1])
+        else:
+            i0 = nearest_texel(coordinates[n, 0], width, wraps[0])
+            j0 = nearest_texel(coordinates[n, 1], height, wraps[1])
+        for c in range(4):
+            source = sources[c]
+            if source >= CONSTANT_ZERO:
+                out[n, c] = ZERO if source == CONSTANT_ZERO else ONE
+            elif linear:
+                lower = mix(
+                    x_weight, fetch(cells, border, unit, i0, j0, source), fetch(cells, border, unit, i1, j0, source)
+                )
+                upper = mix(
+                    x_weight, fetch(cells, border, unit, i0, j1, source), fetch(cells, border, unit, i1, j1, source)
+                )
+                out[n, c] = mix(y_weight, lower, upper)
+            else:
+                out[n, c] = fetch(cells, border, unit, i0, j0, source)
+
+
+@kernel
+def filter_fixed_point(coordinates, cells, wraps, sources, out):
+    """Sample with GL_LINEAR in 8-bit integers: x first, then y."""
+    height, width = cells.shape[0], cells.shape[1]
+    for n in range(len(coordinates)):
+        i0, i1, x_weight = fixed_point_texels(coordinates[n, 0], width, wraps[0])
+        j0, j1, y_weight = fixed_point_texels(coordinates[n, 1], height, wraps[1])
+        for c in range(4):
+            source = sources[c]
+            if source >= CONSTANT_ZERO:
+                out[n, c] = ZERO if source == CONSTANT_ZERO else ONE
+            else:
+                lower = mix_fixed_point(x_weight, int(cells[j0, i0, source]), int(cells[j0, i1, source]))
+                upper = mix_fixed_point(x_weight, int(cells[j1, i0, source]), int(cells[j1, i1, source]))
+                out[n, c] = np.float32(mix_fixed_point(y_weight, lower, upper)) * UNORM8_STEP
+
+
+@kernel
+def passes(func, reference, texel):
+    """Return whether `reference func texel`; with NaN only GL_NOTEQUAL and GL_ALWAYS hold."""
+    if func == GL_LEQUAL:
+        return reference <= texel
+    if func == GL_GEQUAL:
+        return reference >= texel
+    if func == GL_LESS:
+        return reference < texel
+    if func == GL_GREATER:
+        return reference > texel
+    if func == GL_EQUAL:
+        return reference == texel
+    if func == GL_NOTEQUAL:
+        return reference != texel
+    return func == GL_ALWAYS
+
+
+@kernel
+def compare_depth(coordinates, cells, wraps, border, unit, linear, func, clamped, sources, out):
+    """Compare r with the depths: 0 or 1, or with GL_LINEAR the share of the 2x2 texels that pass (float weights)."""
+    height, width = cells.shape[0], cells.shape[1]
+    for n in range(len(coordinates)):
+        r = coordinates[n, 2]
+        if clamped:
+            r = r if r > ZERO else ZERO
+            r = r if r < ONE else ONE
+        if linear:
+            i0, i1, x_weight = linear_texels(coordinates[n, 0], width, wraps[0])
+            j0, j1, y_weight = linear_texels(coordinates[n, 1], height, wraps[1])
+            rest = ONE - x_weight
+            lower = rest if passes(func, r, fetch(cells, border, unit, i0, j0, 0)) else ZERO
+            lower = (x_weight if passes(func, r, fetch(cells, border, unit, i1, j0, 0)) else ZERO) + lower
+            upper = rest if passes(func, r, fetch(cells, border, unit, i0, j1, 0)) else ZERO
+            upper = (x_weight if passes(func, r, fetch(cells, border, unit, i1, j1, 0)) else ZERO) + upper
+            lit = mix(y_weight, lower, upper)
+        else:
+            i0 = nearest_texel(coordinates[n, 0], width, wraps[0])
+            j0 = nearest_texel(coordinates[n, 1], height, wraps[1])
+            lit = ONE if passes(func, r, fetch(cells, border, unit, i0, j0, 0)) else ZERO
+        for c in range(4):
+            source = sources[c]
+            out[n, c] = lit if source < CONSTANT_ZERO else (ZERO if source == CONSTANT_ZERO else ONE)

@@ -1,0 +1,107 @@
+"""Texture coordinates to texels of one axis: GL's wrap modes, bit for bit as llvmpipe computes them.
+
+A texel index outside [0, size) stands for the border colour. All arithmetic is in the type of the coordinate.
+
+References: GL 2.1 sec. 3.8.7, 3.8.8; GL_TEXTURE_2D of llvmpipe 22.3 (wrap functions of its sampler).
+"""
+
+import numpy as np
+
+from softshadow.jit import kernel
+from softshadow.tokens import GL_CLAMP, GL_CLAMP_TO_BORDER, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT, GL_REPEAT
+
+ZERO, ONE, HALF = np.float32(0.0), np.float32(1.0), np.float32(0.5)
+BELOW_ONE = np.float32(1.0) - np.float32(2.0**-24)
+INT_LIMIT = np.float32(2.0**31)
+OUT_OF_RANGE = -(2**31)  # what the CPU's float-to-integer conversion answers beyond 32 bits, and for NaN
+
+FIXED_POINT_WRAPS = (GL_REPEAT, GL_CLAMP_TO_EDGE)
+WRAPS = (GL_REPEAT, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_BORDER, GL_CLAMP, GL_MIRRORED_REPEAT)
+
+
+@kernel
+def to_integer(value):
+    """Return the value truncated to a 32-bit integer, as the CPU's vector instruction does it."""
+    if value >= -INT_LIMIT and value < INT_LIMIT:
+        return int(value)
+    return OUT_OF_RANGE
+
+
+@kernel
+def is_power_of_two(size):
+    return size & (size - 1) == 0
+
+
+@kernel
+def mirrored(coordinate):
+    """Return the distance in [0, 1] to the nearest even integer."""
+    half = coordinate * HALF
+    part = half - np.rint(half)
+    distance = abs(part + part)
+    return distance if distance > ZERO else ZERO  # NaN becomes 0
+
+
+@kernel
+def nearest_texel(coordinate, size, wrap):
+    """Return the index of the texel that contains a normalised coordinate."""
+    length = np.float32(size)
+    if wrap == GL_REPEAT:
+        if is_power_of_two(size):
+            return to_integer(np.floor(coordinate * length)) & (size - 1)
+        part = coordinate - np.floor(coordinate)
+        return to_integer((part if part < BELOW_ONE else BELOW_ONE) * length)
+    if wrap == GL_CLAMP_TO_BORDER:
+        return to_integer(np.floor(coordinate * length))
+    if wrap == GL_MIRRORED_REPEAT:
+        return min(to_integer(mirrored(coordinate) * length), size - 1)
+    return min(max(to_integer(coordinate * length), 0), size - 1)  # GL_CLAMP too: half a border texel is never nearest
+
+
+@kernel
+def linear_texels(coordinate, size, wrap):
+    """Return (first texel, second texel, weight of the second) for a linear filter in float."""
+    length, last = np.float32(size), size - 1
+    if wrap == GL_REPEAT:
+        if is_power_of_two(size):
+            u = coordinate * length - HALF
+            first = to_integer(np.floor(u))
+            return first & last, (first + 1) & last, u - np.floor(u)
+        u = (coordinate - np.floor(coordinate)) * length - HALF
+        first = last if u < ZERO else to_integer(np.floor(u))
+        return first, 0 if first == last else first + 1, u - np.floor(u)
+    if wrap == GL_CLAMP_TO_EDGE:
+        u = coordinate * length
+        u = (u if u < length else length) - HALF
+        u = u if u > ZERO else ZERO
+        first = to_integer(u)
+        return first, min(first + 1, last), u - np.floor(u)
+    if wrap == GL_MIRRORED_REPEAT:
+        u = mirrored(coordinate) * length - HALF
+        first = to_integer(np.floor(u))
+        return max(first, 0), min(first + 1, last), u - np.floor(u)
+    u = coordinate * length
+    if wrap == GL_CLAMP:
+        u = u if u > ZERO else ZERO
+        u = u if u < length else length
+    u = u - HALF
+    first = to_integer(np.floor(u))
+    return first, first + 1, u - np.floor(u)
+
+
+@kernel
+def fixed_point_texels(coordinate, size, wrap):
+    """Return (first texel, second texel, weight of the second in 1/256); wrap is GL_REPEAT or GL_CLAMP_TO_EDGE."""
+    last = size - 1
+    if wrap == GL_REPEAT and not is_power_of_two(size):
+        part = (coordinate - np.floor(coordinate)) * np.float32(size)
+        position = to_integer(np.rint(part * np.float32(256.0))) - 128
+        first = position >> 8
+        first = last if first < 0 else min(first, last)
+        return first, 0 if first == last else first + 1, position & 255
+    position = to_integer(np.rint(coordinate * np.float32(256 * size))) - 128
+    if position < OUT_OF_RANGE:
+        position += 2**32
+    first = position >> 8
+    if wrap == GL_REPEAT:
+        return first & last, (first + 1) & last, position & 255
+    return min(max(first, 0), last), min(max(first + 1, 0), last), position & 255
