@@ -5,7 +5,6 @@ from hypothesis import strategies as st
 
 from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shapes
 
-
 # -- techniques --------------------------------------------------------------------------------------------------------
 
 SOLIDS = {
@@ -49,3 +48,40 @@ def planes_and_lights(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray]:
         plane[:3] = light[:3]
         plane[3] = 1.0 if light[3] else 0.0
     return plane, light
+
+
+# -- pipeline ----------------------------------------------------------------------------------------------------------
+
+FUNCTIONS = ("GL_NEVER", "GL_LESS", "GL_EQUAL", "GL_LEQUAL", "GL_GREATER", "GL_NOTEQUAL", "GL_GEQUAL", "GL_ALWAYS")
+STENCIL_OPS = ("GL_KEEP", "GL_ZERO", "GL_REPLACE", "GL_INCR", "GL_DECR", "GL_INVERT", "GL_INCR_WRAP", "GL_DECR_WRAP")
+
+
+@st.composite
+def fragment_states(draw: st.DrawFn) -> dict:
+    """Per-fragment state as the oracle takes it: alpha, stencil and depth test or None, and whether it is scissored."""
+    func, op, byte = st.sampled_from(FUNCTIONS), st.sampled_from(STENCIL_OPS), st.integers(0, 255)
+    bits = draw(st.sampled_from([8, 8, 1, 3]))
+    return {
+        "scissored": draw(st.integers(0, 9)) == 0,
+        "alpha": draw(st.none() | st.tuples(func, byte)),
+        "stencil": draw(st.none() | st.tuples(func, st.integers(-3, 300), byte, op, op, op, byte, st.just(bits))),
+        "depth": draw(st.none() | st.tuples(func, st.booleans())),
+    }
+
+
+@st.composite
+def window_fans(draw: st.DrawFn, size: int = 24) -> tuple[np.ndarray, np.ndarray]:
+    """A fan all round an inner point: positions (V, 2) on a grid of 1/8 pixel, triangles (T, 3) that share their spokes.
+
+    Each rim vertex stays in the middle two thirds of its own sector, so the pieces never overlap. Corners often lie on
+    pixel centres, so that edges run through samples.
+    """
+    step, corners = 8, draw(st.integers(4, 9))
+    sector = 360 / corners
+    turned = np.radians([sector * (i + draw(st.integers(-8, 8)) / 24) for i in range(corners)])
+    reach = np.array([draw(st.integers(3 * step, (size // 2 - 1) * step)) for _ in range(corners)])
+    middle = np.array([draw(st.integers(size // 2 * step - 4, size // 2 * step + 4)) for _ in range(2)])
+    rim = np.rint(np.stack([np.cos(turned), np.sin(turned)], axis=1) * reach[:, None])
+    positions = np.concatenate([middle[None], middle + rim]) / step
+    fan = [(0, 1 + i, 1 + (i + 1) % corners) for i in range(corners)]
+    return positions.astype(np.float32), np.array(fan, np.int32)

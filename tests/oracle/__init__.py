@@ -1,0 +1,1 @@
+"""Independent answers: slow, plain, and free of the code under test."""

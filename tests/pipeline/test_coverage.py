@@ -1,0 +1,128 @@
+"""Coverage in integers: fill rules, shared edges, invariances."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softshadow.pipeline.coverage import triangles_at
+from softshadow.pipeline.fill import Region
+from softshadow.pipeline.fragments import list_fragments
+from softshadow.pipeline.setup import MAX_SLOPE, Offset, Setup, set_up
+from softshadow.state import Cull
+from strategies import window_fans
+
+pytestmark = pytest.mark.interpreted
+
+SIZE = 24
+NO_OFFSET = Offset(MAX_SLOPE, np.float32(0), np.float32(0), 1)
+
+
+def set_up_in_window(positions: np.ndarray, triangles: np.ndarray, flipped: bool = True) -> Setup:
+    window = np.ones((len(positions), 4), np.float32)
+    window[:, :2] = positions
+    return set_up(window, np.asarray(triangles, np.int32), Cull(), NO_OFFSET, flipped)
+
+
+def coverage(positions: np.ndarray, triangles: np.ndarray, flipped: bool = True, size: int = SIZE) -> np.ndarray:
+    """How many triangles cover each pixel, (size, size)."""
+    made = set_up_in_window(positions, triangles, flipped)
+    fragments = list_fragments(made, Region(0, size, 0, size, int(flipped)))
+    counts = np.zeros((size, size), int)
+    np.add.at(counts, (fragments.row, fragments.column), 1)
+    return counts
+
+
+def oracle(corners: np.ndarray, flipped: bool) -> np.ndarray:
+    """Fill rule of one triangle with snapped corners, by the sides of its edges in GL's orientation (y upwards)."""
+    points = np.rint((corners.astype(np.float64) - 0.5) * 256).astype(int)
+    if flipped:
+        points[:, 1] *= -1
+    twice = np.linalg.det(np.stack([points[1] - points[0], points[2] - points[0]]))
+    if abs(twice) < 0.5:
+        return np.zeros((SIZE, SIZE), int)
+    if twice < 0:
+        points = points[::-1]
+    inside = np.ones((SIZE, SIZE), bool)
+    for row in range(SIZE):
+        for column in range(SIZE):
+            sample = np.array([256 * column, -256 * row if flipped else 256 * row])
+            for i in range(3):
+                edge, to = points[(i + 1) % 3] - points[i], sample - points[i]
+                side = edge[0] * to[1] - edge[1] * to[0]
+                left = edge[1] < 0  # counter-clockwise and downwards: the inside is to the right
+                bottom = edge[1] == 0 and edge[0] > 0
+                inside[row, column] &= side > 0 or (side == 0 and (left or bottom))
+    return inside.astype(int)
+
+
+@given(window_fans(SIZE), st.booleans())
+def test_every_sample_of_a_fan_is_covered_once(fan, flipped):
+    positions, triangles = fan
+    counts = coverage(positions, triangles, flipped)
+    assert counts.max() <= 1
+    middle = np.rint((positions[0] - 0.5) * 256).astype(int)
+    if (middle % 256 == 0).all():
+        assert counts[middle[1] // 256, middle[0] // 256] == 1  # all spokes meet in this sample
+
+
+@given(window_fans(SIZE), st.booleans(), st.integers(0, 8))
+def test_coverage_follows_the_fill_rule(fan, flipped, which):
+    positions, triangles = fan
+    triangle = triangles[which % len(triangles)]
+    np.testing.assert_array_equal(coverage(positions, triangle[None], flipped), oracle(positions[triangle], flipped))
+
+
+@given(window_fans(SIZE), st.booleans())
+def test_coverage_does_not_depend_on_the_first_vertex_or_the_winding(fan, flipped):
+    positions, triangles = fan
+    here = coverage(positions, triangles, flipped)
+    np.testing.assert_array_equal(here, coverage(positions, np.roll(triangles, 1, axis=1), flipped))
+    np.testing.assert_array_equal(here, coverage(positions, triangles[:, ::-1], flipped))
+
+
+@given(window_fans(SIZE), st.integers(-5, 5), st.integers(-5, 5))
+def test_coverage_moves_with_whole_pixels(fan, dx, dy):
+    positions, triangles = fan
+    size = SIZE + 16
+    here = coverage(positions + np.float32(8), triangles, size=size)
+    there = coverage(positions + np.float32((8 + dx, 8 + dy)), triangles, size=size)
+    np.testing.assert_array_equal(np.roll(here, (dy, dx), axis=(0, 1)), there)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_every_sample_of_a_triangulated_grid_is_covered_once(seed):
+    rng = np.random.default_rng(seed)
+    n = 6
+    lattice = np.stack(np.meshgrid(np.arange(n), np.arange(n)), axis=-1).reshape(-1, 2).astype(np.float32) * 4
+    inner = ((lattice > 0) & (lattice < 4 * (n - 1))).all(axis=1)
+    lattice[inner] += rng.integers(-8, 9, (inner.sum(), 2)) / np.float32(8)
+    quads = [
+        (r * n + c, r * n + c + 1, (r + 1) * n + c + 1, (r + 1) * n + c) for r in range(n - 1) for c in range(n - 1)
+    ]
+    triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+    counts = coverage(lattice + np.float32(0.5), np.array(triangles, np.int32))
+    covered = np.zeros_like(counts)
+    covered[1 : 4 * (n - 1) + 1, : 4 * (n - 1)] = 1  # left and bottom edges (rows grow downwards) belong to the grid
+    np.testing.assert_array_equal(counts, covered)
+
+
+@given(window_fans(SIZE), st.integers(0, SIZE - 1), st.integers(0, SIZE - 1))
+def test_triangles_at_a_pixel_are_those_that_cover_it(fan, column, row):
+    made = set_up_in_window(*fan)
+    fragments = list_fragments(made, Region(0, SIZE, 0, SIZE, 1))
+    found = np.empty(len(made.ids), np.int64)
+    count = triangles_at(made.corners, column, row, 1, found)
+    here = (fragments.row == row) & (fragments.column == column)
+    assert found[:count].tolist() == fragments.triangle[here].tolist()
+
+
+def test_a_triangle_without_snapped_area_covers_nothing():
+    line = np.array([[1.5, 1.5], [5.5, 5.5], [9.5, 9.5]], np.float32)
+    assert len(set_up_in_window(line, np.array([[0, 1, 2]])).ids) == 0
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_a_triangle_with_a_coordinate_that_is_not_finite_covers_nothing(bad):
+    positions = np.array([[1, 1], [9, 1], [bad, 9]], np.float32)
+    assert len(set_up_in_window(positions, np.array([[0, 1, 2]])).ids) == 0
