@@ -16,7 +16,7 @@ def surprises(scene: "Scene") -> Iterator[errors.Warning]:
     """Yield a named warning for each caster that is open or non-manifold, and for each light inside a caster."""
     for caster in scene.casters:
         topology = caster.mesh.topology
-        if not topology.closed:
+        if topology.boundary_edges:
             yield errors.OpenMesh(
                 f"{caster.name}: the mesh is {topology.describe()}. Every face casts, turned towards the light: "
                 f"counts go up by one per layer, so parity fails, and a shadow map of the far faces has holes"
@@ -24,7 +24,7 @@ def surprises(scene: "Scene") -> Iterator[errors.Warning]:
         if topology.nonmanifold_edges:
             yield errors.NonManifoldMesh(
                 f"{caster.name}: {topology.nonmanifold_edges} edges have more than two faces, or two that disagree "
-                f"about the outside. Volumes stay closed, but some triangles are drawn inside out: culled or unlit"
+                f"about the outside. Volumes stay closed, but triangles may be drawn inside out: culled or unlit"
             )
         if topology.closed and signed_volume(caster.mesh) < 0:
             yield errors.InsideOutMesh(

@@ -95,7 +95,7 @@ class Topology:
 
     def describe(self) -> str:
         """Return one line: closed or open, how many bodies, and what is odd about the mesh."""
-        kind = "closed" if self.closed else "open"
+        kind = "closed" if self.closed else "open" if self.boundary_edges else "not oriented"
         odd = [
             f"{number} {_plural(number, what)}"
             for number, what in (

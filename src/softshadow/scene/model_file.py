@@ -1,0 +1,262 @@
+"""The one door of trimesh: a model file's bytes in, plain arrays out, one clear message for whatever goes wrong.
+
+Only trimesh's parsers are used. Its mesh class, which merges and reorders vertices, and its resolvers, which open
+further files, are not: a parser gets bytes and finds nothing else to read.
+"""
+
+import io
+import json
+import logging
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from softshadow.errors import MeshError, PartlyReadFile, nearest
+from softshadow.scene.gltf_tree import read_tree, self_contained
+from softshadow.scene.obj_text import drawable_lines
+
+
+@dataclass
+class Part:
+    """One piece of a model, in the space of the whole file.
+
+    Attributes
+    ----------
+    positions : (V, 3) float64
+    triangles : (T, 3) int64
+    normals, texcoords, colors : (V, 3), (V, 2), (V, 4) float64, or None where the file has none; colours 0 to 1
+    """
+
+    positions: np.ndarray
+    triangles: np.ndarray
+    normals: np.ndarray | None = None
+    texcoords: np.ndarray | None = None
+    colors: np.ndarray | None = None
+
+
+def read_parts(path: Path) -> tuple[list[Part], list[PartlyReadFile]]:
+    """Return the pieces of a model file that have triangles, and what was left out.
+
+    Raises
+    ------
+    MeshError      missing, not a file, unreadable, an unknown kind, malformed, or without triangles
+    """
+    kind = path.suffix.lower().lstrip(".")
+    if kind not in _READERS:
+        raise MeshError(f"{path}: no reader for files of kind {path.suffix!r}; {nearest(kind, sorted(_READERS))}")
+    data = read_bytes(path)
+    try:
+        with _quiet():
+            geometry, notes = _READERS[kind](data, path)
+            parts = [part for kwargs, matrix in geometry if (part := _part(kwargs, matrix, path, notes)) is not None]
+    except MeshError:
+        raise
+    except Exception as error:  # whatever a parser stumbles over is the file's fault, and is said in one sentence
+        reason = f"{type(error).__name__}: {error}".split("\n")[0]
+        raise MeshError(f"{path}: not a well-formed {kind.upper()} file ({reason})") from None
+    if not parts:
+        raise MeshError(f"{path}: {_what_is_there(kind, data, geometry)}; expected a mesh with at least one triangle")
+    return parts, notes
+
+
+def read_bytes(path: Path) -> bytes:
+    """Return a regular file's content, or say what is there instead."""
+    if not path.exists():
+        folder = path.parent
+        known = [item.name for item in folder.iterdir()] if folder.is_dir() else []
+        close = nearest(path.name, known).split("?")[0] + "?" if known else ""
+        guess = close if close.startswith("did you mean") else "expected an existing file"
+        raise MeshError(f"{path}: there is no such file; {guess}")
+    if not path.is_file():
+        raise MeshError(f"{path}: is {'a folder' if path.is_dir() else 'not a regular file'}; expected a model file")
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise MeshError(f"{path}: cannot be read ({error.strerror}); expected a readable file") from None
+
+
+Geometry = list[tuple[dict[str, Any], np.ndarray]]
+
+
+def _read_obj(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
+    from trimesh.exchange.obj import load_obj
+
+    text, notes = drawable_lines(data.decode("utf-8", errors="replace"), str(path))
+    loaded = load_obj(io.StringIO(text), skip_materials=True, group_material=False, maintain_order=True)
+    return _placed(loaded), notes
+
+
+def _read_ply(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
+    from trimesh.exchange.ply import load_ply
+
+    return _placed(load_ply(io.BytesIO(data), skip_materials=True)), []
+
+
+def _read_stl(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
+    from trimesh.exchange.stl import load_stl
+
+    return _placed(load_stl(io.BytesIO(data))), []
+
+
+def _read_off(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
+    from trimesh.exchange.off import load_off
+
+    return _placed(load_off(io.BytesIO(data))), []
+
+
+def _read_gltf(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
+    from trimesh.exchange.gltf import load_gltf
+
+    tree, binary = read_tree(data, str(path))
+    tree, buffers, notes = self_contained(tree, binary, path)
+    return _placed(load_gltf(io.BytesIO(json.dumps(tree).encode()), resolver=buffers)), notes
+
+
+_READERS: dict[str, Callable[[bytes, Path], tuple[Geometry, list[PartlyReadFile]]]] = {
+    "obj": _read_obj,
+    "ply": _read_ply,
+    "stl": _read_stl,
+    "off": _read_off,
+    "glb": _read_gltf,
+    "gltf": _read_gltf,
+}
+
+
+def _placed(loaded: dict[str, Any]) -> Geometry:
+    """Return each geometry with the matrix that carries it into the file's space, as often as the file shows it."""
+    if "geometry" not in loaded:
+        return [(loaded, np.eye(4))]
+    geometry = loaded["geometry"]
+    if "graph" not in loaded:
+        return [(kwargs, np.eye(4)) for kwargs in geometry.values()]
+    world: dict[str, np.ndarray] = {}
+    placed = []
+    for edge in loaded["graph"]:  # parents come before their children
+        matrix = world.get(edge.get("frame_from", ""), np.eye(4)) @ np.asarray(edge.get("matrix", np.eye(4)))
+        world[edge["frame_to"]] = matrix
+        if "geometry" in edge:
+            placed.append((geometry[edge["geometry"]], matrix))
+    return placed
+
+
+def _part(kwargs: dict[str, Any], matrix: np.ndarray, path: Path, notes: list[PartlyReadFile]) -> Part | None:
+    positions = np.asarray(kwargs.get("vertices", np.zeros((0, 3))))
+    faces = kwargs.get("faces")
+    if faces is None or not len(faces) or not len(positions):
+        return None
+    faces = np.asarray(faces).astype(np.int64)
+    outside = (faces < 0) | (faces >= len(positions))
+    if outside.any():
+        raise MeshError(f"{path}: a face uses vertex {faces[outside][0]}; expected 0 to {len(positions) - 1}")
+    triangles = faces if faces.shape[1] == 3 else faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    attributes = kwargs.get("vertex_attributes", {})
+    normals = _per_vertex(kwargs.get("vertex_normals"), positions, 3)
+    part = Part(positions.astype(np.float64), triangles, normals, _texcoords(kwargs, attributes, positions))
+    facets = kwargs.get("face_normals")
+    if facets is not None and not np.any(facets, axis=1).all():
+        notes.append(PartlyReadFile(f"{path}: facet normals of length 0 left out, computed from the corners"))
+    part.colors = _colors(kwargs, attributes, part)
+    if part.colors is not None and not np.isfinite(part.colors).all():
+        part.colors = None
+        notes.append(PartlyReadFile(f"{path}: vertex colours that are not finite numbers left out"))
+    return _moved(part, matrix)
+
+
+def _per_vertex(values: Any, positions: np.ndarray, width: int) -> np.ndarray | None:
+    if values is None or np.shape(values) != (len(positions), width):
+        return None
+    return np.asarray(values, dtype=np.float64)
+
+
+def _texcoords(kwargs: dict[str, Any], attributes: dict[str, Any], positions: np.ndarray) -> np.ndarray | None:
+    uv = getattr(kwargs.get("visual"), "uv", None)
+    if "_TEXCOORD_0" in attributes:
+        uv = _unit_range(np.asarray(attributes["_TEXCOORD_0"]))
+        uv[:, 1] = 1 - uv[:, 1]  # glTF has (0, 0) at the top left
+    found = _per_vertex(uv, positions, 2)
+    return found if found is not None and np.isfinite(found).all() else None
+
+
+def _colors(kwargs: dict[str, Any], attributes: dict[str, Any], part: Part) -> np.ndarray | None:
+    """Return (V, 4) colours: of the vertices, else of the faces, else of the material.
+
+    Faces with colours get vertices of their own.
+    """
+    given = attributes.get("_COLOR_0", kwargs.get("vertex_colors"))
+    if given is None and kwargs.get("face_colors") is not None and len(kwargs["face_colors"]) == len(part.triangles):
+        for key in ("positions", "normals", "texcoords"):
+            values = getattr(part, key)
+            setattr(part, key, None if values is None else values[part.triangles.ravel()])
+        part.triangles = np.arange(3 * len(part.triangles)).reshape(-1, 3)
+        given = np.repeat(kwargs["face_colors"], 3, axis=0)
+    if given is None:
+        factor = getattr(getattr(kwargs.get("visual"), "material", None), "baseColorFactor", None)
+        given = None if factor is None else np.tile(np.asarray(factor, dtype=np.uint8), (len(part.positions), 1))
+    if given is None or np.ndim(given) != 2 or np.shape(given)[1] not in (3, 4) or len(given) != len(part.positions):
+        return None
+    colors = np.ones((len(given), 4))
+    colors[:, : np.shape(given)[1]] = _unit_range(np.asarray(given))
+    return colors
+
+
+def _unit_range(values: np.ndarray) -> np.ndarray:
+    """Return whole numbers divided by their type's largest; other numbers as they are, or / 255 when some exceed 1."""
+    if values.dtype.kind in "ui":
+        return values / np.iinfo(values.dtype).max
+    scaled = values.astype(np.float64)
+    return scaled / 255 if values.shape[1] > 2 and np.nanmax(scaled, initial=0) > 1 else scaled
+
+
+def _moved(part: Part, matrix: np.ndarray) -> Part:
+    """Return the part carried by a matrix; a mirror turns its triangles round, so that outside stays outside."""
+    if np.array_equal(matrix, np.eye(4)):
+        return part
+    linear = matrix[:3, :3]
+    part.positions = carried(part.positions, linear) + matrix[:3, 3]
+    mirrored = np.linalg.det(linear) < 0
+    if mirrored:
+        part.triangles = part.triangles[:, [0, 2, 1]]
+    if part.normals is not None:
+        # the cofactor matrix is det times the inverse transpose, and exists for a flattened part too
+        cofactors = np.stack([np.cross(linear[(i + 1) % 3], linear[(i + 2) % 3]) for i in range(3)])
+        part.normals = carried(part.normals, -cofactors if mirrored else cofactors)
+    return part
+
+
+def carried(points: np.ndarray, linear: np.ndarray) -> np.ndarray:
+    """Return points times a 3x3 matrix.
+
+    Column by column: equal points stay equal to the last bit, which a matrix product in blocks does not promise.
+    """
+    return points[:, :1] * linear[:, 0] + points[:, 1:2] * linear[:, 1] + points[:, 2:3] * linear[:, 2]
+
+
+def _what_is_there(kind: str, data: bytes, geometry: Geometry) -> str:
+    points = sum(len(kwargs.get("vertices", ())) for kwargs, _ in geometry)
+    if points:
+        return f"{points} points and no triangle"
+    if kind == "stl" and len(data) >= 84:
+        announced = 84 + 50 * int.from_bytes(data[80:84], "little")
+        if announced != len(data):
+            return f"as a binary STL it announces {announced} bytes and has {len(data)}, as text it has no solid"
+    return "no mesh in it" if data.strip() else "the file is empty"
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep the parsers' warnings and log lines away from the user; numbers that stop in mid-text become an error."""
+    log = logging.getLogger("trimesh")
+    kept = log.disabled
+    log.disabled = True
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            warnings.filterwarnings("error", message=".*unmatched data.*")
+            yield
+    finally:
+        log.disabled = kept
