@@ -1,0 +1,61 @@
+"""The cache of compiled kernels: never stale, never in the way."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import softshadow
+
+PACKAGE = Path(softshadow.__file__).parent
+COUNT_UP = """
+import numpy as np
+from softshadow.pipeline.fragment_ops import FragmentOps, process_fragment
+from softshadow.tokens import GL_ALWAYS, GL_INCR, GL_KEEP
+ops = FragmentOps(0, GL_ALWAYS, 1, GL_ALWAYS, GL_KEEP, GL_KEEP, GL_INCR, 255, 0, GL_ALWAYS, 0, 0, 0, 0, 255, 255)
+print(process_fragment(ops, True, 0, np.float32(0), np.float32(0), np.uint8(7))[1])
+"""
+TOKENS_AS_BEFORE = "GL_ALWAYS, GL_INCR, GL_KEEP = 0x0207, 0x1E02, 0x1E00"
+
+
+def run_with(source: Path, cache: Path, code: str = COUNT_UP) -> str:
+    """Run code on a copy of the package in a process of its own."""
+    environment = {**os.environ, "PYTHONPATH": str(source), "XDG_CACHE_HOME": str(cache)}
+    environment.pop("NUMBA_CACHE_DIR", None)
+    environment.pop("NUMBA_DISABLE_JIT", None)
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    return done.stdout.strip()
+
+
+def test_an_edit_in_another_file_of_a_kernel_changes_the_next_result(tmp_path):
+    # process_fragment's own file stays the same: what is edited is a constant that it gets from elsewhere
+    copy = tmp_path / "source" / "softshadow"
+    shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    assert run_with(copy.parent, tmp_path / "cache") == "8"
+    assert run_with(copy.parent, tmp_path / "cache") == "8"  # this time from the cache
+    constants = copy / "tokens.py"
+    text = constants.read_text()
+    edited = text.replace("GL_KEEP = 0x1E00", "GL_KEEP = 0x1E02").replace("GL_INCR = 0x1E02", "GL_INCR = 0x1E00")
+    assert edited != text
+    constants.write_text(edited)
+    # 0x1E00 is now spelled GL_INCR, and the code that asks for op 0x1E02 gets GL_KEEP
+    asks = COUNT_UP.replace("from softshadow.tokens import GL_ALWAYS, GL_INCR, GL_KEEP", TOKENS_AS_BEFORE)
+    assert run_with(copy.parent, tmp_path / "cache", asks) == "7"
+
+
+def test_code_is_kept_and_read_again(tmp_path):
+    run_with(PACKAGE.parent, tmp_path)
+    kept = sorted(p.name for p in (tmp_path / "softshadow").rglob("*.nbi"))
+    assert any(name.startswith("fragment_ops.process_fragment") for name in kept)
+
+
+def test_a_cache_folder_that_cannot_be_written_is_no_error(tmp_path):
+    blocked = tmp_path / "a file where the folder should be"
+    blocked.write_text("")
+    assert run_with(PACKAGE.parent, blocked) == "8"
+
+
+def test_a_users_own_numba_cache_folder_is_left_as_it_was(tmp_path):
+    code = "import numba; numba.config.CACHE_DIR = 'mine'; import softshadow.pipeline; print(numba.config.CACHE_DIR)"
+    assert run_with(PACKAGE.parent, tmp_path, code) == "mine"
