@@ -1,0 +1,68 @@
+"""Draws made by hand, below the facade: triangles into a window under a given state."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import Context
+from softshadow.pipeline.commands import Vertices
+from softshadow.state import State
+
+
+def vertices(positions: Any, colors: Any = None) -> Vertices:
+    """Vertices of positions (V, 4) and colours (V, 4), white without."""
+    positions = np.ascontiguousarray(positions, np.float32)
+    count = len(positions)
+    colors = np.ones((count, 4), np.float32) if colors is None else np.ascontiguousarray(colors, np.float32)
+    return Vertices(positions, colors, np.zeros((count, 3), np.float32), ())
+
+
+def random_triangles(rng: np.random.Generator, count: int) -> Vertices:
+    """Triangles in clip space all around the frustum: some behind the eye, some with w = 0, some huge."""
+    positions = rng.normal(0, 1, (3 * count, 4)).astype(np.float32)
+    positions[:, 3] = rng.choice(np.float32([1, 1, 1, 0.5, 2, -1, 0, 0.01]), 3 * count)
+    return vertices(positions * np.float32(rng.choice([0.3, 1, 3])), rng.random((3 * count, 4)))
+
+
+def random_state(rng: np.random.Generator, state: State) -> State:
+    """A state of tests, ops, masks, offset and culling drawn at random."""
+
+    def func() -> int:
+        return int(rng.integers(gl.GL_NEVER, gl.GL_ALWAYS + 1))
+
+    def op() -> int:
+        ops = (gl.GL_KEEP, gl.GL_ZERO, gl.GL_REPLACE, gl.GL_INCR, gl.GL_DECR, gl.GL_INVERT, gl.GL_INCR_WRAP)
+        return int(rng.choice([*ops, gl.GL_DECR_WRAP]))
+
+    def on() -> bool:
+        return bool(rng.random() < 0.6)
+
+    faces = [
+        replace(
+            state.stencil.front, func=func(), ref=int(rng.integers(0, 8)), read_mask=int(rng.choice([255, 3, 0])),
+            write_mask=int(rng.choice([255, 255, 6])), sfail=op(), zfail=op(), zpass=op(),
+        )
+        for _ in range(2)
+    ]  # fmt: skip
+    return replace(
+        state,
+        stencil=replace(state.stencil, enabled=on(), front=faces[0], back=faces[on()]),
+        depth=replace(state.depth, enabled=on(), func=func(), write=on(), clamp=on()),
+        cull=replace(state.cull, enabled=not on(), face=int(rng.choice([gl.GL_FRONT, gl.GL_BACK]))),
+        polygon=replace(state.polygon, offset_fill=on(), factor=float(rng.normal()), units=float(rng.normal())),
+        scissor=replace(state.scissor, enabled=not on(), x=5, y=7, width=31, height=20),
+        color=replace(state.color, mask=tuple(on() for _ in range(4))),
+    )
+
+
+def draw(context: Context, state: State, triangles: Vertices) -> None:
+    context.state = state
+    context.draw(gl.GL_TRIANGLES, triangles)
+
+
+def same_window(a: Context, b: Context) -> bool:
+    """Whether colour, depth and stencil are equal to the last bit."""
+    windows = a.storage.window, b.storage.window
+    return all(windows[0].attachments[k].image.same_as(windows[1].attachments[k].image) for k in windows[0].attachments)

@@ -1,0 +1,93 @@
+"""One function, several bindings: generic, specialised, interpreted, in bands and in order leave the same bits."""
+
+import os
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from draws import draw, random_state, random_triangles, same_window
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softshadow import tokens as gl
+from softshadow.context import Context
+from softshadow.pipeline import set_threads, threads, use_binding
+
+WIDTH, HEIGHT = 48, 40
+# each of these compiles code of its own: a fixed sample, so that the cache on disk has them from the second run on
+SPECIALISED_SEEDS = range(6)
+
+
+def drawn(seed: int, depth_format: str = "d24", precision: str = "mesa", ordered: bool = False) -> Context:
+    """A window after a few random draws; `ordered` adds an alpha test that every fragment passes."""
+    rng = np.random.default_rng(seed)
+    context = Context(WIDTH, HEIGHT, depth_format, precision=precision)
+    for _ in range(3):
+        state = random_state(rng, context.state)
+        if ordered:
+            state = replace(state, alpha=replace(state.alpha, enabled=True, func=gl.GL_GEQUAL, ref=0.0))
+        else:
+            state = replace(state, alpha=replace(state.alpha, enabled=False))
+        draw(context, state, random_triangles(rng, 6))
+    return context
+
+
+@pytest.mark.parametrize("seed", SPECIALISED_SEEDS)
+@pytest.mark.parametrize("depth_format", ["d24", "d32f"])
+def test_specialised_draws_what_generic_draws(seed, depth_format):
+    with use_binding("generic"):
+        expected = drawn(seed, depth_format)
+    with use_binding("specialised"):
+        assert same_window(drawn(seed, depth_format), expected)
+
+
+@given(st.integers(0, 2**32 - 1), st.sampled_from(["d24", "d32f"]))
+def test_ordered_path_draws_what_the_opaque_path_draws(seed, depth_format):
+    assert same_window(drawn(seed, depth_format, ordered=True), drawn(seed, depth_format))
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_results_do_not_depend_on_the_number_of_threads(seed):
+    before = threads()
+    try:
+        set_threads(1)
+        expected = drawn(seed)
+        set_threads(3)
+        assert same_window(drawn(seed), expected)
+    finally:
+        set_threads(before)
+
+
+DIGESTS = """
+import hashlib, sys
+sys.path[:0] = {path!r}
+from test_binding import drawn
+for seed in range(4):
+    for depth_format, precision in (("d24", "mesa"), ("d32f", "mesa"), ("d24", "exact")):
+        window = drawn(seed, depth_format, precision).storage.window
+        print(hashlib.sha256(b"".join(a.image.view.tobytes() for a in window.attachments.values())).hexdigest())
+"""
+
+
+def test_interpreted_draws_what_compiled_draws():
+    code = DIGESTS.format(path=[os.path.dirname(__file__), os.path.dirname(os.path.dirname(__file__))])
+    digests = [
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env={**os.environ, "NUMBA_DISABLE_JIT": disabled},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for disabled in ("0", "1")
+    ]
+    assert digests[0] == digests[1]
+    assert len(set(digests[0].split())) > 8  # not twelve empty windows
+
+
+@pytest.mark.parametrize("bad", [0, -1, 1.5, True, "2"])
+def test_set_threads_refuses_what_is_not_a_number_of_threads(bad):
+    with pytest.raises(ValueError, match="number of threads"):
+        set_threads(bad)

@@ -1,0 +1,110 @@
+"""Clipping: pieces stay inside, cover what the triangle covers, and untouched triangles keep their vertices."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softshadow.pipeline.clip import FRUSTUM, Clipped, clip_triangles
+
+pytestmark = pytest.mark.interpreted
+
+NO_PLANES = np.empty((0, 4), np.float32)
+# a new vertex is a rounded float32 interpolation of its two ends: it may miss its plane by a few last places of them
+LAST_PLACES = 8 * np.finfo(np.float32).eps
+
+
+def clip_one(clip: np.ndarray, depth_clamp: bool = False, planes: np.ndarray = NO_PLANES) -> Clipped:
+    values = np.eye(3, dtype=np.float32)  # barycentric coordinates: what each new vertex is made of
+    return clip_triangles(clip, values, np.array([[0, 1, 2]], np.int32), depth_clamp, planes)
+
+
+def random_clip(seed: int) -> np.ndarray:
+    rng = np.random.default_rng(seed)
+    clip = rng.normal(0, 1, (3, 4)).astype(np.float32)
+    clip[:, 3] = rng.choice(np.float32([1, 1, 2, -1, 0, 0.01]), 3)
+    return clip
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_pieces_lie_inside_the_frustum(seed):
+    clip = random_clip(seed)
+    made = clip_one(clip)
+    corners = made.clip[made.triangles.ravel()]
+    assert (corners @ FRUSTUM.T >= -LAST_PLACES * np.abs(clip).max()).all()
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_values_are_cut_at_the_same_place_as_positions(seed):
+    clip = random_clip(seed)
+    made = clip_one(clip)
+    used = np.unique(made.triangles)
+    np.testing.assert_allclose(made.values[used] @ clip, made.clip[used], atol=6 * LAST_PLACES * np.abs(clip).max())
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_a_point_of_the_triangle_inside_the_frustum_is_in_one_piece(seed):
+    rng = np.random.default_rng(seed)
+    clip = random_clip(seed)
+    made = clip_one(clip)
+    weights = rng.dirichlet(np.ones(3))
+    margin = (weights @ clip @ FRUSTUM.T).min()
+    if abs(margin) < 1e-3:  # nearer to a plane, rounding decides
+        return
+    holding = 0
+    for piece in made.triangles:
+        try:
+            inner = np.linalg.solve(made.values[piece].T.astype(np.float64), weights)
+        except np.linalg.LinAlgError:
+            continue
+        if np.abs(inner).min() < 1e-4 and margin > 0:  # on the seam between two pieces
+            return
+        holding += (inner >= 0).all()
+    assert holding == (margin > 0)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_a_triangle_inside_keeps_its_very_vertices(seed):
+    clip = random_clip(seed)
+    clip[:, 3] = np.abs(clip[:, :3]).max() + 1
+    made = clip_one(clip)
+    assert made.clip is clip
+    assert made.triangles.tolist() == [[0, 1, 2]]
+
+
+def test_the_boundary_is_inside():
+    clip = np.array([[-1, -1, -1, 1], [1, -1, 1, 1], [-1, 1, 0, 1]], np.float32)
+    assert clip_one(clip).triangles.tolist() == [[0, 1, 2]]
+
+
+def test_a_triangle_outside_one_plane_is_dropped():
+    clip = np.array([[2, 0, 0, 1], [3, 0, 0, 1], [2, 1, 0, 1]], np.float32)
+    assert len(clip_one(clip).triangles) == 0
+
+
+def test_behind_the_eye_and_at_infinity_are_outside():
+    clip = np.array([[0, 0, 0, -1], [1, 0, 0, 0], [0, 1, -1, 0]], np.float32)
+    assert len(clip_one(clip).triangles) == 0
+
+
+def test_depth_clamp_leaves_near_and_far_alone():
+    clip = np.array([[0, 0, -3, 1], [0.5, 0, 3, 1], [0, 0.5, 0, 1]], np.float32)
+    assert clip_one(clip, depth_clamp=True).triangles.tolist() == [[0, 1, 2]]
+    assert len(clip_one(clip).clip) > 3
+
+
+def test_a_user_plane_cuts_like_a_frustum_plane():
+    clip = np.array([[-0.5, -0.5, 0, 1], [0.5, -0.5, 0, 1], [0, 0.5, 0, 1]], np.float32)
+    made = clip_one(clip, planes=np.array([[1, 0, 0, 0]], np.float32))
+    assert (made.clip[made.triangles.ravel(), 0] >= 0).all()
+
+
+def test_pieces_know_the_triangle_they_come_from():
+    clip = np.array(
+        [[0, 0, 0, 1], [3, 0, 0, 1], [0, 3, 0, 1], [5, 5, 0, 1], [0.1, 0, 0, 1], [0, 0.1, 0, 1]], np.float32
+    )
+    triangles = np.array([[0, 4, 5], [1, 3, 2], [0, 1, 2]], np.int32)
+    made = clip_triangles(clip, np.empty((6, 0), np.float32), triangles, False, NO_PLANES)
+    assert made.source[0] == 0
+    assert set(made.source) <= {0, 1, 2}
+    assert (np.diff(made.source) >= 0).all()
