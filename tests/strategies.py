@@ -71,7 +71,8 @@ def fragment_states(draw: st.DrawFn) -> dict:
 
 @st.composite
 def window_fans(draw: st.DrawFn, size: int = 24) -> tuple[np.ndarray, np.ndarray]:
-    """A fan all round an inner point: positions (V, 2) on a grid of 1/8 pixel, triangles (T, 3) that share their spokes.
+    """A fan all round an inner point: positions (V, 2) on a grid of 1/8 pixel, triangles (T, 3) that share their
+    spokes.
 
     Each rim vertex stays in the middle two thirds of its own sector, so the pieces never overlap. Corners often lie on
     pixel centres, so that edges run through samples.

@@ -17,6 +17,8 @@ WIDEST = np.tan(np.radians(60.0))
 MARGIN = 1.05
 # smallest near / far: a light next to a caster keeps half of the 24 bits of depth
 NEAREST = 1e-3
+# largest near / far: depths between two planes close together would be the small difference of large float32 numbers
+ROOMY = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +105,7 @@ def point_camera(
     """Return the camera of a point light; `seen` are the casters' vertices from the light."""
     far = MARGIN * float(np.linalg.norm(seen, axis=1).max())
     depth = seen[:, 2]
-    near = max(float(depth.min()) / MARGIN, NEAREST * far)
+    near = min(max(float(depth.min()) / MARGIN, NEAREST * far), far / ROOMY)
     with np.errstate(divide="ignore", invalid="ignore"):
         tangents = np.where(depth[:, None] > 0, np.abs(seen[:, :2]) / depth[:, None], np.inf)
     half = min(MARGIN * float(tangents.max()), WIDEST)
