@@ -18,13 +18,14 @@ html_title = f"softshadow {version}"
 html_static_path = ["_static"]
 html_css_files = ["softshadow.css"]
 
-myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_enable_extensions = ["colon_fence", "deflist"]
 myst_heading_anchors = 3
 
 nb_execution_mode = "force"  # numbers and pictures on the pages are those of this version
 nb_execution_raise_on_error = True
 nb_execution_timeout = 300
 nb_merge_streams = True
+nb_render_markdown_format = "myst"  # tables made by cells
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "description"

@@ -43,7 +43,7 @@ def test_every_technique_has_a_section() -> None:
 def test_every_message_class_is_explained(base: type) -> None:
     text = page("messages.md")
     classes = [kind for kind in vars(errors).values() if isinstance(kind, type) and issubclass(kind, base)]
-    assert [kind.__name__ for kind in classes if f"`{kind.__name__}`" not in text] == []
+    assert [kind.__name__ for kind in classes if f"{kind.__name__}`" not in text] == []
 
 
 def test_every_cited_paper_has_an_entry() -> None:
