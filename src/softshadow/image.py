@@ -115,8 +115,8 @@ def _has_stencil(format: Format, internal_format: int) -> bool:
 class Image:
     """One plane: `cells` is (height, pitch[, channels]), of which the first `width` columns count.
 
-    `internal_format` is the token it was made with, for queries. Packed depth-stencil formats are two planes: the stencil
-    values are the image `stencil` of the depth image.
+    `internal_format` is the token it was made with, for queries. Packed depth-stencil formats are two planes: the
+    stencil values are the image `stencil` of the depth image.
     """
 
     format: Format

@@ -74,7 +74,7 @@ class Clear:
 
 @dataclass(frozen=True, eq=False)
 class DefineImage:
-    """glTexImage2D. `cells` is in the storage's own layout, (height, width[, channels]), or None for zeros; so is `stencil`.
+    """glTexImage2D. `cells` and `stencil` are in the storage's own layout, (height, width[, channels]), None: zeros.
 
     A framebuffer object that the level is attached to gets the new image.
     """

@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 
 
 def gl_rows(target: Framebuffer, image: Image) -> np.ndarray:
-    """Return the cells of one of the framebuffer's images as a view with row 0 at the bottom: the one place that flips."""
+    """Return the cells of an image of the framebuffer as a view, row 0 at the bottom: the one place that flips."""
     return image.view[::-1] if target.flipped else image.view
 
 
 def clipped(target: Framebuffer, x: int, y: int, width: int, height: int) -> tuple[slice, slice, int, int]:
-    """Return the rows and columns of a rectangle inside the framebuffer, and by how much its left lower corner moved."""
+    """Return rows and columns of a rectangle inside the framebuffer, and how far its left lower corner moved."""
     total_width, total_height = target.size
     left, bottom = min(max(x, 0), total_width), min(max(y, 0), total_height)
     right, top = min(max(x + width, left), total_width), min(max(y + height, bottom), total_height)
@@ -30,10 +30,9 @@ def clipped(target: Framebuffer, x: int, y: int, width: int, height: int) -> tup
 def copy_to_texture(command: CopyToTexture, storage: Storage) -> None:
     """Copy a rectangle of the read framebuffer into a texture's image, as llvmpipe does.
 
-    The texture's format says what is copied: depth (with stencil in packed formats) or colour.
-
-    A copy between equal formats is plain, out of the flipped window it is not: there, as between formats, a texel goes through
-    float32, and of 24-bit depth up to a quarter of the values grows by one (GL_RULES.md, sec. 10).
+    The texture's format says what is copied: depth (with stencil in packed formats) or colour. A copy between equal
+    formats is plain, out of the flipped window it is not: there, as between formats, depth goes through float32, and
+    of 24-bit values up to a quarter grows by one.
     """
     source = storage.framebuffers[command.framebuffer]
     image = storage.textures[command.texture].images[command.face, command.level]

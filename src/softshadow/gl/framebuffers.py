@@ -1,0 +1,312 @@
+"""Framebuffer objects and renderbuffers: names, attachments, completeness, and which colour buffer is meant."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import Context, current
+from softshadow.framebuffer import DEFAULT, LARGEST_SIDE, Attachment
+from softshadow.gl.errors import fail
+from softshadow.gl.names import generate, listed
+from softshadow.image import FORMATS, storage_format
+from softshadow.pipeline.commands import (
+    AttachRenderbuffer,
+    AttachTexture,
+    Command,
+    CreateFramebuffer,
+    DefineRenderbuffer,
+    DeleteFramebuffers,
+    DeleteRenderbuffers,
+    SelectBuffers,
+)
+from softshadow.tokens import token_name
+
+Problem = tuple[int, str]
+COLOR_ATTACHMENTS = tuple(range(gl.GL_COLOR_ATTACHMENT0, gl.GL_COLOR_ATTACHMENT7 + 1))
+KINDS = {gl.GL_DEPTH_ATTACHMENT: ("depth",), gl.GL_STENCIL_ATTACHMENT: ("stencil",)}
+WINDOW_BUFFERS = (
+    gl.GL_NONE, gl.GL_FRONT, gl.GL_BACK, gl.GL_LEFT, gl.GL_FRONT_LEFT, gl.GL_BACK_LEFT, gl.GL_FRONT_AND_BACK,
+)  # fmt: skip
+MISSING_BUFFERS = (gl.GL_RIGHT, gl.GL_FRONT_RIGHT, gl.GL_BACK_RIGHT, gl.GL_AUX0)
+BINDINGS = {
+    gl.GL_FRAMEBUFFER: ("draw_framebuffer", "read_framebuffer"),
+    gl.GL_DRAW_FRAMEBUFFER: ("draw_framebuffer",),
+    gl.GL_READ_FRAMEBUFFER: ("read_framebuffer",),
+}
+
+
+# -- framebuffer objects -----------------------------------------------------------------------------------------------
+def glGenFramebuffers(n: int, framebuffers: Any = None) -> Any:
+    """Return unused framebuffer names: an int for n = 1, else an array."""
+    return _generate("glGenFramebuffers", "framebuffer", n, framebuffers)
+
+
+def glBindFramebuffer(target: int, framebuffer: int) -> None:
+    """Draw to and read from a framebuffer object from now on; 0 is the window."""
+    context, name = current(), int(framebuffer)
+    if target not in BINDINGS:
+        return fail(gl.GL_INVALID_ENUM, "glBindFramebuffer", f"target={token_name(target)}: {EXPECTED_TARGET}")
+    if name != DEFAULT and name not in context.names["framebuffer"]:
+        return fail(
+            gl.GL_INVALID_OPERATION, "glBindFramebuffer", f"framebuffer={name} is no name from glGenFramebuffers"
+        )
+    if name not in context.storage.framebuffers:
+        context.execute(CreateFramebuffer(name))
+    context.set(**dict.fromkeys(BINDINGS[target], name))
+    return None
+
+
+def glDeleteFramebuffers(*arguments: Any) -> None:
+    """Delete framebuffer objects: (name), (names) or (n, names). A bound one is replaced by the window."""
+    context = current()
+    names = [name for name in listed(arguments) if name > 0]
+    for binding in BINDINGS[gl.GL_FRAMEBUFFER]:
+        if getattr(context.state, binding) in names:
+            context.set(**{binding: DEFAULT})
+    existing = tuple(name for name in names if name in context.storage.framebuffers)
+    if existing:
+        context.execute(DeleteFramebuffers(existing))
+    context.names["framebuffer"].difference_update(names)
+
+
+def glIsFramebuffer(framebuffer: int) -> bool:
+    """Return whether a name is that of a framebuffer object, which it becomes when it is first bound."""
+    return framebuffer != DEFAULT and int(framebuffer) in current().storage.framebuffers
+
+
+def glFramebufferTexture2D(target: int, attachment: int, textarget: int, texture: int, level: int) -> None:
+    """Make a level of a texture the buffer of an attachment point; texture 0 detaches."""
+    context, operation, name = current(), "glFramebufferTexture2D", int(texture)
+    if problem := _attachment_problem(context, target, attachment):
+        return fail(problem[0], operation, problem[1])
+    if name and (problem := _texture_problem(context, textarget, name, level)):
+        return fail(problem[0], operation, problem[1])
+    face = textarget - gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X if name and textarget != gl.GL_TEXTURE_2D else 0
+    framebuffer = _bound(context, target)
+    _attach(context, attachment, lambda point: AttachTexture(framebuffer, point, name, face, level))
+    return None
+
+
+def glFramebufferRenderbuffer(target: int, attachment: int, renderbuffertarget: int, renderbuffer: int) -> None:
+    """Make a renderbuffer the buffer of an attachment point; renderbuffer 0 detaches."""
+    context, operation, name = current(), "glFramebufferRenderbuffer", int(renderbuffer)
+    if problem := _attachment_problem(context, target, attachment):
+        return fail(problem[0], operation, problem[1])
+    if renderbuffertarget != gl.GL_RENDERBUFFER:
+        return fail(
+            gl.GL_INVALID_ENUM,
+            operation,
+            f"renderbuffertarget={token_name(renderbuffertarget)}: expected GL_RENDERBUFFER",
+        )
+    if name and name not in context.storage.renderbuffers:
+        return fail(gl.GL_INVALID_OPERATION, operation, f"renderbuffer={name} does not exist")
+    framebuffer = _bound(context, target)
+    _attach(context, attachment, lambda point: AttachRenderbuffer(framebuffer, point, name))
+    return None
+
+
+def _attach(context: Context, attachment: int, command: Any) -> None:
+    both = attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT
+    for point in (gl.GL_DEPTH_ATTACHMENT, gl.GL_STENCIL_ATTACHMENT) if both else (attachment,):
+        made: Command = command(point)
+        context.execute(made)
+
+
+def _bound(context: Context, target: int) -> int:
+    return int(getattr(context.state, BINDINGS[target][0]))
+
+
+def _attachment_problem(context: Context, target: int, attachment: int) -> Problem | None:
+    if target not in BINDINGS:
+        return gl.GL_INVALID_ENUM, f"target={token_name(target)}: {EXPECTED_TARGET}"
+    if _bound(context, target) == DEFAULT:
+        return gl.GL_INVALID_OPERATION, "the window is bound: its buffers cannot be exchanged"
+    if attachment in range(gl.GL_COLOR_ATTACHMENT7 + 1, gl.GL_COLOR_ATTACHMENT0 + 32):
+        return gl.GL_INVALID_OPERATION, f"attachment={attachment:#x}: there are {len(COLOR_ATTACHMENTS)} for colour"
+    if attachment not in (*COLOR_ATTACHMENTS, *KINDS, gl.GL_DEPTH_STENCIL_ATTACHMENT):
+        return gl.GL_INVALID_ENUM, (
+            f"attachment={token_name(attachment)}: expected GL_COLOR_ATTACHMENT0 to 7, GL_DEPTH_ATTACHMENT, "
+            "GL_STENCIL_ATTACHMENT or GL_DEPTH_STENCIL_ATTACHMENT"
+        )
+    return None
+
+
+def _texture_problem(context: Context, textarget: int, name: int, level: int) -> Problem | None:
+    texture = context.storage.textures.get(name)
+    if texture is None:
+        return gl.GL_INVALID_OPERATION, f"texture={name} does not exist: bind it once first"
+    faces = range(gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X, gl.GL_TEXTURE_CUBE_MAP_NEGATIVE_Z + 1)
+    if textarget != gl.GL_TEXTURE_2D and textarget not in faces:
+        return gl.GL_INVALID_OPERATION, (
+            f"textarget={token_name(textarget)}: expected GL_TEXTURE_2D or a face of GL_TEXTURE_CUBE_MAP"
+        )
+    if (textarget == gl.GL_TEXTURE_2D) != (texture.target == gl.GL_TEXTURE_2D):
+        return gl.GL_INVALID_OPERATION, f"texture={name} is a {token_name(texture.target)}, not {token_name(textarget)}"
+    if not 0 <= level < LARGEST_SIDE.bit_length():
+        return gl.GL_INVALID_VALUE, f"level={level}: expected 0 to {LARGEST_SIDE.bit_length() - 1}"
+    return None
+
+
+def framebuffer_status(context: Context, framebuffer: int) -> int:
+    """Return whether a framebuffer is complete, as glCheckFramebufferStatus says it."""
+    if framebuffer == DEFAULT:
+        return gl.GL_FRAMEBUFFER_COMPLETE
+    attachments = context.storage.framebuffers[framebuffer].attachments
+    if not all(_serves(point, attachment) for point, attachment in attachments.items()):
+        return gl.GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT
+    return gl.GL_FRAMEBUFFER_COMPLETE if attachments else gl.GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT
+
+
+def _serves(point: int, attachment: Attachment) -> bool:
+    image = attachment.image
+    return image.width > 0 and image.height > 0 and image.format.kind in KINDS.get(point, ("unorm8", "float"))
+
+
+def glCheckFramebufferStatus(target: int) -> int:
+    """Return GL_FRAMEBUFFER_COMPLETE, or what is missing in the bound framebuffer (0 after an error)."""
+    if target not in BINDINGS:
+        fail(gl.GL_INVALID_ENUM, "glCheckFramebufferStatus", f"target={token_name(target)}: {EXPECTED_TARGET}")
+        return 0
+    context = current()
+    return framebuffer_status(context, _bound(context, target))
+
+
+def glGetFramebufferAttachmentParameteriv(target: int, attachment: int, pname: int, params: Any = None) -> Any:
+    """Return what is attached to a point of the bound framebuffer object."""
+    context, operation = current(), "glGetFramebufferAttachmentParameteriv"
+    if problem := _attachment_problem(context, target, attachment):
+        return fail(problem[0], operation, problem[1])
+    point = gl.GL_DEPTH_ATTACHMENT if attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT else attachment
+    found = context.storage.framebuffers[_bound(context, target)].attachments.get(point)
+    kind = gl.GL_NONE if found is None else gl.GL_TEXTURE if found.texture else gl.GL_RENDERBUFFER
+    answers = {gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE: kind}
+    if found is not None:
+        cube = found.texture and context.storage.textures[found.texture].target == gl.GL_TEXTURE_CUBE_MAP
+        answers[gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME] = found.texture or found.renderbuffer
+        answers[gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL] = found.level
+        answers[gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_CUBE_MAP_FACE] = (
+            gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X + found.face if cube else 0
+        )
+    if pname not in answers:
+        return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)} is no property of this attachment")
+    if params is not None:
+        np.asarray(params)[:1] = answers[pname]
+    return answers[pname]
+
+
+# -- colour buffers ----------------------------------------------------------------------------------------------------
+def glDrawBuffer(mode: int) -> None:
+    """Say which colour buffer of the draw framebuffer is written; GL_NONE: none."""
+    _select("glDrawBuffer", "draw", int(mode))
+
+
+def glReadBuffer(mode: int) -> None:
+    """Say which colour buffer of the read framebuffer is read."""
+    _select("glReadBuffer", "read", int(mode))
+
+
+def glDrawBuffers(*arguments: Any) -> None:
+    """Say which colour buffers are written: (buffers) or (n, buffers). Of several, only the first may be a buffer."""
+    modes = listed(arguments)
+    if not 1 <= len(modes) <= len(COLOR_ATTACHMENTS):
+        return fail(gl.GL_INVALID_VALUE, "glDrawBuffers", f"n={len(modes)}: expected 1 to {len(COLOR_ATTACHMENTS)}")
+    if any(mode != gl.GL_NONE for mode in modes[1:]):
+        return fail(
+            gl.GL_INVALID_OPERATION, "glDrawBuffers", "more than one colour buffer at a time is not part of this subset"
+        )
+    _select("glDrawBuffers", "draw", modes[0])
+    return None
+
+
+def _select(operation: str, which: str, mode: int) -> None:
+    context = current()
+    name = context.state.draw_framebuffer if which == "draw" else context.state.read_framebuffer
+    attachments = range(gl.GL_COLOR_ATTACHMENT0, gl.GL_COLOR_ATTACHMENT0 + 32)
+    if mode not in WINDOW_BUFFERS and mode not in MISSING_BUFFERS and mode not in attachments:
+        return fail(gl.GL_INVALID_ENUM, operation, f"mode={token_name(mode, BUFFER_NAMES)} names no colour buffer")
+    allowed = WINDOW_BUFFERS if name == DEFAULT else (gl.GL_NONE, *COLOR_ATTACHMENTS)
+    if mode not in allowed:
+        expected = "GL_NONE, GL_FRONT or GL_BACK" if name == DEFAULT else "GL_NONE or GL_COLOR_ATTACHMENT0 to 7"
+        return fail(
+            gl.GL_INVALID_OPERATION,
+            operation,
+            f"mode={token_name(mode, BUFFER_NAMES)}: framebuffer {name} has no such buffer, expected {expected}",
+        )
+    context.execute(SelectBuffers(name, **{f"{which}_buffer": mode}))
+    return None
+
+
+# -- renderbuffers -----------------------------------------------------------------------------------------------------
+def glGenRenderbuffers(n: int, renderbuffers: Any = None) -> Any:
+    """Return unused renderbuffer names: an int for n = 1, else an array."""
+    return _generate("glGenRenderbuffers", "renderbuffer", n, renderbuffers)
+
+
+def glBindRenderbuffer(target: int, renderbuffer: int) -> None:
+    """Name the renderbuffer that glRenderbufferStorage is about."""
+    context, name = current(), int(renderbuffer)
+    if target != gl.GL_RENDERBUFFER:
+        return fail(gl.GL_INVALID_ENUM, "glBindRenderbuffer", f"target={token_name(target)}: expected GL_RENDERBUFFER")
+    if name and name not in context.names["renderbuffer"]:
+        return fail(
+            gl.GL_INVALID_OPERATION, "glBindRenderbuffer", f"renderbuffer={name} is no name from glGenRenderbuffers"
+        )
+    if name and name not in context.storage.renderbuffers:
+        context.execute(DefineRenderbuffer(name))
+    context.renderbuffer = name
+    return None
+
+
+def glRenderbufferStorage(target: int, internalformat: int, width: int, height: int) -> None:
+    """Give the bound renderbuffer an image of zeros."""
+    context, operation = current(), "glRenderbufferStorage"
+    if target != gl.GL_RENDERBUFFER:
+        return fail(gl.GL_INVALID_ENUM, operation, f"target={token_name(target)}: expected GL_RENDERBUFFER")
+    if internalformat not in FORMATS or internalformat in (1, 2, 3, 4):
+        return fail(
+            gl.GL_INVALID_ENUM, operation, f"internalformat={token_name(internalformat)} is not part of this subset"
+        )
+    if not (0 <= width <= LARGEST_SIDE and 0 <= height <= LARGEST_SIDE):
+        return fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 to {LARGEST_SIDE}")
+    if context.renderbuffer == 0:
+        return fail(gl.GL_INVALID_OPERATION, operation, "no renderbuffer is bound")
+    stored = storage_format(internalformat)
+    context.execute(DefineRenderbuffer(context.renderbuffer, stored, internalformat, width, height))
+    return None
+
+
+def glDeleteRenderbuffers(*arguments: Any) -> None:
+    """Delete renderbuffers: (name), (names) or (n, names). They leave the bound framebuffers."""
+    context = current()
+    names = [name for name in listed(arguments) if name > 0]
+    for framebuffer in {context.state.draw_framebuffer, context.state.read_framebuffer}:
+        for point, attachment in list(context.storage.framebuffers[framebuffer].attachments.items()):
+            if attachment.renderbuffer in names:
+                context.execute(AttachRenderbuffer(framebuffer, point, 0))
+    if context.renderbuffer in names:
+        context.renderbuffer = 0
+    existing = tuple(name for name in names if name in context.storage.renderbuffers)
+    if existing:
+        context.execute(DeleteRenderbuffers(existing))
+    context.names["renderbuffer"].difference_update(names)
+
+
+def glIsRenderbuffer(renderbuffer: int) -> bool:
+    """Return whether a name is that of a renderbuffer, which it becomes when it is first bound."""
+    return int(renderbuffer) in current().storage.renderbuffers
+
+
+def _generate(operation: str, kind: str, n: int, out: Any) -> Any:
+    if n < 0:
+        return fail(gl.GL_INVALID_VALUE, operation, f"n={n}: expected 0 or more")
+    names = generate(current(), kind, n)
+    if out is not None:
+        np.asarray(out)[:n] = names
+    return names
+
+
+EXPECTED_TARGET = "expected GL_FRAMEBUFFER, GL_DRAW_FRAMEBUFFER or GL_READ_FRAMEBUFFER"
+BUFFER_NAMES = ("GL_NONE", "GL_FRONT", "GL_BACK")

@@ -1,0 +1,61 @@
+"""Which pixel formats and types go together, and with which images (GL 4.5 compatibility, sec. 8.4.4)."""
+
+from __future__ import annotations
+
+from softshadow import tokens as gl
+from softshadow.image import Format, Image
+from softshadow.pixel_store import COMPONENTS, TYPES
+from softshadow.tokens import token_name
+
+Problem = tuple[int, str]  # GL error code and what was expected
+
+
+def format_problem(format: int, type: int) -> Problem | None:
+    """Return why a client format and type cannot be, or None."""
+    if format not in COMPONENTS:
+        expected = ", ".join(token_name(f) for f in COMPONENTS)
+        return gl.GL_INVALID_ENUM, f"format={token_name(format)}: expected one of {expected}"
+    if type not in TYPES:
+        expected = ", ".join(token_name(t) for t in TYPES)
+        return gl.GL_INVALID_ENUM, f"type={token_name(type, TYPE_NAMES)}: expected one of {expected}"
+    if format == gl.GL_DEPTH_STENCIL and type != gl.GL_UNSIGNED_INT_24_8:
+        return gl.GL_INVALID_ENUM, f"type={token_name(type)}: GL_DEPTH_STENCIL takes GL_UNSIGNED_INT_24_8"
+    if format != gl.GL_DEPTH_STENCIL and type == gl.GL_UNSIGNED_INT_24_8:
+        return gl.GL_INVALID_OPERATION, f"GL_UNSIGNED_INT_24_8 takes format=GL_DEPTH_STENCIL, not {token_name(format)}"
+    return None
+
+
+TYPE_NAMES = ("GL_BYTE", "GL_DOUBLE")
+
+
+def kind_of(format: int) -> str:
+    """Return which plane a client format speaks of: "depth", "stencil", "depth-stencil" or "color"."""
+    kinds = {
+        gl.GL_DEPTH_COMPONENT: "depth",
+        gl.GL_STENCIL_INDEX: "stencil",
+        gl.GL_DEPTH_STENCIL: "depth-stencil",
+    }
+    return kinds.get(format, "color")
+
+
+def upload_problem(format: int, stored: Format, has_stencil: bool) -> Problem | None:
+    """Return why client pixels of a format cannot go into an image, or None."""
+    kind = kind_of(format)
+    fits = {
+        "depth": stored.kind == "depth",
+        "depth-stencil": stored.kind == "depth" and has_stencil,
+        "stencil": stored.kind == "stencil" or has_stencil,
+        "color": stored.kind in ("unorm8", "float"),
+    }[kind]
+    if fits:
+        return None
+    return gl.GL_INVALID_OPERATION, f"format={token_name(format)} does not go with an image of {described(stored)}"
+
+
+def readout_problem(format: int, image: Image) -> Problem | None:
+    """Return why an image cannot be read in a client format, or None."""
+    return upload_problem(format, image.format, image.stencil is not None)
+
+
+def described(stored: Format) -> str:
+    return {"depth": "depth", "stencil": "stencil values", "none": "nothing"}.get(stored.kind, "colours")

@@ -1,0 +1,110 @@
+"""glReadPixels and glPixelStore: the framebuffer as arrays, row 0 at the bottom."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import current
+from softshadow.framebuffer import Framebuffer
+from softshadow.gl.errors import fail
+from softshadow.gl.framebuffers import framebuffer_status
+from softshadow.gl.pixel_formats import format_problem, kind_of
+from softshadow.image import Image
+from softshadow.pipeline.transfer import clipped, gl_rows
+from softshadow.pixel_store import TYPES, answer_array
+from softshadow.pixels import pack_color, pack_depth
+from softshadow.tokens import token_name
+
+STORES = {
+    gl.GL_PACK_ALIGNMENT: ("pack_store", "alignment"),
+    gl.GL_PACK_ROW_LENGTH: ("pack_store", "row_length"),
+    gl.GL_PACK_SKIP_ROWS: ("pack_store", "skip_rows"),
+    gl.GL_PACK_SKIP_PIXELS: ("pack_store", "skip_pixels"),
+    gl.GL_UNPACK_ALIGNMENT: ("unpack_store", "alignment"),
+    gl.GL_UNPACK_ROW_LENGTH: ("unpack_store", "row_length"),
+    gl.GL_UNPACK_SKIP_ROWS: ("unpack_store", "skip_rows"),
+    gl.GL_UNPACK_SKIP_PIXELS: ("unpack_store", "skip_pixels"),
+}
+SWITCHED_OFF = (gl.GL_PACK_SWAP_BYTES, gl.GL_PACK_LSB_FIRST, gl.GL_UNPACK_SWAP_BYTES, gl.GL_UNPACK_LSB_FIRST)
+
+
+def glPixelStorei(pname: int, param: int) -> None:
+    """Say how the rows of client images lie in memory."""
+    context = current()
+    if pname in SWITCHED_OFF:
+        if param:
+            fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param} is not part of this subset")
+        return None
+    if pname not in STORES:
+        return fail(gl.GL_INVALID_ENUM, "glPixelStorei", f"pname={token_name(pname)} is not part of this subset")
+    direction, field = STORES[pname]
+    if field == "alignment" and param not in (1, 2, 4, 8):
+        return fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param}: expected 1, 2, 4 or 8")
+    if param < 0:
+        return fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param}: expected 0 or more")
+    setattr(context, direction, replace(getattr(context, direction), **{field: int(param)}))
+    return None
+
+
+def glPixelStoref(pname: int, param: float) -> None:
+    """Say how the rows of client images lie in memory; the value is rounded."""
+    glPixelStorei(pname, round(param))
+
+
+def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int, array: Any = None) -> Any:
+    """Return a rectangle of the read framebuffer, (h, w) or (h, w, components), first row = bottom row.
+
+    `array` is filled and returned where it is given. Pixels outside the framebuffer stay 0, or as they were.
+
+    Raises
+    ------
+    GLError
+        GL_INVALID_ENUM or GL_INVALID_OPERATION for a format or type that cannot be; GL_INVALID_OPERATION without a
+        buffer to read from; GL_INVALID_VALUE for a negative size.
+    """
+    context, operation = current(), "glReadPixels"
+    if width < 0 or height < 0:
+        return fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 or more")
+    if problem := format_problem(format, type):
+        return fail(problem[0], operation, problem[1])
+    source = context.storage.framebuffers[context.state.read_framebuffer]
+    if framebuffer_status(context, source.name) != gl.GL_FRAMEBUFFER_COMPLETE:
+        return fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, operation, f"framebuffer {source.name} is not complete")
+    planes = _planes(source, kind_of(format))
+    if planes is None:
+        missing = kind_of(format).replace("-", " or ").replace("color", "colour")
+        return fail(gl.GL_INVALID_OPERATION, operation, f"framebuffer {source.name} has no {missing} buffer to read")
+    rows, columns, left, bottom = clipped(source, int(x), int(y), int(width), int(height))
+    cells = [gl_rows(source, plane)[rows, columns] for plane in planes]
+    answer, view = answer_array(array, context.pack_store, width, height, format, type, operation)
+    inside = _packed(cells, planes, format, TYPES[type])
+    view[bottom : bottom + inside.shape[0], left : left + inside.shape[1]] = inside
+    return answer
+
+
+def _planes(source: Framebuffer, kind: str) -> list[Image] | None:
+    wanted = {
+        "color": [source.read_color],
+        "depth": [source.depth],
+        "stencil": [source.stencil],
+        "depth-stencil": [source.depth, source.stencil],
+    }[kind]
+    planes = [plane for plane in wanted if plane is not None]
+    return planes if len(planes) == len(wanted) else None
+
+
+def _packed(cells: list[np.ndarray], planes: list[Image], format: int, dtype: type[np.generic]) -> np.ndarray:
+    """Return framebuffer cells as client pixels (h, w, components)."""
+    kind, stored = kind_of(format), planes[0].format
+    if kind == "color":
+        return pack_color(cells[0], stored, format, dtype, from_framebuffer=True)
+    if kind == "depth":
+        return pack_depth(cells[0], stored, dtype)[..., None]
+    if kind == "stencil":
+        return cells[0].astype(dtype)[..., None]
+    units = cells[0] if stored.largest == (1 << 24) - 1 else np.floor(np.float64(cells[0]) * ((1 << 24) - 1))
+    return (units.astype(np.uint32) << np.uint32(8) | cells[1])[..., None]

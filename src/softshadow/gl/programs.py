@@ -1,0 +1,244 @@
+"""Programs and their uniforms. A program is one of the register of `softshadow.programs`; there is no GLSL compiler."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from softshadow import programs
+from softshadow import tokens as gl
+from softshadow.context import Context, current
+from softshadow.gl.errors import fail
+from softshadow.programs import Program
+from softshadow.state import TEXTURE_UNITS
+
+IGNORED = -1  # the location of a uniform that a program does not use: setting it is no error and no effect
+
+
+def program(name: str) -> int:
+    """Return the name, for glUseProgram, of a program of the register; the same one for every call.
+
+    Raises
+    ------
+    StateError
+        The register has no such program; the message names the nearest.
+    """
+    context = current()
+    for number, known in context.programs.items():
+        if known.name == name:
+            return number
+    made = programs.get(name)
+    number = max(context.programs, default=0) + 1
+    context.programs[number] = made
+    context.uniforms[number] = {key: _kept(value) for key, value in made.uniforms.items()}
+    context.uniforms[number].update({key: 0 for key in made.samplers if key not in made.uniforms})
+    return number
+
+
+def _kept(value: Any) -> Any:
+    """Return a uniform's value as it is kept: numbers and tuples as they are, matrices as own read-only float32."""
+    if not isinstance(value, np.ndarray):
+        return value
+    own = value.astype(np.float32)
+    own.setflags(write=False)
+    return own
+
+
+def glUseProgram(program: int) -> None:
+    """Shade with a program from now on; 0 is the fixed function."""
+    context = current()
+    if program and program not in context.programs:
+        return fail(gl.GL_INVALID_VALUE, "glUseProgram", f"program={program} is no name from program(name)")
+    context.set(program=int(program))
+    return None
+
+
+def glIsProgram(program: int) -> bool:
+    """Return whether a name is that of a program."""
+    return program in current().programs
+
+
+def glGetUniformLocation(program: int, name: str | bytes) -> Any:
+    """Return the location of a uniform, -1 where the program has none of that name."""
+    context = current()
+    if program not in context.programs:
+        return fail(gl.GL_INVALID_VALUE, "glGetUniformLocation", f"program={program} is no name from program(name)")
+    names = list(context.uniforms[program])
+    spelled = name.decode() if isinstance(name, bytes) else name
+    return names.index(spelled) if spelled in names else IGNORED
+
+
+# -- setting -----------------------------------------------------------------------------------------------------------
+def glUniform1f(location: int, v0: float) -> None:
+    """Set a float uniform of the program in use."""
+    _set("glUniform1f", location, [v0], "f")
+
+
+def glUniform2f(location: int, v0: float, v1: float) -> None:
+    """Set a vec2 uniform of the program in use."""
+    _set("glUniform2f", location, [v0, v1], "f")
+
+
+def glUniform3f(location: int, v0: float, v1: float, v2: float) -> None:
+    """Set a vec3 uniform of the program in use."""
+    _set("glUniform3f", location, [v0, v1, v2], "f")
+
+
+def glUniform4f(location: int, v0: float, v1: float, v2: float, v3: float) -> None:
+    """Set a vec4 uniform of the program in use."""
+    _set("glUniform4f", location, [v0, v1, v2, v3], "f")
+
+
+def glUniform1i(location: int, v0: int) -> None:
+    """Set an int, bool or sampler uniform of the program in use; a sampler's value is a texture unit."""
+    _set("glUniform1i", location, [v0], "i")
+
+
+def glUniform2i(location: int, v0: int, v1: int) -> None:
+    """Set an ivec2 uniform of the program in use."""
+    _set("glUniform2i", location, [v0, v1], "i")
+
+
+def glUniform3i(location: int, v0: int, v1: int, v2: int) -> None:
+    """Set an ivec3 uniform of the program in use."""
+    _set("glUniform3i", location, [v0, v1, v2], "i")
+
+
+def glUniform4i(location: int, v0: int, v1: int, v2: int, v3: int) -> None:
+    """Set an ivec4 uniform of the program in use."""
+    _set("glUniform4i", location, [v0, v1, v2, v3], "i")
+
+
+def glUniform1fv(location: int, count: int, value: Any) -> None:
+    """Set a float uniform of the program in use from an array."""
+    _set_array("glUniform1fv", location, count, value, 1, "f")
+
+
+def glUniform2fv(location: int, count: int, value: Any) -> None:
+    """Set a vec2 uniform of the program in use from an array."""
+    _set_array("glUniform2fv", location, count, value, 2, "f")
+
+
+def glUniform3fv(location: int, count: int, value: Any) -> None:
+    """Set a vec3 uniform of the program in use from an array."""
+    _set_array("glUniform3fv", location, count, value, 3, "f")
+
+
+def glUniform4fv(location: int, count: int, value: Any) -> None:
+    """Set a vec4 uniform of the program in use from an array."""
+    _set_array("glUniform4fv", location, count, value, 4, "f")
+
+
+def glUniform1iv(location: int, count: int, value: Any) -> None:
+    """Set an int, bool or sampler uniform of the program in use from an array."""
+    _set_array("glUniform1iv", location, count, value, 1, "i")
+
+
+def glUniformMatrix4fv(location: int, count: int, transpose: bool, value: Any) -> None:
+    """Set a mat4 uniform of the program in use from 16 floats in column order, or in row order with `transpose`."""
+    operation = "glUniformMatrix4fv"
+    numbers = np.asarray(value, np.float32).reshape(-1)
+    if count == 1 and len(numbers) != 16:
+        raise ValueError(f"{operation}: value has {len(numbers)} numbers, expected 16")
+    found = _uniform(operation, location, count)
+    if found is None:
+        return None
+    context, name, standing = found
+    if np.shape(standing) != (4, 4):
+        return fail(gl.GL_INVALID_OPERATION, operation, f"uniform {name!r} is {described(standing)}, not a mat4")
+    matrix = numbers.reshape(4, 4)
+    context.uniforms[context.state.program][name] = _kept(matrix if transpose else matrix.T.copy())
+    return None
+
+
+def _set_array(operation: str, location: int, count: int, value: Any, size: int, kind: str) -> None:
+    numbers = np.ravel(value)
+    if count >= 0 and len(numbers) < count * size:
+        raise ValueError(f"{operation}: value has {len(numbers)} numbers, count={count} needs {count * size}")
+    _set(operation, location, list(numbers[:size]), kind, count)
+
+
+def _set(operation: str, location: int, numbers: list[Any], kind: str, count: int = 1) -> None:
+    found = _uniform(operation, location, count)
+    if found is None:
+        return None
+    context, name, standing = found
+    used = context.programs[context.state.program]
+    if problem := _type_problem(used, name, standing, len(numbers), kind):
+        return fail(gl.GL_INVALID_OPERATION, operation, problem)
+    if name in used.samplers and not 0 <= numbers[0] < TEXTURE_UNITS:
+        return fail(
+            gl.GL_INVALID_VALUE, operation, f"{name}={numbers[0]}: a sampler takes a unit, 0 to {TEXTURE_UNITS - 1}"
+        )
+    if isinstance(standing, bool):
+        value: Any = bool(numbers[0])
+    else:
+        converted = [float(np.float32(n)) if kind == "f" else int(n) for n in numbers]
+        value = tuple(converted) if isinstance(standing, tuple) else converted[0]
+    context.uniforms[context.state.program][name] = value
+    return None
+
+
+def _uniform(operation: str, location: int, count: int) -> tuple[Context, str, Any] | None:
+    """Return (context, uniform's name, present value), or None after an error and for the ignored location."""
+    context = current()
+    used = context.state.program
+    if used == 0:
+        return fail(gl.GL_INVALID_OPERATION, operation, "no program is in use")
+    if count < 0:
+        return fail(gl.GL_INVALID_VALUE, operation, f"count={count}: expected 0 or more")
+    if location == IGNORED:
+        return None
+    names = list(context.uniforms[used])
+    if not 0 <= location < len(names):
+        return fail(
+            gl.GL_INVALID_OPERATION, operation, f"location={location}: the program in use has 0 to {len(names) - 1}"
+        )
+    if count > 1:
+        return fail(gl.GL_INVALID_OPERATION, operation, f"count={count}: uniform {names[location]!r} is no array")
+    return (context, names[location], context.uniforms[used][names[location]]) if count else None
+
+
+def _type_problem(used: Program, name: str, standing: Any, size: int, kind: str) -> str | None:
+    shape = np.shape(standing)
+    first = np.asarray(standing).dtype.kind
+    allowed = {"b": "fi", "f": "f", "i": "i"}[first]
+    if shape == ((size,) if size > 1 else ()) and kind in allowed:
+        return None
+    given = f"{size} {'float' if kind == 'f' else 'int'}{'s' if size > 1 else ''}"
+    return f"uniform {name!r} is {'a sampler' if name in used.samplers else described(standing)}, given {given}"
+
+
+def described(value: Any) -> str:
+    """Return the GLSL type of a uniform's value in words."""
+    shape, kind = np.shape(value), np.asarray(value).dtype.kind
+    if len(shape) == 2:
+        return f"a mat{shape[0]}"
+    scalar, prefix = {"b": ("a bool", "b"), "i": ("an int", "i"), "f": ("a float", "")}[kind]
+    return f"a {prefix}vec{shape[0]}" if shape else scalar
+
+
+# -- queries -----------------------------------------------------------------------------------------------------------
+def glGetUniformfv(program: int, location: int, params: Any = None) -> Any:
+    """Return a uniform's value: a float, an array (n,), or (4, 4) in column order for a matrix."""
+    return _get("glGetUniformfv", program, location, params, np.float32)
+
+
+def glGetUniformiv(program: int, location: int, params: Any = None) -> Any:
+    """Return a uniform's value: an int or an array (n,)."""
+    return _get("glGetUniformiv", program, location, params, np.int32)
+
+
+def _get(operation: str, program: int, location: int, params: Any, dtype: type[np.generic]) -> Any:
+    context = current()
+    if program not in context.programs:
+        return fail(gl.GL_INVALID_VALUE, operation, f"program={program} is no name from program(name)")
+    values = list(context.uniforms[program].values())
+    if not 0 <= location < len(values):
+        return fail(gl.GL_INVALID_OPERATION, operation, f"location={location}: the program has 0 to {len(values) - 1}")
+    value = np.asarray(values[location])
+    answer = (np.rint(value) if dtype == np.int32 else value).astype(dtype).T.copy()
+    if params is not None:
+        np.asarray(params).reshape(-1)[: answer.size] = answer.reshape(-1)
+    return answer if answer.ndim else answer.item()

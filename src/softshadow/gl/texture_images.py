@@ -1,0 +1,302 @@
+"""Images of textures: uploads, copies from the framebuffer, and reading them back."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import Context, current
+from softshadow.framebuffer import LARGEST_SIDE
+from softshadow.gl.errors import fail
+from softshadow.gl.framebuffers import framebuffer_status
+from softshadow.gl.pixel_formats import Problem, format_problem, kind_of, readout_problem, upload_problem
+from softshadow.gl.textures import FACES, bound_name, bound_texture, target_problem
+from softshadow.image import FORMATS, WITH_STENCIL, Format, Image, storage_format
+from softshadow.pipeline.commands import CopyToTexture, DefineImage, UpdateImage
+from softshadow.pixel_store import TYPES, answer_array, client_image
+from softshadow.pixels import pack_color, pack_depth, unpack_color, unpack_depth
+from softshadow.tokens import token_name
+
+LARGEST_LEVEL = LARGEST_SIDE.bit_length() - 1
+COMPONENT_NUMBERS = (1, 2, 3, 4)  # internal formats of GL 1.0, which glCopyTexImage2D does not take
+SIZES: dict[int, tuple[int, ...]] = {  # which base formats have a channel
+    gl.GL_TEXTURE_RED_SIZE: (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_RGBA),
+    gl.GL_TEXTURE_GREEN_SIZE: (gl.GL_RG, gl.GL_RGB, gl.GL_RGBA),
+    gl.GL_TEXTURE_BLUE_SIZE: (gl.GL_RGB, gl.GL_RGBA),
+    gl.GL_TEXTURE_ALPHA_SIZE: (gl.GL_RGBA, gl.GL_ALPHA, gl.GL_LUMINANCE_ALPHA),
+    gl.GL_TEXTURE_LUMINANCE_SIZE: (gl.GL_LUMINANCE, gl.GL_LUMINANCE_ALPHA),
+    gl.GL_TEXTURE_INTENSITY_SIZE: (gl.GL_INTENSITY,),
+    gl.GL_TEXTURE_DEPTH_SIZE: (gl.GL_DEPTH_COMPONENT,),
+    gl.GL_TEXTURE_STENCIL_SIZE: (gl.GL_STENCIL_INDEX,),
+}
+
+
+def face_of(target: int) -> int:
+    """Return the index of a cube map's face, 0 for GL_TEXTURE_2D."""
+    return FACES.index(target) if target in FACES else 0
+
+
+def glTexImage2D(
+    target: int,
+    level: int,
+    internalformat: int,
+    width: int,
+    height: int,
+    border: int,
+    format: int,
+    type: int,
+    pixels: Any = None,
+) -> None:
+    """Define a level of the bound texture from an image, first row = bottom row; None leaves it zero."""
+    context, operation = current(), "glTexImage2D"
+    problem = (
+        target_problem(context, target, faces=True)
+        or _size_problem(target, level, width, height, border)
+        or format_problem(format, type)
+        or _internal_problem(internalformat, gl.GL_INVALID_VALUE)
+        or upload_problem(format, FORMATS[internalformat], internalformat in WITH_STENCIL)
+    )
+    if problem:
+        return fail(problem[0], operation, problem[1])
+    stored = storage_format(internalformat, type)
+    cells, stencil = _cells(context, pixels, width, height, format, type, stored, operation)
+    texture = bound_texture(context, target)
+    context.execute(
+        DefineImage(texture.name, face_of(target), level, stored, internalformat, width, height, cells, stencil)
+    )
+    return None
+
+
+def glTexSubImage2D(
+    target: int,
+    level: int,
+    xoffset: int,
+    yoffset: int,
+    width: int,
+    height: int,
+    format: int,
+    type: int,
+    pixels: Any = None,
+) -> None:
+    """Replace a rectangle of a level of the bound texture."""
+    context, operation = current(), "glTexSubImage2D"
+    problem = (
+        target_problem(context, target, faces=True)
+        or _level_problem(level)
+        or format_problem(format, type)
+        or _region_problem(context, target, level, xoffset, yoffset, width, height)
+    )
+    if problem:
+        return fail(problem[0], operation, problem[1])
+    image = bound_texture(context, target).images[face_of(target), level]
+    if problem := readout_problem(format, image):
+        return fail(problem[0], operation, problem[1])
+    if pixels is not None:
+        cells, stencil = _cells(context, pixels, width, height, format, type, image.format, operation)
+        name = bound_name(context, target)
+        context.execute(UpdateImage(name, face_of(target), level, xoffset, yoffset, cells, stencil))
+    return None
+
+
+def _cells(
+    context: Context, pixels: Any, width: int, height: int, format: int, type: int, stored: Format, operation: str
+) -> tuple[np.ndarray | None, np.ndarray | None]:
+    """Return client pixels as (cells, stencil values) of the storage; what the client does not give is None."""
+    if pixels is None:
+        return None, None
+    image = client_image(pixels, context.unpack_store, width, height, format, type, operation)
+    kind = kind_of(format)
+    if kind == "color":
+        return unpack_color(image, format, stored).copy(), None
+    plane = image[..., 0]
+    if kind == "depth-stencil":
+        return (plane >> np.uint32(8)).astype(np.float32), (plane & np.uint32(255)).astype(np.uint8)
+    if kind == "depth":
+        return unpack_depth(plane, stored), None
+    values = plane.astype(np.int64).astype(np.uint8)
+    return (values, None) if stored.kind == "stencil" else (None, values)
+
+
+# -- copies from the framebuffer ---------------------------------------------------------------------------------------
+def glCopyTexImage2D(
+    target: int, level: int, internalformat: int, x: int, y: int, width: int, height: int, border: int
+) -> None:
+    """Define a level of the bound texture from a rectangle of the read framebuffer."""
+    context, operation = current(), "glCopyTexImage2D"
+    problem = (
+        target_problem(context, target, faces=True)
+        or _level_problem(level)
+        or _source_problem(context)
+        or _size_problem(target, level, width, height, border)
+        or _internal_problem(internalformat, gl.GL_INVALID_ENUM, exclude=COMPONENT_NUMBERS)
+        or _copy_problem(context, FORMATS[internalformat], internalformat in WITH_STENCIL)
+    )
+    if problem:
+        return fail(problem[0], operation, problem[1])
+    texture, face = bound_texture(context, target), face_of(target)
+    context.execute(DefineImage(texture.name, face, level, FORMATS[internalformat], internalformat, width, height))
+    context.execute(CopyToTexture(context.state.read_framebuffer, texture.name, face, level, 0, 0, x, y, width, height))
+    return None
+
+
+def glCopyTexSubImage2D(
+    target: int, level: int, xoffset: int, yoffset: int, x: int, y: int, width: int, height: int
+) -> None:
+    """Copy a rectangle of the read framebuffer into a level of the bound texture."""
+    context, operation = current(), "glCopyTexSubImage2D"
+    problem = (
+        target_problem(context, target, faces=True)
+        or _source_problem(context)
+        or _level_problem(level)
+        or _region_problem(context, target, level, xoffset, yoffset, width, height)
+    )
+    if problem:
+        return fail(problem[0], operation, problem[1])
+    image = bound_texture(context, target).images[face_of(target), level]
+    if problem := _copy_problem(context, image.format, image.stencil is not None):
+        return fail(problem[0], operation, problem[1])
+    framebuffer, name = context.state.read_framebuffer, bound_name(context, target)
+    context.execute(CopyToTexture(framebuffer, name, face_of(target), level, xoffset, yoffset, x, y, width, height))
+    return None
+
+
+def _source_problem(context: Context) -> Problem | None:
+    name = context.state.read_framebuffer
+    if framebuffer_status(context, name) == gl.GL_FRAMEBUFFER_COMPLETE:
+        return None
+    return gl.GL_INVALID_FRAMEBUFFER_OPERATION, f"framebuffer {name} is not complete"
+
+
+def _copy_problem(context: Context, stored: Format, with_stencil: bool) -> Problem | None:
+    source = context.storage.framebuffers[context.state.read_framebuffer]
+    missing = None
+    if stored.kind == "depth" and source.depth is None:
+        missing = "no depth buffer"
+    elif with_stencil and source.stencil is None:
+        missing = "no stencil buffer"
+    elif stored.kind in ("unorm8", "float") and source.read_color is None:
+        missing = "no colour buffer to read from"
+    elif stored.kind == "stencil":
+        missing = "stencil values that can be copied into a texture of GL_STENCIL_INDEX8 in this subset only by packing"
+    return (gl.GL_INVALID_OPERATION, f"framebuffer {source.name} has {missing}") if missing else None
+
+
+# -- reading back ------------------------------------------------------------------------------------------------------
+def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = None) -> Any:
+    """Return a level of the bound texture, (h, w) or (h, w, components), first row = bottom row, or fill `array`."""
+    context, operation = current(), "glGetTexImage"
+    problem = target_problem(context, target, faces=True) or _level_problem(level) or format_problem(format, type)
+    if problem:
+        return fail(problem[0], operation, problem[1])
+    image = image_at(context, target, level)
+    if image is not None and (problem := readout_problem(format, image)):
+        return fail(problem[0], operation, problem[1])
+    width, height = (image.width, image.height) if image is not None else (0, 0)
+    answer, view = answer_array(array, context.pack_store, width, height, format, type, operation)
+    if image is not None:
+        view[...] = texture_pixels(image, format, type)
+    return answer
+
+
+def texture_pixels(image: Image, format: int, type: int) -> np.ndarray:
+    """Return a texture's image as client pixels (h, w, components)."""
+    kind, dtype = kind_of(format), TYPES[type]
+    if kind == "color":
+        return pack_color(image.view, image.format, format, dtype)
+    if kind == "depth":
+        return pack_depth(image.view, image.format, dtype, through_float=True)[..., None]
+    stencil = image.stencil.view if image.stencil is not None else image.view
+    if kind == "stencil":
+        return stencil.astype(dtype)[..., None]
+    return (image.view.astype(np.uint32) << np.uint32(8) | stencil)[..., None]
+
+
+def glGetTexLevelParameteriv(target: int, level: int, pname: int, params: Any = None) -> Any:
+    """Return a property of a level of the bound texture, an int."""
+    context, operation = current(), "glGetTexLevelParameteriv"
+    if problem := target_problem(context, target, faces=True) or _level_problem(level):
+        return fail(problem[0], operation, problem[1])
+    image = image_at(context, target, level)
+    simple = {
+        gl.GL_TEXTURE_WIDTH: image.width if image else 0,
+        gl.GL_TEXTURE_HEIGHT: image.height if image else 0,
+        gl.GL_TEXTURE_DEPTH: 1 if image else 0,
+        gl.GL_TEXTURE_BORDER: 0,
+        gl.GL_TEXTURE_INTERNAL_FORMAT: image.internal_format if image else gl.GL_RGBA,
+    }
+    if pname in simple:
+        answer = simple[pname]
+    elif pname in SIZES:
+        answer = channel_bits(image, pname) if image else 0
+    else:
+        return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)} is no property of a texture's level")
+    if params is not None:
+        np.asarray(params)[:1] = answer
+    return answer
+
+
+def glGetTexLevelParameterfv(target: int, level: int, pname: int, params: Any = None) -> Any:
+    """Return a property of a level of the bound texture, a float."""
+    answer = glGetTexLevelParameteriv(target, level, pname, params)
+    return None if answer is None else float(answer)
+
+
+def channel_bits(image: Image, size: int) -> int:
+    """Return the bits of the channel that a GL_TEXTURE_*_SIZE names, 0 where the format has none."""
+    if size == gl.GL_TEXTURE_STENCIL_SIZE:
+        return 8 if image.stencil is not None or image.format.kind == "stencil" else 0
+    if image.format.base not in SIZES[size]:
+        return 0
+    if image.format.kind == "unorm8":
+        return 8
+    return int(image.format.largest).bit_length() or 32
+
+
+def image_at(context: Context, target: int, level: int) -> Image | None:
+    """Return the image of a level of the bound texture, or None where it is not defined."""
+    texture = context.storage.textures.get(bound_name(context, target))
+    return texture.images.get((face_of(target), level)) if texture is not None else None
+
+
+# -- what can be wrong -------------------------------------------------------------------------------------------------
+def _level_problem(level: int) -> Problem | None:
+    if 0 <= level <= LARGEST_LEVEL:
+        return None
+    return gl.GL_INVALID_VALUE, f"level={level}: expected 0 to {LARGEST_LEVEL}"
+
+
+def _size_problem(target: int, level: int, width: int, height: int, border: int) -> Problem | None:
+    if problem := _level_problem(level):
+        return problem
+    if border != 0:
+        return gl.GL_INVALID_VALUE, f"border={border}: expected 0 (texel borders are not part of this subset)"
+    largest = LARGEST_SIDE >> level
+    if not (0 <= width <= largest and 0 <= height <= largest):
+        return gl.GL_INVALID_VALUE, f"width={width}, height={height}: expected 0 to {largest} at level {level}"
+    if target in FACES and width != height:
+        return gl.GL_INVALID_VALUE, f"width={width}, height={height}: faces of a cube map are square"
+    return None
+
+
+def _internal_problem(internalformat: int, code: int, exclude: tuple[int, ...] = ()) -> Problem | None:
+    if internalformat in FORMATS and internalformat not in exclude:
+        return None
+    known = ", ".join(token_name(f) for f in FORMATS if f not in COMPONENT_NUMBERS)
+    return code, f"internalformat={token_name(internalformat)} is not part of this subset: expected one of {known}"
+
+
+def _region_problem(
+    context: Context, target: int, level: int, x: int, y: int, width: int, height: int
+) -> Problem | None:
+    if width < 0 or height < 0:
+        return gl.GL_INVALID_VALUE, f"width={width}, height={height}: expected 0 or more"
+    image = image_at(context, target, level)
+    if image is None:
+        return gl.GL_INVALID_OPERATION, f"level {level} of the bound texture is not defined: call glTexImage2D first"
+    if x < 0 or y < 0 or x + width > image.width or y + height > image.height:
+        return gl.GL_INVALID_VALUE, (
+            f"the rectangle at ({x}, {y}) of {width} x {height} leaves the image of {image.width} x {image.height}"
+        )
+    return None

@@ -1,0 +1,227 @@
+"""Texture units: the active one, its environment, and the generation of its coordinates."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import Context, current
+from softshadow.gl.errors import fail
+from softshadow.gl.textures import set_unit
+from softshadow.programs.inverse import inverse
+from softshadow.state import TEXTURE_UNITS, TexGen
+from softshadow.tokens import token_name
+
+ENVIRONMENT_MODES = (gl.GL_MODULATE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_REPLACE, gl.GL_ADD)
+GEN_MODES = (gl.GL_OBJECT_LINEAR, gl.GL_EYE_LINEAR)
+COORDINATES = (gl.GL_S, gl.GL_T, gl.GL_R, gl.GL_Q)
+PLANES = {gl.GL_OBJECT_PLANE: "object_plane", gl.GL_EYE_PLANE: "eye_plane"}
+
+
+def glActiveTexture(texture: int) -> None:
+    """Say which unit texture calls and the texture matrix stack are about."""
+    unit = int(texture) - gl.GL_TEXTURE0
+    if not 0 <= unit < TEXTURE_UNITS:
+        return fail(
+            gl.GL_INVALID_ENUM,
+            "glActiveTexture",
+            f"texture={token_name(texture)}: expected GL_TEXTURE0 to GL_TEXTURE{TEXTURE_UNITS - 1}",
+        )
+    current().active_unit = unit
+    return None
+
+
+# -- environment -------------------------------------------------------------------------------------------------------
+def glTexEnvi(target: int, pname: int, param: int) -> None:
+    """Set how a texture's colour meets the fragment's."""
+    _set_environment("glTexEnvi", target, pname, param)
+
+
+def glTexEnvf(target: int, pname: int, param: float) -> None:
+    """Set how a texture's colour meets the fragment's."""
+    _set_environment("glTexEnvf", target, pname, param)
+
+
+def glTexEnvfv(target: int, pname: int, params: Any) -> None:
+    """Set a parameter of the texture environment; GL_TEXTURE_ENV_COLOR takes four floats."""
+    _set_environment("glTexEnvfv", target, pname, np.asarray(params, np.float32))
+
+
+def glTexEnviv(target: int, pname: int, params: Any) -> None:
+    """Set a parameter of the texture environment; the colour's ints stand for 1 at 2**31 - 1."""
+    values = np.asarray(params)
+    if pname == gl.GL_TEXTURE_ENV_COLOR:
+        values = (np.float32(2) * values.astype(np.float32) + np.float32(1)) / np.float32(4294967294.0)
+    _set_environment("glTexEnviv", target, pname, values)
+
+
+def _set_environment(operation: str, target: int, pname: int, value: Any) -> None:
+    context, vector = current(), np.ravel(value)
+    if problem := _environment_problem(target, pname, isinstance(value, np.ndarray)):
+        return fail(gl.GL_INVALID_ENUM, operation, problem)
+    if pname == gl.GL_TEXTURE_ENV_COLOR:
+        if vector.shape != (4,):
+            raise ValueError(f"{operation}(GL_TEXTURE_ENV_COLOR): expected 4 numbers, got shape {vector.shape}")
+        set_unit(context, context.active_unit, env_color=tuple(float(c) for c in vector))
+        return None
+    mode = int(vector[0])
+    if mode not in ENVIRONMENT_MODES:
+        expected = ", ".join(token_name(m, MODE_NAMES) for m in ENVIRONMENT_MODES)
+        return fail(
+            gl.GL_INVALID_ENUM,
+            operation,
+            f"GL_TEXTURE_ENV_MODE={token_name(mode)}: expected one of {expected} (others are not part of this subset)",
+        )
+    set_unit(context, context.active_unit, env_mode=mode)
+    return None
+
+
+def _environment_problem(target: int, pname: int, vector: bool) -> str | None:
+    if target != gl.GL_TEXTURE_ENV:
+        return f"target={token_name(target)}: expected GL_TEXTURE_ENV"
+    if pname == gl.GL_TEXTURE_ENV_MODE or (pname == gl.GL_TEXTURE_ENV_COLOR and vector):
+        return None
+    return f"pname={token_name(pname)}: expected GL_TEXTURE_ENV_MODE, or GL_TEXTURE_ENV_COLOR with four numbers"
+
+
+def glGetTexEnviv(target: int, pname: int, params: Any = None) -> Any:
+    """Return the mode of the texture environment, or its colour as 4 int32."""
+    return _environment("glGetTexEnviv", target, pname, params, np.int32)
+
+
+def glGetTexEnvfv(target: int, pname: int, params: Any = None) -> Any:
+    """Return the mode of the texture environment as a float, or its colour as 4 float32."""
+    return _environment("glGetTexEnvfv", target, pname, params, np.float32)
+
+
+def _environment(operation: str, target: int, pname: int, params: Any, dtype: type[np.generic]) -> Any:
+    context = current()
+    if problem := _environment_problem(target, pname, vector=True):
+        return fail(gl.GL_INVALID_ENUM, operation, problem)
+    unit = context.state.units[context.active_unit]
+    if pname == gl.GL_TEXTURE_ENV_MODE:
+        return _answer(np.array([unit.env_mode], dtype), params)
+    color = np.array(unit.env_color, np.float32)
+    scaled = color if dtype == np.float32 else (color.astype(np.float64) * 2147483647.0).astype(dtype)
+    return _answer(scaled, params)
+
+
+def _answer(values: np.ndarray, params: Any) -> Any:
+    if params is not None:
+        np.asarray(params)[: len(values)] = values
+    return values if len(values) > 1 else values[0].item()
+
+
+# -- generated coordinates ---------------------------------------------------------------------------------------------
+def glTexGeni(coord: int, pname: int, param: int) -> None:
+    """Say how a coordinate is generated: GL_OBJECT_LINEAR or GL_EYE_LINEAR."""
+    _set_mode("glTexGeni", coord, pname, param)
+
+
+def glTexGenf(coord: int, pname: int, param: float) -> None:
+    """Say how a coordinate is generated."""
+    _set_mode("glTexGenf", coord, pname, param)
+
+
+def glTexGend(coord: int, pname: int, param: float) -> None:
+    """Say how a coordinate is generated."""
+    _set_mode("glTexGend", coord, pname, param)
+
+
+def glTexGenfv(coord: int, pname: int, params: Any) -> None:
+    """Set a plane of a generated coordinate, or its mode; an eye plane is taken to eye space."""
+    _set_generation("glTexGenfv", coord, pname, params)
+
+
+def glTexGendv(coord: int, pname: int, params: Any) -> None:
+    """Set a plane of a generated coordinate, or its mode."""
+    _set_generation("glTexGendv", coord, pname, params)
+
+
+def glTexGeniv(coord: int, pname: int, params: Any) -> None:
+    """Set a plane of a generated coordinate, or its mode."""
+    _set_generation("glTexGeniv", coord, pname, params)
+
+
+def _set_mode(operation: str, coord: int, pname: int, value: Any) -> None:
+    context = current()
+    if problem := _generation_problem(coord, pname, vector=False):
+        return fail(gl.GL_INVALID_ENUM, operation, problem)
+    if int(value) not in GEN_MODES:
+        return fail(
+            gl.GL_INVALID_ENUM,
+            operation,
+            f"GL_TEXTURE_GEN_MODE={token_name(int(value))}: expected GL_OBJECT_LINEAR or GL_EYE_LINEAR "
+            "(others are not part of this subset)",
+        )
+    _replace_generation(context, coord, mode=int(value))
+    return None
+
+
+def _set_generation(operation: str, coord: int, pname: int, params: Any) -> None:
+    context, values = current(), np.ravel(params)
+    if pname == gl.GL_TEXTURE_GEN_MODE:
+        return _set_mode(operation, coord, pname, values[0])
+    if problem := _generation_problem(coord, pname, vector=True):
+        return fail(gl.GL_INVALID_ENUM, operation, problem)
+    if values.shape != (4,):
+        raise ValueError(f"{operation}({token_name(pname)}): expected 4 numbers, got shape {values.shape}")
+    plane = values.astype(np.float32)
+    if pname == gl.GL_EYE_PLANE:
+        plane = eye_plane(plane, context.modelview_stack[-1])
+    _replace_generation(context, coord, **{PLANES[pname]: tuple(float(p) for p in plane)})
+    return None
+
+
+def eye_plane(plane: np.ndarray, modelview: np.ndarray) -> np.ndarray:
+    """Return the plane in eye space: (4,) times the inverse modelview matrix, float32 from left to right."""
+    m = inverse(modelview)
+    with np.errstate(all="ignore"):
+        a, b, c, d = plane.astype(np.float32)
+        return np.asarray(a * m[0] + b * m[1] + c * m[2] + d * m[3], np.float32)
+
+
+def _generation_problem(coord: int, pname: int, vector: bool) -> str | None:
+    if coord not in COORDINATES:
+        return f"coord={token_name(coord)}: expected GL_S, GL_T, GL_R or GL_Q"
+    if pname == gl.GL_TEXTURE_GEN_MODE or (vector and pname in PLANES):
+        return None
+    planes = "or with four numbers GL_OBJECT_PLANE or GL_EYE_PLANE"
+    return f"pname={token_name(pname)}: expected GL_TEXTURE_GEN_MODE, {planes}"
+
+
+def _replace_generation(context: Context, coord: int, **fields: Any) -> None:
+    gen: list[TexGen] = list(context.state.units[context.active_unit].gen)
+    index = COORDINATES.index(coord)
+    gen[index] = replace(gen[index], **fields)
+    set_unit(context, context.active_unit, gen=tuple(gen))
+
+
+def glGetTexGeniv(coord: int, pname: int, params: Any = None) -> Any:
+    """Return the mode of a generated coordinate, or a plane as 4 int32."""
+    return _generation("glGetTexGeniv", coord, pname, params, np.int32)
+
+
+def glGetTexGenfv(coord: int, pname: int, params: Any = None) -> Any:
+    """Return the mode of a generated coordinate as a float, or a plane as 4 float32; an eye plane is in eye space."""
+    return _generation("glGetTexGenfv", coord, pname, params, np.float32)
+
+
+def glGetTexGendv(coord: int, pname: int, params: Any = None) -> Any:
+    """Return the mode of a generated coordinate as a float, or a plane as 4 float64."""
+    return _generation("glGetTexGendv", coord, pname, params, np.float64)
+
+
+def _generation(operation: str, coord: int, pname: int, params: Any, dtype: type[np.generic]) -> Any:
+    if problem := _generation_problem(coord, pname, vector=True):
+        return fail(gl.GL_INVALID_ENUM, operation, problem)
+    context = current()
+    gen = context.state.units[context.active_unit].gen[COORDINATES.index(coord)]
+    values = [gen.mode] if pname == gl.GL_TEXTURE_GEN_MODE else getattr(gen, PLANES[pname])
+    return _answer(np.array(values, np.float32).astype(dtype), params)
+
+
+MODE_NAMES = ("GL_BLEND", "GL_REPLACE", "GL_ADD")

@@ -1,0 +1,236 @@
+"""Texture objects: names, bindings, sampler parameters and their queries."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import Context, current
+from softshadow.gl.errors import fail
+from softshadow.gl.names import generate, listed
+from softshadow.pipeline.commands import AttachTexture, CreateTexture, DeleteTextures, SetSampler
+from softshadow.state import TextureUnit
+from softshadow.texture import Sampler, Texture
+from softshadow.tokens import token_name
+
+BINDINGS = {gl.GL_TEXTURE_2D: "bound_2d", gl.GL_TEXTURE_CUBE_MAP: "bound_cube"}
+FACES = tuple(range(gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X, gl.GL_TEXTURE_CUBE_MAP_NEGATIVE_Z + 1))
+EXPECTED_TARGET = "expected GL_TEXTURE_2D or GL_TEXTURE_CUBE_MAP"
+
+WRAPS = (gl.GL_REPEAT, gl.GL_CLAMP, gl.GL_CLAMP_TO_EDGE, gl.GL_CLAMP_TO_BORDER, gl.GL_MIRRORED_REPEAT)
+FILTERS = (gl.GL_NEAREST, gl.GL_LINEAR)
+MIPMAP_FILTERS = tuple(range(gl.GL_NEAREST_MIPMAP_NEAREST, gl.GL_LINEAR_MIPMAP_LINEAR + 1))
+CHOICES: dict[int, tuple[str, tuple[int, ...]]] = {
+    gl.GL_TEXTURE_MIN_FILTER: ("min_filter", FILTERS + MIPMAP_FILTERS),
+    gl.GL_TEXTURE_MAG_FILTER: ("mag_filter", FILTERS),
+    gl.GL_TEXTURE_WRAP_S: ("wrap_s", WRAPS),
+    gl.GL_TEXTURE_WRAP_T: ("wrap_t", WRAPS),
+    gl.GL_TEXTURE_WRAP_R: ("wrap_r", WRAPS),
+    gl.GL_TEXTURE_COMPARE_MODE: ("compare_mode", (gl.GL_NONE, gl.GL_COMPARE_R_TO_TEXTURE)),
+    gl.GL_TEXTURE_COMPARE_FUNC: ("compare_func", tuple(range(gl.GL_NEVER, gl.GL_ALWAYS + 1))),
+    gl.GL_DEPTH_TEXTURE_MODE: ("depth_mode", (gl.GL_LUMINANCE, gl.GL_INTENSITY, gl.GL_ALPHA, gl.GL_RED)),
+}
+LEVELS = {gl.GL_TEXTURE_BASE_LEVEL: "base_level", gl.GL_TEXTURE_MAX_LEVEL: "max_level"}
+NUMBERS = {
+    gl.GL_TEXTURE_MIN_LOD: "min_lod",
+    gl.GL_TEXTURE_MAX_LOD: "max_lod",
+    gl.GL_TEXTURE_LOD_BIAS: "lod_bias",
+    gl.GL_TEXTURE_PRIORITY: "priority",
+}
+FIELDS = {name: field for name, (field, _) in CHOICES.items()} | LEVELS | NUMBERS
+
+
+# -- objects and bindings ----------------------------------------------------------------------------------------------
+def glGenTextures(n: int, textures: Any = None) -> Any:
+    """Return unused texture names: an int for n = 1, else an array."""
+    if n < 0:
+        return fail(gl.GL_INVALID_VALUE, "glGenTextures", f"n={n}: expected 0 or more")
+    names = generate(current(), "texture", n)
+    if textures is not None:
+        np.asarray(textures)[:n] = names
+    return names
+
+
+def glBindTexture(target: int, texture: int) -> None:
+    """Bind a texture to the active unit; a name that is new becomes a texture of that target."""
+    context = current()
+    if target not in BINDINGS:
+        return fail(gl.GL_INVALID_ENUM, "glBindTexture", f"target={token_name(target)}: {EXPECTED_TARGET}")
+    name = int(texture)
+    standing = context.storage.textures.get(name)
+    if name and standing is not None and standing.target != target:
+        return fail(
+            gl.GL_INVALID_OPERATION,
+            "glBindTexture",
+            f"texture={name} is a {token_name(standing.target)}, it cannot become a {token_name(target)}",
+        )
+    if name and standing is None:
+        context.names["texture"].add(name)
+        context.execute(CreateTexture(name, target))
+    set_unit(context, context.active_unit, **{BINDINGS[target]: name})
+    return None
+
+
+def glDeleteTextures(*arguments: Any) -> None:
+    """Delete textures: (name), (names) or (n, names). They leave all units and the bound framebuffers."""
+    context = current()
+    names = [name for name in listed(arguments) if name > 0]
+    for framebuffer in {context.state.draw_framebuffer, context.state.read_framebuffer}:
+        attachments = context.storage.framebuffers[framebuffer].attachments
+        for point, attachment in list(attachments.items()):
+            if attachment.texture in names:
+                context.execute(AttachTexture(framebuffer, point, 0))
+    for index, unit in enumerate(context.state.units):
+        kept = {field: 0 for field in BINDINGS.values() if getattr(unit, field) in names}
+        if kept:
+            set_unit(context, index, **kept)
+    existing = tuple(name for name in names if name in context.storage.textures)
+    if existing:
+        context.execute(DeleteTextures(existing))
+    context.names["texture"].difference_update(names)
+
+
+def glIsTexture(texture: int) -> bool:
+    """Return whether a name is that of a texture, which it becomes when it is first bound."""
+    return texture != 0 and int(texture) in current().storage.textures
+
+
+def set_unit(context: Context, index: int, **fields: Any) -> None:
+    """Replace fields of one texture unit's state."""
+    units: list[TextureUnit] = list(context.state.units)
+    units[index] = replace(units[index], **fields)
+    context.set(units=tuple(units))
+
+
+def bound_name(context: Context, target: int) -> int:
+    """Return the name bound to the active unit for a target, or for a face of a cube map."""
+    binding = BINDINGS[gl.GL_TEXTURE_CUBE_MAP if target in FACES else target]
+    return int(getattr(context.state.units[context.active_unit], binding))
+
+
+def bound_texture(context: Context, target: int) -> Texture:
+    """Return the texture bound to the active unit; texture 0 is one, too, and made when it is first used."""
+    name = bound_name(context, target)
+    if name not in context.storage.textures:
+        context.execute(CreateTexture(name, target))
+    return context.storage.textures[name]
+
+
+def target_problem(context: Context, target: int, faces: bool = False) -> tuple[int, str] | None:
+    """Return (error code, why) where a call's target cannot be meant, else None."""
+    allowed = (gl.GL_TEXTURE_2D, *FACES) if faces else tuple(BINDINGS)
+    if target not in allowed:
+        expected = "expected GL_TEXTURE_2D or a face of GL_TEXTURE_CUBE_MAP" if faces else EXPECTED_TARGET
+        return gl.GL_INVALID_ENUM, f"target={token_name(target)}: {expected}"
+    if target != gl.GL_TEXTURE_2D and bound_name(context, target) == 0:
+        return gl.GL_INVALID_OPERATION, "no cube map is bound (the cube map named 0 is not part of this subset)"
+    return None
+
+
+# -- parameters --------------------------------------------------------------------------------------------------------
+def glTexParameteri(target: int, pname: int, param: int) -> None:
+    """Set one parameter of the bound texture."""
+    _set_parameter("glTexParameteri", target, pname, param)
+
+
+def glTexParameterf(target: int, pname: int, param: float) -> None:
+    """Set one parameter of the bound texture."""
+    _set_parameter("glTexParameterf", target, pname, param)
+
+
+def glTexParameterfv(target: int, pname: int, params: Any) -> None:
+    """Set a parameter of the bound texture; GL_TEXTURE_BORDER_COLOR takes four floats."""
+    if pname == gl.GL_TEXTURE_BORDER_COLOR:
+        _set_border("glTexParameterfv", target, np.asarray(params, np.float32))
+    else:
+        _set_parameter("glTexParameterfv", target, pname, np.ravel(params)[0])
+
+
+def glTexParameteriv(target: int, pname: int, params: Any) -> None:
+    """Set a parameter of the bound texture; GL_TEXTURE_BORDER_COLOR takes four ints, 2**31 - 1 stands for 1."""
+    if pname == gl.GL_TEXTURE_BORDER_COLOR:
+        values = np.asarray(params, np.float32)
+        _set_border("glTexParameteriv", target, (np.float32(2) * values + np.float32(1)) / np.float32(4294967294.0))
+    else:
+        _set_parameter("glTexParameteriv", target, pname, np.ravel(params)[0])
+
+
+def _set_border(operation: str, target: int, color: np.ndarray) -> None:
+    context = current()
+    if problem := target_problem(context, target):
+        return fail(problem[0], operation, problem[1])
+    if color.shape != (4,):
+        raise ValueError(f"{operation}(GL_TEXTURE_BORDER_COLOR): expected 4 numbers, got shape {color.shape}")
+    _set_sampler(context, target, border_color=tuple(float(c) for c in color))
+    return None
+
+
+def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
+    context = current()
+    if problem := target_problem(context, target):
+        return fail(problem[0], operation, problem[1])
+    if pname in CHOICES:
+        field, choices = CHOICES[pname]
+        if int(value) not in choices:
+            expected = ", ".join(token_name(c) for c in choices)
+            return fail(
+                gl.GL_INVALID_ENUM,
+                operation,
+                f"{token_name(pname)}={token_name(int(value))}: expected one of {expected}",
+            )
+        _set_sampler(context, target, **{field: int(value)})
+    elif pname in LEVELS:
+        if value < 0:
+            return fail(gl.GL_INVALID_VALUE, operation, f"{token_name(pname)}={value}: expected 0 or more")
+        _set_sampler(context, target, **{LEVELS[pname]: int(value)})
+    elif pname in NUMBERS:
+        number = float(np.float32(value))
+        limited = min(max(number, 0.0), 1.0) if pname == gl.GL_TEXTURE_PRIORITY else number
+        _set_sampler(context, target, **{NUMBERS[pname]: limited})
+    else:
+        return fail(
+            gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)} is no parameter of a texture in this subset"
+        )
+    return None
+
+
+def _set_sampler(context: Context, target: int, **fields: Any) -> None:
+    texture = bound_texture(context, target)
+    changed = replace(texture.sampler, **fields)
+    if changed != texture.sampler:
+        context.execute(SetSampler(texture.name, changed))
+
+
+# -- queries -----------------------------------------------------------------------------------------------------------
+def glGetTexParameterfv(target: int, pname: int, params: Any = None) -> Any:
+    """Return a parameter of the bound texture: a float, or 4 float32 for GL_TEXTURE_BORDER_COLOR."""
+    return _parameter("glGetTexParameterfv", target, pname, params, np.float32)
+
+
+def glGetTexParameteriv(target: int, pname: int, params: Any = None) -> Any:
+    """Return a parameter of the bound texture: an int, or 4 int32 for GL_TEXTURE_BORDER_COLOR."""
+    return _parameter("glGetTexParameteriv", target, pname, params, np.int32)
+
+
+def _parameter(operation: str, target: int, pname: int, params: Any, dtype: type[np.generic]) -> Any:
+    context = current()
+    if problem := target_problem(context, target):
+        return fail(problem[0], operation, problem[1])
+    known = context.storage.textures.get(bound_name(context, target))
+    sampler = known.sampler if known is not None else Sampler()
+    if pname == gl.GL_TEXTURE_BORDER_COLOR:
+        color = np.array(sampler.border_color, np.float32)
+        answer = color if dtype == np.float32 else (color.astype(np.float64) * 2147483647.0).astype(np.int32)
+    elif pname in FIELDS:
+        value = getattr(sampler, FIELDS[pname])
+        answer = np.array([value], np.float32) if dtype == np.float32 else np.array([round(value)], np.int32)
+    else:
+        return fail(
+            gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)} is no parameter of a texture in this subset"
+        )
+    if params is not None:
+        np.asarray(params)[: len(answer)] = answer
+    return answer if len(answer) > 1 else answer[0].item()

@@ -1,0 +1,134 @@
+"""Client memory: how the rows of an image lie in an array, as glPixelStore has it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+
+TYPES: dict[int, type[np.generic]] = {
+    gl.GL_UNSIGNED_BYTE: np.uint8,
+    gl.GL_BYTE: np.int8,
+    gl.GL_UNSIGNED_SHORT: np.uint16,
+    gl.GL_SHORT: np.int16,
+    gl.GL_UNSIGNED_INT: np.uint32,
+    gl.GL_INT: np.int32,
+    gl.GL_HALF_FLOAT: np.float16,
+    gl.GL_FLOAT: np.float32,
+    gl.GL_UNSIGNED_INT_24_8: np.uint32,
+}
+COMPONENTS: dict[int, str] = {
+    gl.GL_RED: "R",
+    gl.GL_GREEN: "G",
+    gl.GL_BLUE: "B",
+    gl.GL_ALPHA: "A",
+    gl.GL_RG: "RG",
+    gl.GL_RGB: "RGB",
+    gl.GL_BGR: "BGR",
+    gl.GL_RGBA: "RGBA",
+    gl.GL_BGRA: "BGRA",
+    gl.GL_LUMINANCE: "L",
+    gl.GL_LUMINANCE_ALPHA: "LA",
+    gl.GL_DEPTH_COMPONENT: "Z",
+    gl.GL_STENCIL_INDEX: "S",
+    gl.GL_DEPTH_STENCIL: "D",
+}
+
+
+@dataclass(frozen=True)
+class PixelStore:
+    """What glPixelStore sets, for one direction; initial values are GL's."""
+
+    alignment: int = 4
+    row_length: int = 0
+    skip_rows: int = 0
+    skip_pixels: int = 0
+
+    def layout(self, width: int, height: int, pixel: int, aligned: bool) -> tuple[int, int, int]:
+        """Return (first byte, bytes from row to row, bytes needed) of an image whose pixels take `pixel` bytes."""
+        step = (self.row_length or width) * pixel
+        if aligned:
+            step = -(-step // self.alignment) * self.alignment
+        first = self.skip_rows * step + self.skip_pixels * pixel
+        return first, step, first + (height - 1) * step + width * pixel if width and height else 0
+
+
+def rows_in(
+    memory: np.ndarray, store: PixelStore, width: int, height: int, format: int, type: int, operation: str
+) -> np.ndarray:
+    """Return the image inside client memory as a view (height, width, components).
+
+    Rows lie at GL's alignment where the memory is large enough for that; else they lie close together, as the rows of
+    an array do (PyOpenGL's users hand over arrays and leave the alignment at 4).
+
+    Raises
+    ------
+    ValueError
+        The memory is too small; the message names the size that was needed.
+    """
+    dtype, components = np.dtype(TYPES[type]), len(COMPONENTS[format])
+    shape = (height, width, components)
+    pixel = dtype.itemsize * components
+    raw = memory.reshape(-1).view(np.uint8)
+    first, step, needed = store.layout(width, height, pixel, aligned=True)
+    if raw.nbytes < needed:
+        first, step, needed = store.layout(width, height, pixel, aligned=False)
+    if raw.nbytes < needed:
+        raise ValueError(
+            f"{operation}: the image has {raw.nbytes} bytes; {width} x {height} pixels of {components} {dtype} "
+            f"need {needed}"
+        )
+    return np.ndarray(shape, dtype, raw, first, (step, pixel, dtype.itemsize)) if needed else np.empty(shape, dtype)
+
+
+def client_image(
+    pixels: Any, store: PixelStore, width: int, height: int, format: int, type: int, operation: str
+) -> np.ndarray:
+    """Return a user's image as (height, width, components) of the dtype that `type` names.
+
+    Arrays and lists of another dtype are converted as PyOpenGL does; floats are not cut to integers.
+
+    Raises
+    ------
+    TypeError, ValueError
+        The pixels are not numbers, or too few.
+    """
+    dtype = np.dtype(TYPES[type])
+    if isinstance(pixels, bytes | bytearray | memoryview):
+        memory = np.frombuffer(pixels, np.uint8)
+    else:
+        given = np.asarray(pixels)
+        if given.dtype.kind not in "biuf" or (given.dtype.kind == "f" and dtype.kind != "f"):
+            raise TypeError(
+                f"{operation}: pixels are {given.dtype}; type={gl.token_name(type)} takes {dtype} numbers or bytes"
+            )
+        memory = np.ascontiguousarray(given, dtype)
+    return rows_in(memory, store, width, height, format, type, operation)
+
+
+def answer_array(
+    array: Any, store: PixelStore, width: int, height: int, format: int, type: int, operation: str
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the array that a read-out answers with, and the image in it as a view (h, w, components) to be written.
+
+    Without an array of the user's it is a new one of zeros, (h, w) or (h, w, components).
+
+    Raises
+    ------
+    TypeError, ValueError
+        The user's array cannot be written, has another dtype, or is too small.
+    """
+    dtype = np.dtype(TYPES[type])
+    if array is None:
+        components = len(COMPONENTS[format])
+        made = np.zeros((height, width) if components == 1 else (height, width, components), dtype)
+        return made, made.reshape(height, width, components)
+    if not isinstance(array, np.ndarray) or array.dtype not in (dtype, np.dtype(np.uint8)):
+        given = array.dtype if isinstance(array, np.ndarray) else repr(array)
+        raise TypeError(f"{operation}: expected an array of {dtype}, got {given!s:.80}")
+    if not array.flags.c_contiguous or not array.flags.writeable:
+        raise ValueError(f"{operation}: the array must be C-contiguous and writeable")
+    return array, rows_in(array, store, width, height, format, type, operation)

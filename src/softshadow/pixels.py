@@ -1,0 +1,206 @@
+"""Pixels between client memory and storage: the number formats of glTexImage2D, glReadPixels and glGetTexImage.
+
+Bit for bit those of llvmpipe (measured, tests/gl/test_pixel_formats.py). What is surprising is GL's or Mesa's: a float
+becomes depth by cutting, not by rounding; the luminance that glReadPixels reads is R + G + B; 1.0 in a float image is 0
+as GL_UNSIGNED_INT.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.image import Format
+from softshadow.pixel_store import COMPONENTS
+
+F32 = np.float32
+LARGEST_UINT = (1 << 32) - 1
+D24_STEP = F32(1) / F32((1 << 24) - 1)
+CHANNEL = {"R": 0, "G": 1, "B": 2, "A": 3}
+
+
+# -- depth
+# ---------------------------------------------------------------------------------------------------------------
+def quantized_depth(z: np.ndarray, format: Format) -> np.ndarray:
+    """Return float32 z in [0, 1] in buffer units, rounded as a fragment's depth is."""
+    if not format.largest:
+        return z.astype(format.dtype)
+    if format.largest == LARGEST_UINT:
+        return np.floor(z * F32(format.largest))  # 2**32 in float32: only z = 1 reaches it, and stands for the largest
+    return np.rint(z * F32(format.largest))
+
+
+def sampled_depth(cells: np.ndarray, format: Format) -> np.ndarray:
+    """Return depth as a texture delivers it, float32:
+
+    Times the rounded step, of 32-bit formats the upper 24 bits only.
+    """
+    if not format.largest:
+        return cells.astype(F32)
+    if format.largest == LARGEST_UINT:
+        return np.minimum(np.floor(cells / F32(256)), F32((1 << 24) - 1)) * D24_STEP
+    return cells * (F32(1) / F32(format.largest))
+
+
+def depth_as_float(cells: np.ndarray, format: Format) -> np.ndarray:
+    """Return depth as a read-out delivers it: float32 of the quotient; 16 bits, the product with the rounded step."""
+    if not format.largest:
+        return cells.astype(F32)
+    if format.largest == (1 << 16) - 1:
+        return sampled_depth(cells, format)
+    return (np.minimum(cells.astype(np.float64), format.largest) / format.largest).astype(F32)
+
+
+def unpack_depth(pixels: np.ndarray, format: Format) -> np.ndarray:
+    """Return client depth (h, w) of any type in buffer units."""
+    if pixels.dtype == np.uint16 and format.largest == (1 << 16) - 1:
+        return pixels.astype(F32)
+    if pixels.dtype == np.uint32 and format.largest == LARGEST_UINT:
+        return pixels.astype(F32)
+    z = np.clip(_depth_from_client(pixels), F32(0), F32(1))
+    if format.largest == LARGEST_UINT:
+        return np.floor(z * np.float64(LARGEST_UINT)).astype(F32)
+    return np.floor(z * F32(format.largest)) if format.largest else z
+
+
+def _depth_from_client(pixels: np.ndarray) -> np.ndarray:
+    if pixels.dtype.kind == "f":
+        return pixels.astype(F32)
+    largest = np.iinfo(pixels.dtype).max
+    if pixels.dtype == np.uint32:
+        return (pixels / np.float64(largest)).astype(F32)
+    if pixels.dtype.kind == "u":
+        return pixels.astype(F32) * (F32(1) / F32(largest))
+    doubled = F32(2) * pixels.astype(F32) + F32(1)
+    if pixels.dtype == np.int32:
+        return doubled * (F32(1) / F32(2 * largest))
+    return np.where(pixels == 0, F32(0), doubled * (F32(1) / F32(2 * largest + 1)))
+
+
+def pack_depth(cells: np.ndarray, format: Format, dtype: type[np.generic], through_float: bool = False) -> np.ndarray:
+    """Return depth in buffer units (h, w) as a client type.
+
+    GL_UNSIGNED_INT repeats the upper bits of fixed-point depth below it, except where glGetTexImage goes
+    `through_float` (16 and 24 bits).
+    """
+    z = depth_as_float(cells, format)
+    if dtype == np.uint32 and format.largest and not (through_float and format.largest < LARGEST_UINT):
+        d = np.minimum(cells.astype(np.float64), format.largest).astype(np.uint64)
+        if format.largest == (1 << 16) - 1:
+            d = d << 16 | d
+        elif format.largest == (1 << 24) - 1:
+            d = d << 8 | d >> 16
+        return d.astype(np.uint32)
+    if np.dtype(dtype).kind == "f":
+        return z.astype(dtype)
+    largest = np.iinfo(dtype).max
+    if dtype == np.uint16:
+        return np.rint(z * F32(largest)).astype(dtype)
+    if dtype in (np.int8, np.int16):
+        return np.trunc(((z * F32(2 * largest + 1)).astype(np.int64) - 1) / 2).astype(dtype)
+    return np.floor(z.astype(np.float64) * largest).astype(dtype)
+
+
+# -- colour
+# --------------------------------------------------------------------------------------------------------------
+def to_base(rgba: np.ndarray, base: int) -> np.ndarray:
+    """Return RGBA (..., 4) reduced to a base internal format, as sampling delivers it (GL 2.1, table 3.15)."""
+    one = 255 if rgba.dtype == np.uint8 else 1
+    sources = {
+        gl.GL_RGBA: "RGBA",
+        gl.GL_RGB: "RGB1",
+        gl.GL_RG: "RG01",
+        gl.GL_RED: "R001",
+        gl.GL_ALPHA: "000A",
+        gl.GL_LUMINANCE: "RRR1",
+        gl.GL_LUMINANCE_ALPHA: "RRRA",
+        gl.GL_INTENSITY: "RRRR",
+    }[base]
+    return _swizzled(rgba, sources, one)
+
+
+def _swizzled(rgba: np.ndarray, sources: str, one: int) -> np.ndarray:
+    if sources == "RGBA":
+        return rgba
+    out = np.empty((*rgba.shape[:-1], len(sources)), rgba.dtype)
+    for channel, source in enumerate(sources):
+        out[..., channel] = rgba[..., CHANNEL[source]] if source in CHANNEL else one * int(source)
+    return out
+
+
+def unpack_color(pixels: np.ndarray, pixel_format: int, format: Format) -> np.ndarray:
+    """Return client colours (h, w, components) as the cells (h, w, 4) of an 8-bit or float image."""
+    values = _to_unorm8(pixels) if format.kind == "unorm8" else _to_float(pixels)
+    names = COMPONENTS[pixel_format]
+    rgba = np.zeros((*values.shape[:2], 4), values.dtype)
+    rgba[..., 3] = 255 if format.kind == "unorm8" else 1
+    for component, name in enumerate(names):
+        for channel in "RGB" if name == "L" else name:
+            rgba[..., CHANNEL[channel]] = values[..., component]
+    return to_base(rgba, format.base)
+
+
+def _to_unorm8(values: np.ndarray) -> np.ndarray:
+    if values.dtype.kind == "f":
+        return np.rint(np.clip(values.astype(F32), F32(0), F32(1)) * F32(255)).astype(np.uint8)
+    largest = np.iinfo(values.dtype).max
+    positive = np.maximum(values, 0).astype(np.uint64)
+    return ((positive * np.uint64(255) + np.uint64(largest // 2)) // np.uint64(largest)).astype(np.uint8)
+
+
+def _to_float(values: np.ndarray) -> np.ndarray:
+    if values.dtype.kind == "f":
+        return values.astype(F32)
+    return np.maximum(values.astype(F32) * (F32(1) / F32(np.iinfo(values.dtype).max)), F32(-1))
+
+
+def color_as_float(cells: np.ndarray) -> np.ndarray:
+    """Return the cells of a colour image as float32."""
+    return _to_float(cells)
+
+
+def pack_color(
+    cells: np.ndarray, format: Format, pixel_format: int, dtype: type[np.generic], from_framebuffer: bool = False
+) -> np.ndarray:
+    """Return colour cells (h, w, 4) as client pixels (h, w, components).
+
+    Luminance and intensity answer (L, 0, 0, A). `from_framebuffer`: luminance is R + G + B, and what becomes an integer
+    is clamped to [0, 1] first.
+    """
+    one = 255 if format.kind == "unorm8" else 1
+    base = {gl.GL_LUMINANCE: "R001", gl.GL_INTENSITY: "R001", gl.GL_LUMINANCE_ALPHA: "R00A"}.get(format.base, "RGBA")
+    rgba = _swizzled(cells, base, one)
+    names = COMPONENTS[pixel_format]
+    sums = from_framebuffer and "L" in names and format.base in (gl.GL_RG, gl.GL_RGB, gl.GL_RGBA)
+    if sums:
+        rgba = color_as_float(rgba)
+        total = rgba[..., 0] + rgba[..., 1] + rgba[..., 2]
+        rgba = np.stack([total, total, total, rgba[..., 3]], axis=-1)
+        if format.kind == "unorm8":
+            rgba = np.clip(rgba, F32(0), F32(1))
+    chosen = _swizzled(rgba, names.replace("L", "R"), one)
+    if chosen.dtype == np.uint8:
+        return _from_unorm8(chosen, dtype)
+    if from_framebuffer and np.dtype(dtype).kind != "f":
+        chosen = np.clip(chosen, F32(0), F32(1))
+    return _from_float(chosen, dtype)
+
+
+def _from_unorm8(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
+    if dtype == np.uint8:
+        return values
+    if np.dtype(dtype).kind == "f":
+        return _to_float(values).astype(dtype)
+    return ((values.astype(np.uint64) * np.uint64(np.iinfo(dtype).max) + np.uint64(127)) // np.uint64(255)).astype(
+        dtype
+    )
+
+
+def _from_float(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
+    if np.dtype(dtype).kind == "f":
+        return values.astype(dtype)
+    largest, signed = np.iinfo(dtype).max, np.iinfo(dtype).min < 0
+    low = F32(-1) if signed else F32(0)
+    scaled = np.rint(np.clip(values, low, F32(1)) * F32(largest)).astype(np.int64)
+    # float32 has no 2**32 - 1: at 1.0 Mesa's product is one too large and wraps, beyond 1.0 it answers the largest
+    return np.where(values > 1, largest, scaled).astype(dtype)
