@@ -7,6 +7,7 @@ import pytest
 from drawn_frames import SIZE, draw, faces_between, floor_points, off_the_edges
 from hypothesis import given, settings
 
+from softshadow.errors import SceneError
 from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shapes
 from softshadow.techniques import planar
 from strategies import floor_scenes
@@ -167,6 +168,16 @@ def test_maps_are_float_visibility_and_where_it_is_valid(method: str) -> None:
     assert maps["valid"].dtype == bool
     assert maps["visibility"].shape == maps["valid"].shape == SIZE[::-1]
     assert (maps["visibility"][~maps["valid"]] == 1).all()
+
+
+def test_more_lights_or_receivers_than_there_are_numbers_for_is_an_error() -> None:
+    lights = tuple(Light((x, 5, 0), name=f"light {x}") for x in range(9))
+    with pytest.raises(SceneError, match="9 lights; expected at most 8"):
+        draw("planar", replace(SCENE, lights=lights))
+    floors = tuple(replace(FLOOR, object_to_world=placement((0, -y, 0)), name=f"floor {y}") for y in range(256))
+    with pytest.raises(SceneError, match="256 receivers; expected at most 255"):
+        draw("planar", with_objects(*floors, BOX))
+    assert draw("planar", with_objects(*floors, BOX), method="depth-off").shadow.any()
 
 
 def test_a_scene_without_receivers_is_drawn_without_shadows() -> None:

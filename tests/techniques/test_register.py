@@ -48,6 +48,7 @@ def test_unknown_option_is_answered_with_the_nearest_name() -> None:
         ("planar", "clip", 1, TypeError),
         ("planar", "texture_size", 0, ValueError),
         ("planar", "texture_size", True, TypeError),
+        ("map", "map_size", 100_000, ValueError),
         ("map", "map_size", 64.0, TypeError),
         ("map", "bias", float("nan"), ValueError),
         ("map", "factor", float("inf"), ValueError),

@@ -101,7 +101,7 @@ def test_a_volume_that_touches_a_corner_of_the_near_rectangle_is_warned_of(far: 
 def test_zfail_needs_its_caps_and_a_far_plane_that_cuts_nothing() -> None:
     scene = Scene.named("boxes")  # shadows run away from the eye and leave the view through the far plane
     reference = counts("volume-zfail", scene)
-    assert (counts("volume-zfail", scene, caps=False) != reference).sum() > 10
+    assert (counts("volume-zfail", scene, closed=False) != reference).sum() > 10
     assert (counts("volume-zfail", scene, far="finite") != reference).sum() > 10
     assert (counts("volume-zfail", scene, far="clamp") == reference).all()
 

@@ -11,7 +11,10 @@ from typing import Any
 import numpy as np
 
 from softshadow import matrices
+from softshadow.errors import SceneError
 from softshadow.scene import Camera, Light, Scene, SceneObject
+
+MOST_LIGHTS = 8
 
 
 def column_major(matrix: np.ndarray) -> np.ndarray:
@@ -23,7 +26,14 @@ def column_major(matrix: np.ndarray) -> np.ndarray:
 
 
 def begin_frame(gl: Any, scene: Scene) -> None:
-    """Clear all buffers (E61: only glClear does) and set the state a frame starts from."""
+    """Clear all buffers (E61: only glClear does) and set the state a frame starts from.
+
+    Raises
+    ------
+    SceneError                   more lights than GL has (GL_LIGHT0 to GL_LIGHT7)
+    """
+    if len(scene.lights) > MOST_LIGHTS:
+        raise SceneError(f"scene {scene.name}: {len(scene.lights)} lights; expected at most {MOST_LIGHTS}, as GL has")
     gl.glClearColor(*scene.background, 1.0)
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
     gl.glEnable(gl.GL_DEPTH_TEST)

@@ -13,9 +13,9 @@ What the slide's shader decides in one pass takes two here: ambient light everyw
 texture's compare function says so, tested as alpha. Points that the light's camera does not see, beside or behind it,
 are unknown and count as lit.
 
-Known failures: acne (surfaces shadow themselves) without bias, peter panning (shadows come off their casters) with
-too much of it; edges have steps as large as a texel; a point light among the casters needs more than one map;
-`storage` = copy leaves texels beyond the window empty (E62).
+Known failures: acne (surfaces shadow themselves) without bias, and single specks of it at creases even with the slope
+offset, peter panning (shadows come off their casters) with too much of it; edges have steps as large as a texel; a
+point light among the casters needs more than one map; `storage` = copy leaves texels beyond the window empty (E62).
 """
 
 import warnings
@@ -46,7 +46,7 @@ from softshadow.techniques.light_camera import LightCamera, light_camera
 from softshadow.techniques.technique import Option, Steps
 
 OPTIONS = {
-    "map_size": Option(512, int, "texels on a side of the map", minimum=1),
+    "map_size": Option(512, int, "texels on a side of the map", minimum=1, maximum=8192),
     "factor": Option(1.0, float, "slope offset: first argument of glPolygonOffset while the map is drawn"),
     "units": Option(1.0, float, "slope offset: second argument of glPolygonOffset while the map is drawn"),
     "bias": Option(
@@ -231,9 +231,10 @@ def add_light_through_map(
     with added(gl):
         vertices = np.concatenate([thing.world_positions for thing in scene.objects])
         if camera.has_behind(vertices):
-            side_texture(gl)
+            sides = side_texture(gl)
             set_side_coordinates(gl, camera)
             draw_textured(gl, scene)
+            gl.glDeleteTextures([sides])
         gl.glBindTexture(gl.GL_TEXTURE_2D, shadow_map)
         set_map_coordinates(gl, camera, bias)
         draw_textured(gl, scene)

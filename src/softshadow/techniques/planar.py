@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from softshadow.errors import SceneError
 from softshadow.scene import Light, Scene, SceneObject
 from softshadow.techniques.drawing import (
     added,
@@ -47,7 +48,7 @@ OPTIONS = {
     "clip": Option(True, bool, "cut casters at the receiver's plane and at the light before they are flattened"),
     "factor": Option(-1.0, float, "offset and stencil-blend: first argument of glPolygonOffset; negative is nearer"),
     "units": Option(-1.0, float, "offset and stencil-blend: second argument of glPolygonOffset"),
-    "texture_size": Option(256, int, "texture: texels on a side of each receiver's shadow", minimum=1),
+    "texture_size": Option(256, int, "texture: texels on a side of each receiver's shadow", minimum=1, maximum=4096),
 }
 
 # stencil-blend: how much of the colour a shadow takes away, with no regard to what the light gave
@@ -233,6 +234,12 @@ def paint_shadows(gl: Any, scene: Scene, light: Light, clip: bool) -> None:
 
 def mark_receivers(gl: Any, scene: Scene, draw: Callable[[Any, list[SceneObject]], None]) -> None:
     """Draw each receiver with its number into the stencil buffer."""
+    largest = 2 ** int(gl.glGetIntegerv(gl.GL_STENCIL_BITS)) - 1
+    if len(scene.receivers) > largest:
+        raise SceneError(
+            f"scene {scene.name}: {len(scene.receivers)} receivers; expected at most {largest}, the numbers that the "
+            "stencil buffer has for marks (methods depth-off, offset and texture need none)"
+        )
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
     for number, receiver in enumerate(scene.receivers, start=1):
         gl.glStencilFunc(gl.GL_ALWAYS, number, 0xFF)

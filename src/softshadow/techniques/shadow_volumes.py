@@ -37,7 +37,7 @@ OPTIONS = {
         None,
         float,
         "finite cap: every point nearer to the light than this is covered; by default the whole scene is",
-        minimum=0,
+        minimum=1e-6,
     ),
     "far": Option(
         "infinite",

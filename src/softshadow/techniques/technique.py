@@ -1,5 +1,6 @@
 """What the register says about a technique: its name, its steps, its options and where it comes from."""
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -11,15 +12,16 @@ from softshadow.errors import nearest
 class Option:
     """One option of a technique: its default, what it may be, and one sentence of help.
 
-    `kind` is bool, int, float or str; `choices` lists what a str may be; `minimum` is the smallest number that makes
-    sense. A default of None means "chosen from the scene".
+    `kind` is bool, int, float or str; `choices` lists what a str may be; `minimum` and `maximum` bound a number. A default
+    of None means "chosen from the scene".
     """
 
     default: Any
     kind: type
     help: str
     choices: tuple[str, ...] = ()
-    minimum: float | None = None
+    minimum: float = -math.inf
+    maximum: float = math.inf
 
     def checked(self, name: str, value: Any) -> Any:
         """Return the value as this option takes it.
@@ -37,10 +39,9 @@ class Option:
             raise TypeError(f"option {name}={value!r}: expected {self.expected}, got {type(value).__name__}")
         if self.choices and value not in self.choices:
             raise ValueError(f"option {name}={value!r}: {nearest(value, self.choices)}")
-        # written so that NaN is refused, too
-        if self.kind is float and not abs(value) < float("inf"):
+        if self.kind is float and not math.isfinite(value):
             raise ValueError(f"option {name}={value!r}: expected a finite number")
-        if self.minimum is not None and value < self.minimum:
+        if self.kind in (int, float) and not self.minimum <= value <= self.maximum:
             raise ValueError(f"option {name}={value!r}: expected {self.expected}")
         return value
 
@@ -50,7 +51,9 @@ class Option:
         if self.choices:
             return "one of " + ", ".join(self.choices)
         words = {bool: "True or False", int: "a whole number", float: "a number", str: "a text"}[self.kind]
-        return words if self.minimum is None else f"{words} of at least {self.minimum:g}"
+        if math.isfinite(self.maximum):
+            return f"{words} from {self.minimum:g} to {self.maximum:g}"
+        return f"{words} of at least {self.minimum:g}" if math.isfinite(self.minimum) else words
 
 
 # what a generator of steps yields: the title of the step that has ended, or the title and named maps (arrays, first

@@ -42,7 +42,7 @@ from softshadow.techniques.technique import Option, Steps
 
 OPTIONS = {
     **SHARED_OPTIONS,
-    "caps": Option(True, bool, "close the volumes with both caps; False shows the slide's failure"),
+    "closed": Option(True, bool, "close the volumes with both caps; False shows the slide's failure"),
 }
 
 
@@ -57,7 +57,7 @@ def steps(
     far: str = "infinite",
     ops: str = "wrap",
     two_sided: bool = False,
-    caps: bool = True,
+    closed: bool = True,
 ) -> Steps:
     """Draw the scene with z-fail shadow volumes; see `OPTIONS`."""
     # step 1 (Pasul 1): colour of the scene in shadow, and the depth of what is visible
@@ -80,19 +80,19 @@ def steps(
             gl.glDisable(gl.GL_CULL_FACE)
             gl.glStencilOpSeparate(gl.GL_BACK, gl.GL_KEEP, up, gl.GL_KEEP)
             gl.glStencilOpSeparate(gl.GL_FRONT, gl.GL_KEEP, down, gl.GL_KEEP)
-            draw_volumes(gl, volumes, light_caps=caps, dark_caps=caps)
+            draw_volumes(gl, volumes, light_caps=closed, dark_caps=closed)
             yield title_of("count front and back faces", scene, light)
         else:
             # step 2 (Pasul 2): leaving a volume behind the visible surface counts up
             gl.glCullFace(gl.GL_FRONT)
             gl.glStencilOp(gl.GL_KEEP, up, gl.GL_KEEP)
-            draw_volumes(gl, volumes, light_caps=caps, dark_caps=caps)
+            draw_volumes(gl, volumes, light_caps=closed, dark_caps=closed)
             yield title_of("count back faces", scene, light)
 
             # step 3 (Pasul 3): entering one there counts down
             gl.glCullFace(gl.GL_BACK)
             gl.glStencilOp(gl.GL_KEEP, down, gl.GL_KEEP)
-            draw_volumes(gl, volumes, light_caps=caps, dark_caps=caps)
+            draw_volumes(gl, volumes, light_caps=closed, dark_caps=closed)
             yield title_of("count front faces", scene, light)
         end_count(gl)
 
