@@ -165,25 +165,25 @@ def at_vertices(
     if object_space:
         position = transform(to_object, position[np.newaxis])[0]
         towards_eye = modelview[2, :3]
-    distance_root: np.ndarray | None = None
+    squared_distance: np.ndarray | None = None
     if light.position[3] == 0:
         direction = normalized(position[:3])
         half = normalized(direction + towards_eye)
     else:
         assert eye is not None
         towards = position[:3] * (ONE / position[3]) - eye
-        distance_root = reciprocal_root(dot(towards, towards))
-        direction = towards * distance_root[:, np.newaxis]
+        squared_distance = dot(towards, towards)
+        direction = towards * reciprocal_root(squared_distance)[:, np.newaxis]
         half = direction + towards_eye
     if lighting.local_viewer and has_highlights(lighting):
         assert eye is not None
         half = normalized_rows(direction - normalized_rows(eye))
     elif half.ndim == 2:
         half = normalized_rows(half)
-    return LightAtVertices(light, direction, half, attenuation(light, direction, distance_root))
+    return LightAtVertices(light, direction, half, attenuation(light, direction, squared_distance))
 
 
-def attenuation(light: Light, direction: np.ndarray, distance_root: np.ndarray | None) -> np.ndarray | None:
+def attenuation(light: Light, direction: np.ndarray, squared_distance: np.ndarray | None) -> np.ndarray | None:
     """Return the spot factor times the distance factor (V,) or (1,); None where both are 1 by their settings."""
     factor: np.ndarray | None = None
     if light.spot_cutoff != 180:
@@ -193,12 +193,11 @@ def attenuation(light: Light, direction: np.ndarray, distance_root: np.ndarray |
         inside = np.where(cosine < spot, ONE, ZERO)
         factor = inside * power(abs(spot), np.full_like(spot, light.spot_exponent))
     coefficients = (light.constant_attenuation, light.linear_attenuation, light.quadratic_attenuation)
-    if coefficients != (1.0, 0.0, 0.0) and distance_root is not None:
+    if coefficients != (1.0, 0.0, 0.0) and squared_distance is not None:
         constant, linear, quadratic = vector(coefficients)
-        distance = ONE / distance_root
-        by_distance = ONE / (
-            (quadratic * (distance * distance) + linear * distance) + constant * (distance_root * distance)
-        )
+        distance = np.sqrt(squared_distance)
+        one = reciprocal_root(squared_distance) * distance  # but for rounding: Mesa's first component is made so
+        by_distance = ONE / ((quadratic * squared_distance + linear * distance) + constant * one)
         factor = by_distance if factor is None else by_distance * factor
     return factor
 

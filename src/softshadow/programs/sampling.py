@@ -89,6 +89,16 @@ def project(coordinates: np.ndarray) -> np.ndarray:
     return projected
 
 
+def depth_unit(largest: int) -> np.float32:
+    """Return the depth of one unit of a format whose integer `largest` stands for 1 (0: a float format).
+
+    llvmpipe reads the upper 23 of 32 bits only; cells of such a format are held as multiples of 512.
+    """
+    if largest == 2**32 - 1:
+        return ONE / np.float32(2**23 - 1) / np.float32(512)
+    return ONE / np.float32(largest) if largest else ONE
+
+
 def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
     """Fill `out` (N, 4) with the texture's RGBA at coordinates (N, 3): s, t, and r for depth comparison.
 
@@ -114,7 +124,7 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
     border = np.array(sampler.border_color, np.float32)
     if image.format.kind == "depth":
         largest = image.format.largest
-        unit = ONE / np.float32(largest) if largest else ONE
+        unit = depth_unit(largest)
         sources = np.array(DEPTH_SOURCES[sampler.depth_mode])
         if largest:
             border = border.clip(ZERO, ONE)
