@@ -6,8 +6,8 @@ the camera's picture is taken to the light's view and compared with what is stor
 have the size of its texels, and surfaces need some bias not to shadow themselves.
 
 Paper: Williams 1978, "Casting curved shadows on curved surfaces"; in fixed function Segal et al. 1992, "Fast shadows
-and lighting effects using texture mapping", and Everitt, Rege & Cebenoyan 2001, "Hardware shadow mapping". Slides:
-Andújar, Shadow mapping (setup, pass 1, pass 2); Moldoveanu "umbre 2"; Zimányi & Valient.
+and lighting effects using texture mapping", and Everitt, Rege & Cebenoyan 2001, "Hardware shadow mapping".
+Slides: Andújar, Shadow mapping (setup, pass 1, pass 2); Moldoveanu "umbre 2"; Zimányi & Valient.
 
 What the slide's shader decides in one pass takes two here: ambient light everywhere, then the light where the
 texture's compare function says so, tested as alpha. Points that the light's camera does not see, beside or behind it,

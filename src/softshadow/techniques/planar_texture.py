@@ -2,7 +2,8 @@
 
 The casters are flattened not onto the screen but into the receiver's own (u, v); the texture is then laid over the
 receiver. It is drawn once and stays right for as long as light, casters and receiver stand still (E56); the camera
-may move. Slides: Zimányi & Valient, Projekčné tiene, "Možné renderovanie do textúry".
+may move.
+Slides: Zimányi & Valient, Projekčné tiene, "Možné renderovanie do textúry".
 """
 
 from typing import Any

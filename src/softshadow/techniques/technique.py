@@ -12,8 +12,8 @@ from softshadow.errors import nearest
 class Option:
     """One option of a technique: its default, what it may be, and one sentence of help.
 
-    `kind` is bool, int, float or str; `choices` lists what a str may be; `minimum` and `maximum` bound a number. A default
-    of None means "chosen from the scene".
+    `kind` is bool, int, float or str; `choices` lists what a str may be; `minimum` and `maximum` bound a number. With
+    a default of None the value is chosen from the scene.
     """
 
     default: Any

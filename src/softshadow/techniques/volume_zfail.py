@@ -6,8 +6,8 @@ where the eye is. The price: the volume must be a closed solid, with a light cap
 cut it.
 
 Paper: Everitt & Kilgard 2002, "Practical and robust stenciled shadow volumes for hardware-accelerated rendering";
-found before by Bilodeau & Songy 1999 and by Carmack 2000 ("Carmack's reverse"). Slides: Moldoveanu "umbre 1", Volume
-de umbra (12) to (14).
+found before by Bilodeau & Songy 1999 and by Carmack 2000 ("Carmack's reverse").
+Slides: Moldoveanu "umbre 1", Volume de umbra (12) to (14).
 
 Known failures: volumes without caps (the slide's "shadow polygons" are the sides only); `far` = finite cuts the
 volumes open where they leave the view; saturating counters as in z-pass; edges are hard.
