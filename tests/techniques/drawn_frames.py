@@ -1,12 +1,13 @@
 """Draw a technique and keep what tests look at: buffers after each step, maps, warnings, names of the objects drawn."""
 
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from softshadow import techniques
+from softshadow import gl, techniques
 from softshadow.scene import Scene
 
 SIZE = (64, 48)
@@ -69,10 +70,13 @@ def program(gl: Any, name: str, scene: Scene, size: tuple[int, int], options: di
 
 def draw(name: str, scene: Scene, size: tuple[int, int] = SIZE, **options: Any) -> Drawn:
     """Draw a technique with softshadow's own pipeline."""
-    from softshadow import gl
+    return run(lambda gl: program(gl, name, scene, size, options), size)
 
+
+def run(function: Callable[[Any], Any], size: tuple[int, int] = SIZE) -> Any:
+    """Call a function with the namespace of a fresh context."""
     with gl.create_context(*size):
-        return program(gl, name, scene, size, options)
+        return function(gl)
 
 
 # -- ray casting -------------------------------------------------------------------------------------------------------

@@ -1,14 +1,17 @@
 """Shadow volumes by z-pass and z-fail: counts, and when they go wrong."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
-from drawn_frames import draw, faces_between, floor_points, off_the_edges
+from drawn_frames import SIZE, draw, faces_between, floor_points, off_the_edges, run
 from hypothesis import assume, given, settings
 
 from softshadow.errors import CounterSaturated, NearClipZPass
 from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shapes
+from softshadow.techniques import drawing
+from softshadow.techniques.shadow_volumes import begin_count, draw_volumes, volumes_of
 from strategies import floor_scenes
 
 FLOOR = SceneObject(shapes.floor(12), casts=False, receives=True, name="floor")
@@ -37,6 +40,38 @@ def test_count_is_the_number_of_casting_faces_between_light_and_point(scene: Sce
     compared = floor & off_the_edges(faces)
     assert compared.any()
     assert (drawn.stencil["count front faces"] == faces)[compared].all()
+
+
+@pytest.mark.parametrize("generator", ["silhouette", "per-polygon"])
+@pytest.mark.parametrize("eye", [(3, 4, 6), (0.6, 1.6, 1.2), (0.2, 1.1, 1.1)])
+def test_a_light_cap_nowhere_passes_over_its_own_surface(generator: str, eye: tuple[float, float, float]) -> None:
+    # near eyes: the sides of the view and the near plane cut through the meshes
+    ring = SceneObject(shapes.torus(0.7, 0.25), placement((-0.2, 1, -0.3), (50, 1, 2, 0), 1.1), name="ring")
+    open_tube = Scene.named("open-tube").casters[0]  # some of its faces are turned towards the light
+    camera = Camera(eye, (0, 1, 0), near=0.5, far=20)
+    scene = replace(SCENE, camera=camera, objects=(FLOOR, BOX, ring, open_tube))
+
+    def program(gl: Any) -> tuple[np.ndarray, np.ndarray]:
+        drawing.begin_frame(gl, scene)
+        drawing.set_camera(gl, camera, SIZE, far="infinite")
+        drawing.draw_shapes(gl, scene.objects)
+        caps = [
+            replace(item, volume=replace(item.volume, sides=item.volume.sides[:0]))
+            for item in volumes_of(scene, scene.lights[0], generator, "infinite", None)
+        ]
+        begin_count(gl)
+        gl.glDisable(gl.GL_CULL_FACE)
+        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR)
+        draw_volumes(gl, caps, dark_caps=False)
+        passed = drawing.read_stencil(gl, SIZE)
+        gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
+        gl.glDepthFunc(gl.GL_EQUAL)
+        draw_volumes(gl, caps, dark_caps=False)
+        return passed, drawing.read_stencil(gl, SIZE)
+
+    passed, equal = run(program)
+    assert not passed.any()
+    assert equal.any()
 
 
 @settings(max_examples=10)
