@@ -19,6 +19,7 @@ import numpy as np
 from softshadow.errors import MeshError, PartlyReadFile, nearest
 from softshadow.scene.gltf_tree import read_tree, self_contained
 from softshadow.scene.obj_text import drawable_lines
+from softshadow.scene.placement import carried
 
 
 @dataclass
@@ -226,14 +227,6 @@ def _moved(part: Part, matrix: np.ndarray) -> Part:
         cofactors = np.stack([np.cross(linear[(i + 1) % 3], linear[(i + 2) % 3]) for i in range(3)])
         part.normals = carried(part.normals, -cofactors if mirrored else cofactors)
     return part
-
-
-def carried(points: np.ndarray, linear: np.ndarray) -> np.ndarray:
-    """Return points times a 3x3 matrix.
-
-    Column by column: equal points stay equal to the last bit, which a matrix product in blocks does not promise.
-    """
-    return points[:, :1] * linear[:, 0] + points[:, 1:2] * linear[:, 1] + points[:, 2:3] * linear[:, 2]
 
 
 def _what_is_there(kind: str, data: bytes, geometry: Geometry) -> str:

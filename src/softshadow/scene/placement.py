@@ -40,3 +40,11 @@ def placement(
     matrix[:3, :3] = rotation * factors
     matrix[:3, 3] = numbers("move", move, 3)
     return matrix
+
+
+def carried(points: np.ndarray, linear: np.ndarray) -> np.ndarray:
+    """Return points times a 3x3 matrix.
+
+    Column by column: equal points stay equal to the last bit, which a matrix product in blocks does not promise.
+    """
+    return points[:, :1] * linear[:, 0] + points[:, 1:2] * linear[:, 1] + points[:, 2:3] * linear[:, 2]

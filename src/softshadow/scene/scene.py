@@ -15,6 +15,7 @@ from softshadow.scene.camera import Camera
 from softshadow.scene.checked import keep, number, numbers
 from softshadow.scene.lights import Light
 from softshadow.scene.mesh import Mesh
+from softshadow.scene.placement import carried
 from softshadow.scene.plane import flat_plane
 
 
@@ -105,7 +106,8 @@ class SceneObject:
     @cached_property
     def world_positions(self) -> np.ndarray:
         """(V, 3) float64: the vertices in world space."""
-        return self.mesh.positions.astype(np.float64) @ self.object_to_world[:3, :3].T + self.object_to_world[:3, 3]
+        matrix = self.object_to_world
+        return carried(self.mesh.positions.astype(np.float64), matrix[:3, :3]) + matrix[:3, 3]
 
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)

@@ -25,7 +25,10 @@ def quad(
     steps = np.linspace(0, 1, _at_least("cells", cells, 1) + 1)
     t, s = (grid.ravel() for grid in np.meshgrid(steps, steps, indexing="ij"))
     positions = np.asarray(corner, dtype=np.float64) + np.outer(s, across) + np.outer(t, up)
-    normal = np.cross(across, up) / np.linalg.norm(np.cross(across, up))
+    normal = np.cross(across, up)
+    if not normal.any():
+        raise ValueError(f"across: {list(across)} and up {list(up)} are parallel, expected two sides of an area")
+    normal = normal / np.linalg.norm(normal)
     triangles = _grid_triangles(cells, cells)
     return Mesh(positions, triangles, np.tile(normal, (len(positions), 1)), np.stack([s, t], axis=1), name=name)
 

@@ -1,0 +1,81 @@
+"""What is wrong with a scene file, one line per mistake: its place, what stands there, what was expected."""
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from pydantic import BaseModel, ValidationError
+
+from softshadow.errors import SceneError, nearest
+
+# what a message says was expected, by the last key of the place
+EXPECTED = {
+    **dict.fromkeys(("eye", "target", "up", "position", "direction", "move", "corner", "across"), "[x, y, z]"),
+    **dict.fromkeys(("color", "specular", "ambient", "background"), "[red, green, blue], each 0 to 1"),
+    "fov_y": "degrees between 0 and 180",
+    "near": "a positive distance",
+    "far": "a positive distance",
+    "shininess": "a number from 0 to 128",
+    "turn": "[angle in degrees, x, y, z]",
+    "scale": "a positive number or [x, y, z]",
+    "material": "the name of a [materials.NAME] table, or a table with color, specular, shininess",
+    "camera": "a table [camera] with eye and target",
+    "light": "one or more tables [[light]]",
+    "object": "tables [[object]]",
+    "receiver": "tables [[receiver]]",
+    "materials": "tables [materials.NAME]",
+    "parameters": "a table of numbers",
+    **dict.fromkeys(("casts", "receives"), "true or false"),
+    **dict.fromkeys(("name", "title", "shape", "mesh"), "text in quotes"),
+}
+
+
+def mistakes(error: ValidationError, tables: dict[str, type[BaseModel]]) -> list[str]:
+    """Return one line per mistake.
+
+    Parameters
+    ----------
+    tables : dict      the table of each key of the file that has one, and the whole file's under ""
+    """
+    lines = []
+    for item in error.errors(include_url=False):
+        place = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in item["loc"]).lstrip(".")
+        keys = [part for part in item["loc"] if isinstance(part, str)]
+        if item["type"] == "value_error":
+            for text in str(item["ctx"]["error"]).split("\n"):
+                # a complaint that begins with a key goes to the key
+                inner = re.match(r"[a-z_]+(\.\w+)*(\[\d+\])?: ", text)
+                lines.append(f"{place}{'.' if inner and place else ': ' if place else ''}{text}")
+        elif item["type"] == "extra_forbidden":
+            table = tables[keys[0] if len(keys) > 1 else ""]
+            lines.append(f"{place}: unknown key; {nearest(keys[-1], list(table.model_fields))}")
+        else:
+            got = "it is missing" if item["type"] == "missing" else f"got {item['input']!r}"
+            lines.append(f"{place}: expected {EXPECTED.get(keys[-1] if keys else '', item['msg'])}, {got}")
+    return lines
+
+
+class Complaints:
+    """What is wrong with one table: collected inside `with`, raised together at its end."""
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+
+    def __enter__(self) -> "Complaints":
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: object) -> None:
+        if self.lines and kind is None:
+            raise ValueError("\n".join(self.lines))
+
+    def add(self, line: str) -> None:
+        """Keep a complaint; `key: text` goes to the key."""
+        self.lines.append(line)
+
+    @contextmanager
+    def about(self, part: str = "") -> Iterator[None]:
+        """Keep what a part of the scene complains about inside this `with`, without the part's own name before it."""
+        try:
+            yield
+        except SceneError as error:
+            self.lines.append(str(error).removeprefix(f"{part}: "))
