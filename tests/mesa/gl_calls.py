@@ -62,7 +62,10 @@ def _spelled(argument: Any) -> str:
     if isinstance(argument, str):
         return f"gl.{argument}"
     if isinstance(argument, np.ndarray):
-        return f"np.array({argument.tolist()}, np.{argument.dtype})"
+        shortest = np.vectorize(lambda number: str(number), otypes=[object])(
+            argument
+        ).tolist()  # 0.1, not 0.10000000149
+        return f"np.array({shortest}, np.{argument.dtype})".replace("'", "")
     return repr(argument)
 
 
