@@ -27,8 +27,8 @@ def boxes() -> Scene:
     """Three boxes on a floor: the plain case, every technique is right here."""
     return Scene(
         "boxes",
-        Camera((3.6, 3.4, 6.0), (0, 0.5, 0), near=1, far=30),
-        (Light((2.5, 5, 3)),),
+        Camera((2.6, 3.0, 4.8), (0.25, 0.45, 0.1), fov_y=40, near=1, far=30),
+        (Light((-2.2, 4.2, 2.2)),),
         (
             _floor(),
             _caster(shapes.box(), BRICK, (-1.3, 0.5, 0), (20, 0, 1, 0), name="cube"),
@@ -42,7 +42,7 @@ def torus() -> Scene:
     """A torus over a floor: a shadow with a hole, and a caster that shadows itself."""
     return Scene(
         "torus",
-        Camera((2.8, 3.2, 5.2), (-0.2, 0.8, 0), near=1, far=30),
+        Camera((2.4, 3.0, 4.6), (-0.1, 0.75, 0), fov_y=40, near=1, far=30),
         (Light((1.5, 6, 2)),),
         (
             _floor(),
@@ -55,7 +55,7 @@ def overlapping() -> Scene:
     """Two casters one behind the other as the light sees them: counts of two, where parity says lit."""
     return Scene(
         "overlapping",
-        Camera((3.5, 3.0, 5.5), (0.2, 0.8, 0), near=1, far=30),
+        Camera((2.8, 2.8, 4.8), (0.2, 0.85, 0), fov_y=40, near=1, far=30),
         (Light((-2, 6, 1)),),
         (
             _floor(),
@@ -69,7 +69,7 @@ def light_between() -> Scene:
     """A light low between boxes, with a slab above it: projected on the floor, the slab casts an anti-shadow."""
     return Scene(
         "light-between",
-        Camera((1.5, 3.6, 7.0), (0, 1.0, 0), near=1, far=40),
+        Camera((1.4, 3.2, 6.2), (0.1, 1.0, 0.2), fov_y=40, near=1, far=40),
         (Light((0, 1.7, 0.2)),),
         (
             _floor(),
@@ -113,7 +113,7 @@ def eye_in_shadow() -> Scene:
         (Light((-1, 9, 1)),),
         (
             _floor(14),
-            _caster(shapes.box(3.2, 0.15, 2.2), GOLD, (0.3, 2.4, 4.0), name="roof"),
+            _caster(shapes.box(3.2, 0.15, 3.4), GOLD, (0.3, 2.4, 3.4), name="roof"),
             _caster(shapes.box(0.9), BRICK, (-0.8, 0.45, -0.5), (25, 0, 1, 0), name="cube"),
             _caster(shapes.sphere(0.45, 24, 12), SKY, (0.8, 0.9, 0), name="ball"),
         ),
@@ -124,7 +124,7 @@ def near_cut() -> Scene:
     """The side of a volume runs through the near rectangle: no single start value is right for z-pass."""
     return Scene(
         "near-cut",
-        Camera((1.65, 1.3, 4.0), (0, 0.6, -1), fov_y=55, near=0.5, far=40),
+        Camera((2.4, 1.3, 4.0), (0.5, 0.6, -1), fov_y=55, near=0.5, far=40),
         (Light((-1, 9, 1)),),
         eye_in_shadow().objects,
     )
@@ -134,18 +134,18 @@ def thin_wall() -> Scene:
     """A thin wall on the floor: a depth bias lifts its shadow off its foot, or lets the light through."""
     return Scene(
         "thin-wall",
-        Camera((-2.6, 2.4, 5.0), (0.2, 0.6, -0.3), near=1, far=30),
-        (Light((2.2, 3.0, 4.0)),),
+        Camera((1.6, 2.6, 5.0), (0.1, 0.5, 0.5), fov_y=40, near=1, far=30),
+        (Light((-1.8, 3.4, -3.2)),),
         (
             _floor(),
             _caster(shapes.wall(2.4, 1.3, 0.03), BRICK, (0, 0, 0), (10, 0, 1, 0)),
-            _caster(shapes.cylinder(0.03, 1.6, 16), SKY, (-1.4, 0.8, 0.9), name="pole"),
+            _caster(shapes.cylinder(0.03, 1.6, 16), SKY, (1.5, 0.8, -0.4), name="pole"),
         ),
     )
 
 
 def staircase() -> Scene:
-    """Receivers at several heights: what stands below a step must not throw a (false) shadow up on it."""
+    """Receivers at several heights: the crate behind the steps must not throw a (false) shadow up on them."""
     rise, tread, half = 0.35, 0.7, 1.6
     steps = []
     for step in range(4):
@@ -159,14 +159,15 @@ def staircase() -> Scene:
         )
     return Scene(
         "staircase",
-        Camera((3.2, 3.6, 6.2), (0, 0.7, -0.4), near=1, far=30),
-        (Light((-1.5, 5, 5)),),
+        Camera((2.6, 3.2, 5.0), (0.1, 0.65, -0.1), fov_y=40, near=1, far=30),
+        (Light((-1.8, 5, 4)),),
         (
             _floor(),
             *steps,
             _caster(shapes.torus(0.5, 0.16, 24, 12), GOLD, (0.2, 1.9, 0.2), (75, 1, 0, 0.2)),
             _caster(shapes.box(0.5, 0.9, 0.5), BRICK, (-0.8, 0.45, 1.5), (20, 0, 1, 0), name="post"),
             _caster(shapes.sphere(0.25, 24, 12), SKY, (1.0, 0.25, 1.3), name="ball"),
+            _caster(shapes.box(0.6, 0.9, 0.6), LEAF, (0.5, 0.45, -3.4), name="crate behind"),
         ),
     )
 
@@ -175,8 +176,8 @@ def sunlight() -> Scene:
     """A light at infinity: parallel projection, volumes that end in one point, orthographic shadow maps."""
     return Scene(
         "sunlight",
-        Camera((3.6, 3.4, 6.0), (0, 0.5, 0), near=1, far=30),
-        (Light((0.9, 2, 0.7, 0), name="sun"),),
+        Camera((2.6, 3.0, 4.8), (0.25, 0.45, 0.1), fov_y=40, near=1, far=30),
+        (Light((-0.9, 1.8, 0.8, 0), name="sun"),),
         boxes().objects,
     )
 
@@ -185,7 +186,7 @@ def two_lights() -> Scene:
     """A warm and a cool light: each has a shadow of its own, and where they overlap only ambient light is left."""
     return Scene(
         "two-lights",
-        Camera((0.5, 3.6, 6.4), (0, 0.7, 0), near=1, far=30),
+        Camera((0.5, 3.2, 5.4), (0.1, 0.5, 0), fov_y=40, near=1, far=30),
         (Light((3, 5, 2), (0.75, 0.6, 0.4), "warm"), Light((-3, 4.5, 2.5), (0.3, 0.4, 0.6), "cool")),
         (
             _floor(),
@@ -199,7 +200,7 @@ def open_tube() -> Scene:
     """An open mesh: its tube has no lids, so every face casts, turned towards the light."""
     return Scene(
         "open-tube",
-        Camera((3.0, 3.4, 5.2), (0, 0.7, 0), near=1, far=30),
+        Camera((2.4, 3.0, 4.4), (0, 0.7, 0), fov_y=40, near=1, far=30),
         (Light((2, 5, 1)),),
         (
             _floor(),

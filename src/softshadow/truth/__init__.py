@@ -1,0 +1,5 @@
+"""What is true: visibility by ray casting in float64, without any of the pipeline's arithmetic."""
+
+from softshadow.truth.ray_cast import casting_faces_between, first_faces
+
+__all__ = ["casting_faces_between", "first_faces"]

@@ -1,0 +1,94 @@
+"""Triangles of a whole scene in world space, under a tree of boxes.
+
+The triangles are sorted along a space-filling curve and paired up level by level: the tree is complete, its nodes need
+no pointers (node i has the children 2i and 2i + 1), and building it is a few sorted arrays.
+
+References
+----------
+Morton 1966 (the curve); Lauterbach et al. 2009, "Fast BVH construction on GPUs" (trees from sorted codes).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from softshadow.scene import SceneObject
+
+# a box is widened by this part of the scene's size: more than float64 rounding of a slab test, far less than a face
+MARGIN = 1e-9
+# corners of a flat face, rounded to float32 and moved, stay this close to its plane, in units of the object's size
+COPLANAR = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class TriangleTree:
+    """The triangles in tree order, and the boxes above them.
+
+    Attributes
+    ----------
+    corners : (T, 3, 3) float64      world corners in tree order
+    objects, triangles : (T,) int32  which object and which of its triangles each is
+    closed : (T,) bool               whether the object's mesh is closed: then only light-facing faces cast
+    boxes : (2N, 2, 3) float64       low and high corner of node i; 1 is the root, N to 2N - 1 are triangles
+    places : (sum T,) int32          tree place of triangle t of object o at starts[o] + t
+    starts : (objects + 1,) int64
+    flatness : (T,) float64          distance below which a corner counts as lying in the triangle's plane
+    """
+
+    corners: np.ndarray
+    objects: np.ndarray
+    triangles: np.ndarray
+    closed: np.ndarray
+    boxes: np.ndarray
+    places: np.ndarray
+    starts: np.ndarray
+    flatness: np.ndarray
+
+
+def build_tree(objects: Sequence[SceneObject]) -> TriangleTree:
+    """Return the tree over all triangles of the objects."""
+    corners = np.concatenate([item.world_positions[item.mesh.triangles] for item in objects])
+    counts = [len(item.mesh.triangles) for item in objects]
+    starts = np.concatenate([[0], np.cumsum(counts)])
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    size = float((high.max(axis=0) - low.min(axis=0)).max())
+
+    order = np.argsort(_morton_codes((low + high) / 2), kind="stable")
+    leaves = 1 << max(0, int(np.ceil(np.log2(len(order)))))
+    boxes = np.empty((2 * leaves, 2, 3))
+    boxes[:, 0], boxes[:, 1] = np.inf, -np.inf
+    boxes[leaves : leaves + len(order), 0] = low[order] - MARGIN * size
+    boxes[leaves : leaves + len(order), 1] = high[order] + MARGIN * size
+    first = leaves
+    while first > 1:
+        pairs = boxes[first : 2 * first].reshape(-1, 2, 2, 3)
+        first //= 2
+        boxes[first : 2 * first, 0] = pairs[:, :, 0].min(axis=1)
+        boxes[first : 2 * first, 1] = pairs[:, :, 1].max(axis=1)
+
+    places = np.empty(len(order), dtype=np.int32)
+    places[order] = np.arange(len(order), dtype=np.int32)
+    flatness = [COPLANAR * float(np.ptp(item.world_positions, axis=0).max()) for item in objects]
+    return TriangleTree(
+        corners[order],
+        np.repeat(np.arange(len(objects), dtype=np.int32), counts)[order],
+        np.concatenate([np.arange(count, dtype=np.int32) for count in counts])[order],
+        np.repeat([item.mesh.topology.closed for item in objects], counts)[order],
+        boxes,
+        places,
+        starts,
+        np.repeat(flatness, counts)[order],
+    )
+
+
+def _morton_codes(points: np.ndarray) -> np.ndarray:
+    """Return the place of each point along a curve that fills the box of all points, 10 bits per axis interleaved."""
+    low = points.min(axis=0)
+    extent = np.maximum(points.max(axis=0) - low, np.finfo(float).tiny)
+    cells = np.minimum((points - low) / extent * 1024, 1023).astype(np.int64)
+    codes = np.zeros(len(points), dtype=np.int64)
+    for bit in range(10):
+        for axis in range(3):
+            codes |= ((cells[:, axis] >> bit) & 1) << (3 * bit + axis)
+    return codes
