@@ -9,8 +9,9 @@ rounding to 8 bits decides.
 from typing import Any
 
 import numpy as np
-from gl_calls import Call
-from random_vertices import WILD
+
+from mesa.gl_calls import Call
+from mesa.random_vertices import WILD
 
 COMPARISONS = ["GL_NEVER", "GL_LESS", "GL_EQUAL", "GL_LEQUAL", "GL_GREATER", "GL_NOTEQUAL", "GL_GEQUAL", "GL_ALWAYS"]
 USUAL_COMPARISONS = ["GL_LESS", "GL_LEQUAL", "GL_ALWAYS"] * 4 + COMPARISONS

@@ -1,7 +1,8 @@
 """Programs as data: replayed, printed, shrunk."""
 
 import numpy as np
-from gl_calls import as_code, replay, shrink
+
+from mesa.gl_calls import as_code, replay, shrink
 
 TRIANGLE = [("glBegin", ("GL_TRIANGLES",)), ("glVertex2f", (0.5, 1.0)), ("glEnd", ())]
 

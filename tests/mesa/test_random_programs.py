@@ -7,9 +7,9 @@ first 500 seeds of every family, ``SOFTSHADOW_PROGRAMS=300:500`` the 200 from 30
 import os
 
 import pytest
-from gl_calls import Call, as_code, as_program, shrink
-from random_programs import FAMILIES, random_program
 
+from mesa.gl_calls import Call, as_code, as_program, shrink
+from mesa.random_programs import FAMILIES, random_program
 from softshadow.testing import EXPECTED_VERSION, MesaError, compare, mesa_version, run_on_mesa
 
 pytestmark = pytest.mark.mesa
