@@ -31,6 +31,12 @@ class Format:
     channels: int
     largest: int = 0
 
+    @property
+    def written(self) -> tuple[bool, bool, bool, bool]:
+        """Which of RGBA a colour image really has; the others are constant, so that sampling needs no case."""
+        count = {gl.GL_RED: 1, gl.GL_RG: 2, gl.GL_RGB: 3}.get(self.base, 4)
+        return count > 0, count > 1, count > 2, count > 3
+
 
 def _unorm8(base: int) -> Format:
     return Format(base, "unorm8", np.uint8, 4, 255)
@@ -128,9 +134,12 @@ class Image:
 
     @classmethod
     def new(cls, format: Format, width: int, height: int, internal_format: int = 0) -> Image:
-        """Return a zeroed image, with a stencil plane where the internal format has one."""
+        """Return an image of zeros, with a stencil plane where the internal format has one."""
         stencil = cls.new(STENCIL8, width, height, internal_format) if _has_stencil(format, internal_format) else None
-        return cls(format, width, height, padded(height, width, format), internal_format, stencil)
+        cells = padded(height, width, format)
+        if format.base in (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_LUMINANCE):
+            cells[..., 3] = format.largest or 1  # the alpha that such a format is read with
+        return cls(format, width, height, cells, internal_format, stencil)
 
     @property
     def view(self) -> np.ndarray:

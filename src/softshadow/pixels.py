@@ -1,8 +1,8 @@
 """Pixels between client memory and storage: the number formats of glTexImage2D, glReadPixels and glGetTexImage.
 
-Bit for bit those of llvmpipe (measured, tests/gl/test_pixel_formats.py). What is surprising is GL's or Mesa's: a float
-becomes depth by cutting, not by rounding; the luminance that glReadPixels reads is R + G + B; 1.0 in a float image is 0
-as GL_UNSIGNED_INT.
+Bit for bit those of llvmpipe, but for colours read as GL_INT or GL_UNSIGNED_INT out of float images (Mesa's product
+overflows at 1.0 and answers 0) and for 32-bit fixed-point depth (cells keep 24 of its bits). What is surprising is
+GL's: a float becomes depth by cutting, not by rounding, and the luminance that glReadPixels reads is R + G + B.
 """
 
 from __future__ import annotations
@@ -15,30 +15,32 @@ from softshadow.pixel_store import COMPONENTS
 
 F32 = np.float32
 LARGEST_UINT = (1 << 32) - 1
-D24_STEP = F32(1) / F32((1 << 24) - 1)
+LARGEST_SAMPLED = (1 << 23) - 1  # llvmpipe's textures read the upper 23 of 32 bits of depth
 CHANNEL = {"R": 0, "G": 1, "B": 2, "A": 3}
 
 
-# -- depth
-# ---------------------------------------------------------------------------------------------------------------
+def largest_of(dtype: type[np.generic]) -> int:
+    """Return the integer that stands for 1 in a client type."""
+    kind = np.dtype(dtype)
+    return int(1 << (8 * kind.itemsize - (kind.kind == "i"))) - 1
+
+
+# -- depth -------------------------------------------------------------------------------------------------------------
 def quantized_depth(z: np.ndarray, format: Format) -> np.ndarray:
     """Return float32 z in [0, 1] in buffer units, rounded as a fragment's depth is."""
     if not format.largest:
         return z.astype(format.dtype)
-    if format.largest == LARGEST_UINT:
-        return np.floor(z * F32(format.largest))  # 2**32 in float32: only z = 1 reaches it, and stands for the largest
+    if format.largest == LARGEST_UINT:  # cut to 31 bits; 2**32 in float32 is only reached by z = 1, for the largest
+        return np.floor(z * F32(1 << 31)) * F32(2)
     return np.rint(z * F32(format.largest))
 
 
 def sampled_depth(cells: np.ndarray, format: Format) -> np.ndarray:
-    """Return depth as a texture delivers it, float32:
-
-    Times the rounded step, of 32-bit formats the upper 24 bits only.
-    """
+    """Return depth as a texture delivers it, float32: units times the rounded step, of 32 bits the upper 23."""
     if not format.largest:
         return cells.astype(F32)
     if format.largest == LARGEST_UINT:
-        return np.minimum(np.floor(cells / F32(256)), F32((1 << 24) - 1)) * D24_STEP
+        return np.minimum(np.floor(cells / F32(512)), F32(LARGEST_SAMPLED)) * (F32(1) / F32(LARGEST_SAMPLED))
     return cells * (F32(1) / F32(format.largest))
 
 
@@ -57,6 +59,8 @@ def unpack_depth(pixels: np.ndarray, format: Format) -> np.ndarray:
         return pixels.astype(F32)
     if pixels.dtype == np.uint32 and format.largest == LARGEST_UINT:
         return pixels.astype(F32)
+    if pixels.dtype == np.uint32 and format.largest == (1 << 16) - 1:
+        return (pixels >> np.uint32(16)).astype(F32)
     z = np.clip(_depth_from_client(pixels), F32(0), F32(1))
     if format.largest == LARGEST_UINT:
         return np.floor(z * np.float64(LARGEST_UINT)).astype(F32)
@@ -66,10 +70,12 @@ def unpack_depth(pixels: np.ndarray, format: Format) -> np.ndarray:
 def _depth_from_client(pixels: np.ndarray) -> np.ndarray:
     if pixels.dtype.kind == "f":
         return pixels.astype(F32)
-    largest = np.iinfo(pixels.dtype).max
+    largest = largest_of(pixels.dtype.type)
     if pixels.dtype == np.uint32:
         return (pixels / np.float64(largest)).astype(F32)
-    if pixels.dtype.kind == "u":
+    if pixels.dtype == np.uint8:
+        return pixels.astype(F32) / F32(largest)
+    if pixels.dtype == np.uint16:
         return pixels.astype(F32) * (F32(1) / F32(largest))
     doubled = F32(2) * pixels.astype(F32) + F32(1)
     if pixels.dtype == np.int32:
@@ -85,15 +91,15 @@ def pack_depth(cells: np.ndarray, format: Format, dtype: type[np.generic], throu
     """
     z = depth_as_float(cells, format)
     if dtype == np.uint32 and format.largest and not (through_float and format.largest < LARGEST_UINT):
-        d = np.minimum(cells.astype(np.float64), format.largest).astype(np.uint64)
+        units = np.minimum(cells.astype(np.float64), format.largest).astype(np.int64)
         if format.largest == (1 << 16) - 1:
-            d = d << 16 | d
+            units = units << 16 | units
         elif format.largest == (1 << 24) - 1:
-            d = d << 8 | d >> 16
-        return d.astype(np.uint32)
+            units = units << 8 | units >> 16
+        return units.astype(np.uint32)
     if np.dtype(dtype).kind == "f":
         return z.astype(dtype)
-    largest = np.iinfo(dtype).max
+    largest = largest_of(dtype)
     if dtype == np.uint16:
         return np.rint(z * F32(largest)).astype(dtype)
     if dtype in (np.int8, np.int16):
@@ -101,8 +107,12 @@ def pack_depth(cells: np.ndarray, format: Format, dtype: type[np.generic], throu
     return np.floor(z.astype(np.float64) * largest).astype(dtype)
 
 
-# -- colour
-# --------------------------------------------------------------------------------------------------------------
+def pack_stencil(cells: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
+    """Return stencil values as a client type; GL_BYTE has room for 7 bits."""
+    return (cells & np.uint8(127) if dtype == np.int8 else cells).astype(dtype)
+
+
+# -- colour ------------------------------------------------------------------------------------------------------------
 def to_base(rgba: np.ndarray, base: int) -> np.ndarray:
     """Return RGBA (..., 4) reduced to a base internal format, as sampling delivers it (GL 2.1, table 3.15)."""
     one = 255 if rgba.dtype == np.uint8 else 1
@@ -143,7 +153,7 @@ def unpack_color(pixels: np.ndarray, pixel_format: int, format: Format) -> np.nd
 def _to_unorm8(values: np.ndarray) -> np.ndarray:
     if values.dtype.kind == "f":
         return np.rint(np.clip(values.astype(F32), F32(0), F32(1)) * F32(255)).astype(np.uint8)
-    largest = np.iinfo(values.dtype).max
+    largest = largest_of(values.dtype.type)
     positive = np.maximum(values, 0).astype(np.uint64)
     return ((positive * np.uint64(255) + np.uint64(largest // 2)) // np.uint64(largest)).astype(np.uint8)
 
@@ -151,7 +161,7 @@ def _to_unorm8(values: np.ndarray) -> np.ndarray:
 def _to_float(values: np.ndarray) -> np.ndarray:
     if values.dtype.kind == "f":
         return values.astype(F32)
-    return np.maximum(values.astype(F32) * (F32(1) / F32(np.iinfo(values.dtype).max)), F32(-1))
+    return np.maximum(values.astype(F32) * (F32(1) / F32(largest_of(values.dtype.type))), F32(-1))
 
 
 def color_as_float(cells: np.ndarray) -> np.ndarray:
@@ -172,18 +182,17 @@ def pack_color(
     rgba = _swizzled(cells, base, one)
     names = COMPONENTS[pixel_format]
     sums = from_framebuffer and "L" in names and format.base in (gl.GL_RG, gl.GL_RGB, gl.GL_RGBA)
+    clamped = from_framebuffer and np.dtype(dtype).kind != "f"
+    if clamped and rgba.dtype != np.uint8:
+        rgba = np.clip(rgba, F32(0), F32(1))
     if sums:
         rgba = color_as_float(rgba)
         total = rgba[..., 0] + rgba[..., 1] + rgba[..., 2]
+        if clamped or format.kind == "unorm8":
+            total = np.clip(total, F32(0), F32(1))
         rgba = np.stack([total, total, total, rgba[..., 3]], axis=-1)
-        if format.kind == "unorm8":
-            rgba = np.clip(rgba, F32(0), F32(1))
     chosen = _swizzled(rgba, names.replace("L", "R"), one)
-    if chosen.dtype == np.uint8:
-        return _from_unorm8(chosen, dtype)
-    if from_framebuffer and np.dtype(dtype).kind != "f":
-        chosen = np.clip(chosen, F32(0), F32(1))
-    return _from_float(chosen, dtype)
+    return _from_unorm8(chosen, dtype) if chosen.dtype == np.uint8 else _from_float(chosen, dtype)
 
 
 def _from_unorm8(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
@@ -191,16 +200,13 @@ def _from_unorm8(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
         return values
     if np.dtype(dtype).kind == "f":
         return _to_float(values).astype(dtype)
-    return ((values.astype(np.uint64) * np.uint64(np.iinfo(dtype).max) + np.uint64(127)) // np.uint64(255)).astype(
-        dtype
-    )
+    return ((values.astype(np.int64) * largest_of(dtype) + 127) // 255).astype(dtype)
 
 
 def _from_float(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
     if np.dtype(dtype).kind == "f":
         return values.astype(dtype)
-    largest, signed = np.iinfo(dtype).max, np.iinfo(dtype).min < 0
-    low = F32(-1) if signed else F32(0)
+    largest = largest_of(dtype)
+    low = F32(-1) if np.dtype(dtype).kind == "i" else F32(0)
     scaled = np.rint(np.clip(values, low, F32(1)) * F32(largest)).astype(np.int64)
-    # float32 has no 2**32 - 1: at 1.0 Mesa's product is one too large and wraps, beyond 1.0 it answers the largest
-    return np.where(values > 1, largest, scaled).astype(dtype)
+    return np.minimum(scaled, largest).astype(dtype)  # float32 has no 2**32 - 1

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, current
+from softshadow.context import Context
 from softshadow.framebuffer import DEFAULT, LARGEST_SIDE, Attachment
-from softshadow.gl.errors import fail
+from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, listed
 from softshadow.image import FORMATS, storage_format
 from softshadow.pipeline.commands import (
@@ -27,6 +27,7 @@ from softshadow.tokens import token_name
 Problem = tuple[int, str]
 COLOR_ATTACHMENTS = tuple(range(gl.GL_COLOR_ATTACHMENT0, gl.GL_COLOR_ATTACHMENT7 + 1))
 KINDS = {gl.GL_DEPTH_ATTACHMENT: ("depth",), gl.GL_STENCIL_ATTACHMENT: ("stencil",)}
+COLOR_RENDERABLE = (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_RGBA)  # GL 4.5, sec. 9.4.1; Mesa allows luminance, too
 WINDOW_BUFFERS = (
     gl.GL_NONE, gl.GL_FRONT, gl.GL_BACK, gl.GL_LEFT, gl.GL_FRONT_LEFT, gl.GL_BACK_LEFT, gl.GL_FRONT_AND_BACK,
 )  # fmt: skip
@@ -46,7 +47,9 @@ def glGenFramebuffers(n: int, framebuffers: Any = None) -> Any:
 
 def glBindFramebuffer(target: int, framebuffer: int) -> None:
     """Draw to and read from a framebuffer object from now on; 0 is the window."""
-    context, name = current(), int(framebuffer)
+    if (context := outside_begin("glBindFramebuffer")) is None:
+        return None
+    name = int(framebuffer)
     if target not in BINDINGS:
         return fail(gl.GL_INVALID_ENUM, "glBindFramebuffer", f"target={token_name(target)}: {EXPECTED_TARGET}")
     if name != DEFAULT and name not in context.names["framebuffer"]:
@@ -61,7 +64,8 @@ def glBindFramebuffer(target: int, framebuffer: int) -> None:
 
 def glDeleteFramebuffers(*arguments: Any) -> None:
     """Delete framebuffer objects: (name), (names) or (n, names). A bound one is replaced by the window."""
-    context = current()
+    if (context := outside_begin("glDeleteFramebuffers")) is None:
+        return None
     names = [name for name in listed(arguments) if name > 0]
     for binding in BINDINGS[gl.GL_FRAMEBUFFER]:
         if getattr(context.state, binding) in names:
@@ -74,12 +78,15 @@ def glDeleteFramebuffers(*arguments: Any) -> None:
 
 def glIsFramebuffer(framebuffer: int) -> bool:
     """Return whether a name is that of a framebuffer object, which it becomes when it is first bound."""
-    return framebuffer != DEFAULT and int(framebuffer) in current().storage.framebuffers
+    context = outside_begin("glIsFramebuffer")
+    return context is not None and framebuffer != DEFAULT and int(framebuffer) in context.storage.framebuffers
 
 
 def glFramebufferTexture2D(target: int, attachment: int, textarget: int, texture: int, level: int) -> None:
     """Make a level of a texture the buffer of an attachment point; texture 0 detaches."""
-    context, operation, name = current(), "glFramebufferTexture2D", int(texture)
+    operation, name = "glFramebufferTexture2D", int(texture)
+    if (context := outside_begin(operation)) is None:
+        return None
     if problem := _attachment_problem(context, target, attachment):
         return fail(problem[0], operation, problem[1])
     if name and (problem := _texture_problem(context, textarget, name, level)):
@@ -92,7 +99,9 @@ def glFramebufferTexture2D(target: int, attachment: int, textarget: int, texture
 
 def glFramebufferRenderbuffer(target: int, attachment: int, renderbuffertarget: int, renderbuffer: int) -> None:
     """Make a renderbuffer the buffer of an attachment point; renderbuffer 0 detaches."""
-    context, operation, name = current(), "glFramebufferRenderbuffer", int(renderbuffer)
+    operation, name = "glFramebufferRenderbuffer", int(renderbuffer)
+    if (context := outside_begin(operation)) is None:
+        return None
     if problem := _attachment_problem(context, target, attachment):
         return fail(problem[0], operation, problem[1])
     if renderbuffertarget != gl.GL_RENDERBUFFER:
@@ -162,7 +171,11 @@ def framebuffer_status(context: Context, framebuffer: int) -> int:
 
 def _serves(point: int, attachment: Attachment) -> bool:
     image = attachment.image
-    return image.width > 0 and image.height > 0 and image.format.kind in KINDS.get(point, ("unorm8", "float"))
+    if not (image.width > 0 and image.height > 0):
+        return False
+    if point in KINDS:
+        return image.format.kind in KINDS[point]
+    return image.format.kind in ("unorm8", "float") and image.format.base in COLOR_RENDERABLE
 
 
 def glCheckFramebufferStatus(target: int) -> int:
@@ -170,13 +183,16 @@ def glCheckFramebufferStatus(target: int) -> int:
     if target not in BINDINGS:
         fail(gl.GL_INVALID_ENUM, "glCheckFramebufferStatus", f"target={token_name(target)}: {EXPECTED_TARGET}")
         return 0
-    context = current()
+    if (context := outside_begin("glCheckFramebufferStatus")) is None:
+        return 0
     return framebuffer_status(context, _bound(context, target))
 
 
 def glGetFramebufferAttachmentParameteriv(target: int, attachment: int, pname: int, params: Any = None) -> Any:
     """Return what is attached to a point of the bound framebuffer object."""
-    context, operation = current(), "glGetFramebufferAttachmentParameteriv"
+    operation = "glGetFramebufferAttachmentParameteriv"
+    if (context := outside_begin(operation)) is None:
+        return None
     if problem := _attachment_problem(context, target, attachment):
         return fail(problem[0], operation, problem[1])
     point = gl.GL_DEPTH_ATTACHMENT if attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT else attachment
@@ -222,7 +238,8 @@ def glDrawBuffers(*arguments: Any) -> None:
 
 
 def _select(operation: str, which: str, mode: int) -> None:
-    context = current()
+    if (context := outside_begin(operation)) is None:
+        return None
     name = context.state.draw_framebuffer if which == "draw" else context.state.read_framebuffer
     attachments = range(gl.GL_COLOR_ATTACHMENT0, gl.GL_COLOR_ATTACHMENT0 + 32)
     if mode not in WINDOW_BUFFERS and mode not in MISSING_BUFFERS and mode not in attachments:
@@ -247,7 +264,9 @@ def glGenRenderbuffers(n: int, renderbuffers: Any = None) -> Any:
 
 def glBindRenderbuffer(target: int, renderbuffer: int) -> None:
     """Name the renderbuffer that glRenderbufferStorage is about."""
-    context, name = current(), int(renderbuffer)
+    if (context := outside_begin("glBindRenderbuffer")) is None:
+        return None
+    name = int(renderbuffer)
     if target != gl.GL_RENDERBUFFER:
         return fail(gl.GL_INVALID_ENUM, "glBindRenderbuffer", f"target={token_name(target)}: expected GL_RENDERBUFFER")
     if name and name not in context.names["renderbuffer"]:
@@ -262,7 +281,9 @@ def glBindRenderbuffer(target: int, renderbuffer: int) -> None:
 
 def glRenderbufferStorage(target: int, internalformat: int, width: int, height: int) -> None:
     """Give the bound renderbuffer an image of zeros."""
-    context, operation = current(), "glRenderbufferStorage"
+    operation = "glRenderbufferStorage"
+    if (context := outside_begin(operation)) is None:
+        return None
     if target != gl.GL_RENDERBUFFER:
         return fail(gl.GL_INVALID_ENUM, operation, f"target={token_name(target)}: expected GL_RENDERBUFFER")
     if internalformat not in FORMATS or internalformat in (1, 2, 3, 4):
@@ -280,7 +301,8 @@ def glRenderbufferStorage(target: int, internalformat: int, width: int, height: 
 
 def glDeleteRenderbuffers(*arguments: Any) -> None:
     """Delete renderbuffers: (name), (names) or (n, names). They leave the bound framebuffers."""
-    context = current()
+    if (context := outside_begin("glDeleteRenderbuffers")) is None:
+        return None
     names = [name for name in listed(arguments) if name > 0]
     for framebuffer in {context.state.draw_framebuffer, context.state.read_framebuffer}:
         for point, attachment in list(context.storage.framebuffers[framebuffer].attachments.items()):
@@ -296,13 +318,16 @@ def glDeleteRenderbuffers(*arguments: Any) -> None:
 
 def glIsRenderbuffer(renderbuffer: int) -> bool:
     """Return whether a name is that of a renderbuffer, which it becomes when it is first bound."""
-    return int(renderbuffer) in current().storage.renderbuffers
+    context = outside_begin("glIsRenderbuffer")
+    return context is not None and int(renderbuffer) in context.storage.renderbuffers
 
 
 def _generate(operation: str, kind: str, n: int, out: Any) -> Any:
+    if (context := outside_begin(operation)) is None:
+        return None
     if n < 0:
         return fail(gl.GL_INVALID_VALUE, operation, f"n={n}: expected 0 or more")
-    names = generate(current(), kind, n)
+    names = generate(context, kind, n)
     if out is not None:
         np.asarray(out)[:n] = names
     return names

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -26,5 +25,5 @@ def generate(context: Context, kind: str, n: int) -> Any:
 def listed(arguments: tuple[Any, ...]) -> list[int]:
     """Return the names in the arguments of a glDelete* call: (name), (names) or (n, names)."""
     count, given = (arguments[0], arguments[1]) if len(arguments) == 2 else (None, arguments[0])
-    names = [int(name) for name in (np.ravel(given) if isinstance(given, Iterable) else [given])]
+    names = [int(name) for name in np.ravel(np.asarray(given))]
     return names if count is None else names[:count]

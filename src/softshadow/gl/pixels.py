@@ -8,15 +8,14 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import current
 from softshadow.framebuffer import Framebuffer
-from softshadow.gl.errors import fail
+from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import format_problem, kind_of
 from softshadow.image import Image
 from softshadow.pipeline.transfer import clipped, gl_rows
 from softshadow.pixel_store import TYPES, answer_array
-from softshadow.pixels import pack_color, pack_depth
+from softshadow.pixels import pack_color, pack_depth, pack_stencil
 from softshadow.tokens import token_name
 
 STORES = {
@@ -34,7 +33,8 @@ SWITCHED_OFF = (gl.GL_PACK_SWAP_BYTES, gl.GL_PACK_LSB_FIRST, gl.GL_UNPACK_SWAP_B
 
 def glPixelStorei(pname: int, param: int) -> None:
     """Say how the rows of client images lie in memory."""
-    context = current()
+    if (context := outside_begin("glPixelStorei")) is None:
+        return None
     if pname in SWITCHED_OFF:
         if param:
             fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param} is not part of this subset")
@@ -66,7 +66,9 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
         GL_INVALID_ENUM or GL_INVALID_OPERATION for a format or type that cannot be; GL_INVALID_OPERATION without a
         buffer to read from; GL_INVALID_VALUE for a negative size.
     """
-    context, operation = current(), "glReadPixels"
+    operation = "glReadPixels"
+    if (context := outside_begin(operation)) is None:
+        return None
     if width < 0 or height < 0:
         return fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 or more")
     if problem := format_problem(format, type):
@@ -105,6 +107,6 @@ def _packed(cells: list[np.ndarray], planes: list[Image], format: int, dtype: ty
     if kind == "depth":
         return pack_depth(cells[0], stored, dtype)[..., None]
     if kind == "stencil":
-        return cells[0].astype(dtype)[..., None]
+        return pack_stencil(cells[0], dtype)[..., None]
     units = cells[0] if stored.largest == (1 << 24) - 1 else np.floor(np.float64(cells[0]) * ((1 << 24) - 1))
     return (units.astype(np.uint32) << np.uint32(8) | cells[1])[..., None]

@@ -9,7 +9,7 @@ import numpy as np
 from softshadow import programs
 from softshadow import tokens as gl
 from softshadow.context import Context, current
-from softshadow.gl.errors import fail
+from softshadow.gl.errors import fail, outside_begin
 from softshadow.programs import Program
 from softshadow.state import TEXTURE_UNITS
 
@@ -47,7 +47,8 @@ def _kept(value: Any) -> Any:
 
 def glUseProgram(program: int) -> None:
     """Shade with a program from now on; 0 is the fixed function."""
-    context = current()
+    if (context := outside_begin("glUseProgram")) is None:
+        return None
     if program and program not in context.programs:
         return fail(gl.GL_INVALID_VALUE, "glUseProgram", f"program={program} is no name from program(name)")
     context.set(program=int(program))
@@ -56,12 +57,14 @@ def glUseProgram(program: int) -> None:
 
 def glIsProgram(program: int) -> bool:
     """Return whether a name is that of a program."""
-    return program in current().programs
+    context = outside_begin("glIsProgram")
+    return context is not None and program in context.programs
 
 
 def glGetUniformLocation(program: int, name: str | bytes) -> Any:
     """Return the location of a uniform, -1 where the program has none of that name."""
-    context = current()
+    if (context := outside_begin("glGetUniformLocation")) is None:
+        return None
     if program not in context.programs:
         return fail(gl.GL_INVALID_VALUE, "glGetUniformLocation", f"program={program} is no name from program(name)")
     names = list(context.uniforms[program])
@@ -182,7 +185,8 @@ def _set(operation: str, location: int, numbers: list[Any], kind: str, count: in
 
 def _uniform(operation: str, location: int, count: int) -> tuple[Context, str, Any] | None:
     """Return (context, uniform's name, present value), or None after an error and for the ignored location."""
-    context = current()
+    if (context := outside_begin(operation)) is None:
+        return None
     used = context.state.program
     if used == 0:
         return fail(gl.GL_INVALID_OPERATION, operation, "no program is in use")
@@ -231,7 +235,8 @@ def glGetUniformiv(program: int, location: int, params: Any = None) -> Any:
 
 
 def _get(operation: str, program: int, location: int, params: Any, dtype: type[np.generic]) -> Any:
-    context = current()
+    if (context := outside_begin(operation)) is None:
+        return None
     if program not in context.programs:
         return fail(gl.GL_INVALID_VALUE, operation, f"program={program} is no name from program(name)")
     values = list(context.uniforms[program].values())

@@ -7,16 +7,16 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, current
+from softshadow.context import Context
 from softshadow.framebuffer import LARGEST_SIDE
-from softshadow.gl.errors import fail
+from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import Problem, format_problem, kind_of, readout_problem, upload_problem
 from softshadow.gl.textures import FACES, bound_name, bound_texture, target_problem
 from softshadow.image import FORMATS, WITH_STENCIL, Format, Image, storage_format
 from softshadow.pipeline.commands import CopyToTexture, DefineImage, UpdateImage
 from softshadow.pixel_store import TYPES, answer_array, client_image
-from softshadow.pixels import pack_color, pack_depth, unpack_color, unpack_depth
+from softshadow.pixels import pack_color, pack_depth, pack_stencil, unpack_color, unpack_depth
 from softshadow.tokens import token_name
 
 LARGEST_LEVEL = LARGEST_SIDE.bit_length() - 1
@@ -50,7 +50,9 @@ def glTexImage2D(
     pixels: Any = None,
 ) -> None:
     """Define a level of the bound texture from an image, first row = bottom row; None leaves it zero."""
-    context, operation = current(), "glTexImage2D"
+    operation = "glTexImage2D"
+    if (context := outside_begin(operation)) is None:
+        return None
     problem = (
         target_problem(context, target, faces=True)
         or _size_problem(target, level, width, height, border)
@@ -81,7 +83,9 @@ def glTexSubImage2D(
     pixels: Any = None,
 ) -> None:
     """Replace a rectangle of a level of the bound texture."""
-    context, operation = current(), "glTexSubImage2D"
+    operation = "glTexSubImage2D"
+    if (context := outside_begin(operation)) is None:
+        return None
     problem = (
         target_problem(context, target, faces=True)
         or _level_problem(level)
@@ -124,7 +128,9 @@ def glCopyTexImage2D(
     target: int, level: int, internalformat: int, x: int, y: int, width: int, height: int, border: int
 ) -> None:
     """Define a level of the bound texture from a rectangle of the read framebuffer."""
-    context, operation = current(), "glCopyTexImage2D"
+    operation = "glCopyTexImage2D"
+    if (context := outside_begin(operation)) is None:
+        return None
     problem = (
         target_problem(context, target, faces=True)
         or _level_problem(level)
@@ -145,7 +151,9 @@ def glCopyTexSubImage2D(
     target: int, level: int, xoffset: int, yoffset: int, x: int, y: int, width: int, height: int
 ) -> None:
     """Copy a rectangle of the read framebuffer into a level of the bound texture."""
-    context, operation = current(), "glCopyTexSubImage2D"
+    operation = "glCopyTexSubImage2D"
+    if (context := outside_begin(operation)) is None:
+        return None
     problem = (
         target_problem(context, target, faces=True)
         or _source_problem(context)
@@ -186,7 +194,9 @@ def _copy_problem(context: Context, stored: Format, with_stencil: bool) -> Probl
 # -- reading back ------------------------------------------------------------------------------------------------------
 def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = None) -> Any:
     """Return a level of the bound texture, (h, w) or (h, w, components), first row = bottom row, or fill `array`."""
-    context, operation = current(), "glGetTexImage"
+    operation = "glGetTexImage"
+    if (context := outside_begin(operation)) is None:
+        return None
     problem = target_problem(context, target, faces=True) or _level_problem(level) or format_problem(format, type)
     if problem:
         return fail(problem[0], operation, problem[1])
@@ -209,13 +219,15 @@ def texture_pixels(image: Image, format: int, type: int) -> np.ndarray:
         return pack_depth(image.view, image.format, dtype, through_float=True)[..., None]
     stencil = image.stencil.view if image.stencil is not None else image.view
     if kind == "stencil":
-        return stencil.astype(dtype)[..., None]
+        return pack_stencil(stencil, dtype)[..., None]
     return (image.view.astype(np.uint32) << np.uint32(8) | stencil)[..., None]
 
 
 def glGetTexLevelParameteriv(target: int, level: int, pname: int, params: Any = None) -> Any:
     """Return a property of a level of the bound texture, an int."""
-    context, operation = current(), "glGetTexLevelParameteriv"
+    operation = "glGetTexLevelParameteriv"
+    if (context := outside_begin(operation)) is None:
+        return None
     if problem := target_problem(context, target, faces=True) or _level_problem(level):
         return fail(problem[0], operation, problem[1])
     image = image_at(context, target, level)

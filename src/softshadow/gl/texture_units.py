@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, current
-from softshadow.gl.errors import fail
+from softshadow.context import Context
+from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.textures import set_unit
 from softshadow.programs.inverse import inverse
 from softshadow.state import TEXTURE_UNITS, TexGen
@@ -23,6 +23,8 @@ PLANES = {gl.GL_OBJECT_PLANE: "object_plane", gl.GL_EYE_PLANE: "eye_plane"}
 
 def glActiveTexture(texture: int) -> None:
     """Say which unit texture calls and the texture matrix stack are about."""
+    if (context := outside_begin("glActiveTexture")) is None:
+        return None
     unit = int(texture) - gl.GL_TEXTURE0
     if not 0 <= unit < TEXTURE_UNITS:
         return fail(
@@ -30,7 +32,7 @@ def glActiveTexture(texture: int) -> None:
             "glActiveTexture",
             f"texture={token_name(texture)}: expected GL_TEXTURE0 to GL_TEXTURE{TEXTURE_UNITS - 1}",
         )
-    current().active_unit = unit
+    context.active_unit = unit
     return None
 
 
@@ -59,7 +61,9 @@ def glTexEnviv(target: int, pname: int, params: Any) -> None:
 
 
 def _set_environment(operation: str, target: int, pname: int, value: Any) -> None:
-    context, vector = current(), np.ravel(value)
+    if (context := outside_begin(operation)) is None:
+        return None
+    vector = np.ravel(value)
     if problem := _environment_problem(target, pname, isinstance(value, np.ndarray)):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
     if pname == gl.GL_TEXTURE_ENV_COLOR:
@@ -98,7 +102,8 @@ def glGetTexEnvfv(target: int, pname: int, params: Any = None) -> Any:
 
 
 def _environment(operation: str, target: int, pname: int, params: Any, dtype: type[np.generic]) -> Any:
-    context = current()
+    if (context := outside_begin(operation)) is None:
+        return None
     if problem := _environment_problem(target, pname, vector=True):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
     unit = context.state.units[context.active_unit]
@@ -147,7 +152,8 @@ def glTexGeniv(coord: int, pname: int, params: Any) -> None:
 
 
 def _set_mode(operation: str, coord: int, pname: int, value: Any) -> None:
-    context = current()
+    if (context := outside_begin(operation)) is None:
+        return None
     if problem := _generation_problem(coord, pname, vector=False):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
     if int(value) not in GEN_MODES:
@@ -162,7 +168,9 @@ def _set_mode(operation: str, coord: int, pname: int, value: Any) -> None:
 
 
 def _set_generation(operation: str, coord: int, pname: int, params: Any) -> None:
-    context, values = current(), np.ravel(params)
+    if (context := outside_begin(operation)) is None:
+        return None
+    values = np.ravel(params)
     if pname == gl.GL_TEXTURE_GEN_MODE:
         return _set_mode(operation, coord, pname, values[0])
     if problem := _generation_problem(coord, pname, vector=True):
@@ -218,7 +226,8 @@ def glGetTexGendv(coord: int, pname: int, params: Any = None) -> Any:
 def _generation(operation: str, coord: int, pname: int, params: Any, dtype: type[np.generic]) -> Any:
     if problem := _generation_problem(coord, pname, vector=True):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
-    context = current()
+    if (context := outside_begin(operation)) is None:
+        return None
     gen = context.state.units[context.active_unit].gen[COORDINATES.index(coord)]
     values = [gen.mode] if pname == gl.GL_TEXTURE_GEN_MODE else getattr(gen, PLANES[pname])
     return _answer(np.array(values, np.float32).astype(dtype), params)

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, current
-from softshadow.gl.errors import fail
+from softshadow.context import Context
+from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, listed
 from softshadow.pipeline.commands import AttachTexture, CreateTexture, DeleteTextures, SetSampler
 from softshadow.state import TextureUnit
@@ -46,9 +46,11 @@ FIELDS = {name: field for name, (field, _) in CHOICES.items()} | LEVELS | NUMBER
 # -- objects and bindings ----------------------------------------------------------------------------------------------
 def glGenTextures(n: int, textures: Any = None) -> Any:
     """Return unused texture names: an int for n = 1, else an array."""
+    if (context := outside_begin("glGenTextures")) is None:
+        return None
     if n < 0:
         return fail(gl.GL_INVALID_VALUE, "glGenTextures", f"n={n}: expected 0 or more")
-    names = generate(current(), "texture", n)
+    names = generate(context, "texture", n)
     if textures is not None:
         np.asarray(textures)[:n] = names
     return names
@@ -56,7 +58,8 @@ def glGenTextures(n: int, textures: Any = None) -> Any:
 
 def glBindTexture(target: int, texture: int) -> None:
     """Bind a texture to the active unit; a name that is new becomes a texture of that target."""
-    context = current()
+    if (context := outside_begin("glBindTexture")) is None:
+        return None
     if target not in BINDINGS:
         return fail(gl.GL_INVALID_ENUM, "glBindTexture", f"target={token_name(target)}: {EXPECTED_TARGET}")
     name = int(texture)
@@ -76,7 +79,8 @@ def glBindTexture(target: int, texture: int) -> None:
 
 def glDeleteTextures(*arguments: Any) -> None:
     """Delete textures: (name), (names) or (n, names). They leave all units and the bound framebuffers."""
-    context = current()
+    if (context := outside_begin("glDeleteTextures")) is None:
+        return None
     names = [name for name in listed(arguments) if name > 0]
     for framebuffer in {context.state.draw_framebuffer, context.state.read_framebuffer}:
         attachments = context.storage.framebuffers[framebuffer].attachments
@@ -95,7 +99,8 @@ def glDeleteTextures(*arguments: Any) -> None:
 
 def glIsTexture(texture: int) -> bool:
     """Return whether a name is that of a texture, which it becomes when it is first bound."""
-    return texture != 0 and int(texture) in current().storage.textures
+    context = outside_begin("glIsTexture")
+    return context is not None and texture != 0 and int(texture) in context.storage.textures
 
 
 def set_unit(context: Context, index: int, **fields: Any) -> None:
@@ -159,7 +164,8 @@ def glTexParameteriv(target: int, pname: int, params: Any) -> None:
 
 
 def _set_border(operation: str, target: int, color: np.ndarray) -> None:
-    context = current()
+    if (context := outside_begin(operation)) is None:
+        return None
     if problem := target_problem(context, target):
         return fail(problem[0], operation, problem[1])
     if color.shape != (4,):
@@ -169,7 +175,8 @@ def _set_border(operation: str, target: int, color: np.ndarray) -> None:
 
 
 def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
-    context = current()
+    if (context := outside_begin(operation)) is None:
+        return None
     if problem := target_problem(context, target):
         return fail(problem[0], operation, problem[1])
     if pname in CHOICES:
@@ -216,7 +223,8 @@ def glGetTexParameteriv(target: int, pname: int, params: Any = None) -> Any:
 
 
 def _parameter(operation: str, target: int, pname: int, params: Any, dtype: type[np.generic]) -> Any:
-    context = current()
+    if (context := outside_begin(operation)) is None:
+        return None
     if problem := target_problem(context, target):
         return fail(problem[0], operation, problem[1])
     known = context.storage.textures.get(bound_name(context, target))

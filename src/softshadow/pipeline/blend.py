@@ -148,7 +148,7 @@ def write_colors(state: State, color: Image, fragments: Fragments, values: np.nd
     Without blending the last fragment of a pixel wins, so the writes need no loop.
     """
     rows, columns = fragments.row, fragments.column
-    mask = np.array(state.color.mask)
+    mask = np.array(state.color.mask) & np.array(color.format.written)
     if color.format.kind == "float":
         stored = values.astype(np.float32)
     else:

@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.framebuffer import Storage
+from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.image import Image
 from softshadow.pipeline.blend import to_unorm8
 from softshadow.pipeline.geometry import region_of
+from softshadow.pixels import quantized_depth
+from softshadow.state import State
 
 if TYPE_CHECKING:
     from softshadow.pipeline.commands import Clear
@@ -28,11 +30,13 @@ def clear(command: Clear, storage: Storage) -> None:
     if command.mask & gl.GL_COLOR_BUFFER_BIT and target.color is not None:
         color = np.array(state.color.clear, np.float32)
         value = to_unorm8(color) if target.color.format.kind == "unorm8" else color
-        for channel, written in enumerate(state.color.mask):
-            if written:
+        for channel, (masked, stored) in enumerate(zip(state.color.mask, target.color.format.written, strict=True)):
+            if masked and stored:
                 target.color.cells[where][..., channel] = value[channel]
     if command.mask & gl.GL_DEPTH_BUFFER_BIT and target.depth is not None and state.depth.write:
-        target.depth.cells[where] = clear_depth(state.depth.clear, target.depth)
+        drawn = is_drawn(state, target, command.mask) and target.depth.format.dtype == np.float32
+        value_of = drawn_clear_depth if drawn else clear_depth
+        target.depth.cells[where] = value_of(state.depth.clear, target.depth)
     if command.mask & gl.GL_STENCIL_BUFFER_BIT and target.stencil is not None:
         cells, largest = target.stencil.cells[where], target.stencil.format.largest
         mask = state.stencil.front.write_mask & largest
@@ -43,3 +47,22 @@ def clear_depth(value: float, depth: Image) -> float:
     """Return the clear depth in buffer units: rounded in double precision for fixed-point formats."""
     clamped = min(max(value, 0.0), 1.0)
     return float(np.rint(clamped * depth.format.largest)) if depth.format.largest else clamped
+
+
+def is_drawn(state: State, target: Framebuffer, mask: int) -> bool:
+    """Return whether llvmpipe clears depth by drawing a rectangle: a scissor box or a stencil mask cuts the clear."""
+    box, (width, height) = state.scissor, target.size
+    inside = box.x > 0 or box.y > 0 or box.x + box.width < width or box.y + box.height < height
+    if box.enabled and inside:
+        return True
+    if not mask & gl.GL_STENCIL_BUFFER_BIT or target.stencil is None:
+        return False
+    largest = target.stencil.format.largest
+    return 0 < state.stencil.front.write_mask & largest < largest
+
+
+def drawn_clear_depth(value: float, depth: Image) -> float:
+    """Return the depth of that rectangle in buffer units: clip space and back costs the last bits of float32."""
+    clip = np.float32(min(max(value, 0.0), 1.0)) * np.float32(2) - np.float32(1)
+    z = clip * np.float32(0.5) + np.float32(0.5)
+    return float(quantized_depth(np.float32([z]), depth.format)[0])
