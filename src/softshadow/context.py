@@ -54,6 +54,30 @@ class CurrentVertex:
     )
 
 
+@dataclass
+class Primitive:
+    """What glBegin ... glEnd has collected: a row per vertex."""
+
+    mode: int
+    positions: list[tuple[float, float, float, float]] = field(default_factory=list)
+    colors: list[tuple[float, float, float, float]] = field(default_factory=list)
+    normals: list[tuple[float, float, float]] = field(default_factory=list)
+    texcoords: list[tuple[tuple[float, float, float, float], ...]] = field(default_factory=list)
+
+
+@dataclass
+class ClientArrays:
+    """Vertex arrays: which are enabled, the array each pointer call gave, and what drawn arrays were converted to.
+
+    Names are "position", "color", "normal", "texcoord0" ...
+    """
+
+    enabled: set[str] = field(default_factory=set)
+    pointers: dict[str, np.ndarray] = field(default_factory=dict)
+    converted: dict[Any, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
+    active_unit: int = 0
+
+
 class Context:
     """A GL context in its initial state, with a window of the given size.
 
@@ -87,6 +111,7 @@ class Context:
         self.storage = self.frame.fresh_storage()
         self.offset_slope, self.offset_unit = polygon_offset_slope, polygon_offset_unit
         self.raise_errors = raise_errors
+        self.before: Context | None = None  # what a with statement brings back
         self.error = gl.GL_NO_ERROR
         viewport = replace(State().viewport, width=width, height=height)
         scissor = replace(State().scissor, width=width, height=height)
@@ -102,10 +127,19 @@ class Context:
         self.programs: dict[int, Program] = {}
         self.uniforms: dict[int, dict[str, Any]] = {}
         self.labels: list[str] = []
+        self.primitive: Primitive | None = None  # between glBegin and glEnd
+        self.arrays = ClientArrays()
         self.pack_store, self.unpack_store = PixelStore(), PixelStore()
         # names that glGen* has given out; an object exists in storage once it has been bound
         self.names: dict[str, set[int]] = {kind: set() for kind in ("texture", "framebuffer", "renderbuffer", "query")}
         self.renderbuffer = 0
+
+    def __enter__(self) -> Context:
+        make_current(self)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        make_current(self.before)
 
     # -- state ---------------------------------------------------------------------------------------------------------
     def set(self, **groups: Any) -> None:

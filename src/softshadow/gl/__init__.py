@@ -1,0 +1,83 @@
+"""OpenGL's spelling: functions and tokens named and called as in PyOpenGL's ``OpenGL.GL`` and ``OpenGL.GLU``.
+
+The package checks arguments and replaces state; what draws is `softshadow.pipeline`. Everything works on this thread's
+current context::
+
+    from softshadow import gl
+    gl.create_context(64, 48)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+
+References: GL 2.1 specification; the surface and its conventions: docs/exactness.md.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from softshadow.context import Context, current, make_current
+from softshadow.gl.drawing import *  # noqa: F403
+from softshadow.gl.errors import GLError, glGetError
+from softshadow.gl.fragment_state import *  # noqa: F403
+from softshadow.gl.framebuffers import *  # noqa: F403
+from softshadow.gl.lighting import *  # noqa: F403
+from softshadow.gl.pixels import *  # noqa: F403
+from softshadow.gl.programs import *  # noqa: F403
+from softshadow.gl.queries import *  # noqa: F403
+from softshadow.gl.texture_images import *  # noqa: F403
+from softshadow.gl.texture_units import *  # noqa: F403
+from softshadow.gl.textures import *  # noqa: F403
+from softshadow.gl.transforms import *  # noqa: F403
+from softshadow.tokens import *  # noqa: F403
+
+
+def create_context(
+    width: int,
+    height: int,
+    depth_format: str = "d24",
+    stencil_bits: int = 8,
+    precision: str = "mesa",
+    polygon_offset_slope: str = "max",
+    polygon_offset_unit: str = "mesa",
+    raise_errors: bool = True,
+) -> Context:
+    """Make a context in GL's initial state and make it this thread's current one.
+
+    In a ``with`` statement the context before it comes back at the end.
+
+    Parameters
+    ----------
+    width, height : int, pixels, 1 to 16384
+    depth_format : "d24" (24-bit integers) or "d32f" (float32)
+    stencil_bits : 1 to 8; counters saturate at ``2**stencil_bits - 1``
+    precision : "mesa" (float32, the bits of llvmpipe) or "exact" (float64, depth not rounded)
+    polygon_offset_slope : "max", "length" or "slide" (no absolute value, as printed on the slide)
+    polygon_offset_unit : "mesa" (a unit is two steps of fixed-point depth) or "spec" (one)
+    raise_errors : raise `GLError` besides recording the error for glGetError
+
+    Raises
+    ------
+    ValueError
+        An argument is not one of these.
+
+    Examples
+    --------
+    >>> from softshadow import gl
+    >>> with gl.create_context(4, 3):
+    ...     gl.glClearStencil(2)
+    ...     gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
+    ...     gl.glReadPixels(0, 0, 4, 1, gl.GL_STENCIL_INDEX, gl.GL_UNSIGNED_BYTE)
+    array([[2, 2, 2, 2]], dtype=uint8)
+    """
+    offset = (polygon_offset_slope, polygon_offset_unit)
+    context = Context(width, height, depth_format, stencil_bits, precision, *offset, raise_errors)
+    context.before = make_current(context)
+    return context
+
+
+def __getattr__(name: str) -> Any:
+    if name.startswith(("gl", "GL_")):
+        raise AttributeError(f"{name} is not part of this subset of OpenGL", name=name, obj=None)
+    raise AttributeError(f"module 'softshadow.gl' has no attribute {name!r}", name=name)
+
+
+__all__ = ["Context", "GLError", "create_context", "current", "glGetError"]

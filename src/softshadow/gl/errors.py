@@ -1,0 +1,76 @@
+"""GL's errors: recorded for glGetError, and raised unless the context was made with ``raise_errors=False``."""
+
+from __future__ import annotations
+
+from collections.abc import Container
+from typing import Any
+
+from softshadow import tokens as gl
+from softshadow.context import Context, current
+from softshadow.errors import SoftShadowError
+from softshadow.tokens import token_name
+
+ERROR_NAMES = (
+    "GL_INVALID_ENUM", "GL_INVALID_VALUE", "GL_INVALID_OPERATION", "GL_STACK_OVERFLOW", "GL_STACK_UNDERFLOW",
+    "GL_OUT_OF_MEMORY", "GL_INVALID_FRAMEBUFFER_OPERATION",
+)  # fmt: skip
+
+
+class GLError(SoftShadowError):
+    """A GL call that failed and changed nothing.
+
+    Attributes
+    ----------
+    err : int, GL's error code
+    operation : str, the call
+    """
+
+    def __init__(self, err: int, operation: str, message: str) -> None:
+        argument, colon, expected = message.partition(": ")
+        named = colon and "=" in argument.split(" ")[0]
+        said = f"{operation}({argument}): {expected}" if named else f"{operation}: {message}"
+        super().__init__(f"{token_name(err, ERROR_NAMES)}: {said}")
+        self.err, self.operation = err, operation
+
+
+def fail(code: int, operation: str, message: str) -> Any:
+    """Record an error and raise it, or return None where the context only records.
+
+    `message` is "argument=value: expected ...", the value as the caller spelled it.
+    """
+    context = current()
+    if context.error == gl.GL_NO_ERROR:  # GL keeps the first until it is asked
+        context.error = code
+    if context.raise_errors:
+        raise GLError(code, operation, message)
+    return None
+
+
+def glGetError() -> int:
+    """Return the first error since the last call, and forget it."""
+    context = current()
+    code, context.error = context.error, gl.GL_NO_ERROR
+    return code
+
+
+def wrong_enum(operation: str, argument: str, value: Any, expected: str) -> Any:
+    """Fail with GL_INVALID_ENUM for one argument."""
+    spelled = token_name(value) if isinstance(value, int) else repr(value)
+    return fail(gl.GL_INVALID_ENUM, operation, f"{argument}={spelled}: expected {expected}")
+
+
+def is_one_of(operation: str, argument: str, value: Any, allowed: Container[int], expected: str) -> bool:
+    """Return whether an enum argument is allowed; if not, the call has failed."""
+    if value in allowed:
+        return True
+    wrong_enum(operation, argument, value, expected)
+    return False
+
+
+def outside_begin(operation: str) -> Context | None:
+    """Return the current context; None when the call has failed because it stands between glBegin and glEnd."""
+    context = current()
+    if context.primitive is None:
+        return context
+    fail(gl.GL_INVALID_OPERATION, operation, "not allowed between glBegin and glEnd")
+    return None
