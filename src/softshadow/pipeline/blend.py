@@ -117,9 +117,10 @@ def logic(op, s, d):
 @kernel
 def blend_fragment(ops, source, target, blended):
     """Write the bytes that replace `target` (4,) when a fragment of colour `source` (4,) is blended with it."""
-    source_alpha, target_alpha = int(source[3]), int(target[3])
+    # int() of a byte is unsigned once compiled, and unsigned and signed branches together become float64
+    source_alpha, target_alpha = np.int64(source[3]), np.int64(target[3])
     for c in range(4):
-        s, d = int(source[c]), int(target[c])
+        s, d = np.int64(source[c]), np.int64(target[c])
         if ops.logic_op:
             blended[c] = logic(ops.logic_op, s, d)
             continue
