@@ -76,6 +76,11 @@ def vertices_on_mesa(
 
         load(gl, gl.GL_PROJECTION, np.diag([FEEDBACK_SHRINK, FEEDBACK_SHRINK, FEEDBACK_SHRINK, 1]))
         load(gl, gl.GL_MODELVIEW, np.eye(4))
+        one_texel = np.zeros((1, 1, 4), np.uint8)  # coordinates are generated for enabled units only
+        gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 1, 1, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, one_texel)
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+        gl.glEnable(gl.GL_TEXTURE_2D)
         setup(gl)
         load(gl, gl.GL_MODELVIEW, modelview)
         buffer = np.zeros(FEEDBACK_FLOATS * len(arrays["vertex"]), np.float32)

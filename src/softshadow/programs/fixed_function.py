@@ -84,15 +84,15 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
     rest = [texture_coordinates(unit.index, state.units[unit.index], vertices) for unit in units]
     if state.fog.enabled:
         rest.append(fog_distance(state, vertices)[:, np.newaxis])
-    values = columns(front, rest)
+    values = columns(front, rest, vertices.position.dtype)
     flat = np.zeros(values.shape[1], bool)
     flat[: 7 if is_separate(state) else 4] = lighting.shade_model == gl.GL_FLAT
-    return Varyings(values, flat, None if back is None else columns(back, rest))
+    return Varyings(values, flat, None if back is None else columns(back, rest, values.dtype))
 
 
-def columns(colors: Colors, rest: list[np.ndarray]) -> np.ndarray:
+def columns(colors: Colors, rest: list[np.ndarray], real: np.dtype) -> np.ndarray:
     parts = [colors.primary] if colors.secondary is None else [colors.primary, colors.secondary]
-    return np.concatenate(parts + rest, axis=1)
+    return np.concatenate(parts + rest, axis=1, dtype=real)
 
 
 def fog_distance(state: State, vertices: VertexInputs) -> np.ndarray:

@@ -121,10 +121,11 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
     linear = sampler.mag_filter == GL_LINEAR
     cells = image.view if image.view.ndim == 3 else image.view[:, :, np.newaxis]
     wraps = sampler.wrap_s, sampler.wrap_t
-    border = np.array(sampler.border_color, np.float32)
+    real = coordinates.dtype  # float64 in the "exact" precision
+    border = np.array(sampler.border_color, real)
     if image.format.kind == "depth":
         largest = image.format.largest
-        unit = depth_unit(largest)
+        unit = real.type(depth_unit(largest))
         sources = np.array(DEPTH_SOURCES[sampler.depth_mode])
         if largest:
             border = border.clip(ZERO, ONE)
@@ -137,18 +138,18 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
         return
     sources = np.array(SOURCES[image.format.base])
     if image.format.kind == "float":
-        filter_texels(coordinates, cells, wraps, border, ONE, linear, sources, out)
+        filter_texels(coordinates, cells, wraps, border, real.type(ONE), linear, sources, out)
     elif linear and set(wraps) <= set(FIXED_POINT_WRAPS):
         filter_fixed_point(coordinates, cells, wraps, sources, out)
     else:
-        filter_texels(coordinates, cells, wraps, border.clip(ZERO, ONE), UNORM8_STEP, linear, sources, out)
+        filter_texels(coordinates, cells, wraps, border.clip(ZERO, ONE), real.type(UNORM8_STEP), linear, sources, out)
 
 
 @kernel
 def fetch(cells, border, unit, i, j, channel):
     """Return one channel of a texel in [0, 1] units, or of the border colour outside the image."""
     if i >= 0 and i < cells.shape[1] and j >= 0 and j < cells.shape[0]:
-        return np.float32(cells[j, i, channel]) * unit
+        return border.dtype.type(cells[j, i, channel]) * unit
     return border[channel]
 
 

@@ -1,0 +1,123 @@
+"""The built-in programs: what they say by example, and their GLSL twins on Mesa, bit for bit."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mesa_points import POINTS, fragments_on_mesa, load, pixel_centres, same_bits
+from softshadow import programs
+from softshadow import tokens as gl
+from softshadow.errors import StateError
+from softshadow.image import FORMATS, Image
+from softshadow.programs import VertexInputs
+from softshadow.texture import Sampler, Texture
+
+IDENTITY = np.eye(4, dtype=np.float32)
+D24 = np.float32(2**24 - 1)
+
+
+def points(seed: int) -> VertexInputs:
+    """One vertex per pixel, under the identity."""
+    rng = np.random.default_rng(seed)
+    position = np.ones((POINTS, 4), np.float32)
+    position[:, :2], position[:, 2] = pixel_centres(), rng.uniform(-1, 1, POINTS)
+    normal = rng.normal(size=(POINTS, 3)).astype(np.float32)
+    return VertexInputs(position, rng.random((POINTS, 4), np.float32), normal, (), IDENTITY, IDENTITY, (), {})
+
+
+def shaded(name: str, given: VertexInputs, uniforms: dict[str, Any]) -> np.ndarray:
+    program = programs.get(name)
+    uniforms = {**program.uniforms, **uniforms}
+    out = np.empty((len(given.position), 4), np.float32)
+    inputs = VertexInputs(*(getattr(given, f) for f in given.__dataclass_fields__ if f != "uniforms"), uniforms)
+    program.shade(program.vertex(inputs).values, uniforms, out)
+    return out
+
+
+def shaded_on_mesa(name: str, given: VertexInputs, uniforms: dict[str, Any], setup: Any) -> np.ndarray:
+    def use_program(on: Any) -> None:
+        setup(on)
+        load(on, on.GL_MODELVIEW, given.modelview)
+        load(on, on.GL_PROJECTION, given.projection)
+        program = on.program(name)
+        on.glUseProgram(program)
+        for uniform, value in uniforms.items():
+            location = on.glGetUniformLocation(program, uniform)
+            if isinstance(value, np.ndarray):
+                on.glUniformMatrix4fv(location, 1, on.GL_FALSE, np.ascontiguousarray(value.T))
+            elif isinstance(value, tuple):
+                getattr(on, f"glUniform{len(value)}f")(location, *value)
+            elif isinstance(value, float):
+                on.glUniform1f(location, value)
+
+    arrays = {"vertex": given.position, "color": given.color, "normal": given.normal}
+    return fragments_on_mesa(use_program, arrays)
+
+
+def depth_map(cells: np.ndarray, filter_name: int = gl.GL_NEAREST) -> Texture:
+    image = Image.new(FORMATS[gl.GL_DEPTH_COMPONENT24], cells.shape[1], cells.shape[0])
+    image.view[:] = cells
+    sampler = Sampler(min_filter=filter_name, mag_filter=filter_name)
+    return Texture(1, gl.GL_TEXTURE_2D, sampler, {(0, 0): image})
+
+
+def lit(texture_coordinate: tuple[float, ...], bias: float = 0.0) -> bool:
+    """Whether a point is lit that the light sees at (s, t, p, q); the map holds the depth 0.5."""
+    white = np.ones((1, 4), np.float32)
+    one = VertexInputs(np.float32([texture_coordinate]), white, white[:, :3], (), IDENTITY, IDENTITY, (), {})
+    half = depth_map(np.full((1, 1), np.rint(D24 / 2), np.float32))
+    return bool(shaded("shadow-map", one, {"shadowMap": half, "bias": bias})[0, 0] == 1)
+
+
+def test_shadow_map_compares_the_projected_depth():
+    assert lit((0.5, 0.5, 0.4, 1))
+    assert not lit((0.5, 0.5, 0.6, 1))
+    assert lit((1.0, 1.0, 0.8, 2))
+    assert lit((0.5, 0.5, 0.505, 1), bias=0.01)
+
+
+def test_shadow_map_leaves_what_the_light_does_not_see_lit():
+    assert lit((1.5, 0.5, 0.9, 1))
+    assert lit((0.5, -0.1, 0.9, 1))
+    assert lit((-0.5, -0.5, -0.9, -1))
+    assert lit((0.5, 0.5, 0.9, 0))
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize("filter_name", [gl.GL_NEAREST, gl.GL_LINEAR], ids=gl.token_name)
+def test_shadow_map_is_its_glsl_twin(filter_name):
+    for seed in range(3):
+        rng, given = np.random.default_rng(seed), points(seed)
+        depths = rng.random((16, 16), np.float32)
+        light_matrix = rng.normal(0, 0.5, (4, 4)).astype(np.float32)
+        light_matrix[:, 3] += (0.5, 0.5, 0.5, 1.5)
+
+        def setup(on: Any, depths: np.ndarray = depths) -> None:
+            on.glBindTexture(on.GL_TEXTURE_2D, on.glGenTextures(1))
+            formats = on.GL_DEPTH_COMPONENT24, 16, 16, 0, on.GL_DEPTH_COMPONENT, on.GL_FLOAT
+            on.glTexImage2D(on.GL_TEXTURE_2D, 0, *formats, depths)
+            on.glTexParameteri(on.GL_TEXTURE_2D, on.GL_TEXTURE_MIN_FILTER, filter_name)
+            on.glTexParameteri(on.GL_TEXTURE_2D, on.GL_TEXTURE_MAG_FILTER, filter_name)
+
+        uniforms = {"lightMatrix": light_matrix, "bias": 0.01, "ambient": (0.3, 0.2, 0.1, 1.0)}
+        ours = shaded("shadow-map", given, {**uniforms, "shadowMap": depth_map(np.floor(depths * D24), filter_name)})
+        assert 0 < (ours != given.color).any(axis=1).mean() < 1
+        assert same_bits(ours, shaded_on_mesa("shadow-map", given, uniforms, setup))
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize("light", [(1.0, 2.0, 3.0, 0.0), (1.0, 2.0, 3.0, 1.0), (1.0, -2.0, 3.0, 0.5)])
+@pytest.mark.parametrize("shininess", [0.75, 10.0])
+def test_blinn_phong_is_its_glsl_twin(light, shininess):
+    colors = {"ambient": (0.1, 0.2, 0.3), "diffuse": (0.6, 0.5, 0.4), "specular": (0.3, 0.4, 0.5)}
+    uniforms = {"lightPosition": light, "shininess": shininess, **colors}
+    given = points(7)
+    assert same_bits(
+        shaded("blinn-phong", given, uniforms), shaded_on_mesa("blinn-phong", given, uniforms, lambda on: None)
+    )
+
+
+def test_an_unknown_program_names_the_nearest():
+    with pytest.raises(StateError, match="shadow-map"):
+        programs.get("shadow-mop")

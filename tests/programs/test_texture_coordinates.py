@@ -1,0 +1,80 @@
+"""Generated and transformed texture coordinates: by example, and bit for bit Mesa's."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mesa_points import load, same_bits, vertices_on_mesa
+from softshadow import tokens as gl
+from softshadow.errors import StateError
+from softshadow.programs import VertexInputs
+from softshadow.programs.inverse import inverse
+from softshadow.programs.texture_coordinates import texture_coordinates
+from softshadow.state import TexGen, TextureUnit
+
+COUNT = 300
+
+
+def vertices(rng: np.random.Generator, modelview: np.ndarray, texture_matrix: np.ndarray) -> VertexInputs:
+    position = rng.normal(0, 2, (COUNT, 4)).astype(np.float32)
+    position[:, 3] = 1
+    texcoord = rng.normal(size=(COUNT, 4)).astype(np.float32)
+    identity = np.eye(4, dtype=np.float32)
+    return VertexInputs(
+        position, np.ones_like(position), position[:, :3], (texcoord,), modelview, identity, (texture_matrix,), {}
+    )
+
+
+def modelviews(rng: np.random.Generator) -> dict[str, np.ndarray]:
+    affine = np.eye(4, dtype=np.float32)
+    affine[:3] = rng.normal(size=(3, 4))
+    scale = np.diag(np.float32([2, 0.5, 3, 1]))
+    return {"identity": np.eye(4, dtype=np.float32), "affine": affine, "scale": scale}
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize("mode", [gl.GL_OBJECT_LINEAR, gl.GL_EYE_LINEAR], ids=gl.token_name)
+@pytest.mark.parametrize("kind", ["identity", "affine", "scale"])
+def test_generated_coordinates_are_mesas(kind, mode):
+    rng = np.random.default_rng(21)
+    modelview, texture_matrix = modelviews(rng)[kind], rng.normal(size=(4, 4)).astype(np.float32)
+    planes = rng.normal(size=(4, 4)).astype(np.float32)
+    given = vertices(rng, modelview, texture_matrix)
+
+    def setup(on: Any) -> None:
+        load(on, on.GL_TEXTURE, texture_matrix)
+        load(on, on.GL_MODELVIEW, modelview)  # eye planes are transformed when they are set
+        plane = on.GL_OBJECT_PLANE if mode == gl.GL_OBJECT_LINEAR else on.GL_EYE_PLANE
+        for name, values in zip("STRQ", planes, strict=True):
+            on.glTexGeni(getattr(on, f"GL_{name}"), on.GL_TEXTURE_GEN_MODE, mode)
+            on.glTexGenfv(getattr(on, f"GL_{name}"), plane, values)
+            on.glEnable(getattr(on, f"GL_TEXTURE_GEN_{name}"))
+
+    to_object = inverse(modelview)
+    eye_planes = [
+        tuple(((p[0] * to_object[0] + p[1] * to_object[1]) + p[2] * to_object[2]) + p[3] * to_object[3]) for p in planes
+    ]
+    gens = [TexGen(True, mode, tuple(p), e) for p, e in zip(planes.tolist(), eye_planes, strict=True)]
+    unit = TextureUnit(enabled_2d=True, gen=(gens[0], gens[1], gens[2], gens[3]))
+    arrays = {"vertex": given.position, "texcoord": given.texcoords[0]}
+    _, theirs = vertices_on_mesa(setup, arrays, modelview)
+    assert same_bits(texture_coordinates(0, unit, given), theirs)
+
+
+def test_components_without_generation_keep_what_was_given():
+    given = vertices(np.random.default_rng(1), np.eye(4, dtype=np.float32), np.eye(4, dtype=np.float32))
+    s, t, r, q = TextureUnit().gen
+    unit = TextureUnit(gen=(replace(s, enabled=True, mode=gl.GL_OBJECT_LINEAR, object_plane=(0, 0, 0, 7)), t, r, q))
+    made = texture_coordinates(0, unit, given)
+    assert (made[:, 0] == 7).all()
+    assert (made[:, 1:] == given.texcoords[0][:, 1:]).all()
+
+
+def test_an_unsupported_generation_mode_is_named():
+    given = vertices(np.random.default_rng(1), np.eye(4, dtype=np.float32), np.eye(4, dtype=np.float32))
+    s, t, r, q = TextureUnit().gen
+    unit = TextureUnit(gen=(s, replace(t, enabled=True, mode=gl.GL_SPHERE_MAP), r, q))
+    with pytest.raises(StateError, match="texture unit 0: GL_TEXTURE_GEN_MODE of GL_T is GL_SPHERE_MAP"):
+        texture_coordinates(0, unit, given)
