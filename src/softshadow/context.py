@@ -130,8 +130,8 @@ class Context:
         self.primitive: Primitive | None = None  # between glBegin and glEnd
         self.arrays = ClientArrays()
         self.pack_store, self.unpack_store = PixelStore(), PixelStore()
-        # names that glGen* has given out; an object exists in storage once it has been bound
-        self.names: dict[str, set[int]] = {kind: set() for kind in ("texture", "framebuffer", "renderbuffer", "query")}
+        # the highest name that glGen* has given out, per kind; an object exists in storage once it has been bound
+        self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query"), 0)
         self.renderbuffer = 0
 
     def __enter__(self) -> Context:

@@ -10,7 +10,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.framebuffer import DEFAULT, LARGEST_SIDE, Attachment
 from softshadow.gl.errors import fail, outside_begin
-from softshadow.gl.names import generate, listed
+from softshadow.gl.names import generate, listed, take
 from softshadow.image import FORMATS, storage_format
 from softshadow.pipeline.commands import (
     AttachRenderbuffer,
@@ -31,6 +31,7 @@ COLOR_RENDERABLE = (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_RGBA)  # GL 4.5, sec. 
 WINDOW_BUFFERS = (
     gl.GL_NONE, gl.GL_FRONT, gl.GL_BACK, gl.GL_LEFT, gl.GL_FRONT_LEFT, gl.GL_BACK_LEFT, gl.GL_FRONT_AND_BACK,
 )  # fmt: skip
+SEVERAL = (gl.GL_FRONT, gl.GL_LEFT, gl.GL_RIGHT, gl.GL_FRONT_AND_BACK)  # glDrawBuffers takes single buffers only
 MISSING_BUFFERS = (gl.GL_RIGHT, gl.GL_FRONT_RIGHT, gl.GL_BACK_RIGHT, gl.GL_AUX0)
 BINDINGS = {
     gl.GL_FRAMEBUFFER: ("draw_framebuffer", "read_framebuffer"),
@@ -52,11 +53,8 @@ def glBindFramebuffer(target: int, framebuffer: int) -> None:
     name = int(framebuffer)
     if target not in BINDINGS:
         return fail(gl.GL_INVALID_ENUM, "glBindFramebuffer", f"target={token_name(target)}: {EXPECTED_TARGET}")
-    if name != DEFAULT and name not in context.names["framebuffer"]:
-        return fail(
-            gl.GL_INVALID_OPERATION, "glBindFramebuffer", f"framebuffer={name} is no name from glGenFramebuffers"
-        )
     if name not in context.storage.framebuffers:
+        take(context, "framebuffer", name)
         context.execute(CreateFramebuffer(name))
     context.set(**dict.fromkeys(BINDINGS[target], name))
     return None
@@ -73,7 +71,6 @@ def glDeleteFramebuffers(*arguments: Any) -> None:
     existing = tuple(name for name in names if name in context.storage.framebuffers)
     if existing:
         context.execute(DeleteFramebuffers(existing))
-    context.names["framebuffer"].difference_update(names)
 
 
 def glIsFramebuffer(framebuffer: int) -> bool:
@@ -149,7 +146,7 @@ def _texture_problem(context: Context, textarget: int, name: int, level: int) ->
         return gl.GL_INVALID_OPERATION, f"texture={name} does not exist: bind it once first"
     faces = range(gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X, gl.GL_TEXTURE_CUBE_MAP_NEGATIVE_Z + 1)
     if textarget != gl.GL_TEXTURE_2D and textarget not in faces:
-        return gl.GL_INVALID_OPERATION, (
+        return gl.GL_INVALID_ENUM, (
             f"textarget={token_name(textarget)}: expected GL_TEXTURE_2D or a face of GL_TEXTURE_CUBE_MAP"
         )
     if (textarget == gl.GL_TEXTURE_2D) != (texture.target == gl.GL_TEXTURE_2D):
@@ -198,7 +195,7 @@ def glGetFramebufferAttachmentParameteriv(target: int, attachment: int, pname: i
     point = gl.GL_DEPTH_ATTACHMENT if attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT else attachment
     found = context.storage.framebuffers[_bound(context, target)].attachments.get(point)
     kind = gl.GL_NONE if found is None else gl.GL_TEXTURE if found.texture else gl.GL_RENDERBUFFER
-    answers = {gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE: kind}
+    answers = {gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE: kind, gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME: 0}
     if found is not None:
         cube = found.texture and context.storage.textures[found.texture].target == gl.GL_TEXTURE_CUBE_MAP
         answers[gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME] = found.texture or found.renderbuffer
@@ -229,6 +226,8 @@ def glDrawBuffers(*arguments: Any) -> None:
     modes = listed(arguments)
     if not 1 <= len(modes) <= len(COLOR_ATTACHMENTS):
         return fail(gl.GL_INVALID_VALUE, "glDrawBuffers", f"n={len(modes)}: expected 1 to {len(COLOR_ATTACHMENTS)}")
+    if any(mode in SEVERAL for mode in modes):
+        return fail(gl.GL_INVALID_ENUM, "glDrawBuffers", "a name for several buffers (GL_FRONT, GL_FRONT_AND_BACK ...)")
     if any(mode != gl.GL_NONE for mode in modes[1:]):
         return fail(
             gl.GL_INVALID_OPERATION, "glDrawBuffers", "more than one colour buffer at a time is not part of this subset"
@@ -269,11 +268,8 @@ def glBindRenderbuffer(target: int, renderbuffer: int) -> None:
     name = int(renderbuffer)
     if target != gl.GL_RENDERBUFFER:
         return fail(gl.GL_INVALID_ENUM, "glBindRenderbuffer", f"target={token_name(target)}: expected GL_RENDERBUFFER")
-    if name and name not in context.names["renderbuffer"]:
-        return fail(
-            gl.GL_INVALID_OPERATION, "glBindRenderbuffer", f"renderbuffer={name} is no name from glGenRenderbuffers"
-        )
     if name and name not in context.storage.renderbuffers:
+        take(context, "renderbuffer", name)
         context.execute(DefineRenderbuffer(name))
     context.renderbuffer = name
     return None
@@ -313,7 +309,6 @@ def glDeleteRenderbuffers(*arguments: Any) -> None:
     existing = tuple(name for name in names if name in context.storage.renderbuffers)
     if existing:
         context.execute(DeleteRenderbuffers(existing))
-    context.names["renderbuffer"].difference_update(names)
 
 
 def glIsRenderbuffer(renderbuffer: int) -> bool:

@@ -10,16 +10,15 @@ from softshadow.context import Context
 
 
 def generate(context: Context, kind: str, n: int) -> Any:
-    """Return the `n` lowest unused names: an int for one, an array for several, as PyOpenGL does."""
-    used = context.names[kind]
-    free: list[int] = []
-    name = 1
-    while len(free) < n:
-        if name not in used:
-            free.append(name)
-        name += 1
-    used.update(free)
-    return free[0] if n == 1 else np.array(free, np.uint32)
+    """Return `n` names that were never used before, counting up as Mesa does: an int for one, an array for several."""
+    first = context.names[kind] + 1
+    context.names[kind] += n
+    return first if n == 1 else np.arange(first, first + n, dtype=np.uint32)
+
+
+def take(context: Context, kind: str, name: int) -> None:
+    """Remember a name that a program has chosen itself."""
+    context.names[kind] = max(context.names[kind], name)
 
 
 def listed(arguments: tuple[Any, ...]) -> list[int]:

@@ -43,7 +43,7 @@ def upload_problem(format: int, stored: Format, has_stencil: bool) -> Problem | 
     kind = kind_of(format)
     fits = {
         "depth": stored.kind == "depth",
-        "depth-stencil": stored.kind == "depth" and has_stencil,
+        "depth-stencil": stored.kind == "depth",  # without a stencil plane its values are dropped
         "stencil": stored.kind == "stencil" or has_stencil,
         "color": stored.kind in ("unorm8", "float"),
     }[kind]
@@ -54,6 +54,8 @@ def upload_problem(format: int, stored: Format, has_stencil: bool) -> Problem | 
 
 def readout_problem(format: int, image: Image) -> Problem | None:
     """Return why an image cannot be read in a client format, or None."""
+    if format == gl.GL_DEPTH_STENCIL and image.stencil is None:
+        return gl.GL_INVALID_OPERATION, "format=GL_DEPTH_STENCIL: the image has no stencil values"
     return upload_problem(format, image.format, image.stencil is not None)
 
 

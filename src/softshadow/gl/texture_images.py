@@ -89,13 +89,14 @@ def glTexSubImage2D(
     problem = (
         target_problem(context, target, faces=True)
         or _level_problem(level)
+        or _missing_problem(context, target, level)
         or format_problem(format, type)
         or _region_problem(context, target, level, xoffset, yoffset, width, height)
     )
     if problem:
         return fail(problem[0], operation, problem[1])
     image = bound_texture(context, target).images[face_of(target), level]
-    if problem := readout_problem(format, image):
+    if problem := upload_problem(format, image.format, image.stencil is not None):
         return fail(problem[0], operation, problem[1])
     if pixels is not None:
         cells, stencil = _cells(context, pixels, width, height, format, type, image.format, operation)
@@ -158,6 +159,7 @@ def glCopyTexSubImage2D(
         target_problem(context, target, faces=True)
         or _source_problem(context)
         or _level_problem(level)
+        or _missing_problem(context, target, level)
         or _region_problem(context, target, level, xoffset, yoffset, width, height)
     )
     if problem:
@@ -299,14 +301,19 @@ def _internal_problem(internalformat: int, code: int, exclude: tuple[int, ...] =
     return code, f"internalformat={token_name(internalformat)} is not part of this subset: expected one of {known}"
 
 
+def _missing_problem(context: Context, target: int, level: int) -> Problem | None:
+    if image_at(context, target, level) is not None:
+        return None
+    return gl.GL_INVALID_OPERATION, f"level {level} of the bound texture is not defined: call glTexImage2D first"
+
+
 def _region_problem(
     context: Context, target: int, level: int, x: int, y: int, width: int, height: int
 ) -> Problem | None:
     if width < 0 or height < 0:
         return gl.GL_INVALID_VALUE, f"width={width}, height={height}: expected 0 or more"
     image = image_at(context, target, level)
-    if image is None:
-        return gl.GL_INVALID_OPERATION, f"level {level} of the bound texture is not defined: call glTexImage2D first"
+    assert image is not None
     if x < 0 or y < 0 or x + width > image.width or y + height > image.height:
         return gl.GL_INVALID_VALUE, (
             f"the rectangle at ({x}, {y}) of {width} x {height} leaves the image of {image.width} x {image.height}"

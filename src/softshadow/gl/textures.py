@@ -10,7 +10,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.errors import fail, outside_begin
-from softshadow.gl.names import generate, listed
+from softshadow.gl.names import generate, listed, take
 from softshadow.pipeline.commands import AttachTexture, CreateTexture, DeleteTextures, SetSampler
 from softshadow.state import TextureUnit
 from softshadow.texture import Sampler, Texture
@@ -71,7 +71,7 @@ def glBindTexture(target: int, texture: int) -> None:
             f"texture={name} is a {token_name(standing.target)}, it cannot become a {token_name(target)}",
         )
     if name and standing is None:
-        context.names["texture"].add(name)
+        take(context, "texture", name)
         context.execute(CreateTexture(name, target))
     set_unit(context, context.active_unit, **{BINDINGS[target]: name})
     return None
@@ -94,7 +94,6 @@ def glDeleteTextures(*arguments: Any) -> None:
     existing = tuple(name for name in names if name in context.storage.textures)
     if existing:
         context.execute(DeleteTextures(existing))
-    context.names["texture"].difference_update(names)
 
 
 def glIsTexture(texture: int) -> bool:
