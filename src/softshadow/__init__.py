@@ -1,3 +1,108 @@
-"""Real-time shadow algorithms on a software rasterizer, step by step."""
+"""Real-time shadow algorithms on a software rasterizer, step by step.
+
+Names are looked up when they are first used, so that importing the package costs next to nothing: no NumPy, no Numba.
+"""
+
+import importlib
+import sys
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from softshadow import gl, testing
+    from softshadow.errors import (
+        CounterSaturated,
+        InsideOutMesh,
+        LightInsideCaster,
+        MeshError,
+        NearClipZPass,
+        NonManifoldMesh,
+        OpenMesh,
+        OutsideLightFrustum,
+        PartlyReadFile,
+        SceneError,
+        SoftShadowError,
+        StateError,
+        Warning,
+    )
+    from softshadow.inspection.pictures import stencil_palette
+    from softshadow.pipeline import set_threads
+    from softshadow.run import Run, load_run, run
+    from softshadow.scene import Camera, Light, Material, Mesh, Scene, SceneObject, scene_names
+    from softshadow.techniques import describe
+    from softshadow.techniques import names as technique_names
 
 __version__ = "0.1.0"
+
+__all__ = [
+    "Camera",
+    "CounterSaturated",
+    "InsideOutMesh",
+    "Light",
+    "LightInsideCaster",
+    "Material",
+    "Mesh",
+    "MeshError",
+    "NearClipZPass",
+    "NonManifoldMesh",
+    "OpenMesh",
+    "OutsideLightFrustum",
+    "PartlyReadFile",
+    "Run",
+    "Scene",
+    "SceneError",
+    "SceneObject",
+    "SoftShadowError",
+    "StateError",
+    "Warning",
+    "describe",
+    "gl",
+    "load_run",
+    "run",
+    "scene_names",
+    "set_threads",
+    "stencil_palette",
+    "technique_names",
+    "testing",
+]
+
+_MODULES = ("gl", "testing")
+_RENAMED = {"technique_names": ("softshadow.techniques", "names")}
+_HOMES = {
+    "softshadow.errors": (
+        "CounterSaturated", "InsideOutMesh", "LightInsideCaster", "MeshError", "NearClipZPass", "NonManifoldMesh",
+        "OpenMesh", "OutsideLightFrustum", "PartlyReadFile", "SceneError", "SoftShadowError", "StateError", "Warning",
+    ),
+    "softshadow.inspection.pictures": ("stencil_palette",),
+    "softshadow.pipeline": ("set_threads",),
+    "softshadow.run": ("Run", "load_run", "run"),
+    "softshadow.scene": ("Camera", "Light", "Material", "Mesh", "Scene", "SceneObject", "scene_names"),
+    "softshadow.techniques": ("describe",),
+}  # fmt: skip
+_HOME = {name: (module, name) for module, names in _HOMES.items() for name in names} | _RENAMED
+
+
+def __getattr__(name: str) -> Any:
+    if name in _MODULES:
+        return importlib.import_module(f"softshadow.{name}")
+    if name not in _HOME:
+        raise AttributeError(f"module 'softshadow' has no attribute {name!r}")
+    module, there = _HOME[name]
+    value = getattr(importlib.import_module(module), there)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
+
+
+class _Package(ModuleType):
+    """The package itself: importing its module `run` must not hide the function of that name."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name != "run" or not isinstance(value, ModuleType):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

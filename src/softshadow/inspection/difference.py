@@ -1,0 +1,40 @@
+"""What changed between two moments of a frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softshadow.inspection.replay import Buffers
+
+
+@dataclass(frozen=True, eq=False)
+class Difference:
+    """Where two moments differ: bool (H, W) per buffer, row 0 on top."""
+
+    image: np.ndarray
+    depth: np.ndarray
+    stencil: np.ndarray
+
+    @property
+    def any(self) -> np.ndarray:
+        """(H, W) bool: where at least one buffer differs."""
+        return self.image | self.depth | self.stencil
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """The number of pixels that differ, per buffer."""
+        return {name: int(np.count_nonzero(getattr(self, name))) for name in ("image", "depth", "stencil")}
+
+    def __str__(self) -> str:
+        return ", ".join(f"{name}: {count} pixels" for name, count in self.counts.items())
+
+
+def difference(before: Buffers, after: Buffers) -> Difference:
+    """Return where two moments of one window differ; depth and stencil to the last bit, of colours red, green, blue."""
+    return Difference(
+        (before.color[..., :3] != after.color[..., :3]).any(axis=-1),
+        before.depth != after.depth,
+        before.stencil != after.stencil,
+    )

@@ -1,0 +1,40 @@
+"""The hard shadows that a scene has at the pixels of a picture: rays to what is seen, and from there to the light."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from softshadow.scene import Scene
+from softshadow.truth import casting_faces_between, first_faces
+
+
+def hard_visibility(scene: Scene, size: tuple[int, int]) -> tuple[list[np.ndarray], np.ndarray]:
+    """Return the visibility of every light at every pixel centre, and where a surface is seen at all.
+
+    The point that a pixel shows is found by its ray, with the face it lies on known by number: that face and those in
+    its plane cast nothing on it.
+
+    Returns
+    -------
+    list of (H, W) float32       per light, 1 lit and 0 in shadow, 1 where no surface is seen; row 0 on top
+    (H, W) bool                  where a surface is seen between the near and the far plane
+    """
+    width, height = size
+    camera = scene.camera
+    x, y = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
+    near_points = camera.near_points(np.stack([x.ravel(), y.ravel()], axis=1), size)
+    directions = near_points - camera.eye
+    objects, triangles, distances = first_faces(near_points, directions, scene.objects)
+    # in units of the direction, which spans eye to near plane, the far plane is far / near away from the eye
+    seen = (objects >= 0) & (1 + distances <= camera.far / camera.near)
+    points = near_points[seen] + distances[seen, None] * directions[seen]
+    as_caster = np.full(len(scene.objects) + 1, -1)
+    casters = [index for index, thing in enumerate(scene.objects) if thing.casts]
+    as_caster[casters] = np.arange(len(casters))
+    exclude = as_caster[objects[seen]], triangles[seen]
+    visible = []
+    for light in scene.lights:
+        lit = np.ones(width * height, np.float32)
+        lit[seen] = casting_faces_between(points, light.position, scene.casters, exclude=exclude) == 0
+        visible.append(lit.reshape(height, width))
+    return visible, seen.reshape(height, width)

@@ -1,0 +1,102 @@
+"""Counting: draws, triangles, fragments by verdict and stencil updates of every step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from softshadow import pipeline
+from softshadow.context import Frame
+from softshadow.pipeline import VERDICTS
+from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.primitives import assemble
+
+
+@dataclass
+class Counts:
+    """What one step cost.
+
+    `triangles` are those handed in, before clipping and culling; `fragments` has one count per verdict; a stencil
+    update is a stencil value that changed. Draws into framebuffer objects count, too.
+    """
+
+    title: str
+    draws: int = 0
+    triangles: int = 0
+    fragments: dict[str, int] = field(default_factory=lambda: dict.fromkeys(VERDICTS, 0))
+    stencil_updates: int = 0
+
+    @property
+    def all_fragments(self) -> int:
+        return sum(self.fragments.values())
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """The counts of every step, in order, and their sum."""
+
+    steps: tuple[Counts, ...]
+
+    @property
+    def total(self) -> Counts:
+        """The sum over all steps."""
+        total = Counts("total")
+        for step in self.steps:
+            total.draws += step.draws
+            total.triangles += step.triangles
+            total.stencil_updates += step.stencil_updates
+            for verdict, count in step.fragments.items():
+                total.fragments[verdict] += count
+        return total
+
+    def to_dicts(self) -> list[dict[str, object]]:
+        """Return the rows of the table, the total last, as plain dictionaries."""
+        return [
+            {
+                "step": each.title,
+                "draws": each.draws,
+                "triangles": each.triangles,
+                "fragments": each.all_fragments,
+                **each.fragments,
+                "stencil updates": each.stencil_updates,
+            }
+            for each in (*self.steps, self.total)
+        ]
+
+    def __str__(self) -> str:
+        from softshadow.inspection.tables import text_table
+
+        rows = self.to_dicts()
+        return text_table(list(rows[0]), [[str(value) for value in row.values()] for row in rows])
+
+    def _repr_html_(self) -> str:
+        from softshadow.inspection.tables import html_table
+
+        rows = self.to_dicts()
+        return html_table(list(rows[0]), [[str(value) for value in row.values()] for row in rows])
+
+
+def ledger_of(frame: Frame) -> Ledger:
+    """Return the counts of a recorded frame: it is played once more, counting, in the generic binding."""
+    storage, counted, first = frame.fresh_storage(), [], 0
+    for title, end in frame.steps:
+        counts, verdicts = Counts(title), np.zeros(len(VERDICTS) + 1, np.int64)
+        for command in frame.commands[first:end]:
+            if isinstance(command, Draw):
+                pipeline.draw(command, storage, verdicts)
+                counts.draws += 1
+                counts.triangles += triangles_of(command)
+            else:
+                command.apply(storage)
+        counts.fragments = dict(zip(VERDICTS, verdicts.tolist(), strict=False))  # the last number counts updates
+        counts.stencil_updates = int(verdicts[-1])
+        counted.append(counts)
+        first = end
+    return Ledger(tuple(counted))
+
+
+def triangles_of(command: Draw) -> int:
+    """Return how many triangles a draw hands in."""
+    count = len(command.vertices.position) if command.indices is None else len(command.indices)
+    return len(assemble(command.mode, count).corners)

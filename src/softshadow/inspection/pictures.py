@@ -1,0 +1,134 @@
+"""Buffers as pictures: colour as it is, depth stretched over what was drawn, stencil as a palette of counts.
+
+Pillow is imported where it is needed. Every picture carries the mark of this package.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from softshadow.inspection.files import MARK
+from softshadow.inspection.step import Step
+
+if TYPE_CHECKING:
+    from PIL.Image import Image as Picture
+
+# Okabe & Ito 2008, "Color universal design": told apart by colour-blind eyes; 0 is dark, then as different as can be
+OKABE_ITO = (
+    (0x22, 0x22, 0x22), (0xE6, 0x9F, 0x00), (0x56, 0xB4, 0xE9), (0x00, 0x9E, 0x73), (0xF0, 0xE4, 0x42),
+    (0x00, 0x72, 0xB2), (0xD5, 0x5E, 0x00),
+)  # fmt: skip
+WRAPPED = ((0xE7, 0xA6, 0xC8), (0xCC, 0x79, 0xA7))  # 254 and 255: Okabe & Ito's purple means "below zero"
+CLEAR_DEPTH = (0x26, 0x2B, 0x44)  # where nothing was drawn: no grey, so that it is not taken for a depth
+LABEL_HEIGHT, GAP = 14, 4
+
+
+def stencil_palette() -> np.ndarray:
+    """Return the colour of every count, (256, 3) uint8.
+
+    0 to 6 are Okabe & Ito's colours; higher counts repeat them ever lighter; 254 and 255, which are -2 and -1 of a
+    counter that wraps, have a hue of their own.
+    """
+    palette = np.empty((256, 3), np.uint8)
+    for count in range(256):
+        turn, base = divmod(count, len(OKABE_ITO))
+        lighter = 1 - 0.75**turn
+        palette[count] = np.rint(np.array(OKABE_ITO[base]) * (1 - lighter) + 255 * lighter)
+    palette[254:] = WRAPPED
+    return palette
+
+
+def color_picture(image: np.ndarray) -> Picture:
+    """Return a picture of colours (H, W, 3) uint8."""
+    from PIL import Image
+
+    return Image.fromarray(np.ascontiguousarray(image))
+
+
+def stencil_picture(stencil: np.ndarray) -> Picture:
+    """Return a palette picture of a stencil buffer (H, W) uint8: its indices are the counts themselves."""
+    from PIL import Image
+
+    picture = Image.fromarray(np.ascontiguousarray(stencil), "L")
+    picture.putpalette(stencil_palette().tobytes())  # turns the picture into one of mode P, indices unchanged
+    return picture
+
+
+def depth_picture(depth: np.ndarray, clear: float = 1.0) -> Picture:
+    """Return a picture of depths (H, W): near is light, far is dark, over the range of what is not `clear`."""
+    from PIL import Image
+
+    drawn = (depth != clear) & np.isfinite(depth)
+    picture = np.empty((*depth.shape, 3), np.uint8)
+    picture[:] = CLEAR_DEPTH
+    if drawn.any():
+        near, far = float(depth[drawn].min()), float(depth[drawn].max())
+        far = far if far > near else near + 1
+        grey = np.rint(255 - 205 * (depth[drawn].astype(np.float64) - near) / (far - near))
+        picture[drawn] = grey.astype(np.uint8)[:, None]
+    return Image.fromarray(picture)
+
+
+def map_picture(values: np.ndarray) -> Picture:
+    """Return a picture of a named map: bool as black and white, uint8 as counts, depths and other floats as greys."""
+    if values.dtype == np.bool_:
+        return color_picture(np.repeat((values * np.uint8(255))[..., None], 3, axis=2))
+    if values.ndim == 3:
+        return color_picture(values if values.dtype == np.uint8 else to_bytes(values[..., :3]))
+    if values.dtype == np.uint8:
+        return stencil_picture(values)
+    return depth_picture(values)
+
+
+def visibility_picture(visibility: np.ndarray) -> Picture:
+    """Return a picture of a visibility (H, W): 1 white, 0 black."""
+    return color_picture(np.repeat(to_bytes(visibility)[..., None], 3, axis=2))
+
+
+def to_bytes(values: np.ndarray) -> np.ndarray:
+    """Return values in [0, 1] as 0-255, rounded."""
+    return np.rint(np.clip(values, 0, 1) * 255).astype(np.uint8)
+
+
+def save_png(picture: Picture, path: Path) -> None:
+    """Write a PNG with the mark of this package."""
+    from PIL.PngImagePlugin import PngInfo
+
+    notes = PngInfo()
+    notes.add_text("Comment", MARK)
+    picture.save(path, "PNG", pnginfo=notes)
+
+
+def contact_sheet(rows: Sequence[tuple[str, Sequence[Picture]]], largest_width: int = 960) -> Picture:
+    """Return one picture with a labelled row for each step, shrunk to whole fractions of its size where too wide."""
+    from PIL import Image, ImageDraw
+
+    width, height = rows[0][1][0].size
+    columns = max(len(pictures) for _, pictures in rows)
+    shrink = max(1, -(-(columns * (width + GAP)) // largest_width))
+    width, height = max(1, width // shrink), max(1, height // shrink)
+    sheet = Image.new("RGB", (columns * (width + GAP) - GAP, len(rows) * (height + LABEL_HEIGHT + GAP) - GAP), "white")
+    draw: Any = ImageDraw.Draw(sheet)
+    for row, (label, pictures) in enumerate(rows):
+        top = row * (height + LABEL_HEIGHT + GAP)
+        draw.text((1, top + 1), label, fill=(34, 34, 34))
+        for column, picture in enumerate(pictures):
+            shrunk = picture.convert("RGB").resize((width, height), Image.Resampling.NEAREST)
+            sheet.paste(shrunk, (column * (width + GAP), top + LABEL_HEIGHT))
+    return sheet
+
+
+def sheet_of(steps: Sequence[Step]) -> Picture:
+    """Return the contact sheet of a run: colour, depth and stencil after every step."""
+    rows = [
+        (
+            f"{step.index}  {step.title}",
+            (color_picture(step.image), depth_picture(step.depth), stencil_picture(step.stencil)),
+        )
+        for step in steps
+    ]
+    return contact_sheet(rows)

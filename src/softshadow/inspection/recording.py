@@ -1,0 +1,110 @@
+"""A recording, a scene, any frozen value of this package as JSON and plain arrays, and back: no pickle.
+
+What may be made from a file is listed in `KINDS`; a file can name nothing else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+import numpy as np
+
+from softshadow import errors, image, scene, state, texture
+from softshadow.context import Frame
+from softshadow.errors import SoftShadowError
+from softshadow.pipeline import commands
+
+DTYPES = {name: getattr(np, name) for name in ("uint8", "float32", "float64")}
+
+
+def _of(module: Any, base: type = object) -> dict[str, type]:
+    """Return the classes that a module defines itself, by name."""
+    found = {name: kind for name, kind in vars(module).items() if isinstance(kind, type) and issubclass(kind, base)}
+    return {name: kind for name, kind in found.items() if kind.__module__ == module.__name__}
+
+
+WARNINGS = _of(errors, errors.Warning)
+IN_SCENE = (scene.Scene, scene.SceneObject, scene.Mesh, scene.Camera, scene.Light, scene.Material)
+KINDS: dict[str, type] = {
+    **{name: kind for name, kind in (_of(commands) | _of(state)).items() if is_dataclass(kind)},
+    **{kind.__name__: kind for kind in (texture.Sampler, image.Format, Frame)},
+    **{f"scene.{kind.__name__}": kind for kind in IN_SCENE},  # the state has a Light and a Material, too
+}
+NAMES = {kind: name for name, kind in KINDS.items()}
+
+
+class Packer:
+    """Turns values into JSON; arrays go to `arrays`, what is shared is stored once."""
+
+    def __init__(self) -> None:
+        self.arrays: list[np.ndarray] = []
+        self.objects: list[Any] = []
+        self._seen: dict[int, dict[str, int]] = {}
+        self._alive: list[Any] = []  # an id is one only while its object lives
+
+    def pack(self, value: Any) -> Any:
+        """Return the value as JSON.
+
+        Raises
+        ------
+        TypeError                    a kind of value that recordings do not have
+        """
+        if value is None or isinstance(value, bool | int | float | str):
+            return value
+        if isinstance(value, np.generic):
+            return value.item()
+        if isinstance(value, list | tuple):
+            return {"list" if isinstance(value, list) else "tuple": [self.pack(item) for item in value]}
+        if isinstance(value, Mapping):
+            return {"mapping": [[self.pack(key), self.pack(item)] for key, item in value.items()]}
+        if isinstance(value, type):
+            return {"dtype": np.dtype(value).name}
+        if isinstance(value, errors.Warning):
+            return {"warning": type(value).__name__, "message": str(value)}
+        if id(value) not in self._seen:
+            self._alive.append(value)
+            self._seen[id(value)] = self._packed_once(value)
+        return self._seen[id(value)]
+
+    def _packed_once(self, value: Any) -> dict[str, int]:
+        if isinstance(value, np.ndarray):
+            self.arrays.append(value)
+            return {"array": len(self.arrays) - 1}
+        if type(value) not in NAMES:
+            raise TypeError(f"a {type(value).__name__} cannot be saved")
+        made = {each.name: self.pack(getattr(value, each.name)) for each in fields(value) if each.init}
+        self.objects.append([NAMES[type(value)], made])
+        return {"object": len(self.objects) - 1}
+
+
+class Unpacker:
+    """Makes the values again; arrays are read-only."""
+
+    def __init__(self, objects: list[Any], arrays: list[np.ndarray]) -> None:
+        self.arrays = arrays
+        for array in arrays:
+            array.setflags(write=False)
+        self.objects: list[Any] = []
+        for name, made in objects:  # in the order they were packed: parts before wholes
+            if name not in KINDS:
+                raise SoftShadowError(f"a recording has no {name!r}")
+            self.objects.append(KINDS[name](**{key: self.unpack(value) for key, value in made.items()}))
+
+    def unpack(self, value: Any) -> Any:
+        if not isinstance(value, dict):
+            return value
+        ((key, content), *_) = value.items()
+        if key == "array":
+            return self.arrays[content]
+        if key == "object":
+            return self.objects[content]
+        if key == "mapping":
+            return {self.unpack(name): self.unpack(item) for name, item in content}
+        if key == "dtype":
+            return DTYPES[content]
+        if key == "warning":
+            return WARNINGS[content](value["message"])
+        items = [self.unpack(item) for item in content]
+        return tuple(items) if key == "tuple" else items

@@ -1,0 +1,89 @@
+"""Playing a recorded frame again: the window's buffers after any step, kept while they fit into a number of bytes."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from typing import NamedTuple
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import Frame
+from softshadow.errors import StateError
+from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.pixels import depth_as_float
+
+BUDGET = 256 << 20  # bytes
+
+
+class Buffers(NamedTuple):
+    """The window at one moment, row 0 on top, read-only.
+
+    color (H, W, 4) uint8; depth (H, W) float32, window z in [0, 1]; stencil (H, W) uint8.
+    """
+
+    color: np.ndarray
+    depth: np.ndarray
+    stencil: np.ndarray
+
+    @property
+    def bytes(self) -> int:
+        return sum(plane.nbytes for plane in self)
+
+
+def read_window(window: Framebuffer) -> Buffers:
+    """Return copies of the window's buffers. It is stored top row first, so nothing is flipped."""
+    color, depth, stencil = window.image(gl.GL_COLOR_ATTACHMENT0), window.depth, window.stencil
+    assert color is not None
+    assert depth is not None
+    assert stencil is not None
+    z = np.ascontiguousarray(depth_as_float(depth.view, depth.format))
+    made = Buffers(color.view.copy(), z, stencil.view.copy())
+    for plane in made:
+        plane.setflags(write=False)
+    return made
+
+
+class Replay:
+    """A recorded frame that can be played to any command, on storage of its own.
+
+    Parameters
+    ----------
+    frame : Frame                the recording; not changed
+    budget : int                 bytes of buffers to keep; what does not fit is played again when asked for
+    """
+
+    def __init__(self, frame: Frame, budget: int = BUDGET) -> None:
+        self.frame, self.budget = frame, budget
+        self._kept: OrderedDict[int, Buffers] = OrderedDict()
+        self._storage, self._played = frame.fresh_storage(), 0
+
+    def storage_after(self, commands: int) -> Storage:
+        """Return the storage as it was after the first `commands` commands; it is played on by the next call.
+
+        Raises
+        ------
+        StateError                   the recording is shorter
+        """
+        recorded = self.frame.commands
+        if not 0 <= commands <= len(recorded):
+            raise StateError(f"commands={commands}: the recording has {len(recorded)}")
+        if commands < self._played:
+            self._storage, self._played = self.frame.fresh_storage(), 0
+        for command in recorded[self._played : commands]:
+            command.apply(self._storage)
+        self._played = commands
+        return self._storage
+
+    def after_step(self, index: int) -> Buffers:
+        """Return the window's buffers at the end of a step."""
+        if index not in self._kept:
+            self.keep(index, read_window(self.storage_after(self.frame.steps[index][1]).window))
+        self._kept.move_to_end(index)
+        return self._kept[index]
+
+    def keep(self, index: int, buffers: Buffers) -> None:
+        """Keep the buffers of a step; the longest unused ones make room for it."""
+        self._kept[index] = buffers
+        while len(self._kept) > 1 and sum(each.bytes for each in self._kept.values()) > self.budget:
+            self._kept.popitem(last=False)

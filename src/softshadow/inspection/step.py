@@ -1,0 +1,155 @@
+"""The steps of a run: buffers, maps and GL state after each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import overload
+
+import numpy as np
+
+from softshadow.context import Frame
+from softshadow.errors import nearest
+from softshadow.inspection.ledger import triangles_of
+from softshadow.inspection.replay import Buffers, Replay
+from softshadow.pipeline.commands import Clear, Command, Draw
+from softshadow.state import State
+from softshadow.tokens import token_name
+
+MODES = ("GL_POINTS", "GL_LINES", "GL_LINE_LOOP", "GL_LINE_STRIP", "GL_TRIANGLES", "GL_TRIANGLE_STRIP",
+         "GL_TRIANGLE_FAN", "GL_QUADS", "GL_QUAD_STRIP", "GL_POLYGON")  # fmt: skip
+
+
+@dataclass(frozen=True)
+class DrawSummary:
+    """One draw of a step: `draw` counts from 0 through the frame, `object` is the debug group it stands in."""
+
+    draw: int
+    object: str
+    mode: str
+    triangles: int
+    framebuffer: int
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """One step: what the window held when it ended, and the commands that led there.
+
+    `maps` are the named buffers that the technique handed out, row 0 on top.
+    """
+
+    index: int
+    title: str
+    maps: dict[str, np.ndarray]
+    frame: Frame
+    replay: Replay
+
+    @property
+    def buffers(self) -> Buffers:
+        """Colour with alpha, depth and stencil at the end of the step."""
+        return self.replay.after_step(self.index)
+
+    @cached_property
+    def image(self) -> np.ndarray:
+        """(H, W, 3) uint8, row 0 on top."""
+        image = np.ascontiguousarray(self.buffers.color[..., :3])
+        image.setflags(write=False)
+        return image
+
+    @property
+    def depth(self) -> np.ndarray:
+        """(H, W) float32 window z, row 0 on top."""
+        return self.buffers.depth
+
+    @property
+    def stencil(self) -> np.ndarray:
+        """(H, W) uint8, row 0 on top."""
+        return self.buffers.stencil
+
+    @property
+    def first_command(self) -> int:
+        return self.frame.steps[self.index - 1][1] if self.index else 0
+
+    @property
+    def commands(self) -> list[Command]:
+        """The recorded commands of the step."""
+        return self.frame.commands[self.first_command : self.frame.steps[self.index][1]]
+
+    @property
+    def state(self) -> State:
+        """The state of the step's last draw (or clear); printed, it is the GL calls that make it."""
+        for command in reversed(self.frame.commands[: self.frame.steps[self.index][1]]):
+            if isinstance(command, Draw | Clear):
+                return command.state
+        return State()
+
+    @property
+    def draws(self) -> tuple[DrawSummary, ...]:
+        """The draws of the step, in order."""
+        first = sum(isinstance(command, Draw) for command in self.frame.commands[: self.first_command])
+        drawn = [command for command in self.commands if isinstance(command, Draw)]
+        return tuple(
+            DrawSummary(
+                first + i,
+                object_of(command),
+                token_name(command.mode, MODES),
+                triangles_of(command),
+                command.state.draw_framebuffer,
+            )
+            for i, command in enumerate(drawn)
+        )
+
+    def __repr__(self) -> str:
+        return f"Step({self.index}, {self.title!r}, {len(self.draws)} draws)"
+
+
+def object_of(command: Draw) -> str:
+    """Return the name of the object that a draw belongs to: the innermost debug group."""
+    return command.label.rsplit("/", 1)[-1]
+
+
+class Steps(Sequence[Step]):
+    """The steps of a run, by index or by title."""
+
+    def __init__(self, steps: Sequence[Step]) -> None:
+        self._steps = tuple(steps)
+
+    def __len__(self) -> int:
+        return len(self._steps)
+
+    def __iter__(self) -> Iterator[Step]:
+        return iter(self._steps)
+
+    @property
+    def titles(self) -> list[str]:
+        return [step.title for step in self._steps]
+
+    @overload
+    def __getitem__(self, key: int | str) -> Step: ...
+    @overload
+    def __getitem__(self, key: slice) -> Sequence[Step]: ...
+    def __getitem__(self, key: int | str | slice) -> Step | Sequence[Step]:
+        """Return a step.
+
+        Raises
+        ------
+        KeyError                     no step has that title; the message has the nearest one
+        IndexError                   there are fewer steps
+        TypeError                    neither a number nor a title
+        """
+        if isinstance(key, str):
+            for step in self._steps:
+                if step.title == key:
+                    return step
+            raise KeyError(f"no step has the title {key!r}: {nearest(key, self.titles)}")
+        if isinstance(key, slice):
+            return self._steps[key]
+        if isinstance(key, bool) or not isinstance(key, int | np.integer):
+            raise TypeError(f"step {key!r}: expected its number or its title")
+        if not -len(self._steps) <= key < len(self._steps):
+            raise IndexError(f"step {key}: there are {len(self._steps)}, numbered from 0")
+        return self._steps[key]
+
+    def __repr__(self) -> str:
+        return "\n".join(f"{step.index}  {step.title}" for step in self._steps)
