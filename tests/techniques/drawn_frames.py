@@ -9,6 +9,7 @@ import numpy as np
 
 from softshadow import gl, techniques
 from softshadow.scene import Scene
+from softshadow.truth import casting_faces_between, first_faces
 
 SIZE = (64, 48)
 
@@ -82,38 +83,56 @@ def run(function: Callable[[Any], Any], size: tuple[int, int] = SIZE) -> Any:
 # -- ray casting -------------------------------------------------------------------------------------------------------
 
 
-def floor_points(scene: Scene, size: tuple[int, int] = SIZE) -> np.ndarray:
-    """Return the points of the plane y = 0 behind the pixels, (h, w, 3), NaN where there is none; row 0 = bottom."""
+@dataclass
+class Truth:
+    """What rays say about each pixel of a picture, row 0 at the bottom.
+
+    objects (h, w): number of the object that is seen, -1 for none; points (h, w, 3) where; counts (h, w): casting faces
+    between the point and each light, one array per light. A sheet seen from its dark side counts itself.
+    """
+
+    objects: np.ndarray
+    points: np.ndarray
+    counts: list[np.ndarray]
+
+    def sure(self, index: int = 0, width: int = 1) -> np.ndarray:
+        """Return where neither the object nor the count changes within `width` pixels."""
+        seen = off_the_edges(self.objects, width) & (self.objects >= 0)
+        return seen & off_the_edges(self.counts[index], width)
+
+
+def cast_rays(scene: Scene, size: tuple[int, int] = SIZE) -> Truth:
+    """Cast a ray through each pixel centre, and from where it ends to each light."""
     width, height = size
     x, y = np.meshgrid(np.arange(width) + 0.5, height - (np.arange(height) + 0.5))
-    near = scene.camera.near_points(np.stack([x.ravel(), y.ravel()], axis=1), size).reshape(height, width, 3)
-    along = near - scene.camera.eye
-    with np.errstate(divide="ignore"):
-        t = -scene.camera.eye[1] / along[..., 1]
-    points = scene.camera.eye + t[..., None] * along
-    points[~(t > 0)] = np.nan
-    return points
+    start = scene.camera.near_points(np.stack([x.ravel(), y.ravel()], axis=1), size)
+    along = start - scene.camera.eye
+    objects, triangles, distances = first_faces(start, along, scene.objects)
+    points = start + np.where(objects >= 0, distances, 0)[:, None] * along
+    casters = [next((k for k, c in enumerate(scene.casters) if c is thing), -1) for thing in scene.objects]
+    own = np.array([*casters, -1])[objects]
+    counts = [
+        casting_faces_between(points, light.position, scene.casters, exclude=(own, triangles))
+        + seen_from_the_dark_side(scene, light.position, own, triangles, along)
+        for light in scene.lights
+    ]
+    shape = (height, width)
+    return Truth(objects.reshape(shape), points.reshape(*shape, 3), [count.reshape(shape) for count in counts])
 
 
-def faces_between(scene: Scene, points: np.ndarray, light: np.ndarray) -> np.ndarray:
-    """Count the casters' faces between points (..., 3) and a homogeneous light; casters closed, so those facing it."""
-    count = np.zeros(points.shape[:-1], int)
-    towards = light[:3] - light[3] * points
-    reach = 1.0 if light[3] else np.inf
-    for caster in scene.casters:
-        for a, b, c in caster.world_positions[caster.mesh.triangles]:
+def seen_from_the_dark_side(
+    scene: Scene, light: np.ndarray, casters: np.ndarray, triangles: np.ndarray, along: np.ndarray
+) -> np.ndarray:
+    """Return whether the ray `along` ends at a face of an open caster whose other side looks to the light."""
+    dark = np.zeros(len(along), bool)
+    for number, caster in enumerate(scene.casters):
+        if not caster.mesh.topology.closed:
+            on_it = casters == number
+            a, b, c = caster.world_positions[caster.mesh.triangles[triangles[on_it]]].transpose(1, 0, 2)
             normal = np.cross(b - a, c - a)
-            slope = towards @ normal
-            if (light[:3] - light[3] * a) @ normal <= 0:
-                continue
-            with np.errstate(divide="ignore", invalid="ignore"):
-                t = (a - points) @ normal / slope
-                hit = points + t[..., None] * towards
-            inside = (t > 0) & (t < reach)
-            for u, v in ((a, b), (b, c), (c, a)):
-                inside &= (hit - u) @ np.cross(normal, v - u) >= 0
-            count += inside
-    return count
+            to_light = ((light[:3] - light[3] * a) * normal).sum(axis=1)
+            dark[on_it] = to_light * (along[on_it] * normal).sum(axis=1) > 0
+    return dark
 
 
 def off_the_edges(values: np.ndarray, width: int = 1) -> np.ndarray:

@@ -5,14 +5,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from drawn_frames import SIZE, draw, faces_between, floor_points, off_the_edges, run
 from hypothesis import assume, given, settings
 
 from softshadow.errors import CounterSaturated, NearClipZPass
-from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shapes
+from softshadow.scene import Camera, Light, Scene, SceneObject, placement, scene_names, shapes
 from softshadow.techniques import drawing
 from softshadow.techniques.shadow_volumes import begin_count, draw_volumes, volumes_of
 from strategies import floor_scenes
+from techniques.drawn_frames import SIZE, Drawn, cast_rays, draw, off_the_edges, run
 
 FLOOR = SceneObject(shapes.floor(12), casts=False, receives=True, name="floor")
 BOX = SceneObject(shapes.box(0.8), placement((0, 1, 0)), name="box")
@@ -29,17 +29,23 @@ def counts(name: str, scene: Scene, **options: object) -> np.ndarray:
     return drawn.stencil[title]
 
 
+def count_differs_from_rays(drawn: Drawn, scene: Scene, size: tuple[int, int] = SIZE) -> np.ndarray:
+    """Where the last light's count is not the number of casting faces that a ray to it crosses, off the edges."""
+    truth = cast_rays(scene, size)
+    assert truth.sure(-1).any()
+    return (drawn.stencil[drawn.titles[-1]] != truth.counts[-1]) & truth.sure(-1)
+
+
 @settings(max_examples=10)
 @given(floor_scenes())
 def test_count_is_the_number_of_casting_faces_between_light_and_point(scene: Scene) -> None:
-    drawn = draw("volume-zfail", scene)
-    # the floor does not cast, so a ray from it cannot meet the face it starts on
-    faces = faces_between(scene, floor_points(scene), scene.lights[0].position)
-    alone = draw("volume-zfail", replace(scene, objects=scene.objects[:1])).depth["count front faces"]
-    floor = (drawn.depth["count front faces"] == alone) & (alone < 1)
-    compared = floor & off_the_edges(faces)
-    assert compared.any()
-    assert (drawn.stencil["count front faces"] == faces)[compared].all()
+    assert not count_differs_from_rays(draw("volume-zfail", scene), scene).any()
+
+
+@pytest.mark.parametrize("name", scene_names())
+def test_count_is_that_of_rays_in_every_named_scene(name: str) -> None:
+    scene, size = Scene.named(name), (160, 120)
+    assert not count_differs_from_rays(draw("volume-zfail", scene, size), scene, size).any()
 
 
 @pytest.mark.parametrize("generator", ["silhouette", "per-polygon"])
@@ -134,11 +140,13 @@ def test_a_volume_that_touches_a_corner_of_the_near_rectangle_is_warned_of(far: 
 
 
 def test_zfail_needs_its_caps_and_a_far_plane_that_cuts_nothing() -> None:
-    scene = Scene.named("boxes")  # shadows run away from the eye and leave the view through the far plane
+    # the light is behind the eye: the shadow runs away from it and leaves the view through the far plane
+    scene = replace(SCENE, camera=replace(CAMERA, far=20), lights=(Light((3, 3.5, 8)),))
     reference = counts("volume-zfail", scene)
     assert (counts("volume-zfail", scene, closed=False) != reference).sum() > 10
     assert (counts("volume-zfail", scene, far="finite") != reference).sum() > 10
-    assert (counts("volume-zfail", scene, far="clamp") == reference).all()
+    # another projection moves edges by rounding: samples on them only
+    assert (counts("volume-zfail", scene, far="clamp") != reference).sum() <= 2
 
 
 def test_a_finite_cap_ends_the_shadow() -> None:
