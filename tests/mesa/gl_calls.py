@@ -62,9 +62,7 @@ def _spelled(argument: Any) -> str:
     if isinstance(argument, str):
         return f"gl.{argument}"
     if isinstance(argument, np.ndarray):
-        shortest = np.vectorize(lambda number: str(number), otypes=[object])(
-            argument
-        ).tolist()  # 0.1, not 0.10000000149
+        shortest = np.array([str(number) for number in argument.ravel()]).reshape(argument.shape).tolist()
         return f"np.array({shortest}, np.{argument.dtype})".replace("'", "")
     return repr(argument)
 

@@ -305,8 +305,13 @@ class Writer:
             self.draw_immediate(mode, vertices, colors, coordinates)
 
     def draw_immediate(self, mode: str, vertices: list[Any], colors: list[Any], coordinates: list[Any]) -> None:
+        length = {"GL_TRIANGLES": 3, "GL_QUADS": 4}.get(mode, 0)
+        apart = length > 0 and self.chance(0.3)  # a pair of glBegin and glEnd for each: drivers draw them as one
         self.call("glBegin", mode)
-        for vertex, color, coordinate in zip(vertices, colors, coordinates, strict=True):
+        for number, (vertex, color, coordinate) in enumerate(zip(vertices, colors, coordinates, strict=True)):
+            if apart and number and number % length == 0:
+                self.call("glEnd")
+                self.call("glBegin", mode)
             if color is not None:
                 self.call("glColor4f", *color)
             if coordinate:
