@@ -45,7 +45,11 @@ def rotation(angle: float, x: float, y: float, z: float, real: Real = FLOAT) -> 
     Sine and cosine are the C library's in single precision: NumPy's differ in the last place.
     """
     sine, cosine = _sine_and_cosine(angle, real)
-    x, y, z = real(x), real(y), real(z)
+    return _rotation(sine, cosine, real(x), real(y), real(z))
+
+
+def _rotation(sine: np.floating, cosine: np.floating, x: np.floating, y: np.floating, z: np.floating) -> np.ndarray:
+    real = type(x)
     made = np.eye(4, dtype=real)
     if not x and not y and z:
         _turn(made, 0, 1, cosine, sine if z > 0 else -sine)

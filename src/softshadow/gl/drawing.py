@@ -42,8 +42,10 @@ def glEnd() -> None:
     context.primitive = None
     if primitive.positions:
         texcoords = tuple(context.frozen(unit) for unit in zip(*primitive.texcoords, strict=True))
-        rows = (primitive.positions, primitive.colors, primitive.normals)
-        context.draw(primitive.mode, Vertices(*(context.frozen(row) for row in rows), texcoords))
+        position, color, normal = (
+            context.frozen(rows) for rows in (primitive.positions, primitive.colors, primitive.normals)
+        )
+        context.draw(primitive.mode, Vertices(position, color, normal, texcoords))
 
 
 def _vertex(x: float, y: float, z: float = 0.0, w: float = 1.0) -> None:
@@ -349,7 +351,7 @@ def glDrawElements(mode: int, count: int, type: int, indices: Any) -> None:
     numbers = np.asarray(indices).reshape(-1)[:count]
     if len(numbers) < count:
         raise ValueError(f"glDrawElements(count={count}): only {len(numbers)} indices are there")
-    last = int(numbers.max(initial=-1))
+    last = int(numbers.max()) if count else -1
     vertices = _array_vertices(context, "glDrawElements", 0, last + 1)
     if vertices is not None and count:
         owned = np.array(numbers, np.int32)

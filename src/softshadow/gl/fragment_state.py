@@ -97,7 +97,7 @@ def _switch_unit(context: Context, cap: int, on: bool) -> None:
     units = list(context.state.units)
     unit = units[context.active_unit]
     if cap in UNIT_CAPABILITIES:
-        units[context.active_unit] = replace(unit, **{UNIT_CAPABILITIES[cap]: on})
+        units[context.active_unit] = replace(unit, **{UNIT_CAPABILITIES[cap]: on})  # type: ignore[arg-type]
     else:
         s, t, r, q = (
             replace(gen, enabled=on) if cap == name else gen for name, gen in zip(GENERATED, unit.gen, strict=True)

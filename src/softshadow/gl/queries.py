@@ -41,7 +41,7 @@ def _bits(image: Image | None) -> int:
     """Bits of a depth or stencil plane: of float depth, those it is stored in."""
     if image is None:
         return 0
-    return image.format.largest.bit_length() or image.format.dtype(0).itemsize * 8  # type: ignore[call-arg]
+    return image.format.largest.bit_length() or image.format.dtype(0).itemsize * 8
 
 
 def _column_major(matrix: np.ndarray) -> np.ndarray:
