@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softshadow.pipeline.clip import FRUSTUM, Clipped, clip_triangles
+from softshadow.pipeline.clip import FRUSTUM, Clipped, clip_triangles, outcodes
 
 pytestmark = pytest.mark.interpreted
 
@@ -16,7 +16,8 @@ LAST_PLACES = 8 * np.finfo(np.float32).eps
 
 def clip_one(clip: np.ndarray, depth_clamp: bool = False, planes: np.ndarray = NO_PLANES) -> Clipped:
     values = np.eye(3, dtype=np.float32)  # barycentric coordinates: what each new vertex is made of
-    return clip_triangles(clip, values, np.array([[0, 1, 2]], np.int32), depth_clamp, planes)
+    codes = outcodes(clip, depth_clamp, planes)
+    return clip_triangles(clip, values, np.array([[0, 1, 2]], np.int32), codes, planes)
 
 
 def random_clip(seed: int) -> np.ndarray:
@@ -104,7 +105,7 @@ def test_pieces_know_the_triangle_they_come_from():
         [[0, 0, 0, 1], [3, 0, 0, 1], [0, 3, 0, 1], [5, 5, 0, 1], [0.1, 0, 0, 1], [0, 0.1, 0, 1]], np.float32
     )
     triangles = np.array([[0, 4, 5], [1, 3, 2], [0, 1, 2]], np.int32)
-    made = clip_triangles(clip, np.empty((6, 0), np.float32), triangles, False, NO_PLANES)
+    made = clip_triangles(clip, np.empty((6, 0), np.float32), triangles, outcodes(clip, False, NO_PLANES), NO_PLANES)
     assert made.source[0] == 0
     assert set(made.source) <= {0, 1, 2}
     assert (np.diff(made.source) >= 0).all()

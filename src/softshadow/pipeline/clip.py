@@ -31,7 +31,7 @@ class Clipped(NamedTuple):
 
 
 def clip_triangles(
-    clip: np.ndarray, values: np.ndarray, triangles: np.ndarray, depth_clamp: bool, user_planes: np.ndarray
+    clip: np.ndarray, values: np.ndarray, triangles: np.ndarray, codes: np.ndarray, user_planes: np.ndarray
 ) -> Clipped:
     """Return the parts of the triangles inside the frustum and the user planes, in drawing order.
 
@@ -40,10 +40,9 @@ def clip_triangles(
     clip : (V, 4) clip positions
     values : (V, k) what is interpolated along with them
     triangles : (T, 3) int32
-    depth_clamp : GL_DEPTH_CLAMP: near and far do not clip
+    codes : (V,) int32, what each vertex is outside of: `outcodes`
     user_planes : (P, 4) in clip space; a vertex is kept where its dot product is not negative
     """
-    codes = outcodes(clip, depth_clamp, user_planes)
     used = codes[triangles]
     outside = (used[:, 0] & used[:, 1] & used[:, 2]) != 0
     crossing = ((used[:, 0] | used[:, 1] | used[:, 2]) != 0) & ~outside
@@ -70,7 +69,10 @@ def clip_triangles(
 
 
 def outcodes(clip: np.ndarray, depth_clamp: bool, user_planes: np.ndarray) -> np.ndarray:
-    """Return, per vertex, a bit for each plane it is outside of; on the boundary counts as inside."""
+    """Return, per vertex, a bit for each plane it is outside of; on the boundary counts as inside.
+
+    With `depth_clamp` near and far do not clip.
+    """
     x, y, z, w = clip.T
     tests = [x > w, x + w < 0, y > w, y + w < 0, z + w < 0, z > w]
     tests += [((x * p[0] + y * p[1]) + z * p[2]) + w * p[3] < 0 for p in user_planes.astype(clip.dtype)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -11,9 +12,9 @@ from softshadow import matrices, programs
 from softshadow import tokens as gl
 from softshadow.errors import StateError
 from softshadow.framebuffer import Framebuffer, Storage
-from softshadow.pipeline.clip import clip_triangles
+from softshadow.pipeline.clip import clip_triangles, outcodes
 from softshadow.pipeline.fill import DepthRange, Region
-from softshadow.pipeline.primitives import assemble, through_indices
+from softshadow.pipeline.primitives import Triangles, assemble, in_clipped_batch, through_indices
 from softshadow.pipeline.setup import Setup, add_float_units, offset_of, set_up
 from softshadow.pipeline.vertex import to_clip, to_window
 from softshadow.programs import Program, VertexInputs
@@ -56,16 +57,15 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage) -> Ge
     state, vertices = command.state, command.vertices
     if command.mode not in FILLED or (state.polygon.mode_front, state.polygon.mode_back) != (gl.GL_FILL, gl.GL_FILL):
         raise StateError("points, lines and glPolygonMode other than GL_FILL are not part of this subset yet")
-    assembled = assemble(command.mode, len(vertices.position) if command.indices is None else len(command.indices))
-    if command.indices is not None:
-        assembled = through_indices(assembled, command.indices)
     program, uniforms = program_of(command, storage)
     arrays = (vertices.position, vertices.color, vertices.normal, vertices.texcoords)
     transforms = (command.modelview, command.projection, command.texture_matrices)
     varyings = program.vertex(VertexInputs(*arrays, *transforms, uniforms))
     clip = to_clip(matrices.multiply(command.projection, command.modelview), vertices.position)
+    codes = outcodes(clip, state.depth.clamp, NO_PLANES)
+    assembled = assembled_triangles(command, codes != 0)
     columns = varyings.values if varyings.back is None else np.hstack([varyings.values, varyings.back])
-    clipped = clip_triangles(clip, columns, assembled.corners, state.depth.clamp, NO_PLANES)
+    clipped = clip_triangles(clip, columns, assembled.corners, codes, NO_PLANES)
     window = to_window(clipped.clip, state.viewport, target.size[1], target.flipped)
     offset = offset_of(
         state.polygon, target.depth, window.dtype.type, command.offset_slope, command.offset_unit, target.flipped
@@ -87,6 +87,17 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage) -> Ge
     )
 
 
+def assembled_triangles(command: Draw, needs_clipping: np.ndarray) -> Triangles:
+    """Return the triangles of a draw over its vertices; `needs_clipping` (V,) bool."""
+    indices = command.indices
+    in_order = needs_clipping if indices is None else needs_clipping[indices]
+    clipped = None
+    if command.mode in (gl.GL_QUADS, gl.GL_QUAD_STRIP) and in_order.any():
+        clipped = in_clipped_batch(command.mode, in_order, indices is not None)
+    assembled = assemble(command.mode, len(in_order), clipped)
+    return assembled if indices is None else through_indices(assembled, indices)
+
+
 def program_of(command: Draw, storage: Storage) -> tuple[Program, Mapping[str, Any]]:
     """Return the program of a draw and its uniforms, samplers resolved to textures."""
     units = command.state.units
@@ -97,9 +108,9 @@ def program_of(command: Draw, storage: Storage) -> tuple[Program, Mapping[str, A
         used = {i: texture for i, texture in bound.items() if units[i].enabled_2d}
         return fixed_function.program(command.state, used), command.uniforms
     program = programs.get(command.program_name)
-    return program, {
-        name: bound.get(value) if name in program.samplers else value for name, value in command.uniforms.items()
-    }
+    textures = {name: bound.get(value) for name, value in command.uniforms.items() if name in program.samplers}
+    blocks = any(texture is not None and programs.needs_blocks(texture) for texture in textures.values())
+    return replace(program, blocks=program.blocks or blocks), {**command.uniforms, **textures}
 
 
 def region_of(state: State, target: Framebuffer) -> Region:
