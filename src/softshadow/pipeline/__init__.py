@@ -26,7 +26,7 @@ from softshadow.pipeline.blend import needs_order, to_unorm8, write_colors
 from softshadow.pipeline.clear import clear
 from softshadow.pipeline.fill import Region
 from softshadow.pipeline.fragment_ops import PASSED, VERDICTS, fragment_ops
-from softshadow.pipeline.fragments import Fragments, list_fragments, test_fragments
+from softshadow.pipeline.fragments import Fragments, in_blocks, list_fragments, test_fragments
 from softshadow.pipeline.geometry import Geometry, depth_range_of, process_geometry, region_of
 from softshadow.pipeline.interpolate import inputs_of
 
@@ -113,6 +113,13 @@ def _draw_in_order(
 
 def shade(geometry: Geometry, fragments: Fragments) -> np.ndarray:
     """Return the colours (n, 4) of fragments, unclamped: interpolate, then call the program once."""
+    if geometry.program.blocks:
+        complete, own = in_blocks(fragments)
+        return _shade_all(geometry, complete)[own]
+    return _shade_all(geometry, fragments)
+
+
+def _shade_all(geometry: Geometry, fragments: Fragments) -> np.ndarray:
     inputs = inputs_of(
         fragments,
         geometry.triangles,

@@ -26,6 +26,23 @@ class Fragments(NamedTuple):
     triangle: np.ndarray
 
 
+def in_blocks(fragments: Fragments) -> tuple[Fragments, np.ndarray]:
+    """Return the fragments' 2x2 pixel blocks, each complete (B * 4,), and where in them every fragment is (n,).
+
+    A block begins at an even row and column and belongs to one triangle; its order is: first, right of it, next row,
+    right of that. Pixels that the triangle does not cover are there to be shaded and thrown away.
+    """
+    row, column, triangle = (a.astype(np.int64) for a in fragments)
+    side = int(max(row.max(initial=0), column.max(initial=0))) // 2 + 1
+    key = (triangle * side + row // 2) * side + column // 2
+    blocks, block = np.unique(key, return_inverse=True)
+    first = blocks // side**2, blocks // side % side * 2, blocks % side * 2
+    rows, columns = first[1][:, None] + (0, 0, 1, 1), first[2][:, None] + (0, 1, 0, 1)
+    made = (rows, columns, np.repeat(first[0][:, None], 4, axis=1))
+    complete = Fragments(*(a.ravel().astype(np.int32) for a in made))
+    return complete, block * 4 + row % 2 * 2 + column % 2
+
+
 def list_fragments(triangles: Setup, region: Region) -> Fragments:
     """Return all fragments of the triangles inside the region, in drawing order, each row from left to right."""
     nothing = np.empty(0, np.int32)

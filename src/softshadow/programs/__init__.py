@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.errors import StateError, nearest
+from softshadow.texture import Texture
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,9 @@ class Program:
     uniforms : name -> initial value
         Ints, floats, tuples or (4, 4) float32 matrices; their shape is the uniform's type.
     samplers : names of the uniforms that are texture units
+    blocks : whether `shade` wants complete 2x2 blocks of pixels, because a texture's filters depend on the level of
+        detail. Then N is a multiple of 4, each block has one triangle's values at an even row and column of the stored
+        rows and at the three pixels right of it, in the next row, and right of that one.
     glsl_vertex, glsl_fragment : GLSL 1.20 sources that compute the same
     """
 
@@ -65,8 +69,14 @@ class Program:
     shade: Callable[[np.ndarray, Mapping[str, Any], np.ndarray], None]
     uniforms: Mapping[str, Any] = field(default_factory=dict)
     samplers: tuple[str, ...] = ()
+    blocks: bool = False
     glsl_vertex: str = ""
     glsl_fragment: str = ""
+
+
+def needs_blocks(texture: Texture) -> bool:
+    """Return whether the filters of a texture depend on the level of detail."""
+    return texture.sampler.min_filter != texture.sampler.mag_filter
 
 
 _REGISTER: dict[str, Program] = {}

@@ -14,7 +14,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.errors import StateError
-from softshadow.programs import Program, Varyings, VertexInputs
+from softshadow.programs import Program, Varyings, VertexInputs, needs_blocks
 from softshadow.programs.lighting import Colors, clamped, light_vertices, needs_eye_position
 from softshadow.programs.texture_coordinates import dot, texture_coordinates, transform
 from softshadow.state import State
@@ -48,7 +48,7 @@ def program(state: State, textures: Mapping[int, Texture]) -> Program:
     def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
         shade_fragments(state, units, inputs, out)
 
-    return Program("fixed function", vertex, shade)
+    return Program("fixed function", vertex, shade, blocks=any(needs_blocks(unit.texture) for unit in units))
 
 
 def units_in_use(state: State, textures: Mapping[int, Texture]) -> list[Unit]:

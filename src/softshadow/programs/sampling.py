@@ -11,7 +11,9 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.errors import StateError
+from softshadow.image import Image
 from softshadow.jit import kernel
+from softshadow.programs.level_of_detail import minified
 from softshadow.programs.wrapping import (
     FIXED_POINT_WRAPS,
     ONE,
@@ -20,7 +22,7 @@ from softshadow.programs.wrapping import (
     linear_texels,
     nearest_texel,
 )
-from softshadow.texture import Texture
+from softshadow.texture import Sampler, Texture
 from softshadow.tokens import (
     GL_ALWAYS,
     GL_EQUAL,
@@ -34,6 +36,7 @@ from softshadow.tokens import (
     token_name,
 )
 
+PIXELS_OF_A_BLOCK = 4
 UNORM8_STEP = ONE / np.float32(255.0)
 
 # where R, G, B, A of the result come from: a channel of the cells, or a constant
@@ -102,24 +105,40 @@ def depth_unit(largest: int) -> np.float32:
 def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
     """Fill `out` (N, 4) with the texture's RGBA at coordinates (N, 3): s, t, and r for depth comparison.
 
-    An incomplete texture gives (0, 0, 0, 1), as programs see it.
+    An incomplete texture gives (0, 0, 0, 1), as programs see it. Where minification and magnification differ, the
+    coordinates must be complete 2x2 blocks of pixels (see `Program.blocks`).
 
     Raises
     ------
-    StateError                   the filters need a level of detail (mipmaps, or two different filters)
+    StateError                   the minification filter uses mipmaps, or the fragments do not come in blocks
     """
     image, sampler = texture.base(), texture.sampler
     if image is None or not is_complete(texture):
         out[:] = (0.0, 0.0, 0.0, 1.0)
         return
-    if sampler.min_filter != sampler.mag_filter:
+    if sampler.min_filter == sampler.mag_filter:
+        sample_image(image, sampler, sampler.mag_filter == GL_LINEAR, coordinates, out)
+        return
+    if sampler.min_filter not in (GL_NEAREST, GL_LINEAR):
         raise StateError(
-            f"texture {texture.name}: GL_TEXTURE_MIN_FILTER is {token_name(sampler.min_filter)} and "
-            f"GL_TEXTURE_MAG_FILTER {token_name(sampler.mag_filter)}: mipmaps and two different filters are not "
-            "sampled yet; set both to GL_NEAREST or both to GL_LINEAR"
+            f"texture {texture.name}: GL_TEXTURE_MIN_FILTER is {token_name(sampler.min_filter)}: mipmaps are not "
+            "sampled yet; set GL_NEAREST or GL_LINEAR"
         )
-    linear = sampler.mag_filter == GL_LINEAR
-    cells = image.view if image.view.ndim == 3 else image.view[:, :, np.newaxis]
+    if len(coordinates) % PIXELS_OF_A_BLOCK:
+        raise StateError(
+            f"texture {texture.name}: GL_TEXTURE_MIN_FILTER and GL_TEXTURE_MAG_FILTER differ, which takes fragments in "
+            "blocks; set both to GL_NEAREST or both to GL_LINEAR"
+        )
+    small = np.repeat(minified(coordinates, image.width, image.height, sampler), PIXELS_OF_A_BLOCK)
+    for chosen, filter_name in ((small, sampler.min_filter), (~small, sampler.mag_filter)):
+        part = np.empty((np.count_nonzero(chosen), 4), out.dtype)
+        sample_image(image, sampler, filter_name == GL_LINEAR, coordinates[chosen], part)
+        out[chosen] = part
+
+
+def sample_image(image: Image, sampler: Sampler, linear: bool, coordinates: np.ndarray, out: np.ndarray) -> None:
+    """Fill `out` (N, 4) from one image, with a linear or the nearest filter."""
+    cells = image.cells if image.cells.ndim == 3 else image.cells[:, :, np.newaxis]
     wraps = sampler.wrap_s, sampler.wrap_t
     real = coordinates.dtype  # float64 in the "exact" precision
     border = np.array(sampler.border_color, real)
@@ -127,28 +146,27 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
         largest = image.format.largest
         unit = real.type(depth_unit(largest))
         sources = np.array(DEPTH_SOURCES[sampler.depth_mode])
-        if largest:
-            border = border.clip(ZERO, ONE)
+        border = border.clip(ZERO, ONE) if largest else border
+        where = coordinates, cells, image.width, wraps, border, unit, linear
         if sampler.compare_mode != gl.GL_NONE:
-            compare_depth(
-                coordinates, cells, wraps, border, unit, linear, sampler.compare_func, largest > 0, sources, out
-            )
+            compare_depth(*where, sampler.compare_func, largest > 0, sources, out)
         else:
-            filter_texels(coordinates, cells, wraps, border, unit, linear, sources, out)
+            filter_texels(*where, sources, out)
         return
     sources = np.array(SOURCES[image.format.base])
     if image.format.kind == "float":
-        filter_texels(coordinates, cells, wraps, border, real.type(ONE), linear, sources, out)
+        filter_texels(coordinates, cells, image.width, wraps, border, real.type(ONE), linear, sources, out)
     elif linear and set(wraps) <= set(FIXED_POINT_WRAPS):
-        filter_fixed_point(coordinates, cells, wraps, sources, out)
+        filter_fixed_point(coordinates, cells, image.width, wraps, sources, out)
     else:
-        filter_texels(coordinates, cells, wraps, border.clip(ZERO, ONE), real.type(UNORM8_STEP), linear, sources, out)
+        border = border.clip(ZERO, ONE)
+        filter_texels(coordinates, cells, image.width, wraps, border, real.type(UNORM8_STEP), linear, sources, out)
 
 
 @kernel
-def fetch(cells, border, unit, i, j, channel):
+def fetch(cells, width, border, unit, i, j, channel):
     """Return one channel of a texel in [0, 1] units, or of the border colour outside the image."""
-    if i >= 0 and i < cells.shape[1] and j >= 0 and j < cells.shape[0]:
+    if i >= 0 and i < width and j >= 0 and j < cells.shape[0]:
         return border.dtype.type(cells[j, i, channel]) * unit
     return border[channel]
 
@@ -166,9 +184,9 @@ def mix_fixed_point(weight, a, b):
 
 
 @kernel
-def filter_texels(coordinates, cells, wraps, border, unit, linear, sources, out):
+def filter_texels(coordinates, cells, width, wraps, border, unit, linear, sources, out):
     """Sample with GL_NEAREST or, in float, GL_LINEAR; `unit` is the value of one cell unit."""
-    height, width = cells.shape[0], cells.shape[1]
+    height = cells.shape[0]
     for n in range(len(coordinates)):
         if linear:
             i0, i1, x_weight = linear_texels(coordinates[n, 0], width, wraps[0])
@@ -182,20 +200,24 @@ def filter_texels(coordinates, cells, wraps, border, unit, linear, sources, out)
                 out[n, c] = ZERO if source == CONSTANT_ZERO else ONE
             elif linear:
                 lower = mix(
-                    x_weight, fetch(cells, border, unit, i0, j0, source), fetch(cells, border, unit, i1, j0, source)
+                    x_weight,
+                    fetch(cells, width, border, unit, i0, j0, source),
+                    fetch(cells, width, border, unit, i1, j0, source),
                 )
                 upper = mix(
-                    x_weight, fetch(cells, border, unit, i0, j1, source), fetch(cells, border, unit, i1, j1, source)
+                    x_weight,
+                    fetch(cells, width, border, unit, i0, j1, source),
+                    fetch(cells, width, border, unit, i1, j1, source),
                 )
                 out[n, c] = mix(y_weight, lower, upper)
             else:
-                out[n, c] = fetch(cells, border, unit, i0, j0, source)
+                out[n, c] = fetch(cells, width, border, unit, i0, j0, source)
 
 
 @kernel
-def filter_fixed_point(coordinates, cells, wraps, sources, out):
+def filter_fixed_point(coordinates, cells, width, wraps, sources, out):
     """Sample with GL_LINEAR in 8-bit integers: x first, then y."""
-    height, width = cells.shape[0], cells.shape[1]
+    height = cells.shape[0]
     for n in range(len(coordinates)):
         i0, i1, x_weight = fixed_point_texels(coordinates[n, 0], width, wraps[0])
         j0, j1, y_weight = fixed_point_texels(coordinates[n, 1], height, wraps[1])
@@ -228,9 +250,9 @@ def passes(func, reference, texel):
 
 
 @kernel
-def compare_depth(coordinates, cells, wraps, border, unit, linear, func, clamped, sources, out):
+def compare_depth(coordinates, cells, width, wraps, border, unit, linear, func, clamped, sources, out):
     """Compare r with the depths: 0 or 1, or with GL_LINEAR the share of the 2x2 texels that pass (float weights)."""
-    height, width = cells.shape[0], cells.shape[1]
+    height = cells.shape[0]
     for n in range(len(coordinates)):
         r = coordinates[n, 2]
         if clamped:
@@ -240,15 +262,15 @@ def compare_depth(coordinates, cells, wraps, border, unit, linear, func, clamped
             i0, i1, x_weight = linear_texels(coordinates[n, 0], width, wraps[0])
             j0, j1, y_weight = linear_texels(coordinates[n, 1], height, wraps[1])
             rest = ONE - x_weight
-            lower = rest if passes(func, r, fetch(cells, border, unit, i0, j0, 0)) else ZERO
-            lower = (x_weight if passes(func, r, fetch(cells, border, unit, i1, j0, 0)) else ZERO) + lower
-            upper = rest if passes(func, r, fetch(cells, border, unit, i0, j1, 0)) else ZERO
-            upper = (x_weight if passes(func, r, fetch(cells, border, unit, i1, j1, 0)) else ZERO) + upper
+            lower = rest if passes(func, r, fetch(cells, width, border, unit, i0, j0, 0)) else ZERO
+            lower = (x_weight if passes(func, r, fetch(cells, width, border, unit, i1, j0, 0)) else ZERO) + lower
+            upper = rest if passes(func, r, fetch(cells, width, border, unit, i0, j1, 0)) else ZERO
+            upper = (x_weight if passes(func, r, fetch(cells, width, border, unit, i1, j1, 0)) else ZERO) + upper
             lit = mix(y_weight, lower, upper)
         else:
             i0 = nearest_texel(coordinates[n, 0], width, wraps[0])
             j0 = nearest_texel(coordinates[n, 1], height, wraps[1])
-            lit = ONE if passes(func, r, fetch(cells, border, unit, i0, j0, 0)) else ZERO
+            lit = ONE if passes(func, r, fetch(cells, width, border, unit, i0, j0, 0)) else ZERO
         for c in range(4):
             source = sources[c]
             out[n, c] = lit if source < CONSTANT_ZERO else (ZERO if source == CONSTANT_ZERO else ONE)

@@ -13,6 +13,7 @@ from softshadow.tokens import GL_CLAMP, GL_CLAMP_TO_BORDER, GL_CLAMP_TO_EDGE, GL
 ZERO, ONE, HALF = np.float32(0.0), np.float32(1.0), np.float32(0.5)
 BELOW_ONE = np.float32(1.0) - np.float32(2.0**-24)
 INT_LIMIT = np.float32(2.0**31)
+FIXED_ONE = np.float32(256.0)
 OUT_OF_RANGE = -(2**31)  # what the CPU's float-to-integer conversion answers beyond 32 bits, and for NaN
 
 FIXED_POINT_WRAPS = (GL_REPEAT, GL_CLAMP_TO_EDGE)
@@ -94,7 +95,7 @@ def fixed_point_texels(coordinate, size, wrap):
     last = size - 1
     if wrap == GL_REPEAT and not is_power_of_two(size):
         part = (coordinate - np.floor(coordinate)) * np.float32(size)
-        position = to_integer(np.rint(part * np.float32(256.0))) - 128
+        position = to_integer(np.rint(part * FIXED_ONE)) - 128
         first = position >> 8
         first = last if first < 0 else min(first, last)
         return first, 0 if first == last else first + 1, position & 255
