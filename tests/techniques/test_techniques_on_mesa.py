@@ -1,0 +1,45 @@
+"""The same technique files on softshadow and on Mesa's llvmpipe: every step's buffers, pixel by pixel."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from softshadow.scene import Scene, scene_names
+from softshadow.testing import run_on_mesa
+from techniques.drawn_frames import draw, program
+
+SIZE = (96, 72)
+
+VARIANTS: list[tuple[str, dict[str, Any]]] = [
+    *[("planar", {"method": method}) for method in ("depth-off", "offset", "stencil", "stencil-blend", "texture")],
+    ("volume-zpass", {}),
+    ("volume-zpass", {"two_sided": True, "far": "clamp"}),
+    ("volume-zfail", {}),
+    ("volume-zfail", {"cap": "finite", "generator": "per-polygon", "ops": "saturate"}),
+    ("map", {}),
+    ("map", {"filter": "linear", "map_size": 64}),
+    ("map", {"storage": "copy", "map_size": 48}),
+    ("map", {"cull": "front", "bias": 0.003}),
+]
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize(("technique", "options"), VARIANTS)
+@pytest.mark.parametrize("name", scene_names())
+def test_a_technique_leaves_the_same_buffers_on_mesa(name: str, technique: str, options: dict[str, Any]) -> None:
+    scene = Scene.named(name)
+    here = draw(technique, scene, SIZE, **options)
+    there = run_on_mesa(lambda gl: program(gl, technique, scene, SIZE, options), SIZE).returned
+    assert here.titles == there.titles
+    assert here.warnings == there.warnings
+    for title in here.titles:
+        assert (here.stencil[title] == there.stencil[title]).all(), title
+        assert (here.depth[title] == there.depth[title]).all(), title
+        # a colour of k + 1/2 steps (0.1 is 25.5) goes up or down by the last bit of its interpolation
+        steps = np.abs(here.color[title].astype(int) - there.color[title])
+        assert steps.max() <= 1, title
+        assert (steps > 0).mean() < 0.01, title
+    assert here.maps.keys() == there.maps.keys()
+    for key, array in here.maps.items():
+        assert (array == there.maps[key]).all(), key
