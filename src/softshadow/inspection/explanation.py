@@ -21,7 +21,8 @@ def explain(history: PixelHistory, visibility: float | None, valid: bool) -> str
     if not valid or visibility is None:
         if not drawn:
             return f"{history.heading} shows no surface: no fragment passed its tests there."
-        return f"{history.heading} has no answer about the light: {_told(_last_colored(history) or drawn[-1])}."
+        told = _told(_last_colored(history) or drawn[-1])
+        return f"{history.heading} is where the technique says nothing about the light: {told}."
     if visibility >= 1:
         decided = _last_colored(history) or drawn[-1]
         return f"{history.heading} is lit: {_told(decided)}."

@@ -32,6 +32,8 @@ from softshadow.pipeline.setup import CULL_BACK, CULL_FRONT, culling
 from softshadow.pixels import depth_as_float
 
 CULLED, CLEARED, WRITTEN = "culled", "clear", "written"
+NO_FRAGMENT = {"draw": None, "object": "", "triangle": None, "front_facing": None, "z": None}
+Moment = tuple[tuple[int, int, int], float, int]  # red, green and blue; window z; stencil
 
 # commands that neither read nor write the window's pixels; a kind that is not named here counts as doing both
 APART = (
@@ -167,7 +169,7 @@ def _play(frame: Frame, row: int, column: int) -> Iterator[HistoryRow]:
             standing = pixel.moment()
             command.apply(storage)
             if pixel.moment() != standing:
-                yield pixel.row(where, verdict=WRITTEN, reason=type(command).__name__, before=standing)
+                yield pixel.row(where, standing, WRITTEN, type(command).__name__)
         draws += isinstance(command, Draw)
 
 
@@ -205,42 +207,20 @@ class Pixel:
         """Return window z of a depth in buffer units."""
         return window_z(units, self.depth)
 
-    def moment(self) -> tuple[tuple[int, int, int], float, int]:
+    def moment(self) -> Moment:
         """Return red, green and blue, window z and stencil."""
         color, depth, stencil = self.read()
         red, green, blue = (int(channel) for channel in color[:3])
         return (red, green, blue), self.z(depth), int(stencil)
 
-    def row(
-        self,
-        where: tuple[int, str],
-        *,
-        verdict: str,
-        reason: str,
-        before: tuple[tuple[int, int, int], float, int],
-        draw: int | None = None,
-        object: str = "",
-        triangle: int | None = None,
-        front_facing: bool | None = None,
-        z: float | None = None,
-        color_written: bool = False,
-    ) -> HistoryRow:
+    def row(self, where: tuple[int, str], before: Moment, verdict: str, reason: str, **fragment: Any) -> HistoryRow:
+        """Return the row of what has just happened to the pixel; `fragment` is what else there is to say of it."""
         color, depth, stencil = self.moment()
+        step, title = where
         return HistoryRow(
-            *where,
-            draw,
-            object,
-            triangle,
-            front_facing,
-            z,
-            before[1],
-            verdict,
-            before[2],
-            stencil,
-            depth,
-            color,
-            reason,
-        )
+            step=step, title=title, stored_z=before[1], verdict=verdict, stencil_before=before[2],
+            stencil_after=stencil, depth_after=depth, color_after=color, reason=reason, **(NO_FRAGMENT | fragment),
+        )  # fmt: skip
 
 
 def window_z(units: Any, depth: Image) -> float:
@@ -251,11 +231,9 @@ def window_z(units: Any, depth: Image) -> float:
 def _clear_row(command: Clear, storage: Storage, pixel: Pixel, where: tuple[int, str]) -> HistoryRow:
     before = pixel.moment()
     if not _inside(command.state, pixel):
-        return pixel.row(
-            where, verdict=VERDICTS[SCISSORED], reason=f"glClear: {outside(command.state.scissor)}", before=before
-        )
+        return pixel.row(where, before, VERDICTS[SCISSORED], f"glClear: {outside(command.state.scissor)}")
     pipeline.clear(command, storage)
-    return pixel.row(where, verdict=CLEARED, reason=clear_reason(command, pixel.window), before=before)
+    return pixel.row(where, before, CLEARED, clear_reason(command, pixel.window))
 
 
 def _inside(state: Any, pixel: Pixel) -> bool:
@@ -294,10 +272,9 @@ def _draw_rows(
             "triangle": int(geometry.source[triangles.ids[t]]),
             "front_facing": front,
             "z": pixel.z(z),
-            "before": before,
         }
         if culled & (CULL_FRONT if front else CULL_BACK):
-            yield pixel.row(where, verdict=CULLED, reason=culled_reason(front, state), **about)
+            yield pixel.row(where, before, CULLED, culled_reason(front, state), **about)
             continue
         alpha = int(to_unorm8(colors[n : n + 1, 3])[0])
         verdict, s_after, depth_after = process_fragment(ops, inside, alpha, z, stored_z, s)
@@ -309,7 +286,7 @@ def _draw_rows(
             write_colors(state, window.color, Fragments(*(part[n : n + 1] for part in fragments)), colors[n : n + 1])
         z_pair, s_pair = (about["z"], before[1]), (before[2], int(s_after))
         reason = fragment_reason(state, ops, verdict, z_pair, s_pair, alpha, colored)
-        yield pixel.row(where, verdict=VERDICTS[verdict], reason=reason, color_written=written, **about)
+        yield pixel.row(where, before, VERDICTS[verdict], reason, color_written=written, **about)
 
 
 def _fragments_at(geometry: Geometry, pixel: Pixel) -> Fragments:

@@ -104,21 +104,22 @@ def save_png(picture: Picture, path: Path) -> None:
 
 
 def contact_sheet(rows: Sequence[tuple[str, Sequence[Picture]]], largest_width: int = 960) -> Picture:
-    """Return one picture with a labelled row for each step, shrunk to whole fractions of its size where too wide."""
+    """Return one picture with a labelled row for each step, shrunk or enlarged by a whole number to fill the width."""
     from PIL import Image, ImageDraw
 
     width, height = rows[0][1][0].size
     columns = max(len(pictures) for _, pictures in rows)
-    shrink = max(1, -(-(columns * (width + GAP)) // largest_width))
-    width, height = max(1, width // shrink), max(1, height // shrink)
+    room = largest_width // columns - GAP
+    times, over = max(1, room // width), max(1, -(-width // room))
+    width, height = max(1, width * times // over), max(1, height * times // over)
     sheet = Image.new("RGB", (columns * (width + GAP) - GAP, len(rows) * (height + LABEL_HEIGHT + GAP) - GAP), "white")
     draw: Any = ImageDraw.Draw(sheet)
     for row, (label, pictures) in enumerate(rows):
         top = row * (height + LABEL_HEIGHT + GAP)
         draw.text((1, top + 1), label, fill=(34, 34, 34))
         for column, picture in enumerate(pictures):
-            shrunk = picture.convert("RGB").resize((width, height), Image.Resampling.NEAREST)
-            sheet.paste(shrunk, (column * (width + GAP), top + LABEL_HEIGHT))
+            scaled = picture.convert("RGB").resize((width, height), Image.Resampling.NEAREST)
+            sheet.paste(scaled, (column * (width + GAP), top + LABEL_HEIGHT))
     return sheet
 
 

@@ -1,0 +1,59 @@
+"""Buffers as pictures."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from softshadow.inspection.pictures import (
+    CLEAR_DEPTH,
+    contact_sheet,
+    depth_picture,
+    map_picture,
+    save_png,
+    stencil_palette,
+    stencil_picture,
+)
+
+pytestmark = pytest.mark.interpreted
+
+
+def test_indices_of_a_stencil_png_are_the_counts(tmp_path):
+    counts = np.arange(256, dtype=np.uint8).reshape(16, 16)
+    save_png(stencil_picture(counts), tmp_path / "counts.png")
+    with Image.open(tmp_path / "counts.png") as picture:
+        assert picture.mode == "P"
+        np.testing.assert_array_equal(np.asarray(picture), counts)
+        assert bytes(picture.getpalette()[:768]) == stencil_palette().tobytes()
+
+
+def test_small_counts_and_wrapped_ones_have_colours_far_apart():
+    palette = stencil_palette().astype(int)
+    shown = palette[[0, 1, 2, 3, 4, 5, 6, 254, 255]]
+    distances = np.abs(shown[:, None] - shown[None]).sum(axis=2)
+    # 40 of 765 is a step that is seen side by side; the closest are the two wrapped ones, light and dark of one hue
+    assert distances[~np.eye(len(shown), dtype=bool)].min() > 40
+
+
+def test_depth_is_stretched_over_what_was_drawn():
+    depth = np.array([[0.9, 0.95, 0.99, 1.0]], np.float32)
+    near, middle, far, clear = np.asarray(depth_picture(depth))[0]
+    assert near.tolist() == [255] * 3
+    assert far.tolist() == [50] * 3
+    assert 50 < middle[0] < 255
+    assert tuple(clear) == CLEAR_DEPTH
+
+
+def test_depth_of_an_empty_window_is_a_picture_too():
+    assert np.asarray(depth_picture(np.ones((2, 3), np.float32))).reshape(-1, 3).tolist() == [list(CLEAR_DEPTH)] * 6
+
+
+@pytest.mark.parametrize("dtype", [np.bool_, np.uint8, np.float32])
+def test_every_kind_of_map_has_a_picture_of_its_size(dtype):
+    assert map_picture(np.zeros((5, 7), dtype)).size == (7, 5)
+
+
+def test_contact_sheet_holds_all_rows_within_its_width():
+    pictures = [depth_picture(np.ones((40, 500), np.float32))] * 3
+    sheet = contact_sheet([("first", pictures), ("second", pictures)])
+    assert sheet.width <= 960
+    assert sheet.height > 2 * 14
