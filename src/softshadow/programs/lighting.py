@@ -125,7 +125,7 @@ def light_vertices(
     object_space = in_object_space(lighting, modelview, eye_linear)
     with np.errstate(all="ignore"):
         to_object = inverse(modelview)
-        normal = transformed_normals(lighting, vertices.normal, to_object, object_space)
+        normal = transformed_normals(lighting, vertices.normal, modelview, to_object, object_space)
         eye = transform(modelview, vertices.position)[:, :3] if needs_eye_position(lighting) else None
         lights = [
             at_vertices(light, lighting, eye, modelview, to_object, object_space) for light in enabled_lights(lighting)
@@ -136,19 +136,17 @@ def light_vertices(
 
 
 def transformed_normals(
-    lighting: Lighting, normal: np.ndarray, to_object: np.ndarray, object_space: bool
+    lighting: Lighting, normal: np.ndarray, modelview: np.ndarray, to_object: np.ndarray, object_space: bool
 ) -> np.ndarray:
     """Return the normals (V, 3) in the space of lighting, normalised or rescaled."""
     if not object_space:
         normal = np.stack([dot(normal, to_object[:3, i]) for i in range(3)], axis=1)
     if lighting.normalize:
         return normalized_rows(normal)
-    if lighting.rescale_normal and not object_space:
+    if lighting.rescale_normal and not object_space and not is_length_preserving(modelview):
         row = to_object[2, :3]
         squared = (row[0] * row[0] + row[1] * row[1]) + row[2] * row[2]
-        # Mesa rescales only where the matrix is no rotation: 1 / sqrt(1 ± rounding) would change bits
-        if not is_length_preserving(inverse(to_object)):
-            normal = normal * (ONE / np.sqrt(squared if squared >= SMALLEST_SCALE else ONE))
+        normal = normal * (ONE / np.sqrt(squared if squared >= SMALLEST_SCALE else ONE))
     return normal
 
 
