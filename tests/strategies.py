@@ -1,9 +1,12 @@
 """What Hypothesis draws: every strategy of the tests, one section for each block of the package."""
 
 import numpy as np
+from hypothesis import reject
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
-from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shapes
+from softshadow.errors import MeshError
+from softshadow.scene import Camera, Light, Mesh, Scene, SceneObject, placement, shapes
 
 # -- techniques --------------------------------------------------------------------------------------------------------
 
@@ -86,3 +89,39 @@ def window_fans(draw: st.DrawFn, size: int = 24) -> tuple[np.ndarray, np.ndarray
     positions = np.concatenate([middle[None], middle + rim]) / step
     fan = [(0, 1 + i, 1 + (i + 1) % corners) for i in range(corners)]
     return positions.astype(np.float32), np.array(fan, np.int32)
+
+
+# -- scene -------------------------------------------------------------------------------------------------------------
+
+
+@st.composite
+def closed_meshes(draw: st.DrawFn) -> Mesh:
+    """Return a closed mesh, its vertices moved about on a grid: it may cross itself and have flat faces."""
+    solid = SOLIDS[draw(st.sampled_from(sorted(SOLIDS)))]
+    topology = solid.topology
+    grid = draw(st.sampled_from([1, 4, 1024]))
+    moves = draw(arrays(np.int8, (len(topology.representatives), 3), elements=st.integers(-3, 3)))
+    moved = np.rint(solid.positions[topology.representatives] * 4 * grid) / grid + moves / grid
+    return _with_area(moved[topology.vertex_ids], solid.triangles)
+
+
+@st.composite
+def open_meshes(draw: st.DrawFn) -> Mesh:
+    """Return a soup of triangles over few grid points: boundaries, edges of many faces, faces back to back."""
+    points = draw(st.lists(st.tuples(*[st.integers(-3, 3)] * 3), min_size=4, max_size=9, unique=True))
+    corner = st.integers(0, len(points) - 1)
+    triangles = draw(st.lists(st.tuples(corner, corner, corner), min_size=1, max_size=14))
+    return _with_area(np.array(points, dtype=np.float64), np.array(triangles))
+
+
+def _with_area(positions: np.ndarray, triangles: np.ndarray) -> Mesh:
+    try:
+        return Mesh(positions, triangles)
+    except MeshError:  # nothing but flat faces
+        reject()
+
+
+def lights() -> st.SearchStrategy[np.ndarray]:
+    """Homogeneous lights (4,), points and directions, often in the plane of a face or at a vertex."""
+    place = st.tuples(*[st.integers(-12, 12).map(lambda k: k / 2)] * 3, st.sampled_from([0.0, 1.0]))
+    return place.filter(lambda light: any(light)).map(np.array)

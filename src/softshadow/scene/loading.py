@@ -118,12 +118,15 @@ def _put_down(mesh: Mesh, turn: tuple[float, float, float, float]) -> np.ndarray
 
 
 def _framing_camera(points: np.ndarray) -> Camera:
-    """Return a camera that looks down on the points from the front right, with room for the shadow around them."""
+    """Return a camera that looks down on the points, with room for the shadow around them.
+
+    It stands at the front left: the default light comes from the front right, and shadows are seen from the side.
+    """
     low, high = points.min(axis=0), points.max(axis=0)
     target = (low + high) / 2
     radius = float(np.linalg.norm(points - target, axis=1).max())
     distance = 4.2 * radius  # the model then takes two thirds of the height at 40 degrees
-    direction = np.array([0.45, 0.5, 0.85])
+    direction = np.array([-0.55, 0.5, 0.85])
     eye = target + distance * direction / np.linalg.norm(direction)
     # the lowest ray of the picture meets the floor further away than a fifth of the distance
     return Camera(eye, target, fov_y=40, near=0.2 * distance, far=distance + 16 * MODEL_SIZE)

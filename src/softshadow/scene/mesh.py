@@ -71,6 +71,16 @@ class Mesh:
         return Topology(self.positions, self.triangles)
 
     @cached_property
+    def face_normals(self) -> np.ndarray:
+        """(T, 3) float64, twice the triangle's area long."""
+        return face_normals(self.positions, self.triangles)
+
+    @cached_property
+    def first_corners(self) -> np.ndarray:
+        """(T, 3) float64: a point in the plane of each triangle."""
+        return self.positions[self.triangles[:, 0]].astype(np.float64)
+
+    @cached_property
     def bounds(self) -> np.ndarray:
         """(2, 3) float64: smallest and largest coordinates of the vertices that a triangle uses."""
         used = self.positions[np.unique(self.triangles)].astype(np.float64)

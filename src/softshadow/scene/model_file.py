@@ -88,26 +88,35 @@ def _read_obj(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
     from trimesh.exchange.obj import load_obj
 
     text, notes = drawable_lines(data.decode("utf-8", errors="replace"), str(path))
-    loaded = load_obj(io.StringIO(text), skip_materials=True, group_material=False, maintain_order=True)
+    # maintain_order would keep one normal per position and smooth every crease
+    loaded = load_obj(io.StringIO(text), skip_materials=True, group_material=False, maintain_order=False)
     return _placed(loaded), notes
 
 
 def _read_ply(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
     from trimesh.exchange.ply import load_ply
 
-    return _placed(load_ply(io.BytesIO(data), skip_materials=True)), []
+    loaded = load_ply(io.BytesIO(data), skip_materials=True)
+    for name, element in loaded["metadata"]["_ply_raw"].items():
+        columns = element.get("data")
+        found = {len(values) for values in columns.values()} if isinstance(columns, dict) else {element["length"]}
+        if found != {element["length"]}:
+            raise MeshError(f"{path}: the header announces {element['length']} of element {name}, found {min(found)}")
+    return _placed(loaded), []
 
 
 def _read_stl(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
     from trimesh.exchange.stl import load_stl
 
-    return _placed(load_stl(io.BytesIO(data))), []
+    announced = _binary_stl_length(data)
+    # another length means text, which the reader would only decode with a package that is not there
+    return _placed(load_stl(io.BytesIO(data if announced == len(data) else _as_utf8(data)))), []
 
 
 def _read_off(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
     from trimesh.exchange.off import load_off
 
-    return _placed(load_off(io.BytesIO(data))), []
+    return _placed(load_off(io.BytesIO(_as_utf8(data)))), []
 
 
 def _read_gltf(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
@@ -154,7 +163,8 @@ def _part(kwargs: dict[str, Any], matrix: np.ndarray, path: Path, notes: list[Pa
     outside = (faces < 0) | (faces >= len(positions))
     if outside.any():
         raise MeshError(f"{path}: a face uses vertex {faces[outside][0]}; expected 0 to {len(positions) - 1}")
-    triangles = faces if faces.shape[1] == 3 else faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    fan = [corner for last in range(2, faces.shape[1]) for corner in (0, last - 1, last)]
+    triangles = faces[:, fan].reshape(-1, 3)
     attributes = kwargs.get("vertex_attributes", {})
     normals = _per_vertex(kwargs.get("vertex_normals"), positions, 3)
     part = Part(positions.astype(np.float64), triangles, normals, _texcoords(kwargs, attributes, positions))
@@ -233,11 +243,18 @@ def _what_is_there(kind: str, data: bytes, geometry: Geometry) -> str:
     points = sum(len(kwargs.get("vertices", ())) for kwargs, _ in geometry)
     if points:
         return f"{points} points and no triangle"
-    if kind == "stl" and len(data) >= 84:
-        announced = 84 + 50 * int.from_bytes(data[80:84], "little")
-        if announced != len(data):
-            return f"as a binary STL it announces {announced} bytes and has {len(data)}, as text it has no solid"
+    announced = _binary_stl_length(data)
+    if kind == "stl" and announced > len(data) and b"solid" not in data[:80]:
+        return f"as a binary STL it announces {announced} bytes and has {len(data)}, as text it has no solid"
     return "no mesh in it" if data.strip() else "the file is empty"
+
+
+def _binary_stl_length(data: bytes) -> int:
+    return 84 + 50 * int.from_bytes(data[80:84], "little")
+
+
+def _as_utf8(data: bytes) -> bytes:
+    return data.decode("utf-8", errors="replace").encode()
 
 
 @contextmanager

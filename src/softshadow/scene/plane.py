@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from softshadow.scene.mesh import Mesh, face_normals
+from softshadow.scene.mesh import Mesh
 
 # float32 positions of a turned square miss its plane by some units of 6e-8 of its size
 FLAT = 1e-6
@@ -13,7 +13,7 @@ def flat_plane(mesh: Mesh) -> np.ndarray | None:
 
     All triangles have to face the same way, all vertices to lie in one plane, and the outline to be convex.
     """
-    normals = face_normals(mesh.positions, mesh.triangles)
+    normals = mesh.face_normals
     areas = np.linalg.norm(normals, axis=1)
     largest = int(areas.argmax())
     normal = normals[largest] / areas[largest]

@@ -36,12 +36,15 @@ def quad(
 def floor(width: float = 12, depth: float | None = None, cells: int = 1, name: str = "floor") -> Mesh:
     """Return a rectangle in the plane y = 0 around the origin, facing up."""
     depth = width if depth is None else depth
+    _positive(width=width, depth=depth)
     return quad((-width / 2, 0, depth / 2), (width, 0, 0), (0, 0, -depth), cells, name)
 
 
 def box(width: float = 1, height: float | None = None, depth: float | None = None, name: str = "box") -> Mesh:
     """Return a box around the origin; 24 drawing vertices at 8 positions."""
-    size = np.array([width, width if height is None else height, width if depth is None else depth]) / 2
+    height = width if height is None else height
+    depth = width if depth is None else depth
+    size = np.array(_positive(width=width, height=height, depth=depth)) / 2
     faces = []
     for axis in range(3):
         for sign in (1.0, -1.0):
@@ -62,6 +65,7 @@ def wall(width: float = 3, height: float = 2, thickness: float = 0.05, name: str
 def stairs(steps: int = 4, width: float = 2, rise: float = 0.4, tread: float = 0.6, name: str = "stairs") -> Mesh:
     """Return a solid staircase on y = 0 that climbs towards -z, its lowest edge at z = 0, centred in x."""
     count = _at_least("steps", steps, 1)
+    _positive(width=width, rise=rise, tread=tread)
     left, right = -width / 2, width / 2
     profile = [(0.0, 0.0)]  # z, y
     for step in range(count):
@@ -79,12 +83,14 @@ def stairs(steps: int = 4, width: float = 2, rise: float = 0.4, tread: float = 0
 
 def tetrahedron(size: float = 1, name: str = "tetrahedron") -> Mesh:
     """Return a regular tetrahedron around the origin with corners on alternate corners of a cube of this size."""
+    _positive(size=size)
     corners = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], dtype=np.float64) * size / 2
     return _joined([corners[list(face)] for face in ((0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2))], name)
 
 
 def sphere(radius: float = 0.5, segments: int = 32, rings: int = 16, name: str = "sphere") -> Mesh:
     """Return a sphere around the origin, poles on the y axis; each pole has one vertex per texture column."""
+    _positive(radius=radius)
     _at_least("segments", segments, 3)
     _at_least("rings", rings, 2)
     latitude = np.linspace(-np.pi / 2, np.pi / 2, rings + 1)
@@ -105,6 +111,7 @@ def torus(
     major_radius: float = 0.7, minor_radius: float = 0.25, segments: int = 32, sides: int = 16, name: str = "torus"
 ) -> Mesh:
     """Return a torus around the y axis."""
+    _positive(major_radius=major_radius, minor_radius=minor_radius)
     _at_least("segments", segments, 3)
     _at_least("sides", sides, 3)
     cosine, sine = _circle(segments)
@@ -119,6 +126,7 @@ def cylinder(
     radius: float = 0.4, height: float = 1, segments: int = 32, capped: bool = True, name: str = "cylinder"
 ) -> Mesh:
     """Return a cylinder around the y axis, centred; without caps it is an open tube, seen from outside only."""
+    _positive(radius=radius, height=height)
     _at_least("segments", segments, 3)
     cosine, sine = _circle(segments)
     ring = np.stack([radius * sine, np.zeros(segments + 1), radius * cosine], axis=1)
@@ -135,6 +143,13 @@ def _at_least(key: str, value: int, smallest: int) -> int:
     if value < smallest:
         raise ValueError(f"{key}: expected at least {smallest}, got {value}")
     return value
+
+
+def _positive(**lengths: float) -> tuple[float, ...]:
+    for key, length in lengths.items():
+        if not 0 < length < np.inf:
+            raise ValueError(f"{key}: expected a positive length, got {length}")
+    return tuple(lengths.values())
 
 
 def _circle(segments: int) -> tuple[np.ndarray, np.ndarray]:

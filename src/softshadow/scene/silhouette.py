@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softshadow.scene.mesh import Mesh, face_normals
+from softshadow.scene.mesh import Mesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +49,7 @@ def light_distances(mesh: Mesh, light: np.ndarray) -> np.ndarray:
     light : (4,) float64      homogeneous, object space, w >= 0; w = 0 is a direction towards the light
     """
     light = homogeneous_light(light)
-    a = mesh.positions[mesh.triangles[:, 0]].astype(np.float64)
-    return ((light[:3] - light[3] * a) * face_normals(mesh.positions, mesh.triangles)).sum(axis=1)
+    return np.einsum("ij,ij->i", light[:3] - light[3] * mesh.first_corners, mesh.face_normals)
 
 
 def casting_faces(mesh: Mesh, light: np.ndarray) -> CastingFaces:
