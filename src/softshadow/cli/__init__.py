@@ -1,0 +1,64 @@
+"""The command line: ``softshadow COMMAND``. Data goes to stdout, talk to stderr.
+
+Exit codes: 0 done, 1 a check failed, 2 wrong usage, 3 bad input, 130 interrupted. Whatever is slow to import is imported
+inside the commands, so that ``--help`` answers at once.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+import click
+
+import softshadow
+from softshadow.cli.lists import scenes, techniques
+from softshadow.cli.machine import doctor, warmup
+from softshadow.cli.runs import pixel, render, steps
+from softshadow.cli.tours import tour
+from softshadow.errors import SoftShadowError
+
+BAD_INPUT, INTERRUPTED = 3, 130
+
+
+class InputError(click.ClickException):
+    """Bad input, said in one line."""
+
+    exit_code = BAD_INPUT
+
+    def show(self, file: Any = None) -> None:
+        click.echo(f"error: {self.message}", err=True)
+
+
+class Commands(click.Group):
+    """The group of all commands: what a user's input can cause becomes one line and an exit code."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        try:
+            return super().invoke(ctx)
+        except (SoftShadowError, ValueError, TypeError, OSError, MemoryError) as error:
+            if ctx.params.get("traceback"):
+                raise
+            raise InputError(str(error) or type(error).__name__) from None
+        except KeyboardInterrupt:
+            click.echo("interrupted", err=True)
+            raise click.exceptions.Exit(INTERRUPTED) from None
+
+
+@click.group(
+    cls=Commands,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    epilog="Examples:  softshadow tour  |  softshadow pixel volume-zfail 160 170 --size 320x240",
+)
+@click.version_option(softshadow.__version__, "-V", "--version", prog_name="softshadow")
+@click.option("--traceback", is_flag=True, help="Show where an error comes from, for a report of it.")
+def main(traceback: bool) -> None:
+    """Real-time shadow algorithms, step by step, on a software rasterizer whose every pixel explains itself."""
+
+
+for command in (tour, render, steps, pixel, techniques, scenes, warmup, doctor):
+    main.add_command(command)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,112 @@
+"""Arguments that several commands share: which scene, how large, which options."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from softshadow.scene import Scene
+
+YES, NO = ("true", "yes", "on", "1"), ("false", "no", "off", "0")
+
+
+class Size(click.ParamType):
+    """WIDTHxHEIGHT, in pixels."""
+
+    name = "WxH"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
+        if isinstance(value, tuple):
+            return value
+        width, times, height = value.lower().partition("x")
+        try:
+            if times:
+                return int(width), int(height)
+        except ValueError:
+            pass
+        self.fail(f"{value!r}: expected WIDTHxHEIGHT in pixels, as in 640x480", param, ctx)
+
+
+class Point(click.ParamType):
+    """X,Y,Z, or X,Y,Z,W in homogeneous coordinates."""
+
+    name = "X,Y,Z"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
+        if isinstance(value, tuple):
+            return value
+        try:
+            numbers = tuple(float(part) for part in value.split(","))
+        except ValueError:
+            numbers = ()
+        if len(numbers) not in (3, 4):
+            self.fail(f"{value!r}: expected X,Y,Z (a point) or X,Y,Z,0 (a direction towards the light)", param, ctx)
+        return numbers
+
+
+def scene_arguments(default_size: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return a decorator that adds --scene, --mesh, --light and --size."""
+
+    def add(function: Callable[..., Any]) -> Callable[..., Any]:
+        for option in (
+            click.option("--size", type=Size(), default=default_size, show_default=True, help="Of the picture."),
+            click.option("--light", type=Point(), help="Where the light is; X,Y,Z,0 is a light at infinity."),
+            click.option("--mesh", metavar="FILE", help="A model (OBJ, PLY, STL, OFF, GLB, glTF) on a floor."),
+            click.option("--scene", metavar="NAME|FILE.toml", help="A named scene, or a scene file.  [default: torus]"),
+        ):
+            function = option(function)
+        return function
+
+    return add
+
+
+as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+force = click.option("--force", is_flag=True, help="Overwrite files that this program did not write.")
+technique_options = click.option(
+    "-O", "--option", "given", metavar="KEY=VALUE", multiple=True, help="An option of the technique; several times."
+)
+
+
+def chosen_scene(scene: str | None, mesh: str | None, light: tuple[float, ...] | None, default: str = "torus") -> Scene:
+    """Return the scene that the arguments ask for."""
+    from dataclasses import replace
+
+    from softshadow.scene import Light, Scene
+
+    if scene and mesh:
+        raise click.UsageError("--scene and --mesh: expected one of them")
+    if mesh:
+        return Scene.from_mesh(mesh, light=light) if light else Scene.from_mesh(mesh)
+    name = scene or default
+    made = Scene.load(name) if name.lower().endswith(".toml") else Scene.named(name)
+    return replace(made, lights=(Light(light),)) if light else made
+
+
+def parsed_options(technique: str, given: tuple[str, ...]) -> dict[str, Any]:
+    """Return KEY=VALUE arguments as the technique's options take them; an unknown key is left to the register."""
+    from softshadow import techniques
+
+    known = techniques.get(technique).options
+    options: dict[str, Any] = {}
+    for text in given:
+        key, equals, value = text.partition("=")
+        if not equals:
+            raise click.UsageError(f"--option {text!r}: expected KEY=VALUE")
+        key = key.replace("-", "_")
+        kind = known[key].kind if key in known else str
+        options[key] = _converted(key, value, kind, known[key].expected if key in known else "")
+    return options
+
+
+def _converted(key: str, value: str, kind: type, expected: str) -> Any:
+    if kind is bool:
+        if value.lower() in YES + NO:
+            return value.lower() in YES
+        raise ValueError(f"option {key}={value!r}: expected true or false")
+    try:
+        return kind(value)
+    except ValueError:
+        raise ValueError(f"option {key}={value!r}: expected {expected}") from None

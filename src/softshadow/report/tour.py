@@ -1,0 +1,186 @@
+"""The tour: every technique on one scene, a folder of pictures and buffers with a page to read."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from softshadow import techniques
+from softshadow.errors import SoftShadowError
+from softshadow.inspection.files import own
+from softshadow.inspection.pictures import color_picture
+from softshadow.report.page import Section, beside, environment, sections
+from softshadow.run import run
+
+if TYPE_CHECKING:
+    from softshadow.run import Run
+    from softshadow.scene import Scene
+
+INDEX = "index.html"
+
+
+@dataclass(frozen=True)
+class Stop:
+    """One run of the tour: what to draw, and what to look at."""
+
+    title: str
+    technique: str
+    look_at: str
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def name(self) -> str:
+        """The name of its files: technique and choices."""
+        return "-".join([self.technique, *(str(value) for value in self.options.values())])
+
+
+STOPS = (
+    Stop(
+        "Planar shadow, depth test off",
+        "planar",
+        "The slides' first form: flattened casters are painted over the receiver whatever is in front of it.",
+        {"method": "depth-off"},
+    ),
+    Stop(
+        "Planar shadow, polygon offset",
+        "planar",
+        "The offset (-1, -1) lifts the flattened casters off the receiver: no z-fighting, and depth is kept.",
+        {"method": "offset"},
+    ),
+    Stop(
+        "Planar shadow, stencil",
+        "planar",
+        "The stencil marks the receiver, the flattened casters unmark it: no shadow outside the receiver.",
+        {"method": "stencil"},
+    ),
+    Stop(
+        "Planar shadow, stencil and blending",
+        "planar",
+        "Each marked pixel is darkened once, however many flattened triangles cover it.",
+        {"method": "stencil-blend"},
+    ),
+    Stop(
+        "Planar shadow, as a texture",
+        "planar",
+        "The shadow is drawn into a texture of the receiver once; while nothing moves it can be used again.",
+        {"method": "texture"},
+    ),
+    Stop(
+        "Shadow volumes, z-pass",
+        "volume-zpass",
+        "The stencil counts volumes entered and left in front of each surface; what is left over is shadow.",
+    ),
+    Stop(
+        "Shadow volumes, z-fail",
+        "volume-zfail",
+        "Counted behind the surface instead: right wherever the eye is, but the volume needs both caps.",
+    ),
+    Stop(
+        "Shadow volumes, one per polygon",
+        "volume-zfail",
+        "Without a silhouette: the same counts, many more fragments. Compare the ledgers.",
+        {"generator": "per-polygon"},
+    ),
+    Stop(
+        "Shadow volumes, two-sided stencil",
+        "volume-zfail",
+        "Front and back faces in one draw: one pass less, the same counts.",
+        {"two_sided": True},
+    ),
+    Stop(
+        "Shadow map",
+        "map",
+        "The scene's depths from the light, compared for each pixel: blocky edges, no geometry to extrude.",
+    ),
+    Stop(
+        "Shadow map without bias",
+        "map",
+        "Surfaces shadow themselves: the map's texel is as deep as the surface, give or take half its slope.",
+        {"factor": 0.0, "units": 0.0},
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Visited:
+    """A stop that has been drawn, as the page shows it."""
+
+    stop: Stop
+    picture: str
+    sections: list[Section]
+    ledger: list[dict[str, object]]
+    warnings: list[str]
+    npz: str
+    described: str
+    command: str
+
+
+def write_tour(
+    scene: Scene,
+    size: tuple[int, int],
+    folder: str | Path,
+    force: bool = False,
+    progress: Callable[[str], None] = lambda title: None,
+) -> Path:
+    """Draw all stops, write the folder, and return its page. The folder is made whole or not at all.
+
+    Raises
+    ------
+    SoftShadowError
+        The folder exists and is not an earlier tour (`force` replaces it), or cannot be written.
+    """
+    target = Path(folder)
+    _refuse_foreign(target, force)
+    try:
+        work = Path(tempfile.mkdtemp(prefix=".softshadow-", dir=target.parent))
+    except OSError as error:
+        raise SoftShadowError(f"{target}: the folder cannot be made ({error.strerror})") from None
+    try:
+        visited = []
+        for stop in STOPS:
+            progress(stop.title)
+            visited.append(_visit(stop, run(stop.technique, scene, size, **stop.options), work))
+        page = environment().get_template("tour.html").render(scene=scene, size=size, visited=visited)
+        (work / INDEX).write_text(page, encoding="utf-8")
+        work.chmod(0o755)  # mkdtemp's folders are for the owner only
+        if target.exists():
+            shutil.rmtree(target)
+        work.replace(target)
+    except OSError as error:
+        raise SoftShadowError(f"{target}: cannot be written ({error.strerror or error})") from None
+    finally:
+        shutil.rmtree(work, ignore_errors=True)
+    return target / INDEX
+
+
+def _refuse_foreign(target: Path, force: bool) -> None:
+    if not target.parent.is_dir():
+        raise SoftShadowError(f"{target}: the folder {target.parent} does not exist")
+    if target.is_file():
+        raise SoftShadowError(f"{target}: is a file, expected the name of a folder")
+    index = target / INDEX
+    is_ours = not target.exists() or not any(target.iterdir()) or (index.is_file() and own(index))
+    if not is_ours and not force:
+        raise SoftShadowError(f"{target}: exists and is not a tour of softshadow; --force replaces it")
+
+
+def _visit(stop: Stop, made: Run, work: Path) -> Visited:
+    folder = work / stop.name
+    folder.mkdir()
+    place = beside(folder)
+    made.save(folder / "run.npz")
+    options = "".join(f" -O {key}={value}" for key, value in stop.options.items())
+    return Visited(
+        stop,
+        place(color_picture(made.image), "picture"),
+        sections(made, place),
+        made.ledger.to_dicts(),
+        [f"{type(each).__name__}: {each}" for each in made.warnings],
+        f"{stop.name}/run.npz",
+        techniques.get(stop.technique).paper,
+        f"softshadow render {stop.technique} --scene {made.scene.name}{options}",
+    )
