@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from softshadow.testing import Comparison, ProgramResult, difference, differences
+from softshadow.testing import Comparison, ProgramResult, compare, difference, differences, run_here
 
 
 def result(**changed):
@@ -52,3 +52,48 @@ def test_nan_equals_nan_and_minus_zero_equals_zero():
 def test_different_shapes_are_refused():
     with pytest.raises(ValueError, match="depth: shapes"):
         differences(result(depth=np.zeros((1, 1), np.uint32)), result())
+
+
+def stencilled_triangle(gl):
+    gl.glClearColor(0.2, 0.4, 0.6, 0.8)
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT)
+    gl.glEnable(gl.GL_STENCIL_TEST)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR)
+    gl.glBegin(gl.GL_TRIANGLES)
+    for x, y, z in ((-1, -1, 0), (1, -1, 0.5), (-1, 1, -0.5)):
+        gl.glVertex3f(x, y, z)
+    gl.glEnd()
+    return [gl.glReadPixels(0, 0, 2, 1, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT)]
+
+
+def test_a_program_runs_here_with_its_first_row_at_the_bottom():
+    found = run_here(stencilled_triangle, (6, 4))
+    assert found.stencil[0, 0] == 1
+    assert found.stencil[3, 5] == 0
+    np.testing.assert_array_equal(found.color[3, 5], [51, 102, 153, 204])
+    np.testing.assert_array_equal(found.returned[0], (found.depth[:1, :2] / (2**24 - 1)).astype(np.float32))
+
+
+def test_a_context_that_was_current_is_current_again_after_a_program():
+    from softshadow import gl
+
+    with gl.create_context(3, 3):
+        run_here(stencilled_triangle, (6, 4))
+        assert gl.glGetIntegerv(gl.GL_VIEWPORT)[2] == 3
+
+
+@pytest.mark.mesa
+def test_one_program_leaves_the_same_buffers_here_and_on_mesa():
+    assert str(compare(stencilled_triangle, (6, 4))) == "no pixel differs"
+
+
+@pytest.mark.mesa
+def test_a_program_that_asks_where_it_runs_is_caught():
+    def two_faced(gl):
+        gl.glClearStencil(1 if b"Mesa" in gl.glGetString(gl.GL_VERSION) else 2)
+        gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
+
+    found = compare(two_faced, (6, 4))
+    assert not found
+    assert str(found) == "stencil: 24 differ, first at x=0, y=0 (row 3 from the top): 2 and 1"

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from softshadow.errors import StateError
 from softshadow.testing import run_on_mesa
 
 pytestmark = pytest.mark.mesa
@@ -115,6 +116,22 @@ def test_debug_groups_take_a_string():
         gl.glPopDebugGroup()
 
     assert run_on_mesa(program, SIZE).errors == ()
+
+
+@pytest.mark.parametrize("name", ["blinn-phong", "shadow-map"])
+def test_a_programs_glsl_twin_is_compiled_once(name):
+    def program(gl):
+        twin = gl.program(name)
+        gl.glUseProgram(twin)
+        return twin, gl.program(name), int(gl.glGetIntegerv(gl.GL_CURRENT_PROGRAM))
+
+    first, again, current = run_on_mesa(program, SIZE).returned
+    assert first == again == current > 0
+
+
+def test_an_unknown_program_names_the_nearest():
+    with pytest.raises(StateError, match="did you mean 'shadow-map'"):
+        run_on_mesa(lambda gl: gl.program("shadowmap"), SIZE)
 
 
 def test_names_gl_does_not_know_are_attribute_errors():

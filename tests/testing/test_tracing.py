@@ -33,7 +33,11 @@ def fewer_boxes(gl):
     gl.glClear(gl.GL_COLOR_BUFFER_BIT)
 
 
-SIDES = [pytest.param(("mesa", "mesa"), marks=pytest.mark.mesa)]
+SIDES = [
+    ("softshadow", "softshadow"),
+    pytest.param(("mesa", "mesa"), marks=pytest.mark.mesa),
+    pytest.param(("softshadow", "mesa"), marks=pytest.mark.mesa),
+]
 
 
 @pytest.mark.parametrize("on", SIDES)
