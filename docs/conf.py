@@ -1,5 +1,8 @@
 """Sphinx settings: MyST pages whose code cells run when the pages are built."""
 
+import re
+from typing import Any
+
 from softshadow import __version__
 
 project = "softshadow"
@@ -23,11 +26,36 @@ myst_heading_anchors = 3
 
 nb_execution_mode = "force"  # numbers and pictures on the pages are those of this version
 nb_execution_raise_on_error = True
+nb_execution_show_tb = True
 nb_execution_timeout = 300
 nb_merge_streams = True
 nb_render_markdown_format = "myst"  # tables made by cells
 
+default_role = "py:obj"
 autodoc_member_order = "bysource"
-autodoc_typehints = "description"
+autodoc_typehints = "signature"
+autodoc_preserve_defaults = True
 napoleon_google_docstring = False
 napoleon_use_rtype = False
+napoleon_preprocess_types = False
+
+
+def spread_columns(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
+    """Give each entry of a docstring's section the two lines that numpydoc has: we write them in columns on one."""
+    spread: list[str] = []
+    in_section = False
+    for line in lines:
+        if re.fullmatch(r"-{3,}", line):
+            in_section = True
+        elif in_section and (entry := re.fullmatch(r"(\S.*?)\s{2,}(\S.*)", line)):
+            spread += [entry[1], f"    {entry[2]}"]
+            continue
+        elif in_section and line.startswith(" "):
+            line = f"    {line.strip()}"
+        spread.append(line)
+    lines[:] = spread
+
+
+def setup(app: Any) -> None:
+    """Connect the hook, before napoleon's (priority 500) sees the docstring."""
+    app.connect("autodoc-process-docstring", spread_columns, priority=400)
