@@ -7,6 +7,7 @@ import json
 import os
 import re
 import zipfile
+import zlib
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -144,7 +145,8 @@ def write_npz(run: Run, path: Path) -> None:
 def load(path: str | os.PathLike[str]) -> Contents:
     """Read what `write_npz` wrote; see `load_run`."""
     try:
-        with np.load(path, allow_pickle=False) as stored:
+        # opened here: NumPy leaves the file of a damaged archive open
+        with open(path, "rb") as file, np.load(file, allow_pickle=False) as stored:
             description = json.loads(str(stored[DESCRIPTION]))
             if description["schema"] != SCHEMA:
                 raise SoftShadowError(f"{path}: schema {description['schema']}, this version reads {SCHEMA}")
@@ -161,7 +163,7 @@ def load(path: str | os.PathLike[str]) -> Contents:
             )
     except FileNotFoundError:
         raise SoftShadowError(f"{path}: there is no such file") from None
-    except (*BROKEN, zipfile.BadZipFile) as error:
+    except (*BROKEN, zipfile.BadZipFile, zlib.error) as error:
         raise SoftShadowError(f"{path}: not a run that this package saved ({error})") from error
 
 
