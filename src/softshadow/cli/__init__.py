@@ -1,7 +1,7 @@
 """The command line: ``softshadow COMMAND``. Data goes to stdout, talk to stderr.
 
-Exit codes: 0 done, 1 a check failed, 2 wrong usage, 3 bad input, 130 interrupted. Whatever is slow to import is imported
-inside the commands, so that ``--help`` answers at once.
+Exit codes: 0 done, 1 a check failed, 2 wrong usage, 3 bad input, 130 interrupted. Whatever is slow to import is
+imported inside the commands, so that ``--help`` answers at once.
 """
 
 from __future__ import annotations

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.metadata
-import importlib.util
-import platform
 import time
 from typing import Any
 
@@ -62,6 +59,9 @@ def _option_sets(name: str) -> list[dict[str, Any]]:
 @as_json
 def doctor(as_json: bool) -> None:
     """Tell versions, cache folder, threads, and which extras are there."""
+    import importlib.util
+    import platform
+
     import softshadow
     from softshadow.jit import cache_folder
     from softshadow.pipeline import threads
@@ -90,6 +90,8 @@ def doctor(as_json: bool) -> None:
 
 
 def _version(name: str) -> str:
+    import importlib.metadata
+
     try:
         return importlib.metadata.version(name)
     except importlib.metadata.PackageNotFoundError:

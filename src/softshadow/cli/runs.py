@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
-import numpy as np
 
 from softshadow.cli.arguments import as_json, chosen_scene, force, parsed_options, scene_arguments, technique_options
 from softshadow.cli.talk import named_warnings, print_json, say, say_if_compiling, table
@@ -75,6 +74,8 @@ def steps(
     given: tuple[str, ...], output: str | None, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Count what every step of a technique does, and what it leaves in the stencil buffer."""
+    import numpy as np
+
     made = _run(technique, size, given, scene=scene, mesh=mesh, light=light)
     counted = made.ledger.steps
     histograms = [dict(zip(*np.unique(step.stencil, return_counts=True), strict=True)) for step in made.steps]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import tempfile
 from collections.abc import Callable, Mapping
@@ -34,8 +35,12 @@ class Stop:
 
     @property
     def name(self) -> str:
-        """The name of its files: technique and choices."""
-        return "-".join([self.technique, *(str(value) for value in self.options.values())])
+        """The name of its files: technique and options."""
+        words = [
+            self.technique,
+            *(f"{key}={value}" if key != "method" else value for key, value in self.options.items()),
+        ]
+        return re.sub(r"[^\w.]+", "-", "-".join(words))
 
 
 STOPS = (
