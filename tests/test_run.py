@@ -3,6 +3,7 @@
 import sys
 import warnings
 import zipfile
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -279,6 +280,14 @@ def test_a_png_is_the_picture(zfail, tmp_path):
 
     with Image.open(zfail.save(tmp_path / "picture.png")) as picture:
         np.testing.assert_array_equal(np.asarray(picture), zfail.image)
+
+
+def test_a_report_is_written_by_the_block_for_reports(zfail, tmp_path, monkeypatch):
+    written = []
+    report = SimpleNamespace(write=lambda run, path: written.append(run) or path.write_text("made by softshadow"))
+    monkeypatch.setitem(sys.modules, "softshadow.report", report)
+    assert zfail.save(tmp_path / "run.html").read_text() == "made by softshadow"
+    assert written == [zfail]
 
 
 def test_a_folder_gets_every_buffer_of_every_step(zfail, tmp_path):

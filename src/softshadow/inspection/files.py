@@ -10,7 +10,7 @@ from pathlib import Path
 
 from softshadow.errors import SoftShadowError
 
-MARK = "made by softshadow"
+MARK = "made by softshadow"  # every writer puts it at the start of its files, or they count as foreign the next time
 DESCRIPTION = "softshadow.json"  # the member of an npz that says what the others are
 START = 4096  # bytes in which the mark of a PNG, HTML or text file must stand
 

@@ -129,7 +129,7 @@ def unlike(a: float, b: float) -> tuple[str, str]:
     >>> unlike(0.5, 0.25)
     ('0.5', '0.25')
     >>> unlike(0.50000006, 0.5)
-    ('0.50000006', '0.5')
+    ('0.5000001', '0.5')
     """
     for digits in range(6, 18):
         left, right = f"{a:.{digits}g}", f"{b:.{digits}g}"
