@@ -31,6 +31,7 @@ nb_execution_timeout = 300
 nb_merge_streams = True
 nb_render_markdown_format = "myst"  # tables made by cells
 
+smartquotes_action = "qe"  # two hyphens are an option, not a dash
 default_role = "py:obj"
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
