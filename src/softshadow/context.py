@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -78,6 +78,15 @@ class ClientArrays:
     active_unit: int = 0
 
 
+@dataclass
+class DisplayList:
+    """What stands between glNewList and glEndList: calls in order, and whether they are carried out meanwhile, too."""
+
+    name: int
+    executes: bool
+    calls: list[Callable[[], Any]] = field(default_factory=list)
+
+
 class Context:
     """A GL context in its initial state, with a window of the given size.
 
@@ -129,6 +138,11 @@ class Context:
         self.labels: list[str] = []
         self.primitive: Primitive | None = None  # between glBegin and glEnd
         self.arrays = ClientArrays()
+        self.attribute_stack: list[Any] = []
+        self.lists: dict[int, DisplayList] = {}
+        self.compiled_list: DisplayList | None = None  # between glNewList and glEndList
+        self.list_base = 0
+        self.hints: dict[int, int] = {}  # where not GL_DONT_CARE
         self.pack_store, self.unpack_store = PixelStore(), PixelStore()
         # the highest name that glGen* has given out, per kind; an object exists in storage once it has been bound
         self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query"), 0)

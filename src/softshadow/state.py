@@ -196,12 +196,16 @@ class Blend:
 
 @dataclass(frozen=True)
 class ColorBuffer:
-    """Colour mask and clear colours; GL_DITHER is on in GL and without effect at 8 bits."""
+    """Colour mask and clear colours.
+
+    GL_DITHER and GL_MULTISAMPLE are on in GL; at 8 bits, and with one sample a pixel, they are without effect.
+    """
 
     mask: tuple[bool, bool, bool, bool] = (True, True, True, True)
     clear: Color = (0.0, 0.0, 0.0, 0.0)
     clear_accum: Color = (0.0, 0.0, 0.0, 0.0)
     dither: bool = True
+    multisample: bool = True
 
     def calls(self) -> list[str]:
         return [
@@ -209,6 +213,7 @@ class ColorBuffer:
             f"glClearColor({_numbers(*self.clear)})",
             f"glClearAccum({_numbers(*self.clear_accum)})",
             _switch("GL_DITHER", self.dither),
+            _switch("GL_MULTISAMPLE", self.multisample),
         ]
 
 

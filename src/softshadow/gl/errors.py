@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container
+from numbers import Integral
 from typing import Any
 
 from softshadow import tokens as gl
@@ -14,6 +15,7 @@ ERROR_NAMES = (
     "GL_INVALID_ENUM", "GL_INVALID_VALUE", "GL_INVALID_OPERATION", "GL_STACK_OVERFLOW", "GL_STACK_UNDERFLOW",
     "GL_OUT_OF_MEMORY", "GL_INVALID_FRAMEBUFFER_OPERATION",
 )  # fmt: skip
+FIRST_DISTINCT_TOKEN = 0x100  # numbers below are shared by many tokens: GL_ZERO, GL_FALSE, GL_POINTS ...
 
 
 class GLError(SoftShadowError):
@@ -55,7 +57,8 @@ def glGetError() -> int:
 
 def wrong_enum(operation: str, argument: str, value: Any, expected: str) -> Any:
     """Fail with GL_INVALID_ENUM for one argument."""
-    spelled = token_name(value) if isinstance(value, int) else repr(value)
+    is_token = isinstance(value, Integral) and int(value) >= FIRST_DISTINCT_TOKEN
+    spelled = token_name(int(value)) if is_token else repr(value)
     return fail(gl.GL_INVALID_ENUM, operation, f"{argument}={spelled}: expected {expected}")
 
 
@@ -74,3 +77,6 @@ def outside_begin(operation: str) -> Context | None:
         return context
     fail(gl.GL_INVALID_OPERATION, operation, "not allowed between glBegin and glEnd")
     return None
+
+
+__all__ = ["GLError", "glGetError"]

@@ -9,15 +9,9 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import MATRIX_STACK_DEPTHS, Context
+from softshadow.gl.capabilities import CAPABILITIES, GENERATED, LIGHTS, UNIT_CAPABILITIES, glIsEnabled
 from softshadow.gl.errors import outside_begin, wrong_enum
-from softshadow.gl.fragment_state import (
-    CAPABILITIES,
-    GENERATED,
-    LARGEST_VIEWPORT,
-    LIGHTS,
-    UNIT_CAPABILITIES,
-    glIsEnabled,
-)
+from softshadow.gl.rasterization import LARGEST_VIEWPORT
 from softshadow.image import Image
 from softshadow.state import TEXTURE_UNITS, StencilFace
 

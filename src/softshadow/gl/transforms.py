@@ -10,6 +10,7 @@ import numpy as np
 from softshadow import matrices
 from softshadow import tokens as gl
 from softshadow.context import MATRIX_STACK_DEPTHS, Context, current
+from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 
 
@@ -23,6 +24,7 @@ def _given(context: Context, m: Any) -> np.ndarray:
     return np.array(m, np.float64).reshape(4, 4).T.astype(context.real)
 
 
+@in_lists
 def glMatrixMode(mode: int) -> None:
     """Choose the stack that matrix calls work on."""
     context = outside_begin("glMatrixMode")
@@ -31,6 +33,7 @@ def glMatrixMode(mode: int) -> None:
         context.matrix_mode = mode
 
 
+@in_lists
 def glPushMatrix() -> None:
     """Put a copy of the current matrix on its stack."""
     context = outside_begin("glPushMatrix")
@@ -43,6 +46,7 @@ def glPushMatrix() -> None:
         context.matrix_stack.append(context.matrix_stack[-1])
 
 
+@in_lists
 def glPopMatrix() -> None:
     """Go back to the matrix of the last push."""
     context = outside_begin("glPopMatrix")
@@ -54,6 +58,7 @@ def glPopMatrix() -> None:
         context.matrix_stack.pop()
 
 
+@in_lists
 def glLoadIdentity() -> None:
     """Make the identity current."""
     context = outside_begin("glLoadIdentity")
@@ -61,6 +66,7 @@ def glLoadIdentity() -> None:
         _set_current(context, np.eye(4, dtype=context.real))
 
 
+@in_lists
 def glLoadMatrixf(m: Any) -> None:
     """Make a matrix current: 16 numbers, column after column."""
     context = outside_begin("glLoadMatrixf")
@@ -68,6 +74,7 @@ def glLoadMatrixf(m: Any) -> None:
         _set_current(context, _given(context, m))
 
 
+@in_lists
 def glMultMatrixf(m: Any) -> None:
     """Multiply the current matrix from the right: 16 numbers, column after column."""
     context = outside_begin("glMultMatrixf")
@@ -79,6 +86,7 @@ def _multiply(context: Context, matrix: np.ndarray) -> None:
     _set_current(context, matrices.multiply(context.matrix_stack[-1], matrix))
 
 
+@in_lists
 def glTranslatef(x: float, y: float, z: float) -> None:
     """Move what is drawn from here on."""
     context = outside_begin("glTranslatef")
@@ -86,6 +94,7 @@ def glTranslatef(x: float, y: float, z: float) -> None:
         _set_current(context, matrices.translate(context.matrix_stack[-1], x, y, z))
 
 
+@in_lists
 def glScalef(x: float, y: float, z: float) -> None:
     """Scale what is drawn from here on."""
     context = outside_begin("glScalef")
@@ -93,6 +102,7 @@ def glScalef(x: float, y: float, z: float) -> None:
         _set_current(context, matrices.scale(context.matrix_stack[-1], x, y, z))
 
 
+@in_lists
 def glRotatef(angle: float, x: float, y: float, z: float) -> None:
     """Turn what is drawn from here on: degrees about an axis."""
     context = outside_begin("glRotatef")
@@ -100,6 +110,7 @@ def glRotatef(angle: float, x: float, y: float, z: float) -> None:
         _multiply(context, matrices.rotation(angle, x, y, z, context.real))
 
 
+@in_lists
 def glFrustum(left: float, right: float, bottom: float, top: float, zNear: float, zFar: float) -> None:
     """Multiply by the perspective projection of a frustum."""
     context = outside_begin("glFrustum")
@@ -112,6 +123,7 @@ def glFrustum(left: float, right: float, bottom: float, top: float, zNear: float
         _multiply(context, matrices.frustum(left, right, bottom, top, zNear, zFar, context.real))
 
 
+@in_lists
 def glOrtho(left: float, right: float, bottom: float, top: float, zNear: float, zFar: float) -> None:
     """Multiply by the parallel projection of a box."""
     context = outside_begin("glOrtho")
@@ -137,11 +149,13 @@ def gluPerspective(fovy: float, aspect: float, zNear: float, zFar: float) -> Non
         _multiply(context, matrices.perspective(fovy, aspect, zNear, zFar, context.real))
 
 
+@in_lists
 def gluOrtho2D(left: float, right: float, bottom: float, top: float) -> None:
     """Multiply by a parallel projection of a rectangle, depth -1 to 1."""
     glOrtho(left, right, bottom, top, -1, 1)
 
 
+@in_lists
 def gluLookAt(
     eyeX: float, eyeY: float, eyeZ: float,
     centerX: float, centerY: float, centerZ: float,
@@ -190,3 +204,6 @@ def _double(model: Any, proj: Any, view: Any) -> tuple[np.ndarray, tuple[float, 
     standing = context.state.viewport
     box = (standing.x, standing.y, standing.width, standing.height) if view is None else tuple(view)
     return projection.astype(np.float64) @ modelview.astype(np.float64), box
+
+
+__all__ = spelled_like_gl(globals())

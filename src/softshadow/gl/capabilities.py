@@ -1,0 +1,133 @@
+"""glEnable, glDisable, glIsEnabled, and hints."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from softshadow import tokens as gl
+from softshadow.context import Context
+from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.errors import is_one_of, outside_begin, wrong_enum
+from softshadow.gl.materials import follow_color
+from softshadow.state import State
+
+# capability: (group of the state, field)
+CAPABILITIES: dict[int, tuple[str, str]] = {
+    gl.GL_SCISSOR_TEST: ("scissor", "enabled"),
+    gl.GL_ALPHA_TEST: ("alpha", "enabled"),
+    gl.GL_STENCIL_TEST: ("stencil", "enabled"),
+    gl.GL_DEPTH_TEST: ("depth", "enabled"),
+    gl.GL_DEPTH_CLAMP: ("depth", "clamp"),
+    gl.GL_CULL_FACE: ("cull", "enabled"),
+    gl.GL_POLYGON_OFFSET_FILL: ("polygon", "offset_fill"),
+    gl.GL_POLYGON_OFFSET_LINE: ("polygon", "offset_line"),
+    gl.GL_POLYGON_OFFSET_POINT: ("polygon", "offset_point"),
+    gl.GL_BLEND: ("blend", "enabled"),
+    gl.GL_COLOR_LOGIC_OP: ("blend", "logic_enabled"),
+    gl.GL_DITHER: ("color", "dither"),
+    gl.GL_MULTISAMPLE: ("color", "multisample"),
+    gl.GL_LIGHTING: ("lighting", "enabled"),
+    gl.GL_COLOR_MATERIAL: ("lighting", "color_material"),
+    gl.GL_NORMALIZE: ("lighting", "normalize"),
+    gl.GL_RESCALE_NORMAL: ("lighting", "rescale_normal"),
+    gl.GL_FOG: ("fog", "enabled"),
+}
+UNIT_CAPABILITIES = {gl.GL_TEXTURE_2D: "enabled_2d", gl.GL_TEXTURE_CUBE_MAP: "enabled_cube"}
+GENERATED = (gl.GL_TEXTURE_GEN_S, gl.GL_TEXTURE_GEN_T, gl.GL_TEXTURE_GEN_R, gl.GL_TEXTURE_GEN_Q)
+LIGHTS = range(gl.GL_LIGHT0, gl.GL_LIGHT7 + 1)
+CLIP_PLANES = range(gl.GL_CLIP_PLANE0, gl.GL_CLIP_PLANE5 + 1)
+KNOWN = {*CAPABILITIES, *UNIT_CAPABILITIES, *GENERATED, *LIGHTS, *CLIP_PLANES}
+A_CAPABILITY = "a capability of this subset"
+HINTS = (
+    gl.GL_PERSPECTIVE_CORRECTION_HINT, gl.GL_POINT_SMOOTH_HINT, gl.GL_LINE_SMOOTH_HINT, gl.GL_POLYGON_SMOOTH_HINT,
+    gl.GL_FOG_HINT, gl.GL_TEXTURE_COMPRESSION_HINT, gl.GL_GENERATE_MIPMAP_HINT,
+)  # fmt: skip
+
+
+@in_lists
+def glEnable(cap: int) -> None:
+    """Switch a capability on."""
+    _switch("glEnable", cap, True)
+
+
+@in_lists
+def glDisable(cap: int) -> None:
+    """Switch a capability off."""
+    _switch("glDisable", cap, False)
+
+
+def _switch(operation: str, cap: int, on: bool) -> None:
+    context = outside_begin(operation)
+    if context is None:
+        return
+    if cap not in KNOWN:
+        wrong_enum(operation, "cap", cap, A_CAPABILITY)
+    elif is_on(context.state, cap, context.active_unit) != on:
+        context.state = switched(context.state, cap, context.active_unit, on)
+        if cap == gl.GL_COLOR_MATERIAL and on:
+            follow_color(context)
+
+
+def is_on(state: State, cap: int, unit: int) -> bool:
+    """Return whether a known capability is on; `unit` is the texture unit that texturing is asked about."""
+    if cap in CAPABILITIES:
+        group, field = CAPABILITIES[cap]
+        return bool(getattr(getattr(state, group), field))
+    if cap in UNIT_CAPABILITIES:
+        return bool(getattr(state.units[unit], UNIT_CAPABILITIES[cap]))
+    if cap in GENERATED:
+        return state.units[unit].gen[GENERATED.index(cap)].enabled
+    if cap in LIGHTS:
+        return state.lighting.lights[cap - gl.GL_LIGHT0].enabled
+    return state.clip_planes.enabled[cap - gl.GL_CLIP_PLANE0]
+
+
+def switched(state: State, cap: int, unit: int, on: bool) -> State:
+    """Return the state with a known capability switched."""
+    if cap in CAPABILITIES:
+        group, field = CAPABILITIES[cap]
+        changed: Any = replace(getattr(state, group), **{field: on})
+        return replace(state, **{group: changed})
+    if cap in LIGHTS:
+        index = cap - gl.GL_LIGHT0
+        lights = with_item(state.lighting.lights, index, replace(state.lighting.lights[index], enabled=on))
+        return replace(state, lighting=replace(state.lighting, lights=lights))
+    if cap in CLIP_PLANES:
+        enabled = with_item(state.clip_planes.enabled, cap - gl.GL_CLIP_PLANE0, on)
+        return replace(state, clip_planes=replace(state.clip_planes, enabled=enabled))
+    standing = state.units[unit]
+    if cap in UNIT_CAPABILITIES:
+        field = UNIT_CAPABILITIES[cap]
+        made = replace(standing, **{field: on})  # type: ignore[arg-type]
+    else:
+        index = GENERATED.index(cap)
+        made = replace(standing, gen=with_item(standing.gen, index, replace(standing.gen[index], enabled=on)))
+    return replace(state, units=with_item(state.units, unit, made))
+
+
+def with_item(items: tuple[Any, ...], index: int, item: Any) -> Any:
+    """Return a tuple with one item exchanged."""
+    return (*items[:index], item, *items[index + 1 :])
+
+
+def glIsEnabled(cap: int) -> bool | None:
+    """Return whether a capability is on."""
+    context: Context | None = outside_begin("glIsEnabled")
+    if context is None or not is_one_of("glIsEnabled", "cap", cap, KNOWN, A_CAPABILITY):
+        return None
+    return is_on(context.state, cap, context.active_unit)
+
+
+@in_lists
+def glHint(target: int, mode: int) -> None:
+    """Set a hint; hints change nothing here but what glGet answers."""
+    context = outside_begin("glHint")
+    modes = (gl.GL_DONT_CARE, gl.GL_FASTEST, gl.GL_NICEST)
+    if context is None or not is_one_of("glHint", "mode", mode, modes, "GL_DONT_CARE, GL_FASTEST or GL_NICEST"):
+        return
+    if is_one_of("glHint", "target", target, HINTS, "a hint of GL 2.1 (sec. 5.6)"):
+        context.hints[target] = int(mode)
+
+
+__all__ = spelled_like_gl(globals())

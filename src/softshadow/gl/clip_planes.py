@@ -1,0 +1,42 @@
+"""User clip planes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.capabilities import CLIP_PLANES, with_item
+from softshadow.gl.conversions import vector
+from softshadow.gl.errors import is_one_of, outside_begin
+from softshadow.gl.fragment_state import change
+from softshadow.gl.texture_units import eye_plane
+
+A_PLANE = "GL_CLIP_PLANE0 … GL_CLIP_PLANE5"
+
+
+@in_lists
+def glClipPlane(plane: int, equation: Any) -> None:
+    """Set a clip plane (a, b, c, d): what has a·x + b·y + c·z + d·w < 0 is cut off; GL keeps it in eye space."""
+    context = outside_begin("glClipPlane")
+    if context is None or not is_one_of("glClipPlane", "plane", plane, CLIP_PLANES, A_PLANE):
+        return
+    given = np.array(vector(equation, 4), np.float64)
+    if len(np.ravel(equation)) != 4:
+        raise ValueError(f"glClipPlane: equation={equation!r}: expected 4 numbers")
+    made = tuple(eye_plane(given, context.modelview_stack[-1]).tolist())
+    equations = with_item(context.state.clip_planes.equations, plane - gl.GL_CLIP_PLANE0, made)
+    change(context, "clip_planes", equations=equations)
+
+
+def glGetClipPlane(plane: int) -> Any:
+    """Return a clip plane in eye space, 4 float64."""
+    context = outside_begin("glGetClipPlane")
+    if context is None or not is_one_of("glGetClipPlane", "plane", plane, CLIP_PLANES, A_PLANE):
+        return None
+    return np.array(context.state.clip_planes.equations[plane - gl.GL_CLIP_PLANE0], np.float64)
+
+
+__all__ = spelled_like_gl(globals())

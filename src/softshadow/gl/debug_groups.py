@@ -1,0 +1,37 @@
+"""Debug groups: names for what is drawn in between."""
+
+from __future__ import annotations
+
+from softshadow import tokens as gl
+from softshadow.gl.calls import spelled_like_gl
+from softshadow.gl.errors import fail, is_one_of, outside_begin
+
+DEEPEST_GROUP = 63  # of GL's 64 groups the first is the default one
+SOURCES = (gl.GL_DEBUG_SOURCE_APPLICATION, gl.GL_DEBUG_SOURCE_THIRD_PARTY)
+
+
+def glPushDebugGroup(source: int, id: int, length: int, message: str | bytes) -> None:
+    """Name what is drawn until the matching pop; histories call it the object. A negative length is the whole text."""
+    context = outside_begin("glPushDebugGroup")
+    expected = "GL_DEBUG_SOURCE_APPLICATION or GL_DEBUG_SOURCE_THIRD_PARTY"
+    if context is None or not is_one_of("glPushDebugGroup", "source", source, SOURCES, expected):
+        return
+    if len(context.labels) == DEEPEST_GROUP:
+        fail(gl.GL_STACK_OVERFLOW, "glPushDebugGroup", f"{DEEPEST_GROUP} groups are open already")
+        return
+    text = message.decode() if isinstance(message, bytes) else message
+    context.labels.append(text if length < 0 else text[:length])
+
+
+def glPopDebugGroup() -> None:
+    """End the group of the last push."""
+    context = outside_begin("glPopDebugGroup")
+    if context is None:
+        return
+    if not context.labels:
+        fail(gl.GL_STACK_UNDERFLOW, "glPopDebugGroup", "there was no glPushDebugGroup before it")
+    else:
+        context.labels.pop()
+
+
+__all__ = spelled_like_gl(globals())

@@ -1,0 +1,59 @@
+"""Fog."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from softshadow import tokens as gl
+from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.conversions import first, from_int, vector
+from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.gl.fragment_state import change, clamp01, rounded
+
+NUMBERS = {gl.GL_FOG_DENSITY: "density", gl.GL_FOG_START: "start", gl.GL_FOG_END: "end"}
+MODES = (gl.GL_LINEAR, gl.GL_EXP, gl.GL_EXP2)
+
+
+@in_lists
+def glFogfv(pname: int, params: Any) -> None:
+    """Set the fog colour, or another fog parameter from a vector."""
+    _set("glFogfv", pname, params, float)
+
+
+@in_lists
+def glFogiv(pname: int, params: Any) -> None:
+    """Set a fog parameter from integers: the colour spans the range of an int."""
+    _set("glFogiv", pname, params, from_int)
+
+
+@in_lists
+def glFogf(pname: int, param: float) -> None:
+    """Set a fog parameter that is one number."""
+    if is_one_of("glFogf", "pname", pname, (gl.GL_FOG_MODE, *NUMBERS), "a fog parameter that is one number"):
+        _set("glFogf", pname, param, float)
+
+
+glFogi = glFogf
+
+
+def _set(operation: str, pname: int, params: Any, color: Callable[[Any], float]) -> None:
+    context = outside_begin(operation)
+    expected = "GL_FOG_MODE, GL_FOG_DENSITY, GL_FOG_START, GL_FOG_END or GL_FOG_COLOR"
+    allowed = (gl.GL_FOG_MODE, gl.GL_FOG_COLOR, *NUMBERS)
+    if context is None or not is_one_of(operation, "pname", pname, allowed, expected):
+        return
+    if pname == gl.GL_FOG_COLOR:
+        change(context, "fog", color=rounded(context, *map(clamp01, vector(params, 4, color))))
+        return
+    value = first(params)
+    if pname == gl.GL_FOG_MODE:
+        if is_one_of(operation, "param", int(value), MODES, "GL_LINEAR, GL_EXP or GL_EXP2"):
+            change(context, "fog", mode=int(value))
+    elif pname == gl.GL_FOG_DENSITY and value < 0:
+        fail(gl.GL_INVALID_VALUE, operation, f"param={value:g}: expected 0 or more for GL_FOG_DENSITY")
+    else:
+        change(context, "fog", **{NUMBERS[pname]: rounded(context, value)})
+
+
+__all__ = spelled_like_gl(globals())

@@ -1,0 +1,132 @@
+"""Immediate mode: glBegin, vertices, glEnd, and rectangles."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from softshadow import tokens as gl
+from softshadow.context import Context, Primitive, current
+from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.conversions import vector
+from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.gl.framebuffers import framebuffer_status
+from softshadow.gl.materials import follow_color
+from softshadow.pipeline.commands import Vertices
+
+MODES = range(gl.GL_POINTS, gl.GL_POLYGON + 1)
+A_MODE = "GL_POINTS … GL_POLYGON"
+
+
+def can_draw(context: Context, operation: str) -> bool:
+    """Return whether the framebuffer can be drawn to; if not, the call has failed."""
+    name = context.state.draw_framebuffer
+    if framebuffer_status(context, name) == gl.GL_FRAMEBUFFER_COMPLETE:
+        return True
+    fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, operation, f"framebuffer {name} is not complete")
+    return False
+
+
+@in_lists
+def glBegin(mode: int) -> None:
+    """Start a primitive."""
+    context = outside_begin("glBegin")
+    if context is not None and is_one_of("glBegin", "mode", mode, MODES, A_MODE) and can_draw(context, "glBegin"):
+        context.primitive = Primitive(int(mode))
+
+
+@in_lists
+def glEnd() -> None:
+    """Draw the primitive that has been collected."""
+    context = current()
+    primitive = context.primitive
+    if primitive is None:
+        fail(gl.GL_INVALID_OPERATION, "glEnd", "there was no glBegin before it")
+        return
+    context.primitive = None
+    follow_color(context)
+    if primitive.positions:
+        texcoords = tuple(context.frozen(unit) for unit in zip(*primitive.texcoords, strict=True))
+        position, color, normal = (
+            context.frozen(rows) for rows in (primitive.positions, primitive.colors, primitive.normals)
+        )
+        context.draw(primitive.mode, Vertices(position, color, normal, texcoords))
+
+
+def add_vertex(context: Context, x: float, y: float, z: float = 0.0, w: float = 1.0) -> None:
+    """Add a vertex with the current colour, normal and texture coordinates to the primitive."""
+    primitive = context.primitive
+    if primitive is not None:  # outside glBegin and glEnd a vertex is undefined in GL; here it does nothing
+        standing = context.current
+        primitive.positions.append((x, y, z, w))
+        primitive.colors.append(standing.color)
+        primitive.normals.append(standing.normal)
+        primitive.texcoords.append(tuple(standing.texcoords))
+
+
+@in_lists
+def glVertex2f(x: float, y: float) -> None:
+    """Add a vertex, z = 0, w = 1."""
+    add_vertex(current(), x, y)
+
+
+@in_lists
+def glVertex3f(x: float, y: float, z: float) -> None:
+    """Add a vertex, w = 1."""
+    add_vertex(current(), x, y, z)
+
+
+@in_lists
+def glVertex4f(x: float, y: float, z: float, w: float) -> None:
+    """Add a vertex in homogeneous coordinates."""
+    add_vertex(current(), x, y, z, w)
+
+
+@in_lists
+def glVertex2fv(v: Any) -> None:
+    """Add a vertex from a vector."""
+    add_vertex(current(), *vector(v, 2))
+
+
+@in_lists
+def glVertex3fv(v: Any) -> None:
+    """Add a vertex from a vector."""
+    add_vertex(current(), *vector(v, 3))
+
+
+@in_lists
+def glVertex4fv(v: Any) -> None:
+    """Add a vertex from a vector."""
+    add_vertex(current(), *vector(v, 4))
+
+
+# GL makes single precision floats of all of them
+glVertex2d = glVertex2i = glVertex2s = glVertex2f
+glVertex3d = glVertex3i = glVertex3s = glVertex3f
+glVertex4d = glVertex4i = glVertex4s = glVertex4f
+glVertex2dv = glVertex2iv = glVertex2sv = glVertex2fv
+glVertex3dv = glVertex3iv = glVertex3sv = glVertex3fv
+glVertex4dv = glVertex4iv = glVertex4sv = glVertex4fv
+
+
+@in_lists
+def glRectf(x1: float, y1: float, x2: float, y2: float) -> None:
+    """Draw a rectangle in the plane z = 0, as a quad."""
+    context = outside_begin("glRectf")
+    if context is None or not can_draw(context, "glRectf"):
+        return
+    glBegin(gl.GL_QUADS)
+    for x, y in ((x1, y1), (x2, y1), (x2, y2), (x1, y2)):
+        add_vertex(context, x, y)
+    glEnd()
+
+
+@in_lists
+def glRectfv(v1: Any, v2: Any) -> None:
+    """Draw a rectangle between two corners given as vectors."""
+    glRectf(*vector(v1, 2), *vector(v2, 2))
+
+
+glRectd = glRecti = glRects = glRectf
+glRectdv = glRectiv = glRectsv = glRectfv
+
+__all__ = spelled_like_gl(globals())

@@ -1,0 +1,149 @@
+"""Materials, and colours that follow glColor."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import Context, current
+from softshadow.errors import StateError
+from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.conversions import first, from_int, to_int, vector
+from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.gl.fragment_state import A_FACE, FACES, change, rounded
+from softshadow.state import Lighting, Material
+
+# parameter: the fields of the material that it sets
+FIELDS: dict[int, tuple[str, ...]] = {
+    gl.GL_AMBIENT: ("ambient",),
+    gl.GL_DIFFUSE: ("diffuse",),
+    gl.GL_SPECULAR: ("specular",),
+    gl.GL_EMISSION: ("emission",),
+    gl.GL_AMBIENT_AND_DIFFUSE: ("ambient", "diffuse"),
+}
+PARAMETERS = {**FIELDS, gl.GL_SHININESS: ("shininess",)}
+A_COLOR = "GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR, GL_EMISSION or GL_AMBIENT_AND_DIFFUSE"
+SIDES = {gl.GL_FRONT: ("front",), gl.GL_BACK: ("back",), gl.GL_FRONT_AND_BACK: ("front", "back")}
+LARGEST_SHININESS = 128
+
+
+@in_lists
+def glMaterialfv(face: int, pname: int, params: Any) -> None:
+    """Set a material of one or both facings. What GL_COLOR_MATERIAL makes follow glColor keeps its colour."""
+    context = _checked("glMaterialfv", face, pname)
+    if context is None:
+        return
+    if pname == gl.GL_SHININESS:
+        _set_shininess("glMaterialfv", context, face, first(params))
+    else:
+        set_material(context, face, dict.fromkeys(FIELDS[pname], rounded(context, *vector(params, 4))))
+
+
+@in_lists
+def glMaterialiv(face: int, pname: int, params: Any) -> None:
+    """Set a material from integers: colours span the range of an int."""
+    context = _checked("glMaterialiv", face, pname)
+    if context is None:
+        return
+    if pname == gl.GL_SHININESS:
+        _set_shininess("glMaterialiv", context, face, first(params))
+    else:
+        set_material(context, face, dict.fromkeys(FIELDS[pname], tuple(vector(params, 4, from_int))))
+
+
+def _checked(operation: str, face: int, pname: int) -> Context | None:
+    context = current()
+    if context.primitive is not None:
+        raise StateError(f"{operation} between glBegin and glEnd is not part of this subset: use glColorMaterial")
+    if not is_one_of(operation, "face", face, FACES, A_FACE):
+        return None
+    return context if is_one_of(operation, "pname", pname, PARAMETERS, f"GL_SHININESS, {A_COLOR}") else None
+
+
+@in_lists
+def glMaterialf(face: int, pname: int, param: float) -> None:
+    """Set the shininess, 0 to 128."""
+    if is_one_of("glMaterialf", "pname", pname, (gl.GL_SHININESS,), "GL_SHININESS"):
+        context = _checked("glMaterialf", face, pname)
+        if context is not None:
+            _set_shininess("glMaterialf", context, face, param)
+
+
+glMateriali = glMaterialf
+
+
+def _set_shininess(operation: str, context: Context, face: int, value: float) -> None:
+    if not 0 <= value <= LARGEST_SHININESS:
+        fail(gl.GL_INVALID_VALUE, operation, f"param={value:g}: expected 0 to 128 for GL_SHININESS")
+    else:
+        set_material(context, face, {"shininess": rounded(context, value)})
+
+
+def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None:
+    """Set fields of the material of one or both facings, but those that follow glColor."""
+    lighting = context.state.lighting
+    made: dict[str, Material] = {}
+    for side in SIDES[face]:
+        free = {field: value for field, value in fields.items() if field not in followed(lighting, side)}
+        made[side] = replace(getattr(lighting, side), **free)
+    change(context, "lighting", **made)
+
+
+# -- colours that follow glColor ---------------------------------------------------------------------------------------
+@in_lists
+def glColorMaterial(face: int, mode: int) -> None:
+    """Set which material colours follow the current colour while GL_COLOR_MATERIAL is on."""
+    context = outside_begin("glColorMaterial")
+    if context is None or not is_one_of("glColorMaterial", "face", face, FACES, A_FACE):
+        return
+    if is_one_of("glColorMaterial", "mode", mode, FIELDS, A_COLOR):
+        change(context, "lighting", color_material_face=int(face), color_material_mode=int(mode))
+        follow_color(context)
+
+
+def followed(lighting: Lighting, side: str) -> tuple[str, ...]:
+    """Return the fields of a facing's material ("front", "back") that follow the current colour."""
+    follows = lighting.color_material and side in SIDES[lighting.color_material_face]
+    return FIELDS[lighting.color_material_mode] if follows else ()
+
+
+def follow_color(context: Context) -> None:
+    """Give the current colour to the materials that follow it, if there are any."""
+    lighting = context.state.lighting
+    if lighting.color_material:
+        fields: Any = dict.fromkeys(FIELDS[lighting.color_material_mode], rounded(context, *context.current.color))
+        sides = SIDES[lighting.color_material_face]
+        change(context, "lighting", **{side: replace(getattr(lighting, side), **fields) for side in sides})
+
+
+# -- queries -----------------------------------------------------------------------------------------------------------
+def glGetMaterialfv(face: int, pname: int) -> Any:
+    """Return a material parameter of one facing: 4 float32, or 1 for GL_SHININESS."""
+    value = _material("glGetMaterialfv", face, pname)
+    return None if value is None else np.array(np.atleast_1d(value), np.float32)
+
+
+def glGetMaterialiv(face: int, pname: int) -> Any:
+    """Return a material parameter of one facing as integers, colours spanning the range of an int."""
+    value = _material("glGetMaterialiv", face, pname)
+    if value is None:
+        return None
+    return np.array([to_int(v) for v in value] if isinstance(value, tuple) else [round(value)], np.int32)
+
+
+def _material(operation: str, face: int, pname: int) -> Any:
+    context = outside_begin(operation)
+    faces = (gl.GL_FRONT, gl.GL_BACK)
+    if context is None or not is_one_of(operation, "face", face, faces, "GL_FRONT or GL_BACK"):
+        return None
+    readable = [name for name, fields in PARAMETERS.items() if len(fields) == 1]
+    if not is_one_of(operation, "pname", pname, readable, "a material parameter (GL 2.1, table 2.11)"):
+        return None
+    return getattr(getattr(context.state.lighting, SIDES[face][0]), PARAMETERS[pname][0])
+
+
+__all__ = spelled_like_gl(globals())

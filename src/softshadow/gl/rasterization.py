@@ -1,0 +1,113 @@
+"""What is drawn where: facing, polygon mode and offset, sizes of lines and points, viewport, depth range, scissor."""
+
+from __future__ import annotations
+
+from softshadow import tokens as gl
+from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.gl.fragment_state import A_FACE, FACES, change, clamp01, rounded
+
+LARGEST_VIEWPORT = 16384
+FARTHEST_CORNER = 32768  # of a viewport; Mesa clamps to it
+POLYGON_MODES = (gl.GL_POINT, gl.GL_LINE, gl.GL_FILL)
+
+
+# -- polygons, lines, points -------------------------------------------------------------------------------------------
+@in_lists
+def glCullFace(mode: int) -> None:
+    """Set which facing GL_CULL_FACE removes."""
+    context = outside_begin("glCullFace")
+    if context is not None and is_one_of("glCullFace", "mode", mode, FACES, A_FACE):
+        change(context, "cull", face=int(mode))
+
+
+@in_lists
+def glFrontFace(mode: int) -> None:
+    """Set which winding is front."""
+    context = outside_begin("glFrontFace")
+    if context is not None and is_one_of("glFrontFace", "mode", mode, (gl.GL_CW, gl.GL_CCW), "GL_CW or GL_CCW"):
+        change(context, "cull", front_face=int(mode))
+
+
+@in_lists
+def glPolygonMode(face: int, mode: int) -> None:
+    """Set whether polygons are filled, outlined or dotted."""
+    context = outside_begin("glPolygonMode")
+    if context is None or not is_one_of("glPolygonMode", "face", face, FACES, A_FACE):
+        return
+    if is_one_of("glPolygonMode", "mode", mode, POLYGON_MODES, "GL_POINT, GL_LINE or GL_FILL"):
+        if face != gl.GL_BACK:
+            change(context, "polygon", mode_front=int(mode))
+        if face != gl.GL_FRONT:
+            change(context, "polygon", mode_back=int(mode))
+
+
+@in_lists
+def glPolygonOffset(factor: float, units: float) -> None:
+    """Set factor (of the slope) and units (of the smallest step) that are added to the depth of polygons."""
+    context = outside_begin("glPolygonOffset")
+    if context is not None:
+        change(context, "polygon", factor=rounded(context, factor), units=rounded(context, units))
+
+
+@in_lists
+def glLineWidth(width: float) -> None:
+    """Set the width of lines in pixels."""
+    context = outside_begin("glLineWidth")
+    if context is None:
+        return
+    if width <= 0:
+        fail(gl.GL_INVALID_VALUE, "glLineWidth", f"width={width}: expected more than 0")
+    else:
+        change(context, "polygon", line_width=rounded(context, width))
+
+
+@in_lists
+def glPointSize(size: float) -> None:
+    """Set the size of points in pixels."""
+    context = outside_begin("glPointSize")
+    if context is None:
+        return
+    if size <= 0:
+        fail(gl.GL_INVALID_VALUE, "glPointSize", f"size={size}: expected more than 0")
+    else:
+        change(context, "polygon", point_size=rounded(context, size))
+
+
+# -- places ------------------------------------------------------------------------------------------------------------
+@in_lists
+def glViewport(x: int, y: int, width: int, height: int) -> None:
+    """Set where clip space lands in the window, in pixels from the lower left."""
+    context = outside_begin("glViewport")
+    if context is not None and _box_is_valid("glViewport", width, height):
+        width, height = min(int(width), LARGEST_VIEWPORT), min(int(height), LARGEST_VIEWPORT)
+        left, bottom = (max(-FARTHEST_CORNER, min(int(corner), FARTHEST_CORNER - 1)) for corner in (x, y))
+        change(context, "viewport", x=left, y=bottom, width=width, height=height)
+
+
+@in_lists
+def glScissor(x: int, y: int, width: int, height: int) -> None:
+    """Set the scissor box, in pixels from the lower left."""
+    context = outside_begin("glScissor")
+    if context is not None and _box_is_valid("glScissor", width, height):
+        change(context, "scissor", x=int(x), y=int(y), width=int(width), height=int(height))
+
+
+def _box_is_valid(operation: str, width: int, height: int) -> bool:
+    for name, size in (("width", width), ("height", height)):
+        if size < 0:
+            fail(gl.GL_INVALID_VALUE, operation, f"{name}={size}: expected 0 or more")
+            return False
+    return True
+
+
+@in_lists
+def glDepthRange(zNear: float, zFar: float) -> None:
+    """Set the depths of the near and the far plane, clamped to [0, 1]."""
+    context = outside_begin("glDepthRange")
+    if context is not None:
+        near, far = rounded(context, clamp01(zNear), clamp01(zFar))
+        change(context, "viewport", near=near, far=far)
+
+
+__all__ = spelled_like_gl(globals())

@@ -1,0 +1,146 @@
+"""Texture coordinates of the vertices to come, for one unit or another."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from softshadow import tokens as gl
+from softshadow.context import current
+from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.conversions import vector
+from softshadow.gl.errors import is_one_of
+from softshadow.state import TEXTURE_UNITS
+
+REST = (0.0, 0.0, 0.0, 1.0)  # what a vector gets where the call gives fewer than four numbers
+UNITS = range(gl.GL_TEXTURE0, gl.GL_TEXTURE0 + TEXTURE_UNITS)
+A_UNIT = f"GL_TEXTURE0 … GL_TEXTURE{TEXTURE_UNITS - 1}"
+
+
+def _set(unit: int, *coordinates: float) -> None:
+    given = tuple(float(c) for c in coordinates)
+    current().current.texcoords[unit] = given + REST[len(given) :]  # type: ignore[assignment]
+
+
+def _set_of(operation: str, target: int, *coordinates: float) -> None:
+    if is_one_of(operation, "target", target, UNITS, A_UNIT):
+        _set(target - gl.GL_TEXTURE0, *coordinates)
+
+
+# -- unit 0 ------------------------------------------------------------------------------------------------------------
+@in_lists
+def glTexCoord1f(s: float) -> None:
+    """Set the texture coordinate of unit 0; t = r = 0, q = 1."""
+    _set(0, s)
+
+
+@in_lists
+def glTexCoord1fv(v: Any) -> None:
+    """Set the texture coordinate of unit 0 from a vector."""
+    _set(0, *vector(v, 1))
+
+
+@in_lists
+def glTexCoord2f(s: float, t: float) -> None:
+    """Set the texture coordinate of unit 0; r = 0, q = 1."""
+    _set(0, s, t)
+
+
+@in_lists
+def glTexCoord2fv(v: Any) -> None:
+    """Set the texture coordinate of unit 0 from a vector."""
+    _set(0, *vector(v, 2))
+
+
+@in_lists
+def glTexCoord3f(s: float, t: float, r: float) -> None:
+    """Set the texture coordinate of unit 0; q = 1."""
+    _set(0, s, t, r)
+
+
+@in_lists
+def glTexCoord3fv(v: Any) -> None:
+    """Set the texture coordinate of unit 0 from a vector."""
+    _set(0, *vector(v, 3))
+
+
+@in_lists
+def glTexCoord4f(s: float, t: float, r: float, q: float) -> None:
+    """Set the texture coordinate of unit 0."""
+    _set(0, s, t, r, q)
+
+
+@in_lists
+def glTexCoord4fv(v: Any) -> None:
+    """Set the texture coordinate of unit 0 from a vector."""
+    _set(0, *vector(v, 4))
+
+
+glTexCoord1d = glTexCoord1i = glTexCoord1s = glTexCoord1f
+glTexCoord1dv = glTexCoord1iv = glTexCoord1sv = glTexCoord1fv
+glTexCoord2d = glTexCoord2i = glTexCoord2s = glTexCoord2f
+glTexCoord2dv = glTexCoord2iv = glTexCoord2sv = glTexCoord2fv
+glTexCoord3d = glTexCoord3i = glTexCoord3s = glTexCoord3f
+glTexCoord3dv = glTexCoord3iv = glTexCoord3sv = glTexCoord3fv
+glTexCoord4d = glTexCoord4i = glTexCoord4s = glTexCoord4f
+glTexCoord4dv = glTexCoord4iv = glTexCoord4sv = glTexCoord4fv
+
+
+# -- any unit ----------------------------------------------------------------------------------------------------------
+@in_lists
+def glMultiTexCoord1f(target: int, s: float) -> None:
+    """Set the texture coordinate of a unit; t = r = 0, q = 1."""
+    _set_of("glMultiTexCoord1f", target, s)
+
+
+@in_lists
+def glMultiTexCoord1fv(target: int, v: Any) -> None:
+    """Set the texture coordinate of a unit from a vector."""
+    _set_of("glMultiTexCoord1fv", target, *vector(v, 1))
+
+
+@in_lists
+def glMultiTexCoord2f(target: int, s: float, t: float) -> None:
+    """Set the texture coordinate of a unit; r = 0, q = 1."""
+    _set_of("glMultiTexCoord2f", target, s, t)
+
+
+@in_lists
+def glMultiTexCoord2fv(target: int, v: Any) -> None:
+    """Set the texture coordinate of a unit from a vector."""
+    _set_of("glMultiTexCoord2fv", target, *vector(v, 2))
+
+
+@in_lists
+def glMultiTexCoord3f(target: int, s: float, t: float, r: float) -> None:
+    """Set the texture coordinate of a unit; q = 1."""
+    _set_of("glMultiTexCoord3f", target, s, t, r)
+
+
+@in_lists
+def glMultiTexCoord3fv(target: int, v: Any) -> None:
+    """Set the texture coordinate of a unit from a vector."""
+    _set_of("glMultiTexCoord3fv", target, *vector(v, 3))
+
+
+@in_lists
+def glMultiTexCoord4f(target: int, s: float, t: float, r: float, q: float) -> None:
+    """Set the texture coordinate of a unit."""
+    _set_of("glMultiTexCoord4f", target, s, t, r, q)
+
+
+@in_lists
+def glMultiTexCoord4fv(target: int, v: Any) -> None:
+    """Set the texture coordinate of a unit from a vector."""
+    _set_of("glMultiTexCoord4fv", target, *vector(v, 4))
+
+
+glMultiTexCoord1d = glMultiTexCoord1i = glMultiTexCoord1s = glMultiTexCoord1f
+glMultiTexCoord1dv = glMultiTexCoord1iv = glMultiTexCoord1sv = glMultiTexCoord1fv
+glMultiTexCoord2d = glMultiTexCoord2i = glMultiTexCoord2s = glMultiTexCoord2f
+glMultiTexCoord2dv = glMultiTexCoord2iv = glMultiTexCoord2sv = glMultiTexCoord2fv
+glMultiTexCoord3d = glMultiTexCoord3i = glMultiTexCoord3s = glMultiTexCoord3f
+glMultiTexCoord3dv = glMultiTexCoord3iv = glMultiTexCoord3sv = glMultiTexCoord3fv
+glMultiTexCoord4d = glMultiTexCoord4i = glMultiTexCoord4s = glMultiTexCoord4f
+glMultiTexCoord4dv = glMultiTexCoord4iv = glMultiTexCoord4sv = glMultiTexCoord4fv
+
+__all__ = spelled_like_gl(globals())

@@ -1,0 +1,147 @@
+"""The current colour and normal, which a vertex takes along."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from softshadow.context import current
+from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.conversions import (
+    from_byte,
+    from_int,
+    from_short,
+    from_unsigned_byte,
+    from_unsigned_int,
+    from_unsigned_short,
+    vector,
+)
+from softshadow.gl.materials import follow_color
+
+
+# -- colour ------------------------------------------------------------------------------------------------------------
+def _set_color(red: float, green: float, blue: float, alpha: float = 1.0) -> None:
+    context = current()
+    context.current.color = (float(red), float(green), float(blue), float(alpha))
+    if context.primitive is None:  # inside, glEnd does it: the vertices take their colours along
+        follow_color(context)
+
+
+@in_lists
+def glColor3f(red: float, green: float, blue: float) -> None:
+    """Set the current colour, alpha 1."""
+    _set_color(red, green, blue)
+
+
+@in_lists
+def glColor4f(red: float, green: float, blue: float, alpha: float) -> None:
+    """Set the current colour."""
+    _set_color(red, green, blue, alpha)
+
+
+@in_lists
+def glColor3fv(v: Any) -> None:
+    """Set the current colour from a vector, alpha 1."""
+    _set_color(*vector(v, 3))
+
+
+@in_lists
+def glColor4fv(v: Any) -> None:
+    """Set the current colour from a vector."""
+    _set_color(*vector(v, 4))
+
+
+glColor3d, glColor4d, glColor3dv, glColor4dv = glColor3f, glColor4f, glColor3fv, glColor4fv
+
+
+def _calls_for(convert: Callable[[Any], float]) -> tuple[Callable[..., None], ...]:
+    """Return glColor3, glColor4, glColor3v and glColor4v for integers that stand for 0 to 1 or -1 to 1."""
+
+    @in_lists
+    def three(red: int, green: int, blue: int) -> None:
+        """Set the current colour from integers, alpha 1."""
+        _set_color(convert(red), convert(green), convert(blue))
+
+    @in_lists
+    def four(red: int, green: int, blue: int, alpha: int) -> None:
+        """Set the current colour from integers."""
+        _set_color(convert(red), convert(green), convert(blue), convert(alpha))
+
+    @in_lists
+    def three_of_vector(v: Any) -> None:
+        """Set the current colour from a vector of integers, alpha 1."""
+        _set_color(*vector(v, 3, convert))
+
+    @in_lists
+    def four_of_vector(v: Any) -> None:
+        """Set the current colour from a vector of integers."""
+        _set_color(*vector(v, 4, convert))
+
+    return three, four, three_of_vector, four_of_vector
+
+
+glColor3b, glColor4b, glColor3bv, glColor4bv = _calls_for(from_byte)
+glColor3ub, glColor4ub, glColor3ubv, glColor4ubv = _calls_for(from_unsigned_byte)
+glColor3s, glColor4s, glColor3sv, glColor4sv = _calls_for(from_short)
+glColor3us, glColor4us, glColor3usv, glColor4usv = _calls_for(from_unsigned_short)
+glColor3i, glColor4i, glColor3iv, glColor4iv = _calls_for(from_int)
+glColor3ui, glColor4ui, glColor3uiv, glColor4uiv = _calls_for(from_unsigned_int)
+
+
+# -- normal ------------------------------------------------------------------------------------------------------------
+def _set_normal(x: float, y: float, z: float) -> None:
+    current().current.normal = (float(x), float(y), float(z))
+
+
+@in_lists
+def glNormal3f(nx: float, ny: float, nz: float) -> None:
+    """Set the current normal."""
+    _set_normal(nx, ny, nz)
+
+
+@in_lists
+def glNormal3fv(v: Any) -> None:
+    """Set the current normal from a vector."""
+    _set_normal(*vector(v, 3))
+
+
+glNormal3d, glNormal3dv = glNormal3f, glNormal3fv
+
+
+@in_lists
+def glNormal3b(nx: int, ny: int, nz: int) -> None:
+    """Set the current normal from bytes that stand for -1 to 1."""
+    _set_normal(from_byte(nx), from_byte(ny), from_byte(nz))
+
+
+@in_lists
+def glNormal3s(nx: int, ny: int, nz: int) -> None:
+    """Set the current normal from shorts that stand for -1 to 1."""
+    _set_normal(from_short(nx), from_short(ny), from_short(nz))
+
+
+@in_lists
+def glNormal3i(nx: int, ny: int, nz: int) -> None:
+    """Set the current normal from ints that stand for -1 to 1."""
+    _set_normal(from_int(nx), from_int(ny), from_int(nz))
+
+
+@in_lists
+def glNormal3bv(v: Any) -> None:
+    """Set the current normal from a vector of bytes."""
+    _set_normal(*vector(v, 3, from_byte))
+
+
+@in_lists
+def glNormal3sv(v: Any) -> None:
+    """Set the current normal from a vector of shorts."""
+    _set_normal(*vector(v, 3, from_short))
+
+
+@in_lists
+def glNormal3iv(v: Any) -> None:
+    """Set the current normal from a vector of ints."""
+    _set_normal(*vector(v, 3, from_int))
+
+
+__all__ = spelled_like_gl(globals())
