@@ -55,5 +55,5 @@ def test_every_kind_of_map_has_a_picture_of_its_size(dtype):
 def test_contact_sheet_holds_all_rows_within_its_width():
     pictures = [depth_picture(np.ones((40, 500), np.float32))] * 3
     sheet = contact_sheet([("first", pictures), ("second", pictures)])
-    assert sheet.width <= 960
+    assert sheet.width <= 972
     assert sheet.height > 2 * 14

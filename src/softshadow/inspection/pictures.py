@@ -103,7 +103,7 @@ def save_png(picture: Picture, path: Path) -> None:
     picture.save(path, "PNG", pnginfo=notes)
 
 
-def contact_sheet(rows: Sequence[tuple[str, Sequence[Picture]]], largest_width: int = 960) -> Picture:
+def contact_sheet(rows: Sequence[tuple[str, Sequence[Picture]]], largest_width: int = 972) -> Picture:
     """Return one picture with a labelled row for each step, shrunk or enlarged by a whole number to fill the width."""
     from PIL import Image, ImageDraw
 
