@@ -16,7 +16,7 @@ def cut_into_triangles(corners: Sequence[Sequence[float]]) -> list[tuple[int, in
     >>> cut_into_triangles([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])
     [(0, 1, 2), (0, 2, 3)]
     >>> cut_into_triangles([(0, 0, 0), (2, -1, 0), (0, 2, 0), (0.5, 0, 0)])
-    [(3, 0, 1), (3, 1, 2)]
+    [(1, 2, 3), (0, 1, 3)]
     """
     points = np.asarray(corners, dtype=np.float64)
     with np.errstate(all="ignore"):  # corners that are not finite are named later, where their vertex is known

@@ -1,8 +1,8 @@
 """How many casting faces lie between a point and the light: the oracle every shadow technique is compared with.
 
 The number, not just a flag, is what a stencil buffer holds after a volume technique. A segment through an edge that
-two faces share crosses exactly one of them: both evaluate the same edge function, once with each sign, and a tie goes to
-the face that runs along the edge in ascending order of its end points.
+two faces share crosses exactly one of them: both evaluate the same edge function, once with each sign, and a tie goes
+to the face that runs along the edge in ascending order of its end points.
 """
 
 from collections.abc import Sequence
