@@ -9,6 +9,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.framebuffer import DEFAULT, LARGEST_SIDE, Attachment
+from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, listed, take
 from softshadow.image import FORMATS, storage_format
@@ -211,16 +212,19 @@ def glGetFramebufferAttachmentParameteriv(target: int, attachment: int, pname: i
 
 
 # -- colour buffers ----------------------------------------------------------------------------------------------------
+@in_lists
 def glDrawBuffer(mode: int) -> None:
     """Say which colour buffer of the draw framebuffer is written; GL_NONE: none."""
     _select("glDrawBuffer", "draw", int(mode))
 
 
+@in_lists
 def glReadBuffer(mode: int) -> None:
     """Say which colour buffer of the read framebuffer is read."""
     _select("glReadBuffer", "read", int(mode))
 
 
+@in_lists
 def glDrawBuffers(*arguments: Any) -> None:
     """Say which colour buffers are written: (buffers) or (n, buffers). Of several, only the first may be a buffer."""
     modes = listed(arguments)
@@ -330,3 +334,6 @@ def _generate(operation: str, kind: str, n: int, out: Any) -> Any:
 
 EXPECTED_TARGET = "expected GL_FRAMEBUFFER, GL_DRAW_FRAMEBUFFER or GL_READ_FRAMEBUFFER"
 BUFFER_NAMES = ("GL_NONE", "GL_FRONT", "GL_BACK")
+
+
+__all__ = spelled_like_gl(globals())

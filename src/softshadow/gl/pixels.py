@@ -9,11 +9,12 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
+from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import format_problem, kind_of
 from softshadow.image import Image
-from softshadow.pipeline.transfer import clipped, gl_rows
+from softshadow.pipeline.transfer import bottom_up, clipped
 from softshadow.pixel_store import TYPES, answer_array
 from softshadow.pixels import pack_color, pack_depth, pack_stencil
 from softshadow.tokens import token_name
@@ -81,7 +82,7 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
         missing = kind_of(format).replace("-", " or ").replace("color", "colour")
         return fail(gl.GL_INVALID_OPERATION, operation, f"framebuffer {source.name} has no {missing} buffer to read")
     rows, columns, left, bottom = clipped(source, int(x), int(y), int(width), int(height))
-    cells = [gl_rows(source, plane)[rows, columns] for plane in planes]
+    cells = [bottom_up(source, plane)[rows, columns] for plane in planes]
     answer, view = answer_array(array, context.pack_store, width, height, format, type, operation)
     inside = _packed(cells, planes, format, TYPES[type])
     view[bottom : bottom + inside.shape[0], left : left + inside.shape[1]] = inside
@@ -110,3 +111,6 @@ def _packed(cells: list[np.ndarray], planes: list[Image], format: int, dtype: ty
         return pack_stencil(cells[0], dtype)[..., None]
     units = cells[0] if stored.largest == (1 << 24) - 1 else np.floor(np.float64(cells[0]) * ((1 << 24) - 1))
     return (units.astype(np.uint32) << np.uint32(8) | cells[1])[..., None]
+
+
+__all__ = spelled_like_gl(globals())

@@ -9,6 +9,7 @@ import numpy as np
 from softshadow import programs
 from softshadow import tokens as gl
 from softshadow.context import Context, current
+from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.programs import Program
 from softshadow.state import TEXTURE_UNITS
@@ -45,6 +46,7 @@ def _kept(value: Any) -> Any:
     return own
 
 
+@in_lists
 def glUseProgram(program: int) -> None:
     """Shade with a program from now on; 0 is the fixed function."""
     if (context := outside_begin("glUseProgram")) is None:
@@ -73,71 +75,85 @@ def glGetUniformLocation(program: int, name: str | bytes) -> Any:
 
 
 # -- setting -----------------------------------------------------------------------------------------------------------
+@in_lists
 def glUniform1f(location: int, v0: float) -> None:
     """Set a float uniform of the program in use."""
     _set("glUniform1f", location, [v0], "f")
 
 
+@in_lists
 def glUniform2f(location: int, v0: float, v1: float) -> None:
     """Set a vec2 uniform of the program in use."""
     _set("glUniform2f", location, [v0, v1], "f")
 
 
+@in_lists
 def glUniform3f(location: int, v0: float, v1: float, v2: float) -> None:
     """Set a vec3 uniform of the program in use."""
     _set("glUniform3f", location, [v0, v1, v2], "f")
 
 
+@in_lists
 def glUniform4f(location: int, v0: float, v1: float, v2: float, v3: float) -> None:
     """Set a vec4 uniform of the program in use."""
     _set("glUniform4f", location, [v0, v1, v2, v3], "f")
 
 
+@in_lists
 def glUniform1i(location: int, v0: int) -> None:
     """Set an int, bool or sampler uniform of the program in use; a sampler's value is a texture unit."""
     _set("glUniform1i", location, [v0], "i")
 
 
+@in_lists
 def glUniform2i(location: int, v0: int, v1: int) -> None:
     """Set an ivec2 uniform of the program in use."""
     _set("glUniform2i", location, [v0, v1], "i")
 
 
+@in_lists
 def glUniform3i(location: int, v0: int, v1: int, v2: int) -> None:
     """Set an ivec3 uniform of the program in use."""
     _set("glUniform3i", location, [v0, v1, v2], "i")
 
 
+@in_lists
 def glUniform4i(location: int, v0: int, v1: int, v2: int, v3: int) -> None:
     """Set an ivec4 uniform of the program in use."""
     _set("glUniform4i", location, [v0, v1, v2, v3], "i")
 
 
+@in_lists
 def glUniform1fv(location: int, count: int, value: Any) -> None:
     """Set a float uniform of the program in use from an array."""
     _set_array("glUniform1fv", location, count, value, 1, "f")
 
 
+@in_lists
 def glUniform2fv(location: int, count: int, value: Any) -> None:
     """Set a vec2 uniform of the program in use from an array."""
     _set_array("glUniform2fv", location, count, value, 2, "f")
 
 
+@in_lists
 def glUniform3fv(location: int, count: int, value: Any) -> None:
     """Set a vec3 uniform of the program in use from an array."""
     _set_array("glUniform3fv", location, count, value, 3, "f")
 
 
+@in_lists
 def glUniform4fv(location: int, count: int, value: Any) -> None:
     """Set a vec4 uniform of the program in use from an array."""
     _set_array("glUniform4fv", location, count, value, 4, "f")
 
 
+@in_lists
 def glUniform1iv(location: int, count: int, value: Any) -> None:
     """Set an int, bool or sampler uniform of the program in use from an array."""
     _set_array("glUniform1iv", location, count, value, 1, "i")
 
 
+@in_lists
 def glUniformMatrix4fv(location: int, count: int, transpose: bool, value: Any) -> None:
     """Set a mat4 uniform of the program in use from 16 floats in column order, or in row order with `transpose`."""
     operation = "glUniformMatrix4fv"
@@ -247,3 +263,6 @@ def _get(operation: str, program: int, location: int, params: Any, dtype: type[n
     if params is not None:
         np.asarray(params).reshape(-1)[: answer.size] = answer.reshape(-1)
     return answer if answer.ndim else answer.item()
+
+
+__all__ = [*spelled_like_gl(globals()), "program"]

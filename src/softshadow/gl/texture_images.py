@@ -9,6 +9,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.framebuffer import LARGEST_SIDE
+from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import Problem, format_problem, kind_of, readout_problem, upload_problem
@@ -38,6 +39,7 @@ def face_of(target: int) -> int:
     return FACES.index(target) if target in FACES else 0
 
 
+@in_lists
 def glTexImage2D(
     target: int,
     level: int,
@@ -71,6 +73,7 @@ def glTexImage2D(
     return None
 
 
+@in_lists
 def glTexSubImage2D(
     target: int,
     level: int,
@@ -125,6 +128,7 @@ def _cells(
 
 
 # -- copies from the framebuffer ---------------------------------------------------------------------------------------
+@in_lists
 def glCopyTexImage2D(
     target: int, level: int, internalformat: int, x: int, y: int, width: int, height: int, border: int
 ) -> None:
@@ -148,6 +152,7 @@ def glCopyTexImage2D(
     return None
 
 
+@in_lists
 def glCopyTexSubImage2D(
     target: int, level: int, xoffset: int, yoffset: int, x: int, y: int, width: int, height: int
 ) -> None:
@@ -319,3 +324,6 @@ def _region_problem(
             f"the rectangle at ({x}, {y}) of {width} x {height} leaves the image of {image.width} x {image.height}"
         )
     return None
+
+
+__all__ = spelled_like_gl(globals())

@@ -9,8 +9,9 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
+from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
-from softshadow.gl.textures import set_unit
+from softshadow.gl.textures import queried_color, set_unit
 from softshadow.programs.inverse import inverse
 from softshadow.state import TEXTURE_UNITS, TexGen
 from softshadow.tokens import token_name
@@ -21,6 +22,7 @@ COORDINATES = (gl.GL_S, gl.GL_T, gl.GL_R, gl.GL_Q)
 PLANES = {gl.GL_OBJECT_PLANE: "object_plane", gl.GL_EYE_PLANE: "eye_plane"}
 
 
+@in_lists
 def glActiveTexture(texture: int) -> None:
     """Say which unit texture calls and the texture matrix stack are about."""
     if (context := outside_begin("glActiveTexture")) is None:
@@ -37,21 +39,25 @@ def glActiveTexture(texture: int) -> None:
 
 
 # -- environment -------------------------------------------------------------------------------------------------------
+@in_lists
 def glTexEnvi(target: int, pname: int, param: int) -> None:
     """Set how a texture's colour meets the fragment's."""
     _set_environment("glTexEnvi", target, pname, param)
 
 
+@in_lists
 def glTexEnvf(target: int, pname: int, param: float) -> None:
     """Set how a texture's colour meets the fragment's."""
     _set_environment("glTexEnvf", target, pname, param)
 
 
+@in_lists
 def glTexEnvfv(target: int, pname: int, params: Any) -> None:
     """Set a parameter of the texture environment; GL_TEXTURE_ENV_COLOR takes four floats."""
     _set_environment("glTexEnvfv", target, pname, np.asarray(params, np.float32))
 
 
+@in_lists
 def glTexEnviv(target: int, pname: int, params: Any) -> None:
     """Set a parameter of the texture environment; the colour's ints stand for 1 at 2**31 - 1."""
     values = np.asarray(params)
@@ -109,7 +115,7 @@ def _environment(operation: str, target: int, pname: int, params: Any, dtype: ty
     unit = context.state.units[context.active_unit]
     if pname == gl.GL_TEXTURE_ENV_MODE:
         return _answer(np.array([unit.env_mode], dtype), params)
-    color = np.array(unit.env_color, np.float32)
+    color = queried_color(context, unit.env_color)
     scaled = color if dtype == np.float32 else (color.astype(np.float64) * 2147483647.0).astype(dtype)
     return _answer(scaled, params)
 
@@ -121,31 +127,37 @@ def _answer(values: np.ndarray, params: Any) -> Any:
 
 
 # -- generated coordinates ---------------------------------------------------------------------------------------------
+@in_lists
 def glTexGeni(coord: int, pname: int, param: int) -> None:
     """Say how a coordinate is generated: GL_OBJECT_LINEAR or GL_EYE_LINEAR."""
     _set_mode("glTexGeni", coord, pname, param)
 
 
+@in_lists
 def glTexGenf(coord: int, pname: int, param: float) -> None:
     """Say how a coordinate is generated."""
     _set_mode("glTexGenf", coord, pname, param)
 
 
+@in_lists
 def glTexGend(coord: int, pname: int, param: float) -> None:
     """Say how a coordinate is generated."""
     _set_mode("glTexGend", coord, pname, param)
 
 
+@in_lists
 def glTexGenfv(coord: int, pname: int, params: Any) -> None:
     """Set a plane of a generated coordinate, or its mode; an eye plane is taken to eye space."""
     _set_generation("glTexGenfv", coord, pname, params)
 
 
+@in_lists
 def glTexGendv(coord: int, pname: int, params: Any) -> None:
     """Set a plane of a generated coordinate, or its mode."""
     _set_generation("glTexGendv", coord, pname, params)
 
 
+@in_lists
 def glTexGeniv(coord: int, pname: int, params: Any) -> None:
     """Set a plane of a generated coordinate, or its mode."""
     _set_generation("glTexGeniv", coord, pname, params)
@@ -234,3 +246,6 @@ def _generation(operation: str, coord: int, pname: int, params: Any, dtype: type
 
 
 MODE_NAMES = ("GL_BLEND", "GL_REPLACE", "GL_ADD")
+
+
+__all__ = spelled_like_gl(globals())

@@ -9,6 +9,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
+from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, listed, take
 from softshadow.pipeline.commands import AttachTexture, CreateTexture, DeleteTextures, SetSampler
@@ -56,6 +57,7 @@ def glGenTextures(n: int, textures: Any = None) -> Any:
     return names
 
 
+@in_lists
 def glBindTexture(target: int, texture: int) -> None:
     """Bind a texture to the active unit; a name that is new becomes a texture of that target."""
     if (context := outside_begin("glBindTexture")) is None:
@@ -135,16 +137,19 @@ def target_problem(context: Context, target: int, faces: bool = False) -> tuple[
 
 
 # -- parameters --------------------------------------------------------------------------------------------------------
+@in_lists
 def glTexParameteri(target: int, pname: int, param: int) -> None:
     """Set one parameter of the bound texture."""
     _set_parameter("glTexParameteri", target, pname, param)
 
 
+@in_lists
 def glTexParameterf(target: int, pname: int, param: float) -> None:
     """Set one parameter of the bound texture."""
     _set_parameter("glTexParameterf", target, pname, param)
 
 
+@in_lists
 def glTexParameterfv(target: int, pname: int, params: Any) -> None:
     """Set a parameter of the bound texture; GL_TEXTURE_BORDER_COLOR takes four floats."""
     if pname == gl.GL_TEXTURE_BORDER_COLOR:
@@ -153,6 +158,7 @@ def glTexParameterfv(target: int, pname: int, params: Any) -> None:
         _set_parameter("glTexParameterfv", target, pname, np.ravel(params)[0])
 
 
+@in_lists
 def glTexParameteriv(target: int, pname: int, params: Any) -> None:
     """Set a parameter of the bound texture; GL_TEXTURE_BORDER_COLOR takes four ints, 2**31 - 1 stands for 1."""
     if pname == gl.GL_TEXTURE_BORDER_COLOR:
@@ -221,6 +227,13 @@ def glGetTexParameteriv(target: int, pname: int, params: Any = None) -> Any:
     return _parameter("glGetTexParameteriv", target, pname, params, np.int32)
 
 
+def queried_color(context: Context, color: tuple[float, ...]) -> np.ndarray:
+    """Return a colour of texturing as a query answers it: clamped, unless colours are drawn as floats."""
+    target = context.storage.framebuffers[context.state.draw_framebuffer].color
+    values = np.array(color, np.float32)
+    return values if target is not None and target.format.kind == "float" else values.clip(0, 1)
+
+
 def _parameter(operation: str, target: int, pname: int, params: Any, dtype: type[np.generic]) -> Any:
     if (context := outside_begin(operation)) is None:
         return None
@@ -229,7 +242,7 @@ def _parameter(operation: str, target: int, pname: int, params: Any, dtype: type
     known = context.storage.textures.get(bound_name(context, target))
     sampler = known.sampler if known is not None else Sampler()
     if pname == gl.GL_TEXTURE_BORDER_COLOR:
-        color = np.array(sampler.border_color, np.float32)
+        color = queried_color(context, sampler.border_color)
         answer = color if dtype == np.float32 else (color.astype(np.float64) * 2147483647.0).astype(np.int32)
     elif pname in FIELDS:
         value = getattr(sampler, FIELDS[pname])
@@ -241,3 +254,6 @@ def _parameter(operation: str, target: int, pname: int, params: Any, dtype: type
     if params is not None:
         np.asarray(params)[: len(answer)] = answer
     return answer if len(answer) > 1 else answer[0].item()
+
+
+__all__ = spelled_like_gl(globals())

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from softshadow.pipeline.commands import CopyToTexture
 
 
-def gl_rows(target: Framebuffer, image: Image) -> np.ndarray:
+def bottom_up(target: Framebuffer, image: Image) -> np.ndarray:
     """Return the cells of an image of the framebuffer as a view, row 0 at the bottom: the one place that flips."""
     return image.view[::-1] if target.flipped else image.view
 
@@ -39,7 +39,7 @@ def copy_to_texture(command: CopyToTexture, storage: Storage) -> None:
     rows, columns, moved_x, moved_y = clipped(source, command.x, command.y, command.width, command.height)
     left, bottom = command.x_offset + moved_x, command.y_offset + moved_y
     for plane, from_plane in _planes(source, image):
-        cells = gl_rows(source, from_plane)[rows, columns]
+        cells = bottom_up(source, from_plane)[rows, columns]
         height, width = cells.shape[:2]
         convert = _convert_depth if plane.format.kind == "depth" else _convert_plain
         plane.view[bottom : bottom + height, left : left + width] = convert(

@@ -1,0 +1,109 @@
+"""Number formats of pixels; their agreement with Mesa is in tests/gl/test_pixel_formats.py."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from softshadow import tokens as gl
+from softshadow.image import D24, D32F, FORMATS
+from softshadow.pixels import (
+    pack_color,
+    pack_depth,
+    quantized_depth,
+    sampled_depth,
+    to_base,
+    unpack_color,
+    unpack_depth,
+)
+
+D16 = FORMATS[gl.GL_DEPTH_COMPONENT16]
+D32 = FORMATS[gl.GL_DEPTH_COMPONENT32]
+FORMATS_THAT_HOLD_DEPTH = (D16, D24, D32, D32F)
+ONE = (1 << 24) - 1
+
+depths = arrays(np.float32, (1, 8), elements=st.floats(0, 1, width=32))
+units24 = arrays(np.int64, (1, 8), elements=st.integers(0, ONE))
+
+
+@given(units24)
+def test_depth_is_read_as_its_quotient(units):
+    cells = units.astype(np.float32)
+    assert (pack_depth(cells, D24, np.float32) == (units / ONE).astype(np.float32)).all()
+
+
+@given(units24)
+def test_depth_as_unsigned_int_repeats_its_upper_bits(units):
+    assert (pack_depth(units.astype(np.float32), D24, np.uint32) == (units << 8 | units >> 16)).all()
+
+
+@given(units24)
+def test_depth_through_unsigned_int_and_back_loses_one_unit_at_most(units):
+    cells = units.astype(np.float32)
+    again = unpack_depth(pack_depth(cells, D24, np.uint32), D24)  # an upload cuts where a draw would round
+    assert set(np.unique(cells - again)) <= {0, 1}
+
+
+def test_floats_are_cut_to_depth_units():
+    z = np.float32([[0, 0.5, 1, 1.5, -1, 1 - 2**-24]])
+    assert unpack_depth(z, D24).tolist() == [[0, 8388607, ONE, ONE, 0, ONE - 1]]
+    assert (unpack_depth(z, D32F) == z.clip(0, 1)).all()
+
+
+@given(depths, st.sampled_from(FORMATS_THAT_HOLD_DEPTH))
+def test_rounding_depth_moves_it_by_less_than_two_units(z, format):
+    units = min(format.largest or 2**24, 2**23)  # textures read 23 bits of the 32-bit format
+    moved = sampled_depth(quantized_depth(z, format), format).astype(np.float64) - z
+    assert (abs(moved) < 2 / units).all()
+
+
+@given(depths, st.sampled_from(FORMATS_THAT_HOLD_DEPTH))
+def test_rounded_depth_keeps_the_order(z, format):
+    cells = quantized_depth(np.sort(z), format)
+    assert (np.diff(cells) >= 0).all()
+
+
+@given(units24)
+def test_a_drawn_copy_of_depth_is_the_same_or_one_more(units):
+    cells = units.astype(np.float32)
+    again = quantized_depth(sampled_depth(cells, D24), D24)
+    assert set(np.unique(again - cells)) <= {0, 1}
+
+
+@pytest.mark.parametrize(
+    ("base", "expected"),
+    [
+        (gl.GL_RGBA, [10, 20, 30, 40]),
+        (gl.GL_RGB, [10, 20, 30, 255]),
+        (gl.GL_RG, [10, 20, 0, 255]),
+        (gl.GL_RED, [10, 0, 0, 255]),
+        (gl.GL_ALPHA, [0, 0, 0, 40]),
+        (gl.GL_LUMINANCE, [10, 10, 10, 255]),
+        (gl.GL_LUMINANCE_ALPHA, [10, 10, 10, 40]),
+        (gl.GL_INTENSITY, [10, 10, 10, 10]),
+    ],
+)
+def test_a_base_format_keeps_what_table_3_15_says(base, expected):
+    assert to_base(np.uint8([[10, 20, 30, 40]]), base).tolist() == [expected]
+
+
+@pytest.mark.parametrize("internal", [f for f, stored in FORMATS.items() if stored.kind in ("unorm8", "float")])
+@given(arrays(np.uint8, (2, 3, 4)))
+def test_bytes_survive_storage(internal, rgba):
+    format = FORMATS[internal]
+    cells = unpack_color(rgba, gl.GL_RGBA, format)
+    read = pack_color(cells, format, gl.GL_RGBA, np.uint8)
+    assert (unpack_color(read, gl.GL_RGBA, format) == cells).all()
+
+
+@given(arrays(np.float32, (2, 3, 4), elements=st.floats(-4, 4, width=32)))
+def test_floats_survive_float_storage(rgba):
+    format = FORMATS[gl.GL_RGBA32F]
+    assert (pack_color(unpack_color(rgba, gl.GL_RGBA, format), format, gl.GL_RGBA, np.float32) == rgba).all()
+
+
+def test_luminance_out_of_a_framebuffer_is_the_sum():
+    cells, format = np.uint8([[[10, 20, 30, 40]]]), FORMATS[gl.GL_RGBA8]
+    assert pack_color(cells, format, gl.GL_LUMINANCE, np.uint8, from_framebuffer=True).item() == 60
+    assert pack_color(cells, format, gl.GL_LUMINANCE, np.uint8).item() == 10
