@@ -127,6 +127,29 @@ def test_lit_side_of_a_sphere_is_lit_and_its_dark_side_counts_one() -> None:
     assert (counts == (facing < 0)).all()
 
 
+@pytest.mark.interpreted
+def test_open_face_seen_from_behind_is_in_its_own_shadow() -> None:
+    sheet = [SceneObject(shapes.floor(2), placement((0, 1, 0)))]
+    point, own = np.array([[0.1, 1, 0.3]]), (np.array([0]), np.array([0]))
+    below, above = np.array([0.0, -3, 0]), np.array([0.0, 5, 0])
+    assert casting_faces_between(point, SUN, sheet, exclude=own, viewer=below).tolist() == [1]
+    assert casting_faces_between(point, SUN, sheet, exclude=own, viewer=above).tolist() == [0]
+    assert casting_faces_between(point, -SUN, sheet, exclude=own, viewer=above).tolist() == [1]
+    assert casting_faces_between(point, SUN, sheet, exclude=own).tolist() == [0]
+    assert casting_faces_between(point, SUN, sheet, viewer=below).tolist() == [0]
+
+
+def test_dark_side_of_a_closed_caster_does_not_count_itself() -> None:
+    ball = SceneObject(shapes.sphere(1, 24, 12))
+    triangles = np.arange(len(ball.mesh.triangles))
+    points = ball.world_positions[ball.mesh.triangles].mean(axis=1)
+    own = 0 * triangles, triangles
+    far_away = np.array([5.0, -30, 7])
+    plain = casting_faces_between(points, LIGHT, [ball], exclude=own)
+    seen = ((far_away - points) * ball.mesh.face_normals).sum(axis=1) > 0
+    assert (casting_faces_between(points, LIGHT, [ball], exclude=own, viewer=far_away)[seen] == plain[seen]).all()
+
+
 def test_first_face_of_a_ray_is_the_nearest() -> None:
     scene = Scene.named("boxes")
     eye = np.broadcast_to(scene.camera.eye, (1, 3))

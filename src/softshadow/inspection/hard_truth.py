@@ -35,6 +35,7 @@ def hard_visibility(scene: Scene, size: tuple[int, int]) -> tuple[list[np.ndarra
     visible = []
     for light in scene.lights:
         lit = np.ones(width * height, np.float32)
-        lit[seen] = casting_faces_between(points, light.position, scene.casters, exclude=exclude) == 0
+        counts = casting_faces_between(points, light.position, scene.casters, exclude=exclude, viewer=camera.eye)
+        lit[seen] = counts == 0
         visible.append(lit.reshape(height, width))
     return visible, seen.reshape(height, width)

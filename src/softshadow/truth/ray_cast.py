@@ -26,6 +26,7 @@ def casting_faces_between(
     casters: Sequence[SceneObject],
     *,
     exclude: tuple[np.ndarray, np.ndarray] | None = None,
+    viewer: np.ndarray | None = None,
     faces: Faces = "casting",
 ) -> np.ndarray:
     """Return how many faces of the casters the open segment from each point to the light crosses.
@@ -36,6 +37,8 @@ def casting_faces_between(
     light : (4,) float64         homogeneous, world space; with w = 0 the segment is a ray towards the light
     exclude : (N,), (N,) int     caster and triangle that each point lies on, -1 for none: that face and every face in
                                  its plane do not count (by number: no distance from the point is compared)
+    viewer : (3,) float64        the point that all points are seen from. What it sees of an open caster may be the side
+                                 that looks away from the light: then the point's own face does count
     faces : str                  "casting": of closed casters the faces that look to the light, of open ones all;
                                  "all"; "front": of all casters the faces that look to the light
 
@@ -64,7 +67,10 @@ def casting_faces_between(
     tree = build_tree(casters)
     own = _own_places(exclude, len(start), tree)
     counts = np.zeros(len(start), dtype=np.int32)
-    _count(start, toward, reach, own, FACES.index(faces), *_arrays(tree), tree.closed, counts)
+    kind = FACES.index(faces)
+    _count(start, toward, reach, own, kind, *_arrays(tree), tree.closed, counts)
+    if viewer is not None:
+        counts += _seen_from_behind(start, toward, np.asarray(viewer, dtype=np.float64), own, kind, tree)
     return counts
 
 
@@ -112,6 +118,18 @@ def _own_places(exclude: tuple[np.ndarray, np.ndarray] | None, count: int, tree:
         known = objects >= 0
         own[known] = tree.places[tree.starts[objects[known]] + triangles[known]]
     return own
+
+
+def _seen_from_behind(
+    points: np.ndarray, toward: np.ndarray, viewer: np.ndarray, own: np.ndarray, kind: int, tree: TriangleTree
+) -> np.ndarray:
+    """Return (N,) bool: whether each point's own face casts, and is between the light and the side that is seen."""
+    a, b, c = tree.corners[own].transpose(1, 0, 2)  # of points without a face some other face, left out below
+    normals = np.cross(b - a, c - a)
+    to_light = (normals * toward).sum(axis=1)
+    to_viewer = (normals * (viewer - points)).sum(axis=1)
+    casts = (to_light > 0) | (kind == ALL) | ((kind == CASTING) & ~tree.closed[own])
+    return (own != NONE) & casts & (to_light * to_viewer < 0)
 
 
 @kernel
