@@ -6,10 +6,10 @@ import pkgutil
 import numba
 import numpy as np
 import pytest
-from draws import draw, random_state, random_triangles
 
 import softshadow.pipeline
 import softshadow.programs
+from draws import draw, random_state, random_triangles
 from softshadow.context import Context
 
 # what counts coordinates of the scene in double precision on purpose: truth and geometry, not the pipeline

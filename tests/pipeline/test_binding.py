@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from draws import draw, random_state, random_triangles, same_window
 from hypothesis import given
 from hypothesis import strategies as st
 
+from draws import draw, random_state, random_triangles, same_window
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.pipeline import set_threads, threads, use_binding

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from draws import draw, random_state, random_triangles
 from hypothesis import given
 from hypothesis import strategies as st
 
+from draws import draw, random_state, random_triangles
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.state import State
