@@ -1,9 +1,10 @@
 """Primitive assembly in GL's order."""
 
+import numpy as np
 import pytest
 
 from softshadow import tokens as gl
-from softshadow.pipeline.primitives import assemble
+from softshadow.pipeline.primitives import assemble, in_clipped_batch
 
 
 @pytest.mark.parametrize(
@@ -13,7 +14,7 @@ from softshadow.pipeline.primitives import assemble
         (gl.GL_TRIANGLE_STRIP, 5, [[0, 1, 2], [2, 1, 3], [2, 3, 4]], [2, 3, 4]),
         (gl.GL_TRIANGLE_FAN, 5, [[0, 1, 2], [0, 2, 3], [0, 3, 4]], [2, 3, 4]),
         (gl.GL_QUADS, 9, [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]], [3, 3, 7, 7]),
-        (gl.GL_QUAD_STRIP, 7, [[0, 1, 3], [0, 3, 2], [2, 3, 5], [2, 5, 4]], [3, 3, 5, 5]),
+        (gl.GL_QUAD_STRIP, 7, [[0, 1, 3], [2, 0, 3], [2, 3, 5], [4, 2, 5]], [3, 3, 5, 5]),
         (gl.GL_POLYGON, 5, [[1, 2, 0], [2, 3, 0], [3, 4, 0]], [0, 0, 0]),
     ],
 )
@@ -21,6 +22,32 @@ def test_vertices_make_triangles_in_the_order_of_the_specification(mode, count, 
     made = assemble(mode, count)
     assert made.corners.tolist() == corners
     assert made.provoking.tolist() == provoking
+
+
+def test_quads_of_a_batch_that_is_clipped_are_cut_along_the_other_diagonal():
+    outside = np.zeros(12, bool)
+    outside[9] = True
+    assert in_clipped_batch(gl.GL_QUADS, outside, None).tolist() == [True] * 3
+    made = assemble(gl.GL_QUADS, 8, np.array([False, True]))
+    assert made.corners.tolist() == [[0, 1, 2], [0, 2, 3], [4, 5, 7], [5, 6, 7]]
+
+
+def test_vertices_that_complete_no_quad_do_not_clip_a_batch():
+    outside = np.array([False] * 4 + [True])
+    assert in_clipped_batch(gl.GL_QUADS, outside, None).tolist() == [False]
+
+
+def test_batches_end_after_4096_vertices():
+    outside = np.zeros(8192, bool)
+    outside[4096] = True
+    clipped = in_clipped_batch(gl.GL_QUADS, outside, None)
+    assert clipped.tolist() == [False] * 1024 + [True] * 1024
+
+
+def test_indices_with_a_short_range_take_its_unnamed_vertices_along():
+    outside = np.array([False] * 4 + [True] + [False] * 4)
+    assert in_clipped_batch(gl.GL_QUADS, outside, np.array([0, 1, 2, 3, 5, 6, 7, 8, 0, 1, 2, 3])).all()
+    assert not in_clipped_batch(gl.GL_QUADS, outside, np.array([0, 1, 2, 8])).any()
 
 
 @pytest.mark.parametrize("mode", range(gl.GL_TRIANGLES, gl.GL_POLYGON + 1))

@@ -90,11 +90,14 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage) -> Ge
 def assembled_triangles(command: Draw, needs_clipping: np.ndarray) -> Triangles:
     """Return the triangles of a draw over its vertices; `needs_clipping` (V,) bool."""
     indices = command.indices
-    in_order = needs_clipping if indices is None else needs_clipping[indices]
-    clipped = None
-    if command.mode in (gl.GL_QUADS, gl.GL_QUAD_STRIP) and in_order.any():
-        clipped = in_clipped_batch(command.mode, in_order, indices is not None)
-    assembled = assemble(command.mode, len(in_order), clipped)
+    count = len(needs_clipping) if indices is None else len(indices)
+    if command.mode not in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
+        assembled = assemble(command.mode, count)
+    else:
+        varying_color = command.vertices.color.strides[0] != 0  # a constant is spread with stride 0
+        flat = command.state.lighting.shade_model == gl.GL_FLAT and varying_color
+        clipped = in_clipped_batch(command.mode, needs_clipping, indices) if needs_clipping.any() else None
+        assembled = assemble(command.mode, count, clipped, across=flat or indices is not None)
     return assembled if indices is None else through_indices(assembled, indices)
 
 
@@ -127,8 +130,12 @@ def region_of(state: State, target: Framebuffer) -> Region:
 
 
 def depth_range_of(state: State, real: type) -> DepthRange:
-    """Return what z is clamped to: [0, 1], with GL_DEPTH_CLAMP the depth range."""
+    """Return what z is clamped to:
+
+    [0, 1], with GL_DEPTH_CLAMP the depth range as the viewport's scale and shift give it.
+    """
     if not state.depth.clamp:
         return DepthRange(real(0), real(1))
     near, far = real(state.viewport.near), real(state.viewport.far)
-    return DepthRange(min(near, far), max(near, far))
+    scale, shift = real(0.5) * (far - near), real(0.5) * (far + near)
+    return DepthRange(min(shift - scale, shift + scale), max(shift - scale, shift + scale))

@@ -21,22 +21,24 @@ class Triangles(NamedTuple):
 # the vertices decides the last bits of interpolated values, so it is llvmpipe's (docs/exactness.md, 5).
 TRIANGLE = ((0, 1, 2, 2),)
 QUAD = ((0, 1, 2, 3), (0, 2, 3, 3))
-QUAD_OF_STRIP = ((0, 1, 3, 3), (0, 3, 2, 3))
-# ... but a batch of vertices of which one needs clipping is cut the other way (Mesa, draw_decompose_tmp.h)
-CLIPPED_QUAD = ((0, 1, 3, 3), (1, 2, 3, 3))
-CLIPPED_QUAD_OF_STRIP = ((2, 0, 3, 3), (0, 1, 3, 3))
+QUAD_ACROSS = ((0, 1, 3, 3), (1, 2, 3, 3))  # cut along the other diagonal
+QUAD_OF_STRIP = ((0, 1, 3, 3), (2, 0, 3, 3))
+CLIPPED_QUAD_OF_STRIP = ((2, 0, 3, 3), (0, 1, 3, 3))  # the same cut, but the other triangle comes first
 BATCH, INDEXED_BATCH = 4096, 1024  # vertices that llvmpipe handles at a time (draw_pt_vsplit.c)
 STRIP_PAIR = ((0, 1, 2, 2), (2, 1, 3, 3))  # the odd triangle is (i+1, i, i+2), so that both turn the same way
 
 
-def assemble(mode: int, count: int, clipped: np.ndarray | None = None) -> Triangles:
+def assemble(mode: int, count: int, clipped: np.ndarray | None = None, across: bool = False) -> Triangles:
     """Return the triangles that `count` vertices make; vertices that complete no primitive are dropped.
 
     Parameters
     ----------
     mode : GL_TRIANGLES ... GL_POLYGON
     clipped : (quads,) bool, optional
-        For quads and quad strips: which of them are drawn in a batch that is clipped.
+        For quads and quad strips: which of them are drawn in a batch that is clipped; they are cut in Mesa's other way
+        (draw_decompose_tmp.h).
+    across : bool
+        Cut all quads along the other diagonal, as Mesa does for indexed and flat-shaded ones.
 
     References
     ----------
@@ -45,12 +47,7 @@ def assemble(mode: int, count: int, clipped: np.ndarray | None = None) -> Triang
     if mode == gl.GL_TRIANGLES:
         rows = _repeat(TRIANGLE, count // 3, 3)
     elif mode in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
-        whole, cut = (QUAD, CLIPPED_QUAD) if mode == gl.GL_QUADS else (QUAD_OF_STRIP, CLIPPED_QUAD_OF_STRIP)
-        quads, stride = quads_of(mode, count)
-        rows = _repeat(whole, quads, stride)
-        if clipped is not None:
-            chosen = np.repeat(clipped, 2)
-            rows[chosen] = _repeat(cut, quads, stride)[chosen]
+        rows = _quads(mode, count, clipped, across)
     elif mode == gl.GL_TRIANGLE_STRIP:
         triangles = max(count - 2, 0)
         rows = _repeat(STRIP_PAIR, (triangles + 1) // 2, 2)[:triangles]
@@ -63,17 +60,40 @@ def assemble(mode: int, count: int, clipped: np.ndarray | None = None) -> Triang
     return Triangles(np.ascontiguousarray(rows[:, :3]), np.ascontiguousarray(rows[:, 3]))
 
 
+def _quads(mode: int, count: int, clipped: np.ndarray | None, across: bool) -> np.ndarray:
+    whole, cut = (QUAD, QUAD_ACROSS) if mode == gl.GL_QUADS else (QUAD_OF_STRIP, CLIPPED_QUAD_OF_STRIP)
+    quads, stride = quads_of(mode, count)
+    rows = _repeat(QUAD_ACROSS if across and mode == gl.GL_QUADS else whole, quads, stride)
+    if clipped is not None:
+        chosen = np.repeat(clipped, 2)
+        rows[chosen] = _repeat(cut, quads, stride)[chosen]
+    return rows
+
+
 def quads_of(mode: int, count: int) -> tuple[int, int]:
     """Return how many quads `count` vertices make, and how many vertices apart they start."""
     return (count // 4, 4) if mode == gl.GL_QUADS else (max(count // 2 - 1, 0), 2)
 
 
-def in_clipped_batch(mode: int, needs_clipping: np.ndarray, indexed: bool) -> np.ndarray:
-    """Return, per quad, whether its batch has a vertex that needs clipping; `needs_clipping` is (N,) bool, in draw order."""
-    quads, stride = quads_of(mode, len(needs_clipping))
-    step = (INDEXED_BATCH if indexed else BATCH) - (4 - stride)  # batches of a strip share their last two vertices
-    starts = np.arange(0, max(len(needs_clipping), 1), step)
-    batches = np.array([needs_clipping[at : at + step + 4 - stride].any() for at in starts])
+def in_clipped_batch(mode: int, needs_clipping: np.ndarray, indices: np.ndarray | None) -> np.ndarray:
+    """Return, per quad, whether its batch has a vertex that needs clipping.
+
+    Parameters
+    ----------
+    needs_clipping : (V,) bool, for every vertex of the arrays
+    indices : (N,) int32 or None
+        With indices whose range is no longer than their number, llvmpipe handles the whole range of vertices, also
+        those that no index names.
+    """
+    in_order = needs_clipping if indices is None else needs_clipping[indices]
+    quads, stride = quads_of(mode, len(in_order))
+    used = quads * stride + 4 - stride if quads else 0
+    if indices is not None and 0 < used <= INDEXED_BATCH:
+        first, last = int(indices.min()), int(indices.max())
+        if last - first < used:
+            return np.full(quads, needs_clipping[first : last + 1].any())
+    step = (BATCH if indices is None else INDEXED_BATCH) - (4 - stride)  # batches of a strip share two vertices
+    batches = np.array([in_order[at : min(at + step + 4 - stride, used)].any() for at in range(0, max(used, 1), step)])
     return batches[np.arange(quads) * stride // step]
 
 
