@@ -59,3 +59,16 @@ def test_a_cache_folder_that_cannot_be_written_is_no_error(tmp_path):
 def test_a_users_own_numba_cache_folder_is_left_as_it_was(tmp_path):
     code = "import numba; numba.config.CACHE_DIR = 'mine'; import softshadow.pipeline; print(numba.config.CACHE_DIR)"
     assert run_with(PACKAGE.parent, tmp_path, code) == "mine"
+
+
+def test_code_of_old_versions_is_deleted(tmp_path):
+    versions = tmp_path / "softshadow"
+    for age in range(12):
+        old = versions / f"{age:016x}"
+        old.mkdir(parents=True)
+        os.utime(old, (age, age))
+    run_with(PACKAGE.parent, tmp_path)
+    left = sorted(entry.name for entry in versions.iterdir())
+    assert len(left) == 8
+    assert f"{11:016x}" in left  # the last that was used
+    assert f"{0:016x}" not in left

@@ -6,6 +6,7 @@ of all sources that can take part in a kernel: an edit is answered by new code, 
 
 import hashlib
 import os
+import shutil
 import sys
 import tempfile
 from collections.abc import Callable
@@ -16,6 +17,7 @@ from typing import Any
 import numba
 
 KERNEL_BLOCKS = ("jit.py", "tokens.py", "pipeline", "programs", "truth", "scene")
+KEPT_VERSIONS = 8
 
 
 @cache
@@ -44,11 +46,20 @@ def cache_folder() -> Path | None:
         base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
     folder = base / "softshadow" / source_hash()
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        if not folder.exists():
+            folder.mkdir(parents=True, exist_ok=True)
+            _forget_old(folder.parent)
         with tempfile.TemporaryFile(dir=folder):
             return folder
     except OSError:
         return None
+
+
+def _forget_old(folder: Path) -> None:
+    """Delete the code of all versions but the last few that were used: each edit and upgrade makes a folder."""
+    versions = sorted((entry for entry in folder.iterdir() if entry.is_dir()), key=lambda entry: entry.stat().st_mtime)
+    for version in versions[:-KEPT_VERSIONS]:
+        shutil.rmtree(version, ignore_errors=True)
 
 
 def kernel(function: Callable[..., Any]) -> Any:
@@ -58,13 +69,14 @@ def kernel(function: Callable[..., Any]) -> Any:
     With ``NUMBA_DISABLE_JIT=1`` the function stays plain Python.
     """
     folder = cache_folder()
-    kept = numba.config.CACHE_DIR
+    config: Any = numba.config  # its settings are made when Numba is imported; type checkers see none
+    kept = config.CACHE_DIR
     # the folder is read when the decorator runs, so a user's own setting is back before anybody else can see ours
-    numba.config.CACHE_DIR = str(folder) if folder else ""
+    config.CACHE_DIR = str(folder) if folder else ""
     try:
         return numba.njit(cache=folder is not None, nogil=True, error_model="numpy")(function)
     finally:
-        numba.config.CACHE_DIR = kept
+        config.CACHE_DIR = kept
 
 
 def inlined(function: Callable[..., Any]) -> Any:

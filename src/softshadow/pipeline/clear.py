@@ -65,4 +65,4 @@ def drawn_clear_depth(value: float, depth: Image) -> float:
     """Return the depth of that rectangle in buffer units: clip space and back costs the last bits of float32."""
     clip = np.float32(min(max(value, 0.0), 1.0) * 2 - 1)
     z = clip * np.float32(0.5) + np.float32(0.5)
-    return float(quantized_depth(np.float32([z]), depth.format)[0])
+    return float(quantized_depth(np.array([z], np.float32), depth.format)[0])
