@@ -65,6 +65,15 @@ class Primitive:
     texcoords: list[tuple[tuple[float, float, float, float], ...]] = field(default_factory=list)
 
 
+@dataclass(frozen=True)
+class ArrayLayout:
+    """What a pointer call said besides the array: numbers per vertex, GL's type, bytes from vertex to vertex."""
+
+    size: int = 4
+    type: int = gl.GL_FLOAT
+    stride: int = 0
+
+
 @dataclass
 class ClientArrays:
     """Vertex arrays: which are enabled, the array each pointer call gave, and what drawn arrays were converted to.
@@ -74,17 +83,27 @@ class ClientArrays:
 
     enabled: set[str] = field(default_factory=set)
     pointers: dict[str, np.ndarray] = field(default_factory=dict)
+    layouts: dict[str, ArrayLayout] = field(default_factory=dict)
     converted: dict[Any, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
     active_unit: int = 0
+
+    def layout(self, name: str) -> ArrayLayout:
+        """Return the layout of an array, GL's initial one where there was no pointer call."""
+        return self.layouts.get(name, ArrayLayout())
 
 
 @dataclass
 class DisplayList:
-    """What stands between glNewList and glEndList: calls in order, and whether they are carried out meanwhile, too."""
+    """What stands between glNewList and glEndList: calls in order; `mode` is GL_COMPILE or GL_COMPILE_AND_EXECUTE."""
 
     name: int
-    executes: bool
+    mode: int
     calls: list[Callable[[], Any]] = field(default_factory=list)
+
+    @property
+    def executes(self) -> bool:
+        """Whether the calls are carried out while the list is made."""
+        return self.mode == gl.GL_COMPILE_AND_EXECUTE
 
 
 class Context:
@@ -142,6 +161,7 @@ class Context:
         self.lists: dict[int, DisplayList] = {}
         self.compiled_list: DisplayList | None = None  # between glNewList and glEndList
         self.list_base = 0
+        self.list_depth = 0  # of lists that call each other
         self.hints: dict[int, int] = {}  # where not GL_DONT_CARE
         self.pack_store, self.unpack_store = PixelStore(), PixelStore()
         # the highest name that glGen* has given out, per kind; an object exists in storage once it has been bound

@@ -15,6 +15,7 @@ from __future__ import annotations
 from typing import Any
 
 from softshadow.context import Context, current, make_current
+from softshadow.gl.attributes import *
 from softshadow.gl.capabilities import *
 from softshadow.gl.clears import *
 from softshadow.gl.clip_planes import *
@@ -25,6 +26,7 @@ from softshadow.gl.fragment_state import *
 from softshadow.gl.framebuffers import *
 from softshadow.gl.immediate import *
 from softshadow.gl.lighting import *
+from softshadow.gl.lists import *
 from softshadow.gl.materials import *
 from softshadow.gl.pixels import *
 from softshadow.gl.programs import *
@@ -82,6 +84,12 @@ def create_context(
     context = Context(width, height, depth_format, stencil_bits, precision, *offset, raise_errors)
     context.before = make_current(context)
     return context
+
+
+def __dir__() -> list[str]:
+    """The names a program can use."""
+    own = ("Context", "GLError", "create_context", "program")
+    return sorted(name for name in globals() if name in own or name.startswith(("gl", "GL_")))
 
 
 def __getattr__(name: str) -> Any:

@@ -63,3 +63,17 @@ def vector(params: Any, length: int, convert: Callable[[Any], float] = float) ->
 def first(params: Any) -> Any:
     """Return the first number of a vector argument."""
     return np.ravel(params)[0].item()
+
+
+def as_floats(value: Any) -> Any:
+    """Return what a query answers: a float, or an array float32; None after an error."""
+    if isinstance(value, tuple):
+        return np.array(value, np.float32)
+    return None if value is None else float(np.float32(value))
+
+
+def as_ints(value: Any, convert: Callable[[float], int]) -> Any:
+    """Return what an integer query answers: an int, or an array int32; None after an error."""
+    if isinstance(value, tuple):
+        return np.array([convert(float(np.float32(v))) for v in value], np.int32)
+    return None if value is None else convert(value)

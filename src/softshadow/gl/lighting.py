@@ -12,7 +12,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.capabilities import LIGHTS, with_item
-from softshadow.gl.conversions import first, from_int, to_int, vector
+from softshadow.gl.conversions import as_floats, as_ints, first, from_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.fragment_state import change, rounded
 
@@ -101,18 +101,13 @@ def _replace(context: Context, light: int, **fields: Any) -> None:
 
 
 def glGetLightfv(light: int, pname: int) -> Any:
-    """Return a parameter of a light as float32, always an array; position and spot direction in eye space."""
-    value = _parameter("glGetLightfv", light, pname)
-    return None if value is None else np.array(np.atleast_1d(value), np.float32)
+    """Return a parameter of a light: a float, or an array float32; position and spot direction in eye space."""
+    return as_floats(_parameter("glGetLightfv", light, pname))
 
 
 def glGetLightiv(light: int, pname: int) -> Any:
-    """Return a parameter of a light as int32, always an array; colours span the range of an int."""
-    value = _parameter("glGetLightiv", light, pname)
-    if value is None:
-        return None
-    convert = to_int if pname in COLORS else int
-    return np.array([convert(v) for v in np.atleast_1d(value).tolist()], np.int32)
+    """Return a parameter of a light: an int, or an array int32; colours span the range of an int."""
+    return as_ints(_parameter("glGetLightiv", light, pname), to_int if pname in COLORS else int)
 
 
 def _parameter(operation: str, light: int, pname: int) -> Any:

@@ -6,13 +6,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from softshadow import tokens as gl
 from softshadow.context import Context, current
 from softshadow.errors import StateError
 from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.conversions import first, from_int, to_int, vector
+from softshadow.gl.conversions import as_floats, as_ints, first, from_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.fragment_state import A_FACE, FACES, change, rounded
 from softshadow.state import Lighting, Material
@@ -122,17 +120,13 @@ def follow_color(context: Context) -> None:
 
 # -- queries -----------------------------------------------------------------------------------------------------------
 def glGetMaterialfv(face: int, pname: int) -> Any:
-    """Return a material parameter of one facing: 4 float32, or 1 for GL_SHININESS."""
-    value = _material("glGetMaterialfv", face, pname)
-    return None if value is None else np.array(np.atleast_1d(value), np.float32)
+    """Return a material parameter of one facing: 4 float32, or a float for GL_SHININESS."""
+    return as_floats(_material("glGetMaterialfv", face, pname))
 
 
 def glGetMaterialiv(face: int, pname: int) -> Any:
     """Return a material parameter of one facing as integers, colours spanning the range of an int."""
-    value = _material("glGetMaterialiv", face, pname)
-    if value is None:
-        return None
-    return np.array([to_int(v) for v in value] if isinstance(value, tuple) else [round(value)], np.int32)
+    return as_ints(_material("glGetMaterialiv", face, pname), round if pname == gl.GL_SHININESS else to_int)
 
 
 def _material(operation: str, face: int, pname: int) -> Any:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, current
+from softshadow.context import ArrayLayout, Context, current
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.immediate import A_MODE, MODES, can_draw
@@ -90,10 +90,11 @@ def _pointer(
         fail(gl.GL_INVALID_VALUE, operation, f"size={size}: expected one of {', '.join(map(str, sizes))}")
     elif stride < 0:
         fail(gl.GL_INVALID_VALUE, operation, f"stride={stride}: expected 0 or more")
-    elif pointer is None:
-        context.arrays.pointers.pop(key, None)
     else:
-        context.arrays.pointers[key] = _rows(pointer, np.dtype(TYPES[type]), size, stride)
+        context.arrays.layouts[key] = ArrayLayout(int(size), int(type), int(stride))
+        context.arrays.pointers.pop(key, None)
+        if pointer is not None:
+            context.arrays.pointers[key] = _rows(pointer, np.dtype(TYPES[type]), size, stride)
 
 
 def _rows(pointer: Any, dtype: np.dtype, size: int, stride: int) -> np.ndarray:

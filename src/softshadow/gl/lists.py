@@ -1,0 +1,121 @@
+"""Display lists: calls that are kept and carried out later.
+
+What a list keeps is what `in_lists` decorates; arrays are read when the list is made.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import Context, DisplayList, current
+from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.errors import fail, is_one_of, outside_begin
+
+DEEPEST_LIST = 64
+MODES = (gl.GL_COMPILE, gl.GL_COMPILE_AND_EXECUTE)
+
+
+def glGenLists(range: int) -> int | None:
+    """Return the first of `range` unused names in a row; they become empty lists."""
+    context = outside_begin("glGenLists")
+    if context is None:
+        return None
+    if range < 0:
+        fail(gl.GL_INVALID_VALUE, "glGenLists", f"range={range}: expected 0 or more")
+        return None
+    if range == 0:
+        return 0
+    first = 1
+    while any(first + i in context.lists for i in np.arange(range)):
+        first += 1
+    for name in np.arange(first, first + range).tolist():
+        context.lists[name] = DisplayList(name, gl.GL_COMPILE)
+    return first
+
+
+def glNewList(list: int, mode: int) -> None:
+    """Start a list: the calls until glEndList are kept under its name, and carried out only where `mode` says so."""
+    context = outside_begin("glNewList")
+    if context is None:
+        return
+    if list <= 0:
+        fail(gl.GL_INVALID_VALUE, "glNewList", f"list={list}: expected 1 or more")
+    elif is_one_of("glNewList", "mode", mode, MODES, "GL_COMPILE or GL_COMPILE_AND_EXECUTE"):
+        if context.compiled_list is not None:
+            fail(gl.GL_INVALID_OPERATION, "glNewList", f"list {context.compiled_list.name} has not been ended")
+        else:
+            context.compiled_list = DisplayList(int(list), int(mode))
+
+
+def glEndList() -> None:
+    """End the list: it replaces the one of its name."""
+    context = outside_begin("glEndList")
+    if context is None:
+        return
+    if context.compiled_list is None:
+        fail(gl.GL_INVALID_OPERATION, "glEndList", "there was no glNewList before it")
+    else:
+        context.lists[context.compiled_list.name] = context.compiled_list
+        context.compiled_list = None
+
+
+@in_lists
+def glCallList(list: int) -> None:
+    """Carry out a list; a name without one does nothing."""
+    if list <= 0:
+        fail(gl.GL_INVALID_VALUE, "glCallList", f"list={list}: expected 1 or more")
+    else:
+        _call(current(), int(list))
+
+
+@in_lists
+def glCallLists(lists: Any) -> None:
+    """Carry out the lists of an array of names, or of the characters of a string, counted from glListBase on."""
+    context = current()
+    characters = lists.encode() if isinstance(lists, str) else lists
+    names = list(characters) if isinstance(characters, bytes) else np.ravel(characters).tolist()
+    for name in names:
+        _call(context, context.list_base + int(name))
+
+
+def _call(context: Context, name: int) -> None:
+    if name not in context.lists or context.list_depth == DEEPEST_LIST:
+        return
+    context.list_depth += 1
+    try:
+        for call in context.lists[name].calls:
+            call()
+    finally:
+        context.list_depth -= 1
+
+
+@in_lists
+def glListBase(base: int) -> None:
+    """Set what glCallLists adds to the names."""
+    context = outside_begin("glListBase")
+    if context is not None:
+        context.list_base = int(base)
+
+
+def glDeleteLists(list: int, range: int) -> None:
+    """Forget `range` lists in a row."""
+    context = outside_begin("glDeleteLists")
+    if context is None:
+        return
+    if range < 0:
+        fail(gl.GL_INVALID_VALUE, "glDeleteLists", f"range={range}: expected 0 or more")
+        return
+    for name in [known for known in context.lists if list <= known < list + range]:
+        del context.lists[name]
+
+
+def glIsList(list: int) -> bool | None:
+    """Return whether a name is that of a list."""
+    context = outside_begin("glIsList")
+    return None if context is None else int(list) in context.lists
+
+
+__all__ = spelled_like_gl(globals())

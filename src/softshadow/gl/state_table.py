@@ -1,0 +1,234 @@
+"""What glGet answers: every state by its name, and where it stands (GL 2.1, sec. 6.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import MATRIX_STACK_DEPTHS, Context
+from softshadow.framebuffer import LARGEST_SIDE, Framebuffer
+from softshadow.gl.attributes import DEEPEST_ATTRIBUTES
+from softshadow.gl.capabilities import CLIP_PLANES, HINTS, LIGHTS
+from softshadow.gl.framebuffers import COLOR_ATTACHMENTS
+from softshadow.gl.lists import DEEPEST_LIST
+from softshadow.gl.rasterization import LARGEST_VIEWPORT
+from softshadow.gl.vertex_arrays import ARRAYS
+from softshadow.image import Image
+from softshadow.pixel_store import PixelStore
+from softshadow.state import TEXTURE_UNITS, StencilFace
+
+Read = Callable[[Context], Any]
+STENCIL_BITS = 0xFF  # of the masks, those that a stencil buffer can have
+SIZES = (1.0, 255.0)  # of lines and points
+
+
+def drawn_to(c: Context) -> Framebuffer:
+    return c.storage.framebuffers[c.state.draw_framebuffer]
+
+
+def read_from(c: Context) -> Framebuffer:
+    return c.storage.framebuffers[c.state.read_framebuffer]
+
+
+def bits(image: Image | None) -> int:
+    """Return the bits of a depth or stencil plane; of float depth, those it is stored in."""
+    if image is None:
+        return 0
+    return image.format.largest.bit_length() or np.dtype(image.format.dtype).itemsize * 8
+
+
+def color_bits(channel: int) -> Read:
+    def read(c: Context) -> int:
+        image = drawn_to(c).color
+        if image is None or not image.format.written[channel]:
+            return 0
+        return np.dtype(image.format.dtype).itemsize * 8
+
+    return read
+
+
+def shown_color(color: Callable[[Context], Any]) -> Read:
+    """Return the reader of a colour that glGet answers clamped to [0, 1], unless the colour buffer holds floats."""
+
+    def read(c: Context) -> tuple[float, ...]:
+        image = drawn_to(c).color
+        unclamped = image is not None and image.format.kind == "float"
+        return tuple(color(c)) if unclamped else tuple(min(max(v, 0.0), 1.0) for v in color(c))
+
+    return read
+
+
+def stencil(prefix: str, face: Callable[[Context], StencilFace]) -> dict[str, Read]:
+    """Return the readers of one facing; the reference as the buffer clamps it."""
+
+    def ref(c: Context) -> int:
+        plane = drawn_to(c).stencil
+        return max(0, min(face(c).ref, plane.format.largest if plane else 0))
+
+    return {
+        f"GL_STENCIL_{prefix}FUNC": lambda c: face(c).func,
+        f"GL_STENCIL_{prefix}REF": ref,
+        f"GL_STENCIL_{prefix}VALUE_MASK": lambda c: face(c).read_mask & STENCIL_BITS,
+        f"GL_STENCIL_{prefix}FAIL": lambda c: face(c).sfail,
+        f"GL_STENCIL_{prefix}PASS_DEPTH_FAIL": lambda c: face(c).zfail,
+        f"GL_STENCIL_{prefix}PASS_DEPTH_PASS": lambda c: face(c).zpass,
+        f"GL_STENCIL_{prefix}WRITEMASK": lambda c: face(c).write_mask & STENCIL_BITS,
+    }
+
+
+def matrix(name: str, stack: Callable[[Context], list[np.ndarray]]) -> dict[str, Read]:
+    """Return the readers of a matrix stack; the matrix as (4, 4) in GL's memory order, column after column."""
+    return {
+        f"GL_{name}_MATRIX": lambda c: stack(c)[-1].T,
+        f"GL_TRANSPOSE_{name}_MATRIX": lambda c: stack(c)[-1],
+        f"GL_{name}_STACK_DEPTH": lambda c: len(stack(c)),
+        f"GL_MAX_{name}_STACK_DEPTH": lambda c: MATRIX_STACK_DEPTHS[getattr(gl, f"GL_{name}")],
+    }
+
+
+def client_array(name: str, token: int) -> dict[str, Read]:
+    """Return the readers of a vertex array; those of texture coordinates are the client's active unit's."""
+
+    def key(c: Context) -> str:
+        return ARRAYS.get(token, f"texcoord{c.arrays.active_unit}")
+
+    made: dict[str, Read] = {
+        f"GL_{name}_ARRAY": lambda c: key(c) in c.arrays.enabled,
+        f"GL_{name}_ARRAY_TYPE": lambda c: c.arrays.layout(key(c)).type,
+        f"GL_{name}_ARRAY_STRIDE": lambda c: c.arrays.layout(key(c)).stride,
+    }
+    if name != "NORMAL":
+        made[f"GL_{name}_ARRAY_SIZE"] = lambda c: c.arrays.layout(key(c)).size
+    return made
+
+
+def pixel_store(name: str, store: Callable[[Context], PixelStore]) -> dict[str, Read]:
+    return {
+        f"GL_{name}_ALIGNMENT": lambda c: store(c).alignment,
+        f"GL_{name}_ROW_LENGTH": lambda c: store(c).row_length,
+        f"GL_{name}_SKIP_ROWS": lambda c: store(c).skip_rows,
+        f"GL_{name}_SKIP_PIXELS": lambda c: store(c).skip_pixels,
+        f"GL_{name}_SWAP_BYTES": lambda c: False,
+        f"GL_{name}_LSB_FIRST": lambda c: False,
+    }
+
+
+QUERIES: dict[str, Read] = {
+    "GL_VIEWPORT": lambda c: (c.state.viewport.x, c.state.viewport.y, c.state.viewport.width, c.state.viewport.height),
+    "GL_DEPTH_RANGE": lambda c: (c.state.viewport.near, c.state.viewport.far),
+    "GL_SCISSOR_BOX": lambda c: (c.state.scissor.x, c.state.scissor.y, c.state.scissor.width, c.state.scissor.height),
+    "GL_ALPHA_TEST_FUNC": lambda c: c.state.alpha.func,
+    "GL_ALPHA_TEST_REF": lambda c: c.state.alpha.ref,
+    **stencil("", lambda c: c.state.stencil.front),
+    **stencil("BACK_", lambda c: c.state.stencil.back),
+    "GL_STENCIL_CLEAR_VALUE": lambda c: c.state.stencil.clear,
+    "GL_DEPTH_FUNC": lambda c: c.state.depth.func,
+    "GL_DEPTH_WRITEMASK": lambda c: c.state.depth.write,
+    "GL_DEPTH_CLEAR_VALUE": lambda c: c.state.depth.clear,
+    "GL_CULL_FACE_MODE": lambda c: c.state.cull.face,
+    "GL_FRONT_FACE": lambda c: c.state.cull.front_face,
+    "GL_POLYGON_MODE": lambda c: (c.state.polygon.mode_front, c.state.polygon.mode_back),
+    "GL_POLYGON_OFFSET_FACTOR": lambda c: c.state.polygon.factor,
+    "GL_POLYGON_OFFSET_UNITS": lambda c: c.state.polygon.units,
+    "GL_LINE_WIDTH": lambda c: c.state.polygon.line_width,
+    "GL_POINT_SIZE": lambda c: c.state.polygon.point_size,
+    "GL_BLEND_SRC": lambda c: c.state.blend.src_rgb,
+    "GL_BLEND_DST": lambda c: c.state.blend.dst_rgb,
+    "GL_BLEND_SRC_RGB": lambda c: c.state.blend.src_rgb,
+    "GL_BLEND_DST_RGB": lambda c: c.state.blend.dst_rgb,
+    "GL_BLEND_SRC_ALPHA": lambda c: c.state.blend.src_alpha,
+    "GL_BLEND_DST_ALPHA": lambda c: c.state.blend.dst_alpha,
+    "GL_BLEND_EQUATION_RGB": lambda c: c.state.blend.equation_rgb,
+    "GL_BLEND_EQUATION_ALPHA": lambda c: c.state.blend.equation_alpha,
+    "GL_BLEND_COLOR": shown_color(lambda c: c.state.blend.color),
+    "GL_LOGIC_OP_MODE": lambda c: c.state.blend.logic_op,
+    "GL_COLOR_WRITEMASK": lambda c: c.state.color.mask,
+    "GL_COLOR_CLEAR_VALUE": shown_color(lambda c: c.state.color.clear),
+    "GL_ACCUM_CLEAR_VALUE": lambda c: c.state.color.clear_accum,
+    "GL_SHADE_MODEL": lambda c: c.state.lighting.shade_model,
+    "GL_LIGHT_MODEL_AMBIENT": lambda c: c.state.lighting.model_ambient,
+    "GL_LIGHT_MODEL_LOCAL_VIEWER": lambda c: c.state.lighting.local_viewer,
+    "GL_LIGHT_MODEL_TWO_SIDE": lambda c: c.state.lighting.two_side,
+    "GL_LIGHT_MODEL_COLOR_CONTROL": lambda c: c.state.lighting.color_control,
+    "GL_COLOR_MATERIAL_FACE": lambda c: c.state.lighting.color_material_face,
+    "GL_COLOR_MATERIAL_PARAMETER": lambda c: c.state.lighting.color_material_mode,
+    "GL_FOG_MODE": lambda c: c.state.fog.mode,
+    "GL_FOG_DENSITY": lambda c: c.state.fog.density,
+    "GL_FOG_START": lambda c: c.state.fog.start,
+    "GL_FOG_END": lambda c: c.state.fog.end,
+    "GL_FOG_COLOR": lambda c: c.state.fog.color,
+    "GL_MATRIX_MODE": lambda c: c.matrix_mode,
+    **matrix("MODELVIEW", lambda c: c.modelview_stack),
+    **matrix("PROJECTION", lambda c: c.projection_stack),
+    **matrix("TEXTURE", lambda c: c.texture_stacks[c.active_unit]),
+    "GL_CURRENT_COLOR": lambda c: c.current.color,
+    "GL_CURRENT_NORMAL": lambda c: c.current.normal,
+    "GL_CURRENT_TEXTURE_COORDS": lambda c: c.current.texcoords[c.active_unit],
+    "GL_ACTIVE_TEXTURE": lambda c: gl.GL_TEXTURE0 + c.active_unit,
+    "GL_CLIENT_ACTIVE_TEXTURE": lambda c: gl.GL_TEXTURE0 + c.arrays.active_unit,
+    **client_array("VERTEX", gl.GL_VERTEX_ARRAY),
+    **client_array("NORMAL", gl.GL_NORMAL_ARRAY),
+    **client_array("COLOR", gl.GL_COLOR_ARRAY),
+    **client_array("TEXTURE_COORD", gl.GL_TEXTURE_COORD_ARRAY),
+    "GL_TEXTURE_BINDING_2D": lambda c: c.state.units[c.active_unit].bound_2d,
+    "GL_TEXTURE_BINDING_CUBE_MAP": lambda c: c.state.units[c.active_unit].bound_cube,
+    "GL_DRAW_FRAMEBUFFER_BINDING": lambda c: c.state.draw_framebuffer,
+    "GL_READ_FRAMEBUFFER_BINDING": lambda c: c.state.read_framebuffer,
+    "GL_RENDERBUFFER_BINDING": lambda c: c.renderbuffer,
+    "GL_DRAW_BUFFER": lambda c: drawn_to(c).draw_buffer,
+    "GL_DRAW_BUFFER0": lambda c: drawn_to(c).draw_buffer,
+    "GL_READ_BUFFER": lambda c: read_from(c).read_buffer,
+    "GL_CURRENT_PROGRAM": lambda c: c.state.program,
+    **pixel_store("PACK", lambda c: c.pack_store),
+    **pixel_store("UNPACK", lambda c: c.unpack_store),
+    "GL_ATTRIB_STACK_DEPTH": lambda c: len(c.attribute_stack),
+    "GL_DEBUG_GROUP_STACK_DEPTH": lambda c: len(c.labels) + 1,
+    "GL_LIST_BASE": lambda c: c.list_base,
+    "GL_LIST_INDEX": lambda c: c.compiled_list.name if c.compiled_list else 0,
+    "GL_LIST_MODE": lambda c: c.compiled_list.mode if c.compiled_list else 0,
+    # what this implementation has
+    "GL_RED_BITS": color_bits(0),
+    "GL_GREEN_BITS": color_bits(1),
+    "GL_BLUE_BITS": color_bits(2),
+    "GL_ALPHA_BITS": color_bits(3),
+    "GL_DEPTH_BITS": lambda c: bits(drawn_to(c).depth),
+    "GL_STENCIL_BITS": lambda c: bits(drawn_to(c).stencil),
+    "GL_RENDER_MODE": lambda c: gl.GL_RENDER,
+    "GL_RGBA_MODE": lambda c: True,
+    "GL_STEREO": lambda c: False,
+    "GL_SAMPLES": lambda c: 0,
+    "GL_SAMPLE_BUFFERS": lambda c: 0,
+    "GL_SUBPIXEL_BITS": lambda c: 8,
+    "GL_MAX_TEXTURE_UNITS": lambda c: TEXTURE_UNITS,
+    "GL_MAX_TEXTURE_SIZE": lambda c: LARGEST_SIDE,
+    "GL_MAX_TEXTURE_COORDS": lambda c: TEXTURE_UNITS,
+    "GL_MAX_TEXTURE_IMAGE_UNITS": lambda c: TEXTURE_UNITS,
+    "GL_MAX_CUBE_MAP_TEXTURE_SIZE": lambda c: LARGEST_SIDE,
+    "GL_MAX_COLOR_ATTACHMENTS": lambda c: len(COLOR_ATTACHMENTS),
+    "GL_MAX_RENDERBUFFER_SIZE": lambda c: LARGEST_SIDE,
+    "GL_MAX_VIEWPORT_DIMS": lambda c: (LARGEST_VIEWPORT, LARGEST_VIEWPORT),
+    "GL_MAX_LIGHTS": lambda c: len(LIGHTS),
+    "GL_MAX_CLIP_PLANES": lambda c: len(CLIP_PLANES),
+    "GL_MAX_ATTRIB_STACK_DEPTH": lambda c: DEEPEST_ATTRIBUTES,
+    "GL_MAX_LIST_NESTING": lambda c: DEEPEST_LIST,
+    "GL_LINE_WIDTH_RANGE": lambda c: SIZES,
+    "GL_POINT_SIZE_RANGE": lambda c: SIZES,
+    "GL_ALIASED_LINE_WIDTH_RANGE": lambda c: SIZES,
+    "GL_ALIASED_POINT_SIZE_RANGE": lambda c: SIZES,
+}
+BY_TOKEN: dict[int, Read] = {getattr(gl, name): read for name, read in QUERIES.items() if hasattr(gl, name)}
+BY_TOKEN |= {hint: (lambda c, hint=hint: c.hints.get(hint, gl.GL_DONT_CARE)) for hint in HINTS}  # type: ignore[misc]
+# state that is a colour, a normal, a depth or a matrix: as an integer 1 spans the whole range (GL 2.1, sec. 6.1.2)
+NORMALISED = {
+    getattr(gl, name)
+    for name in (
+        "GL_DEPTH_RANGE", "GL_DEPTH_CLEAR_VALUE", "GL_COLOR_CLEAR_VALUE", "GL_ACCUM_CLEAR_VALUE", "GL_CURRENT_COLOR",
+        "GL_CURRENT_NORMAL", "GL_BLEND_COLOR", "GL_FOG_COLOR", "GL_LIGHT_MODEL_AMBIENT", "GL_ALPHA_TEST_REF",
+        "GL_MODELVIEW_MATRIX", "GL_PROJECTION_MATRIX", "GL_TEXTURE_MATRIX",
+        "GL_TRANSPOSE_MODELVIEW_MATRIX", "GL_TRANSPOSE_PROJECTION_MATRIX", "GL_TRANSPOSE_TEXTURE_MATRIX",
+    )
+    if hasattr(gl, name)
+}  # fmt: skip
