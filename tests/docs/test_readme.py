@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+import softshadow
 from softshadow import techniques
 
 ROOT = Path(__file__).parents[2]
@@ -37,6 +38,11 @@ def test_python_example_runs_as_printed(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "zfail.npz").exists()
     assert len(block("python").splitlines()) <= 12
+
+
+def test_pixel_says_what_is_printed() -> None:
+    run = softshadow.run("volume-zfail", "torus", size=(320, 240))
+    assert " ".join(block("text").split()) == run.explain(160, 180)
 
 
 def test_table_lists_the_techniques_of_the_register() -> None:
