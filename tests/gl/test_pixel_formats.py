@@ -262,3 +262,36 @@ def test_a_part_of_an_image_is_uploaded_as_on_mesa(skip_rows, skip_pixels, row_l
         return [stored(gl, "GL_RGBA8")]
 
     same_on_mesa(program)
+
+
+@pytest.mark.parametrize("internal", [*DEPTHS, "GL_DEPTH_COMPONENT32"])
+def test_drawn_depth_is_sampled_as_on_mesa(internal):
+    drawn = np.random.default_rng(3).uniform(0.01, 1, WIDTH)
+
+    def program(gl: Any) -> list[np.ndarray]:
+        name = texture(gl, internal, "GL_DEPTH_COMPONENT", "GL_FLOAT", np.zeros((HEIGHT, WIDTH), np.float32))
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MAG_FILTER, gl.GL_NEAREST)
+        attach(gl, name, internal)
+        gl.glEnable(gl.GL_DEPTH_TEST)
+        gl.glDepthFunc(gl.GL_ALWAYS)
+        for column, z in enumerate(drawn.tolist()):
+            gl.glDepthRange(z, z)
+            gl.glViewport(column, 0, 1, HEIGHT)
+            gl.glRectf(-1, -1, 1, 1)
+        colors = texture(gl, "GL_RGBA32F", "GL_RGBA", "GL_FLOAT", np.zeros((HEIGHT, WIDTH, 4), np.float32))
+        attach(gl, colors, "GL_RGBA32F")
+        gl.glViewport(0, 0, *SIZE)
+        gl.glBindTexture(gl.GL_TEXTURE_2D, name)
+        gl.glEnable(gl.GL_TEXTURE_2D)
+        gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, gl.GL_REPLACE)
+        gl.glBegin(gl.GL_QUADS)
+        for s, t in ((0, 0), (1, 0), (1, 1), (0, 1)):
+            gl.glTexCoord2f(s, t)
+            gl.glVertex2f(2 * s - 1, 2 * t - 1)
+        gl.glEnd()
+        found = [gl.glReadPixels(0, 0, *SIZE, gl.GL_RED, gl.GL_FLOAT), stored(gl, internal)]
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+        return found
+
+    same_on_mesa(program)

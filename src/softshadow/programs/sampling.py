@@ -13,6 +13,7 @@ from softshadow import tokens as gl
 from softshadow.errors import StateError
 from softshadow.image import Image
 from softshadow.jit import kernel
+from softshadow.pixels import LARGEST_UINT, sampled_depth
 from softshadow.programs.level_of_detail import minified
 from softshadow.programs.wrapping import (
     FIXED_POINT_WRAPS,
@@ -92,16 +93,6 @@ def project(coordinates: np.ndarray) -> np.ndarray:
     return projected
 
 
-def depth_unit(largest: int) -> np.float32:
-    """Return the depth of one unit of a format whose integer `largest` stands for 1 (0: a float format).
-
-    llvmpipe reads the upper 23 of 32 bits only; cells of such a format are held as multiples of 512.
-    """
-    if largest == 2**32 - 1:
-        return ONE / np.float32(2**23 - 1) / np.float32(512)
-    return ONE / np.float32(largest) if largest else ONE
-
-
 def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
     """Fill `out` (N, 4) with the texture's RGBA at coordinates (N, 3): s, t, and r for depth comparison.
 
@@ -144,7 +135,9 @@ def sample_image(image: Image, sampler: Sampler, linear: bool, coordinates: np.n
     border = np.array(sampler.border_color, real)
     if image.format.kind == "depth":
         largest = image.format.largest
-        unit = real.type(depth_unit(largest))
+        unit = real.type(ONE / np.float32(largest) if largest else ONE)
+        if largest == LARGEST_UINT:  # llvmpipe reads 23 of 32 bits
+            cells, unit = sampled_depth(cells, image.format), real.type(ONE)
         sources = np.array(DEPTH_SOURCES[sampler.depth_mode])
         border = border.clip(ZERO, ONE) if largest else border
         where = coordinates, cells, image.width, wraps, border, unit, linear
