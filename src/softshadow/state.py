@@ -13,7 +13,7 @@ from softshadow.tokens import token_name
 Color = tuple[float, float, float, float]
 BLACK: Color = (0.0, 0.0, 0.0, 1.0)
 WHITE: Color = (1.0, 1.0, 1.0, 1.0)
-ALL_BITS = 0xFFFFFFFF  # masks start with every bit set; what a buffer has not got is cut at the draw
+ALL_BITS = 0xFF  # masks start with every bit that a stencil buffer can have
 
 STENCIL_OPS = ("GL_KEEP", "GL_ZERO", "GL_REPLACE", "GL_INCR", "GL_DECR", "GL_INVERT", "GL_INCR_WRAP", "GL_DECR_WRAP")
 BLEND_FACTORS = ("GL_ZERO", "GL_ONE")

@@ -9,7 +9,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import is_one_of, outside_begin
-from softshadow.state import ALL_BITS, STENCIL_OPS
+from softshadow.state import STENCIL_OPS
 
 FUNCTIONS = range(gl.GL_NEVER, gl.GL_ALWAYS + 1)
 A_FUNCTION = "GL_NEVER … GL_ALWAYS"
@@ -24,6 +24,7 @@ FACTORS = {
     gl.GL_ONE_MINUS_CONSTANT_COLOR, gl.GL_CONSTANT_ALPHA, gl.GL_ONE_MINUS_CONSTANT_ALPHA, gl.GL_SRC_ALPHA_SATURATE,
 }  # fmt: skip
 A_FACTOR = "a blend factor (GL 2.1, table 4.2)"
+UNSIGNED = 0xFFFFFFFF  # masks are unsigned ints: -1 has every bit set
 LOGIC_OPS = range(gl.GL_CLEAR, gl.GL_SET + 1)
 
 
@@ -83,7 +84,7 @@ def glStencilFuncSeparate(face: int, func: int, ref: int, mask: int) -> None:
 def _stencil_func(operation: str, face: int, func: int, ref: int, mask: int) -> None:
     context = outside_begin(operation)
     if context is not None and is_one_of(operation, "func", func, FUNCTIONS, A_FUNCTION):
-        _set_faces(context, operation, face, func=int(func), ref=int(ref), read_mask=int(mask) & ALL_BITS)
+        _set_faces(context, operation, face, func=int(func), ref=int(ref), read_mask=int(mask) & UNSIGNED)
 
 
 @in_lists
@@ -123,7 +124,7 @@ def glStencilMaskSeparate(face: int, mask: int) -> None:
 def _stencil_mask(operation: str, face: int, mask: int) -> None:
     context = outside_begin(operation)
     if context is not None:
-        _set_faces(context, operation, face, write_mask=int(mask) & ALL_BITS)
+        _set_faces(context, operation, face, write_mask=int(mask) & UNSIGNED)
 
 
 def _set_faces(context: Context, operation: str, face: int, **fields: int) -> None:

@@ -9,12 +9,14 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.context import current
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.capabilities import KNOWN, is_on
 from softshadow.gl.conversions import to_int
 from softshadow.gl.errors import outside_begin, wrong_enum
 from softshadow.gl.state_table import BY_TOKEN, NORMALISED
 
+LARGEST_INT = 2**31 - 1
 DOUBLES = (gl.GL_DEPTH_RANGE, gl.GL_DEPTH_CLEAR_VALUE)  # what GL keeps in double precision
 STRINGS = {
     gl.GL_VENDOR: b"softshadow",
@@ -41,7 +43,7 @@ def glGetFloatv(pname: int, params: Any = None) -> Any:
 
 def glGetDoublev(pname: int, params: Any = None) -> Any:
     """Return state as float64: a number, or an array; matrices as (4, 4) in GL's memory order."""
-    return _get("glGetDoublev", pname, params, np.float64, float)
+    return _get("glGetDoublev", pname, params, np.float64, float if pname in DOUBLES else _kept)
 
 
 def glGetIntegerv(pname: int, params: Any = None) -> Any:
@@ -79,9 +81,14 @@ def _get(operation: str, pname: int, params: Any, dtype: type[np.generic], conve
     return answer
 
 
+def _kept(value: float) -> float:
+    """Return a number in the precision that the context keeps its state in; whole ones are whole in any."""
+    return float(value) if isinstance(value, int) else float(current().real(value))
+
+
 def _nearest(value: float) -> int:
-    """Return the nearest int, halves away from zero, as C's lround."""
-    return int(math.copysign(math.floor(abs(value) + 0.5), value))
+    """Return the nearest int that there is, halves away from zero, as C's lround."""
+    return min(int(math.copysign(math.floor(abs(value) + 0.5), value)), LARGEST_INT)
 
 
 def _spread(value: float) -> int:

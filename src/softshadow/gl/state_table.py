@@ -21,7 +21,6 @@ from softshadow.pixel_store import PixelStore
 from softshadow.state import TEXTURE_UNITS, StencilFace
 
 Read = Callable[[Context], Any]
-STENCIL_BITS = 0xFF  # of the masks, those that a stencil buffer can have
 SIZES = (1.0, 255.0)  # of lines and points
 
 
@@ -71,11 +70,11 @@ def stencil(prefix: str, face: Callable[[Context], StencilFace]) -> dict[str, Re
     return {
         f"GL_STENCIL_{prefix}FUNC": lambda c: face(c).func,
         f"GL_STENCIL_{prefix}REF": ref,
-        f"GL_STENCIL_{prefix}VALUE_MASK": lambda c: face(c).read_mask & STENCIL_BITS,
+        f"GL_STENCIL_{prefix}VALUE_MASK": lambda c: face(c).read_mask,
         f"GL_STENCIL_{prefix}FAIL": lambda c: face(c).sfail,
         f"GL_STENCIL_{prefix}PASS_DEPTH_FAIL": lambda c: face(c).zfail,
         f"GL_STENCIL_{prefix}PASS_DEPTH_PASS": lambda c: face(c).zpass,
-        f"GL_STENCIL_{prefix}WRITEMASK": lambda c: face(c).write_mask & STENCIL_BITS,
+        f"GL_STENCIL_{prefix}WRITEMASK": lambda c: face(c).write_mask,
     }
 
 
