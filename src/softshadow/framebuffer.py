@@ -88,10 +88,6 @@ class Framebuffer:
         images = [a.image for a in self.attachments.values()]
         return (min(i.width for i in images), min(i.height for i in images)) if images else (0, 0)
 
-    def gl_row(self, y: int) -> int:
-        """Return the stored row of GL's window row `y`."""
-        return self.size[1] - 1 - y if self.flipped else y
-
 
 def default_framebuffer(
     width: int, height: int, depth_format: str = "d24", stencil_bits: int = 8, precision: str = "mesa"

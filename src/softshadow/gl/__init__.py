@@ -32,7 +32,9 @@ from softshadow.gl.pixels import *
 from softshadow.gl.programs import *
 from softshadow.gl.queries import *
 from softshadow.gl.rasterization import *
+from softshadow.gl.renderbuffers import *
 from softshadow.gl.texture_coordinates import *
+from softshadow.gl.texture_copies import *
 from softshadow.gl.texture_images import *
 from softshadow.gl.texture_units import *
 from softshadow.gl.textures import *

@@ -1,7 +1,8 @@
-"""Framebuffer objects and renderbuffers: names, attachments, completeness, and which colour buffer is meant."""
+"""Framebuffer objects: names, attachments, completeness, and which colour buffer is meant."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -12,15 +13,11 @@ from softshadow.framebuffer import DEFAULT, LARGEST_SIDE, Attachment
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, listed, take
-from softshadow.image import FORMATS, storage_format
 from softshadow.pipeline.commands import (
-    AttachRenderbuffer,
     AttachTexture,
     Command,
     CreateFramebuffer,
-    DefineRenderbuffer,
     DeleteFramebuffers,
-    DeleteRenderbuffers,
     SelectBuffers,
 )
 from softshadow.tokens import token_name
@@ -29,6 +26,8 @@ Problem = tuple[int, str]
 COLOR_ATTACHMENTS = tuple(range(gl.GL_COLOR_ATTACHMENT0, gl.GL_COLOR_ATTACHMENT7 + 1))
 KINDS = {gl.GL_DEPTH_ATTACHMENT: ("depth",), gl.GL_STENCIL_ATTACHMENT: ("stencil",)}
 COLOR_RENDERABLE = (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_RGBA)  # GL 4.5, sec. 9.4.1; Mesa allows luminance, too
+EXPECTED_TARGET = "expected GL_FRAMEBUFFER, GL_DRAW_FRAMEBUFFER or GL_READ_FRAMEBUFFER"
+BUFFER_NAMES = ("GL_NONE", "GL_FRONT", "GL_BACK")
 WINDOW_BUFFERS = (
     gl.GL_NONE, gl.GL_FRONT, gl.GL_BACK, gl.GL_LEFT, gl.GL_FRONT_LEFT, gl.GL_BACK_LEFT, gl.GL_FRONT_AND_BACK,
 )  # fmt: skip
@@ -44,7 +43,7 @@ BINDINGS = {
 # -- framebuffer objects -----------------------------------------------------------------------------------------------
 def glGenFramebuffers(n: int, framebuffers: Any = None) -> Any:
     """Return unused framebuffer names: an int for n = 1, else an array."""
-    return _generate("glGenFramebuffers", "framebuffer", n, framebuffers)
+    return generate("glGenFramebuffers", "framebuffer", n, framebuffers)
 
 
 def glBindFramebuffer(target: int, framebuffer: int) -> None:
@@ -85,51 +84,33 @@ def glFramebufferTexture2D(target: int, attachment: int, textarget: int, texture
     operation, name = "glFramebufferTexture2D", int(texture)
     if (context := outside_begin(operation)) is None:
         return None
-    if problem := _attachment_problem(context, target, attachment):
+    if problem := attachment_problem(context, target, attachment):
         return fail(problem[0], operation, problem[1])
     if name and (problem := _texture_problem(context, textarget, name, level)):
         return fail(problem[0], operation, problem[1])
     face = textarget - gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X if name and textarget != gl.GL_TEXTURE_2D else 0
-    framebuffer = _bound(context, target)
-    _attach(context, attachment, lambda point: AttachTexture(framebuffer, point, name, face, level))
+    framebuffer = bound_framebuffer(context, target)
+    attach(context, attachment, lambda point: AttachTexture(framebuffer, point, name, face, level))
     return None
 
 
-def glFramebufferRenderbuffer(target: int, attachment: int, renderbuffertarget: int, renderbuffer: int) -> None:
-    """Make a renderbuffer the buffer of an attachment point; renderbuffer 0 detaches."""
-    operation, name = "glFramebufferRenderbuffer", int(renderbuffer)
-    if (context := outside_begin(operation)) is None:
-        return None
-    if problem := _attachment_problem(context, target, attachment):
-        return fail(problem[0], operation, problem[1])
-    if renderbuffertarget != gl.GL_RENDERBUFFER:
-        return fail(
-            gl.GL_INVALID_ENUM,
-            operation,
-            f"renderbuffertarget={token_name(renderbuffertarget)}: expected GL_RENDERBUFFER",
-        )
-    if name and name not in context.storage.renderbuffers:
-        return fail(gl.GL_INVALID_OPERATION, operation, f"renderbuffer={name} does not exist")
-    framebuffer = _bound(context, target)
-    _attach(context, attachment, lambda point: AttachRenderbuffer(framebuffer, point, name))
-    return None
-
-
-def _attach(context: Context, attachment: int, command: Any) -> None:
+def attach(context: Context, attachment: int, command: Callable[[int], Command]) -> None:
+    """Carry out a command per attachment point; GL_DEPTH_STENCIL_ATTACHMENT is two."""
     both = attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT
     for point in (gl.GL_DEPTH_ATTACHMENT, gl.GL_STENCIL_ATTACHMENT) if both else (attachment,):
-        made: Command = command(point)
-        context.execute(made)
+        context.execute(command(point))
 
 
-def _bound(context: Context, target: int) -> int:
+def bound_framebuffer(context: Context, target: int) -> int:
+    """Return the name that is bound to a target."""
     return int(getattr(context.state, BINDINGS[target][0]))
 
 
-def _attachment_problem(context: Context, target: int, attachment: int) -> Problem | None:
+def attachment_problem(context: Context, target: int, attachment: int) -> Problem | None:
+    """Return (error code, why) where nothing can be attached there, else None."""
     if target not in BINDINGS:
         return gl.GL_INVALID_ENUM, f"target={token_name(target)}: {EXPECTED_TARGET}"
-    if _bound(context, target) == DEFAULT:
+    if bound_framebuffer(context, target) == DEFAULT:
         return gl.GL_INVALID_OPERATION, "the window is bound: its buffers cannot be exchanged"
     if attachment in range(gl.GL_COLOR_ATTACHMENT7 + 1, gl.GL_COLOR_ATTACHMENT0 + 32):
         return gl.GL_INVALID_OPERATION, f"attachment={attachment:#x}: there are {len(COLOR_ATTACHMENTS)} for colour"
@@ -183,7 +164,7 @@ def glCheckFramebufferStatus(target: int) -> int:
         return 0
     if (context := outside_begin("glCheckFramebufferStatus")) is None:
         return 0
-    return framebuffer_status(context, _bound(context, target))
+    return framebuffer_status(context, bound_framebuffer(context, target))
 
 
 def glGetFramebufferAttachmentParameteriv(target: int, attachment: int, pname: int, params: Any = None) -> Any:
@@ -191,10 +172,10 @@ def glGetFramebufferAttachmentParameteriv(target: int, attachment: int, pname: i
     operation = "glGetFramebufferAttachmentParameteriv"
     if (context := outside_begin(operation)) is None:
         return None
-    if problem := _attachment_problem(context, target, attachment):
+    if problem := attachment_problem(context, target, attachment):
         return fail(problem[0], operation, problem[1])
     point = gl.GL_DEPTH_ATTACHMENT if attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT else attachment
-    found = context.storage.framebuffers[_bound(context, target)].attachments.get(point)
+    found = context.storage.framebuffers[bound_framebuffer(context, target)].attachments.get(point)
     kind = gl.GL_NONE if found is None else gl.GL_TEXTURE if found.texture else gl.GL_RENDERBUFFER
     answers = {gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE: kind, gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME: 0}
     if found is not None:
@@ -257,83 +238,6 @@ def _select(operation: str, which: str, mode: int) -> None:
         )
     context.execute(SelectBuffers(name, **{f"{which}_buffer": mode}))
     return None
-
-
-# -- renderbuffers -----------------------------------------------------------------------------------------------------
-def glGenRenderbuffers(n: int, renderbuffers: Any = None) -> Any:
-    """Return unused renderbuffer names: an int for n = 1, else an array."""
-    return _generate("glGenRenderbuffers", "renderbuffer", n, renderbuffers)
-
-
-def glBindRenderbuffer(target: int, renderbuffer: int) -> None:
-    """Name the renderbuffer that glRenderbufferStorage is about."""
-    if (context := outside_begin("glBindRenderbuffer")) is None:
-        return None
-    name = int(renderbuffer)
-    if target != gl.GL_RENDERBUFFER:
-        return fail(gl.GL_INVALID_ENUM, "glBindRenderbuffer", f"target={token_name(target)}: expected GL_RENDERBUFFER")
-    if name and name not in context.storage.renderbuffers:
-        take(context, "renderbuffer", name)
-        context.execute(DefineRenderbuffer(name))
-    context.renderbuffer = name
-    return None
-
-
-def glRenderbufferStorage(target: int, internalformat: int, width: int, height: int) -> None:
-    """Give the bound renderbuffer an image of zeros."""
-    operation = "glRenderbufferStorage"
-    if (context := outside_begin(operation)) is None:
-        return None
-    if target != gl.GL_RENDERBUFFER:
-        return fail(gl.GL_INVALID_ENUM, operation, f"target={token_name(target)}: expected GL_RENDERBUFFER")
-    if internalformat not in FORMATS or internalformat in (1, 2, 3, 4):
-        return fail(
-            gl.GL_INVALID_ENUM, operation, f"internalformat={token_name(internalformat)} is not part of this subset"
-        )
-    if not (0 <= width <= LARGEST_SIDE and 0 <= height <= LARGEST_SIDE):
-        return fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 to {LARGEST_SIDE}")
-    if context.renderbuffer == 0:
-        return fail(gl.GL_INVALID_OPERATION, operation, "no renderbuffer is bound")
-    stored = storage_format(internalformat)
-    context.execute(DefineRenderbuffer(context.renderbuffer, stored, internalformat, width, height))
-    return None
-
-
-def glDeleteRenderbuffers(*arguments: Any) -> None:
-    """Delete renderbuffers: (name), (names) or (n, names). They leave the bound framebuffers."""
-    if (context := outside_begin("glDeleteRenderbuffers")) is None:
-        return None
-    names = [name for name in listed(arguments) if name > 0]
-    for framebuffer in {context.state.draw_framebuffer, context.state.read_framebuffer}:
-        for point, attachment in list(context.storage.framebuffers[framebuffer].attachments.items()):
-            if attachment.renderbuffer in names:
-                context.execute(AttachRenderbuffer(framebuffer, point, 0))
-    if context.renderbuffer in names:
-        context.renderbuffer = 0
-    existing = tuple(name for name in names if name in context.storage.renderbuffers)
-    if existing:
-        context.execute(DeleteRenderbuffers(existing))
-
-
-def glIsRenderbuffer(renderbuffer: int) -> bool:
-    """Return whether a name is that of a renderbuffer, which it becomes when it is first bound."""
-    context = outside_begin("glIsRenderbuffer")
-    return context is not None and int(renderbuffer) in context.storage.renderbuffers
-
-
-def _generate(operation: str, kind: str, n: int, out: Any) -> Any:
-    if (context := outside_begin(operation)) is None:
-        return None
-    if n < 0:
-        return fail(gl.GL_INVALID_VALUE, operation, f"n={n}: expected 0 or more")
-    names = generate(context, kind, n)
-    if out is not None:
-        np.asarray(out)[:n] = names
-    return names
-
-
-EXPECTED_TARGET = "expected GL_FRAMEBUFFER, GL_DRAW_FRAMEBUFFER or GL_READ_FRAMEBUFFER"
-BUFFER_NAMES = ("GL_NONE", "GL_FRONT", "GL_BACK")
 
 
 __all__ = spelled_like_gl(globals())

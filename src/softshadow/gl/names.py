@@ -6,14 +6,26 @@ from typing import Any
 
 import numpy as np
 
+from softshadow import tokens as gl
 from softshadow.context import Context
+from softshadow.gl.errors import fail, outside_begin
 
 
-def generate(context: Context, kind: str, n: int) -> Any:
-    """Return `n` names that were never used before, counting up as Mesa does: an int for one, an array for several."""
+def generate(operation: str, kind: str, n: int, names: Any = None) -> Any:
+    """Answer a glGen* call: names that were never used before, counting up as Mesa does.
+
+    One name is an int, several are an array, as in PyOpenGL; they are written into `names` where it is given.
+    """
+    if (context := outside_begin(operation)) is None:
+        return None
+    if n < 0:
+        return fail(gl.GL_INVALID_VALUE, operation, f"n={n}: expected 0 or more")
     first = context.names[kind] + 1
     context.names[kind] += n
-    return first if n == 1 else np.arange(first, first + n, dtype=np.uint32)
+    made = np.arange(first, first + n, dtype=np.uint32)
+    if names is not None:
+        np.asarray(names)[:n] = made
+    return first if n == 1 else made
 
 
 def take(context: Context, kind: str, name: int) -> None:

@@ -1,4 +1,4 @@
-"""Images of textures: uploads, copies from the framebuffer, and reading them back."""
+"""Images of textures: uploads and reading them back."""
 
 from __future__ import annotations
 
@@ -11,11 +11,10 @@ from softshadow.context import Context
 from softshadow.framebuffer import LARGEST_SIDE
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
-from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import Problem, format_problem, kind_of, readout_problem, upload_problem
 from softshadow.gl.textures import FACES, bound_name, bound_texture, target_problem
 from softshadow.image import FORMATS, WITH_STENCIL, Format, Image, storage_format
-from softshadow.pipeline.commands import CopyToTexture, DefineImage, UpdateImage
+from softshadow.pipeline.commands import DefineImage, UpdateImage
 from softshadow.pixel_store import TYPES, answer_array, client_image
 from softshadow.pixels import pack_color, pack_depth, pack_stencil, unpack_color, unpack_depth
 from softshadow.tokens import token_name
@@ -57,9 +56,9 @@ def glTexImage2D(
         return None
     problem = (
         target_problem(context, target, faces=True)
-        or _size_problem(target, level, width, height, border)
+        or size_problem(target, level, width, height, border)
         or format_problem(format, type)
-        or _internal_problem(internalformat, gl.GL_INVALID_VALUE)
+        or internal_problem(internalformat, gl.GL_INVALID_VALUE)
         or upload_problem(format, FORMATS[internalformat], internalformat in WITH_STENCIL)
     )
     if problem:
@@ -91,10 +90,10 @@ def glTexSubImage2D(
         return None
     problem = (
         target_problem(context, target, faces=True)
-        or _level_problem(level)
-        or _missing_problem(context, target, level)
+        or level_problem(level)
+        or missing_problem(context, target, level)
         or format_problem(format, type)
-        or _region_problem(context, target, level, xoffset, yoffset, width, height)
+        or region_problem(context, target, level, xoffset, yoffset, width, height)
     )
     if problem:
         return fail(problem[0], operation, problem[1])
@@ -127,84 +126,13 @@ def _cells(
     return (values, None) if stored.kind == "stencil" else (None, values)
 
 
-# -- copies from the framebuffer ---------------------------------------------------------------------------------------
-@in_lists
-def glCopyTexImage2D(
-    target: int, level: int, internalformat: int, x: int, y: int, width: int, height: int, border: int
-) -> None:
-    """Define a level of the bound texture from a rectangle of the read framebuffer."""
-    operation = "glCopyTexImage2D"
-    if (context := outside_begin(operation)) is None:
-        return None
-    problem = (
-        target_problem(context, target, faces=True)
-        or _level_problem(level)
-        or _source_problem(context)
-        or _size_problem(target, level, width, height, border)
-        or _internal_problem(internalformat, gl.GL_INVALID_ENUM, exclude=COMPONENT_NUMBERS)
-        or _copy_problem(context, FORMATS[internalformat], internalformat in WITH_STENCIL)
-    )
-    if problem:
-        return fail(problem[0], operation, problem[1])
-    texture, face = bound_texture(context, target), face_of(target)
-    context.execute(DefineImage(texture.name, face, level, FORMATS[internalformat], internalformat, width, height))
-    context.execute(CopyToTexture(context.state.read_framebuffer, texture.name, face, level, 0, 0, x, y, width, height))
-    return None
-
-
-@in_lists
-def glCopyTexSubImage2D(
-    target: int, level: int, xoffset: int, yoffset: int, x: int, y: int, width: int, height: int
-) -> None:
-    """Copy a rectangle of the read framebuffer into a level of the bound texture."""
-    operation = "glCopyTexSubImage2D"
-    if (context := outside_begin(operation)) is None:
-        return None
-    problem = (
-        target_problem(context, target, faces=True)
-        or _source_problem(context)
-        or _level_problem(level)
-        or _missing_problem(context, target, level)
-        or _region_problem(context, target, level, xoffset, yoffset, width, height)
-    )
-    if problem:
-        return fail(problem[0], operation, problem[1])
-    image = bound_texture(context, target).images[face_of(target), level]
-    if problem := _copy_problem(context, image.format, image.stencil is not None):
-        return fail(problem[0], operation, problem[1])
-    framebuffer, name = context.state.read_framebuffer, bound_name(context, target)
-    context.execute(CopyToTexture(framebuffer, name, face_of(target), level, xoffset, yoffset, x, y, width, height))
-    return None
-
-
-def _source_problem(context: Context) -> Problem | None:
-    name = context.state.read_framebuffer
-    if framebuffer_status(context, name) == gl.GL_FRAMEBUFFER_COMPLETE:
-        return None
-    return gl.GL_INVALID_FRAMEBUFFER_OPERATION, f"framebuffer {name} is not complete"
-
-
-def _copy_problem(context: Context, stored: Format, with_stencil: bool) -> Problem | None:
-    source = context.storage.framebuffers[context.state.read_framebuffer]
-    missing = None
-    if stored.kind == "depth" and source.depth is None:
-        missing = "no depth buffer"
-    elif with_stencil and source.stencil is None:
-        missing = "no stencil buffer"
-    elif stored.kind in ("unorm8", "float") and source.read_color is None:
-        missing = "no colour buffer to read from"
-    elif stored.kind == "stencil":
-        missing = "stencil values that can be copied into a texture of GL_STENCIL_INDEX8 in this subset only by packing"
-    return (gl.GL_INVALID_OPERATION, f"framebuffer {source.name} has {missing}") if missing else None
-
-
 # -- reading back ------------------------------------------------------------------------------------------------------
 def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = None) -> Any:
     """Return a level of the bound texture, (h, w) or (h, w, components), first row = bottom row, or fill `array`."""
     operation = "glGetTexImage"
     if (context := outside_begin(operation)) is None:
         return None
-    problem = target_problem(context, target, faces=True) or _level_problem(level) or format_problem(format, type)
+    problem = target_problem(context, target, faces=True) or level_problem(level) or format_problem(format, type)
     if problem:
         return fail(problem[0], operation, problem[1])
     image = image_at(context, target, level)
@@ -235,7 +163,7 @@ def glGetTexLevelParameteriv(target: int, level: int, pname: int, params: Any = 
     operation = "glGetTexLevelParameteriv"
     if (context := outside_begin(operation)) is None:
         return None
-    if problem := target_problem(context, target, faces=True) or _level_problem(level):
+    if problem := target_problem(context, target, faces=True) or level_problem(level):
         return fail(problem[0], operation, problem[1])
     image = image_at(context, target, level)
     simple = {
@@ -280,14 +208,16 @@ def image_at(context: Context, target: int, level: int) -> Image | None:
 
 
 # -- what can be wrong -------------------------------------------------------------------------------------------------
-def _level_problem(level: int) -> Problem | None:
+def level_problem(level: int) -> Problem | None:
+    """Return (error code, why) where there is no such level, else None."""
     if 0 <= level <= LARGEST_LEVEL:
         return None
     return gl.GL_INVALID_VALUE, f"level={level}: expected 0 to {LARGEST_LEVEL}"
 
 
-def _size_problem(target: int, level: int, width: int, height: int, border: int) -> Problem | None:
-    if problem := _level_problem(level):
+def size_problem(target: int, level: int, width: int, height: int, border: int) -> Problem | None:
+    """Return (error code, why) where a level cannot have that size, else None."""
+    if problem := level_problem(level):
         return problem
     if border != 0:
         return gl.GL_INVALID_VALUE, f"border={border}: expected 0 (texel borders are not part of this subset)"
@@ -299,22 +229,24 @@ def _size_problem(target: int, level: int, width: int, height: int, border: int)
     return None
 
 
-def _internal_problem(internalformat: int, code: int, exclude: tuple[int, ...] = ()) -> Problem | None:
+def internal_problem(internalformat: int, code: int, exclude: tuple[int, ...] = ()) -> Problem | None:
     if internalformat in FORMATS and internalformat not in exclude:
         return None
     known = ", ".join(token_name(f) for f in FORMATS if f not in COMPONENT_NUMBERS)
     return code, f"internalformat={token_name(internalformat)} is not part of this subset: expected one of {known}"
 
 
-def _missing_problem(context: Context, target: int, level: int) -> Problem | None:
+def missing_problem(context: Context, target: int, level: int) -> Problem | None:
+    """Return (error code, why) where the level has no image, else None."""
     if image_at(context, target, level) is not None:
         return None
     return gl.GL_INVALID_OPERATION, f"level {level} of the bound texture is not defined: call glTexImage2D first"
 
 
-def _region_problem(
+def region_problem(
     context: Context, target: int, level: int, x: int, y: int, width: int, height: int
 ) -> Problem | None:
+    """Return (error code, why) where a rectangle leaves the image, else None."""
     if width < 0 or height < 0:
         return gl.GL_INVALID_VALUE, f"width={width}, height={height}: expected 0 or more"
     image = image_at(context, target, level)

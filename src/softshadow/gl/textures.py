@@ -47,14 +47,7 @@ FIELDS = {name: field for name, (field, _) in CHOICES.items()} | LEVELS | NUMBER
 # -- objects and bindings ----------------------------------------------------------------------------------------------
 def glGenTextures(n: int, textures: Any = None) -> Any:
     """Return unused texture names: an int for n = 1, else an array."""
-    if (context := outside_begin("glGenTextures")) is None:
-        return None
-    if n < 0:
-        return fail(gl.GL_INVALID_VALUE, "glGenTextures", f"n={n}: expected 0 or more")
-    names = generate(context, "texture", n)
-    if textures is not None:
-        np.asarray(textures)[:n] = names
-    return names
+    return generate("glGenTextures", "texture", n, textures)
 
 
 @in_lists

@@ -1,0 +1,99 @@
+"""Renderbuffers: images that only serve as buffers of framebuffer objects."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from softshadow import tokens as gl
+from softshadow.framebuffer import LARGEST_SIDE
+from softshadow.gl.calls import spelled_like_gl
+from softshadow.gl.errors import fail, outside_begin
+from softshadow.gl.framebuffers import attach, attachment_problem, bound_framebuffer
+from softshadow.gl.names import generate, listed, take
+from softshadow.image import FORMATS, storage_format
+from softshadow.pipeline.commands import AttachRenderbuffer, DefineRenderbuffer, DeleteRenderbuffers
+from softshadow.tokens import token_name
+
+
+def glFramebufferRenderbuffer(target: int, attachment: int, renderbuffertarget: int, renderbuffer: int) -> None:
+    """Make a renderbuffer the buffer of an attachment point; renderbuffer 0 detaches."""
+    operation, name = "glFramebufferRenderbuffer", int(renderbuffer)
+    if (context := outside_begin(operation)) is None:
+        return None
+    if problem := attachment_problem(context, target, attachment):
+        return fail(problem[0], operation, problem[1])
+    if renderbuffertarget != gl.GL_RENDERBUFFER:
+        return fail(
+            gl.GL_INVALID_ENUM,
+            operation,
+            f"renderbuffertarget={token_name(renderbuffertarget)}: expected GL_RENDERBUFFER",
+        )
+    if name and name not in context.storage.renderbuffers:
+        return fail(gl.GL_INVALID_OPERATION, operation, f"renderbuffer={name} does not exist")
+    framebuffer = bound_framebuffer(context, target)
+    attach(context, attachment, lambda point: AttachRenderbuffer(framebuffer, point, name))
+    return None
+
+
+def glGenRenderbuffers(n: int, renderbuffers: Any = None) -> Any:
+    """Return unused renderbuffer names: an int for n = 1, else an array."""
+    return generate("glGenRenderbuffers", "renderbuffer", n, renderbuffers)
+
+
+def glBindRenderbuffer(target: int, renderbuffer: int) -> None:
+    """Name the renderbuffer that glRenderbufferStorage is about."""
+    if (context := outside_begin("glBindRenderbuffer")) is None:
+        return None
+    name = int(renderbuffer)
+    if target != gl.GL_RENDERBUFFER:
+        return fail(gl.GL_INVALID_ENUM, "glBindRenderbuffer", f"target={token_name(target)}: expected GL_RENDERBUFFER")
+    if name and name not in context.storage.renderbuffers:
+        take(context, "renderbuffer", name)
+        context.execute(DefineRenderbuffer(name))
+    context.renderbuffer = name
+    return None
+
+
+def glRenderbufferStorage(target: int, internalformat: int, width: int, height: int) -> None:
+    """Give the bound renderbuffer an image of zeros."""
+    operation = "glRenderbufferStorage"
+    if (context := outside_begin(operation)) is None:
+        return None
+    if target != gl.GL_RENDERBUFFER:
+        return fail(gl.GL_INVALID_ENUM, operation, f"target={token_name(target)}: expected GL_RENDERBUFFER")
+    if internalformat not in FORMATS or internalformat in (1, 2, 3, 4):
+        return fail(
+            gl.GL_INVALID_ENUM, operation, f"internalformat={token_name(internalformat)} is not part of this subset"
+        )
+    if not (0 <= width <= LARGEST_SIDE and 0 <= height <= LARGEST_SIDE):
+        return fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 to {LARGEST_SIDE}")
+    if context.renderbuffer == 0:
+        return fail(gl.GL_INVALID_OPERATION, operation, "no renderbuffer is bound")
+    stored = storage_format(internalformat)
+    context.execute(DefineRenderbuffer(context.renderbuffer, stored, internalformat, width, height))
+    return None
+
+
+def glDeleteRenderbuffers(*arguments: Any) -> None:
+    """Delete renderbuffers: (name), (names) or (n, names). They leave the bound framebuffers."""
+    if (context := outside_begin("glDeleteRenderbuffers")) is None:
+        return None
+    names = [name for name in listed(arguments) if name > 0]
+    for framebuffer in {context.state.draw_framebuffer, context.state.read_framebuffer}:
+        for point, attachment in list(context.storage.framebuffers[framebuffer].attachments.items()):
+            if attachment.renderbuffer in names:
+                context.execute(AttachRenderbuffer(framebuffer, point, 0))
+    if context.renderbuffer in names:
+        context.renderbuffer = 0
+    existing = tuple(name for name in names if name in context.storage.renderbuffers)
+    if existing:
+        context.execute(DeleteRenderbuffers(existing))
+
+
+def glIsRenderbuffer(renderbuffer: int) -> bool:
+    """Return whether a name is that of a renderbuffer, which it becomes when it is first bound."""
+    context = outside_begin("glIsRenderbuffer")
+    return context is not None and int(renderbuffer) in context.storage.renderbuffers
+
+
+__all__ = spelled_like_gl(globals())
