@@ -18,12 +18,12 @@ from softshadow.pipeline.primitives import Triangles, assemble, in_clipped_batch
 from softshadow.pipeline.setup import Setup, add_float_units, offset_of, set_up
 from softshadow.pipeline.vertex import to_clip, to_window
 from softshadow.programs import Program, VertexInputs
+from softshadow.programs.inverse import inverse
 from softshadow.state import State
 
 if TYPE_CHECKING:
     from softshadow.pipeline.commands import Draw
 
-NO_PLANES = np.empty((0, 4), np.float32)
 FILLED = (gl.GL_TRIANGLES, gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_QUADS, gl.GL_QUAD_STRIP, gl.GL_POLYGON)
 
 
@@ -62,10 +62,11 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage) -> Ge
     transforms = (command.modelview, command.projection, command.texture_matrices)
     varyings = program.vertex(VertexInputs(*arrays, *transforms, uniforms))
     clip = to_clip(matrices.multiply(command.projection, command.modelview), vertices.position)
-    codes = outcodes(clip, state.depth.clamp, NO_PLANES)
+    planes = user_planes(command)
+    codes = outcodes(clip, state.depth.clamp, planes)
     assembled = assembled_triangles(command, codes != 0)
     columns = varyings.values if varyings.back is None else np.hstack([varyings.values, varyings.back])
-    clipped = clip_triangles(clip, columns, assembled.corners, codes, NO_PLANES)
+    clipped = clip_triangles(clip, columns, assembled.corners, codes, planes)
     window = to_window(clipped.clip, state.viewport, target.size[1], target.flipped)
     offset = offset_of(
         state.polygon, target.depth, window.dtype.type, command.offset_slope, command.offset_unit, target.flipped
@@ -85,6 +86,18 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage) -> Ge
         program,
         uniforms,
     )
+
+
+def user_planes(command: Draw) -> np.ndarray:
+    """Return the enabled clip planes (P, 4) in clip space: those of eye space times the inverse projection."""
+    planes = command.state.clip_planes
+    enabled = [equation for on, equation in zip(planes.enabled, planes.equations, strict=True) if on]
+    made = np.empty((len(enabled), 4), np.float32)
+    if enabled:
+        m = inverse(command.projection)
+        for row, (a, b, c, d) in zip(made, np.array(enabled, np.float32), strict=True):
+            row[:] = ((a * m[0] + b * m[1]) + c * m[2]) + d * m[3]
+    return made
 
 
 def assembled_triangles(command: Draw, needs_clipping: np.ndarray) -> Triangles:
