@@ -58,14 +58,17 @@ class CounterSaturated(Warning):
 
 
 def nearest(name: str, choices: Iterable[str]) -> str:
-    """Return the end of an "unknown name" message: the nearest name, and what there is.
+    """Return the end of an "unknown name" message: the nearest name in either case of letters, and what there is.
 
     Examples
     --------
     >>> nearest("volume-zfial", ["planar", "volume-zfail"])
     "did you mean 'volume-zfail'? (there are: planar, volume-zfail)"
+    >>> nearest("teapot", ["planar", "volume-zfail"])
+    'expected one of planar, volume-zfail'
     """
     known = list(choices)
-    close = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
-    guess = f"did you mean {close[0]!r}? " if close else ""
-    return f"{guess}(there are: {', '.join(known)})"
+    listed = ", ".join(known)
+    spelled = {each.lower(): each for each in known}
+    close = difflib.get_close_matches(name.lower(), spelled, n=1, cutoff=0.5)
+    return f"did you mean {spelled[close[0]]!r}? (there are: {listed})" if close else f"expected one of {listed}"

@@ -5,7 +5,7 @@ Pillow is imported where it is needed. Every picture carries the mark of this pa
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +24,7 @@ OKABE_ITO = (
 )  # fmt: skip
 WRAPPED = ((0xE7, 0xA6, 0xC8), (0xCC, 0x79, 0xA7))  # 254 and 255: Okabe & Ito's purple means "below zero"
 CLEAR_DEPTH = (0x26, 0x2B, 0x44)  # where nothing was drawn: no grey, so that it is not taken for a depth
+UNDEFINED = (0x8A, 0xA0, 0xC8)  # where a visibility is not defined: a hue, so that it is not taken for half a shadow
 LABEL_HEIGHT, GAP = 14, 4
 
 
@@ -73,6 +74,19 @@ def depth_picture(depth: np.ndarray, clear: float = 1.0) -> Picture:
     return Image.fromarray(picture)
 
 
+def map_pictures(maps: Mapping[str, np.ndarray]) -> dict[str, Picture]:
+    """Return a picture of each map of a step: visibilities as light and shadow where they are valid, others by kind."""
+    return {
+        name: visibility_picture(values, maps.get("valid")) if is_visibility(name) else map_picture(values)
+        for name, values in maps.items()
+    }
+
+
+def is_visibility(name: str) -> bool:
+    """Return whether a map is named as a visibility: of all lights, or "visibility of lamp 1"."""
+    return name.split()[0] == "visibility"
+
+
 def map_picture(values: np.ndarray) -> Picture:
     """Return a picture of a named map: bool as black and white, uint8 as counts, depths and other floats as greys."""
     if values.dtype == np.bool_:
@@ -84,9 +98,12 @@ def map_picture(values: np.ndarray) -> Picture:
     return depth_picture(values)
 
 
-def visibility_picture(visibility: np.ndarray) -> Picture:
-    """Return a picture of a visibility (H, W): 1 white, 0 black."""
-    return color_picture(np.repeat(to_bytes(visibility)[..., None], 3, axis=2))
+def visibility_picture(visibility: np.ndarray, valid: np.ndarray | None = None) -> Picture:
+    """Return a picture of a visibility (H, W): 1 white, 0 black, `UNDEFINED` where it is not valid (H, W) bool."""
+    picture = np.repeat(to_bytes(visibility)[..., None], 3, axis=2)
+    if valid is not None:
+        picture[~valid] = UNDEFINED
+    return color_picture(picture)
 
 
 def to_bytes(values: np.ndarray) -> np.ndarray:
