@@ -23,7 +23,7 @@ from softshadow.inspection.files import DESCRIPTION, MARK, refuse_foreign, write
 from softshadow.inspection.pictures import (
     color_picture,
     depth_picture,
-    map_picture,
+    map_pictures,
     save_png,
     sheet_of,
     stencil_picture,
@@ -45,11 +45,30 @@ ENDINGS = (".png", ".npz", ".html")
 def save(run: Run, path: str | os.PathLike[str], force: bool) -> Path:
     """Write a run in the form that the ending of the path asks for; see `Run.save`."""
     target = Path(path)
-    if str(path).endswith(("/", os.sep)) or target.is_dir():
+    if is_folder(path):
         return save_folder(run, target, force)
-    if target.suffix.lower() not in ENDINGS:
-        raise ValueError(f"{path}: expected an ending of {', '.join(ENDINGS)}, or a folder (a path that ends in /)")
+    refuse(path, force)
     return write_whole(target, lambda temporary: write_file(run, temporary), force)
+
+
+def is_folder(path: str | os.PathLike[str]) -> bool:
+    """Return whether a path names a folder: there is one, or it ends as the name of one."""
+    return str(path).endswith(("/", os.sep)) or Path(path).is_dir()
+
+
+def refuse(path: str | os.PathLike[str], force: bool) -> None:
+    """Make sure that a run may be saved there: to be asked before a long drawing.
+
+    Raises
+    ------
+    ValueError                   an ending that is none of a run's
+    SoftShadowError              see `refuse_foreign`; the files of a folder are looked at when they have names
+    """
+    if is_folder(path):
+        return
+    if Path(path).suffix.lower() not in ENDINGS:
+        raise ValueError(f"{path}: expected an ending of {', '.join(ENDINGS)}, or a folder (a path that ends in /)")
+    refuse_foreign(Path(path), force)
 
 
 def write_file(run: Run, path: Path) -> None:
@@ -68,14 +87,14 @@ def save_folder(run: Run, folder: Path, force: bool) -> Path:
     """Write pictures of every step, their GL state as text, and the npz into a folder, which is made."""
     pictures = {"image.png": color_picture(run.image), "steps.png": sheet_of(run.steps)}
     if "visibility" in run.maps:
-        pictures["visibility.png"] = visibility_picture(run.visibility)
+        pictures["visibility.png"] = visibility_picture(run.visibility, run.maps.get("valid"))
     for step in run.steps:
         start = f"{step.index:02d}-{file_name(step.title)}"
         pictures[f"{start}-image.png"] = color_picture(step.image)
         pictures[f"{start}-depth.png"] = depth_picture(step.depth)
         pictures[f"{start}-stencil.png"] = stencil_picture(step.stencil)
-        for name, values in step.maps.items():
-            pictures[f"{start}-{file_name(name)}.png"] = map_picture(values)
+        for name, picture in map_pictures(step.maps).items():
+            pictures[f"{start}-{file_name(name)}.png"] = picture
     text = f"{MARK} {softshadow.__version__}\n" + "\n".join(
         f"\n# step {step.index}: {step.title}\n{step.state}" for step in run.steps
     )
@@ -138,8 +157,11 @@ def write_npz(run: Run, path: Path) -> None:
         arrays |= {f"maps/{step.index}/{name}": values for name, values in step.maps.items()}
     arrays |= {f"recording/{i}": array for i, array in enumerate(packer.arrays)}
     arrays[DESCRIPTION] = np.array(json.dumps(description))
-    with path.open("wb") as file:
-        np.savez_compressed(file, **arrays)  # type: ignore[arg-type]
+    # what np.savez_compressed does, at the lowest level: half the time, a tenth more bytes
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+        for name, array in arrays.items():
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
+                np.lib.format.write_array(member, np.asanyarray(array), allow_pickle=False)
 
 
 def load(path: str | os.PathLike[str]) -> Contents:
