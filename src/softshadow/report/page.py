@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from io import BytesIO
@@ -15,8 +15,16 @@ import numpy as np
 
 import softshadow
 from softshadow.inspection.files import MARK
-from softshadow.inspection.pictures import color_picture, depth_picture, map_picture, save_png, stencil_picture
-from softshadow.inspection.pictures import stencil_palette as palette_of_counts
+from softshadow.inspection.pictures import (
+    color_picture,
+    depth_picture,
+    is_visibility,
+    map_pictures,
+    save_png,
+    stencil_palette,
+    stencil_picture,
+)
+from softshadow.report.commands import options_spelled, scene_spelled
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -69,11 +77,18 @@ def write(run: Run, path: Path) -> None:
             run=run,
             heading=f"{run.technique} on {run.scene.name}",
             sections=sections(run, inline),
+            warnings=named(run.warnings),
             ledger=run.ledger.to_dicts(),
+            again=scene_spelled(run.scene, run.size) + options_spelled(run),
             buffers=[packed(step) for step in run.steps],
         )
     )
     path.write_text(page, encoding="utf-8")
+
+
+def named(warnings: Sequence[Warning]) -> list[str]:
+    """Return warnings as text, each with the name of its class."""
+    return [f"{type(each).__name__}: {each}" for each in warnings]
 
 
 def inline(picture: Picture, name: str) -> str:
@@ -120,9 +135,11 @@ def _figures(step: Step, place: Placed) -> list[Figure]:
             legend(step.stencil),
         ),
     ]
-    for number, (name, values) in enumerate(step.maps.items()):
-        caption = f"map: {name}, {values.shape[1]} x {values.shape[0]}"
-        figures.append(Figure(place(map_picture(values), f"{start}-map{number}"), f"map {name} {after}", caption))
+    for number, (name, picture) in enumerate(map_pictures(step.maps).items()):
+        caption = f"map: {name}, {picture.width} x {picture.height}"
+        if is_visibility(name):
+            caption += "; white lit, black in shadow, blue where not defined"
+        figures.append(Figure(place(picture, f"{start}-map{number}"), f"map {name} {after}", caption))
     return figures
 
 
@@ -134,7 +151,7 @@ def depth_caption(depth: np.ndarray) -> str:
 
 def legend(stencil: np.ndarray) -> tuple[tuple[str, str, int], ...]:
     """Return (count, colour, pixels) for the counts of a stencil buffer."""
-    palette = palette_of_counts()
+    palette = stencil_palette()
     counts, pixels = np.unique(stencil, return_counts=True)
     rows = [(str(c), "#{:02x}{:02x}{:02x}".format(*palette[c]), int(p)) for c, p in zip(counts, pixels, strict=True)]
     rest = sum(p for _, _, p in rows[SHOWN_COUNTS:])

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,7 +15,8 @@ from softshadow import techniques
 from softshadow.errors import SoftShadowError
 from softshadow.inspection.files import own
 from softshadow.inspection.pictures import color_picture
-from softshadow.report.page import Section, beside, environment, sections
+from softshadow.report.commands import options_spelled, scene_spelled
+from softshadow.report.page import Section, beside, environment, named, sections
 from softshadow.run import run
 
 if TYPE_CHECKING:
@@ -130,31 +132,40 @@ def write_tour(
     folder: str | Path,
     force: bool = False,
     progress: Callable[[str], None] = lambda title: None,
+    again: str | None = None,
 ) -> Path:
     """Draw all stops, write the folder, and return its page. The folder is made whole or not at all.
+
+    Parameters
+    ----------
+    scene, size                  as for `run`
+    folder : path                made if need be; an earlier tour in it is replaced
+    force : bool                 write into a folder that holds other files, which stay unless a file of the tour has
+                                 the same name
+    progress : callable          gets the title of each stop before it is drawn
+    again : str                  the arguments of the command line that ask for this scene and size
 
     Raises
     ------
     SoftShadowError
-        The folder exists and is not an earlier tour (`force` replaces it), or cannot be written.
+        The folder holds files that are not of a tour, or cannot be written.
     """
     target = Path(folder)
+    again = again or scene_spelled(scene, size)
     _refuse_foreign(target, force)
     try:
-        work = Path(tempfile.mkdtemp(prefix=".softshadow-", dir=target.parent))
+        # inside the folder where there is one: only within a file system do files move at once
+        work = Path(tempfile.mkdtemp(prefix=".softshadow-", dir=target if target.is_dir() else target.parent))
     except OSError as error:
         raise SoftShadowError(f"{target}: the folder cannot be made ({error.strerror})") from None
     try:
         visited = []
         for stop in STOPS:
             progress(stop.title)
-            visited.append(_visit(stop, run(stop.technique, scene, size, **stop.options), work))
-        page = environment().get_template("tour.html").render(scene=scene, size=size, visited=visited)
+            visited.append(_visit(stop, run(stop.technique, scene, size, **stop.options), work, again))
+        page = environment().get_template("tour.html").render(scene=scene, size=size, visited=visited, again=again)
         (work / INDEX).write_text(page, encoding="utf-8")
-        work.chmod(0o755)  # mkdtemp's folders are for the owner only
-        if target.exists():
-            shutil.rmtree(target)
-        work.replace(target)
+        _move(work, target)
     except OSError as error:
         raise SoftShadowError(f"{target}: cannot be written ({error.strerror or error})") from None
     finally:
@@ -165,27 +176,57 @@ def write_tour(
 def _refuse_foreign(target: Path, force: bool) -> None:
     if not target.parent.is_dir():
         raise SoftShadowError(f"{target}: the folder {target.parent} does not exist")
-    if target.is_file():
+    if target.exists() and not target.is_dir():
         raise SoftShadowError(f"{target}: is a file, expected the name of a folder")
-    index = target / INDEX
-    is_ours = not target.exists() or not any(target.iterdir()) or (index.is_file() and own(index))
-    if not is_ours and not force:
-        raise SoftShadowError(f"{target}: exists and is not a tour of softshadow; --force replaces it")
+    if force or not target.exists() or not any(target.iterdir()):
+        return
+    if not _is_tour(target):
+        raise SoftShadowError(f"{target}: holds files that are not of a tour; force=True writes between them")
 
 
-def _visit(stop: Stop, made: Run, work: Path) -> Visited:
+def _is_tour(folder: Path) -> bool:
+    """Return whether a folder holds a tour and nothing else."""
+    index = folder / INDEX
+    return index.is_file() and all(path.is_file() and own(path) for path in _files(folder))
+
+
+def _files(folder: Path) -> Iterator[Path]:
+    """Give all that is in a folder and the folders in it, except these folders themselves; links are not followed."""
+    for place, folders, names in os.walk(folder):
+        for name in (*names, *folders):
+            path = Path(place, name)
+            if name in names or path.is_symlink():
+                yield path
+
+
+def _move(work: Path, target: Path) -> None:
+    """Move the files of a finished tour to their place; an earlier tour goes, files of others stay."""
+    if target.is_dir() and _is_tour(target):
+        for path in target.iterdir():
+            if path == work:
+                continue
+            if path.is_dir():
+                shutil.rmtree(path)
+            else:
+                path.unlink()
+    for path in list(_files(work)):
+        place = target / path.relative_to(work)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        path.replace(place)
+
+
+def _visit(stop: Stop, made: Run, work: Path, again: str) -> Visited:
     folder = work / stop.name
     folder.mkdir()
     place = beside(folder)
     made.save(folder / "run.npz")
-    options = "".join(f" -O {key}={value}" for key, value in stop.options.items())
     return Visited(
         stop,
         place(color_picture(made.image), "picture"),
         sections(made, place),
         made.ledger.to_dicts(),
-        [f"{type(each).__name__}: {each}" for each in made.warnings],
+        named(made.warnings),
         f"{stop.name}/run.npz",
         techniques.get(stop.technique).paper,
-        f"softshadow render {stop.technique} --scene {made.scene.name}{options}",
+        f"softshadow render {stop.technique} {again}{options_spelled(made)}",
     )
