@@ -6,6 +6,7 @@ imported inside the commands, so that ``--help`` answers at once.
 
 from __future__ import annotations
 
+import errno
 import sys
 from typing import Any
 
@@ -19,6 +20,7 @@ from softshadow.cli.tours import tour
 from softshadow.errors import SoftShadowError
 
 BAD_INPUT, INTERRUPTED = 3, 130
+SPELLED_HERE = {"force=True": "--force"}  # what the package's messages call by the name of an argument
 
 
 class InputError(click.ClickException):
@@ -37,12 +39,20 @@ class Commands(click.Group):
         try:
             return super().invoke(ctx)
         except (SoftShadowError, ValueError, TypeError, OSError, MemoryError) as error:
-            if ctx.params.get("traceback"):
+            # a pipe that was closed, as by head, is no mistake: click ends quietly
+            if ctx.params.get("traceback") or getattr(error, "errno", None) == errno.EPIPE:
                 raise
-            raise InputError(str(error) or type(error).__name__) from None
+            raise InputError(_said(error)) from None
         except KeyboardInterrupt:
             click.echo("interrupted", err=True)
             raise click.exceptions.Exit(INTERRUPTED) from None
+
+
+def _said(error: BaseException) -> str:
+    message = str(error) or type(error).__name__
+    for there, here in SPELLED_HERE.items():
+        message = message.replace(there, here)
+    return message
 
 
 @click.group(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -10,6 +12,7 @@ import click
 if TYPE_CHECKING:
     from softshadow.scene import Scene
 
+MODELS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
 YES, NO = ("true", "yes", "on", "1"), ("false", "no", "off", "0")
 
 
@@ -81,8 +84,20 @@ def chosen_scene(scene: str | None, mesh: str | None, light: tuple[float, ...] |
     if mesh:
         return Scene.from_mesh(mesh, light=light) if light else Scene.from_mesh(mesh)
     name = scene or default
+    if Path(name).suffix.lower() in MODELS:
+        raise click.UsageError(f"--scene {name}: is the name of a model file; expected --mesh {name}")
     made = Scene.load(name) if name.lower().endswith(".toml") else Scene.named(name)
     return replace(made, lights=(Light(light),)) if light else made
+
+
+def spelled(
+    scene: str | None, mesh: str | None, light: tuple[float, ...] | None, size: tuple[int, int], default: str = "torus"
+) -> str:
+    """Return the arguments that ask for the same scene and size again, as a shell takes them."""
+    words = ["--mesh", mesh] if mesh else ["--scene", scene or default]
+    if light:
+        words += [f"--light={','.join(repr(number).removesuffix('.0') for number in light)}"]
+    return shlex.join([*words, "--size", f"{size[0]}x{size[1]}"])
 
 
 def parsed_options(technique: str, given: tuple[str, ...]) -> dict[str, Any]:

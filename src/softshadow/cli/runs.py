@@ -36,7 +36,7 @@ def _about(made: Run) -> dict[str, Any]:
 
 @click.command(
     epilog="Examples:  softshadow render volume-zfail -o torus.png  |  "
-    "softshadow render map --scene boxes --size 320x240 -O bias=0 -o acne.html"
+    "softshadow render map --scene boxes --size 320x240 -O factor=0 -O units=0 -o acne.html"
 )
 @click.argument("technique")
 @scene_arguments("640x480")
@@ -51,8 +51,12 @@ def render(
     given: tuple[str, ...], output: str | None, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Draw a scene with a technique, and write the picture, the report, or all buffers."""
+    from softshadow.inspection.saving import refuse
+
+    target = output or f"{technique}.png"
+    refuse(target, force)
     made = _run(technique, size, given, scene=scene, mesh=mesh, light=light)
-    written = made.save(output or f"{technique}.png", force=force)
+    written = made.save(target, force=force)
     if as_json:
         shadowed = float(made.shadow_mask.mean()) if "visibility" in made.maps else None
         print_json("render", written=written, shadowed_share=shadowed, **_about(made))

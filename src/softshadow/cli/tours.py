@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 import click
 
-from softshadow.cli.arguments import as_json, chosen_scene, force, scene_arguments
+from softshadow.cli.arguments import as_json, chosen_scene, force, scene_arguments, spelled
 from softshadow.cli.talk import named_warnings, print_json, say, say_if_compiling
 
 
@@ -48,10 +48,11 @@ def tour(
         drawn = chosen_scene(scene, mesh, light)
         say_if_compiling()
         with _progress(len(STOPS)) as show:
-            index = write_tour(drawn, size, output, force=force, progress=show)
+            again = spelled(scene, mesh, light, size)
+            index = write_tour(drawn, size, output, force=force, progress=show, again=again)
     seconds = time.perf_counter() - start
     say(f"{len(STOPS)} runs in {seconds:.1f} s; open the page in a browser.")
-    say("Why is a pixel dark? Ask:  softshadow pixel volume-zfail 120 130 --size 240x180")
+    say(f"Why is a pixel dark? Ask:  softshadow pixel volume-zfail {size[0] // 2} {size[1] * 3 // 4} {again}")
     if as_json:
         print_json("tour", index=index, runs=len(STOPS), seconds=seconds, scene=drawn.name, size=size)
     else:
