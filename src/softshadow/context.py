@@ -18,6 +18,7 @@ from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.pipeline.commands import Command, Draw, Vertices
 from softshadow.pixel_store import PixelStore
 from softshadow.programs import Program
+from softshadow.programs.inverse import known_kind
 from softshadow.state import TEXTURE_UNITS, State
 
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
@@ -152,6 +153,9 @@ class Context:
         self.modelview_stack = [identity]
         self.projection_stack = [identity]
         self.texture_stacks = [[identity] for _ in range(TEXTURE_UNITS)]
+        # what the calls that made each matrix say of it: how Mesa inverts it (softshadow.programs.inverse)
+        self.modelview_kinds, self.projection_kinds = [0], [0]
+        self.texture_kinds = [[0] for _ in range(TEXTURE_UNITS)]
         self.programs: dict[int, Program] = {}
         self.uniforms: dict[int, dict[str, Any]] = {}
         self.labels: list[str] = []
@@ -193,6 +197,21 @@ class Context:
             return self.projection_stack
         return self.texture_stacks[self.active_unit] if self.matrix_mode == gl.GL_TEXTURE else self.modelview_stack
 
+    @property
+    def kind_stack(self) -> list[int]:
+        """The kinds of the matrices of `matrix_stack`."""
+        if self.matrix_mode == gl.GL_PROJECTION:
+            return self.projection_kinds
+        return self.texture_kinds[self.active_unit] if self.matrix_mode == gl.GL_TEXTURE else self.modelview_kinds
+
+    def settle_kinds(self) -> None:
+        """Read unknown kinds of the current matrices off their elements, as Mesa does when something is drawn."""
+        for matrices, kinds in (
+            (self.modelview_stack, self.modelview_kinds),
+            (self.projection_stack, self.projection_kinds),
+        ):
+            kinds[-1] = known_kind(matrices[-1], kinds[-1])
+
     # -- commands ------------------------------------------------------------------------------------------------------
     def execute(self, command: Command) -> None:
         """Carry a command out, then record it: a command that raises has changed nothing."""
@@ -201,6 +220,7 @@ class Context:
 
     def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:
         """Draw primitives under the present state. The arrays must be read-only and the caller's own no more."""
+        self.settle_kinds()
         self.execute(
             Draw(
                 state=self.state,
@@ -215,6 +235,8 @@ class Context:
                 label="/".join(self.labels),
                 offset_slope=self.offset_slope,
                 offset_unit=self.offset_unit,
+                modelview_kind=self.modelview_kinds[-1],
+                projection_kind=self.projection_kinds[-1],
             )
         )
 

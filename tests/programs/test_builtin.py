@@ -1,5 +1,6 @@
 """The built-in programs: what they say by example, and their GLSL twins on Mesa, bit for bit."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -30,7 +31,7 @@ def shaded(name: str, given: VertexInputs, uniforms: dict[str, Any]) -> np.ndarr
     program = programs.get(name)
     uniforms = {**program.uniforms, **uniforms}
     out = np.empty((len(given.position), 4), np.float32)
-    inputs = VertexInputs(*(getattr(given, f) for f in given.__dataclass_fields__ if f != "uniforms"), uniforms)
+    inputs = replace(given, uniforms=uniforms)
     program.shade(program.vertex(inputs).values, uniforms, out)
     return out
 

@@ -24,6 +24,7 @@ from softshadow.gl.errors import *
 from softshadow.gl.fog import *
 from softshadow.gl.fragment_state import *
 from softshadow.gl.framebuffers import *
+from softshadow.gl.glu import *
 from softshadow.gl.immediate import *
 from softshadow.gl.lighting import *
 from softshadow.gl.lists import *

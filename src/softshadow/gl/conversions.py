@@ -5,11 +5,13 @@ References: GL 2.1, table 2.9; the order of operations and roundings is that of 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
+LARGEST_INT = 2**31 - 1
 ONE, TWO = np.float32(1), np.float32(2)
 BYTE_STEP, SHORT_STEP = ONE / np.float32(255), ONE / np.float32(65535)
 INT_STEP, UNSIGNED_INT_STEP = 1 / 4294967294.0, 1 / 4294967295.0
@@ -44,6 +46,11 @@ def to_int(value: float) -> int:
     """Return the integer that stands for a float in -1 to 1: what glGetIntegerv answers for colours and depths."""
     scaled = 2147483647.0 * value
     return int(scaled) if -2147483648.0 <= scaled <= 2147483647.0 else -2147483648
+
+
+def nearest_int(value: float) -> int:
+    """Return the nearest int that there is, halves away from zero, as C's lround: what glGetIntegerv answers else."""
+    return min(int(math.copysign(math.floor(abs(value) + 0.5), value)), LARGEST_INT)
 
 
 def vector(params: Any, length: int, convert: Callable[[Any], float] = float) -> Sequence[float]:

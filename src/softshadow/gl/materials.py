@@ -10,7 +10,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context, current
 from softshadow.errors import StateError
 from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.conversions import as_floats, as_ints, first, from_int, to_int, vector
+from softshadow.gl.conversions import as_floats, as_ints, first, from_int, nearest_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.fragment_state import A_FACE, FACES, change, rounded
 from softshadow.state import Lighting, Material
@@ -126,7 +126,7 @@ def glGetMaterialfv(face: int, pname: int) -> Any:
 
 def glGetMaterialiv(face: int, pname: int) -> Any:
     """Return a material parameter of one facing as integers, colours spanning the range of an int."""
-    return as_ints(_material("glGetMaterialiv", face, pname), round if pname == gl.GL_SHININESS else to_int)
+    return as_ints(_material("glGetMaterialiv", face, pname), nearest_int if pname == gl.GL_SHININESS else to_int)
 
 
 def _material(operation: str, face: int, pname: int) -> Any:

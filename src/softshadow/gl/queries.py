@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
@@ -12,11 +11,10 @@ from softshadow import tokens as gl
 from softshadow.context import current
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.capabilities import KNOWN, is_on
-from softshadow.gl.conversions import to_int
+from softshadow.gl.conversions import nearest_int, to_int
 from softshadow.gl.errors import outside_begin, wrong_enum
 from softshadow.gl.state_table import BY_TOKEN, NORMALISED
 
-LARGEST_INT = 2**31 - 1
 DOUBLES = (gl.GL_DEPTH_RANGE, gl.GL_DEPTH_CLEAR_VALUE)  # what GL keeps in double precision
 STRINGS = {
     gl.GL_VENDOR: b"softshadow",
@@ -48,7 +46,7 @@ def glGetDoublev(pname: int, params: Any = None) -> Any:
 
 def glGetIntegerv(pname: int, params: Any = None) -> Any:
     """Return state as integers: a number, or an array int32. For colours, normals and depths 1 is the largest int."""
-    convert = to_int if pname in DOUBLES else _spread if pname in NORMALISED else _nearest
+    convert = to_int if pname in DOUBLES else _spread if pname in NORMALISED else nearest_int
     return _get("glGetIntegerv", pname, params, np.int32, convert)
 
 
@@ -84,11 +82,6 @@ def _get(operation: str, pname: int, params: Any, dtype: type[np.generic], conve
 def _kept(value: float) -> float:
     """Return a number in the precision that the context keeps its state in; whole ones are whole in any."""
     return float(value) if isinstance(value, int) else float(current().real(value))
-
-
-def _nearest(value: float) -> int:
-    """Return the nearest int that there is, halves away from zero, as C's lround."""
-    return min(int(math.copysign(math.floor(abs(value) + 0.5), value)), LARGEST_INT)
 
 
 def _spread(value: float) -> int:

@@ -12,7 +12,7 @@ from softshadow.context import Context
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.textures import queried_color, set_unit
-from softshadow.programs.inverse import inverse
+from softshadow.programs.inverse import inverse, known_kind
 from softshadow.state import TEXTURE_UNITS, TexGen
 from softshadow.tokens import token_name
 
@@ -191,14 +191,16 @@ def _set_generation(operation: str, coord: int, pname: int, params: Any) -> None
         raise ValueError(f"{operation}({token_name(pname)}): expected 4 numbers, got shape {values.shape}")
     plane = values.astype(np.float32)
     if pname == gl.GL_EYE_PLANE:
-        plane = eye_plane(plane, context.modelview_stack[-1])
+        plane = eye_plane(context, plane)
     _replace_generation(context, coord, **{PLANES[pname]: tuple(float(p) for p in plane)})
     return None
 
 
-def eye_plane(plane: np.ndarray, modelview: np.ndarray) -> np.ndarray:
-    """Return the plane in eye space: (4,) times the inverse modelview matrix, float32 from left to right."""
-    m = inverse(modelview)
+def eye_plane(context: Context, plane: np.ndarray) -> np.ndarray:
+    """Return the plane (4,) in eye space: times the inverse of the current modelview matrix, from left to right."""
+    modelview, kinds = context.modelview_stack[-1], context.modelview_kinds
+    kinds[-1] = known_kind(modelview, kinds[-1])
+    m = inverse(modelview, kinds[-1])
     with np.errstate(all="ignore"):
         a, b, c, d = plane.astype(np.float32)
         return np.asarray(a * m[0] + b * m[1] + c * m[2] + d * m[3], np.float32)

@@ -1,22 +1,34 @@
-"""Matrix stacks and GLU's cameras."""
+"""Matrix stacks and what changes the current matrix."""
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
 from softshadow import matrices
 from softshadow import tokens as gl
-from softshadow.context import MATRIX_STACK_DEPTHS, Context, current
+from softshadow.context import MATRIX_STACK_DEPTHS, Context
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.programs.inverse import (
+    GENERAL,
+    GENERAL_SCALE,
+    ROTATION,
+    TRANSLATION,
+    UNIFORM_SCALE,
+    UNKNOWN,
+    known_kind,
+)
+
+SAME_SCALE = 1e-8  # a scale is uniform where its factors differ by less (Mesa, math/m_matrix.c)
 
 
-def _set_current(context: Context, matrix: np.ndarray) -> None:
+def set_current(context: Context, matrix: np.ndarray, kind: int) -> None:
+    """Make a matrix current. `kind` says what may be in it, and with that how Mesa inverts it."""
     matrix.setflags(write=False)
     context.matrix_stack[-1] = matrix
+    context.kind_stack[-1] = kind
 
 
 def _given(context: Context, m: Any) -> np.ndarray:
@@ -43,7 +55,10 @@ def glPushMatrix() -> None:
     if len(context.matrix_stack) == largest:
         fail(gl.GL_STACK_OVERFLOW, "glPushMatrix", f"this stack holds {largest} matrices")
     else:
-        context.matrix_stack.append(context.matrix_stack[-1])
+        matrix, kinds = context.matrix_stack[-1], context.kind_stack
+        kinds[-1] = known_kind(matrix, kinds[-1])
+        kinds.append(kinds[-1])
+        context.matrix_stack.append(matrix)
 
 
 @in_lists
@@ -56,6 +71,7 @@ def glPopMatrix() -> None:
         fail(gl.GL_STACK_UNDERFLOW, "glPopMatrix", "there was no glPushMatrix before it")
     else:
         context.matrix_stack.pop()
+        context.kind_stack.pop()
 
 
 @in_lists
@@ -63,7 +79,8 @@ def glLoadIdentity() -> None:
     """Make the identity current."""
     context = outside_begin("glLoadIdentity")
     if context is not None:
-        _set_current(context, np.eye(4, dtype=context.real))
+        # Mesa keeps what the matrix before could have had in it, and so inverts the next one more generally
+        set_current(context, np.eye(4, dtype=context.real), context.kind_stack[-1] & ~UNKNOWN)
 
 
 @in_lists
@@ -71,7 +88,9 @@ def glLoadMatrixf(m: Any) -> None:
     """Make a matrix current: 16 numbers, column after column."""
     context = outside_begin("glLoadMatrixf")
     if context is not None:
-        _set_current(context, _given(context, m))
+        made = _given(context, m)
+        if made.tobytes() != context.matrix_stack[-1].tobytes():
+            set_current(context, made, GENERAL | UNKNOWN)
 
 
 @in_lists
@@ -79,11 +98,12 @@ def glMultMatrixf(m: Any) -> None:
     """Multiply the current matrix from the right: 16 numbers, column after column."""
     context = outside_begin("glMultMatrixf")
     if context is not None:
-        _multiply(context, _given(context, m))
+        multiply_current(context, _given(context, m), GENERAL | UNKNOWN)
 
 
-def _multiply(context: Context, matrix: np.ndarray) -> None:
-    _set_current(context, matrices.multiply(context.matrix_stack[-1], matrix))
+def multiply_current(context: Context, matrix: np.ndarray, kind: int) -> None:
+    """Multiply the current matrix from the right by one of a kind."""
+    set_current(context, matrices.multiply(context.matrix_stack[-1], matrix), context.kind_stack[-1] | kind)
 
 
 @in_lists
@@ -91,7 +111,8 @@ def glTranslatef(x: float, y: float, z: float) -> None:
     """Move what is drawn from here on."""
     context = outside_begin("glTranslatef")
     if context is not None:
-        _set_current(context, matrices.translate(context.matrix_stack[-1], x, y, z))
+        made = matrices.translate(context.matrix_stack[-1], x, y, z)
+        set_current(context, made, context.kind_stack[-1] | TRANSLATION)
 
 
 @in_lists
@@ -99,15 +120,17 @@ def glScalef(x: float, y: float, z: float) -> None:
     """Scale what is drawn from here on."""
     context = outside_begin("glScalef")
     if context is not None:
-        _set_current(context, matrices.scale(context.matrix_stack[-1], x, y, z))
+        uniform = max(abs(x - y), abs(x - z)) < SAME_SCALE
+        kind = context.kind_stack[-1] | (UNIFORM_SCALE if uniform else GENERAL_SCALE)
+        set_current(context, matrices.scale(context.matrix_stack[-1], x, y, z), kind)
 
 
 @in_lists
 def glRotatef(angle: float, x: float, y: float, z: float) -> None:
     """Turn what is drawn from here on: degrees about an axis."""
     context = outside_begin("glRotatef")
-    if context is not None:
-        _multiply(context, matrices.rotation(angle, x, y, z, context.real))
+    if context is not None and angle and (x or y or z):
+        multiply_current(context, matrices.rotation(angle, x, y, z, context.real), ROTATION)
 
 
 @in_lists
@@ -120,7 +143,7 @@ def glFrustum(left: float, right: float, bottom: float, top: float, zNear: float
         expected = "expected left ≠ right, bottom ≠ top, near ≠ far and both more than 0"
         fail(gl.GL_INVALID_VALUE, "glFrustum", f"zNear={zNear}, zFar={zFar}: {expected}")
     else:
-        _multiply(context, matrices.frustum(left, right, bottom, top, zNear, zFar, context.real))
+        multiply_current(context, matrices.frustum(left, right, bottom, top, zNear, zFar, context.real), GENERAL)
 
 
 @in_lists
@@ -133,77 +156,12 @@ def glOrtho(left: float, right: float, bottom: float, top: float, zNear: float, 
         expected = "expected left ≠ right, bottom ≠ top and near ≠ far"
         fail(gl.GL_INVALID_VALUE, "glOrtho", f"left={left}, right={right}: {expected}")
     else:
-        _multiply(context, matrices.ortho(left, right, bottom, top, zNear, zFar, context.real))
+        made = matrices.ortho(left, right, bottom, top, zNear, zFar, context.real)
+        multiply_current(context, made, GENERAL_SCALE | TRANSLATION)
 
 
 glLoadMatrixd, glMultMatrixd = glLoadMatrixf, glMultMatrixf
 glTranslated, glScaled, glRotated = glTranslatef, glScalef, glRotatef
-
-
-# -- GLU ---------------------------------------------------------------------------------------------------------------
-def gluPerspective(fovy: float, aspect: float, zNear: float, zFar: float) -> None:
-    """Multiply by a perspective projection. `fovy` in degrees; does nothing where GLU does nothing."""
-    context = outside_begin("gluPerspective")
-    sine = math.sin(math.radians(fovy / 2))
-    if context is not None and zFar != zNear and sine != 0 and aspect != 0:
-        _multiply(context, matrices.perspective(fovy, aspect, zNear, zFar, context.real))
-
-
-@in_lists
-def gluOrtho2D(left: float, right: float, bottom: float, top: float) -> None:
-    """Multiply by a parallel projection of a rectangle, depth -1 to 1."""
-    glOrtho(left, right, bottom, top, -1, 1)
-
-
-@in_lists
-def gluLookAt(
-    eyeX: float, eyeY: float, eyeZ: float,
-    centerX: float, centerY: float, centerZ: float,
-    upX: float, upY: float, upZ: float,
-) -> None:  # fmt: skip
-    """Multiply by the view of an eye that looks at a centre."""
-    context = outside_begin("gluLookAt")
-    if context is not None:
-        eye, center, up = (eyeX, eyeY, eyeZ), (centerX, centerY, centerZ), (upX, upY, upZ)
-        _set_current(context, matrices.look_at(context.matrix_stack[-1], eye, center, up))
-
-
-def gluProject(
-    objX: float, objY: float, objZ: float, model: Any = None, proj: Any = None, view: Any = None
-) -> tuple[float, float, float]:  # fmt: skip
-    """Return the window coordinates of a point, in double precision; y from the bottom."""
-    transform, box = _double(model, proj, view)
-    clip = transform @ np.array([objX, objY, objZ, 1.0])
-    if clip[3] == 0:
-        raise ValueError("gluProject: the point projects to infinity (w = 0)")
-    ndc = clip[:3] / clip[3] * 0.5 + 0.5
-    return float(box[0] + ndc[0] * box[2]), float(box[1] + ndc[1] * box[3]), float(ndc[2])
-
-
-def gluUnProject(
-    winX: float, winY: float, winZ: float, model: Any = None, proj: Any = None, view: Any = None
-) -> tuple[float, float, float]:  # fmt: skip
-    """Return the point whose window coordinates these are, in double precision."""
-    transform, box = _double(model, proj, view)
-    ndc = np.array([(winX - box[0]) / box[2], (winY - box[1]) / box[3], winZ, 1.0]) * 2 - 1
-    ndc[3] = 1.0
-    try:
-        point = np.linalg.solve(transform, ndc)
-    except np.linalg.LinAlgError:
-        raise ValueError("gluUnProject: the matrices have no inverse") from None
-    if point[3] == 0:
-        raise ValueError("gluUnProject: the point lies at infinity (w = 0)")
-    return float(point[0] / point[3]), float(point[1] / point[3]), float(point[2] / point[3])
-
-
-def _double(model: Any, proj: Any, view: Any) -> tuple[np.ndarray, tuple[float, ...]]:
-    """Return projection times modelview in double precision, and the viewport; the current ones where None."""
-    context = current()
-    modelview = context.modelview_stack[-1] if model is None else np.reshape(model, (4, 4)).T
-    projection = context.projection_stack[-1] if proj is None else np.reshape(proj, (4, 4)).T
-    standing = context.state.viewport
-    box = (standing.x, standing.y, standing.width, standing.height) if view is None else tuple(view)
-    return projection.astype(np.float64) @ modelview.astype(np.float64), box
 
 
 __all__ = spelled_like_gl(globals())

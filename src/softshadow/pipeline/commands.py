@@ -16,6 +16,7 @@ from softshadow import pipeline
 from softshadow.framebuffer import DEFAULT, NOTHING, Attachment, Framebuffer, Storage, plane_for
 from softshadow.image import Format, Image
 from softshadow.pipeline import transfer
+from softshadow.programs.inverse import UNKNOWN
 from softshadow.state import State
 from softshadow.texture import Sampler, Texture
 
@@ -41,7 +42,8 @@ class Draw:
     """Primitives with everything that decides about their pixels.
 
     `mode` is GL_POINTS ... GL_POLYGON, `indices` (N,) int32 into the vertices, or None for all in order; `label` names
-    the debug groups the draw stands in ("step/torus"); `uniforms` are those of the program in use.
+    the debug groups the draw stands in ("step/torus"); `uniforms` are those of the program in use; the kinds of the
+    matrices decide how they are inverted.
     """
 
     state: State
@@ -56,6 +58,8 @@ class Draw:
     label: str = ""
     offset_slope: str = "max"
     offset_unit: str = "mesa"
+    modelview_kind: int = UNKNOWN
+    projection_kind: int = UNKNOWN
 
     def apply(self, storage: Storage) -> None:
         pipeline.draw(self, storage)

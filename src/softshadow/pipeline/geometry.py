@@ -60,7 +60,7 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage) -> Ge
     program, uniforms = program_of(command, storage)
     arrays = (vertices.position, vertices.color, vertices.normal, vertices.texcoords)
     transforms = (command.modelview, command.projection, command.texture_matrices)
-    varyings = program.vertex(VertexInputs(*arrays, *transforms, uniforms))
+    varyings = program.vertex(VertexInputs(*arrays, *transforms, uniforms, command.modelview_kind))
     clip = to_clip(matrices.multiply(command.projection, command.modelview), vertices.position)
     planes = user_planes(command)
     codes = outcodes(clip, state.depth.clamp, planes)
@@ -94,7 +94,7 @@ def user_planes(command: Draw) -> np.ndarray:
     enabled = [equation for on, equation in zip(planes.enabled, planes.equations, strict=True) if on]
     made = np.empty((len(enabled), 4), np.float32)
     if enabled:
-        m = inverse(command.projection)
+        m = inverse(command.projection, command.projection_kind)
         for row, (a, b, c, d) in zip(made, np.array(enabled, np.float32), strict=True):
             row[:] = ((a * m[0] + b * m[1]) + c * m[2]) + d * m[3]
     return made

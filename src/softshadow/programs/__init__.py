@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.errors import StateError, nearest
+from softshadow.programs.inverse import UNKNOWN
 from softshadow.texture import Texture
 
 
@@ -21,6 +22,7 @@ class VertexInputs:
     """What a vertex stage sees: per-vertex arrays in object space, and the matrices (column vectors, ``M @ v``).
 
     position (V, 4), color (V, 4), normal (V, 3), texcoords one (V, 4) per texture unit; float32 (float64 in "exact").
+    `modelview_kind` is what the calls that made the matrix say of it (`softshadow.programs.inverse`).
     """
 
     position: np.ndarray
@@ -31,6 +33,7 @@ class VertexInputs:
     projection: np.ndarray
     texture_matrices: tuple[np.ndarray, ...]
     uniforms: Mapping[str, Any]
+    modelview_kind: int = UNKNOWN
 
 
 @dataclass(frozen=True)

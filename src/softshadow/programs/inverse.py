@@ -1,9 +1,10 @@
 """The inverse of a 4x4 matrix in float32, by the kind of the matrix, as Mesa inverts: for normals, planes and lights.
 
 A rotation is transposed, a scale divided, and so on: other formulas give other last bits, and a generated texture
-coordinate carries them into a shadow comparison. The kind is read off the elements, as Mesa does for loaded matrices.
+coordinate carries them into a shadow comparison. The kind is what the calls that made the matrix say of it; that of
+loaded and multiplied matrices is read off the elements.
 
-References: m_matrix.c of Mesa 22.3 (analyse_from_scratch and the inversion functions).
+References: m_matrix.c of Mesa 22.3 (analyse_from_scratch, analyse_from_flags and the inversion functions).
 """
 
 from __future__ import annotations
@@ -13,6 +14,12 @@ import numpy as np
 TOLERANCE = np.float32(1e-6) * np.float32(1e-6)  # on squares: what still counts as a rotation
 SMALLEST_DETERMINANT = np.float32(1e-25)
 ONE = np.float32(1.0)
+# a matrix's kind: the sum of what may be in it; 0 is the identity
+ROTATION, TRANSLATION, UNIFORM_SCALE, GENERAL_SCALE, GENERAL_3D, GENERAL, UNKNOWN = (1 << i for i in range(7))
+LENGTH_PRESERVING = ROTATION | TRANSLATION
+ANGLE_PRESERVING = LENGTH_PRESERVING | UNIFORM_SCALE
+WITHOUT_ROTATION = TRANSLATION | UNIFORM_SCALE | GENERAL_SCALE
+AFFINE = ANGLE_PRESERVING | GENERAL_SCALE | GENERAL_3D
 
 
 def dot(a: np.ndarray, b: np.ndarray) -> np.float32:
@@ -72,22 +79,37 @@ def keeps_angles(m: np.ndarray) -> bool:
     return bool(dot(rest, rest) < TOLERANCE)
 
 
-def is_length_preserving(matrix: np.ndarray) -> bool:
-    """Return whether a (4, 4) float32 matrix is made of rotations and translations, as Mesa finds out."""
-    with np.errstate(all="ignore"):
-        return is_affine(matrix) and scale_kind(matrix) == "none" and keeps_angles(matrix)
-
-
-def inverse(matrix: np.ndarray) -> np.ndarray:
-    """Return the inverse of a (4, 4) matrix in float32; the identity where the matrix is singular, as Mesa has it."""
+def known_kind(matrix: np.ndarray, kind: int = UNKNOWN) -> int:
+    """Return the kind of a (4, 4) matrix: the given one, or where that says UNKNOWN, the one read off the elements."""
+    if not kind & UNKNOWN:
+        return kind
     m = np.asarray(matrix, np.float32)
     with np.errstate(all="ignore"):
         if not is_affine(m):
+            return GENERAL
+        scale = {"none": 0, "uniform": UNIFORM_SCALE, "general": GENERAL_SCALE}[scale_kind(m)]
+        moved = TRANSLATION if m[:3, 3].any() else 0
+        if scales_only(m):
+            return scale | moved
+        return scale | moved | (ROTATION if keeps_angles(m) else GENERAL_3D)
+
+
+def is_length_preserving(matrix: np.ndarray, kind: int = UNKNOWN) -> bool:
+    """Return whether a (4, 4) float32 matrix is made of rotations and translations, as Mesa finds out."""
+    return not known_kind(matrix, kind) & ~LENGTH_PRESERVING
+
+
+def inverse(matrix: np.ndarray, kind: int = UNKNOWN) -> np.ndarray:
+    """Return the inverse of a (4, 4) matrix in float32; the identity where the matrix is singular, as Mesa has it."""
+    m = np.asarray(matrix, np.float32)
+    kind = known_kind(m, kind)
+    with np.errstate(all="ignore"):
+        if kind & ~AFFINE:
             found = inverse_of_general(m)
-        elif scales_only(m):
+        elif not kind & ~WITHOUT_ROTATION:
             found = inverse_of_scale(m)
-        elif keeps_angles(m) and scale_kind(m) != "general":
-            found = inverse_of_rotation(m, scale_kind(m) == "uniform")
+        elif not kind & ~ANGLE_PRESERVING:
+            found = inverse_of_rotation(m, bool(kind & UNIFORM_SCALE))
         else:
             found = inverse_of_affine(m)
     return np.eye(4, dtype=np.float32) if found is None else found

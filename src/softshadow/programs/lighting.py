@@ -100,7 +100,7 @@ def has_highlights(lighting: Lighting) -> bool:
     return lighting.front.shininess != 0 or (lighting.two_side and lighting.back.shininess != 0)
 
 
-def in_object_space(lighting: Lighting, modelview: np.ndarray, eye_linear: bool) -> bool:
+def in_object_space(lighting: Lighting, length_preserving: bool, eye_linear: bool) -> bool:
     """Return whether Mesa lights in object space: directional lights, infinite viewer, nothing else in eye space."""
     lights = enabled_lights(lighting)
     return (
@@ -108,7 +108,7 @@ def in_object_space(lighting: Lighting, modelview: np.ndarray, eye_linear: bool)
         and not lighting.local_viewer
         and lighting.color_control != gl.GL_SEPARATE_SPECULAR_COLOR
         and all(light.position[3] == 0 and light.spot_cutoff == 180 for light in lights)
-        and is_length_preserving(modelview)
+        and length_preserving
     )
 
 
@@ -122,10 +122,11 @@ def light_vertices(
     eye_linear : bool            whether a texture unit generates coordinates in eye space: then lighting is there too
     """
     modelview = np.asarray(vertices.modelview, np.float32)
-    object_space = in_object_space(lighting, modelview, eye_linear)
+    length_preserving = is_length_preserving(modelview, vertices.modelview_kind)
+    object_space = in_object_space(lighting, length_preserving, eye_linear)
     with np.errstate(all="ignore"):
-        to_object = inverse(modelview)
-        normal = transformed_normals(lighting, vertices.normal, modelview, to_object, object_space)
+        to_object = inverse(modelview, vertices.modelview_kind)
+        normal = transformed_normals(lighting, vertices.normal, to_object, object_space, length_preserving)
         eye = transform(modelview, vertices.position)[:, :3] if needs_eye_position(lighting) else None
         lights = [
             at_vertices(light, lighting, eye, modelview, to_object, object_space) for light in enabled_lights(lighting)
@@ -136,14 +137,14 @@ def light_vertices(
 
 
 def transformed_normals(
-    lighting: Lighting, normal: np.ndarray, modelview: np.ndarray, to_object: np.ndarray, object_space: bool
+    lighting: Lighting, normal: np.ndarray, to_object: np.ndarray, object_space: bool, length_preserving: bool
 ) -> np.ndarray:
     """Return the normals (V, 3) in the space of lighting, normalised or rescaled."""
     if not object_space:
         normal = np.stack([dot(normal, to_object[:3, i]) for i in range(3)], axis=1)
     if lighting.normalize:
         return normalized_rows(normal)
-    if lighting.rescale_normal and not object_space and not is_length_preserving(modelview):
+    if lighting.rescale_normal and not object_space and not length_preserving:
         row = to_object[2, :3]
         squared = (row[0] * row[0] + row[1] * row[1]) + row[2] * row[2]
         normal = normal * (ONE / np.sqrt(squared if squared >= SMALLEST_SCALE else ONE))

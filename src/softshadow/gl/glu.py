@@ -1,0 +1,106 @@
+"""GLU's cameras and projections."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from softshadow import matrices
+from softshadow.context import current
+from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.errors import outside_begin
+from softshadow.gl.transforms import glOrtho, multiply_current, set_current
+from softshadow.programs.inverse import GENERAL, TRANSLATION, UNKNOWN
+
+
+@in_lists
+def gluPerspective(fovy: float, aspect: float, zNear: float, zFar: float) -> None:
+    """Multiply by a perspective projection. `fovy` in degrees; does nothing where GLU does nothing."""
+    context = outside_begin("gluPerspective")
+    sine = math.sin(math.radians(fovy / 2))
+    if context is not None and zFar != zNear and sine != 0 and aspect != 0:
+        made = matrices.perspective(fovy, aspect, zNear, zFar, context.real)
+        multiply_current(context, made, GENERAL | UNKNOWN)
+
+
+@in_lists
+def gluOrtho2D(left: float, right: float, bottom: float, top: float) -> None:
+    """Multiply by a parallel projection of a rectangle, depth -1 to 1."""
+    glOrtho(left, right, bottom, top, -1, 1)
+
+
+@in_lists
+def gluLookAt(
+    eyeX: float, eyeY: float, eyeZ: float,
+    centerX: float, centerY: float, centerZ: float,
+    upX: float, upY: float, upZ: float,
+) -> None:  # fmt: skip
+    """Multiply by the view of an eye that looks at a centre."""
+    context = outside_begin("gluLookAt")
+    if context is not None:
+        eye, center, up = (eyeX, eyeY, eyeZ), (centerX, centerY, centerZ), (upX, upY, upZ)
+        made = matrices.look_at(context.matrix_stack[-1], eye, center, up)
+        set_current(context, made, context.kind_stack[-1] | GENERAL | TRANSLATION | UNKNOWN)
+
+
+def gluProject(
+    objX: float, objY: float, objZ: float, model: Any = None, proj: Any = None, view: Any = None
+) -> tuple[float, float, float]:  # fmt: skip
+    """Return the window coordinates of a point, in double precision; y from the bottom.
+
+    Matrices and viewport are the current ones where they are not given.
+
+    Raises
+    ------
+    ValueError
+        The point projects to infinity.
+    """
+    model, proj, (left, bottom, width, height) = _current_or(model, proj, view)
+    x, y, z, w = _applied(proj, _applied(model, (float(objX), float(objY), float(objZ), 1.0)))
+    if w == 0:
+        raise ValueError("gluProject: the point projects to infinity (w = 0)")
+    x, y, z = (coordinate / w * 0.5 + 0.5 for coordinate in (x, y, z))
+    return x * width + left, y * height + bottom, z
+
+
+def gluUnProject(
+    winX: float, winY: float, winZ: float, model: Any = None, proj: Any = None, view: Any = None
+) -> tuple[float, float, float]:  # fmt: skip
+    """Return the point whose window coordinates these are, in double precision.
+
+    Raises
+    ------
+    ValueError
+        The matrices have no inverse, or the point lies at infinity.
+    """
+    model, proj, (left, bottom, width, height) = _current_or(model, proj, view)
+    ndc = [(winX - left) / width * 2 - 1, (winY - bottom) / height * 2 - 1, winZ * 2 - 1, 1.0]
+    try:
+        x, y, z, w = np.linalg.solve(np.reshape(proj, (4, 4)).T @ np.reshape(model, (4, 4)).T, ndc).tolist()
+    except np.linalg.LinAlgError:
+        raise ValueError("gluUnProject: the matrices have no inverse") from None
+    if w == 0:
+        raise ValueError("gluUnProject: the point lies at infinity (w = 0)")
+    return x / w, y / w, z / w
+
+
+def _current_or(model: Any, proj: Any, view: Any) -> tuple[list[float], list[float], tuple[float, ...]]:
+    """Return two matrices, column after column, and a viewport; the current ones where None."""
+    context = current()
+    standing = context.state.viewport
+    box = (standing.x, standing.y, standing.width, standing.height) if view is None else tuple(np.ravel(view).tolist())
+    stacks = ((model, context.modelview_stack), (proj, context.projection_stack))
+    made = [stack[-1].T if matrix is None else np.asarray(matrix) for matrix, stack in stacks]
+    columns = [np.ravel(matrix).astype(np.float64).tolist() for matrix in made]
+    return columns[0], columns[1], box
+
+
+def _applied(m: list[float], point: tuple[float, ...]) -> tuple[float, ...]:
+    """Return a matrix times a point, summed in GLU's order."""
+    x, y, z, w = point
+    return tuple(x * m[i] + y * m[4 + i] + z * m[8 + i] + w * m[12 + i] for i in range(4))
+
+
+__all__ = spelled_like_gl(globals())
