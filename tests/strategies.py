@@ -272,3 +272,19 @@ def state_calls() -> st.SearchStrategy[list[tuple]]:
         min_size=1,
         max_size=40,
     )
+
+
+def axes_and_angles() -> st.SearchStrategy[tuple[float, np.ndarray]]:
+    """Angles in degrees, and axes, coordinate axes among them."""
+    axis = st.tuples(*[st.integers(-4, 4)] * 3).filter(any) | st.sampled_from([(1, 0, 0), (0, 1, 0), (0, 0, -1)])
+    return st.tuples(st.integers(-720, 720).map(float), axis.map(lambda a: np.array(a, np.float64)))
+
+
+@st.composite
+def cameras(draw: st.DrawFn) -> tuple:
+    """An eye, a centre elsewhere and an up vector that is not along the view."""
+    point = st.tuples(*[coordinates(-4, 4)] * 3)
+    eye, center, up = draw(point), draw(point), draw(st.tuples(*[st.integers(-3, 3)] * 3))
+    if np.linalg.norm(np.cross(np.subtract(center, eye), up)) < 0.1:
+        reject()
+    return eye, center, up
