@@ -57,9 +57,10 @@ class CurrentVertex:
 
 @dataclass
 class Primitive:
-    """What glBegin ... glEnd has collected: a row per vertex."""
+    """What glBegin ... glEnd has collected: a row per vertex; `from_list` says that a display list has begun it."""
 
     mode: int
+    from_list: bool = False
     positions: list[tuple[float, float, float, float]] = field(default_factory=list)
     colors: list[tuple[float, float, float, float]] = field(default_factory=list)
     normals: list[tuple[float, float, float]] = field(default_factory=list)

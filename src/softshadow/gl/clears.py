@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from softshadow import tokens as gl
-from softshadow.context import current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.fragment_state import change, clamp01, rounded
@@ -63,12 +62,12 @@ def glClear(mask: int) -> None:
 
 def glFlush() -> None:
     """Do nothing: every call has been carried out when it returns."""
-    current()
+    outside_begin("glFlush")
 
 
 def glFinish() -> None:
     """Do nothing: every call has been carried out when it returns."""
-    current()
+    outside_begin("glFinish")
 
 
 __all__ = spelled_like_gl(globals())

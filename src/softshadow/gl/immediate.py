@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from softshadow import tokens as gl
 from softshadow.context import Context, Primitive, current
 from softshadow.gl.calls import in_lists, spelled_like_gl
@@ -31,7 +33,7 @@ def glBegin(mode: int) -> None:
     """Start a primitive."""
     context = outside_begin("glBegin")
     if context is not None and is_one_of("glBegin", "mode", mode, MODES, A_MODE) and can_draw(context, "glBegin"):
-        context.primitive = Primitive(int(mode))
+        context.primitive = Primitive(int(mode), from_list=context.list_depth > 0)
 
 
 @in_lists
@@ -49,7 +51,16 @@ def glEnd() -> None:
         position, color, normal = (
             context.frozen(rows) for rows in (primitive.positions, primitive.colors, primitive.normals)
         )
-        context.draw(primitive.mode, Vertices(position, color, normal, texcoords))
+        whole_from_list = primitive.from_list and context.list_depth > 0
+        indices = in_order(len(position)) if whole_from_list else None
+        context.draw(primitive.mode, Vertices(position, color, normal, texcoords), indices)
+
+
+def in_order(count: int) -> np.ndarray:
+    """Return the indices 0, 1, 2 ...: Mesa's lists draw by indices, which cuts quads the other way."""
+    indices = np.arange(count, dtype=np.int32)
+    indices.setflags(write=False)
+    return indices
 
 
 def add_vertex(context: Context, x: float, y: float, z: float = 0.0, w: float = 1.0) -> None:

@@ -15,7 +15,7 @@ from softshadow import tokens as gl
 from softshadow.context import ArrayLayout, Context, current
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.immediate import A_MODE, MODES, can_draw
+from softshadow.gl.immediate import A_MODE, MODES, can_draw, in_order
 from softshadow.gl.texture_coordinates import A_UNIT, REST, UNITS
 from softshadow.pipeline.commands import Vertices
 from softshadow.state import TEXTURE_UNITS
@@ -154,7 +154,8 @@ def _draw(context: Context, mode: int, vertices: Vertices | None, indices: np.nd
         return
     compiled = context.compiled_list
     if compiled is not None:
-        compiled.calls.append(lambda: current().draw(mode, vertices, indices))
+        kept = in_order(len(vertices.position)) if indices is None else indices
+        compiled.calls.append(lambda: current().draw(mode, vertices, kept))
     if compiled is None or compiled.executes:
         context.draw(mode, vertices, indices)
 
