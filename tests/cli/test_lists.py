@@ -42,7 +42,7 @@ def test_scenes_are_listed_with_titles_and_counts() -> None:
 
 def test_doctor_tells_versions_threads_and_extras() -> None:
     found = as_json("doctor")
-    assert {"softshadow", "python", "threads", "cache folder", "Mesa"} <= set(found)
+    assert {"softshadow", "python", "threads", "cache_folder", "mesa"} <= set(found)
     assert "missing" not in found["packages"].values()
     assert set(found["extras"]) == set(machine.EXTRAS)
     text = done("doctor").stdout
