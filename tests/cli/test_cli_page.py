@@ -1,4 +1,7 @@
-"""docs/cli.md: what it shows runs, what it prints is printed, what it lists is there. So is the picture of README.md."""
+"""docs/cli.md:
+
+What it shows runs, what it prints is printed, what it lists is there. So is the picture of README.md.
+"""
 
 import re
 import shlex
