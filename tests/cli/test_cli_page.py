@@ -1,7 +1,4 @@
-"""docs/cli.md:
-
-What it shows runs, what it prints is printed, what it lists is there. So is the picture of README.md.
-"""
+"""docs/cli.md: what it shows runs, what it prints is printed. README.md: its picture is made as it says."""
 
 import re
 import shlex
