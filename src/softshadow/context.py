@@ -172,6 +172,7 @@ class Context:
         # the highest name that glGen* has given out, per kind; an object exists in storage once it has been bound
         self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query"), 0)
         self.renderbuffer = 0
+        self.query_targets: dict[int, int] = {}  # of the queries that have been begun
 
     def __enter__(self) -> Context:
         make_current(self)

@@ -37,15 +37,6 @@ def glClearStencil(s: int) -> None:
 
 
 @in_lists
-def glClearAccum(red: float, green: float, blue: float, alpha: float) -> None:
-    """Set the colour that glClear writes to the accumulation buffer, clamped to [-1, 1]."""
-    context = outside_begin("glClearAccum")
-    if context is not None:
-        clamped = [min(max(float(c), -1.0), 1.0) for c in (red, green, blue, alpha)]
-        change(context, "color", clear_accum=rounded(context, *clamped))
-
-
-@in_lists
 def glClear(mask: int) -> None:
     """Clear buffers: under scissor and write masks, whatever the tests are set to."""
     context = outside_begin("glClear")

@@ -15,7 +15,9 @@ import numpy as np
 from softshadow import pipeline
 from softshadow.framebuffer import DEFAULT, NOTHING, Attachment, Framebuffer, Storage, plane_for
 from softshadow.image import Format, Image
-from softshadow.pipeline import transfer
+from softshadow.pipeline import accumulation, transfer
+from softshadow.pipeline.binding import VERDICT_COUNTS
+from softshadow.pipeline.fragment_ops import PASSED
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.state import State
 from softshadow.texture import Sampler, Texture
@@ -62,7 +64,12 @@ class Draw:
     projection_kind: int = UNKNOWN
 
     def apply(self, storage: Storage) -> None:
-        pipeline.draw(self, storage)
+        if not storage.active_query:
+            pipeline.draw(self, storage)
+        else:
+            verdicts = np.zeros(VERDICT_COUNTS, np.int64)
+            pipeline.draw(self, storage, verdicts)
+            storage.queries[storage.active_query] += int(verdicts[PASSED])
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +81,30 @@ class Clear:
 
     def apply(self, storage: Storage) -> None:
         pipeline.clear(self, storage)
+
+
+@dataclass(frozen=True, eq=False)
+class Accumulate:
+    """glAccum, between the colour buffer and the accumulation buffer of the window."""
+
+    state: State
+    operation: int
+    value: float
+
+    def apply(self, storage: Storage) -> None:
+        accumulation.accumulate(self, storage)
+
+
+@dataclass(frozen=True, eq=False)
+class BeginQuery:
+    """Count the fragments that pass from here on; `query` 0 ends the counting."""
+
+    query: int
+
+    def apply(self, storage: Storage) -> None:
+        storage.active_query = self.query
+        if self.query:
+            storage.queries[self.query] = 0
 
 
 @dataclass(frozen=True, eq=False)
