@@ -55,6 +55,9 @@ def test_every_step_has_its_title_state_and_three_pictures(run: ss.Run, page: Pa
     assert "glEnable(GL_DEPTH_TEST)" in page.text
     assert len(page.images) == sum(3 + len(step.maps) for step in run.steps)
     assert all(image["alt"] for image in page.images)
+    for image in page.images:
+        with decoded(image["src"]) as picture:
+            assert picture.size == (int(image["width"]), int(image["height"]))
 
 
 def test_pictures_are_the_buffers(run: ss.Run, page: Page) -> None:
