@@ -65,6 +65,7 @@ class Primitive:
     colors: list[tuple[float, float, float, float]] = field(default_factory=list)
     normals: list[tuple[float, float, float]] = field(default_factory=list)
     texcoords: list[tuple[tuple[float, float, float, float], ...]] = field(default_factory=list)
+    materials: dict[str, list[Any]] = field(default_factory=dict)  # "front.diffuse": what glMaterial changed in between
 
 
 @dataclass(frozen=True)
@@ -187,8 +188,9 @@ class Context:
         self.state = replace(self.state, **groups)
 
     def frozen(self, values: Any) -> np.ndarray:
-        """Return the values as a read-only array of the context's precision."""
-        array = np.array(values, self.real)
+        """Return the values as a read-only array of the context's precision; what is too large becomes infinite."""
+        with np.errstate(over="ignore"):
+            array = np.array(values, self.real)
         array.setflags(write=False)
         return array
 

@@ -108,3 +108,14 @@ def test_planes_and_lights_in_eye_space_have_the_bits_of_mesa(seed):
     with gl.create_context(*SIZE):
         ours = program(gl)
     np.testing.assert_array_equal(ours, run_on_mesa(program, SIZE).returned)
+
+
+def test_numbers_that_are_too_large_become_infinite_without_a_warning():
+    with gl.create_context(*SIZE):
+        gl.glScaled(1e30, 1, 1)
+        gl.glScaled(1e30, 1, 1)
+        assert np.isinf(gl.glGetFloatv(gl.GL_MODELVIEW_MATRIX)[0, 0])
+        gl.glMultMatrixd(np.full(16, 1e300))
+        gl.glLightfv(gl.GL_LIGHT0, gl.GL_POSITION, (1e300, 0, 0, 1))
+        gl.glClearColor(1e300, 0, 0, 0)
+        gl.glRectf(-1e300, 0, 1, 1)

@@ -124,11 +124,12 @@ def _restored(now: Any, before: Any, fields: tuple[str, ...]) -> Any:
 
 def _with_capabilities(state: State, before: State) -> State:
     """Return the state with every capability as it was before."""
-    for cap in (*CAPABILITIES, *LIGHTS, *CLIP_PLANES):
-        state = switched(state, cap, 0, is_on(before, cap, 0))
-    for unit in range(len(state.units)):
-        for cap in (*UNIT_CAPABILITIES, *GENERATED):
-            state = switched(state, cap, unit, is_on(before, cap, unit))
+    everywhere = [(cap, 0) for cap in (*CAPABILITIES, *LIGHTS, *CLIP_PLANES)]
+    of_units = [(cap, unit) for cap in (*UNIT_CAPABILITIES, *GENERATED) for unit in range(len(state.units))]
+    for cap, unit in (*everywhere, *of_units):
+        on = is_on(before, cap, unit)
+        if is_on(state, cap, unit) != on:
+            state = switched(state, cap, unit, on)
     return state
 
 

@@ -12,7 +12,7 @@ from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
-from softshadow.gl.materials import follow_color
+from softshadow.gl.materials import follow_color, material_field
 from softshadow.pipeline.commands import Vertices
 
 MODES = range(gl.GL_POINTS, gl.GL_POLYGON + 1)
@@ -53,7 +53,8 @@ def glEnd() -> None:
         )
         whole_from_list = primitive.from_list and context.list_depth > 0
         indices = in_order(len(position)) if whole_from_list else None
-        context.draw(primitive.mode, Vertices(position, color, normal, texcoords), indices)
+        materials = {name: context.frozen(rows) for name, rows in primitive.materials.items()}
+        context.draw(primitive.mode, Vertices(position, color, normal, texcoords, materials), indices)
 
 
 def in_order(count: int) -> np.ndarray:
@@ -72,6 +73,8 @@ def add_vertex(context: Context, x: float, y: float, z: float = 0.0, w: float = 
         primitive.colors.append(standing.color)
         primitive.normals.append(standing.normal)
         primitive.texcoords.append(tuple(standing.texcoords))
+        for name, rows in primitive.materials.items():
+            rows.append(material_field(context, name))
 
 
 @in_lists

@@ -8,7 +8,6 @@ from typing import Any
 
 from softshadow import tokens as gl
 from softshadow.context import Context, current
-from softshadow.errors import StateError
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import as_floats, as_ints, first, from_int, nearest_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
@@ -31,7 +30,10 @@ LARGEST_SHININESS = 128
 
 @in_lists
 def glMaterialfv(face: int, pname: int, params: Any) -> None:
-    """Set a material of one or both facings. What GL_COLOR_MATERIAL makes follow glColor keeps its colour."""
+    """Set a material of one or both facings, also between glBegin and glEnd.
+
+    What GL_COLOR_MATERIAL makes follow glColor keeps its colour.
+    """
     context = _checked("glMaterialfv", face, pname)
     if context is None:
         return
@@ -55,8 +57,6 @@ def glMaterialiv(face: int, pname: int, params: Any) -> None:
 
 def _checked(operation: str, face: int, pname: int) -> Context | None:
     context = current()
-    if context.primitive is not None:
-        raise StateError(f"{operation} between glBegin and glEnd is not part of this subset: use glColorMaterial")
     if not is_one_of(operation, "face", face, FACES, A_FACE):
         return None
     return context if is_one_of(operation, "pname", pname, PARAMETERS, f"GL_SHININESS, {A_COLOR}") else None
@@ -82,13 +82,26 @@ def _set_shininess(operation: str, context: Context, face: int, value: float) ->
 
 
 def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None:
-    """Set fields of the material of one or both facings, but those that follow glColor."""
+    """Set fields of the material of one or both facings, but those that follow glColor.
+
+    Between glBegin and glEnd this makes them an attribute of the vertices.
+    """
     lighting = context.state.lighting
     made: dict[str, Material] = {}
     for side in SIDES[face]:
         free = {field: value for field, value in fields.items() if field not in followed(lighting, side)}
+        if context.primitive is not None:
+            for field in free:
+                before = [getattr(getattr(lighting, side), field)] * len(context.primitive.positions)
+                context.primitive.materials.setdefault(f"{side}.{field}", before)
         made[side] = replace(getattr(lighting, side), **free)
     change(context, "lighting", **made)
+
+
+def material_field(context: Context, name: str) -> Any:
+    """Return a field of a material by its name in `Vertices.materials`, as "front.diffuse"."""
+    side, _, field = name.partition(".")
+    return getattr(getattr(context.state.lighting, side), field)
 
 
 # -- colours that follow glColor ---------------------------------------------------------------------------------------

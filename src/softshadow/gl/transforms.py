@@ -33,7 +33,7 @@ def set_current(context: Context, matrix: np.ndarray, kind: int) -> None:
 
 def _given(context: Context, m: Any) -> np.ndarray:
     """Return a matrix argument, 16 numbers in GL's column-major order, as (4, 4) with column vectors."""
-    return np.array(m, np.float64).reshape(4, 4).T.astype(context.real)
+    return context.frozen(m).reshape(4, 4).T
 
 
 @in_lists

@@ -215,10 +215,11 @@ def _converted(rows: np.ndarray, width: int, context: Context, normalised: bool)
         return rows
     full = np.empty((len(rows), width), context.real)
     full[:] = REST[:width]
-    if rows.dtype.kind in "iu" and normalised:
-        full[:, : rows.shape[1]] = rows / context.real(np.iinfo(rows.dtype).max)
-    else:
-        full[:, : rows.shape[1]] = rows
+    with np.errstate(over="ignore"):
+        if rows.dtype.kind in "iu" and normalised:
+            full[:, : rows.shape[1]] = rows / context.real(np.iinfo(rows.dtype).max)
+        else:
+            full[:, : rows.shape[1]] = rows
     full.setflags(write=False)
     return full
 

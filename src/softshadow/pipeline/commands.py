@@ -31,12 +31,16 @@ class Command(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Vertices:
-    """The vertices of a draw, read-only: position (V, 4), color (V, 4), normal (V, 3), one texcoord (V, 4) per unit."""
+    """The vertices of a draw, read-only: position (V, 4), color (V, 4), normal (V, 3), one texcoord (V, 4) per unit.
+
+    `materials` holds what glMaterial changed from vertex to vertex: "front.diffuse" (V, 4), "back.shininess" (V,) ...
+    """
 
     position: np.ndarray
     color: np.ndarray
     normal: np.ndarray
     texcoords: tuple[np.ndarray, ...]
+    materials: Mapping[str, np.ndarray] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
