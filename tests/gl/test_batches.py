@@ -23,7 +23,7 @@ def context():
 def dart(column, clipped=False):
     gl.glBegin(gl.GL_QUADS)
     for x, y in ((0, 0), (SIDE, 0), (0, SIDE), (2, 2)):
-        gl.glVertex3f(x + SIDE * column, y, 5 if clipped and (x, y) == (2, 2) else 0)
+        gl.glVertex3f(x + SIDE * column, y, 1.5 if clipped and (x, y) == (2, 2) else 0)
     gl.glEnd()
 
 
