@@ -60,9 +60,7 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage) -> Ge
     program, uniforms = program_of(command, storage)
     arrays = (vertices.position, vertices.color, vertices.normal, vertices.texcoords)
     transforms = (command.modelview, command.projection, command.texture_matrices)
-    varyings = program.vertex(
-        VertexInputs(*arrays, *transforms, uniforms, command.modelview_kind, vertices.materials)
-    )
+    varyings = program.vertex(VertexInputs(*arrays, *transforms, uniforms, command.modelview_kind, vertices.materials))
     clip = to_clip(matrices.multiply(command.projection, command.modelview), vertices.position)
     planes = user_planes(command)
     codes = outcodes(clip, state.depth.clamp, planes)
