@@ -15,7 +15,7 @@ import numpy as np
 from softshadow import pipeline
 from softshadow.framebuffer import DEFAULT, NOTHING, Attachment, Framebuffer, Storage, plane_for
 from softshadow.image import Format, Image
-from softshadow.pipeline import accumulation, transfer
+from softshadow.pipeline import accumulation, mipmaps, transfer
 from softshadow.pipeline.binding import VERDICT_COUNTS
 from softshadow.pipeline.fragment_ops import PASSED
 from softshadow.programs.inverse import UNKNOWN
@@ -178,6 +178,24 @@ class CopyToTexture:
 
     def apply(self, storage: Storage) -> None:
         transfer.copy_to_texture(self, storage)
+
+
+@dataclass(frozen=True, eq=False)
+class GenerateMipmaps:
+    """glGenerateMipmap, or what GL_GENERATE_MIPMAP does to one face: all levels after the base level, to the last."""
+
+    texture: int
+    faces: tuple[int, ...]
+    base: int
+    last: int
+
+    def apply(self, storage: Storage) -> None:
+        images = storage.textures[self.texture].images
+        for face in self.faces:
+            for level in range(self.base + 1, self.last + 1):
+                made = mipmaps.next_level(images[face, level - 1])
+                images[face, level] = made
+                storage.reattach(self.texture, face, level, made)
 
 
 @dataclass(frozen=True, eq=False)
