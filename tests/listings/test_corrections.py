@@ -59,11 +59,6 @@ def test_correction_changes_this_many_pixels(name, number):
     assert sum(COUNTS[name, number]) > 0
 
 
-@pytest.mark.parametrize("name", [name for name in listings.names() if not listings.get(name).corrections])
-def test_listing_without_corrections_is_right_as_printed(name):
-    assert pixels(printed(name).color, corrected(name).color) == 0
-
-
 # -- volumes: the stencil buffer against a cast ray per pixel ----------------------------------------------------------
 def wrong(result, stage, far=None):
     """Return at how many surface pixels the stencil buffer does not say what a ray to the lamp says."""
