@@ -1,0 +1,128 @@
+"""What is known to differ from Mesa, by name; the list may only shrink, and a test asserts that each still occurs.
+
+`KNOWN` is what a comparison may meet: it differs in colours only. `FAULTS` are programs in which Mesa leaves the
+specification; random programs do not contain them, and nothing that differs is excused by them. Where stencil, depth
+or coverage differ, it is a fault of one side: it is mended here, or it stands in `FAULTS`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from mesa.gl_calls import Call
+
+CORNERS = [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.7)]
+
+
+@dataclass(frozen=True)
+class KnownDifference:
+    """A difference from Mesa.
+
+    Attributes
+    ----------
+    name, what, why : str        what differs, and the reason
+    largest : int                measured, in steps of an 8-bit channel; 255 where another colour comes out
+    program : callable           ``program(gl)``, the smallest that shows it
+    occurs_in : callable         whether calls contain what brings it about; never, in a fault
+    """
+
+    name: str
+    what: str
+    why: str
+    largest: int
+    program: Callable[[Any], Any]
+    occurs_in: Callable[[list[Call]], bool] = lambda calls: False
+
+
+def back_colors(gl: Any) -> None:
+    for capability in ("GL_LIGHTING", "GL_LIGHT0", "GL_COLOR_MATERIAL"):
+        gl.glEnable(getattr(gl, capability))
+    gl.glLightModeli(gl.GL_LIGHT_MODEL_TWO_SIDE, 1)
+    gl.glColorMaterial(gl.GL_BACK, gl.GL_AMBIENT)
+    gl.glBegin(gl.GL_TRIANGLES)
+    gl.glColor3f(0.25, 0.5, 0.75)
+    for corner in CORNERS[2::-1]:
+        gl.glVertex2f(*corner)
+    gl.glEnd()
+
+
+def triangle(gl: Any, mode: int, corners: list[tuple[float, float]]) -> None:
+    gl.glBegin(mode)
+    for corner in corners:
+        gl.glVertex2f(*corner)
+    gl.glEnd()
+
+
+def popped_color(gl: Any) -> list[Any]:
+    gl.glPushAttrib(gl.GL_ALL_ATTRIB_BITS)
+    gl.glFrontFace(gl.GL_CW)
+    gl.glColor3f(0.25, 0.5, 0.75)
+    gl.glPopAttrib()
+    return [gl.glGetFloatv(gl.GL_CURRENT_COLOR)]
+
+
+def unfinished_quad(gl: Any) -> None:
+    gl.glNewList(1, gl.GL_COMPILE)
+    triangle(gl, gl.GL_QUADS, CORNERS[:3])
+    gl.glEndList()
+    gl.glCallList(1)
+
+
+def late_color(gl: Any) -> None:
+    gl.glNewList(1, gl.GL_COMPILE)
+    gl.glBegin(gl.GL_TRIANGLE_STRIP)
+    for index, corner in enumerate(CORNERS[:3]):
+        if index == 1:
+            gl.glColor3f(0.25, 0.5, 0.75)
+        gl.glVertex2f(*corner)
+    gl.glEnd()
+    gl.glEndList()
+    gl.glCallList(1)
+
+
+def follows_back_only(calls: list[Call]) -> bool:
+    two_sided = ("glLightModeli", ("GL_LIGHT_MODEL_TWO_SIDE", 1)) in calls
+    return two_sided and any(name == "glColorMaterial" and values[0] == "GL_BACK" for name, values in calls)
+
+
+KNOWN = (
+    KnownDifference(
+        "back colour material",
+        "colours of back faces in two-sided lighting with glColor inside glBegin, where glColorMaterial is given GL_BACK alone",
+        "Mesa leaves green and blue of all back faces at 0; with GL_FRONT_AND_BACK it does not",
+        255,
+        back_colors,
+        follows_back_only,
+    ),
+)
+FAULTS = (
+    KnownDifference(
+        "popped colour",
+        "the current colour after glPopAttrib, where glFrontFace or glShadeModel was called since glPushAttrib",
+        "Mesa does not bring it back; GL 2.1, sec. 6.1.14, restores every group that was pushed",
+        255,
+        popped_color,
+    ),
+    KnownDifference(
+        "unfinished quad in a list",
+        "three vertices of GL_QUADS or GL_QUAD_STRIP in a display list, where a fourth never comes",
+        "Mesa draws a triangle; GL 2.1, sec. 2.6.1, ignores incomplete primitives, and so does Mesa outside lists",
+        255,
+        unfinished_quad,
+    ),
+    KnownDifference(
+        "late colour in a list",
+        "a primitive in a display list that gives its first colour, normal or coordinate after its first vertex",
+        "Mesa gives vertices the wrong colours or loses them, and with GL_COMPILE_AND_EXECUTE takes the calls that "
+        "follow for the inside of the primitive",
+        255,
+        late_color,
+    ),
+)
+
+
+def explanation(calls: list[Call], buffers: tuple[str, ...]) -> str:
+    """Return the name of the known difference that explains why colours differ, or "": nothing else is excused."""
+    colors_only = all(buffer == "color" or buffer.startswith("returned") for buffer in buffers)
+    names = (known.name for known in KNOWN if colors_only and known.occurs_in(calls))
+    return next(names, "")
