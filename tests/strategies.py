@@ -183,7 +183,8 @@ def state_calls() -> st.SearchStrategy[list[tuple]]:
     attenuations = ("GL_CONSTANT_ATTENUATION", "GL_LINEAR_ATTENUATION", "GL_QUADRATIC_ATTENUATION")
     light_number = one_of("GL_SPOT_EXPONENT", "GL_SPOT_CUTOFF", *attenuations)
     light_color = one_of("GL_AMBIENT", "GL_DIFFUSE", "GL_SPECULAR")
-    fog_number, plane = one_of("GL_FOG_DENSITY", "GL_FOG_START", "GL_FOG_END"), one_of("GL_CLIP_PLANE0", "GL_CLIP_PLANE2")
+    fog_number = one_of("GL_FOG_DENSITY", "GL_FOG_START", "GL_FOG_END")
+    plane, unit_name = one_of("GL_CLIP_PLANE0", "GL_CLIP_PLANE2"), st.sampled_from(["GL_TEXTURE0", "GL_TEXTURE3"])
     model_switch = one_of("GL_LIGHT_MODEL_LOCAL_VIEWER", "GL_LIGHT_MODEL_TWO_SIDE", "GL_LIGHT_MODEL_COLOR_CONTROL")
     bit = st.sampled_from(ATTRIBUTE_BITS)
     return st.lists(
@@ -250,9 +251,9 @@ def state_calls() -> st.SearchStrategy[list[tuple]]:
             call("glNormal3b", signed, signed, signed),
             call("glNormal3i", large, large, large),
             call("glTexCoord2f", real, real),
-            call("glMultiTexCoord4f", one_of("GL_TEXTURE0", "GL_TEXTURE3").filter(lambda t: t != NO_TOKEN), *[real] * 4),
-            call("glActiveTexture", st.sampled_from(["GL_TEXTURE0", "GL_TEXTURE1", "GL_TEXTURE3"])),
-            call("glClientActiveTexture", st.sampled_from(["GL_TEXTURE0", "GL_TEXTURE1", "GL_TEXTURE3"])),
+            call("glMultiTexCoord4f", unit_name, real, real, real, real),
+            call("glActiveTexture", unit_name),
+            call("glClientActiveTexture", unit_name),
             call("glBindTexture", st.just("GL_TEXTURE_2D"), st.integers(0, 3)),
             call("glMatrixMode", one_of(*MATRIX_MODES)),
             call("glPushMatrix"),

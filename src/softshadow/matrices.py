@@ -14,9 +14,12 @@ import numpy as np
 
 Real = type[np.floating]
 FLOAT: Real = np.float32
+# overflow is as good as any number in GL, where it makes infinities without a word
+silent = np.errstate(all="ignore")
 NO_LENGTH = 1e-4  # an axis shorter than this is none (Mesa, math/m_matrix.c)
 
 
+@silent
 def multiply(left: np.ndarray, right: np.ndarray) -> np.ndarray:
     """Return ``left @ right`` (4, 4) in GL's order: ((l0 r0 + l1 r1) + l2 r2) + l3 r3, nothing fused."""
     product = left[:, 0:1] * right[0] + left[:, 1:2] * right[1]
@@ -25,6 +28,7 @@ def multiply(left: np.ndarray, right: np.ndarray) -> np.ndarray:
     return product
 
 
+@silent
 def translate(base: np.ndarray, x: float, y: float, z: float) -> np.ndarray:
     """Return `base` times a translation, as glTranslate computes it."""
     real = base.dtype.type
@@ -33,11 +37,13 @@ def translate(base: np.ndarray, x: float, y: float, z: float) -> np.ndarray:
     return made
 
 
+@silent
 def scale(base: np.ndarray, x: float, y: float, z: float) -> np.ndarray:
     """Return `base` times a scale, as glScale computes it."""
     return base * np.array([x, y, z, 1], base.dtype)
 
 
+@silent
 def rotation(angle: float, x: float, y: float, z: float, real: Real = FLOAT) -> np.ndarray:
     """Return glRotate's matrix: `angle` degrees about the axis (x, y, z); a turn about a coordinate axis is exact
     there.
@@ -95,6 +101,7 @@ def _single_precision_functions() -> tuple[Callable[[float], float], Callable[[f
     return functions
 
 
+@silent
 def frustum(
     left: float, right: float, bottom: float, top: float, near: float, far: float, real: Real = FLOAT
 ) -> np.ndarray:
@@ -108,6 +115,7 @@ def frustum(
     return made
 
 
+@silent
 def ortho(
     left: float, right: float, bottom: float, top: float, near: float, far: float, real: Real = FLOAT
 ) -> np.ndarray:
@@ -120,6 +128,7 @@ def ortho(
     return made
 
 
+@silent
 def perspective(fov_y: float, aspect: float, near: float, far: float, real: Real = FLOAT) -> np.ndarray:
     """Return gluPerspective's matrix: in double precision, then rounded. `fov_y` in degrees."""
     radians = fov_y / 2 * math.pi / 180
@@ -131,6 +140,7 @@ def perspective(fov_y: float, aspect: float, near: float, far: float, real: Real
     return made.astype(real)
 
 
+@silent
 def look_at(base: np.ndarray, eye: Sequence[float], center: Sequence[float], up: Sequence[float]) -> np.ndarray:
     """Return `base` times gluLookAt's matrix: a rotation in the precision of `base`, then a translation by -eye."""
     real = base.dtype.type

@@ -43,5 +43,17 @@ class Texture:
         """The image of the base level, or None while it has not been defined."""
         return self.images.get((face, self.sampler.base_level))
 
+    def last_level(self, face: int = 0) -> int:
+        """The number of the smallest level that mipmaps of the base image have; the base level without an image."""
+        image, sampler = self.base(face), self.sampler
+        if image is None:
+            return sampler.base_level
+        return min(sampler.base_level + max(image.width, image.height, 1).bit_length() - 1, sampler.max_level)
+
+    @property
+    def faces(self) -> tuple[int, ...]:
+        """The numbers of the faces: six of a cube map, one of a 2-D texture."""
+        return tuple(range(6)) if self.target == gl.GL_TEXTURE_CUBE_MAP else (0,)
+
     def copy(self) -> Texture:
         return Texture(self.name, self.target, self.sampler, {k: i.copy() for k, i in self.images.items()})

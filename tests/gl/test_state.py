@@ -31,7 +31,7 @@ SETTERS = [
         "glStencilOpSeparate", "GL_BACK", "GL_KEEP", "GL_INCR_WRAP", "GL_ZERO",
         reads={"GL_STENCIL_BACK_PASS_DEPTH_FAIL": gl.GL_INCR_WRAP, "GL_STENCIL_PASS_DEPTH_FAIL": gl.GL_KEEP},
     ),
-    checked("glStencilMaskSeparate", "GL_FRONT", 7, reads={"GL_STENCIL_WRITEMASK": 7, "GL_STENCIL_BACK_WRITEMASK": 255}),
+    checked("glStencilMaskSeparate", "GL_BACK", 7, reads={"GL_STENCIL_BACK_WRITEMASK": 7, "GL_STENCIL_WRITEMASK": 255}),
     checked("glClearStencil", 3, reads={"GL_STENCIL_CLEAR_VALUE": 3}),
     checked("glColorMask", 1, 0, 0, 1, reads={"GL_COLOR_WRITEMASK": (1, 0, 0, 1)}),
     checked("glClearColor", 0.5, 2.0, 0.0, 1.0, reads={"GL_COLOR_CLEAR_VALUE": (0.5, 1.0, 0.0, 1.0)}),

@@ -6,9 +6,11 @@ from PIL import Image
 
 from softshadow.inspection.pictures import (
     CLEAR_DEPTH,
+    UNDEFINED,
     contact_sheet,
     depth_picture,
     map_picture,
+    map_pictures,
     save_png,
     stencil_palette,
     stencil_picture,
@@ -50,6 +52,18 @@ def test_depth_of_an_empty_window_is_a_picture_too():
 @pytest.mark.parametrize("dtype", [np.bool_, np.uint8, np.float32])
 def test_every_kind_of_map_has_a_picture_of_its_size(dtype):
     assert map_picture(np.zeros((5, 7), dtype)).size == (7, 5)
+
+
+def test_visibility_is_light_and_shadow_where_it_is_valid():
+    visibility = np.array([[0, 1, 0.5, 1]], np.float32)
+    maps = {"visibility": visibility, "visibility of lamp 1": visibility, "valid": visibility < 1}
+    pictures = map_pictures(maps)
+    assert list(pictures) == list(maps)
+    for name in ("visibility", "visibility of lamp 1"):
+        shadow, undefined, half, _ = np.asarray(pictures[name])[0].tolist()
+        assert (shadow, half) == ([0] * 3, [128] * 3)
+        assert tuple(undefined) == UNDEFINED
+    assert np.asarray(map_pictures({"visibility": visibility})["visibility"])[0, 1].tolist() == [255] * 3
 
 
 def test_contact_sheet_holds_all_rows_within_its_width():

@@ -35,8 +35,8 @@ def stencil_after(op: str, stored: int, ref: int, bits: int) -> int:
 def fragment(state: dict, alpha: int, z: float, stored_z: float, stored: int) -> tuple[str, int, float]:
     """Return (verdict, stencil, depth) after a fragment.
 
-    `state`: alpha (func, ref) or None; stencil (func, ref, read mask, sfail, zfail, zpass, write mask, bits) or None; depth
-    (func, write) or None; scissored bool.
+    `state`: alpha (func, ref) or None; stencil (func, ref, read mask, sfail, zfail, zpass, write mask, bits) or None;
+    depth (func, write) or None; scissored bool.
     """
     if state["scissored"]:
         return "scissor", stored, stored_z

@@ -79,7 +79,7 @@ def doctor(as_json: bool) -> None:
         "Mesa": mesa,
     }
     if as_json:
-        print_json("doctor", **facts, packages=found, extras=extras)
+        print_json("doctor", **{_key(name): fact for name, fact in facts.items()}, packages=found, extras=extras)
         return
     rows = [[key, str(value)] for key, value in facts.items()]
     rows += [[name, version] for name, version in found.items()]
@@ -87,6 +87,10 @@ def doctor(as_json: bool) -> None:
         [f"extra {name}", "there" if there else f"pip install 'softshadow[{name}]'"] for name, there in extras.items()
     ]
     table("softshadow doctor", ["what", "found"], rows)
+
+
+def _key(name: str) -> str:
+    return name.lower().replace(" ", "_")
 
 
 def _version(name: str) -> str:

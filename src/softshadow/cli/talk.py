@@ -69,10 +69,12 @@ def table(title: str, columns: list[str], rows: list[list[str]]) -> None:
         from rich.console import Console
         from rich.table import Table
 
-        ruled = Table(*columns, title=title, title_justify="left")
+        ruled = Table(title=title, title_justify="left")
+        for name, cells in zip(columns, zip(*rows, strict=True), strict=True):
+            ruled.add_column(name, justify="right" if all(cell.isdigit() for cell in cells) else "left")
         for row in rows:
             ruled.add_row(*row)
-        Console().print(ruled)
+        Console(markup=False, emoji=False).print(ruled)  # names of files may have [brackets]
         return
     from softshadow.inspection.tables import text_table
 

@@ -15,6 +15,7 @@ from __future__ import annotations
 from typing import Any
 
 from softshadow.context import Context, current, make_current
+from softshadow.gl.accumulation import *
 from softshadow.gl.attributes import *
 from softshadow.gl.capabilities import *
 from softshadow.gl.clears import *
@@ -29,6 +30,7 @@ from softshadow.gl.immediate import *
 from softshadow.gl.lighting import *
 from softshadow.gl.lists import *
 from softshadow.gl.materials import *
+from softshadow.gl.occlusion import *
 from softshadow.gl.pixels import *
 from softshadow.gl.programs import *
 from softshadow.gl.queries import *

@@ -114,7 +114,8 @@ def glPopAttrib() -> None:
         if saved.mask & bit:
             for group, fields in groups.items():
                 state = replace(state, **{group: _restored(getattr(state, group), getattr(saved.state, group), fields)})
-    context.state = _with_capabilities(state, saved.state) if saved.mask & gl.GL_ENABLE_BIT else state
+    context.settle()
+    context.change_state(_with_capabilities(state, saved.state) if saved.mask & gl.GL_ENABLE_BIT else state)
     _restore_the_rest(context, saved)
 
 
@@ -124,11 +125,12 @@ def _restored(now: Any, before: Any, fields: tuple[str, ...]) -> Any:
 
 def _with_capabilities(state: State, before: State) -> State:
     """Return the state with every capability as it was before."""
-    for cap in (*CAPABILITIES, *LIGHTS, *CLIP_PLANES):
-        state = switched(state, cap, 0, is_on(before, cap, 0))
-    for unit in range(len(state.units)):
-        for cap in (*UNIT_CAPABILITIES, *GENERATED):
-            state = switched(state, cap, unit, is_on(before, cap, unit))
+    everywhere = [(cap, 0) for cap in (*CAPABILITIES, *LIGHTS, *CLIP_PLANES)]
+    of_units = [(cap, unit) for cap in (*UNIT_CAPABILITIES, *GENERATED) for unit in range(len(state.units))]
+    for cap, unit in (*everywhere, *of_units):
+        on = is_on(before, cap, unit)
+        if is_on(state, cap, unit) != on:
+            state = switched(state, cap, unit, on)
     return state
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from softshadow import tokens as gl
-from softshadow.context import current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.fragment_state import change, clamp01, rounded
@@ -38,15 +37,6 @@ def glClearStencil(s: int) -> None:
 
 
 @in_lists
-def glClearAccum(red: float, green: float, blue: float, alpha: float) -> None:
-    """Set the colour that glClear writes to the accumulation buffer, clamped to [-1, 1]."""
-    context = outside_begin("glClearAccum")
-    if context is not None:
-        clamped = [min(max(float(c), -1.0), 1.0) for c in (red, green, blue, alpha)]
-        change(context, "color", clear_accum=rounded(context, *clamped))
-
-
-@in_lists
 def glClear(mask: int) -> None:
     """Clear buffers: under scissor and write masks, whatever the tests are set to."""
     context = outside_begin("glClear")
@@ -62,13 +52,17 @@ def glClear(mask: int) -> None:
 
 
 def glFlush() -> None:
-    """Do nothing: every call has been carried out when it returns."""
-    current()
+    """Draw the quads that wait for more of them; everything else has been carried out when its call returned."""
+    context = outside_begin("glFlush")
+    if context is not None:
+        context.settle()
 
 
 def glFinish() -> None:
-    """Do nothing: every call has been carried out when it returns."""
-    current()
+    """Draw the quads that wait for more of them; everything else has been carried out when its call returned."""
+    context = outside_begin("glFinish")
+    if context is not None:
+        context.settle()
 
 
 __all__ = spelled_like_gl(globals())

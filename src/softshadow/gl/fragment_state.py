@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from ctypes import c_float
 from dataclasses import replace
 from typing import Any
+
+import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
@@ -39,7 +42,8 @@ def clamp01(value: float) -> float:
 
 def rounded(context: Context, *values: float) -> Any:
     """Return one number, or a tuple of several, in the precision of the context."""
-    made = tuple(float(context.real(value)) for value in values)
+    single = context.real is np.float32
+    made = tuple(c_float(value).value if single else float(value) for value in values)
     return made if len(made) > 1 else made[0]
 
 

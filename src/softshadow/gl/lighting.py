@@ -78,10 +78,11 @@ def _set(operation: str, light: int, pname: int, params: Any, color: Callable[[A
 def in_eye_space(context: Context, place: Any) -> tuple[float, ...]:
     """Return a point (4,) or a direction (3,) taken through the modelview matrix, each step rounded in GL's order."""
     m = context.modelview_stack[-1]
-    values = [context.real(v) for v in place]
-    turned = (m[:, 0] * values[0] + m[:, 1] * values[1]) + m[:, 2] * values[2]
-    if len(values) == 4:
-        turned = turned + m[:, 3] * values[3]
+    values = [context.real(rounded(context, v)) for v in place]
+    with np.errstate(all="ignore"):
+        turned = (m[:, 0] * values[0] + m[:, 1] * values[1]) + m[:, 2] * values[2]
+        if len(values) == 4:
+            turned = turned + m[:, 3] * values[3]
     return tuple(turned.tolist()[: len(values)])
 
 

@@ -6,13 +6,15 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from softshadow import tokens as gl
 from softshadow.context import Context, current
-from softshadow.errors import StateError
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import as_floats, as_ints, first, from_int, nearest_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.fragment_state import A_FACE, FACES, change, rounded
+from softshadow.gl.vertex_format import give
 from softshadow.state import Lighting, Material
 
 # parameter: the fields of the material that it sets
@@ -31,7 +33,10 @@ LARGEST_SHININESS = 128
 
 @in_lists
 def glMaterialfv(face: int, pname: int, params: Any) -> None:
-    """Set a material of one or both facings. What GL_COLOR_MATERIAL makes follow glColor keeps its colour."""
+    """Set a material of one or both facings, also between glBegin and glEnd.
+
+    What GL_COLOR_MATERIAL makes follow glColor keeps its colour.
+    """
     context = _checked("glMaterialfv", face, pname)
     if context is None:
         return
@@ -55,8 +60,6 @@ def glMaterialiv(face: int, pname: int, params: Any) -> None:
 
 def _checked(operation: str, face: int, pname: int) -> Context | None:
     context = current()
-    if context.primitive is not None:
-        raise StateError(f"{operation} between glBegin and glEnd is not part of this subset: use glColorMaterial")
     if not is_one_of(operation, "face", face, FACES, A_FACE):
         return None
     return context if is_one_of(operation, "pname", pname, PARAMETERS, f"GL_SHININESS, {A_COLOR}") else None
@@ -82,13 +85,28 @@ def _set_shininess(operation: str, context: Context, face: int, value: float) ->
 
 
 def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None:
-    """Set fields of the material of one or both facings, but those that follow glColor."""
+    """Set fields of the material of one or both facings, but those that follow glColor.
+
+    Between glBegin and glEnd this makes them an attribute of the vertices.
+    """
+    context.settle()
     lighting = context.state.lighting
     made: dict[str, Material] = {}
     for side in SIDES[face]:
         free = {field: value for field, value in fields.items() if field not in followed(lighting, side)}
+        if context.primitive is not None:
+            for field, value in free.items():
+                give(context, f"{side}.{field}", np.size(value))
+                before = [getattr(getattr(lighting, side), field)] * len(context.primitive.positions)
+                context.primitive.materials.setdefault(f"{side}.{field}", before)
         made[side] = replace(getattr(lighting, side), **free)
     change(context, "lighting", **made)
+
+
+def material_field(context: Context, name: str) -> Any:
+    """Return a field of a material by its name in `Vertices.materials`, as "front.diffuse"."""
+    side, _, field = name.partition(".")
+    return getattr(getattr(context.state.lighting, side), field)
 
 
 # -- colours that follow glColor ---------------------------------------------------------------------------------------
@@ -115,7 +133,8 @@ def follow_color(context: Context) -> None:
     if lighting.color_material:
         fields: Any = dict.fromkeys(FIELDS[lighting.color_material_mode], rounded(context, *context.current.color))
         sides = SIDES[lighting.color_material_face]
-        change(context, "lighting", **{side: replace(getattr(lighting, side), **fields) for side in sides})
+        made = {side: replace(getattr(lighting, side), **fields) for side in sides}
+        context.state = replace(context.state, lighting=replace(lighting, **made))  # which ends no batch
 
 
 # -- queries -----------------------------------------------------------------------------------------------------------
@@ -134,6 +153,7 @@ def _material(operation: str, face: int, pname: int) -> Any:
     faces = (gl.GL_FRONT, gl.GL_BACK)
     if context is None or not is_one_of(operation, "face", face, faces, "GL_FRONT or GL_BACK"):
         return None
+    context.settle()
     readable = [name for name, fields in PARAMETERS.items() if len(fields) == 1]
     if not is_one_of(operation, "pname", pname, readable, "a material parameter (GL 2.1, table 2.11)"):
         return None

@@ -9,7 +9,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import MATRIX_STACK_DEPTHS, Context
-from softshadow.framebuffer import LARGEST_SIDE, Framebuffer
+from softshadow.framebuffer import DEFAULT, LARGEST_SIDE, Framebuffer
 from softshadow.gl.attributes import DEEPEST_ATTRIBUTES
 from softshadow.gl.capabilities import CLIP_PLANES, HINTS, LIGHTS
 from softshadow.gl.framebuffers import COLOR_ATTACHMENTS
@@ -47,6 +47,10 @@ def color_bits(channel: int) -> Read:
         return np.dtype(image.format.dtype).itemsize * 8
 
     return read
+
+
+def accumulation_bits(c: Context) -> int:
+    return 16 if c.state.draw_framebuffer == DEFAULT else 0
 
 
 def shown_color(color: Callable[[Context], Any]) -> Read:
@@ -195,6 +199,7 @@ QUERIES: dict[str, Read] = {
     "GL_ALPHA_BITS": color_bits(3),
     "GL_DEPTH_BITS": lambda c: bits(drawn_to(c).depth),
     "GL_STENCIL_BITS": lambda c: bits(drawn_to(c).stencil),
+    **{f"GL_ACCUM_{name}_BITS": accumulation_bits for name in ("RED", "GREEN", "BLUE", "ALPHA")},
     "GL_RENDER_MODE": lambda c: gl.GL_RENDER,
     "GL_RGBA_MODE": lambda c: True,
     "GL_STEREO": lambda c: False,

@@ -11,6 +11,7 @@ from softshadow.gl.pixel_formats import Problem
 from softshadow.gl.texture_images import (
     COMPONENT_NUMBERS,
     face_of,
+    follow_base_level,
     internal_problem,
     level_problem,
     missing_problem,
@@ -43,6 +44,7 @@ def glCopyTexImage2D(
     texture, face = bound_texture(context, target), face_of(target)
     context.execute(DefineImage(texture.name, face, level, FORMATS[internalformat], internalformat, width, height))
     context.execute(CopyToTexture(context.state.read_framebuffer, texture.name, face, level, 0, 0, x, y, width, height))
+    follow_base_level(context, texture, face, level)
     return None
 
 
@@ -68,6 +70,7 @@ def glCopyTexSubImage2D(
         return fail(problem[0], operation, problem[1])
     framebuffer, name = context.state.read_framebuffer, bound_name(context, target)
     context.execute(CopyToTexture(framebuffer, name, face_of(target), level, xoffset, yoffset, x, y, width, height))
+    follow_base_level(context, bound_texture(context, target), face_of(target), level)
     return None
 
 

@@ -14,9 +14,10 @@ from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.pixel_formats import Problem, format_problem, kind_of, readout_problem, upload_problem
 from softshadow.gl.textures import FACES, bound_name, bound_texture, target_problem
 from softshadow.image import FORMATS, WITH_STENCIL, Format, Image, storage_format
-from softshadow.pipeline.commands import DefineImage, UpdateImage
+from softshadow.pipeline.commands import DefineImage, GenerateMipmaps, UpdateImage
 from softshadow.pixel_store import TYPES, answer_array, client_image
 from softshadow.pixels import pack_color, pack_depth, pack_stencil, unpack_color, unpack_depth
+from softshadow.texture import Texture
 from softshadow.tokens import token_name
 
 LARGEST_LEVEL = LARGEST_SIDE.bit_length() - 1
@@ -69,6 +70,7 @@ def glTexImage2D(
     context.execute(
         DefineImage(texture.name, face_of(target), level, stored, internalformat, width, height, cells, stencil)
     )
+    follow_base_level(context, texture, face_of(target), level)
     return None
 
 
@@ -102,8 +104,9 @@ def glTexSubImage2D(
         return fail(problem[0], operation, problem[1])
     if pixels is not None:
         cells, stencil = _cells(context, pixels, width, height, format, type, image.format, operation)
-        name = bound_name(context, target)
-        context.execute(UpdateImage(name, face_of(target), level, xoffset, yoffset, cells, stencil))
+        texture = bound_texture(context, target)
+        context.execute(UpdateImage(texture.name, face_of(target), level, xoffset, yoffset, cells, stencil))
+        follow_base_level(context, texture, face_of(target), level)
     return None
 
 
@@ -126,6 +129,44 @@ def _cells(
     return (values, None) if stored.kind == "stencil" else (None, values)
 
 
+# -- mipmaps -----------------------------------------------------------------------------------------------------------
+def glGenerateMipmap(target: int) -> None:
+    """Make all levels of the bound texture from its base level."""
+    operation = "glGenerateMipmap"
+    if (context := outside_begin(operation)) is None:
+        return None
+    if problem := target_problem(context, target) or _base_problem(bound_texture(context, target)):
+        return fail(problem[0], operation, problem[1])
+    texture = bound_texture(context, target)
+    _generate(context, texture, texture.faces)
+    return None
+
+
+def _base_problem(texture: Texture) -> Problem | None:
+    bases = [texture.base(face) for face in texture.faces]
+    first = bases[0]
+    if first is None or any(base is None or base.view.shape != first.view.shape for base in bases):
+        missing = "the base level of every face, all of one size" if len(bases) > 1 else "a base level"
+        return gl.GL_INVALID_OPERATION, f"texture {texture.name} needs {missing}: call glTexImage2D first"
+    if first.stencil is not None or first.format.kind == "stencil":
+        return gl.GL_INVALID_OPERATION, f"texture {texture.name} holds stencil values, which have no mipmaps"
+    return None
+
+
+def follow_base_level(context: Context, texture: Texture, face: int, level: int) -> None:
+    """Make the other levels of a face whose base level has changed, where GL_GENERATE_MIPMAP asks for it."""
+    sampler = texture.sampler
+    base = texture.base(face)
+    if sampler.generate_mipmap and level == sampler.base_level and base is not None and base.stencil is None:
+        _generate(context, texture, (face,))
+
+
+def _generate(context: Context, texture: Texture, faces: tuple[int, ...]) -> None:
+    base, last = texture.sampler.base_level, texture.last_level(faces[0])
+    if last > base:
+        context.execute(GenerateMipmaps(texture.name, faces, base, last))
+
+
 # -- reading back ------------------------------------------------------------------------------------------------------
 def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = None) -> Any:
     """Return a level of the bound texture, (h, w) or (h, w, components), first row = bottom row, or fill `array`."""
@@ -135,6 +176,7 @@ def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = 
     problem = target_problem(context, target, faces=True) or level_problem(level) or format_problem(format, type)
     if problem:
         return fail(problem[0], operation, problem[1])
+    context.settle()
     image = image_at(context, target, level)
     if image is not None and (problem := readout_problem(format, image)):
         return fail(problem[0], operation, problem[1])

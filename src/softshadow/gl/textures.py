@@ -41,7 +41,8 @@ NUMBERS = {
     gl.GL_TEXTURE_LOD_BIAS: "lod_bias",
     gl.GL_TEXTURE_PRIORITY: "priority",
 }
-FIELDS = {name: field for name, (field, _) in CHOICES.items()} | LEVELS | NUMBERS
+BOOLEANS = {gl.GL_GENERATE_MIPMAP: "generate_mipmap"}
+FIELDS = {name: field for name, (field, _) in CHOICES.items()} | LEVELS | NUMBERS | BOOLEANS
 
 
 # -- objects and bindings ----------------------------------------------------------------------------------------------
@@ -191,6 +192,8 @@ def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
         if value < 0:
             return fail(gl.GL_INVALID_VALUE, operation, f"{token_name(pname)}={value}: expected 0 or more")
         _set_sampler(context, target, **{LEVELS[pname]: int(value)})
+    elif pname in BOOLEANS:
+        _set_sampler(context, target, **{BOOLEANS[pname]: bool(value)})
     elif pname in NUMBERS:
         number = float(np.float32(value))
         limited = min(max(number, 0.0), 1.0) if pname == gl.GL_TEXTURE_PRIORITY else number

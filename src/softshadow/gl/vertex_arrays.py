@@ -15,7 +15,7 @@ from softshadow import tokens as gl
 from softshadow.context import ArrayLayout, Context, current
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.immediate import A_MODE, MODES, can_draw
+from softshadow.gl.immediate import A_MODE, MODES, can_draw, in_order
 from softshadow.gl.texture_coordinates import A_UNIT, REST, UNITS
 from softshadow.pipeline.commands import Vertices
 from softshadow.state import TEXTURE_UNITS
@@ -114,6 +114,8 @@ def _rows(pointer: Any, dtype: np.dtype, size: int, stride: int) -> np.ndarray:
 def glDrawArrays(mode: int, first: int, count: int) -> None:
     """Draw `count` vertices of the enabled arrays from `first` on."""
     context = outside_begin("glDrawArrays")
+    if context is not None:
+        context.settle()
     if context is None or not is_one_of("glDrawArrays", "mode", mode, MODES, A_MODE):
         return
     if count < 0 or first < 0:
@@ -127,6 +129,8 @@ def glDrawArrays(mode: int, first: int, count: int) -> None:
 def glDrawElements(mode: int, count: int, type: int, indices: Any) -> None:
     """Draw the vertices of the enabled arrays that `indices` name."""
     context = outside_begin("glDrawElements")
+    if context is not None:
+        context.settle()
     if context is None or not is_one_of("glDrawElements", "mode", mode, MODES, A_MODE):
         return
     if count < 0:
@@ -154,7 +158,8 @@ def _draw(context: Context, mode: int, vertices: Vertices | None, indices: np.nd
         return
     compiled = context.compiled_list
     if compiled is not None:
-        compiled.calls.append(lambda: current().draw(mode, vertices, indices))
+        kept = in_order(len(vertices.position)) if indices is None else indices
+        compiled.calls.append(lambda: current().draw(mode, vertices, kept))
     if compiled is None or compiled.executes:
         context.draw(mode, vertices, indices)
 
@@ -214,10 +219,11 @@ def _converted(rows: np.ndarray, width: int, context: Context, normalised: bool)
         return rows
     full = np.empty((len(rows), width), context.real)
     full[:] = REST[:width]
-    if rows.dtype.kind in "iu" and normalised:
-        full[:, : rows.shape[1]] = rows / context.real(np.iinfo(rows.dtype).max)
-    else:
-        full[:, : rows.shape[1]] = rows
+    with np.errstate(over="ignore"):
+        if rows.dtype.kind in "iu" and normalised:
+            full[:, : rows.shape[1]] = rows / context.real(np.iinfo(rows.dtype).max)
+        else:
+            full[:, : rows.shape[1]] = rows
     full.setflags(write=False)
     return full
 

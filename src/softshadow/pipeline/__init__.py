@@ -22,7 +22,7 @@ from softshadow.errors import StateError
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.bands import set_threads, threads
 from softshadow.pipeline.binding import VERDICT_COUNTS, fill, use_binding
-from softshadow.pipeline.blend import needs_order, to_unorm8, write_colors
+from softshadow.pipeline.blend import compared_alpha, needs_order, write_colors
 from softshadow.pipeline.clear import clear
 from softshadow.pipeline.fill import Region
 from softshadow.pipeline.fragment_ops import PASSED, VERDICTS, fragment_ops
@@ -97,10 +97,14 @@ def _draw_in_order(
     fragments = list_fragments(triangles, region)
     colors = shade(geometry, fragments)
     depth, stencil = _planes(target, geometry.window.dtype)
-    front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
+    alpha, alpha_ref = compared_alpha(state, target.color, colors[:, 3])
+    front, back = (
+        fragment_ops(state, target.depth, target.stencil, facing)._replace(alpha_ref=alpha_ref)
+        for facing in (True, False)
+    )
     verdict = np.empty(len(fragments.row), np.uint8)
     changed = test_fragments(
-        front, back, fragments, to_unorm8(colors[:, 3]), triangles, depth_range_of(state, geometry.window.dtype.type),
+        front, back, fragments, alpha, triangles, depth_range_of(state, geometry.window.dtype.type),
         np.arange(max(depth.shape), dtype=geometry.window.dtype), depth, stencil, verdict,
     )  # fmt: skip
     if verdicts is not None:

@@ -1,20 +1,36 @@
-"""Writing colours: rounding to 8 bits, blending, logic operations and the colour mask."""
+"""Writing colours: rounding to 8 bits, blending, logic operations and the colour mask.
+
+Bytes are blended as bytes, floats as floats and never clamped, both in the order of operations of llvmpipe
+(lp_bld_blend.c), which takes short cuts where equal or complementary factors allow them.
+"""
 
 from typing import NamedTuple
 
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.image import Image
+from softshadow.image import Format, Image
 from softshadow.jit import kernel
+from softshadow.pipeline.constants import ONE
 from softshadow.pipeline.fragments import Fragments
 from softshadow.state import Blend, State
 
-RGB, ALPHA = 0, 1
+ALPHA = 3
+OF_ALPHA_ONE = {gl.GL_DST_ALPHA: gl.GL_ONE, gl.GL_ONE_MINUS_DST_ALPHA: gl.GL_ZERO}
+# a factor and its complement in pairs, the plain one first
+COMPLEMENTS = (
+    (gl.GL_ONE, gl.GL_ZERO), (gl.GL_SRC_COLOR, gl.GL_ONE_MINUS_SRC_COLOR), (gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA),
+    (gl.GL_DST_COLOR, gl.GL_ONE_MINUS_DST_COLOR), (gl.GL_CONSTANT_COLOR, gl.GL_ONE_MINUS_CONSTANT_COLOR),
+    (gl.GL_CONSTANT_ALPHA, gl.GL_ONE_MINUS_CONSTANT_ALPHA),
+)  # fmt: skip
 
 
 class BlendOps(NamedTuple):
-    """Blend state as plain ints: factors and equations of (rgb, alpha), constant colour 0-255, logic op or 0."""
+    """Blend state as plain numbers: factors and equations of (rgb, alpha), constant colour, logic op or 0.
+
+    The constant colour is 0-255 for bytes, float32 for floats; `alone` says that the buffer has one channel, `shared`
+    that source and target have the same factor.
+    """
 
     src_rgb: int
     dst_rgb: int
@@ -22,11 +38,13 @@ class BlendOps(NamedTuple):
     dst_alpha: int
     equation_rgb: int
     equation_alpha: int
-    red: int
-    green: int
-    blue: int
-    alpha: int
+    red: int | np.float32
+    green: int | np.float32
+    blue: int | np.float32
+    alpha: int | np.float32
     logic_op: int
+    alone: int
+    shared: int
 
 
 def to_unorm8(values: np.ndarray) -> np.ndarray:
@@ -35,12 +53,40 @@ def to_unorm8(values: np.ndarray) -> np.ndarray:
     return np.rint(np.minimum(np.maximum(values, real(0)), real(1)) * real(255)).astype(np.uint8)
 
 
-def blend_ops(blend: Blend) -> BlendOps:
-    """Return the blend state as numbers; a logic op takes the place of blending (GL 2.1, sec. 4.1.10)."""
-    red, green, blue, alpha = (int(c) for c in to_unorm8(np.array(blend.color, np.float32)))
-    factors = (blend.src_rgb, blend.dst_rgb, blend.src_alpha, blend.dst_alpha)
+def compared_alpha(state: State, color: Image | None, alpha: np.ndarray) -> tuple[np.ndarray, int]:
+    """Return alpha values (n,) uint8 and the reference that the alpha test compares them with.
+
+    Both are 0-255 for a buffer of 8-bit RGB or RGBA. For every other one llvmpipe compares them unrounded: then 0, 1, 2
+    say whether an alpha is less than, equal to or greater than the reference, which is 1.
+    """
+    if color is not None and color.format.kind == "unorm8" and color.format.base in (gl.GL_RGB, gl.GL_RGBA):
+        return to_unorm8(alpha), int(to_unorm8(np.array(state.alpha.ref, np.float32)))
+    ref = alpha.dtype.type(state.alpha.ref)
+    return (alpha >= ref).astype(np.uint8) + (alpha > ref).astype(np.uint8), 1
+
+
+def blend_ops(blend: Blend, format: Format) -> BlendOps:
+    """Return the blend state as numbers for a buffer of this format.
+
+    A logic op takes the place of blending (GL 2.1, sec. 4.1.10). GL_MIN and GL_MAX have no factors; a buffer without
+    alpha answers 1 for it, and is blended by the state of the colours alone.
+    """
+    constant = np.array(blend.color, np.float32)
+    red, green, blue, alpha = (int(c) for c in to_unorm8(constant)) if format.kind == "unorm8" else constant
+    colors = _factors(blend.equation_rgb, blend.src_rgb, blend.dst_rgb)
+    alphas = _factors(blend.equation_alpha, blend.src_alpha, blend.dst_alpha)
+    equations = (blend.equation_rgb, blend.equation_alpha)
+    if not format.written[ALPHA]:
+        colors = OF_ALPHA_ONE.get(colors[0], colors[0]), OF_ALPHA_ONE.get(colors[1], colors[1])
+        alphas, equations = colors, (blend.equation_rgb, blend.equation_rgb)
+    shared = colors[0] == colors[1] and alphas[0] == alphas[1]
     logic_op = blend.logic_op if blend.logic_enabled else 0
-    return BlendOps(*factors, blend.equation_rgb, blend.equation_alpha, red, green, blue, alpha, logic_op)
+    alone = int(format.base == gl.GL_RED)
+    return BlendOps(*colors, *alphas, *equations, red, green, blue, alpha, logic_op, alone, int(shared))
+
+
+def _factors(equation: int, source: int, target: int) -> tuple[int, int]:
+    return (gl.GL_ONE, gl.GL_ONE) if equation in (gl.GL_MIN, gl.GL_MAX) else (source, target)
 
 
 def needs_order(state: State) -> bool:
@@ -57,37 +103,59 @@ def multiply(a, b):
 
 
 @kernel
-def factor(name, channel, source, target, source_alpha, target_alpha, constant, constant_alpha):
-    """Return a blend factor of one channel, 0-255 (GL 2.1, table 4.2)."""
+def factor(name, channel, source, target, source_alpha, target_alpha, constant, constant_alpha, one):
+    """Return a blend factor of one channel, (GL 2.1, table 4.2); `one` is 255 for bytes."""
     if name == gl.GL_ZERO:
-        return 0
+        return one - one
     if name == gl.GL_ONE:
-        return 255
+        return one
     if name == gl.GL_SRC_COLOR:
         return source
     if name == gl.GL_ONE_MINUS_SRC_COLOR:
-        return 255 - source
+        return one - source
     if name == gl.GL_DST_COLOR:
         return target
     if name == gl.GL_ONE_MINUS_DST_COLOR:
-        return 255 - target
+        return one - target
     if name == gl.GL_SRC_ALPHA:
         return source_alpha
     if name == gl.GL_ONE_MINUS_SRC_ALPHA:
-        return 255 - source_alpha
+        return one - source_alpha
     if name == gl.GL_DST_ALPHA:
         return target_alpha
     if name == gl.GL_ONE_MINUS_DST_ALPHA:
-        return 255 - target_alpha
+        return one - target_alpha
     if name == gl.GL_CONSTANT_COLOR:
         return constant
     if name == gl.GL_ONE_MINUS_CONSTANT_COLOR:
-        return 255 - constant
+        return one - constant
     if name == gl.GL_CONSTANT_ALPHA:
         return constant_alpha
     if name == gl.GL_ONE_MINUS_CONSTANT_ALPHA:
-        return 255 - constant_alpha
-    return min(source_alpha, 255 - target_alpha) if channel < 3 else 255  # GL_SRC_ALPHA_SATURATE
+        return one - constant_alpha
+    return min(source_alpha, one - target_alpha) if channel < ALPHA else one  # GL_SRC_ALPHA_SATURATE
+
+
+@kernel
+def factors_of(ops, channel, source, target, source_alpha, target_alpha, one):
+    """Return the factors of source and target for one channel."""
+    constant = ops.red if channel == 0 else ops.green if channel == 1 else ops.blue if channel == 2 else ops.alpha
+    source_name, target_name = (ops.src_rgb, ops.dst_rgb) if channel < ALPHA else (ops.src_alpha, ops.dst_alpha)
+    return (
+        factor(source_name, channel, source, target, source_alpha, target_alpha, constant, ops.alpha, one),
+        factor(target_name, channel, source, target, source_alpha, target_alpha, constant, ops.alpha, one),
+    )
+
+
+@kernel
+def complement_of(source_name, target_name):
+    """Return 1 where the target's factor is 1 minus the source's, -1 where it is the other way round, else 0."""
+    for plain, inverse in COMPLEMENTS:
+        if source_name == plain and target_name == inverse:
+            return 1
+        if source_name == inverse and target_name == plain:
+            return -1
+    return 0
 
 
 @kernel
@@ -115,25 +183,68 @@ def logic(op, s, d):
 
 
 @kernel
+def mixed(weight, a, b):
+    """Return the byte between `a` and `b`, the third of three: what one channel alone is blended by."""
+    scaled = weight + (weight >> 7)
+    return (a + ((scaled * (b - a) * 128 + 16384) >> 15)) & 255
+
+
+@kernel
 def blend_fragment(ops, source, target, blended):
     """Write the bytes that replace `target` (4,) when a fragment of colour `source` (4,) is blended with it."""
     # int() of a byte is unsigned once compiled, and unsigned and signed branches together become float64
-    source_alpha, target_alpha = np.int64(source[3]), np.int64(target[3])
+    source_alpha, target_alpha = np.int64(source[ALPHA]), np.int64(target[ALPHA])
+    mixes = complement_of(ops.src_rgb, ops.dst_rgb) if ops.alone and ops.equation_rgb == gl.GL_FUNC_ADD else 0
     for c in range(4):
         s, d = np.int64(source[c]), np.int64(target[c])
         if ops.logic_op:
             blended[c] = logic(ops.logic_op, s, d)
             continue
-        constant = ops.red if c == 0 else ops.green if c == 1 else ops.blue if c == 2 else ops.alpha
-        source_name, target_name = (ops.src_rgb, ops.dst_rgb) if c < 3 else (ops.src_alpha, ops.dst_alpha)
-        a = factor(source_name, c, s, d, source_alpha, target_alpha, constant, ops.alpha)
-        b = factor(target_name, c, s, d, source_alpha, target_alpha, constant, ops.alpha)
-        blended[c] = equation(ops.equation_rgb if c < 3 else ops.equation_alpha, s, d, a, b)
+        a, b = factors_of(ops, c, s, d, source_alpha, target_alpha, 255)
+        if mixes:
+            blended[c] = mixed(a, d, s) if mixes > 0 else mixed(b, s, d)
+        else:
+            blended[c] = equation(ops.equation_rgb if c < ALPHA else ops.equation_alpha, s, d, a, b)
+
+
+@kernel
+def float_equation(name, s, d, a, b, shared, complement):
+    """Return the blended float32 of one channel, never clamped.
+
+    `a` and `b` are the factors; `shared`: they are one factor, `complement`: see `complement_of`.
+    """
+    if name == gl.GL_MIN:
+        return s if s < d else d
+    if name == gl.GL_MAX:
+        return s if s > d else d
+    if complement:
+        if name == gl.GL_FUNC_ADD:
+            return d + a * (s - d) if complement > 0 else s + b * (d - s)
+        if name == gl.GL_FUNC_SUBTRACT:
+            return (s + d) * a - d if complement > 0 else s - (s + d) * b
+        return d - (s + d) * a if complement > 0 else (s + d) * b - s
+    if shared:
+        both = s + d if name == gl.GL_FUNC_ADD else s - d if name == gl.GL_FUNC_SUBTRACT else d - s
+        return both * a
+    if name == gl.GL_FUNC_ADD:
+        return s * a + d * b
+    return s * a - d * b if name == gl.GL_FUNC_SUBTRACT else d * b - s * a
+
+
+@kernel
+def blend_float_fragment(ops, source, target, blended):
+    """Write the floats that replace `target` (4,) when a fragment of colour `source` (4,) is blended with it."""
+    complement = complement_of(ops.src_rgb, ops.dst_rgb) if ops.alone else 0
+    for c in range(4):
+        s, d = source[c], target[c]
+        a, b = factors_of(ops, c, s, d, source[ALPHA], target[ALPHA], ONE)
+        name = ops.equation_rgb if c < ALPHA else ops.equation_alpha
+        blended[c] = float_equation(name, s, d, a, b, ops.shared, complement)
 
 
 @kernel
 def blend_fragments(ops, rows, columns, colors, mask, cells):
-    """Blend fragments into `cells` (H, pitch, 4) one after the other, under the colour mask (4,)."""
+    """Blend fragments into `cells` (H, pitch, 4) of bytes one after the other, under the colour mask (4,)."""
     blended = np.zeros(4, np.uint8)
     for n in range(rows.shape[0]):
         target = cells[rows[n], columns[n]]
@@ -143,21 +254,33 @@ def blend_fragments(ops, rows, columns, colors, mask, cells):
                 target[c] = blended[c]
 
 
+@kernel
+def blend_float_fragments(ops, rows, columns, colors, mask, cells):
+    """Blend fragments into `cells` (H, pitch, 4) of float32 one after the other, under the colour mask (4,)."""
+    blended = np.zeros(4, np.float32)
+    for n in range(rows.shape[0]):
+        target = cells[rows[n], columns[n]]
+        blend_float_fragment(ops, colors[n], target, blended)
+        for c in range(4):
+            if mask[c]:
+                target[c] = blended[c]
+
+
 def write_colors(state: State, color: Image, fragments: Fragments, values: np.ndarray) -> None:
     """Write shaded colours (n, 4) in order, blended where the state says so.
 
-    Without blending the last fragment of a pixel wins, so the writes need no loop.
+    Without blending the last fragment of a pixel wins, so the writes need no loop. Floats have no logic operations:
+    where one is on they are written as they are.
     """
     rows, columns = fragments.row, fragments.column
     mask = np.array(state.color.mask) & np.array(color.format.written)
-    if color.format.kind == "float":
-        stored = values.astype(np.float32)
-    else:
-        stored = to_unorm8(values)
-        if state.blend.enabled or state.blend.logic_enabled:
-            blend_fragments(blend_ops(state.blend), rows, columns, stored, mask, color.cells)
-            return
-    if mask.all():
+    floats = color.format.kind == "float"
+    stored = values.astype(np.float32) if floats else to_unorm8(values)
+    if floats and state.blend.enabled and not state.blend.logic_enabled:
+        blend_float_fragments(blend_ops(state.blend, color.format), rows, columns, stored, mask, color.cells)
+    elif not floats and (state.blend.enabled or state.blend.logic_enabled):
+        blend_fragments(blend_ops(state.blend, color.format), rows, columns, stored, mask, color.cells)
+    elif mask.all():
         color.cells[rows, columns] = stored
     else:
         channels = np.flatnonzero(mask)

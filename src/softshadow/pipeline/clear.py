@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.framebuffer import DEFAULT, Framebuffer, Storage
 from softshadow.image import Image
+from softshadow.pipeline import accumulation
 from softshadow.pipeline.blend import to_unorm8
 from softshadow.pipeline.geometry import region_of
 from softshadow.pixels import quantized_depth
@@ -41,6 +42,8 @@ def clear(command: Clear, storage: Storage) -> None:
         cells, largest = target.stencil.cells[where], target.stencil.format.largest
         mask = state.stencil.front.write_mask & largest
         cells[:] = (cells & (largest ^ mask)) | (state.stencil.clear & mask)
+    if command.mask & gl.GL_ACCUM_BUFFER_BIT and target.name == DEFAULT:
+        accumulation.buffer_of(target)[where] = accumulation.clear_value(state.color.clear_accum)
 
 
 def clear_depth(value: float, depth: Image) -> float:

@@ -15,7 +15,9 @@ import numpy as np
 from softshadow import pipeline
 from softshadow.framebuffer import DEFAULT, NOTHING, Attachment, Framebuffer, Storage, plane_for
 from softshadow.image import Format, Image
-from softshadow.pipeline import transfer
+from softshadow.pipeline import accumulation, mipmaps, transfer
+from softshadow.pipeline.binding import VERDICT_COUNTS
+from softshadow.pipeline.fragment_ops import PASSED
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.state import State
 from softshadow.texture import Sampler, Texture
@@ -29,12 +31,16 @@ class Command(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Vertices:
-    """The vertices of a draw, read-only: position (V, 4), color (V, 4), normal (V, 3), one texcoord (V, 4) per unit."""
+    """The vertices of a draw, read-only: position (V, 4), color (V, 4), normal (V, 3), one texcoord (V, 4) per unit.
+
+    `materials` holds what glMaterial changed from vertex to vertex: "front.diffuse" (V, 4), "back.shininess" (V,) ...
+    """
 
     position: np.ndarray
     color: np.ndarray
     normal: np.ndarray
     texcoords: tuple[np.ndarray, ...]
+    materials: Mapping[str, np.ndarray] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +49,8 @@ class Draw:
 
     `mode` is GL_POINTS ... GL_POLYGON, `indices` (N,) int32 into the vertices, or None for all in order; `label` names
     the debug groups the draw stands in ("step/torus"); `uniforms` are those of the program in use; the kinds of the
-    matrices decide how they are inverted.
+    matrices decide how they are inverted. Quads that share a batch with draws of other debug groups have the positions
+    (N, 4) of the whole `batch` and the number of their first vertex in it.
     """
 
     state: State
@@ -60,9 +67,16 @@ class Draw:
     offset_unit: str = "mesa"
     modelview_kind: int = UNKNOWN
     projection_kind: int = UNKNOWN
+    batch: np.ndarray | None = None
+    batch_start: int = 0
 
     def apply(self, storage: Storage) -> None:
-        pipeline.draw(self, storage)
+        if not storage.active_query:
+            pipeline.draw(self, storage)
+        else:
+            verdicts = np.zeros(VERDICT_COUNTS, np.int64)
+            pipeline.draw(self, storage, verdicts)
+            storage.queries[storage.active_query] += int(verdicts[PASSED])
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +88,30 @@ class Clear:
 
     def apply(self, storage: Storage) -> None:
         pipeline.clear(self, storage)
+
+
+@dataclass(frozen=True, eq=False)
+class Accumulate:
+    """glAccum, between the colour buffer and the accumulation buffer of the window."""
+
+    state: State
+    operation: int
+    value: float
+
+    def apply(self, storage: Storage) -> None:
+        accumulation.accumulate(self, storage)
+
+
+@dataclass(frozen=True, eq=False)
+class BeginQuery:
+    """Count the fragments that pass from here on; `query` 0 ends the counting."""
+
+    query: int
+
+    def apply(self, storage: Storage) -> None:
+        storage.active_query = self.query
+        if self.query:
+            storage.queries[self.query] = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,6 +178,24 @@ class CopyToTexture:
 
     def apply(self, storage: Storage) -> None:
         transfer.copy_to_texture(self, storage)
+
+
+@dataclass(frozen=True, eq=False)
+class GenerateMipmaps:
+    """glGenerateMipmap, or what GL_GENERATE_MIPMAP does to one face: all levels after the base level, to the last."""
+
+    texture: int
+    faces: tuple[int, ...]
+    base: int
+    last: int
+
+    def apply(self, storage: Storage) -> None:
+        images = storage.textures[self.texture].images
+        for face in self.faces:
+            for level in range(self.base + 1, self.last + 1):
+                made = mipmaps.next_level(images[face, level - 1])
+                images[face, level] = made
+                storage.reattach(self.texture, face, level, made)
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,7 +22,8 @@ class VertexInputs:
     """What a vertex stage sees: per-vertex arrays in object space, and the matrices (column vectors, ``M @ v``).
 
     position (V, 4), color (V, 4), normal (V, 3), texcoords one (V, 4) per texture unit; float32 (float64 in "exact").
-    `modelview_kind` is what the calls that made the matrix say of it (`softshadow.programs.inverse`).
+    `modelview_kind` is what the calls that made the matrix say of it (`softshadow.programs.inverse`); `materials` holds
+    what changes from vertex to vertex: "front.diffuse" (V, 4), "back.shininess" (V,) ...
     """
 
     position: np.ndarray
@@ -34,6 +35,7 @@ class VertexInputs:
     texture_matrices: tuple[np.ndarray, ...]
     uniforms: Mapping[str, Any]
     modelview_kind: int = UNKNOWN
+    materials: Mapping[str, np.ndarray] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

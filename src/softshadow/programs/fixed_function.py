@@ -86,7 +86,8 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
         rest.append(fog_distance(state, vertices)[:, np.newaxis])
     values = columns(front, rest, vertices.position.dtype)
     flat = np.zeros(values.shape[1], bool)
-    flat[: 7 if is_separate(state) else 4] = lighting.shade_model == gl.GL_FLAT
+    one_color = not lighting.enabled and vertices.color.strides[0] == 0  # Mesa does not interpolate what is constant
+    flat[: 7 if is_separate(state) else 4] = lighting.shade_model == gl.GL_FLAT or one_color
     return Varyings(values, flat, None if back is None else columns(back, rest, values.dtype))
 
 

@@ -1,4 +1,4 @@
-"""Whether a texture is minified or magnified, for each 2x2 block of pixels, as llvmpipe decides it.
+"""Level of detail of each 2x2 block of pixels, and the mipmap levels it selects, as llvmpipe decides it.
 
 A block holds the coordinates of its four pixels: the first, the one right of it, the one in the next stored row, and
 the one right of that. The differences to the first tell how many texels a step of one pixel crosses.
@@ -8,37 +8,86 @@ References: GL 2.1 sec. 3.8.8, 3.8.9 (switch-over at level 0); lp_bld_sample.c o
 
 from __future__ import annotations
 
+import math
+from typing import NamedTuple
+
 import numpy as np
 
+from softshadow import tokens as gl
 from softshadow.texture import Sampler
 
 HALF, ONE = np.float32(0.5), np.float32(1.0)
 EXPONENT_BIAS, MANTISSA_BITS, MANTISSA, ONE_BITS = 127, 23, 0x7FFFFF, 0x3F800000
 LARGEST_LEVEL = 15  # a larger GL_TEXTURE_MAX_LOD limits nothing
+BIAS_STEPS, LEAST_BIAS, LARGEST_BIAS = 256, -32.0, 31.0  # Mesa keeps biases in steps of 1/256
+# minification filter: (filter within a level, filter between levels or GL_NONE)
+FILTERS = {
+    gl.GL_NEAREST: (gl.GL_NEAREST, gl.GL_NONE),
+    gl.GL_LINEAR: (gl.GL_LINEAR, gl.GL_NONE),
+    gl.GL_NEAREST_MIPMAP_NEAREST: (gl.GL_NEAREST, gl.GL_NEAREST),
+    gl.GL_LINEAR_MIPMAP_NEAREST: (gl.GL_LINEAR, gl.GL_NEAREST),
+    gl.GL_NEAREST_MIPMAP_LINEAR: (gl.GL_NEAREST, gl.GL_LINEAR),
+    gl.GL_LINEAR_MIPMAP_LINEAR: (gl.GL_LINEAR, gl.GL_LINEAR),
+}
+
+
+class Levels(NamedTuple):
+    """What the level of detail says of each block (B,): whether it is minified, then the level below its level of
+    detail and the one above, counted from the base level, and the weight of the one above (float32)."""
+
+    minified: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+    weight: np.ndarray
 
 
 def squared_texels_per_pixel(coordinates: np.ndarray, width: int, height: int) -> np.ndarray:
     """Return the larger of the squared steps (B,) to the right and to the next row; coordinates (4 B, 2 or more)."""
     blocks = coordinates[:, :2].reshape(-1, 4, 2)
-    size = np.array((width, height), coordinates.dtype)
-    steps = (blocks[:, 1:3] - blocks[:, :1]) * size
-    steps = steps * steps
-    larger: np.ndarray = (steps[..., 0] + steps[..., 1]).max(axis=1)
+    return squared_length((blocks[:, 1:3] - blocks[:, :1]), width, height)
+
+
+def squared_length(steps: np.ndarray, width: int, height: int) -> np.ndarray:
+    """Return the larger squared length (B,) in texels of two steps (B, 2, 2) in texture coordinates."""
+    texels = steps * np.array((width, height), steps.dtype)
+    texels = texels * texels
+    larger: np.ndarray = (texels[..., 0] + texels[..., 1]).max(axis=1)
     return larger
 
 
-def minified(coordinates: np.ndarray, width: int, height: int, sampler: Sampler) -> np.ndarray:
-    """Return for each block (B,) of coordinates (4 B, 2 or more) whether its level of detail is above 0."""
-    squared = squared_texels_per_pixel(coordinates, width, height)
-    least, most = max(sampler.min_lod, 0.0), sampler.max_lod
+def select_levels(squared: np.ndarray, sampler: Sampler, last: int) -> Levels:
+    """Return the levels of blocks whose pixels cross so many texels, squared (B,); `last` is the smallest level."""
+    squared = squared.astype(np.float32)
+    between = FILTERS[sampler.min_filter][1]
+    least, most, bias = max(sampler.min_lod, 0.0), sampler.max_lod, quantized_bias(sampler.lod_bias)
+    nothing = np.zeros(len(squared), np.float32)
+    if least != most and bias == 0 and least == 0 and most >= LARGEST_LEVEL and between != gl.GL_LINEAR:
+        exponents = (squared.view(np.int32) >> MANTISSA_BITS & 0xFF) - (EXPONENT_BIAS - 1)
+        nearest = (exponents >> 1).clip(0, last)
+        return Levels(squared > ONE, nearest, nearest, nothing)
     if least == most:
-        return np.full(len(squared), least > 0)
-    if sampler.lod_bias == 0 and least == 0 and most >= LARGEST_LEVEL:
-        above: np.ndarray = squared > ONE
-        return above
-    level = HALF * coarse_log2(squared.astype(np.float32)) + np.float32(sampler.lod_bias)
-    above = np.maximum(np.minimum(level, np.float32(most)), np.float32(least)) > 0
-    return above
+        level = np.full(len(squared), least, np.float32)
+    else:
+        level = HALF * coarse_log2(squared) + np.float32(bias)
+        level = np.maximum(np.minimum(level, np.float32(most)), np.float32(least)) if _limits(least, most) else level
+    minified = level > 0
+    if between != gl.GL_LINEAR:
+        nearest = np.rint(level).clip(0, last).astype(np.int32)
+        return Levels(minified, nearest, nearest, nothing)
+    floor = np.floor(level)
+    inside = (floor >= 0) & (floor < last)
+    lower = floor.clip(0, last).astype(np.int32)
+    return Levels(minified, lower, lower + inside, np.where(inside, level - floor, nothing))
+
+
+def _limits(least: float, most: float) -> bool:
+    return least > 0 or most < LARGEST_LEVEL
+
+
+def quantized_bias(bias: float) -> float:
+    """Return GL_TEXTURE_LOD_BIAS as it counts: limited, and rounded to steps of 1/256, halves away from zero."""
+    steps = min(max(bias, LEAST_BIAS), LARGEST_BIAS) * BIAS_STEPS
+    return math.copysign(math.floor(abs(steps) + 0.5), steps) / BIAS_STEPS
 
 
 def coarse_log2(x: np.ndarray) -> np.ndarray:

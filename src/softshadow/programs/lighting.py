@@ -216,15 +216,19 @@ def shade_side(
         tracked = COLOR_MATERIAL[lighting.color_material_mode]
 
     def reflectance(name: str) -> np.ndarray:
-        return vertices.color if name in tracked else vector(getattr(material, name))[np.newaxis]
+        if name in tracked:
+            return vertices.color
+        given = vertices.materials.get(f"{side}.{name}")
+        return vector(getattr(material, name))[np.newaxis] if given is None else np.asarray(given, np.float32)
 
     count = len(vertices.position)
+    shininess = np.broadcast_to(vertices.materials.get(f"{side}.shininess", np.float32(material.shininess)), count)
     scene = vector(lighting.model_ambient)[:3] * reflectance("ambient")[:, :3] + reflectance("emission")[:, :3]
     rgb = np.broadcast_to(scene, (count, 3))
     separate = lighting.color_control == gl.GL_SEPARATE_SPECULAR_COLOR
     highlight = np.zeros((count, 3), np.float32)
     for source in lights:
-        diffuse, specular = lit_factors(lighting, material, normal, source)
+        diffuse, specular = lit_factors(lighting, shininess, normal, source)
         factor = source.attenuation
         ambient_part = vector(source.light.ambient)[:3] * reflectance("ambient")[:, :3]
         if factor is not None:
@@ -244,12 +248,12 @@ def shade_side(
 
 
 def lit_factors(
-    lighting: Lighting, material: Material, normal: np.ndarray, source: LightAtVertices
+    lighting: Lighting, shininess: np.ndarray, normal: np.ndarray, source: LightAtVertices
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the diffuse and the specular factor (V,) before attenuation."""
     towards_light = dot(normal, source.direction)
     diffuse = np.fmax(towards_light, ZERO)
-    shininess = np.full_like(diffuse, material.shininess)
+    shininess = np.asarray(shininess, diffuse.dtype)
     if has_highlights(lighting):
         towards_half = dot(normal, source.half)
     elif source.attenuation is None:

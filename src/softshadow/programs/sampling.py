@@ -1,58 +1,23 @@
 """Texture sampling for a batch of coordinates, bit for bit as llvmpipe samples.
 
-`sample` is the door: it reads the texture's sampler, picks the kernel, and leaves the texture's RGBA. Three kernels do
-the work: `filter_texels` (nearest, or linear in float), `filter_fixed_point` (linear, 8-bit formats under GL_REPEAT and
-GL_CLAMP_TO_EDGE, which llvmpipe filters in 8-bit integers) and `compare_depth` (shadow maps).
+`sample` is the door: it reads the texture's sampler, selects levels, and leaves the texture's RGBA. What one image
+gives is computed in `filtering`, which level by `level_of_detail`.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from softshadow import tokens as gl
 from softshadow.errors import StateError
-from softshadow.image import Image
-from softshadow.jit import kernel
-from softshadow.pixels import LARGEST_UINT, sampled_depth
-from softshadow.programs.level_of_detail import minified
-from softshadow.programs.wrapping import (
-    FIXED_POINT_WRAPS,
-    ONE,
-    ZERO,
-    fixed_point_texels,
-    linear_texels,
-    nearest_texel,
-)
-from softshadow.texture import Sampler, Texture
-from softshadow.tokens import (
-    GL_ALWAYS,
-    GL_EQUAL,
-    GL_GEQUAL,
-    GL_GREATER,
-    GL_LEQUAL,
-    GL_LESS,
-    GL_LINEAR,
-    GL_NEAREST,
-    GL_NOTEQUAL,
-    token_name,
-)
+from softshadow.programs import needs_blocks
+from softshadow.programs.filtering import UNORM8_STEP, in_8_bits, sample_image, wraps_of
+from softshadow.programs.level_of_detail import FILTERS, Levels, select_levels, squared_texels_per_pixel
+from softshadow.programs.wrapping import ONE
+from softshadow.texture import Texture
+from softshadow.tokens import GL_LINEAR, GL_NONE
 
 PIXELS_OF_A_BLOCK = 4
-UNORM8_STEP = ONE / np.float32(255.0)
-
-# where R, G, B, A of the result come from: a channel of the cells, or a constant
-CONSTANT_ZERO, CONSTANT_ONE = 4, 5
-SOURCES = {
-    gl.GL_RGBA: (0, 1, 2, 3),
-    gl.GL_RGB: (0, 1, 2, CONSTANT_ONE),
-    gl.GL_RG: (0, 1, CONSTANT_ZERO, CONSTANT_ONE),
-    gl.GL_RED: (0, CONSTANT_ZERO, CONSTANT_ZERO, CONSTANT_ONE),
-    gl.GL_ALPHA: (CONSTANT_ZERO, CONSTANT_ZERO, CONSTANT_ZERO, 3),
-    gl.GL_LUMINANCE: (0, 0, 0, CONSTANT_ONE),
-    gl.GL_LUMINANCE_ALPHA: (0, 0, 0, 3),
-    gl.GL_INTENSITY: (0, 0, 0, 0),
-}
-DEPTH_SOURCES = {**SOURCES, gl.GL_ALPHA: (CONSTANT_ZERO, CONSTANT_ZERO, CONSTANT_ZERO, 0)}
+WEIGHT_STEPS = np.float32(256.0)
 
 
 def base_format(texture: Texture) -> int:
@@ -71,11 +36,11 @@ def is_complete(texture: Texture) -> bool:
     sampler, image = texture.sampler, texture.base()
     if image is None or image.width == 0 or image.height == 0:
         return False
-    if sampler.min_filter in (GL_NEAREST, GL_LINEAR):
+    if FILTERS[sampler.min_filter][1] == GL_NONE:
         return True
-    width, height, level = image.width, image.height, sampler.base_level
-    while (width, height) != (1, 1) and level < sampler.max_level:
-        width, height, level = max(width // 2, 1), max(height // 2, 1), level + 1
+    width, height = image.width, image.height
+    for level in range(sampler.base_level + 1, texture.last_level() + 1):
+        width, height = max(width // 2, 1), max(height // 2, 1)
         image_of_level = texture.images.get((0, level))
         if (
             image_of_level is None
@@ -83,7 +48,7 @@ def is_complete(texture: Texture) -> bool:
             or image_of_level.format != image.format
         ):
             return False
-    return True
+    return sampler.max_level >= sampler.base_level
 
 
 def project(coordinates: np.ndarray) -> np.ndarray:
@@ -96,174 +61,67 @@ def project(coordinates: np.ndarray) -> np.ndarray:
 def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
     """Fill `out` (N, 4) with the texture's RGBA at coordinates (N, 3): s, t, and r for depth comparison.
 
-    An incomplete texture gives (0, 0, 0, 1), as programs see it. Where minification and magnification differ, the
+    An incomplete texture gives (0, 0, 0, 1), as programs see it. Where the filter depends on the level of detail, the
     coordinates must be complete 2x2 blocks of pixels (see `Program.blocks`).
 
     Raises
     ------
-    StateError                   the minification filter uses mipmaps, or the fragments do not come in blocks
+    StateError                   the fragments do not come in blocks
     """
     image, sampler = texture.base(), texture.sampler
     if image is None or not is_complete(texture):
         out[:] = (0.0, 0.0, 0.0, 1.0)
         return
-    if sampler.min_filter == sampler.mag_filter:
-        sample_image(image, sampler, sampler.mag_filter == GL_LINEAR, coordinates, out)
+    if not needs_blocks(texture):
+        first = texture.images.get((0, 0), image)
+        sample_image(image, sampler, wraps_of(sampler, first), sampler.mag_filter == GL_LINEAR, coordinates, out)
         return
-    if sampler.min_filter not in (GL_NEAREST, GL_LINEAR):
-        raise StateError(
-            f"texture {texture.name}: GL_TEXTURE_MIN_FILTER is {token_name(sampler.min_filter)}: mipmaps are not "
-            "sampled yet; set GL_NEAREST or GL_LINEAR"
-        )
     if len(coordinates) % PIXELS_OF_A_BLOCK:
         raise StateError(
             f"texture {texture.name}: GL_TEXTURE_MIN_FILTER and GL_TEXTURE_MAG_FILTER differ, which takes fragments in "
             "blocks; set both to GL_NEAREST or both to GL_LINEAR"
         )
-    small = np.repeat(minified(coordinates, image.width, image.height, sampler), PIXELS_OF_A_BLOCK)
-    for chosen, filter_name in ((small, sampler.min_filter), (~small, sampler.mag_filter)):
-        part = np.empty((np.count_nonzero(chosen), 4), out.dtype)
-        sample_image(image, sampler, filter_name == GL_LINEAR, coordinates[chosen], part)
-        out[chosen] = part
+    squared = squared_texels_per_pixel(coordinates, image.width, image.height)
+    levels = select_levels(squared, sampler, texture.last_level() - sampler.base_level)
+    sample_levels(texture, Levels(*(np.repeat(a, PIXELS_OF_A_BLOCK) for a in levels)), coordinates, out)
 
 
-def sample_image(image: Image, sampler: Sampler, linear: bool, coordinates: np.ndarray, out: np.ndarray) -> None:
-    """Fill `out` (N, 4) from one image, with a linear or the nearest filter."""
-    cells = image.cells if image.cells.ndim == 3 else image.cells[:, :, np.newaxis]
-    wraps = sampler.wrap_s, sampler.wrap_t
-    real = coordinates.dtype  # float64 in the "exact" precision
-    border = np.array(sampler.border_color, real)
-    if image.format.kind == "depth":
-        largest = image.format.largest
-        unit = real.type(ONE / np.float32(largest) if largest else ONE)
-        if largest == LARGEST_UINT:  # llvmpipe reads 23 of 32 bits
-            cells, unit = sampled_depth(cells, image.format), real.type(ONE)
-        sources = np.array(DEPTH_SOURCES[sampler.depth_mode])
-        border = border.clip(ZERO, ONE) if largest else border
-        where = coordinates, cells, image.width, wraps, border, unit, linear
-        if sampler.compare_mode != gl.GL_NONE:
-            compare_depth(*where, sampler.compare_func, largest > 0, sources, out)
-        else:
-            filter_texels(*where, sources, out)
-        return
-    sources = np.array(SOURCES[image.format.base])
-    if image.format.kind == "float":
-        filter_texels(coordinates, cells, image.width, wraps, border, real.type(ONE), linear, sources, out)
-    elif linear and set(wraps) <= set(FIXED_POINT_WRAPS):
-        filter_fixed_point(coordinates, cells, image.width, wraps, sources, out)
-    else:
-        border = border.clip(ZERO, ONE)
-        filter_texels(coordinates, cells, image.width, wraps, border, real.type(UNORM8_STEP), linear, sources, out)
+def sample_levels(texture: Texture, levels: Levels, coordinates: np.ndarray, out: np.ndarray) -> None:
+    """Fill `out` (N, 4) from the levels that were selected for each pixel (N,)."""
+    image, sampler = texture.base(), texture.sampler
+    assert image is not None
+    wraps = wraps_of(sampler, texture.images.get((0, 0), image))
+    within, between = FILTERS[sampler.min_filter]
+
+    def fill(chosen: np.ndarray, which: np.ndarray, filter_name: int, into: np.ndarray) -> None:
+        for level in np.unique(which[chosen]):
+            pixels = np.nonzero(chosen & (which == level))[0]
+            part = np.empty((len(pixels), 4), out.dtype)
+            of_level = texture.images[0, sampler.base_level + int(level)]
+            sample_image(of_level, sampler, wraps, filter_name == GL_LINEAR, coordinates[pixels], part)
+            into[pixels] = part
+
+    small = levels.minified if within != sampler.mag_filter else np.ones(len(out), bool)
+    if between == GL_NONE:
+        levels = levels._replace(lower=np.zeros_like(levels.lower))
+    fill(small, levels.lower, within, out)
+    fill(~small, np.zeros_like(levels.lower), sampler.mag_filter, out)
+    both = small & (levels.weight > 0)
+    if between == GL_LINEAR and both.any():
+        upper = np.empty_like(out)
+        fill(both, levels.upper, within, upper)
+        mix = mix_in_8_bits if in_8_bits(image, wraps) else mix_in_float
+        out[both] = mix(out[both], upper[both], levels.weight[both, np.newaxis])
 
 
-@kernel
-def fetch(cells, width, border, unit, i, j, channel):
-    """Return one channel of a texel in [0, 1] units, or of the border colour outside the image."""
-    if i >= 0 and i < width and j >= 0 and j < cells.shape[0]:
-        return border.dtype.type(cells[j, i, channel]) * unit
-    return border[channel]
+def mix_in_float(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    mixed: np.ndarray = weight * (b - a) + a
+    return mixed
 
 
-@kernel
-def mix(weight, a, b):
-    """Return a + weight * (b - a), rounded at each step."""
-    return weight * (b - a) + a
-
-
-@kernel
-def mix_fixed_point(weight, a, b):
-    """Return a + weight/256 * (b - a) in integers, rounded as llvmpipe's 8-bit interpolation rounds."""
-    return a + (((b - a) * weight * 128 + 16384) >> 15)
-
-
-@kernel
-def filter_texels(coordinates, cells, width, wraps, border, unit, linear, sources, out):
-    """Sample with GL_NEAREST or, in float, GL_LINEAR; `unit` is the value of one cell unit."""
-    height = cells.shape[0]
-    for n in range(len(coordinates)):
-        if linear:
-            i0, i1, x_weight = linear_texels(coordinates[n, 0], width, wraps[0])
-            j0, j1, y_weight = linear_texels(coordinates[n, 1], height, wraps[1])
-        else:
-            i0 = nearest_texel(coordinates[n, 0], width, wraps[0])
-            j0 = nearest_texel(coordinates[n, 1], height, wraps[1])
-        for c in range(4):
-            source = sources[c]
-            if source >= CONSTANT_ZERO:
-                out[n, c] = ZERO if source == CONSTANT_ZERO else ONE
-            elif linear:
-                lower = mix(
-                    x_weight,
-                    fetch(cells, width, border, unit, i0, j0, source),
-                    fetch(cells, width, border, unit, i1, j0, source),
-                )
-                upper = mix(
-                    x_weight,
-                    fetch(cells, width, border, unit, i0, j1, source),
-                    fetch(cells, width, border, unit, i1, j1, source),
-                )
-                out[n, c] = mix(y_weight, lower, upper)
-            else:
-                out[n, c] = fetch(cells, width, border, unit, i0, j0, source)
-
-
-@kernel
-def filter_fixed_point(coordinates, cells, width, wraps, sources, out):
-    """Sample with GL_LINEAR in 8-bit integers: x first, then y."""
-    height = cells.shape[0]
-    for n in range(len(coordinates)):
-        i0, i1, x_weight = fixed_point_texels(coordinates[n, 0], width, wraps[0])
-        j0, j1, y_weight = fixed_point_texels(coordinates[n, 1], height, wraps[1])
-        for c in range(4):
-            source = sources[c]
-            if source >= CONSTANT_ZERO:
-                out[n, c] = ZERO if source == CONSTANT_ZERO else ONE
-            else:
-                lower = mix_fixed_point(x_weight, int(cells[j0, i0, source]), int(cells[j0, i1, source]))
-                upper = mix_fixed_point(x_weight, int(cells[j1, i0, source]), int(cells[j1, i1, source]))
-                out[n, c] = np.float32(mix_fixed_point(y_weight, lower, upper)) * UNORM8_STEP
-
-
-@kernel
-def passes(func, reference, texel):
-    """Return whether `reference func texel`; with NaN only GL_NOTEQUAL and GL_ALWAYS hold."""
-    if func == GL_LEQUAL:
-        return reference <= texel
-    if func == GL_GEQUAL:
-        return reference >= texel
-    if func == GL_LESS:
-        return reference < texel
-    if func == GL_GREATER:
-        return reference > texel
-    if func == GL_EQUAL:
-        return reference == texel
-    if func == GL_NOTEQUAL:
-        return reference != texel
-    return func == GL_ALWAYS
-
-
-@kernel
-def compare_depth(coordinates, cells, width, wraps, border, unit, linear, func, clamped, sources, out):
-    """Compare r with the depths: 0 or 1, or with GL_LINEAR the share of the 2x2 texels that pass (float weights)."""
-    height = cells.shape[0]
-    for n in range(len(coordinates)):
-        r = coordinates[n, 2]
-        if clamped:
-            r = r if r > ZERO else ZERO
-            r = r if r < ONE else ONE
-        if linear:
-            i0, i1, x_weight = linear_texels(coordinates[n, 0], width, wraps[0])
-            j0, j1, y_weight = linear_texels(coordinates[n, 1], height, wraps[1])
-            rest = ONE - x_weight
-            lower = rest if passes(func, r, fetch(cells, width, border, unit, i0, j0, 0)) else ZERO
-            lower = (x_weight if passes(func, r, fetch(cells, width, border, unit, i1, j0, 0)) else ZERO) + lower
-            upper = rest if passes(func, r, fetch(cells, width, border, unit, i0, j1, 0)) else ZERO
-            upper = (x_weight if passes(func, r, fetch(cells, width, border, unit, i1, j1, 0)) else ZERO) + upper
-            lit = mix(y_weight, lower, upper)
-        else:
-            i0 = nearest_texel(coordinates[n, 0], width, wraps[0])
-            j0 = nearest_texel(coordinates[n, 1], height, wraps[1])
-            lit = ONE if passes(func, r, fetch(cells, width, border, unit, i0, j0, 0)) else ZERO
-        for c in range(4):
-            source = sources[c]
-            out[n, c] = lit if source < CONSTANT_ZERO else (ZERO if source == CONSTANT_ZERO else ONE)
+def mix_in_8_bits(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Return the mixture of colours that are multiples of 1/255, as llvmpipe's 8-bit interpolation rounds it."""
+    lower, upper = (np.rint(c * np.float32(255)).astype(np.int32) for c in (a, b))
+    steps = np.trunc(weight * WEIGHT_STEPS).astype(np.int32)
+    mixed: np.ndarray = (lower + (((upper - lower) * steps * 128 + 16384) >> 15)).astype(np.float32) * UNORM8_STEP
+    return mixed

@@ -16,7 +16,10 @@ INT_LIMIT = np.float32(2.0**31)
 FIXED_ONE = np.float32(256.0)
 OUT_OF_RANGE = -(2**31)  # what the CPU's float-to-integer conversion answers beyond 32 bits, and for NaN
 
-FIXED_POINT_WRAPS = (GL_REPEAT, GL_CLAMP_TO_EDGE)
+# GL_REPEAT of a texture whose first level has a power of two as size: llvmpipe masks texel indices. All its levels go
+# by the first: the 4 texels below 9 repeat as 9 would.
+REPEAT_BY_MASK = 1
+FIXED_POINT_WRAPS = (GL_REPEAT, REPEAT_BY_MASK, GL_CLAMP_TO_EDGE)
 WRAPS = (GL_REPEAT, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_BORDER, GL_CLAMP, GL_MIRRORED_REPEAT)
 
 
@@ -28,9 +31,9 @@ def to_integer(value):
     return OUT_OF_RANGE
 
 
-@kernel
-def is_power_of_two(size):
-    return size & (size - 1) == 0
+def wrap_code(wrap: int, size: int) -> int:
+    """Return what the kernels take for a wrap mode of a texture whose first level has `size` texels on the axis."""
+    return REPEAT_BY_MASK if wrap == GL_REPEAT and size & (size - 1) == 0 else wrap
 
 
 @kernel
@@ -46,9 +49,9 @@ def mirrored(coordinate):
 def nearest_texel(coordinate, size, wrap):
     """Return the index of the texel that contains a normalised coordinate."""
     length = np.float32(size)
+    if wrap == REPEAT_BY_MASK:
+        return to_integer(np.floor(coordinate * length)) & (size - 1)
     if wrap == GL_REPEAT:
-        if is_power_of_two(size):
-            return to_integer(np.floor(coordinate * length)) & (size - 1)
         part = coordinate - np.floor(coordinate)
         return to_integer((part if part < BELOW_ONE else BELOW_ONE) * length)
     if wrap == GL_CLAMP_TO_BORDER:
@@ -62,11 +65,11 @@ def nearest_texel(coordinate, size, wrap):
 def linear_texels(coordinate, size, wrap):
     """Return (first texel, second texel, weight of the second) for a linear filter in float."""
     length, last = np.float32(size), size - 1
+    if wrap == REPEAT_BY_MASK:
+        u = coordinate * length - HALF
+        first = to_integer(np.floor(u))
+        return first & last, (first + 1) & last, u - np.floor(u)
     if wrap == GL_REPEAT:
-        if is_power_of_two(size):
-            u = coordinate * length - HALF
-            first = to_integer(np.floor(u))
-            return first & last, (first + 1) & last, u - np.floor(u)
         u = (coordinate - np.floor(coordinate)) * length - HALF
         first = last if u < ZERO else to_integer(np.floor(u))
         return first, 0 if first == last else first + 1, u - np.floor(u)
@@ -91,9 +94,9 @@ def linear_texels(coordinate, size, wrap):
 
 @kernel
 def fixed_point_texels(coordinate, size, wrap):
-    """Return (first texel, second texel, weight of the second in 1/256); wrap is GL_REPEAT or GL_CLAMP_TO_EDGE."""
+    """Return (first texel, second texel, weight of the second in 1/256); wrap is one of `FIXED_POINT_WRAPS`."""
     last = size - 1
-    if wrap == GL_REPEAT and not is_power_of_two(size):
+    if wrap == GL_REPEAT:
         part = (coordinate - np.floor(coordinate)) * np.float32(size)
         position = to_integer(np.rint(part * FIXED_ONE)) - 128
         first = position >> 8
@@ -103,6 +106,6 @@ def fixed_point_texels(coordinate, size, wrap):
     if position < OUT_OF_RANGE:
         position += 2**32
     first = position >> 8
-    if wrap == GL_REPEAT:
+    if wrap == REPEAT_BY_MASK:
         return first & last, (first + 1) & last, position & 255
     return min(max(first, 0), last), min(max(first + 1, 0), last), position & 255

@@ -39,9 +39,10 @@ Placed = Callable[["Picture", str], str]  # what puts a picture somewhere and re
 
 @dataclass(frozen=True)
 class Figure:
-    """A picture of a page: where it is, what it shows in words, and a caption."""
+    """A picture of a page: where it is, how large, what it shows in words, and a caption."""
 
     url: str
+    size: tuple[int, int]  # pixels: a page that knows them does not jump while pictures are loaded
     alt: str
     caption: str
     counts: tuple[tuple[str, str, int], ...] = ()  # legend of a stencil picture: (count, colour, pixels)
@@ -125,21 +126,20 @@ def sections(run: Run, place: Placed) -> list[Section]:
 def _figures(step: Step, place: Placed) -> list[Figure]:
     start = f"{step.index:02d}"
     after = f"after step {step.index}, {step.title}"
+
+    def figure(name: str, picture: Picture, alt: str, caption: str, **more: Any) -> Figure:
+        return Figure(place(picture, f"{start}-{name}"), picture.size, f"{alt} {after}", caption, **more)
+
     figures = [
-        Figure(place(color_picture(step.image), f"{start}-colour"), f"colour {after}", "colour"),
-        Figure(place(depth_picture(step.depth), f"{start}-depth"), f"depth {after}", depth_caption(step.depth)),
-        Figure(
-            place(stencil_picture(step.stencil), f"{start}-stencil"),
-            f"stencil counts {after}",
-            "stencil",
-            legend(step.stencil),
-        ),
+        figure("colour", color_picture(step.image), "colour", "colour"),
+        figure("depth", depth_picture(step.depth), "depth", depth_caption(step.depth)),
+        figure("stencil", stencil_picture(step.stencil), "stencil counts", "stencil", counts=legend(step.stencil)),
     ]
     for number, (name, picture) in enumerate(map_pictures(step.maps).items()):
         caption = f"map: {name}, {picture.width} x {picture.height}"
         if is_visibility(name):
             caption += "; white lit, black in shadow, blue where not defined"
-        figures.append(Figure(place(picture, f"{start}-map{number}"), f"map {name} {after}", caption))
+        figures.append(figure(f"map{number}", picture, f"map {name}", caption))
     return figures
 
 

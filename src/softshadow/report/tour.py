@@ -17,7 +17,7 @@ from softshadow.inspection.files import own
 from softshadow.inspection.pictures import color_picture
 from softshadow.report.commands import options_spelled, scene_spelled
 from softshadow.report.page import Section, beside, environment, named, sections
-from softshadow.run import run
+from softshadow.run import checked_size, run
 
 if TYPE_CHECKING:
     from softshadow.run import Run
@@ -148,9 +148,10 @@ def write_tour(
     Raises
     ------
     SoftShadowError
-        The folder holds files that are not of a tour, or cannot be written.
+        The folder holds files that are not of a tour, or cannot be written; or the size is none, see `run`.
     """
     target = Path(folder)
+    size = checked_size(size)
     again = again or scene_spelled(scene, size)
     _refuse_foreign(target, force)
     try:

@@ -1,0 +1,87 @@
+"""Mipmap generation: each level is the one above it, sampled by a rectangle of half the size, as llvmpipe draws it.
+
+Where both sides are even that is the mean of 2x2 texels, rounded up per axis in 8 bits. Where a side is odd, the linear
+filter's weights vary from texel to texel, and float formats show every bit of the interpolated coordinates: they are
+those of two triangles that share the diagonal from the first texel to the last.
+
+References: GL 2.1 sec. 3.8.8 (automatic mipmap generation); u_gen_mipmap.c of Mesa 22.3 (a blit per level).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from softshadow.image import Image
+from softshadow.pixels import quantized_depth, sampled_depth
+
+HALF, ONE = np.float32(0.5), np.float32(1.0)
+STEPS = 256  # weights of the filter in 8 bits
+
+
+def half_of(side: int) -> int:
+    """Return the side of the next level."""
+    return max(side // 2, 1)
+
+
+def next_level(image: Image) -> Image:
+    """Return the image of the next level."""
+    made = Image.new(image.format, half_of(image.width), half_of(image.height), image.internal_format)
+    if image.format.kind == "unorm8":
+        made.view[:] = halved_in_8_bits(image.view, made.width, made.height)
+    elif image.format.kind == "depth":
+        z = halved_in_float(sampled_depth(image.view, image.format)[..., np.newaxis], made.width, made.height)[..., 0]
+        made.view[:] = quantized_depth(z, image.format)
+    else:
+        made.view[:] = halved_in_float(image.view, made.width, made.height)
+    return made
+
+
+def centres(count: int, other: int, from_far_end: bool) -> np.ndarray:
+    """Return the interpolated coordinates (count,) of texel centres, `other` being the number on the other axis."""
+    step = np.float32(other) * (ONE / np.float32(count * other))
+    start = ONE - step * (np.float32(count) - HALF) if from_far_end else step * HALF
+    return np.arange(count, dtype=np.float32) * step + start
+
+
+def halved_in_8_bits(texels: np.ndarray, width: int, height: int) -> np.ndarray:
+    """Return texels (h, w, 4) uint8 filtered to (height, width, 4)."""
+    cells = texels.astype(np.int32)
+    first, second, weight = texels_and_weights_in_8_bits(centres(width, height, True), texels.shape[1])
+    rows = mix_in_8_bits(cells[:, first], cells[:, second], weight[:, np.newaxis])
+    first, second, weight = texels_and_weights_in_8_bits(centres(height, width, False), texels.shape[0])
+    return mix_in_8_bits(rows[first], rows[second], weight[:, np.newaxis, np.newaxis]).astype(np.uint8)
+
+
+def texels_and_weights_in_8_bits(coordinates: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return (first texel, second texel, weight of the second in 1/256) of a linear filter under GL_CLAMP_TO_EDGE."""
+    position = np.rint(coordinates * np.float32(STEPS * size)).astype(np.int32) - STEPS // 2
+    first = position // STEPS
+    return first.clip(0, size - 1), (first + 1).clip(0, size - 1), position % STEPS
+
+
+def mix_in_8_bits(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    mixed: np.ndarray = a + ((weight * (b - a) * 128 + 16384) >> 15)
+    return mixed
+
+
+def halved_in_float(texels: np.ndarray, width: int, height: int) -> np.ndarray:
+    """Return texels (h, w, channels) float32 filtered to (height, width, channels)."""
+    first, second, weight = texels_and_weights(centres(width, height, True), texels.shape[1])
+    rows = weight[:, np.newaxis] * (texels[:, second] - texels[:, first]) + texels[:, first]
+    made: list[Any] = []
+    for from_far_end in (False, True):
+        first, second, weight = texels_and_weights(centres(height, width, from_far_end), texels.shape[0])
+        made.append(weight[:, np.newaxis, np.newaxis] * (rows[second] - rows[first]) + rows[first])
+    y, x = np.indices((height, width))
+    upper = (2 * y + 1) * width > (2 * x + 1) * height
+    return np.where(upper[..., np.newaxis], made[1], made[0])
+
+
+def texels_and_weights(coordinates: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return (first texel, second texel, weight of the second) of a linear filter under GL_CLAMP_TO_EDGE."""
+    length = np.float32(size)
+    u = np.maximum(np.minimum(coordinates * length, length) - HALF, np.float32(0))
+    first = np.floor(u).astype(np.int32)
+    return first, np.minimum(first + 1, size - 1), u - np.floor(u)

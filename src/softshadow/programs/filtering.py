@@ -1,0 +1,195 @@
+"""One image under one filter, for a batch of coordinates, bit for bit as llvmpipe samples.
+
+`sample_image` picks the kernel: `filter_texels` (nearest, or linear in float), `filter_fixed_point` (linear, 8-bit
+formats under GL_REPEAT and GL_CLAMP_TO_EDGE, which llvmpipe filters in 8-bit integers) or `compare_depth` (shadow
+maps).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.image import Image
+from softshadow.jit import kernel
+from softshadow.pixels import LARGEST_UINT, sampled_depth
+from softshadow.programs.wrapping import (
+    FIXED_POINT_WRAPS,
+    ONE,
+    ZERO,
+    fixed_point_texels,
+    linear_texels,
+    nearest_texel,
+    wrap_code,
+)
+from softshadow.texture import Sampler
+from softshadow.tokens import GL_ALWAYS, GL_EQUAL, GL_GEQUAL, GL_GREATER, GL_LEQUAL, GL_LESS, GL_NOTEQUAL
+
+UNORM8_STEP = ONE / np.float32(255.0)
+
+# where R, G, B, A of the result come from: a channel of the cells, or a constant
+CONSTANT_ZERO, CONSTANT_ONE = 4, 5
+SOURCES = {
+    gl.GL_RGBA: (0, 1, 2, 3),
+    gl.GL_RGB: (0, 1, 2, CONSTANT_ONE),
+    gl.GL_RG: (0, 1, CONSTANT_ZERO, CONSTANT_ONE),
+    gl.GL_RED: (0, CONSTANT_ZERO, CONSTANT_ZERO, CONSTANT_ONE),
+    gl.GL_ALPHA: (CONSTANT_ZERO, CONSTANT_ZERO, CONSTANT_ZERO, 3),
+    gl.GL_LUMINANCE: (0, 0, 0, CONSTANT_ONE),
+    gl.GL_LUMINANCE_ALPHA: (0, 0, 0, 3),
+    gl.GL_INTENSITY: (0, 0, 0, 0),
+}
+DEPTH_SOURCES = {**SOURCES, gl.GL_ALPHA: (CONSTANT_ZERO, CONSTANT_ZERO, CONSTANT_ZERO, 0)}
+
+
+def wraps_of(sampler: Sampler, first: Image) -> tuple[int, int]:
+    """Return the wrap codes of all levels of a texture whose level 0 is `first`."""
+    return wrap_code(sampler.wrap_s, first.width), wrap_code(sampler.wrap_t, first.height)
+
+
+def in_8_bits(image: Image, wraps: tuple[int, int]) -> bool:
+    """Return whether llvmpipe filters the image in 8-bit integers."""
+    return image.format.kind == "unorm8" and set(wraps) <= set(FIXED_POINT_WRAPS)
+
+
+def sample_image(
+    image: Image, sampler: Sampler, wraps: tuple[int, int], linear: bool, coordinates: np.ndarray, out: np.ndarray
+) -> None:
+    """Fill `out` (N, 4) from one image, with a linear or the nearest filter; coordinates (N, 3): s, t, reference."""
+    cells = image.cells if image.cells.ndim == 3 else image.cells[:, :, np.newaxis]
+    real = coordinates.dtype  # float64 in the "exact" precision
+    border = np.array(sampler.border_color, real)
+    if image.format.kind == "depth":
+        largest = image.format.largest
+        unit = real.type(ONE / np.float32(largest) if largest else ONE)
+        if largest == LARGEST_UINT:  # llvmpipe reads 23 of 32 bits
+            cells, unit = sampled_depth(cells, image.format), real.type(ONE)
+        sources = np.array(DEPTH_SOURCES[sampler.depth_mode])
+        border = border.clip(ZERO, ONE) if largest else border
+        where = coordinates, cells, image.width, wraps, border, unit, linear
+        if sampler.compare_mode != gl.GL_NONE:
+            compare_depth(*where, sampler.compare_func, largest > 0, sources, out)
+        else:
+            filter_texels(*where, sources, out)
+        return
+    sources = np.array(SOURCES[image.format.base])
+    if image.format.kind == "float":
+        filter_texels(coordinates, cells, image.width, wraps, border, real.type(ONE), linear, sources, out)
+    elif linear and in_8_bits(image, wraps):
+        filter_fixed_point(coordinates, cells, image.width, wraps, sources, out)
+    else:
+        border = border.clip(ZERO, ONE)
+        filter_texels(coordinates, cells, image.width, wraps, border, real.type(UNORM8_STEP), linear, sources, out)
+
+
+@kernel
+def fetch(cells, width, border, unit, i, j, channel):
+    """Return one channel of a texel in [0, 1] units, or of the border colour outside the image."""
+    if i >= 0 and i < width and j >= 0 and j < cells.shape[0]:
+        return border.dtype.type(cells[j, i, channel]) * unit
+    return border[channel]
+
+
+@kernel
+def mix(weight, a, b):
+    """Return a + weight * (b - a), rounded at each step."""
+    return weight * (b - a) + a
+
+
+@kernel
+def mix_fixed_point(weight, a, b):
+    """Return a + weight/256 * (b - a) in integers, rounded as llvmpipe's 8-bit interpolation rounds."""
+    return a + (((b - a) * weight * 128 + 16384) >> 15)
+
+
+@kernel
+def filter_texels(coordinates, cells, width, wraps, border, unit, linear, sources, out):
+    """Sample with GL_NEAREST or, in float, GL_LINEAR; `unit` is the value of one cell unit."""
+    height = cells.shape[0]
+    for n in range(len(coordinates)):
+        if linear:
+            i0, i1, x_weight = linear_texels(coordinates[n, 0], width, wraps[0])
+            j0, j1, y_weight = linear_texels(coordinates[n, 1], height, wraps[1])
+        else:
+            i0 = nearest_texel(coordinates[n, 0], width, wraps[0])
+            j0 = nearest_texel(coordinates[n, 1], height, wraps[1])
+        for c in range(4):
+            source = sources[c]
+            if source >= CONSTANT_ZERO:
+                out[n, c] = ZERO if source == CONSTANT_ZERO else ONE
+            elif linear:
+                lower = mix(
+                    x_weight,
+                    fetch(cells, width, border, unit, i0, j0, source),
+                    fetch(cells, width, border, unit, i1, j0, source),
+                )
+                upper = mix(
+                    x_weight,
+                    fetch(cells, width, border, unit, i0, j1, source),
+                    fetch(cells, width, border, unit, i1, j1, source),
+                )
+                out[n, c] = mix(y_weight, lower, upper)
+            else:
+                out[n, c] = fetch(cells, width, border, unit, i0, j0, source)
+
+
+@kernel
+def filter_fixed_point(coordinates, cells, width, wraps, sources, out):
+    """Sample with GL_LINEAR in 8-bit integers: x first, then y."""
+    height = cells.shape[0]
+    for n in range(len(coordinates)):
+        i0, i1, x_weight = fixed_point_texels(coordinates[n, 0], width, wraps[0])
+        j0, j1, y_weight = fixed_point_texels(coordinates[n, 1], height, wraps[1])
+        for c in range(4):
+            source = sources[c]
+            if source >= CONSTANT_ZERO:
+                out[n, c] = ZERO if source == CONSTANT_ZERO else ONE
+            else:
+                lower = mix_fixed_point(x_weight, int(cells[j0, i0, source]), int(cells[j0, i1, source]))
+                upper = mix_fixed_point(x_weight, int(cells[j1, i0, source]), int(cells[j1, i1, source]))
+                out[n, c] = np.float32(mix_fixed_point(y_weight, lower, upper)) * UNORM8_STEP
+
+
+@kernel
+def passes(func, reference, texel):
+    """Return whether `reference func texel`; with NaN only GL_NOTEQUAL and GL_ALWAYS hold."""
+    if func == GL_LEQUAL:
+        return reference <= texel
+    if func == GL_GEQUAL:
+        return reference >= texel
+    if func == GL_LESS:
+        return reference < texel
+    if func == GL_GREATER:
+        return reference > texel
+    if func == GL_EQUAL:
+        return reference == texel
+    if func == GL_NOTEQUAL:
+        return reference != texel
+    return func == GL_ALWAYS
+
+
+@kernel
+def compare_depth(coordinates, cells, width, wraps, border, unit, linear, func, clamped, sources, out):
+    """Compare r with the depths: 0 or 1, or with GL_LINEAR the share of the 2x2 texels that pass (float weights)."""
+    height = cells.shape[0]
+    for n in range(len(coordinates)):
+        r = coordinates[n, 2]
+        if clamped:
+            r = r if r > ZERO else ZERO
+            r = r if r < ONE else ONE
+        if linear:
+            i0, i1, x_weight = linear_texels(coordinates[n, 0], width, wraps[0])
+            j0, j1, y_weight = linear_texels(coordinates[n, 1], height, wraps[1])
+            rest = ONE - x_weight
+            lower = rest if passes(func, r, fetch(cells, width, border, unit, i0, j0, 0)) else ZERO
+            lower = (x_weight if passes(func, r, fetch(cells, width, border, unit, i1, j0, 0)) else ZERO) + lower
+            upper = rest if passes(func, r, fetch(cells, width, border, unit, i0, j1, 0)) else ZERO
+            upper = (x_weight if passes(func, r, fetch(cells, width, border, unit, i1, j1, 0)) else ZERO) + upper
+            lit = mix(y_weight, lower, upper)
+        else:
+            i0 = nearest_texel(coordinates[n, 0], width, wraps[0])
+            j0 = nearest_texel(coordinates[n, 1], height, wraps[1])
+            lit = ONE if passes(func, r, fetch(cells, width, border, unit, i0, j0, 0)) else ZERO
+        for c in range(4):
+            source = sources[c]
+            out[n, c] = lit if source < CONSTANT_ZERO else (ZERO if source == CONSTANT_ZERO else ONE)

@@ -1,0 +1,75 @@
+"""docs/cli.md: what it shows runs, what it prints is printed. README.md: its picture is made as it says."""
+
+import re
+import shlex
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from cli.asking import as_json, done
+from paths import ROOT, SCENES
+from softshadow.cli import main
+
+PAGE = (ROOT / "docs" / "cli.md").read_text(encoding="utf-8")
+LINES = [line for block in re.findall(r"```sh\n(.*?)```", PAGE, re.DOTALL) for line in block.splitlines()]
+PRINTED = re.findall(r"```text\n(.*?)```", PAGE, re.DOTALL)
+SHARED = {"schema", "technique", "scene", "size", "options", "warnings"}
+ASKED = {
+    "tour": ["-o", "t"],
+    "render": ["planar", "-o", "a.png"],
+    "steps": ["planar"],
+    "pixel": ["planar", "3", "4"],
+    "techniques": [],
+    "scenes": [],
+    "doctor": [],
+}
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(SCENES / "crate.obj", "bunny.obj")
+    for name in ("lesson.toml", "crate.obj"):
+        shutil.copy(SCENES / name, name)
+
+
+@pytest.mark.parametrize("line", [line for line in LINES if line != "softshadow warmup"])  # that one takes its time
+def test_line_of_the_page_runs(line: str) -> None:
+    program, command, *arguments = shlex.split(line.split(" > ")[0])
+    assert program == "softshadow"
+    # later sizes win; the pixels are those of the full size
+    done(command, *arguments, *(["--size", "48x36"] if command in ("tour", "render", "steps") else []))
+
+
+def test_every_command_is_on_the_page() -> None:
+    assert {shlex.split(line)[1] for line in LINES} == set(main.commands)
+
+
+def test_printed_tables_and_sentences_are_what_is_printed() -> None:
+    steps, sentence = PRINTED
+    assert done("steps", "volume-zfail").stdout == steps
+    assert done("pixel", "volume-zfail", 160, 170).stdout.endswith(sentence)
+
+
+@pytest.mark.parametrize("command", ASKED)
+def test_keys_of_the_json_are_those_of_the_page(command: str) -> None:
+    row = re.search(rf"\| `softshadow/{command}/1` \| (.*) \|", PAGE)[1]
+    keys, _, keys_of_rows = row.partition(": ")
+    size = ["--size", "16x12"] if command in ("tour", "render", "steps", "pixel") else []
+    answer = as_json(command, *ASKED[command], *size)
+    shared = SHARED if command in ("render", "steps", "pixel") else {"schema"}
+    assert set(answer) == shared | set(re.findall(r"`(.*?)`", keys))
+    if keys_of_rows:
+        assert set(answer[command][0]) == set(re.findall(r"`(.*?)`", keys_of_rows))
+
+
+def test_picture_of_the_readme_is_made_by_the_command_beside_it() -> None:
+    text = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    command, name = re.search(r"Made by `softshadow (.*?)`, which writes it as `(.*?)`", text).groups()
+    picture = re.search(r"!\[.*?\]\((docs/images/.*?)\)", text)[1]
+    done(*shlex.split(command))
+    with Image.open(name) as made, Image.open(ROOT / picture) as shown:
+        np.testing.assert_array_equal(np.asarray(made.convert("RGB")), np.asarray(shown.convert("RGB")))

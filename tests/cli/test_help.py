@@ -1,0 +1,111 @@
+"""Help: quick to come, and its examples run."""
+
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from cli.asking import ask, done
+from paths import SCENES
+from softshadow import __version__
+from softshadow.cli import main
+
+COMMANDS = list(main.commands)
+SLOW = ("warmup",)  # compiles every state of every technique
+SMALL = {"tour": ["--size", "48x36"], "render": ["--size", "48x36"], "steps": ["--size", "48x36"]}
+HEAVY = ("numpy", "numba", "trimesh", "PIL", "pydantic", "jinja2", "rich")
+
+
+def examples(command: str) -> list[str]:
+    """Return the command lines in the epilog of a command."""
+    epilog = (main.commands[command] if command else main).epilog or ""
+    return [line.strip() for line in epilog.removeprefix("Examples:").split("|")]
+
+
+def test_every_command_shows_two_examples() -> None:
+    assert [command for command in ["", *COMMANDS] if len(examples(command)) != 2] == []
+    assert all(line.startswith("softshadow ") for command in ["", *COMMANDS] for line in examples(command))
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        pytest.param(line, marks=[pytest.mark.slow] if command in SLOW else [])
+        for command in ["", *COMMANDS]
+        for line in examples(command)
+    ],
+)
+def test_example_of_help_runs(line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(SCENES / "crate.obj", "bunny.obj")
+    _, command, *arguments = shlex.split(line)
+    done(command, *arguments, *SMALL.get(command, []))
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_tells_what_the_command_does_and_its_options(command: str) -> None:
+    text = done(command, "--help").stdout
+    assert f"Usage: softshadow {command}" in text
+    assert "--json" in text
+    assert text == done(command, "-h").stdout
+
+
+def test_help_of_every_command_imports_nothing_slow() -> None:
+    program = f"""
+import sys
+from softshadow.cli import main
+for words in [[], *([name] for name in main.commands)]:
+    try:
+        main([*words, "--help"])
+    except SystemExit as end:
+        assert end.code == 0
+print("imported:", sorted(set({HEAVY!r}) & set(sys.modules)))
+"""
+    output = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert output.stdout.splitlines()[-1] == "imported: []"
+
+
+def test_version_is_told_and_nothing_else() -> None:
+    assert done("--version").stdout == f"softshadow, version {__version__}\n"
+
+
+def test_module_is_the_program() -> None:
+    command = [sys.executable, "-m", "softshadow", "--version"]
+    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout.startswith("softshadow, version")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["rendr"], "Did you mean 'render'?"),
+        (["render"], "Missing argument 'TECHNIQUE'"),
+        (["render", "map", "--sise", "4x4"], "No such option"),
+        (["render", "map", "--size", "640"], "expected WIDTHxHEIGHT in pixels, as in 640x480"),
+        (["render", "map", "--size", "axb"], "expected WIDTHxHEIGHT in pixels, as in 640x480"),
+        (["render", "map", "--light", "1,2"], "expected X,Y,Z (a point)"),
+        (["render", "map", "--light", "up"], "expected X,Y,Z (a point)"),
+        (["render", "map", "--scene", "boxes", "--mesh", "a.obj"], "--scene and --mesh: expected one of them"),
+        (["render", "map", "--scene", "duck.glb"], "is the name of a model file; expected --mesh duck.glb"),
+        (["render", "map", "-O", "bias"], "--option 'bias': expected KEY=VALUE"),
+        (["pixel", "map", "left", "3"], "'left' is not a valid integer"),
+    ],
+)
+def test_wrong_usage_is_exit_code_2_and_says_what_was_expected(words: list[str], said: str) -> None:
+    answer = ask(*words)
+    assert answer.exit_code == 2
+    assert said in answer.stderr
+    assert answer.stdout == ""
+
+
+@pytest.mark.skipif(not hasattr(os, "pipe"), reason="no pipes")
+def test_reader_that_has_gone_is_no_error() -> None:
+    read, write = os.pipe()
+    os.close(read)
+    command = [sys.executable, "-m", "softshadow", "techniques"]
+    ended = subprocess.run(command, stdout=write, stderr=subprocess.PIPE, text=True)
+    os.close(write)
+    assert ended.stderr == ""

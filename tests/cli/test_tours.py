@@ -1,0 +1,86 @@
+"""The tour from the command line: progress on stderr, the page's path on stdout, all of it or nothing."""
+
+from pathlib import Path
+
+import pytest
+
+import softshadow as ss
+from cli.asking import as_json, ask, done, refused
+from paths import SCENES, shared_file
+from softshadow.report.tour import STOPS
+
+SMALL = ("--size", "24x18")
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def names(folder: Path) -> set[str]:
+    return {str(path.relative_to(folder)) for path in folder.rglob("*")}
+
+
+def test_page_is_named_on_stdout_and_the_stops_on_stderr(here: Path) -> None:
+    answer = done("tour", *SMALL)
+    assert answer.stdout == "softshadow-tour/index.html\n"
+    assert [stop.title for stop in STOPS if stop.title not in answer.stderr.splitlines()] == []
+    assert {path.name for path in here.iterdir()} == {"softshadow-tour"}
+
+
+def test_question_that_the_tour_suggests_is_answered() -> None:
+    answer = done("tour", *SMALL, "--scene", "boxes", "--light=-2,5,1")
+    suggested = answer.stderr.rsplit("softshadow ", 1)[1].split()
+    assert suggested[-5:] == ["--scene", "boxes", "--light=-2,5,1", *SMALL]
+    done(*suggested)
+
+
+def test_json_tells_where_the_page_is() -> None:
+    answer = as_json("tour", *SMALL, "-o", "t", "--scene", SCENES / "lesson.toml")
+    assert (answer["index"], answer["runs"], answer["scene"]) == ("t/index.html", len(STOPS), "lesson")
+    assert answer["size"] == [24, 18]
+
+
+def test_folder_of_somebody_else_needs_force_and_keeps_its_files() -> None:
+    Path("thesis").mkdir()
+    Path("thesis/text.tex").write_text("my homework")
+    assert refused("tour", *SMALL, "-o", "thesis").startswith("thesis: holds files that are not of a tour; --force")
+    assert names(Path("thesis")) == {"text.tex"}
+    done("tour", *SMALL, "-o", "thesis", "--force")
+    assert Path("thesis/text.tex").read_text() == "my homework"
+    assert Path("thesis/index.html").is_file()
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, MemoryError, OSError("the disk is gone")])
+@pytest.mark.parametrize("earlier", [False, True])
+def test_tour_that_ends_early_leaves_what_was_there(
+    error: type[BaseException] | BaseException, earlier: bool, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if earlier:
+        done("tour", *SMALL)
+    before = names(here)
+    stops = iter(STOPS[:3])
+
+    def stop_early(*arguments: object, **named: object) -> ss.Run:
+        if next(stops, None) is None:
+            raise error
+        return ss.run("planar", "boxes", (24, 18))
+
+    monkeypatch.setattr("softshadow.report.tour.run", stop_early)
+    assert ask("tour", *SMALL).exit_code == (130 if error is KeyboardInterrupt else 3)
+    assert names(here) == before
+
+
+@pytest.mark.parametrize(
+    "model",
+    ["Duck.glb", pytest.param("stanford-bunny.obj", marks=pytest.mark.slow)],  # ten seconds, 70000 faces
+)
+def test_tour_of_a_real_model_has_every_stop(model: str) -> None:
+    file = shared_file(f"meshes/{model}")
+    answer = done("tour", *SMALL, "--mesh", file, "-o", "t")
+    assert ("warning: OpenMesh: " in answer.stderr) == ("bunny" in model)
+    page = Path("t/index.html").read_text(encoding="utf-8")
+    assert f"--mesh {file}" in page
+    for stop in STOPS:
+        assert ss.load_run(f"t/{stop.name}/run.npz").shadow_mask.any()

@@ -1,0 +1,92 @@
+"""Materials: set, following the current colour, and changing from vertex to vertex."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from softshadow import gl
+from softshadow.testing import compare, run_here
+
+SIZE = (40, 30)
+RED, GREEN = (1.0, 0.0, 0.0, 1.0), (0.0, 1.0, 0.0, 1.0)
+
+
+def diffuse(face: int) -> list[float]:
+    return gl.glGetMaterialfv(face, gl.GL_DIFFUSE).tolist()
+
+
+def test_followed_colour_is_the_material_until_it_is_switched_off():
+    with gl.create_context(*SIZE):
+        gl.glColorMaterial(gl.GL_FRONT, gl.GL_DIFFUSE)
+        gl.glColor4f(*RED)
+        gl.glEnable(gl.GL_COLOR_MATERIAL)
+        assert diffuse(gl.GL_FRONT) == [*RED]
+        gl.glColor4f(*GREEN)
+        gl.glMaterialfv(gl.GL_FRONT_AND_BACK, gl.GL_DIFFUSE, RED)  # the front follows, the back does not
+        assert (diffuse(gl.GL_FRONT), diffuse(gl.GL_BACK)) == ([*GREEN], [*RED])
+        gl.glDisable(gl.GL_COLOR_MATERIAL)
+        gl.glColor4f(*RED)
+        assert diffuse(gl.GL_FRONT) == [*GREEN]
+
+
+def test_last_colour_of_a_primitive_stays_the_material():
+    with gl.create_context(*SIZE):
+        gl.glEnable(gl.GL_COLOR_MATERIAL)
+        gl.glBegin(gl.GL_TRIANGLES)
+        gl.glColor4f(*RED)
+        gl.glColor4f(*GREEN)
+        gl.glEnd()
+        assert diffuse(gl.GL_BACK) == [*GREEN]
+
+
+def lit(namespace: Any) -> None:
+    for capability in ("GL_LIGHTING", "GL_LIGHT0", "GL_NORMALIZE", "GL_DEPTH_TEST"):
+        namespace.glEnable(getattr(namespace, capability))
+    namespace.glLightfv(namespace.GL_LIGHT0, namespace.GL_POSITION, (1, 2, 3, 1))
+    namespace.glMaterialfv(namespace.GL_FRONT_AND_BACK, namespace.GL_SPECULAR, (0.5, 0.5, 0.5, 1))
+    namespace.glMaterialf(namespace.GL_FRONT_AND_BACK, namespace.GL_SHININESS, 20.0)
+
+
+def test_material_between_begin_and_end_is_that_of_the_vertices_after_it():
+    def in_one_primitive(namespace: Any) -> None:
+        lit(namespace)
+        namespace.glBegin(namespace.GL_QUADS)
+        for color, left in ((RED, -0.9), (GREEN, 0.1)):
+            namespace.glMaterialfv(namespace.GL_FRONT_AND_BACK, namespace.GL_AMBIENT_AND_DIFFUSE, color)
+            for x, y in ((0, -1), (0.8, -1), (0.8, 1), (0, 1)):
+                namespace.glVertex2f(left + x, y)
+        namespace.glEnd()
+
+    def in_two(namespace: Any) -> None:
+        lit(namespace)
+        for color, left in ((RED, -0.9), (GREEN, 0.1)):
+            namespace.glMaterialfv(namespace.GL_FRONT_AND_BACK, namespace.GL_AMBIENT_AND_DIFFUSE, color)
+            namespace.glBegin(namespace.GL_QUADS)
+            for x, y in ((0, -1), (0.8, -1), (0.8, 1), (0, 1)):
+                namespace.glVertex2f(left + x, y)
+            namespace.glEnd()
+
+    one, two = run_here(in_one_primitive, SIZE).color, run_here(in_two, SIZE).color
+    np.testing.assert_array_equal(one, two)
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize("seed", range(4))
+def test_materials_that_change_from_vertex_to_vertex_are_those_of_mesa(seed):
+    def program(namespace: Any) -> None:
+        rng = np.random.default_rng(seed)
+        lit(namespace)
+        face = namespace.GL_FRONT_AND_BACK
+        namespace.glBegin(namespace.GL_TRIANGLES)
+        for _ in range(9):
+            name = str(rng.choice(["GL_AMBIENT", "GL_DIFFUSE", "GL_SPECULAR", "GL_EMISSION"]))
+            namespace.glMaterialfv(face, getattr(namespace, name), rng.random(4).tolist())
+            if rng.integers(4) == 0:
+                namespace.glMaterialf(face, namespace.GL_SHININESS, float(rng.uniform(1, 60)))
+            namespace.glNormal3f(*rng.normal(size=3).tolist())
+            namespace.glVertex3f(*rng.uniform(-1, 1, 3).tolist())
+        namespace.glEnd()
+
+    found = compare(program, SIZE)
+    assert found, str(found)
