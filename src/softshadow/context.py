@@ -15,6 +15,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
+from softshadow.pipeline.batches import Batch
 from softshadow.pipeline.commands import Command, Draw, Vertices
 from softshadow.pixel_store import PixelStore
 from softshadow.programs import Program
@@ -138,8 +139,8 @@ class Context:
             raise ValueError(f"polygon_offset_slope={polygon_offset_slope!r}: expected 'max', 'length' or 'slide'")
         if polygon_offset_unit not in ("mesa", "spec"):
             raise ValueError(f"polygon_offset_unit={polygon_offset_unit!r}: expected 'mesa' or 'spec'")
-        self.frame = Frame((width, height), depth_format, stencil_bits, precision)
-        self.storage = self.frame.fresh_storage()
+        self._frame = Frame((width, height), depth_format, stencil_bits, precision)
+        self.storage = self._frame.fresh_storage()  # without the quads that wait: `settle` first
         self.offset_slope, self.offset_unit = polygon_offset_slope, polygon_offset_unit
         self.raise_errors = raise_errors
         self.before: Context | None = None  # what a with statement brings back
@@ -162,6 +163,9 @@ class Context:
         self.uniforms: dict[int, dict[str, Any]] = {}
         self.labels: list[str] = []
         self.primitive: Primitive | None = None  # between glBegin and glEnd
+        self.batch: Batch | None = None  # quads that wait for more of them
+        self.vertex_sizes: dict[str, int] = {}  # what the vertices collected last carry: numbers per attribute
+        self.stored_vertices = 0  # how many were collected since the last time they were sent off
         self.arrays = ClientArrays()
         self.attribute_stack: list[Any] = []
         self.lists: dict[int, DisplayList] = {}
@@ -182,10 +186,22 @@ class Context:
     def __exit__(self, *_: object) -> None:
         make_current(self.before)
 
+    @property
+    def frame(self) -> Frame:
+        """The recording, with everything that was drawn."""
+        self.settle()
+        return self._frame
+
     # -- state ---------------------------------------------------------------------------------------------------------
     def set(self, **groups: Any) -> None:
         """Replace whole groups of the state, by their names."""
-        self.state = replace(self.state, **groups)
+        self.change_state(replace(self.state, **groups))
+
+    def change_state(self, state: State) -> None:
+        """Replace the state; where that makes a difference to draws, it ends the batch of quads."""
+        if self.vertex_sizes and self.primitive is None and _drawn_under(state) != _drawn_under(self.state):
+            self.settle()
+        self.state = state
 
     def frozen(self, values: Any) -> np.ndarray:
         """Return the values as a read-only array of the context's precision; what is too large becomes infinite."""
@@ -219,29 +235,61 @@ class Context:
     # -- commands ------------------------------------------------------------------------------------------------------
     def execute(self, command: Command) -> None:
         """Carry a command out, then record it: a command that raises has changed nothing."""
+        self.settle()
+        self._carry_out(command)
+
+    def _carry_out(self, command: Command) -> None:
         command.apply(self.storage)
-        self.frame.commands.append(command)
+        self._frame.commands.append(command)
 
     def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:
         """Draw primitives under the present state. The arrays must be read-only and the caller's own no more."""
+        self.settle()
+        self.draw_primitive(mode, vertices, indices)
+
+    def draw_primitive(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:
+        """Draw a primitive of immediate mode: vertices that follow may still carry the same attributes."""
+        self.draw_waiting()
+        self._carry_out(self._draw_command(mode, vertices, indices))
+
+    def collect_quads(self, vertices: Vertices) -> None:
+        """Draw quads of immediate mode, later: the ones that follow may belong to the same batch."""
+        if self.batch is None or not self.batch.takes_more:
+            self.draw_waiting()
+            self.batch = Batch(self._draw_command(gl.GL_QUADS, vertices, None))
+        self.batch.parts.append(("/".join(self.labels), vertices))
+
+    def draw_waiting(self) -> None:
+        """Draw the quads that wait."""
+        batch, self.batch = self.batch, None
+        if batch is not None:
+            for command in batch.commands():
+                self._carry_out(command)
+
+    def settle(self) -> None:
+        """Draw the quads that wait; what is drawn next begins a batch of its own. Not between glBegin and glEnd."""
+        if self.primitive is None:
+            self.draw_waiting()
+            self.vertex_sizes.clear()
+            self.stored_vertices = 0
+
+    def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None) -> Draw:
         self.settle_kinds()
-        self.execute(
-            Draw(
-                state=self.state,
-                mode=mode,
-                vertices=vertices,
-                indices=indices,
-                modelview=self.modelview_stack[-1],
-                projection=self.projection_stack[-1],
-                texture_matrices=tuple(stack[-1] for stack in self.texture_stacks),
-                uniforms=self._uniform_values(),
-                program_name=self.programs[self.state.program].name if self.state.program else "",
-                label="/".join(self.labels),
-                offset_slope=self.offset_slope,
-                offset_unit=self.offset_unit,
-                modelview_kind=self.modelview_kinds[-1],
-                projection_kind=self.projection_kinds[-1],
-            )
+        return Draw(
+            state=self.state,
+            mode=mode,
+            vertices=vertices,
+            indices=indices,
+            modelview=self.modelview_stack[-1],
+            projection=self.projection_stack[-1],
+            texture_matrices=tuple(stack[-1] for stack in self.texture_stacks),
+            uniforms=self._uniform_values(),
+            program_name=self.programs[self.state.program].name if self.state.program else "",
+            label="/".join(self.labels),
+            offset_slope=self.offset_slope,
+            offset_unit=self.offset_unit,
+            modelview_kind=self.modelview_kinds[-1],
+            projection_kind=self.projection_kinds[-1],
         )
 
     def _uniform_values(self) -> Mapping[str, Any]:
@@ -249,7 +297,18 @@ class Context:
 
     def end_step(self, title: str) -> None:
         """Mark the end of a step of the recording."""
-        self.frame.steps.append((title, len(self.frame.commands)))
+        self.settle()
+        self._frame.steps.append((title, len(self._frame.commands)))
+
+
+def _drawn_under(state: State) -> State:
+    """Return the state without what draws do not depend on: the values that glClear writes."""
+    return replace(
+        state,
+        color=replace(state.color, clear=State().color.clear, clear_accum=State().color.clear_accum),
+        depth=replace(state.depth, clear=State().depth.clear),
+        stencil=replace(state.stencil, clear=State().stencil.clear),
+    )
 
 
 _thread = threading.local()
@@ -271,6 +330,8 @@ def current() -> Context:
 
 def make_current(context: Context | None) -> Context | None:
     """Make a context this thread's current one; return the one before."""
-    before = getattr(_thread, "context", None)
+    before: Context | None = getattr(_thread, "context", None)
+    if before is not None:
+        before.settle()
     _thread.context = context
     return before

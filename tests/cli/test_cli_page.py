@@ -24,6 +24,7 @@ ASKED = {
     "pixel": ["planar", "3", "4"],
     "techniques": [],
     "scenes": [],
+    "listings": [],
     "doctor": [],
 }
 

@@ -13,6 +13,7 @@ from typing import Any
 import click
 
 import softshadow
+from softshadow.cli.listings import listings
 from softshadow.cli.lists import scenes, techniques
 from softshadow.cli.machine import doctor, warmup
 from softshadow.cli.runs import pixel, render, steps
@@ -66,7 +67,7 @@ def main(traceback: bool) -> None:
     """Real-time shadow algorithms, step by step, on a software rasterizer whose every pixel explains itself."""
 
 
-for command in (tour, render, steps, pixel, techniques, scenes, warmup, doctor):
+for command in (tour, render, steps, pixel, techniques, scenes, listings, warmup, doctor):
     main.add_command(command)
 
 

@@ -114,7 +114,8 @@ def glPopAttrib() -> None:
         if saved.mask & bit:
             for group, fields in groups.items():
                 state = replace(state, **{group: _restored(getattr(state, group), getattr(saved.state, group), fields)})
-    context.state = _with_capabilities(state, saved.state) if saved.mask & gl.GL_ENABLE_BIT else state
+    context.settle()
+    context.change_state(_with_capabilities(state, saved.state) if saved.mask & gl.GL_ENABLE_BIT else state)
     _restore_the_rest(context, saved)
 
 

@@ -64,7 +64,7 @@ def _switch(operation: str, cap: int, on: bool) -> None:
     if cap not in KNOWN:
         wrong_enum(operation, "cap", cap, A_CAPABILITY)
     elif is_on(context.state, cap, context.active_unit) != on:
-        context.state = switched(context.state, cap, context.active_unit, on)
+        context.change_state(switched(context.state, cap, context.active_unit, on))
         if cap == gl.GL_COLOR_MATERIAL and on:
             follow_color(context)
 
@@ -127,6 +127,8 @@ def glHint(target: int, mode: int) -> None:
     if context is None or not is_one_of("glHint", "mode", mode, modes, "GL_DONT_CARE, GL_FASTEST or GL_NICEST"):
         return
     if is_one_of("glHint", "target", target, HINTS, "a hint of GL 2.1 (sec. 5.6)"):
+        if context.hints.get(target, gl.GL_DONT_CARE) != mode:
+            context.settle()
         context.hints[target] = int(mode)
 
 

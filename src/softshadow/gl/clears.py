@@ -52,13 +52,17 @@ def glClear(mask: int) -> None:
 
 
 def glFlush() -> None:
-    """Do nothing: every call has been carried out when it returns."""
-    outside_begin("glFlush")
+    """Draw the quads that wait for more of them; everything else has been carried out when its call returned."""
+    context = outside_begin("glFlush")
+    if context is not None:
+        context.settle()
 
 
 def glFinish() -> None:
-    """Do nothing: every call has been carried out when it returns."""
-    outside_begin("glFinish")
+    """Draw the quads that wait for more of them; everything else has been carried out when its call returned."""
+    context = outside_begin("glFinish")
+    if context is not None:
+        context.settle()
 
 
 __all__ = spelled_like_gl(globals())

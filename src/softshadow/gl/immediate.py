@@ -7,13 +7,14 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, Primitive, current
+from softshadow.context import Context, current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.materials import follow_color, material_field
-from softshadow.pipeline.commands import Vertices
+from softshadow.gl.texture_coordinates import REST
+from softshadow.gl.vertex_format import begin, give, vertices_of
 
 MODES = range(gl.GL_POINTS, gl.GL_POLYGON + 1)
 A_MODE = "GL_POINTS … GL_POLYGON"
@@ -33,7 +34,7 @@ def glBegin(mode: int) -> None:
     """Start a primitive."""
     context = outside_begin("glBegin")
     if context is not None and is_one_of("glBegin", "mode", mode, MODES, A_MODE) and can_draw(context, "glBegin"):
-        context.primitive = Primitive(int(mode), from_list=context.list_depth > 0)
+        begin(context, int(mode))
 
 
 @in_lists
@@ -46,15 +47,17 @@ def glEnd() -> None:
         return
     context.primitive = None
     follow_color(context)
-    if primitive.positions:
-        texcoords = tuple(context.frozen(unit) for unit in zip(*primitive.texcoords, strict=True))
-        position, color, normal = (
-            context.frozen(rows) for rows in (primitive.positions, primitive.colors, primitive.normals)
-        )
-        whole_from_list = primitive.from_list and context.list_depth > 0
-        indices = in_order(len(position)) if whole_from_list else None
-        materials = {name: context.frozen(rows) for name, rows in primitive.materials.items()}
-        context.draw(primitive.mode, Vertices(position, color, normal, texcoords, materials), indices)
+    if not primitive.positions:
+        if primitive.mode != gl.GL_QUADS:
+            context.draw_waiting()
+        return
+    vertices = vertices_of(context, primitive)
+    if primitive.from_list and context.list_depth > 0:
+        context.draw(primitive.mode, vertices, in_order(len(vertices.position)))
+    elif primitive.mode == gl.GL_QUADS:
+        context.collect_quads(vertices)
+    else:
+        context.draw_primitive(primitive.mode, vertices)
 
 
 def in_order(count: int) -> np.ndarray:
@@ -64,17 +67,21 @@ def in_order(count: int) -> np.ndarray:
     return indices
 
 
-def add_vertex(context: Context, x: float, y: float, z: float = 0.0, w: float = 1.0) -> None:
-    """Add a vertex with the current colour, normal and texture coordinates to the primitive."""
+def add_vertex(context: Context, *coordinates: float) -> None:
+    """Add a vertex with the current colour, normal and texture coordinates to the primitive; z = 0, w = 1."""
     primitive = context.primitive
-    if primitive is not None:  # outside glBegin and glEnd a vertex is undefined in GL; here it does nothing
-        standing = context.current
-        primitive.positions.append((x, y, z, w))
-        primitive.colors.append(standing.color)
-        primitive.normals.append(standing.normal)
-        primitive.texcoords.append(tuple(standing.texcoords))
-        for name, rows in primitive.materials.items():
-            rows.append(material_field(context, name))
+    if primitive is None:  # a vertex outside glBegin and glEnd is undefined in GL; here it does nothing
+        context.settle()
+        return
+    give(context, "position", len(coordinates))
+    standing = context.current
+    primitive.positions.append((*coordinates, *REST[len(coordinates) :]))  # type: ignore[arg-type]
+    primitive.colors.append(standing.color)
+    primitive.normals.append(standing.normal)
+    primitive.texcoords.append(tuple(standing.texcoords))
+    for name, rows in primitive.materials.items():
+        rows.append(material_field(context, name))
+    context.stored_vertices += 1
 
 
 @in_lists

@@ -23,6 +23,7 @@ def glGenLists(range: int) -> int | None:
     context = outside_begin("glGenLists")
     if context is None:
         return None
+    context.settle()
     if range < 0:
         fail(gl.GL_INVALID_VALUE, "glGenLists", f"range={range}: expected 0 or more")
         return None
@@ -41,6 +42,7 @@ def glNewList(list: int, mode: int) -> None:
     context = outside_begin("glNewList")
     if context is None:
         return
+    context.settle()
     if list <= 0:
         fail(gl.GL_INVALID_VALUE, "glNewList", f"list={list}: expected 1 or more")
     elif is_one_of("glNewList", "mode", mode, MODES, "GL_COMPILE or GL_COMPILE_AND_EXECUTE"):
@@ -55,6 +57,7 @@ def glEndList() -> None:
     context = outside_begin("glEndList")
     if context is None:
         return
+    context.settle()
     if context.compiled_list is None:
         fail(gl.GL_INVALID_OPERATION, "glEndList", "there was no glNewList before it")
     else:
@@ -82,6 +85,7 @@ def glCallLists(lists: Any) -> None:
 
 
 def _call(context: Context, name: int) -> None:
+    context.settle()
     if name not in context.lists or context.list_depth == DEEPEST_LIST:
         return
     context.list_depth += 1
@@ -90,6 +94,7 @@ def _call(context: Context, name: int) -> None:
             call()
     finally:
         context.list_depth -= 1
+        context.settle()
 
 
 @in_lists
@@ -105,6 +110,7 @@ def glDeleteLists(list: int, range: int) -> None:
     context = outside_begin("glDeleteLists")
     if context is None:
         return
+    context.settle()
     if range < 0:
         fail(gl.GL_INVALID_VALUE, "glDeleteLists", f"range={range}: expected 0 or more")
         return

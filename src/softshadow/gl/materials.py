@@ -6,12 +6,15 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from softshadow import tokens as gl
 from softshadow.context import Context, current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import as_floats, as_ints, first, from_int, nearest_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.fragment_state import A_FACE, FACES, change, rounded
+from softshadow.gl.vertex_format import give
 from softshadow.state import Lighting, Material
 
 # parameter: the fields of the material that it sets
@@ -86,12 +89,14 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
 
     Between glBegin and glEnd this makes them an attribute of the vertices.
     """
+    context.settle()
     lighting = context.state.lighting
     made: dict[str, Material] = {}
     for side in SIDES[face]:
         free = {field: value for field, value in fields.items() if field not in followed(lighting, side)}
         if context.primitive is not None:
-            for field in free:
+            for field, value in free.items():
+                give(context, f"{side}.{field}", np.size(value))
                 before = [getattr(getattr(lighting, side), field)] * len(context.primitive.positions)
                 context.primitive.materials.setdefault(f"{side}.{field}", before)
         made[side] = replace(getattr(lighting, side), **free)
@@ -128,7 +133,8 @@ def follow_color(context: Context) -> None:
     if lighting.color_material:
         fields: Any = dict.fromkeys(FIELDS[lighting.color_material_mode], rounded(context, *context.current.color))
         sides = SIDES[lighting.color_material_face]
-        change(context, "lighting", **{side: replace(getattr(lighting, side), **fields) for side in sides})
+        made = {side: replace(getattr(lighting, side), **fields) for side in sides}
+        context.state = replace(context.state, lighting=replace(lighting, **made))  # which ends no batch
 
 
 # -- queries -----------------------------------------------------------------------------------------------------------
@@ -147,6 +153,7 @@ def _material(operation: str, face: int, pname: int) -> Any:
     faces = (gl.GL_FRONT, gl.GL_BACK)
     if context is None or not is_one_of(operation, "face", face, faces, "GL_FRONT or GL_BACK"):
         return None
+    context.settle()
     readable = [name for name, fields in PARAMETERS.items() if len(fields) == 1]
     if not is_one_of(operation, "pname", pname, readable, "a material parameter (GL 2.1, table 2.11)"):
         return None

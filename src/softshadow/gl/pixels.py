@@ -81,6 +81,7 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
     if planes is None:
         missing = kind_of(format).replace("-", " or ").replace("color", "colour")
         return fail(gl.GL_INVALID_OPERATION, operation, f"framebuffer {source.name} has no {missing} buffer to read")
+    context.settle()
     rows, columns, left, bottom = clipped(source, int(x), int(y), int(width), int(height))
     cells = [bottom_up(source, plane)[rows, columns] for plane in planes]
     answer, view = answer_array(array, context.pack_store, width, height, format, type, operation)

@@ -217,6 +217,7 @@ def _uniform(operation: str, location: int, count: int) -> tuple[Context, str, A
         )
     if count > 1:
         return fail(gl.GL_INVALID_OPERATION, operation, f"count={count}: uniform {names[location]!r} is no array")
+    context.settle()
     return (context, names[location], context.uniforms[used][names[location]]) if count else None
 
 

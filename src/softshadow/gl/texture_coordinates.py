@@ -9,6 +9,7 @@ from softshadow.context import current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import vector
 from softshadow.gl.errors import is_one_of
+from softshadow.gl.vertex_format import give
 from softshadow.state import TEXTURE_UNITS
 
 REST = (0.0, 0.0, 0.0, 1.0)  # what a vector gets where the call gives fewer than four numbers
@@ -18,6 +19,7 @@ A_UNIT = f"GL_TEXTURE0 … GL_TEXTURE{TEXTURE_UNITS - 1}"
 
 def _set(unit: int, *coordinates: float) -> None:
     given = tuple(float(c) for c in coordinates)
+    give(current(), f"texcoord{unit}", len(given))
     current().current.texcoords[unit] = given + REST[len(given) :]  # type: ignore[assignment]
 
 

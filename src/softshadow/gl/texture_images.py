@@ -176,6 +176,7 @@ def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = 
     problem = target_problem(context, target, faces=True) or level_problem(level) or format_problem(format, type)
     if problem:
         return fail(problem[0], operation, problem[1])
+    context.settle()
     image = image_at(context, target, level)
     if image is not None and (problem := readout_problem(format, image)):
         return fail(problem[0], operation, problem[1])

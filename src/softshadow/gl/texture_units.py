@@ -35,6 +35,8 @@ def glActiveTexture(texture: int) -> None:
             "glActiveTexture",
             f"texture={token_name(texture)}: expected GL_TEXTURE0 to GL_TEXTURE{TEXTURE_UNITS - 1}",
         )
+    if context.active_unit != unit:
+        context.settle()
     context.active_unit = unit
     return None
 

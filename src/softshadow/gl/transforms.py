@@ -26,6 +26,7 @@ SAME_SCALE = 1e-8  # a scale is uniform where its factors differ by less (Mesa, 
 
 def set_current(context: Context, matrix: np.ndarray, kind: int) -> None:
     """Make a matrix current. `kind` says what may be in it, and with that how Mesa inverts it."""
+    context.settle()
     matrix.setflags(write=False)
     context.matrix_stack[-1] = matrix
     context.kind_stack[-1] = kind
@@ -70,6 +71,8 @@ def glPopMatrix() -> None:
     if len(context.matrix_stack) == 1:
         fail(gl.GL_STACK_UNDERFLOW, "glPopMatrix", "there was no glPushMatrix before it")
     else:
+        if context.matrix_stack[-1].tobytes() != context.matrix_stack[-2].tobytes():
+            context.settle()
         context.matrix_stack.pop()
         context.kind_stack.pop()
 
@@ -80,7 +83,11 @@ def glLoadIdentity() -> None:
     context = outside_begin("glLoadIdentity")
     if context is not None:
         # Mesa keeps what the matrix before could have had in it, and so inverts the next one more generally
-        set_current(context, np.eye(4, dtype=context.real), context.kind_stack[-1] & ~UNKNOWN)
+        kind, identity = context.kind_stack[-1] & ~UNKNOWN, np.eye(4, dtype=context.real)
+        if context.matrix_stack[-1].tobytes() != identity.tobytes():
+            set_current(context, identity, kind)
+        else:
+            context.kind_stack[-1] = kind
 
 
 @in_lists
@@ -98,7 +105,9 @@ def glMultMatrixf(m: Any) -> None:
     """Multiply the current matrix from the right: 16 numbers, column after column."""
     context = outside_begin("glMultMatrixf")
     if context is not None:
-        multiply_current(context, _given(context, m), GENERAL | UNKNOWN)
+        made = _given(context, m)
+        if made.tobytes() != np.eye(4, dtype=context.real).tobytes():  # Mesa passes over an identity
+            multiply_current(context, made, GENERAL | UNKNOWN)
 
 
 def multiply_current(context: Context, matrix: np.ndarray, kind: int) -> None:
@@ -129,6 +138,8 @@ def glScalef(x: float, y: float, z: float) -> None:
 def glRotatef(angle: float, x: float, y: float, z: float) -> None:
     """Turn what is drawn from here on: degrees about an axis."""
     context = outside_begin("glRotatef")
+    if context is not None:
+        context.settle()
     if context is not None and angle and (x or y or z):
         multiply_current(context, matrices.rotation(angle, x, y, z, context.real), ROTATION)
 

@@ -114,6 +114,8 @@ def _rows(pointer: Any, dtype: np.dtype, size: int, stride: int) -> np.ndarray:
 def glDrawArrays(mode: int, first: int, count: int) -> None:
     """Draw `count` vertices of the enabled arrays from `first` on."""
     context = outside_begin("glDrawArrays")
+    if context is not None:
+        context.settle()
     if context is None or not is_one_of("glDrawArrays", "mode", mode, MODES, A_MODE):
         return
     if count < 0 or first < 0:
@@ -127,6 +129,8 @@ def glDrawArrays(mode: int, first: int, count: int) -> None:
 def glDrawElements(mode: int, count: int, type: int, indices: Any) -> None:
     """Draw the vertices of the enabled arrays that `indices` name."""
     context = outside_begin("glDrawElements")
+    if context is not None:
+        context.settle()
     if context is None or not is_one_of("glDrawElements", "mode", mode, MODES, A_MODE):
         return
     if count < 0:

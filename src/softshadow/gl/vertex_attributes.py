@@ -17,12 +17,14 @@ from softshadow.gl.conversions import (
     vector,
 )
 from softshadow.gl.materials import follow_color
+from softshadow.gl.vertex_format import give
 
 
 # -- colour ------------------------------------------------------------------------------------------------------------
-def _set_color(red: float, green: float, blue: float, alpha: float = 1.0) -> None:
+def _set_color(red: float, green: float, blue: float, *alpha: float) -> None:
     context = current()
-    context.current.color = (float(red), float(green), float(blue), float(alpha))
+    give(context, "color", 3 + len(alpha))
+    context.current.color = (float(red), float(green), float(blue), float(alpha[0]) if alpha else 1.0)
     if context.primitive is None:  # inside, glEnd does it: the vertices take their colours along
         follow_color(context)
 
@@ -90,6 +92,7 @@ glColor3ui, glColor4ui, glColor3uiv, glColor4uiv = _calls_for(from_unsigned_int)
 
 # -- normal ------------------------------------------------------------------------------------------------------------
 def _set_normal(x: float, y: float, z: float) -> None:
+    give(current(), "normal", 3)
     current().current.normal = (float(x), float(y), float(z))
 
 

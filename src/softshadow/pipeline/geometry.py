@@ -64,7 +64,7 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage) -> Ge
     clip = to_clip(matrices.multiply(command.projection, command.modelview), vertices.position)
     planes = user_planes(command)
     codes = outcodes(clip, state.depth.clamp, planes)
-    assembled = assembled_triangles(command, codes != 0)
+    assembled = assembled_triangles(command, codes != 0, batch_needs_clipping(command, planes))
     columns = varyings.values if varyings.back is None else np.hstack([varyings.values, varyings.back])
     clipped = clip_triangles(clip, columns, assembled.corners, codes, planes)
     window = to_window(clipped.clip, state.viewport, target.size[1], target.flipped)
@@ -100,8 +100,19 @@ def user_planes(command: Draw) -> np.ndarray:
     return made
 
 
-def assembled_triangles(command: Draw, needs_clipping: np.ndarray) -> Triangles:
-    """Return the triangles of a draw over its vertices; `needs_clipping` (V,) bool."""
+def batch_needs_clipping(command: Draw, planes: np.ndarray) -> np.ndarray | None:
+    """Return which vertices (N,) of the whole batch need clipping; None where the draw is the batch."""
+    if command.batch is None:
+        return None
+    clip = to_clip(matrices.multiply(command.projection, command.modelview), command.batch)
+    return outcodes(clip, command.state.depth.clamp, planes) != 0
+
+
+def assembled_triangles(command: Draw, needs_clipping: np.ndarray, in_batch: np.ndarray | None = None) -> Triangles:
+    """Return the triangles of a draw over its vertices.
+
+    `needs_clipping` (V,) bool; `in_batch` (N,) the same for the batch of quads that the draw is a part of.
+    """
     indices = command.indices
     count = len(needs_clipping) if indices is None else len(indices)
     if command.mode not in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
@@ -109,7 +120,10 @@ def assembled_triangles(command: Draw, needs_clipping: np.ndarray) -> Triangles:
     else:
         varying_color = command.vertices.color.strides[0] != 0  # a constant is spread with stride 0
         flat = command.state.lighting.shade_model == gl.GL_FLAT and varying_color
-        clipped = in_clipped_batch(command.mode, needs_clipping, indices) if needs_clipping.any() else None
+        whole = needs_clipping if in_batch is None else in_batch
+        clipped = in_clipped_batch(command.mode, whole, indices) if whole.any() else None
+        if clipped is not None and in_batch is not None:
+            clipped = clipped[command.batch_start // 4 :][: count // 4]
         assembled = assemble(command.mode, count, clipped, across=flat or indices is not None)
     return assembled if indices is None else through_indices(assembled, indices)
 

@@ -1,0 +1,217 @@
+"""Shadow maps: CA:508-637 (set-up, pass 1, texture matrix, shaders), and the pseudo code of RO2:24-85.
+
+The shaders are programs of the register: the slide's own ("slide-shadow-map"), and where a correction asks for it
+"shadow-map", which looks whether the light sees a point at all. Surfaces have their plain colour, no lighting.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from softshadow.listings.listing import Listing
+from softshadow.listings.slide_shader import NAME as SLIDE_SHADER
+from softshadow.listings.stage import AMBIENT, STAGE, Stage, begin_frame, draw, set_camera
+
+MAP_SIZE = 192  # SHADOW_MAP_WIDTH and SHADOW_MAP_HEIGHT: larger than the window
+LIGHT_FOV, LIGHT_NEAR, LIGHT_FAR = 34.0, 1.0, 12.0  # the floor's corners lie outside
+SHADOW_FACTOR = 0.5  # RO2:85, 0 < factor_umbra < 1
+ALMOST_NO_BIAS = 0.0005  # of the map's depth: what E52 asks for at the least, here under a slope offset
+
+
+# -- CA ----------------------------------------------------------------------------------------------------------------
+def shadow_map(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> list[np.ndarray]:
+    """CA:498-637: one program of its four slides; returns the map that pass 1 leaves, (h, w) float32."""
+    begin_frame(gl, stage)
+    gl.glDisable(gl.GL_LIGHTING)
+    texture = set_up(gl, corrected)
+    # Pas 1. Actualització del shadow map
+    if "E62" in corrected:
+        framebuffer = begin_framebuffer(gl, texture)
+        draw_from_light(gl, stage)
+        end_framebuffer(gl, framebuffer)
+    else:
+        draw_from_light(gl, stage)
+        # 3. Guardar el z-buffer en una textura; E62: the window has no more than its own pixels to give
+        gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
+        gl.glCopyTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 0, 0, MAP_SIZE, MAP_SIZE)
+    stored = gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT)
+
+    # Restaurar càmera i viewport
+    restore(gl, stage)
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
+
+    # Pas 2, with the matrix of CA:559-575 and the shaders of CA:577-637
+    program = gl.program("shadow-map" if "E47" in corrected else SLIDE_SHADER)  # E47: q > 0, 0 <= s, t <= 1
+    # E48: "només si no hem usat glPolygonOffset", and pass 1 has used it
+    use(gl, program, light_matrix(gl, stage), 0.0 if "E48" in corrected else 0.01, AMBIENT)
+    draw(gl, stage.scene, unlit=1.0)
+    gl.glUseProgram(0)
+    return [stored]
+
+
+def set_up(gl: Any, corrected: frozenset[str], start: float = 0.0) -> int:
+    """CA:508-522, Shadow mapping - setup: return the bound texture.
+
+    The slide hands over NULL; what no copy reaches then holds anything, here `start`.
+    """
+    wrap = gl.GL_CLAMP_TO_BORDER if "E47" in corrected else gl.GL_CLAMP_TO_EDGE  # E47: the edge's texel is smeared
+    filtering = gl.GL_NEAREST if "E46" in corrected else gl.GL_LINEAR  # E46: a mean of depths is the depth of nothing
+    gl.glActiveTexture(gl.GL_TEXTURE0)
+    texture: int = gl.glGenTextures(1)
+    gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
+    gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_WRAP_S, wrap)
+    gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_WRAP_T, wrap)
+    gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, filtering)
+    gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MAG_FILTER, filtering)
+    gl.glTexParameterfv(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_BORDER_COLOR, (1.0, 1.0, 1.0, 1.0))
+    gl.glTexImage2D(
+        gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH_COMPONENT32, MAP_SIZE, MAP_SIZE, 0, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT,
+        np.full((MAP_SIZE, MAP_SIZE), start, np.float32),
+    )  # fmt: skip
+    return texture
+
+
+def draw_from_light(gl: Any, stage: Stage) -> None:
+    """CA:528-546: the camera at the light, the scene with an offset of (1, 1)."""
+    gl.glViewport(0, 0, MAP_SIZE, MAP_SIZE)
+    gl.glMatrixMode(gl.GL_PROJECTION)
+    gl.glLoadIdentity()
+    gl.gluPerspective(LIGHT_FOV, 1.0, LIGHT_NEAR, LIGHT_FAR)
+    gl.glMatrixMode(gl.GL_MODELVIEW)
+    gl.glLoadIdentity()
+    look_from_light(gl, stage)
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
+    gl.glPolygonOffset(1, 1)
+    gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
+    draw(gl, stage.scene)
+    gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
+
+
+def look_from_light(gl: Any, stage: Stage) -> None:
+    """Multiply the current matrix by ViewS, "cu observatorul in pozitia sursei"."""
+    gl.gluLookAt(*stage.light[:3], *stage.target, 0.0, 1.0, 0.0)
+
+
+def light_matrix(gl: Any, stage: Stage) -> np.ndarray:
+    """CA:559-575, Generació de coords de textura: world space to (s, t, p, q), in GL's memory order."""
+    gl.glPushMatrix()
+    gl.glLoadIdentity()
+    gl.glTranslated(0.5, 0.5, 0.5)
+    gl.glScaled(0.5, 0.5, 0.5)
+    gl.gluPerspective(LIGHT_FOV, 1.0, LIGHT_NEAR, LIGHT_FAR)
+    look_from_light(gl, stage)
+    matrix: np.ndarray = gl.glGetFloatv(gl.GL_MODELVIEW_MATRIX)
+    gl.glPopMatrix()
+    return matrix
+
+
+def restore(gl: Any, stage: Stage) -> None:
+    """Set viewport and camera to those of the window; the scissor box still has its size."""
+    gl.glViewport(*gl.glGetIntegerv(gl.GL_SCISSOR_BOX))
+    set_camera(gl, stage)
+
+
+def use(gl: Any, program: int, matrix: np.ndarray, bias: float, factor: float) -> None:
+    """Use a shadow map program: in shadow the colour has this factor."""
+    gl.glUseProgram(program)
+    gl.glUniformMatrix4fv(gl.glGetUniformLocation(program, "lightMatrix"), 1, gl.GL_FALSE, matrix)
+    gl.glUniform1i(gl.glGetUniformLocation(program, "shadowMap"), 0)
+    gl.glUniform1f(gl.glGetUniformLocation(program, "bias"), bias)
+    gl.glUniform4f(gl.glGetUniformLocation(program, "ambient"), factor, factor, factor, 1.0)
+
+
+def begin_framebuffer(gl: Any, texture: int) -> int:
+    """Draw into a depth texture from now on: "un buffer ZS ca buffer de adancime" (RO2:32-36)."""
+    framebuffer: int = gl.glGenFramebuffers(1)
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
+    gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_DEPTH_ATTACHMENT, gl.GL_TEXTURE_2D, texture, 0)
+    gl.glDrawBuffer(gl.GL_NONE)
+    gl.glReadBuffer(gl.GL_NONE)
+    return framebuffer
+
+
+def end_framebuffer(gl: Any, framebuffer: int) -> None:
+    """Draw into the window again."""
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+    gl.glDeleteFramebuffers(1, [framebuffer])
+
+
+# -- RO2 ---------------------------------------------------------------------------------------------------------------
+def two_stages(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> list[np.ndarray]:
+    """RO2:24-85, Etapa I and Etapa II; returns ZS, (h, w) float32."""
+    begin_frame(gl, stage)
+    gl.glDisable(gl.GL_LIGHTING)
+    stored = first_stage(gl, corrected, stage)
+
+    # Etapa II
+    matrix = light_matrix(gl, stage) if "E50" in corrected else view_of_light(gl, stage)
+    bias = ALMOST_NO_BIAS if "E52" in corrected else 0.0  # E52: every surface is as far as itself, but for rounding
+    if "E53" in corrected:
+        draw(gl, stage.scene)  # E53: ambient light is there in shadow, too; the factor is for the direct light alone
+        gl.glEnable(gl.GL_BLEND)
+        gl.glBlendFunc(gl.GL_ONE, gl.GL_ONE)
+        gl.glDepthFunc(gl.GL_EQUAL)
+        use(gl, gl.program("shadow-map"), matrix, bias, 0.0)
+        draw(gl, stage.scene, unlit=1 - AMBIENT)
+    else:
+        use(gl, gl.program("shadow-map"), matrix, bias, SHADOW_FACTOR)
+        draw(gl, stage.scene, unlit=1.0)
+    gl.glUseProgram(0)
+    return [stored]
+
+
+def first_stage(gl: Any, corrected: frozenset[str], stage: Stage) -> np.ndarray:
+    """RO2:24-47: ZS from the light, no colour written; "daca z < ZS[y][x] atunci ZS[y][x] = z"."""
+    texture = set_up(gl, frozenset({"E46", "E47"}), start=0.0)
+    framebuffer = begin_framebuffer(gl, texture)
+    gl.glViewport(0, 0, MAP_SIZE, MAP_SIZE)
+    gl.glMatrixMode(gl.GL_PROJECTION)
+    gl.glLoadIdentity()
+    if "E50" in corrected:
+        gl.gluPerspective(LIGHT_FOV, 1.0, LIGHT_NEAR, LIGHT_FAR)  # E50: ViewS alone maps to no pixel of ZS
+    gl.glMatrixMode(gl.GL_MODELVIEW)
+    gl.glLoadIdentity()
+    look_from_light(gl, stage)
+    if "E51" in corrected:
+        gl.glClear(gl.GL_DEPTH_BUFFER_BIT)  # E51: where ZS starts at 0, no z is less
+    if "E52" in corrected:
+        gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
+        gl.glPolygonOffset(1, 1)
+    draw(gl, stage.scene)
+    gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
+    end_framebuffer(gl, framebuffer)
+    restore(gl, stage)
+    stored: np.ndarray = gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT)
+    return stored
+
+
+def view_of_light(gl: Any, stage: Stage) -> np.ndarray:
+    """Return ViewS as it is printed for Etapa II, in GL's memory order."""
+    gl.glPushMatrix()
+    gl.glLoadIdentity()
+    look_from_light(gl, stage)
+    matrix: np.ndarray = gl.glGetFloatv(gl.GL_MODELVIEW_MATRIX)
+    gl.glPopMatrix()
+    return matrix
+
+
+LISTINGS = (
+    Listing(
+        "map", "Shadow map: set-up, pass 1, texture matrix, shaders", "maps", "CA:508-637", shadow_map,
+        {
+            "E46": "depths are not filtered: GL_NEAREST",
+            "E47": "what the light does not see is lit: border of depth 1, test of s, t and q",
+            "E48": "no bias besides the polygon offset",
+            "E62": "the map is drawn into its texture, not copied from a smaller window",
+        },
+    ),
+    Listing(
+        "map-two-stages", "Shadow map: Etapa I and Etapa II", "maps", "RO2:24-85", two_stages,
+        {
+            "E50": "projection and scale to the map besides the view",
+            "E51": "ZS is cleared to 1",
+            "E52": "an offset in the map and a bias",
+            "E53": "the factor is for the direct light alone",
+        },
+    ),
+)  # fmt: skip

@@ -1,0 +1,224 @@
+"""Projected planar shadows: the slides CA:60-168 and CA:292-396 (again CA:706-784), SK:139-180, RO1:64-68.
+
+``dibuixa(receptor)`` is ``draw(gl, stage.receiver)``; ``MatriuProjeccio`` is the matrix of SK:153, whose sign is right,
+except in the two listings that are about the matrix. The shader of CA:149-167 becomes fixed function: its uniform
+``shadow`` is lighting switched off, its ``modelMatrix`` the modelview matrix.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from softshadow.listings.listing import Listing
+from softshadow.listings.projection import along_direction, along_rays, from_point, onto_ground
+from softshadow.listings.stage import LOW_LAMP, STAGE, Stage, Thing, begin_frame, draw, draw_faces
+from softshadow.scene import Mesh, casting_faces
+
+GROUND = (0.0, 1.0, 0.0, 0.0)
+
+
+def multiply(gl: Any, matrix: np.ndarray) -> None:
+    """Call glMultMatrixf with a matrix that is written by rows: GL's memory holds columns."""
+    gl.glMultMatrixf(np.ascontiguousarray(matrix.T, np.float32))
+
+
+def three_steps(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, projection: np.ndarray | None = None) -> None:
+    """CA:60-96, Ombres per projecció (un pla): receiver, flattened occluder without depth test, occluder."""
+    begin_frame(gl, stage)
+    if "E33" in corrected:
+        gl.glEnable(gl.GL_STENCIL_TEST)  # E33: the flattened occluder does not know where the receiver ends
+        gl.glStencilFunc(gl.GL_ALWAYS, 1, 255)
+        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
+    # 1. Dibuixar receptor
+    draw(gl, stage.receiver)
+
+    # 2. Dibuixar l'oclusor projectat (ombra)
+    if "E33" in corrected:
+        gl.glStencilFunc(gl.GL_EQUAL, 1, 255)
+        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_KEEP)
+    gl.glDisable(gl.GL_LIGHTING)
+    gl.glDisable(gl.GL_DEPTH_TEST)
+    gl.glMatrixMode(gl.GL_MODELVIEW)
+    gl.glPushMatrix()
+    multiply(gl, onto_ground(stage.light) if projection is None else projection)
+    draw(gl, stage.occluder)
+    gl.glPopMatrix()
+    if "E33" in corrected:
+        gl.glDisable(gl.GL_STENCIL_TEST)
+
+    # 3. Dibuixar oclusor
+    gl.glEnable(gl.GL_LIGHTING)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    draw(gl, stage.occluder if "E34" in corrected else stage.emitter)  # E34: printed "dibuixa(emissor)"
+
+
+def matrix_from_point(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+    """CA:371-383, Projecció respecte punt: the three steps with this matrix on the ground's plane."""
+    # E35: (0, 1, 0, 0), with the light on its positive side, gives w < 0 everywhere
+    plane = (0.0, -1.0, 0.0, 0.0) if "E35" in corrected else GROUND
+    three_steps(gl, frozenset({"E33", "E34"}), stage, from_point(plane, stage.light))
+
+
+def matrix_along_direction(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+    """CA:385-396, Projecció en la direcció (x,y,z): the three steps with this matrix, the lamp far away."""
+    towards = np.array(stage.light[:3]) - np.array(stage.target)
+    # E36: "la direcció" is read as the way the light travels; w > 0 needs the way towards it
+    direction = towards if "E36" in corrected else -towards
+    three_steps(gl, frozenset({"E33", "E34"}), stage, along_direction(GROUND, direction.tolist()))
+
+
+def rays(gl: Any, corrected: frozenset[str], stage: Stage = LOW_LAMP) -> None:
+    """SK:139-153, Projekčné tiene: every vertex along its ray onto y = 0, the lamp low among the casters."""
+    begin_frame(gl, stage)
+    draw(gl, stage.receiver)
+    gl.glDisable(gl.GL_LIGHTING)
+    gl.glDisable(gl.GL_DEPTH_TEST)
+    if "E21" in corrected:
+        # E21: GL clips w < 0, above the lamp, when it does the dividing; what is below the ground must not come to it
+        gl.glPushMatrix()
+        multiply(gl, onto_ground(stage.light))
+        draw(gl, [thing for thing in stage.occluder if thing.mesh.positions[:, 1].min() >= 0])
+        gl.glPopMatrix()
+    else:
+        draw(gl, [flattened(thing, stage) for thing in stage.occluder])
+    gl.glEnable(gl.GL_LIGHTING)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    draw(gl, stage.occluder)
+
+
+def flattened(thing: Thing, stage: Stage) -> Thing:
+    """Return a thing with all of its vertices taken to the ground along the rays of the lamp."""
+    mesh = thing.mesh
+    return Thing(
+        Mesh(along_rays(mesh.positions, stage.light), mesh.triangles, mesh.normals, name=mesh.name), thing.color
+    )
+
+
+def with_offset(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+    """CA:147-168 and CA:706-727, CastShadows::paintGL. In the second printing drawReceiver() is commented out."""
+    begin_frame(gl, stage)
+    # 1. Dibuixar receptor
+    draw(gl, stage.receiver)
+
+    # 2. Dibuixar l'oclusor projectat (ombra)
+    gl.glDisable(gl.GL_LIGHTING)  # phongShader->setUniform("shadow", true)
+    gl.glPushMatrix()
+    multiply(gl, onto_ground(stage.light))  # phongShader->setUniform("modelMatrix", ...)
+    gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
+    gl.glPolygonOffset(-1, -1)
+    draw(gl, stage.occluder)
+
+    # 3. Dibuixar oclusor
+    gl.glEnable(gl.GL_LIGHTING)  # phongShader->setUniform("shadow", false)
+    gl.glPopMatrix()  # phongShader->setUniform("modelMatrix", identity)
+    gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
+    draw(gl, stage.occluder)
+
+
+def with_stencil(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, mask: int = 1) -> None:
+    """CA:292-359, Ombres per projecció (amb stencil); CA:743-784 has the mask 255 in step 2. Right as printed (E41)."""
+    begin_frame(gl, stage)
+    # 1. Dibuixa el receptor al color buffer i al stencil buffer
+    gl.glEnable(gl.GL_STENCIL_TEST)
+    gl.glStencilFunc(gl.GL_ALWAYS, 1, 1)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
+    draw(gl, stage.receiver)
+
+    # 2. Dibuixa oclusor per netejar l'stencil a les zones a l'ombra
+    gl.glDisable(gl.GL_DEPTH_TEST)
+    gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
+    gl.glStencilFunc(gl.GL_EQUAL, 1, mask)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_ZERO)
+    gl.glPushMatrix()
+    multiply(gl, onto_ground(stage.light))
+    draw(gl, stage.occluder)
+    gl.glPopMatrix()
+
+    # 3. Dibuixa la part fosca del receptor
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    gl.glDepthFunc(gl.GL_LEQUAL)
+    gl.glColorMask(gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE)
+    gl.glDisable(gl.GL_LIGHTING)
+    gl.glStencilFunc(gl.GL_EQUAL, 0, 1)
+    draw(gl, stage.receiver)
+
+    # 4. Dibuixa l'oclusor
+    gl.glEnable(gl.GL_LIGHTING)
+    gl.glDepthFunc(gl.GL_LESS)
+    gl.glDisable(gl.GL_STENCIL_TEST)
+    draw(gl, stage.occluder)
+
+
+def with_stencil_255(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+    """CA:743-784: glStencilFunc(GL_EQUAL, 1, 255) in step 2; the "1 = 1?" beside it holds for both masks."""
+    with_stencil(gl, corrected, stage, mask=255)
+
+
+def darkened(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+    """SK:163-171, Základný algoritmus: render the scene, then per receiver the flattened casters, dark."""
+    begin_frame(gl, stage)
+    draw(gl, stage.receiver if "E60" in corrected else stage.scene)  # render scenu (uplné osvetlenie)
+    gl.glDisable(gl.GL_LIGHTING)
+    if "E60" in corrected:
+        gl.glDisable(gl.GL_DEPTH_TEST)  # E60: the depths of receiver and shadow are equal but for rounding
+    gl.glPushMatrix()
+    multiply(gl, onto_ground(stage.light))  # vynasobenie s aktuálnou transformáciou (modelview)
+    draw(gl, stage.occluder)  # render vyznačenú (occluder) geometriu, darken/black
+    gl.glPopMatrix()
+    if "E60" in corrected:
+        gl.glEnable(gl.GL_DEPTH_TEST)
+        gl.glEnable(gl.GL_LIGHTING)
+        draw(gl, stage.occluder)  # E60: what casts comes after its shadow
+
+
+def shadow_polygons(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+    """RO1:41-68, Umbre planare, functia Update: the scene, then polygons of own and of cast shadow over it."""
+    begin_frame(gl, stage)
+    draw(gl, stage.scene)  # 1. Se cere rasterizarea poligoanelor scenei.
+    gl.glDisable(gl.GL_LIGHTING)
+    if "E15" in corrected:
+        gl.glDepthFunc(gl.GL_LEQUAL)  # E15: nearer objects must stay in front of the shadow polygons
+        gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
+        gl.glPolygonOffset(-1, -1)
+    else:
+        gl.glDisable(gl.GL_DEPTH_TEST)  # 2. Se dezactivează testul de adâncime
+    # 3. Se cere rasterizarea poligoanelor de umbră
+    for thing in stage.occluder:
+        lit = casting_faces(thing.mesh, np.array(stage.light)).kept
+        unlit = np.setdiff1d(np.arange(len(thing.mesh.triangles)), lit)
+        draw_faces(gl, thing, thing.mesh.triangles[unlit])  # umbră proprie: the face itself
+        gl.glPushMatrix()
+        multiply(gl, onto_ground(stage.light))
+        draw_faces(gl, thing, thing.mesh.triangles[lit])  # umbră purtată: a lit face, projected
+        gl.glPopMatrix()
+
+
+LISTINGS = (
+    Listing(
+        "planar", "Projection onto one plane, depth test off", "planar", "CA:60-96", three_steps,
+        {"E33": "a stencil mark keeps the shadow on the receiver", "E34": "the occluder is drawn last, not the lamp"},
+    ),
+    Listing(
+        "planar-point", "Matrix of a light at a point", "planar", "CA:371-383", matrix_from_point,
+        {"E35": "the plane is turned over, so that w > 0 for casters"},
+    ),
+    Listing(
+        "planar-direction", "Matrix of a light at infinity", "planar", "CA:385-396", matrix_along_direction,
+        {"E36": "the direction points towards the light"},
+    ),
+    Listing(
+        "planar-rays", "Vertices along rays onto the ground", "planar", "SK:139-180", rays,
+        {"E21": "casters above the lamp or below the ground cast nothing"},
+    ),
+    Listing("planar-offset", "Projection with polygon offset", "planar", "CA:147-168, CA:706-727", with_offset),
+    Listing("planar-stencil", "Projection with stencil, mask 1", "planar", "CA:292-359", with_stencil),
+    Listing("planar-stencil-255", "Projection with stencil, mask 255", "planar", "CA:743-784", with_stencil_255),
+    Listing(
+        "planar-darken", "The basic algorithm", "planar", "SK:163-171", darkened,
+        {"E60": "receiver, shadow, casters, in this order"},
+    ),
+    Listing(
+        "planar-polygons", "Shadow polygons", "planar", "RO1:41-68", shadow_polygons,
+        {"E15": "GL_LEQUAL and a polygon offset instead of no depth test"},
+    ),
+)  # fmt: skip

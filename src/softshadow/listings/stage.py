@@ -1,0 +1,129 @@
+"""The scene of the listings: a floor, two boxes one upon the other, a lamp; drawn by glBegin and glEnd.
+
+The slides draw by names: ``dibuixa(receptor)``, ``dibuixa(oclusor)``, ``dibuixa(escena)``. Here that is
+``draw(gl, stage.receiver)``, and the stage is a parameter of every listing.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from softshadow import matrices
+from softshadow.scene import Mesh
+from softshadow.scene.shapes import box, floor
+
+SIZE = (128, 128)  # of the window that the listings are shown in, and that their counts are from
+AMBIENT = 0.3  # of the light, and so the colour of a surface in shadow
+NEAR, FAR = 1.0, 13.0
+FIELD_OF_VIEW = 40.0
+
+
+@dataclass(frozen=True, eq=False)
+class Thing:
+    """What is drawn under one name: a mesh in world space, and its colour."""
+
+    mesh: Mesh
+    color: tuple[float, float, float]
+
+    @property
+    def name(self) -> str:
+        return self.mesh.name
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """Who stands where: a lamp (homogeneous position), an eye that looks at a target, and what the slides draw."""
+
+    light: tuple[float, float, float, float]
+    eye: tuple[float, float, float]
+    target: tuple[float, float, float]
+    receiver: tuple[Thing, ...]
+    occluder: tuple[Thing, ...]
+
+    @property
+    def scene(self) -> tuple[Thing, ...]:
+        return self.receiver + self.occluder
+
+    @property
+    def emitter(self) -> tuple[Thing, ...]:
+        return (Thing(moved(box(0.2, name="lamp"), *self.light[:3]), (1.0, 1.0, 0.6)),)
+
+
+def moved(mesh: Mesh, x: float, y: float, z: float) -> Mesh:
+    """Return a mesh moved by (x, y, z)."""
+    return Mesh(mesh.positions + np.array([x, y, z], np.float32), mesh.triangles, mesh.normals, name=mesh.name)
+
+
+FLOOR = Thing(floor(5), (0.8, 0.8, 0.7))
+LOWER = Thing(moved(box(1.6, 1.0, 1.6, name="lower box"), 0.0, 0.5, 0.0), (0.9, 0.4, 0.2))
+UPPER = Thing(moved(box(0.8, 0.8, 0.8, name="upper box"), 0.1, 1.4, -0.1), (0.2, 0.5, 0.9))
+STAGE = Stage((-2.0, 4.0, 1.5, 1.0), (4.2, 4.0, 6.1), (0.1, 0.5, -0.1), (FLOOR,), (LOWER, UPPER))
+
+# the eye among the shadows: part of the near rectangle lies in a volume, part of it outside
+NEAR_SHADOW = Stage(STAGE.light, (1.6, 0.6, -0.8), (2.5, 0.0, 2.5), (FLOOR,), (LOWER, UPPER))
+
+# the lamp behind the eye: rays run along the volumes and leave them far away
+DOWN_THE_AXIS = Stage((5.0, 3.2, 5.0, 1.0), STAGE.eye, STAGE.target, (FLOOR,), (LOWER, UPPER))
+
+# a lamp below the upper box, and a box below the floor: neither casts a proper shadow on the floor
+LOW_LAMP = Stage(
+    (0.9, 1.6, 0.9, 1.0),
+    STAGE.eye,
+    STAGE.target,
+    (FLOOR,),
+    (
+        Thing(moved(box(0.5, name="box on the floor"), -0.4, 0.25, 0.0), LOWER.color),
+        Thing(moved(box(0.4, name="box above the lamp"), 1.2, 2.3, 0.6), UPPER.color),
+        Thing(moved(box(0.5, name="box below the floor"), 1.5, -0.6, -0.8), (0.3, 0.8, 0.3)),
+    ),
+)
+
+
+def begin_frame(gl: Any, stage: Stage, far: float | None = FAR) -> None:
+    """Clear the buffers and set what the slides take for granted: camera, depth test, one white light.
+
+    That buffers "are initialised in each frame by themselves" (RO1:177-179) is E61: only glClear does it. `far` is
+    the distance of the far plane, or None for a camera that has none.
+    """
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    set_camera(gl, stage, far)
+    gl.glEnable(gl.GL_LIGHTING)
+    gl.glEnable(gl.GL_LIGHT0)
+    gl.glLightfv(gl.GL_LIGHT0, gl.GL_POSITION, stage.light)
+    gl.glLightModelfv(gl.GL_LIGHT_MODEL_AMBIENT, (AMBIENT, AMBIENT, AMBIENT, 1.0))
+
+
+def set_camera(gl: Any, stage: Stage, far: float | None = FAR) -> None:
+    """Set projection and view of the eye."""
+    _, _, width, height = gl.glGetIntegerv(gl.GL_VIEWPORT)
+    gl.glMatrixMode(gl.GL_PROJECTION)
+    gl.glLoadIdentity()
+    if far is None:
+        gl.glMultMatrixd(matrices.infinite_perspective(FIELD_OF_VIEW, width / height, NEAR).T.copy())
+    else:
+        gl.gluPerspective(FIELD_OF_VIEW, width / height, NEAR, far)
+    gl.glMatrixMode(gl.GL_MODELVIEW)
+    gl.glLoadIdentity()
+    gl.gluLookAt(*stage.eye, *stage.target, 0.0, 1.0, 0.0)
+
+
+def draw(gl: Any, things: Iterable[Thing], unlit: float = AMBIENT) -> None:
+    """Draw things; where lighting is off, they have this share of their colour."""
+    for thing in things:
+        draw_faces(gl, thing, thing.mesh.triangles, unlit)
+
+
+def draw_faces(gl: Any, thing: Thing, triangles: np.ndarray, unlit: float = AMBIENT) -> None:
+    """Draw some triangles (T, 3) of a thing, always by the same vertices in the same order: so depths are equal."""
+    gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, thing.name)
+    gl.glMaterialfv(gl.GL_FRONT_AND_BACK, gl.GL_AMBIENT_AND_DIFFUSE, (*thing.color, 1.0))
+    gl.glColor3f(*(unlit * channel for channel in thing.color))
+    gl.glBegin(gl.GL_TRIANGLES)
+    for vertex in triangles.ravel().tolist():
+        gl.glNormal3f(*thing.mesh.normals[vertex].tolist())
+        gl.glVertex3f(*thing.mesh.positions[vertex].tolist())
+    gl.glEnd()
+    gl.glPopDebugGroup()

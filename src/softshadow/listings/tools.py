@@ -1,0 +1,188 @@
+"""What decides which surface is seen: stencil buffer, polygon offset, depth range.
+
+Slides CA:104-145, CA:214-288 and CA:648-703.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from softshadow.listings.listing import Listing
+from softshadow.listings.stage import LOWER, STAGE, Stage, Thing, begin_frame, draw, moved
+from softshadow.scene.shapes import box
+
+RED, GREEN = (0.8, 0.2, 0.2), (0.2, 0.8, 0.2)
+SMALLEST_STEP = 1 / (2**24 - 1)  # of the depth buffer
+SLOPES = ((0.6, 0.2), (-0.6, -0.2))  # depth of window z per window: one quad sinks to the right, the other rises
+SKELETON = Thing(moved(box(0.7, 0.5, 0.7, name="skeleton"), 0.0, 0.5, 0.0), (0.9, 0.9, 0.9))
+
+
+# -- stencil -----------------------------------------------------------------------------------------------------------
+def stencil_setup(gl: Any, corrected: frozenset[str]) -> list[np.ndarray]:
+    """CA:214-226: ask for the bits, clear. The clear minds glStencilMask and not glStencilFunc, as the slide says.
+
+    The window with a stencil buffer is the context's business (E57: the class is QSurfaceFormat).
+    """
+    bits = np.array([gl.glGetIntegerv(gl.GL_STENCIL_BITS)])
+    gl.glEnable(gl.GL_STENCIL_TEST)
+    gl.glStencilFunc(gl.GL_NEVER, 0, 0)
+    gl.glClearStencil(0xFF)
+    gl.glClear(gl.GL_STENCIL_BUFFER_BIT)  # all bits: glStencilFunc has no part in it
+    gl.glStencilMask(0x0F)
+    gl.glClearStencil(0)
+    gl.glClear(gl.GL_STENCIL_BUFFER_BIT)  # the lower four bits
+    return [bits]
+
+
+def two_quads(gl: Any, corrected: frozenset[str]) -> None:
+    """CA:262-286: mark a quad with 1, then draw a second where there is no mark."""
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
+    gl.glEnable(gl.GL_STENCIL_TEST)
+    gl.glStencilFunc(gl.GL_ALWAYS, 1, 255)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
+    draw_quad(gl, RED, -0.7, -0.7, 0.3, 0.3)
+
+    gl.glStencilFunc(gl.GL_EQUAL, 0, 255)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_KEEP)
+    draw_quad(gl, GREEN, -0.3, -0.3, 0.7, 0.7)
+
+
+def draw_quad(
+    gl: Any, color: tuple[float, float, float], left: float, bottom: float, right: float, top: float,
+    slope: tuple[float, float] = (0.0, 0.0),
+) -> None:  # fmt: skip
+    """Draw a quad of the window, -1 to 1; `slope` is dz/dx and dz/dy around its middle."""
+    gl.glColor3f(*color)
+    gl.glBegin(gl.GL_QUADS)
+    for x, y in ((left, bottom), (right, bottom), (right, top), (left, top)):
+        gl.glVertex3f(x, y, slope[0] * (x - (left + right) / 2) + slope[1] * (y - (bottom + top) / 2))
+    gl.glEnd()
+
+
+# -- polygon offset ----------------------------------------------------------------------------------------------------
+def offset_formula(gl: Any, corrected: frozenset[str]) -> None:
+    """CA:104-145, Evitar problemes de z-fighting: glPolygonOffset(1, 1) by the slide's formula, each quad moved by it.
+
+    A is drawn plain, B (larger) is moved: z' = z + dz·factor + r·units should put B behind A. E32: r is what a driver
+    can resolve, two steps on Mesa; the slide's smallest step is kept here.
+    """
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    _, _, width, height = gl.glGetIntegerv(gl.GL_VIEWPORT)
+    factor, units = 1.0, 1.0
+    for middle, (dz_dx, dz_dy) in zip((-0.5, 0.5), SLOPES, strict=True):
+        draw_quad(gl, RED, middle - 0.3, -0.6, middle + 0.3, 0.6, (dz_dx, dz_dy))
+        per_pixel = (dz_dx / width, dz_dy / height)  # window z is half of z from -1 to 1, and so are pixels of x
+        if "E31" in corrected:
+            slope = max(abs(per_pixel[0]), abs(per_pixel[1]))  # E31: or a surface that rises is pulled nearer
+        else:
+            slope = max(per_pixel)  # ∂z = max(∂z/∂x, ∂z/∂y)
+        if "E30" in corrected:
+            constant = SMALLEST_STEP * units  # E30: r times units, as on the second slide (CA:124)
+        else:
+            constant = 1 / SMALLEST_STEP * units  # z' = z + 1/r · units (CA:110): beyond all depths
+        offset = slope * factor + constant
+        gl.glPushMatrix()
+        gl.glTranslatef(0.0, 0.0, 2 * offset)
+        draw_quad(gl, GREEN, middle - 0.4, -0.8, middle + 0.4, 0.8, (dz_dx, dz_dy))
+        gl.glPopMatrix()
+
+
+def offset_quiz(gl: Any, corrected: frozenset[str]) -> None:
+    """CA:648-665: A plain, B with (1, 1); where they coincide A has priority. The quads of `offset_formula`."""
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    gl.glDepthFunc(gl.GL_LEQUAL)  # without the offset B would win: it is drawn later
+    for middle, slope in zip((-0.5, 0.5), SLOPES, strict=True):
+        draw_quad(gl, RED, middle - 0.3, -0.6, middle + 0.3, 0.6, slope)  # drawObject(A)
+        gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
+        gl.glPolygonOffset(1, 1)
+        draw_quad(gl, GREEN, middle - 0.4, -0.8, middle + 0.4, 0.8, slope)  # drawObject(B)
+        gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
+
+
+# -- visibility quiz ---------------------------------------------------------------------------------------------------
+def depth_range(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+    """CA:690-703: the skeleton in the nearer half of all depths, the skin around it in the farther one."""
+    begin_frame(gl, stage)
+    gl.glDepthRange(0.0, 0.5)
+    draw(gl, [SKELETON])
+    gl.glDepthRange(0.5, 1.0)
+    draw(gl, [LOWER])
+    gl.glDepthRange(0, 1)
+
+
+def option(
+    gl: Any,
+    corrected: frozenset[str],
+    stage: Stage = STAGE,
+    *,
+    before: Callable[[Any], None],
+    after: Callable[[Any], None],
+) -> None:
+    """CA:694-697: a call in front of the skeleton, then the skin; none of the four helps, as the slide says.
+
+    E45: the depth test off does help when the skeleton is drawn last (unsorted in itself).
+    """
+    begin_frame(gl, stage)
+    if "E45" in corrected:
+        draw(gl, [LOWER])
+        before(gl)
+        draw(gl, [SKELETON])
+        after(gl)
+    else:
+        before(gl)
+        draw(gl, [SKELETON])
+        after(gl)
+        draw(gl, [LOWER])
+
+
+def depth_test_off(gl: Any, corrected: frozenset[str]) -> None:
+    """CA:694, option a."""
+    option(
+        gl, corrected,
+        before=lambda gl: gl.glDisable(gl.GL_DEPTH_TEST), after=lambda gl: gl.glEnable(gl.GL_DEPTH_TEST),
+    )  # fmt: skip
+
+
+def offset_skeleton(gl: Any, corrected: frozenset[str]) -> None:
+    """CA:695, option b; enabled, too, which the slide does not say."""
+
+    def before(gl: Any) -> None:
+        gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
+        gl.glPolygonOffset(1, 1)
+
+    option(gl, corrected, before=before, after=lambda gl: gl.glDisable(gl.GL_POLYGON_OFFSET_FILL))
+
+
+def whole_depth_range(gl: Any, corrected: frozenset[str]) -> None:
+    """CA:696, option c: what it is anyway."""
+    option(gl, corrected, before=lambda gl: gl.glDepthRange(0, 1), after=lambda gl: None)
+
+
+def depth_mask_off(gl: Any, corrected: frozenset[str]) -> None:
+    """CA:697, option d."""
+    option(
+        gl, corrected,
+        before=lambda gl: gl.glDepthMask(gl.GL_FALSE), after=lambda gl: gl.glDepthMask(gl.GL_TRUE),
+    )  # fmt: skip
+
+
+LISTINGS = (
+    Listing("stencil-setup", "Bits of the stencil buffer, and its clear", "tools", "CA:214-226", stencil_setup),
+    Listing("stencil-quads", "A second quad where the first is not", "tools", "CA:262-286", two_quads),
+    Listing(
+        "offset-formula", "Polygon offset by its formula", "tools", "CA:104-145", offset_formula,
+        {"E30": "r times units, not divided by r", "E31": "the slope is an absolute value"},
+    ),
+    Listing("offset-quiz", "Quiz: which of A and B wins", "tools", "CA:648-665", offset_quiz),
+    Listing("skeleton", "Quiz: a skeleton seen through its skin", "tools", "CA:690-703", depth_range),
+    Listing(
+        "skeleton-depth-test", "Quiz, option a: depth test off", "tools", "CA:694", depth_test_off,
+        {"E45": "the skeleton is drawn last"},
+    ),
+    Listing("skeleton-offset", "Quiz, option b: polygon offset", "tools", "CA:695", offset_skeleton),
+    Listing("skeleton-depth-range", "Quiz, option c: glDepthRange(0, 1)", "tools", "CA:696", whole_depth_range),
+    Listing("skeleton-depth-mask", "Quiz, option d: no depth written", "tools", "CA:697", depth_mask_off),
+)  # fmt: skip

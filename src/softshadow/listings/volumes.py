@@ -1,0 +1,266 @@
+"""Shadow volumes in the stencil buffer: RO1:142-353 (z-pass and z-fail), CA:398-492 (five passes), SK:261-286.
+
+"Trimite in banda grafica poligoanele de umbra" and ``dibuixa(volum_ombra)`` are ``draw_volumes``. The volumes reach to
+infinity and the camera of the corrected listings has no far plane, so that E7 (a far side that is not far enough) does
+not come up.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from softshadow.listings.listing import Listing
+from softshadow.listings.stage import DOWN_THE_AXIS, FAR, NEAR_SHADOW, STAGE, Stage, begin_frame, draw, draw_faces
+from softshadow.scene import shadow_volume
+
+
+def draw_volumes(gl: Any, stage: Stage, closed: bool = False) -> None:
+    """Draw the side polygons of every volume (RO1:93-101), counter-clockwise seen from outside; `closed`: caps, too."""
+    for thing in stage.occluder:
+        volume = shadow_volume(thing.mesh, np.array(stage.light))
+        gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, f"volume of the {thing.name}")
+        gl.glBegin(gl.GL_QUADS)
+        for corner in volume.sides.reshape(-1, 4).tolist():
+            gl.glVertex4f(*corner)
+        gl.glEnd()
+        if closed:
+            gl.glBegin(gl.GL_TRIANGLES)
+            for corner in volume.dark_cap.reshape(-1, 4).tolist():
+                gl.glVertex4f(*corner)
+            gl.glEnd()
+        gl.glPopDebugGroup()
+        if closed:
+            draw_faces(gl, thing, volume.light_cap)
+
+
+def ambient_scene(gl: Any, stage: Stage, far: float | None = None) -> None:
+    """Pasul 1 (RO1:175-191): the scene without light, colour and depth."""
+    begin_frame(gl, stage, far)  # "initializeaza z-buffer si stencil-buffer": E61, by glClear
+    gl.glDisable(gl.GL_LIGHTING)
+    draw(gl, stage.scene)
+
+
+def begin_count(gl: Any, corrected: frozenset[str]) -> None:
+    """RO1:200-204 and RO1:304-308 but for the faces that are culled: write the stencil buffer and nothing else."""
+    if "E1" in corrected:
+        gl.glEnable(gl.GL_STENCIL_TEST)  # E1: printed in step 4 only, after the counting
+        gl.glEnable(gl.GL_CULL_FACE)  # E1: printed nowhere
+    gl.glDepthMask(gl.GL_FALSE)
+    gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
+    gl.glFrontFace(gl.GL_CCW)
+    gl.glStencilFunc(gl.GL_ALWAYS, 0x0, 0xFF)
+
+
+def lit_scene(gl: Any, corrected: frozenset[str], stage: Stage) -> None:
+    """Pasul 4 (RO1:260-277): the scene with light where the count is 0."""
+    if "E2" in corrected:
+        gl.glDepthFunc(gl.GL_LEQUAL)  # E2: not printed; the second drawing has equal depth
+    gl.glEnable(gl.GL_STENCIL_TEST)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_KEEP)  # E4: printed KEEP
+    gl.glStencilFunc(gl.GL_EQUAL, 0x0, 0xFF)
+    gl.glDepthMask(gl.GL_TRUE)
+    gl.glColorMask(gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE)
+    gl.glEnable(gl.GL_LIGHTING)
+    draw(gl, stage.scene)
+
+
+def z_pass(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+    """RO1:169-277: count up at the front faces before what is seen, down at the back faces."""
+    ambient_scene(gl, stage)
+    count_passes(gl, corrected, stage)
+    if "E3" in corrected:
+        gl.glCullFace(gl.GL_BACK)  # E3: or step 4 draws back faces only
+    lit_scene(gl, corrected, stage)
+
+
+def count_passes(gl: Any, corrected: frozenset[str], stage: Stage) -> None:
+    """Pasul 2 and Pasul 3 of z-pass (RO1:195-256)."""
+    begin_count(gl, corrected)
+    gl.glCullFace(gl.GL_BACK)  # nu sunt rasterizate poligoanele PUN
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR)
+    draw_volumes(gl, stage)
+
+    gl.glCullFace(gl.GL_FRONT)  # nu sunt rasterizate poligoanele PUV
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_DECR)
+    draw_volumes(gl, stage)
+
+
+def z_pass_decrement_first(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+    """RO1:195-236 with Pasul 3 before Pasul 2: nothing on the slide forbids it, and GL_DECR stops at 0."""
+    up, down = (gl.GL_INCR_WRAP, gl.GL_DECR_WRAP) if "E11" in corrected else (gl.GL_INCR, gl.GL_DECR)
+    ambient_scene(gl, stage)
+    begin_count(gl, frozenset({"E1"}))
+    gl.glCullFace(gl.GL_FRONT)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, down)
+    draw_volumes(gl, stage)
+    gl.glCullFace(gl.GL_BACK)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, up)
+    draw_volumes(gl, stage)
+    lit_scene(gl, frozenset({"E2"}), stage)
+
+
+def z_pass_general(gl: Any, corrected: frozenset[str], stage: Stage = NEAR_SHADOW) -> None:
+    """RO1:281-289, Cazul general: the eye in a shadow, the stencil buffer starts at the number of volumes around it."""
+    ambient_scene(gl, stage)
+    if "E10" in corrected:
+        start_at_near_plane(gl, stage)
+    else:
+        gl.glClearStencil(volumes_around_eye(stage))
+        gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
+    begin_count(gl, frozenset({"E1"}))
+    for cull, operation in ((gl.GL_BACK, gl.GL_INCR_WRAP), (gl.GL_FRONT, gl.GL_DECR_WRAP)):
+        gl.glCullFace(cull)
+        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, operation)
+        draw_volumes(gl, stage, closed=True)
+    gl.glCullFace(gl.GL_BACK)
+    lit_scene(gl, frozenset({"E2"}), stage)
+
+
+def volumes_around_eye(stage: Stage) -> int:
+    """Return how many volumes contain the eye: the boxes that the way from the eye to the lamp meets."""
+    eye, way = np.array(stage.eye), np.array(stage.light[:3]) - np.array(stage.eye)
+    count = 0
+    for thing in stage.occluder:
+        low, high = thing.mesh.positions.min(axis=0), thing.mesh.positions.max(axis=0)
+        enters, leaves = np.sort([(low - eye) / way, (high - eye) / way], axis=0)
+        count += bool(max(enters.max(), 0) < min(leaves.min(), 1))
+    return count
+
+
+def start_at_near_plane(gl: Any, stage: Stage) -> None:
+    """E10: leave in each pixel the number of volumes that contain its point of the near plane.
+
+    A ray from there leaves each of them, and one that it enters on its way it leaves as well: of closed volumes it
+    meets as many more back faces, wherever they are.
+    """
+    begin_count(gl, frozenset({"E1"}))
+    gl.glDisable(gl.GL_DEPTH_TEST)
+    for cull, operation in ((gl.GL_FRONT, gl.GL_INCR_WRAP), (gl.GL_BACK, gl.GL_DECR_WRAP)):
+        gl.glCullFace(cull)
+        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, operation)
+        draw_volumes(gl, stage, closed=True)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+
+
+def z_fail(gl: Any, corrected: frozenset[str], stage: Stage = DOWN_THE_AXIS) -> None:
+    """RO1:289-353, Carmack's reverse: count behind what is seen, back faces up and front faces down."""
+    # E8: "volumul este decupat la marginile volumului vizual" (RO1:83), and with it go the faces behind the far plane
+    ambient_scene(gl, stage, None if "E8" in corrected else FAR)
+    closed = "E6" in corrected  # E6: "poligoane de umbră" are the sides alone; the ends are faces, too
+    begin_count(gl, corrected)
+    gl.glCullFace(gl.GL_FRONT)  # nu sunt rasterizate polig PUV
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_INCR, gl.GL_KEEP)
+    draw_volumes(gl, stage, closed)
+
+    gl.glCullFace(gl.GL_BACK)  # E5: the comment beside it says front faces; the call is right
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_DECR, gl.GL_KEEP)
+    draw_volumes(gl, stage, closed)
+    lit_scene(gl, corrected, stage)
+
+
+def five_passes(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+    """CA:398-492, Volums d'ombra: depth, front faces, back faces, dark scene, lit scene."""
+    begin_frame(gl, stage, None)
+    # 1. Dibuixa l'escena al z-buffer
+    gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
+    draw(gl, stage.scene)
+
+    # 2. Dibuixa al stencil les cares frontals del volum
+    gl.glEnable(gl.GL_STENCIL_TEST)
+    gl.glDepthMask(gl.GL_FALSE)
+    gl.glStencilFunc(gl.GL_ALWAYS, 0, 0)  # E39: GL_ALWAYS does not look at the mask
+    gl.glEnable(gl.GL_CULL_FACE)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR)
+    gl.glCullFace(gl.GL_BACK)
+    draw_volumes(gl, stage)
+
+    # 3. Dibuixa al stencil les cares posteriors del volum
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_DECR)
+    gl.glCullFace(gl.GL_FRONT)
+    draw_volumes(gl, stage)
+
+    # 4. Dibuixa al color buffer la part fosca de l'escena
+    gl.glDepthMask(gl.GL_TRUE)
+    gl.glColorMask(gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE)
+    gl.glCullFace(gl.GL_BACK)
+    gl.glDepthFunc(gl.GL_LEQUAL)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_KEEP)
+    if "E38" in corrected:
+        gl.glStencilFunc(gl.GL_NOTEQUAL, 0, 0xFF)
+    else:
+        gl.glStencilFunc(gl.GL_EQUAL, 1, 1)  # E38: the last bit is parity, two volumes read as none
+    gl.glDisable(gl.GL_LIGHTING)
+    draw(gl, stage.scene)
+
+    # 5. Dibuixem al color buffer la part clara de l'escena
+    gl.glStencilFunc(gl.GL_EQUAL, 0, 0xFF if "E38" in corrected else 1)
+    gl.glEnable(gl.GL_LIGHTING)
+    draw(gl, stage.scene)
+
+    # 6. Restaura l'estat inicial
+    gl.glDepthFunc(gl.GL_LESS)
+    gl.glDisable(gl.GL_STENCIL_TEST)
+    if "E63" in corrected:
+        gl.glDisable(gl.GL_CULL_FACE)  # E63: "initial state" has no culling
+    draw_mark(gl)
+
+
+def draw_mark(gl: Any) -> None:
+    """Draw a clockwise triangle in a corner, as a next frame might: it shows what state is left behind."""
+    gl.glMatrixMode(gl.GL_PROJECTION)
+    gl.glLoadIdentity()
+    gl.glMatrixMode(gl.GL_MODELVIEW)
+    gl.glLoadIdentity()
+    gl.glDisable(gl.GL_LIGHTING)
+    gl.glColor3f(1.0, 1.0, 1.0)
+    gl.glBegin(gl.GL_TRIANGLES)
+    for x, y in ((-1.0, 1.0), (-0.8, 1.0), (-1.0, 0.8)):
+        gl.glVertex3f(x, y, -1.0)
+    gl.glEnd()
+
+
+def in_out_counter(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+    """SK:261-286: the counter's two cases, and the algorithm in eight points; light is added to the ambient picture."""
+    ambient_scene(gl, stage)  # vyčisti stencil buffer; renderuj scenu bez difuzneho/spec osvetlenia
+    count_passes(gl, frozenset({"E1"}), stage)
+    gl.glCullFace(gl.GL_BACK)
+    # "Counter == 0: osvetleny, Counter >= 0: tineny": both hold at 0. E20: dark is where it is > 0
+    gl.glStencilFunc(gl.GL_EQUAL if "E20" in corrected else gl.GL_GREATER, 0, 0xFF)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_KEEP)
+    gl.glColorMask(gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE)
+    gl.glEnable(gl.GL_BLEND)
+    gl.glBlendFunc(gl.GL_ONE, gl.GL_ONE)
+    gl.glDepthFunc(gl.GL_LEQUAL)
+    gl.glEnable(gl.GL_LIGHTING)
+    gl.glLightModelfv(gl.GL_LIGHT_MODEL_AMBIENT, (0.0, 0.0, 0.0, 1.0))  # len s diffuse/spec zložkou
+    draw(gl, stage.scene)
+
+
+COUNTED = "stencil test and culling are enabled before the count"
+EQUAL_DEPTH = "the lit scene is drawn with GL_LEQUAL"
+LISTINGS = (
+    Listing(
+        "volume-zpass", "Shadow volumes, depth pass", "volumes", "RO1:169-277", z_pass,
+        {"E1": COUNTED, "E2": EQUAL_DEPTH, "E3": "culling is set back before the lit scene"},
+    ),
+    Listing(
+        "volume-zpass-reversed", "Depth pass, back faces first", "volumes", "RO1:195-236", z_pass_decrement_first,
+        {"E11": "counters that wrap, not ones that stop at 0"},
+    ),
+    Listing(
+        "volume-zpass-general", "Depth pass, the eye in shadow", "volumes", "RO1:281-289", z_pass_general,
+        {"E10": "the count starts from each pixel's point of the near plane, not from the eye"},
+    ),
+    Listing(
+        "volume-zfail", "Shadow volumes, depth fail", "volumes", "RO1:289-353", z_fail,
+        {"E1": COUNTED, "E2": EQUAL_DEPTH, "E6": "closed volumes: caps at both ends", "E8": "no far plane clips them"},
+    ),
+    Listing(
+        "volume-five-passes", "Shadow volumes in five passes", "volumes", "CA:398-492", five_passes,
+        {"E38": "all bits of the count are tested, not one", "E63": "culling is disabled at the end"},
+    ),
+    Listing(
+        "volume-counter", "The in-out counter", "volumes", "SK:261-286", in_out_counter,
+        {"E20": "shadow where the counter is > 0"},
+    ),
+)  # fmt: skip

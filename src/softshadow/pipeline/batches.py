@@ -1,0 +1,72 @@
+"""Batches: consecutive glBegin ... glEnd pairs of quads that nothing separates are drawn as one.
+
+How llvmpipe cuts a quad into triangles depends on whether any vertex of its batch is clipped, so the pairs have to be
+known before the first of them is drawn (`softshadow.pipeline.primitives`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from itertools import groupby
+
+import numpy as np
+
+from softshadow.pipeline.commands import Draw, Vertices
+
+QUAD_CORNERS = 4
+
+
+@dataclass(eq=False)
+class Batch:
+    """Pairs that wait to be drawn: `first` is the command of the first one, its state is that of all.
+
+    `parts` holds the debug groups and the vertices of each.
+    """
+
+    first: Draw
+    parts: list[tuple[str, Vertices]] = field(default_factory=list)
+
+    @property
+    def vertex_count(self) -> int:
+        return sum(len(vertices.position) for _, vertices in self.parts)
+
+    @property
+    def takes_more(self) -> bool:
+        """Whether another pair can join: only after whole quads."""
+        return self.vertex_count % QUAD_CORNERS == 0
+
+    def commands(self) -> list[Draw]:
+        """Return the draws: one where all pairs stand in the same debug groups, else one for each of these."""
+        groups = [(label, [part for _, part in parts]) for label, parts in groupby(self.parts, lambda part: part[0])]
+        if len(groups) == 1:
+            return [replace(self.first, vertices=joined(groups[0][1]))]
+        whole = joined([vertices for _, vertices in self.parts]).position
+        made, start = [], 0
+        for label, parts in groups:
+            vertices = joined(parts)
+            made.append(replace(self.first, vertices=vertices, label=label, batch=whole, batch_start=start))
+            start += len(vertices.position)
+        return made
+
+
+def joined(parts: Sequence[Vertices]) -> Vertices:
+    """Return the vertices of all parts, which have the same attributes; what is constant stays spread."""
+    if len(parts) == 1:
+        return parts[0]
+    units = range(len(parts[0].texcoords))
+    return Vertices(
+        _stacked([part.position for part in parts]),
+        _stacked([part.color for part in parts]),
+        _stacked([part.normal for part in parts]),
+        tuple(_stacked([part.texcoords[unit] for part in parts]) for unit in units),
+        {name: _stacked([part.materials[name] for part in parts]) for name in parts[0].materials},
+    )
+
+
+def _stacked(rows: Sequence[np.ndarray]) -> np.ndarray:
+    if all(each.strides[0] == 0 for each in rows) and len({each[:1].tobytes() for each in rows}) == 1:
+        return np.broadcast_to(rows[0][0], (sum(map(len, rows)), *rows[0].shape[1:]))
+    made = np.concatenate(rows)
+    made.setflags(write=False)
+    return made
