@@ -87,9 +87,8 @@ def _function(mode: int, arguments: list[np.ndarray]) -> np.ndarray:
     a, b = a * TWO - ONE, b * TWO - ONE
     if a.shape[1] == 1 or b.shape[1] == 1:  # Mesa takes a factor that is common to the products out of their sum
         factor, other = (a, b) if a.shape[1] == 1 else (b, a)
-        return factor * (
-            (other[:, -1:] + other[:, 1:2]) + other[:, :1] if other.shape[1] == 3 else (other + other) + other
-        )
+        x, y, z = (other[:, c : c + 1] for c in ((0, 1, 2) if other.shape[1] == 3 else (0, 0, 0)))
+        return factor * ((z + y) + x)
     return ((a[:, 2:] * b[:, 2:]) + a[:, 1:2] * b[:, 1:2]) + a[:, :1] * b[:, :1]
 
 
