@@ -26,7 +26,9 @@ LOGIC_OPS = [
     "GL_EQUIV", "GL_INVERT", "GL_OR_REVERSE", "GL_COPY_INVERTED", "GL_OR_INVERTED", "GL_NAND", "GL_SET",
 ]  # fmt: skip
 PRIMITIVES = ["GL_TRIANGLES", "GL_QUADS", "GL_TRIANGLE_FAN", "GL_TRIANGLE_STRIP", "GL_QUAD_STRIP", "GL_POLYGON"]
-FAMILIES = ("geometry", "fragments", "matrices", "textures", "framebuffers")
+LINES_AND_POINTS = ["GL_POINTS", "GL_LINES", "GL_LINE_STRIP", "GL_LINE_LOOP"]
+SIZES_OF_LINES = [1.0, 1.0, 1.0, 2.0, 3.0, 4.0, 1.5, 2.5, 0.3, 7.7, 300.0]
+FAMILIES = ("geometry", "fragments", "matrices", "textures", "framebuffers", "lines")
 SIZES = [(64, 48), (40, 30), (33, 47), (90, 70)]  # one, several and partial 64-pixel tiles
 
 
@@ -85,7 +87,7 @@ class Writer:
         for _ in range(self.integer(1, 5)):
             if family in ("matrices", "framebuffers") or self.chance(0.2):
                 self.matrices(rotations=family == "matrices")
-            if family in ("geometry", "matrices"):
+            if family in ("geometry", "matrices", "lines"):
                 self.geometry_state()
             if family in ("fragments", "framebuffers") or self.chance(0.3):
                 self.fragment_state()
@@ -97,7 +99,10 @@ class Writer:
                     "glTexEnvi", "GL_TEXTURE_ENV", "GL_TEXTURE_ENV_MODE", self.pick(["GL_REPLACE", "GL_MODULATE"])
                 )
                 self.texture_coordinates = self.pick([2, 3, 4])
-            self.draw(wild=family in ("geometry", "matrices"))
+            if family == "lines":
+                self.outline_state()
+            primitives = LINES_AND_POINTS if family == "lines" and self.chance(0.5) else PRIMITIVES
+            self.draw(wild=family in ("geometry", "matrices", "lines"), primitives=primitives)
             if self.chance(0.2):
                 self.read()
         if family == "textures" and self.chance(0.5):
@@ -121,6 +126,18 @@ class Writer:
         self.call("glShadeModel", self.pick(["GL_SMOOTH", "GL_FLAT"]))
         self.switch("GL_DEPTH_CLAMP", 0.3)
         self.depth_state()
+
+    def outline_state(self) -> None:
+        self.call("glLineWidth", self.pick(SIZES_OF_LINES))
+        self.call("glPointSize", self.pick(SIZES_OF_LINES))
+        modes = [self.pick(["GL_POINT", "GL_LINE", "GL_FILL"]) for _ in range(2)]
+        for face, mode in zip(("GL_FRONT", "GL_BACK"), modes, strict=True):
+            self.call("glPolygonMode", face, mode)
+        capabilities = ("GL_POLYGON_OFFSET_FILL", "GL_POLYGON_OFFSET_LINE", "GL_POLYGON_OFFSET_POINT")
+        # with two modes, all or none: Mesa offsets both as the first triangle of all merged glBegin pairs is offset
+        together = self.chance(0.3)
+        for capability in capabilities:
+            self.switch(capability, float(together) if modes[0] != modes[1] else 0.3)
 
     def depth_state(self) -> None:
         if self.switch("GL_DEPTH_TEST", 0.8):
@@ -291,8 +308,8 @@ class Writer:
 
     # --- drawing and reading
 
-    def draw(self, wild: bool) -> None:
-        mode = self.pick(PRIMITIVES)
+    def draw(self, wild: bool, primitives: list[str] = PRIMITIVES) -> None:
+        mode = self.pick(primitives)
         count = self.integer(1, 4) * (4 if mode.startswith("GL_QUAD") else 3)
         vertices = self.vertices(count, wild)
         colors = [self.color() if self.chance(0.6) else None for _ in range(count)]
@@ -305,7 +322,7 @@ class Writer:
             self.draw_immediate(mode, vertices, colors, coordinates)
 
     def draw_immediate(self, mode: str, vertices: list[Any], colors: list[Any], coordinates: list[Any]) -> None:
-        length = {"GL_TRIANGLES": 3, "GL_QUADS": 4}.get(mode, 0)
+        length = {"GL_POINTS": 1, "GL_LINES": 2, "GL_TRIANGLES": 3, "GL_QUADS": 4}.get(mode, 0)
         apart = length > 0 and self.chance(0.3)  # a pair of glBegin and glEnd for each: drivers draw them as one
         self.call("glBegin", mode)
         for number, (vertex, color, coordinate) in enumerate(zip(vertices, colors, coordinates, strict=True)):

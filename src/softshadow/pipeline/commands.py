@@ -341,8 +341,3 @@ class SelectBuffers:
             target.draw_buffer = self.draw_buffer
         if self.read_buffer is not None:
             target.read_buffer = self.read_buffer
-
-
-def with_state(command: Draw, **groups: Any) -> Draw:
-    """Return the draw under another state."""
-    return replace(command, state=replace(command.state, **groups))
