@@ -322,6 +322,29 @@ def _initial_gen() -> tuple[TexGen, TexGen, TexGen, TexGen]:
 
 
 @dataclass(frozen=True)
+class Combine:
+    """What GL_COMBINE does: functions, sources and operands of up to three arguments, scales; for RGB and alpha."""
+
+    mode_rgb: int = gl.GL_MODULATE
+    mode_alpha: int = gl.GL_MODULATE
+    sources_rgb: tuple[int, int, int] = (gl.GL_TEXTURE, gl.GL_PREVIOUS, gl.GL_CONSTANT)
+    sources_alpha: tuple[int, int, int] = (gl.GL_TEXTURE, gl.GL_PREVIOUS, gl.GL_CONSTANT)
+    operands_rgb: tuple[int, int, int] = (gl.GL_SRC_COLOR, gl.GL_SRC_COLOR, gl.GL_SRC_ALPHA)
+    operands_alpha: tuple[int, int, int] = (gl.GL_SRC_ALPHA, gl.GL_SRC_ALPHA, gl.GL_SRC_ALPHA)
+    rgb_scale: float = 1.0
+    alpha_scale: float = 1.0
+
+    def calls(self) -> list[str]:
+        made = [f"GL_COMBINE_RGB, {token_name(self.mode_rgb)}", f"GL_COMBINE_ALPHA, {token_name(self.mode_alpha)}"]
+        for part in ("rgb", "alpha"):
+            for kind in ("source", "operand"):
+                values = getattr(self, f"{kind}s_{part}")
+                made += [f"GL_{kind.upper()}{i}_{part.upper()}, {token_name(v)}" for i, v in enumerate(values)]
+        made += [f"GL_RGB_SCALE, {self.rgb_scale:g}", f"GL_ALPHA_SCALE, {self.alpha_scale:g}"]
+        return [f"glTexEnvf(GL_TEXTURE_ENV, {setting})" for setting in made]
+
+
+@dataclass(frozen=True)
 class TextureUnit:
     """What one texture unit does: enabled targets, bound names, environment, coordinate generation."""
 
@@ -331,6 +354,7 @@ class TextureUnit:
     bound_cube: int = 0
     env_mode: int = gl.GL_MODULATE
     env_color: Color = (0.0, 0.0, 0.0, 0.0)
+    combine: Combine = Combine()
     gen: tuple[TexGen, TexGen, TexGen, TexGen] = field(default_factory=_initial_gen)
 
     def calls(self, index: int) -> list[str]:
@@ -343,6 +367,8 @@ class TextureUnit:
             f"glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, {token_name(self.env_mode)})",
             f"glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, ({_numbers(*self.env_color)}))",
         ]
+        if self.env_mode == gl.GL_COMBINE:
+            made += self.combine.calls()
         for name, gen in zip("STRQ", self.gen, strict=True):
             if gen.enabled:
                 plane, values = (

@@ -88,7 +88,7 @@ def follows_back_only(calls: list[Call]) -> bool:
 KNOWN = (
     KnownDifference(
         "back colour material",
-        "colours of back faces in two-sided lighting with glColor inside glBegin, where glColorMaterial is given GL_BACK alone",
+        "colours of back faces in two-sided lighting, glColor inside glBegin, where glColorMaterial has GL_BACK alone",
         "Mesa leaves green and blue of all back faces at 0; with GL_FRONT_AND_BACK it does not",
         255,
         back_colors,

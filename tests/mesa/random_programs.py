@@ -15,7 +15,7 @@ import numpy as np
 
 from mesa import random_shading, random_structure, random_texturing
 from mesa.gl_calls import Call
-from mesa.random_writer import Writer
+from mesa.random_writer import LINES_AND_POINTS, PRIMITIVES, Writer
 
 
 def nothing(writer: Writer) -> None:
@@ -53,6 +53,17 @@ def everything(writer: Writer) -> None:
     writer.fragment_state()
 
 
+def lines(writer: Writer) -> None:
+    """Lines, points, and polygons of which only these are drawn."""
+    if writer.chance(0.2):
+        writer.matrices(rotations=False)
+    writer.geometry_state()
+    if writer.chance(0.3):
+        writer.fragment_state()
+    writer.outline_state()
+    writer.primitives = LINES_AND_POINTS if writer.chance(0.5) else PRIMITIVES
+
+
 @dataclass(frozen=True)
 class Family:
     """A part of GL: what is written before each batch, what once before all and once after, and which vertices."""
@@ -69,6 +80,7 @@ FAMILIES = {
     "fragments": Family(fragments, wild=False),
     "matrices": Family(matrices),
     "everything": Family(everything),
+    "lines": Family(lines),
     "textures": Family(random_texturing.textured, random_texturing.texture, random_texturing.copied, wild=False),
     "framebuffers": Family(random_texturing.shadowed, Writer.shadow_map, wild=False),
     "projected textures": Family(random_texturing.projected, random_texturing.texture),

@@ -20,6 +20,8 @@ LOGIC_OPS = [
     "GL_EQUIV", "GL_INVERT", "GL_OR_REVERSE", "GL_COPY_INVERTED", "GL_OR_INVERTED", "GL_NAND", "GL_SET",
 ]  # fmt: skip
 PRIMITIVES = ["GL_TRIANGLES", "GL_QUADS", "GL_TRIANGLE_FAN", "GL_TRIANGLE_STRIP", "GL_QUAD_STRIP", "GL_POLYGON"]
+LINES_AND_POINTS = ["GL_POINTS", "GL_LINES", "GL_LINE_STRIP", "GL_LINE_LOOP"]
+SIZES_OF_LINES = [1.0, 1.0, 1.0, 2.0, 3.0, 4.0, 1.5, 2.5, 0.3, 7.7, 300.0]
 ARRAYS = {
     "vertex": ("GL_VERTEX_ARRAY", "glVertexPointer"),
     "color": ("GL_COLOR_ARRAY", "glColorPointer"),
@@ -42,6 +44,7 @@ class Writer:
         self.normals = False
         self.colors = 0.6  # the part of the vertices that bring a colour
         self.reads_stencil = True
+        self.primitives = PRIMITIVES
         self.spread = 1.0  # of object coordinates: about what the projection shows
 
     def call(self, name: str, *arguments: Any) -> None:
@@ -85,6 +88,18 @@ class Writer:
         self.call("glShadeModel", self.pick(["GL_SMOOTH", "GL_FLAT"]))
         self.switch("GL_DEPTH_CLAMP", 0.3)
         self.depth_state()
+
+    def outline_state(self) -> None:
+        self.call("glLineWidth", self.pick(SIZES_OF_LINES))
+        self.call("glPointSize", self.pick(SIZES_OF_LINES))
+        modes = [self.pick(["GL_POINT", "GL_LINE", "GL_FILL"]) for _ in range(2)]
+        for face, mode in zip(("GL_FRONT", "GL_BACK"), modes, strict=True):
+            self.call("glPolygonMode", face, mode)
+        capabilities = ("GL_POLYGON_OFFSET_FILL", "GL_POLYGON_OFFSET_LINE", "GL_POLYGON_OFFSET_POINT")
+        # with two modes, all or none: Mesa offsets both as the first triangle of all merged glBegin pairs is offset
+        together = self.chance(0.3)
+        for capability in capabilities:
+            self.switch(capability, float(together) if modes[0] != modes[1] else 0.3)
 
     def depth_state(self) -> None:
         if self.switch("GL_DEPTH_TEST", 0.8):
@@ -256,7 +271,7 @@ class Writer:
     # --- drawing and reading
 
     def draw(self, wild: bool) -> None:
-        mode = self.pick(PRIMITIVES)
+        mode = self.pick(self.primitives)
         count = self.integer(1, 4) * (4 if mode.startswith("GL_QUAD") else 3)
         attributes = self.attributes(count)
         attributes["vertex"] = self.vertices(count, wild)
@@ -285,7 +300,7 @@ class Writer:
         return attributes
 
     def draw_immediate(self, mode: str, attributes: dict[str, list[Any]]) -> None:
-        length = {"GL_TRIANGLES": 3, "GL_QUADS": 4}.get(mode, 0)
+        length = {"GL_POINTS": 1, "GL_LINES": 2, "GL_TRIANGLES": 3, "GL_QUADS": 4}.get(mode, 0)
         apart = length > 0 and self.chance(0.3)  # a pair of glBegin and glEnd for each: drivers draw them as one
         self.call("glBegin", mode)
         for number, vertex in enumerate(attributes["vertex"]):

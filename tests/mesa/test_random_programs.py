@@ -16,8 +16,8 @@ from softshadow.testing import EXPECTED_VERSION, compare, differences, mesa_vers
 
 pytestmark = pytest.mark.mesa
 
-SHORT_LANE = "34"  # programs of each of the 15 families: 510 in all
-LONG_LANE = "334"  # 5,010 in all
+SHORT_LANE = "32"  # programs of each of the 16 families: 512 in all
+LONG_LANE = "313"  # 5,008 in all
 
 
 def seeds(lane: str) -> range:

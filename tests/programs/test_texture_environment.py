@@ -7,10 +7,9 @@ import pytest
 
 from mesa_points import POINTS, fragments_on_mesa, same_bits
 from softshadow import tokens as gl
-from softshadow.errors import StateError
 from softshadow.image import FORMATS, Image
 from softshadow.programs import sampling
-from softshadow.programs.texture_environment import MODES, apply_environment, check_mode
+from softshadow.programs.texture_environment import MODES, apply_environment
 from softshadow.texture import Sampler, Texture
 from softshadow.tokens import token_name
 
@@ -35,11 +34,6 @@ def test_tables_of_the_specification():
     assert combined(gl.GL_BLEND, gl.GL_RGB) == [0.4625, 0.3625, 0.2375, 0.5]
     assert combined(gl.GL_ADD, gl.GL_RGBA) == [1.0, 0.65, 0.325, 0.25]
     assert combined(gl.GL_ADD, gl.GL_INTENSITY, (0.3,) * 4) == [1.0, 0.7, 0.5, 0.8]
-
-
-def test_an_unsupported_mode_names_the_unit_and_the_modes():
-    with pytest.raises(StateError, match="texture unit 1: GL_TEXTURE_ENV_MODE is GL_COMBINE: supported are"):
-        check_mode(1, gl.GL_COMBINE)
 
 
 @pytest.mark.mesa

@@ -17,6 +17,7 @@ from typing import Any
 from softshadow.context import Context, current, make_current
 from softshadow.gl.accumulation import *
 from softshadow.gl.attributes import *
+from softshadow.gl.blits import *
 from softshadow.gl.capabilities import *
 from softshadow.gl.clears import *
 from softshadow.gl.clip_planes import *

@@ -54,12 +54,12 @@ def accumulation_bits(c: Context) -> int:
 
 
 def shown_color(color: Callable[[Context], Any]) -> Read:
-    """Return the reader of a colour that glGet answers clamped to [0, 1], unless the colour buffer holds floats."""
+    """Return the reader of a colour that glGet answers clamped to [0, 1], where the colour buffer holds no floats."""
 
     def read(c: Context) -> tuple[float, ...]:
         image = drawn_to(c).color
-        unclamped = image is not None and image.format.kind == "float"
-        return tuple(color(c)) if unclamped else tuple(min(max(v, 0.0), 1.0) for v in color(c))
+        clamped = image is not None and image.format.kind != "float"
+        return tuple(min(max(v, 0.0), 1.0) for v in color(c)) if clamped else tuple(color(c))
 
     return read
 

@@ -11,12 +11,13 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
+from softshadow.gl.texture_combiners import COMBINE_PARAMETERS, SCALES, parameter_of, with_parameter
 from softshadow.gl.textures import queried_color, set_unit
 from softshadow.programs.inverse import inverse, known_kind
 from softshadow.state import TEXTURE_UNITS, TexGen
 from softshadow.tokens import token_name
 
-ENVIRONMENT_MODES = (gl.GL_MODULATE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_REPLACE, gl.GL_ADD)
+ENVIRONMENT_MODES = (gl.GL_MODULATE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_REPLACE, gl.GL_ADD, gl.GL_COMBINE)
 GEN_MODES = (gl.GL_OBJECT_LINEAR, gl.GL_EYE_LINEAR)
 COORDINATES = (gl.GL_S, gl.GL_T, gl.GL_R, gl.GL_Q)
 PLANES = {gl.GL_OBJECT_PLANE: "object_plane", gl.GL_EYE_PLANE: "eye_plane"}
@@ -79,13 +80,18 @@ def _set_environment(operation: str, target: int, pname: int, value: Any) -> Non
             raise ValueError(f"{operation}(GL_TEXTURE_ENV_COLOR): expected 4 numbers, got shape {vector.shape}")
         set_unit(context, context.active_unit, env_color=tuple(float(c) for c in vector))
         return None
+    if pname in COMBINE_PARAMETERS:
+        unit = context.state.units[context.active_unit]
+        combine, why = with_parameter(unit.combine, pname, vector[0])
+        if combine is None:
+            return fail(gl.GL_INVALID_VALUE if pname in SCALES else gl.GL_INVALID_ENUM, operation, why)
+        set_unit(context, context.active_unit, combine=combine)
+        return None
     mode = int(vector[0])
     if mode not in ENVIRONMENT_MODES:
         expected = ", ".join(token_name(m, MODE_NAMES) for m in ENVIRONMENT_MODES)
         return fail(
-            gl.GL_INVALID_ENUM,
-            operation,
-            f"GL_TEXTURE_ENV_MODE={token_name(mode)}: expected one of {expected} (others are not part of this subset)",
+            gl.GL_INVALID_ENUM, operation, f"GL_TEXTURE_ENV_MODE={token_name(mode)}: expected one of {expected}"
         )
     set_unit(context, context.active_unit, env_mode=mode)
     return None
@@ -94,9 +100,12 @@ def _set_environment(operation: str, target: int, pname: int, value: Any) -> Non
 def _environment_problem(target: int, pname: int, vector: bool) -> str | None:
     if target != gl.GL_TEXTURE_ENV:
         return f"target={token_name(target)}: expected GL_TEXTURE_ENV"
-    if pname == gl.GL_TEXTURE_ENV_MODE or (pname == gl.GL_TEXTURE_ENV_COLOR and vector):
+    if pname == gl.GL_TEXTURE_ENV_MODE or pname in COMBINE_PARAMETERS or (pname == gl.GL_TEXTURE_ENV_COLOR and vector):
         return None
-    return f"pname={token_name(pname)}: expected GL_TEXTURE_ENV_MODE, or GL_TEXTURE_ENV_COLOR with four numbers"
+    return (
+        f"pname={token_name(pname)}: expected GL_TEXTURE_ENV_MODE, a parameter of GL_COMBINE, or GL_TEXTURE_ENV_COLOR "
+        "with four numbers"
+    )
 
 
 def glGetTexEnviv(target: int, pname: int, params: Any = None) -> Any:
@@ -117,6 +126,8 @@ def _environment(operation: str, target: int, pname: int, params: Any, dtype: ty
     unit = context.state.units[context.active_unit]
     if pname == gl.GL_TEXTURE_ENV_MODE:
         return _answer(np.array([unit.env_mode], dtype), params)
+    if pname in COMBINE_PARAMETERS:
+        return _answer(np.array([parameter_of(unit.combine, pname)], dtype), params)
     color = queried_color(context, unit.env_color)
     scaled = color if dtype == np.float32 else (color.astype(np.float64) * 2147483647.0).astype(dtype)
     return _answer(scaled, params)

@@ -23,7 +23,7 @@ from softshadow.inspection.step import object_of
 from softshadow.inspection.tables import html_table, text_table
 from softshadow.pipeline import commands
 from softshadow.pipeline.blend import to_unorm8, write_colors
-from softshadow.pipeline.commands import Clear, Command, Draw, with_state
+from softshadow.pipeline.commands import Clear, Command, Draw
 from softshadow.pipeline.coverage import triangles_at
 from softshadow.pipeline.fragment_ops import PASSED, SCISSORED, VERDICTS, fragment_ops, process_fragment
 from softshadow.pipeline.fragments import Fragments, fragment_depth
@@ -247,8 +247,7 @@ def _draw_rows(
 ) -> Iterator[HistoryRow]:
     """Yield a row for every triangle of a draw that covers the pixel, and change the pixel as its fragments do."""
     with np.errstate(all="ignore"):  # as in pipeline.draw
-        unculled = with_state(command, cull=replace(command.state.cull, enabled=False))
-        geometry = process_geometry(unculled, pixel.window, storage)
+        geometry = process_geometry(command, pixel.window, storage, replace(command.state.cull, enabled=False))
         if not len(geometry.triangles.ids):
             return
         fragments = _fragments_at(geometry, pixel)
@@ -262,8 +261,8 @@ def _draw_rows(
     inside, (culled, _) = _inside(state, pixel), culling(state.cull)
     colored = window.color is not None and any(state.color.mask)
     for n, t in enumerate(fragments.triangle):
-        front = bool(triangles.front[t])
-        ops = fragment_ops(state, window.depth, window.stencil, front)
+        front = geometry.facing(t)
+        ops = fragment_ops(state, window.depth, window.stencil, bool(triangles.front[t]))
         z = real(fragment_depth(triangles.depth, t, real(row), real(column), depth_range, ops.depth_largest))
         before, (_, stored_z, s) = pixel.moment(), pixel.read()
         about: dict[str, Any] = {
@@ -273,7 +272,7 @@ def _draw_rows(
             "front_facing": front,
             "z": pixel.z(z),
         }
-        if culled & (CULL_FRONT if front else CULL_BACK):
+        if front is not None and culled & (CULL_FRONT if front else CULL_BACK):
             yield pixel.row(where, before, CULLED, culled_reason(front, state), **about)
             continue
         alpha = int(to_unorm8(colors[n : n + 1, 3])[0])

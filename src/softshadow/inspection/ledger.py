@@ -10,15 +10,15 @@ from softshadow import pipeline
 from softshadow.context import Frame
 from softshadow.pipeline import VERDICTS
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.primitives import assemble
+from softshadow.pipeline.geometry import primitive_count
 
 
 @dataclass
 class Counts:
     """What one step cost.
 
-    `triangles` are those handed in, before clipping and culling; `fragments` has one count per verdict; a stencil
-    update is a stencil value that changed. Draws into framebuffer objects count, too.
+    `triangles` are those handed in, before clipping and culling, lines and points among them; `fragments` has one count
+    per verdict; a stencil update is a stencil value that changed. Draws into framebuffer objects count, too.
     """
 
     title: str
@@ -86,7 +86,7 @@ def ledger_of(frame: Frame) -> Ledger:
             if isinstance(command, Draw):
                 pipeline.draw(command, storage, verdicts)
                 counts.draws += 1
-                counts.triangles += triangles_of(command)
+                counts.triangles += primitive_count(command)
             else:
                 command.apply(storage)
         counts.fragments = dict(zip(VERDICTS, verdicts.tolist(), strict=False))  # the last number counts updates
@@ -94,9 +94,3 @@ def ledger_of(frame: Frame) -> Ledger:
         counted.append(counts)
         first = end
     return Ledger(tuple(counted))
-
-
-def triangles_of(command: Draw) -> int:
-    """Return how many triangles a draw hands in."""
-    count = len(command.vertices.position) if command.indices is None else len(command.indices)
-    return len(assemble(command.mode, count).corners)

@@ -11,9 +11,9 @@ import numpy as np
 
 from softshadow.context import Frame
 from softshadow.errors import nearest
-from softshadow.inspection.ledger import triangles_of
 from softshadow.inspection.replay import Buffers, Replay
 from softshadow.pipeline.commands import Clear, Command, Draw
+from softshadow.pipeline.geometry import primitive_count
 from softshadow.state import State
 from softshadow.tokens import token_name
 
@@ -94,7 +94,7 @@ class Step:
                 first + i,
                 object_of(command),
                 token_name(command.mode, MODES),
-                triangles_of(command),
+                primitive_count(command),
                 command.state.draw_framebuffer,
             )
             for i, command in enumerate(drawn)

@@ -35,8 +35,6 @@ if TYPE_CHECKING:
 
 __all__ = ["VERDICTS", "clear", "draw", "set_threads", "shade", "threads", "use_binding"]
 
-NO_BUFFER = np.zeros((1, 1))
-
 
 def draw(command: Draw, storage: Storage, verdicts: np.ndarray | None = None) -> None:
     """Draw: change the buffers of the framebuffer that the command's state names.
@@ -74,18 +72,13 @@ def _draw_opaque(
         return
     depth, stencil = _planes(target, geometry.window.dtype)
     ids = np.full((region.end_row - region.first_row, depth.shape[1]), -1, np.int32) if writes_color else None
-    numbered = triangles._replace(ids=np.arange(len(triangles.ids), dtype=np.int32))
     front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
-    fill(
-        front, back, numbered, region, depth_range_of(state, geometry.window.dtype.type), depth, stencil, ids, verdicts
-    )
+    depth_range = depth_range_of(state, geometry.window.dtype.type)
+    fill(front, back, triangles, region, depth_range, depth, stencil, ids, verdicts)
     if ids is not None and target.color is not None:
         rows, columns = np.nonzero(ids >= 0)
-        visible = Fragments(
-            (rows + region.first_row).astype(np.int32),
-            columns.astype(np.int32),
-            np.ascontiguousarray(ids[rows, columns]),
-        )
+        stored_rows = (rows + region.first_row).astype(np.int32)
+        visible = Fragments(stored_rows, columns.astype(np.int32), np.ascontiguousarray(ids[rows, columns]))
         write_colors(state, target.color, visible, shade(geometry, visible))
 
 
@@ -103,10 +96,9 @@ def _draw_in_order(
         for facing in (True, False)
     )
     verdict = np.empty(len(fragments.row), np.uint8)
-    changed = test_fragments(
-        front, back, fragments, alpha, triangles, depth_range_of(state, geometry.window.dtype.type),
-        np.arange(max(depth.shape), dtype=geometry.window.dtype), depth, stencil, verdict,
-    )  # fmt: skip
+    depth_range = depth_range_of(state, geometry.window.dtype.type)
+    columns = np.arange(max(depth.shape), dtype=geometry.window.dtype)
+    changed = test_fragments(front, back, fragments, alpha, triangles, depth_range, columns, depth, stencil, verdict)
     if verdicts is not None:
         verdicts[:-1] += np.bincount(verdict, minlength=VERDICT_COUNTS - 1)
         verdicts[-1] += changed
@@ -124,15 +116,8 @@ def shade(geometry: Geometry, fragments: Fragments) -> np.ndarray:
 
 
 def _shade_all(geometry: Geometry, fragments: Fragments) -> np.ndarray:
-    inputs = inputs_of(
-        fragments,
-        geometry.triangles,
-        geometry.window,
-        geometry.values,
-        geometry.back,
-        geometry.flat,
-        geometry.provoking,
-    )
+    values = (geometry.values, geometry.back, geometry.flat, geometry.provoking)
+    inputs = inputs_of(fragments, geometry.triangles, geometry.window, *values)
     out = np.empty((len(inputs), 4), inputs.dtype)
     geometry.program.shade(inputs, geometry.uniforms, out)
     return out

@@ -14,24 +14,33 @@ from softshadow.pipeline.constants import ZERO
 # plane k keeps a x + b y + c z + d w >= 0; the order is the order of clipping
 FRUSTUM = np.array([[-1, 0, 0, 1], [1, 0, 0, 1], [0, -1, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [0, 0, -1, 1]], np.float32)
 NEAR_FAR = 0b110000
+FRUSTUM_PLANES = len(FRUSTUM)
+NO_EDGES = np.empty((0, 3), np.uint8)
 ADDED_PER_PLANE = 2  # a plane cuts a convex polygon in two new vertices
 
 
 class Clipped(NamedTuple):
     """What is left after clipping.
 
-    clip (V', 4) and values (V', k): the vertices, the old ones first and unchanged; triangles (T', 3) int32; source
-    (T',) int32: which input triangle each is a piece of.
+    clip (V', 4) and values (V', k): the vertices, the old ones first and unchanged; triangles (T', 3) int32, lines
+    (T', 2), points (T', 1); source (T',) int32: which input primitive each is a piece of; edges (T', 3) uint8: which
+    edges of triangles, from corner i to corner i + 1, are edges of what was drawn.
     """
 
     clip: np.ndarray
     values: np.ndarray
     triangles: np.ndarray
     source: np.ndarray
+    edges: np.ndarray = NO_EDGES
 
 
 def clip_triangles(
-    clip: np.ndarray, values: np.ndarray, triangles: np.ndarray, codes: np.ndarray, user_planes: np.ndarray
+    clip: np.ndarray,
+    values: np.ndarray,
+    triangles: np.ndarray,
+    codes: np.ndarray,
+    user_planes: np.ndarray,
+    edges: np.ndarray = NO_EDGES,
 ) -> Clipped:
     """Return the parts of the triangles inside the frustum and the user planes, in drawing order.
 
@@ -42,30 +51,40 @@ def clip_triangles(
     triangles : (T, 3) int32
     codes : (V,) int32, what each vertex is outside of: `outcodes`
     user_planes : (P, 4) in clip space; a vertex is kept where its dot product is not negative
+    edges : (T, 3) uint8, for polygons that are not filled: the edges to be drawn
     """
+    if not len(edges):
+        edges = np.ones((len(triangles), 3), np.uint8)
     used = codes[triangles]
     outside = (used[:, 0] & used[:, 1] & used[:, 2]) != 0
     crossing = ((used[:, 0] | used[:, 1] | used[:, 2]) != 0) & ~outside
     cut = int(np.count_nonzero(crossing))
     if cut == 0:
         kept = np.flatnonzero(~outside).astype(np.int32)
-        return Clipped(clip, values, np.ascontiguousarray(triangles[kept]), kept)
-    planes = np.concatenate([FRUSTUM, user_planes]).astype(clip.dtype)
+        return Clipped(clip, values, np.ascontiguousarray(triangles[kept]), kept, edges[kept])
+    planes = frustum_and(user_planes, clip.dtype)
     room = len(planes) * ADDED_PER_PLANE
     more_clip = np.empty((len(clip) + cut * room, 4), clip.dtype)
     more_values = np.empty((len(clip) + cut * room, values.shape[1]), values.dtype)
     more_clip[: len(clip)], more_values[: len(clip)] = clip, values
     pieces = np.empty((len(triangles) + cut * (len(planes) + 1), 3), np.int32)
-    source = np.empty(len(pieces), np.int32)
+    source, piece_edges = np.empty(len(pieces), np.int32), np.empty((len(pieces), 3), np.uint8)
     count, vertices = cut_triangles(
-        triangles, codes, planes, more_clip, more_values, len(clip), pieces, source, np.zeros((2, room + 3), np.int32)
-    )
+        triangles, edges, codes, planes, more_clip, more_values, len(clip), pieces, source, piece_edges,
+        np.zeros((2, room + 3), np.int32), np.zeros((2, room + 3), np.uint8),
+    )  # fmt: skip
     return Clipped(
         np.ascontiguousarray(more_clip[:vertices]),
         np.ascontiguousarray(more_values[:vertices]),
         pieces[:count].copy(),
         source[:count].copy(),
+        piece_edges[:count].copy(),
     )
+
+
+def frustum_and(user_planes: np.ndarray, dtype: np.dtype) -> np.ndarray:
+    """Return all planes in the order of their clip codes, (6 + P, 4)."""
+    return np.concatenate([FRUSTUM, user_planes]).astype(dtype)
 
 
 def outcodes(clip: np.ndarray, depth_clamp: bool, user_planes: np.ndarray) -> np.ndarray:
@@ -88,10 +107,13 @@ def distance(plane, position):
 
 
 @kernel
-def cut_triangles(triangles, codes, planes, clip, values, vertices, pieces, source, polygons):
+def cut_triangles(
+    triangles, edges, codes, planes, clip, values, vertices, pieces, source, piece_edges, polygons, drawn
+):
     """Clip triangle by triangle (Sutherland & Hodgman 1974); new vertices are appended from row `vertices` on.
 
-    Returns the number of pieces and the number of vertices. `polygons` is scratch: two lists of vertex numbers.
+    Returns the number of pieces and the number of vertices. `polygons` and `drawn` are scratch: two lists of vertex
+    numbers, and whether the edge that starts at each of them is to be drawn.
     """
     count = 0
     for t in range(triangles.shape[0]):
@@ -100,36 +122,44 @@ def cut_triangles(triangles, codes, planes, clip, values, vertices, pieces, sour
             continue
         union = codes[a] | codes[b] | codes[c]
         polygons[0, 0], polygons[0, 1], polygons[0, 2] = a, b, c
+        drawn[0, 0], drawn[0, 1], drawn[0, 2] = edges[t, 0], edges[t, 1], edges[t, 2]
         corners, now = 3, 0
         for p in range(planes.shape[0]):
             if union >> p & 1:
                 corners, vertices = cut_polygon(
-                    planes[p], polygons[now], corners, polygons[1 - now], clip, values, vertices
-                )
+                    planes[p], p >= FRUSTUM_PLANES, polygons[now], drawn[now], corners, polygons[1 - now],
+                    drawn[1 - now], clip, values, vertices,
+                )  # fmt: skip
                 now = 1 - now
         if union == 0:
             pieces[count, 0], pieces[count, 1], pieces[count, 2] = a, b, c
+            piece_edges[count] = edges[t]
             source[count] = t
             count += 1
         else:
             for i in range(2, corners):
                 pieces[count, 0], pieces[count, 1] = polygons[now, i - 1], polygons[now, i]
                 pieces[count, 2] = polygons[now, 0]
+                # only the outline of the fan, not the cuts between its triangles
+                piece_edges[count, 0] = drawn[now, i - 1]
+                piece_edges[count, 1] = drawn[now, i] if i == corners - 1 else 0
+                piece_edges[count, 2] = drawn[now, 0] if i == 2 else 0
                 source[count] = t
                 count += 1
     return count, vertices
 
 
 @kernel
-def cut_polygon(plane, polygon, corners, out, clip, values, vertices):
+def cut_polygon(plane, draws_cut, polygon, drawn, corners, out, out_drawn, clip, values, vertices):
     """Keep the part of a convex polygon on the positive side of a plane; returns its corners and the vertex count.
 
-    A distance that is not finite drops the polygon.
+    A distance that is not finite drops the polygon. The new edge along the plane is to be drawn where `draws_cut`: that
+    of a user plane is, that of the frustum is not (as Mesa does it).
     """
     if corners < 3:
         return 0, vertices
     kept = 0
-    previous = polygon[0]
+    previous, edge = polygon[0], drawn[0]
     before = distance(plane, clip[previous])
     if not np.isfinite(before):
         return 0, vertices
@@ -139,7 +169,7 @@ def cut_polygon(plane, polygon, corners, out, clip, values, vertices):
         if not np.isfinite(now):
             return 0, vertices
         if before >= ZERO:
-            out[kept] = previous
+            out[kept], out_drawn[kept] = previous, edge
             kept += 1
         if (before >= ZERO) != (now >= ZERO):
             # from the vertex that is nearer to the plane, for the better conditioned t
@@ -153,7 +183,9 @@ def cut_polygon(plane, polygon, corners, out, clip, values, vertices):
             for k in range(values.shape[1]):
                 values[vertices, k] = values[first, k] + t * (values[second, k] - values[first, k])
             out[kept] = vertices
+            out_drawn[kept] = edge if now >= ZERO else 1 if draws_cut else 0
             kept += 1
             vertices += 1
         previous, before = current, now
+        edge = drawn[i] if i < corners else drawn[0]
     return kept, vertices

@@ -15,11 +15,11 @@ import numpy as np
 from softshadow import pipeline
 from softshadow.framebuffer import DEFAULT, NOTHING, Attachment, Framebuffer, Storage, plane_for
 from softshadow.image import Format, Image
-from softshadow.pipeline import accumulation, mipmaps, transfer
+from softshadow.pipeline import accumulation, blit, mipmaps, transfer
 from softshadow.pipeline.binding import VERDICT_COUNTS
 from softshadow.pipeline.fragment_ops import PASSED
 from softshadow.programs.inverse import UNKNOWN
-from softshadow.state import State
+from softshadow.state import Scissor, State
 from softshadow.texture import Sampler, Texture
 
 
@@ -199,6 +199,22 @@ class GenerateMipmaps:
 
 
 @dataclass(frozen=True, eq=False)
+class BlitFramebuffer:
+    """glBlitFramebuffer between framebuffers; rectangles are (x0, y0, x1, y1) in GL's rows."""
+
+    read: int
+    draw: int
+    source: tuple[int, int, int, int]
+    target: tuple[int, int, int, int]
+    mask: int
+    filter: int
+    scissor: Scissor
+
+    def apply(self, storage: Storage) -> None:
+        blit.blit(self, storage)
+
+
+@dataclass(frozen=True, eq=False)
 class CreateTexture:
     texture: int
     target: int
@@ -325,8 +341,3 @@ class SelectBuffers:
             target.draw_buffer = self.draw_buffer
         if self.read_buffer is not None:
             target.read_buffer = self.read_buffer
-
-
-def with_state(command: Draw, **groups: Any) -> Draw:
-    """Return the draw under another state."""
-    return replace(command, state=replace(command.state, **groups))

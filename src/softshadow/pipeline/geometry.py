@@ -10,29 +10,44 @@ import numpy as np
 
 from softshadow import matrices, programs
 from softshadow import tokens as gl
-from softshadow.errors import StateError
 from softshadow.framebuffer import Framebuffer, Storage
-from softshadow.pipeline.clip import clip_triangles, outcodes
+from softshadow.pipeline.clip import NO_EDGES, Clipped, clip_triangles, outcodes
 from softshadow.pipeline.fill import DepthRange, Region
-from softshadow.pipeline.primitives import Triangles, assemble, in_clipped_batch, through_indices
-from softshadow.pipeline.setup import Setup, add_float_units, offset_of, set_up
+from softshadow.pipeline.lines import LINES, NO_VERTEX, assemble_lines, clip_lines, set_up_lines
+from softshadow.pipeline.points import clip_points, set_up_points
+from softshadow.pipeline.primitives import (
+    Triangles,
+    assemble,
+    edge_flags,
+    in_clipped_batch,
+    quads_of,
+    through_indices,
+)
+from softshadow.pipeline.setup import Setup, add_float_units, in_order, offset_is_on, offset_of, set_up
+from softshadow.pipeline.unfilled import drawn_modes, outline
 from softshadow.pipeline.vertex import to_clip, to_window
 from softshadow.programs import Program, VertexInputs
 from softshadow.programs.inverse import inverse
-from softshadow.state import State
+from softshadow.state import Cull, Polygon, State
 
 if TYPE_CHECKING:
     from softshadow.pipeline.commands import Draw
 
-FILLED = (gl.GL_TRIANGLES, gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_QUADS, gl.GL_QUAD_STRIP, gl.GL_POLYGON)
+NOTHING = Setup(
+    np.empty((0, 6), np.int64),
+    np.empty((0, 3), np.int32),
+    np.empty((0, 4), np.float32),
+    np.empty(0, np.uint8),
+    np.empty(0, np.int32),
+)
 
 
 class Geometry(NamedTuple):
     """What the fill and shade stages need of a draw.
 
     triangles: those that are not culled and have an area; window (V', 4): x, y, z, 1/w; values, back (V', k) and flat
-    (k,): what the vertex stage hands on; source (T',) which assembled triangle each clipped one is a piece of;
-    provoking (T',).
+    (k,): what the vertex stage hands on; source (T',) which assembled primitive each clipped one is a piece of;
+    provoking (T',); faces: of which polygons, (T',) bool, the lines and points of glPolygonMode are the front, or None.
     """
 
     triangles: Setup
@@ -44,19 +59,22 @@ class Geometry(NamedTuple):
     provoking: np.ndarray
     program: Program
     uniforms: Mapping[str, Any]
+    faces: np.ndarray | None = None
+
+    def facing(self, row: int) -> bool | None:
+        """Return whether a row of `triangles` belongs to a front face; None for lines and points, which have none."""
+        if self.faces is not None:
+            return bool(self.faces[self.triangles.ids[row]])
+        return bool(self.triangles.front[row]) if self.triangles.vertices[row, 2] != NO_VERTEX else None
 
 
-def process_geometry(command: Draw, target: Framebuffer, storage: Storage) -> Geometry:
-    """Return the triangles of a draw in the window of `target`.
+def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull: Cull | None = None) -> Geometry:
+    """Return the triangles of a draw in the window of `target`; lines and points are two triangles each.
 
-    Raises
-    ------
-    StateError
-        The draw asks for something that is not part of this subset.
+    `cull` is what is left out, for histories, which want all; without, what the command's state says.
     """
     state, vertices = command.state, command.vertices
-    if command.mode not in FILLED or (state.polygon.mode_front, state.polygon.mode_back) != (gl.GL_FILL, gl.GL_FILL):
-        raise StateError("points, lines and glPolygonMode other than GL_FILL are not part of this subset yet")
+    cull = state.cull if cull is None else cull
     program, uniforms = program_of(command, storage)
     arrays = (vertices.position, vertices.color, vertices.normal, vertices.texcoords)
     transforms = (command.modelview, command.projection, command.texture_matrices)
@@ -64,28 +82,90 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage) -> Ge
     clip = to_clip(matrices.multiply(command.projection, command.modelview), vertices.position)
     planes = user_planes(command)
     codes = outcodes(clip, state.depth.clamp, planes)
-    assembled = assembled_triangles(command, codes != 0, batch_needs_clipping(command, planes))
     columns = varyings.values if varyings.back is None else np.hstack([varyings.values, varyings.back])
-    clipped = clip_triangles(clip, columns, assembled.corners, codes, planes)
+    if command.mode in (gl.GL_POINTS, *LINES):
+        make, primitives = _points_and_lines, _indexed_lines_or_points(command)
+        provoking = primitives[:, -1]
+        clip_primitives = clip_points if command.mode == gl.GL_POINTS else clip_lines
+        clipped = clip_primitives(clip, columns, primitives, codes, planes)
+    else:
+        modes = drawn_modes(state)
+        make = _filled if modes == (gl.GL_FILL, gl.GL_FILL) else _outlined
+        assembled = assembled_triangles(command, codes != 0, batch_needs_clipping(command, planes))
+        provoking = assembled.provoking
+        edges = edge_flags(command.mode, len(provoking)) if make is _outlined else NO_EDGES
+        clipped = clip_triangles(clip, columns, assembled.corners, codes, planes, edges)
     window = to_window(clipped.clip, state.viewport, target.size[1], target.flipped)
-    offset = offset_of(
-        state.polygon, target.depth, window.dtype.type, command.offset_slope, command.offset_unit, target.flipped
-    )
-    triangles = set_up(window, clipped.triangles, state.cull, offset, target.flipped)
-    if state.polygon.offset_fill and target.depth is not None and not target.depth.format.largest:
-        add_float_units(triangles.depth[:, 3], window[triangles.vertices, 2], state.polygon.units)
     k = varyings.values.shape[1]
-    return Geometry(
-        triangles,
+    made = Geometry(
+        NOTHING,
         window,
         np.ascontiguousarray(clipped.values[:, :k]),
         None if varyings.back is None else np.ascontiguousarray(clipped.values[:, k:]),
         varyings.flat,
         clipped.source,
-        assembled.provoking[clipped.source],
+        provoking[clipped.source],
         program,
         uniforms,
     )
+    return make(made, clipped, command, target, cull)
+
+
+def _filled(made: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull) -> Geometry:
+    """Return the geometry with its triangles set up."""
+    polygon, window = command.state.polygon, made.window
+    offset = offset_of(
+        polygon, target.depth, window.dtype.type, command.offset_slope, command.offset_unit, target.flipped
+    )
+    triangles = set_up(window, clipped.triangles, cull, offset, target.flipped)
+    if offset_is_on(polygon) and target.depth is not None and not target.depth.format.largest:
+        add_float_units(triangles.depth[:, 3], window[triangles.vertices, 2], polygon.units)
+    return made._replace(triangles=triangles)
+
+
+def _points_and_lines(made: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull) -> Geometry:
+    """Return the geometry with its points or lines set up; nothing culls them."""
+    polygon, primitives = command.state.polygon, clipped.triangles
+    ids = np.arange(len(primitives), dtype=np.int32)
+    if command.mode == gl.GL_POINTS:
+        triangles = set_up_points(made.window, primitives[:, 0], ids, polygon.point_size, target.flipped)
+    else:
+        triangles = set_up_lines(made.window, primitives, ids, polygon.line_width)
+    return made._replace(triangles=triangles)
+
+
+def _outlined(made: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull) -> Geometry:
+    """Return the geometry of polygons that are not all filled, over vertices of its own."""
+    state, flipped = command.state, target.flipped
+    drawn = outline(
+        made.window, made.values, made.back, made.flat, clipped.triangles, clipped.edges, made.provoking, state, cull,
+        target.depth, command.offset_slope, command.offset_unit, flipped,
+    )  # fmt: skip
+    window, polygon = drawn.window, state.polygon
+    none = offset_of(Polygon(), target.depth, window.dtype.type, command.offset_slope, command.offset_unit, flipped)
+    filled = set_up(window, drawn.triangles, cull, none, flipped)
+    filled = filled._replace(ids=drawn.triangles[filled.ids, 0] // 3)
+    lines = set_up_lines(window, drawn.lines, drawn.lines[:, 0] // 3, polygon.line_width)
+    points = set_up_points(window, drawn.points, drawn.points // 3, polygon.point_size, flipped)
+    return made._replace(
+        triangles=in_order([filled, lines, points]),
+        window=window,
+        values=drawn.values,
+        back=None,
+        provoking=np.arange(len(drawn.front), dtype=np.int32) * 3,
+        faces=drawn.front,
+    )
+
+
+def _indexed_lines_or_points(command: Draw) -> np.ndarray:
+    """Return the lines (L, 2) or points (P, 1) of a draw over its vertices."""
+    indices = command.indices
+    count = len(command.vertices.position) if indices is None else len(indices)
+    if command.mode == gl.GL_POINTS:
+        primitives = np.arange(count, dtype=np.int32)[:, None]
+    else:
+        primitives = assemble_lines(command.mode, count)
+    return primitives if indices is None else indices[primitives]
 
 
 def user_planes(command: Draw) -> np.ndarray:
@@ -124,8 +204,18 @@ def assembled_triangles(command: Draw, needs_clipping: np.ndarray, in_batch: np.
         clipped = in_clipped_batch(command.mode, whole, indices) if whole.any() else None
         if clipped is not None and in_batch is not None:
             clipped = clipped[command.batch_start // 4 :][: count // 4]
+        if drawn_modes(command.state) != (gl.GL_FILL, gl.GL_FILL):
+            clipped = np.ones(quads_of(command.mode, count)[0], bool)  # cut where clipped ones are
         assembled = assemble(command.mode, count, clipped, across=flat or indices is not None)
     return assembled if indices is None else through_indices(assembled, indices)
+
+
+def primitive_count(command: Draw) -> int:
+    """Return how many triangles, lines or points a draw hands in."""
+    if command.mode in (gl.GL_POINTS, *LINES):
+        return len(_indexed_lines_or_points(command))
+    count = len(command.vertices.position) if command.indices is None else len(command.indices)
+    return len(assemble(command.mode, count).corners)
 
 
 def program_of(command: Draw, storage: Storage) -> tuple[Program, Mapping[str, Any]]:

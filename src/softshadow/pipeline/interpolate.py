@@ -5,7 +5,7 @@ import numpy as np
 from softshadow.jit import kernel
 from softshadow.pipeline.constants import ONE
 from softshadow.pipeline.fragments import Fragments
-from softshadow.pipeline.setup import Setup, edge_differences, plane
+from softshadow.pipeline.setup import Setup, edge_differences, line_gradient, line_plane, plane
 
 
 @kernel
@@ -21,6 +21,9 @@ def attribute_planes(window, values, back, vertices, front, wanted, flat, provok
             continue
         v0, v1, v2 = vertices[t, 0], vertices[t, 1], vertices[t, 2]
         source = values if front[t] else back
+        if v2 < 0:
+            line_or_point_planes(window, source, v0, v1, flat, provoking[t], planes[t])
+            continue
         dx01, dy01, dx20, dy20, over_area = edge_differences(window, v0, v1, v2)
         dx01, dy01, dx20, dy20 = dx01 * over_area, dy01 * over_area, dx20 * over_area, dy20 * over_area
         w0, w1, w2 = window[v0, 3], window[v1, 3], window[v2, 3]
@@ -35,6 +38,28 @@ def attribute_planes(window, values, back, vertices, front, wanted, flat, provok
         planes[t, k, 0], planes[t, k, 1], planes[t, k, 2] = plane(
             window[v0, 0], window[v0, 1], dx01, dy01, dx20, dy20, w0, w1, w2
         )
+
+
+@kernel
+def line_or_point_planes(window, values, a, b, flat, provoking, planes):
+    """Fill planes (k + 1, 3) of a line from vertex `a` to `b`, or of a point (`b` is -1): there all is constant."""
+    k = values.shape[1]
+    is_point = b < 0
+    b = a if is_point else b
+    w0, w1 = window[a, 3], window[b, 3]
+    dx, dy, over_area = line_gradient(window, a, b)
+    for c in range(k + 1):
+        if c < k and flat[c]:
+            planes[c, 0] = values[provoking, c]
+            continue
+        value0 = values[a, c] * w0 if c < k else w0
+        value1 = values[b, c] * w1 if c < k else w1
+        if is_point:
+            planes[c, 0] = value0
+        else:
+            planes[c, 0], planes[c, 1], planes[c, 2] = line_plane(
+                window[a, 0], window[a, 1], dx, dy, over_area, value0, value1
+            )
 
 
 @kernel

@@ -60,6 +60,20 @@ def assemble(mode: int, count: int, clipped: np.ndarray | None = None, across: b
     return Triangles(np.ascontiguousarray(rows[:, :3]), np.ascontiguousarray(rows[:, 3]))
 
 
+def edge_flags(mode: int, triangles: int) -> np.ndarray:
+    """Return which edges of the assembled triangles, from corner i to i + 1, are edges of the primitives.
+
+    (T, 3) uint8; quads are cut as in a clipped batch. glPolygonMode does not draw the diagonals of quads and polygons,
+    but it does draw what lies between the triangles of a strip or fan.
+    """
+    edges = np.ones((triangles, 3), np.uint8)
+    if mode in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
+        edges[0::2, 1] = edges[1::2, 2] = 0
+    elif mode == gl.GL_POLYGON:
+        edges[1:, 2] = edges[:-1, 1] = 0
+    return edges
+
+
 def _quads(mode: int, count: int, clipped: np.ndarray | None, across: bool) -> np.ndarray:
     whole, cut = (QUAD, QUAD_ACROSS) if mode == gl.GL_QUADS else (QUAD_OF_STRIP, CLIPPED_QUAD_OF_STRIP)
     quads, stride = quads_of(mode, count)

@@ -7,7 +7,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.image import Image
 from softshadow.jit import kernel
-from softshadow.pipeline.constants import HALF, ONE, SUBPIXELS
+from softshadow.pipeline.constants import HALF, ONE, SUBPIXELS, ZERO
 from softshadow.state import Cull, Polygon
 
 SLOPES = {"max": 0, "length": 1, "slide": 2}
@@ -21,7 +21,8 @@ class Setup(NamedTuple):
 
     corners (n, 6) int64: snapped X0 Y0 X1 Y1 X2 Y2 in 1/256 pixel, sample (i, j) at (256 i, 256 j), turned so that the
     area is positive; vertices (n, 3) int32 in the same order; depth (n, 4): z at pixel (0, 0), dz/di, dz/dj, offset;
-    front (n,) uint8; ids (n,) int32: which triangle each is.
+    front (n,) uint8; ids (n,) int32: which primitive each is, or is a half of. Lines and points are two triangles each:
+    their vertices are (a, b, -1) and (a, -1, -1).
     """
 
     corners: np.ndarray
@@ -46,13 +47,19 @@ class Offset(NamedTuple):
 def offset_of(polygon: Polygon, depth: Image | None, real: type, slope: str, unit: str, flipped: bool) -> Offset:
     """Return the polygon offset of filled polygons for the depth format that is drawn to.
 
+    llvmpipe adds it where the offset of any mode is enabled, also that of lines or points (`offset_is_on`).
     `unit` "mesa" makes one unit two steps of a fixed-point format, as llvmpipe does; "spec" one (GL 2.1, sec. 3.5.5).
     The constant of float depth depends on the triangle: `add_float_units`.
     """
-    factor, units = (polygon.factor, polygon.units) if polygon.offset_fill else (0.0, 0.0)
+    factor, units = (polygon.factor, polygon.units) if offset_is_on(polygon) else (0.0, 0.0)
     largest = depth.format.largest if depth else 0
     constant = units * (1.0 / largest) * (2 if unit == "mesa" else 1) if largest else 0.0
     return Offset(SLOPES[slope], real(factor), real(constant), int(flipped))
+
+
+def offset_is_on(polygon: Polygon) -> bool:
+    """Return whether llvmpipe offsets filled polygons; GL 2.1, sec. 3.5.5, asks for `offset_fill` alone."""
+    return polygon.offset_fill or polygon.offset_line or polygon.offset_point
 
 
 def add_float_units(offsets: np.ndarray, window_z: np.ndarray, units: float) -> None:
@@ -64,6 +71,13 @@ def add_float_units(offsets: np.ndarray, window_z: np.ndarray, units: float) -> 
     step = np.ldexp(offsets.dtype.type(1), exponent - 1 - MANTISSA_BITS)
     tiny = step < np.finfo(np.float32).tiny
     offsets += offsets.dtype.type(units) * np.where(tiny, offsets.dtype.type(0), step)
+
+
+def in_order(setups: list[Setup]) -> Setup:
+    """Return triangles, lines and points together, ordered by their ids."""
+    joined = Setup(*(np.concatenate(arrays) for arrays in zip(*setups, strict=True)))
+    order = np.argsort(joined.ids, kind="stable")
+    return Setup(*(array[order] for array in joined))
 
 
 def culling(cull: Cull) -> tuple[int, bool]:
@@ -111,6 +125,28 @@ def plane(x0, y0, dx01, dy01, dx20, dy20, a0, a1, a2):
     di = da01 * dy20 - da20 * dy01
     dj = da20 * dx01 - da01 * dx20
     return a0 - (di * (x0 - HALF) + dj * (y0 - HALF)), di, dj
+
+
+@kernel
+def line_gradient(window, a, b):
+    """Return what the difference of a value along a line is multiplied by for d/di and d/dj, and 1 / length**2.
+
+    Values change along the major direction only.
+    """
+    dx, dy = window[a, 0] - window[b, 0], window[a, 1] - window[b, 1]
+    over_area = ONE / (dx * dx + dy * dy)
+    if abs(dx) >= abs(dy):
+        slope = dy / dx
+        return dx * (ONE + slope * slope), ZERO * dy, over_area
+    slope = dx / dy
+    return ZERO * dx, dy * (ONE + slope * slope), over_area
+
+
+@kernel
+def line_plane(x, y, dx, dy, over_area, a0, a1):
+    """Return (value at pixel (0, 0), d/di, d/dj) of values at the two ends of a line, the first of which is (x, y)."""
+    di, dj = (a0 - a1) * dx * over_area, (a0 - a1) * dy * over_area
+    return a0 - (di * (x - HALF) + dj * (y - HALF)), di, dj
 
 
 @kernel

@@ -41,9 +41,10 @@ def copy_to_texture(command: CopyToTexture, storage: Storage) -> None:
     for plane, from_plane in _planes(source, image):
         cells = bottom_up(source, from_plane)[rows, columns]
         height, width = cells.shape[:2]
-        convert = _convert_depth if plane.format.kind == "depth" else _convert_plain
-        plane.view[bottom : bottom + height, left : left + width] = convert(
-            cells.copy(), from_plane, plane, source.flipped
+        plane.view[bottom : bottom + height, left : left + width] = (
+            _convert_depth(cells.copy(), from_plane, plane, source.flipped)
+            if plane.format.kind == "depth"
+            else convert_color(cells.copy(), from_plane, plane)
         )
 
 
@@ -65,7 +66,8 @@ def _convert_depth(cells: np.ndarray, source: Image, image: Image, flipped: bool
     return quantized_depth(sampled_depth(cells, source.format), image.format)
 
 
-def _convert_plain(cells: np.ndarray, source: Image, image: Image, flipped: bool) -> np.ndarray:
+def convert_color(cells: np.ndarray, source: Image, image: Image) -> np.ndarray:
+    """Return cells of one colour image as those of another; stencil values stay as they are."""
     if image.format.kind == "stencil":
         return cells
     if source.format.kind != image.format.kind:

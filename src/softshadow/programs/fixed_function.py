@@ -61,10 +61,9 @@ def units_in_use(state: State, textures: Mapping[int, Texture]) -> list[Unit]:
             )
         if not unit.enabled_2d or index not in textures:
             continue
-        from softshadow.programs import sampling, texture_environment  # kernels: not for draws without texture
+        from softshadow.programs import sampling  # kernels: not for draws without texture
 
         if sampling.is_complete(textures[index]):
-            texture_environment.check_mode(index, unit.env_mode)
             units.append(Unit(index, textures[index]))
     return units
 
@@ -108,15 +107,22 @@ def shade_fragments(state: State, units: list[Unit], inputs: np.ndarray, out: np
     out[:] = inputs[:, :4]
     column = 7 if is_separate(state) else 4
     if units:
+        from softshadow.programs import texture_combine
         from softshadow.programs.sampling import base_format, project, sample
         from softshadow.programs.texture_environment import apply_environment
 
-        texel = np.empty_like(out)
-        for unit in units:
-            setting = state.units[unit.index]
-            sample(unit.texture, project(inputs[:, column : column + 4]), texel)
-            apply_environment(out, texel, setting.env_mode, base_format(unit.texture), setting.env_color)
+        texels = {}
+        for unit in units:  # all of them first: a unit may combine what another one has sampled
+            texels[unit.index] = np.empty_like(out)
+            sample(unit.texture, project(inputs[:, column : column + 4]), texels[unit.index])
             column += 4
+        for unit in units:
+            setting, texel = state.units[unit.index], texels[unit.index]
+            if setting.env_mode == gl.GL_COMBINE:
+                sources = texture_combine.Sources(unit.index, texels, inputs[:, :4], out, setting.env_color)
+                out[:] = texture_combine.combine(setting.combine, sources)
+            else:
+                apply_environment(out, texel, setting.env_mode, base_format(unit.texture), setting.env_color)
     if is_separate(state):
         out[:, :3] += inputs[:, 4:7]
     if state.fog.enabled:

@@ -9,18 +9,10 @@ from __future__ import annotations
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.errors import StateError
 
 ZERO, ONE = np.float32(0.0), np.float32(1.0)
 WITHOUT_ALPHA = (gl.GL_LUMINANCE, gl.GL_RED, gl.GL_RG, gl.GL_RGB)
 MODES = (gl.GL_MODULATE, gl.GL_REPLACE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_ADD)
-
-
-def check_mode(unit: int, mode: int) -> None:
-    """Raise StateError where the environment mode of a unit is not one of `MODES`."""
-    if mode not in MODES:
-        expected = ", ".join(gl.token_name(m) for m in MODES)
-        raise StateError(f"texture unit {unit}: GL_TEXTURE_ENV_MODE is {gl.token_name(mode)}: supported are {expected}")
 
 
 def mix(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarray:
