@@ -40,7 +40,8 @@ def test_a_line_is_as_many_pixels_wide_across_its_major_direction_as_it_is_asked
     steps = counts.sum(axis=0 if across[0] >= across[1] else 1)
     inside = all(width < place < SIZE - width for place in (*start, *end))
     assert counts.max(initial=0) <= 1
-    assert abs(np.count_nonzero(steps) - max(across)) <= 1
+    # at either end, less than a step may lie outside the diamonds of the pixels there
+    assert max(across) - 2 < np.count_nonzero(steps) <= max(across) + 1
     assert not inside or set(steps) <= {0, width}
 
 
