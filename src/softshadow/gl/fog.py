@@ -9,7 +9,7 @@ from softshadow import tokens as gl
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import first, from_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.fragment_state import change, clamp01, rounded
+from softshadow.gl.fragment_state import change, rounded
 
 NUMBERS = {gl.GL_FOG_DENSITY: "density", gl.GL_FOG_START: "start", gl.GL_FOG_END: "end"}
 MODES = (gl.GL_LINEAR, gl.GL_EXP, gl.GL_EXP2)
@@ -44,7 +44,7 @@ def _set(operation: str, pname: int, params: Any, color: Callable[[Any], float])
     if context is None or not is_one_of(operation, "pname", pname, allowed, expected):
         return
     if pname == gl.GL_FOG_COLOR:
-        change(context, "fog", color=rounded(context, *map(clamp01, vector(params, 4, color))))
+        change(context, "fog", color=rounded(context, *vector(params, 4, color)))
         return
     value = first(params)
     if pname == gl.GL_FOG_MODE:

@@ -162,7 +162,7 @@ QUERIES: dict[str, Read] = {
     "GL_FOG_DENSITY": lambda c: c.state.fog.density,
     "GL_FOG_START": lambda c: c.state.fog.start,
     "GL_FOG_END": lambda c: c.state.fog.end,
-    "GL_FOG_COLOR": lambda c: c.state.fog.color,
+    "GL_FOG_COLOR": shown_color(lambda c: c.state.fog.color),
     "GL_MATRIX_MODE": lambda c: c.matrix_mode,
     **matrix("MODELVIEW", lambda c: c.modelview_stack),
     **matrix("PROJECTION", lambda c: c.projection_stack),
