@@ -165,6 +165,7 @@ class Context:
         self.primitive: Primitive | None = None  # between glBegin and glEnd
         self.batch: Batch | None = None  # quads that wait for more of them
         self.vertex_sizes: dict[str, int] = {}  # what the vertices collected last carry: numbers per attribute
+        self.given_sizes: dict[str, int] = {}  # how many of those the last call gave, as far as Mesa remembers
         self.stored_vertices = 0  # how many were collected since the last time they were sent off
         self.arrays = ClientArrays()
         self.attribute_stack: list[Any] = []

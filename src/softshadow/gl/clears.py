@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from ctypes import c_int
+
 from softshadow import tokens as gl
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
@@ -33,7 +35,7 @@ def glClearStencil(s: int) -> None:
     """Set the stencil value that glClear writes."""
     context = outside_begin("glClearStencil")
     if context is not None:
-        change(context, "stencil", clear=int(s))
+        change(context, "stencil", clear=c_int(int(s)).value)
 
 
 @in_lists

@@ -24,8 +24,6 @@ def glClipPlane(plane: int, equation: Any) -> None:
     if context is None or not is_one_of("glClipPlane", "plane", plane, CLIP_PLANES, A_PLANE):
         return
     given = np.array(vector(equation, 4), np.float64)
-    if len(np.ravel(equation)) != 4:
-        raise ValueError(f"glClipPlane: equation={equation!r}: expected 4 numbers")
     made = tuple(eye_plane(context, given).tolist())
     equations = with_item(context.state.clip_planes.equations, plane - gl.GL_CLIP_PLANE0, made)
     change(context, "clip_planes", equations=equations)

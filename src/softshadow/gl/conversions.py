@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from ctypes import c_byte, c_int, c_short, c_ubyte, c_uint, c_ushort
 from typing import Any
 
 import numpy as np
@@ -18,28 +19,28 @@ INT_STEP, UNSIGNED_INT_STEP = 1 / 4294967294.0, 1 / 4294967295.0
 
 
 def from_byte(b: int) -> float:
-    return float((TWO * np.float32(b) + ONE) * BYTE_STEP)
+    return float((TWO * np.float32(c_byte(int(b)).value) + ONE) * BYTE_STEP)
 
 
 def from_unsigned_byte(b: int) -> float:
-    return float(np.float32(b) / np.float32(255))
+    return float(np.float32(c_ubyte(int(b)).value) / np.float32(255))
 
 
 def from_short(s: int) -> float:
-    return float((TWO * np.float32(s) + ONE) * SHORT_STEP)
+    return float((TWO * np.float32(c_short(int(s)).value) + ONE) * SHORT_STEP)
 
 
 def from_unsigned_short(s: int) -> float:
-    return float(np.float32(s) * SHORT_STEP)
+    return float(np.float32(c_ushort(int(s)).value) * SHORT_STEP)
 
 
 def from_int(i: int) -> float:
     """Return the float that an integer stands for: -(2**31) is -1, 2**31 - 1 is 1."""
-    return float(np.float32(float(TWO * np.float32(i) + ONE) * INT_STEP))
+    return float(np.float32(float(TWO * np.float32(c_int(int(i)).value) + ONE) * INT_STEP))
 
 
 def from_unsigned_int(i: int) -> float:
-    return float(np.float32(i * UNSIGNED_INT_STEP))
+    return float(np.float32(c_uint(int(i)).value * UNSIGNED_INT_STEP))
 
 
 def to_int(value: float) -> int:
@@ -53,6 +54,33 @@ def nearest_int(value: float) -> int:
     return min(int(math.copysign(math.floor(abs(value) + 0.5), value)), LARGEST_INT)
 
 
+# what an array becomes before its numbers are taken: PyOpenGL hands GL the type that the call is named after
+ELEMENTS: dict[Callable[[Any], Any], type[np.generic]] = {
+    from_byte: np.int8,
+    from_unsigned_byte: np.uint8,
+    from_short: np.int16,
+    from_unsigned_short: np.uint16,
+    from_int: np.int32,
+    from_unsigned_int: np.uint32,
+    int: np.int32,
+}
+
+
+def numbers(params: Any, convert: Callable[[Any], Any] = float) -> np.ndarray:
+    """Return a vector argument (array, sequence, bytes, or one number) flat, as numbers of the type GL is handed.
+
+    Arrays of floats are cut to the integers of a call that takes integers, and what is too large loses its upper bits.
+    """
+    element = ELEMENTS.get(convert)
+    if isinstance(params, bytes | bytearray | memoryview):
+        return np.frombuffer(params, element or np.float32)
+    values = np.ravel(params)
+    if element is None or values.dtype == element:
+        return values
+    with np.errstate(invalid="ignore"):
+        return values.astype(np.int64).astype(element)
+
+
 def vector(params: Any, length: int, convert: Callable[[Any], float] = float) -> Sequence[float]:
     """Return the first `length` numbers of a vector argument.
 
@@ -61,15 +89,15 @@ def vector(params: Any, length: int, convert: Callable[[Any], float] = float) ->
     ValueError
         There are fewer.
     """
-    values = np.ravel(params)
+    values = numbers(params, convert)
     if len(values) < length:
         raise ValueError(f"params={params!r}: expected {length} numbers")
     return [convert(value) for value in values[:length].tolist()]
 
 
-def first(params: Any) -> Any:
+def first(params: Any, convert: Callable[[Any], Any] = float) -> Any:
     """Return the first number of a vector argument."""
-    return np.ravel(params)[0].item()
+    return numbers(params, convert)[0].item()
 
 
 def as_floats(value: Any) -> Any:

@@ -46,7 +46,7 @@ def _set(operation: str, pname: int, params: Any, color: Callable[[Any], float])
     if pname == gl.GL_FOG_COLOR:
         change(context, "fog", color=rounded(context, *vector(params, 4, color)))
         return
-    value = first(params)
+    value = first(params, int if color is from_int else float)
     if pname == gl.GL_FOG_MODE:
         if is_one_of(operation, "param", int(value), MODES, "GL_LINEAR, GL_EXP or GL_EXP2"):
             change(context, "fog", mode=int(value))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ctypes import c_float
+from ctypes import c_float, c_int
 from dataclasses import replace
 from typing import Any
 
@@ -37,7 +37,7 @@ def change(context: Context, group: str, **fields: Any) -> None:
 
 
 def clamp01(value: float) -> float:
-    return min(max(float(value), 0.0), 1.0)
+    return min(max(0.0, float(value)), 1.0)  # NaN becomes 0, as in Mesa
 
 
 def rounded(context: Context, *values: float) -> Any:
@@ -88,7 +88,7 @@ def glStencilFuncSeparate(face: int, func: int, ref: int, mask: int) -> None:
 def _stencil_func(operation: str, face: int, func: int, ref: int, mask: int) -> None:
     context = outside_begin(operation)
     if context is not None and is_one_of(operation, "func", func, FUNCTIONS, A_FUNCTION):
-        _set_faces(context, operation, face, func=int(func), ref=int(ref), read_mask=int(mask) & UNSIGNED)
+        _set_faces(context, operation, face, func=int(func), ref=c_int(int(ref)).value, read_mask=int(mask) & UNSIGNED)
 
 
 @in_lists

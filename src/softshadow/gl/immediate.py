@@ -120,13 +120,30 @@ def glVertex4fv(v: Any) -> None:
     add_vertex(current(), *vector(v, 4))
 
 
+@in_lists
+def glVertex2iv(v: Any) -> None:
+    """Add a vertex from a vector of integers."""
+    add_vertex(current(), *vector(v, 2, int))
+
+
+@in_lists
+def glVertex3iv(v: Any) -> None:
+    """Add a vertex from a vector of integers."""
+    add_vertex(current(), *vector(v, 3, int))
+
+
+@in_lists
+def glVertex4iv(v: Any) -> None:
+    """Add a vertex from a vector of integers."""
+    add_vertex(current(), *vector(v, 4, int))
+
+
 # GL makes single precision floats of all of them
 glVertex2d = glVertex2i = glVertex2s = glVertex2f
 glVertex3d = glVertex3i = glVertex3s = glVertex3f
 glVertex4d = glVertex4i = glVertex4s = glVertex4f
-glVertex2dv = glVertex2iv = glVertex2sv = glVertex2fv
-glVertex3dv = glVertex3iv = glVertex3sv = glVertex3fv
-glVertex4dv = glVertex4iv = glVertex4sv = glVertex4fv
+glVertex2dv, glVertex3dv, glVertex4dv = glVertex2fv, glVertex3fv, glVertex4fv
+glVertex2sv, glVertex3sv, glVertex4sv = glVertex2iv, glVertex3iv, glVertex4iv
 
 
 @in_lists

@@ -65,14 +65,15 @@ def _set(operation: str, light: int, pname: int, params: Any, color: Callable[[A
         return
     if not is_one_of(operation, "pname", pname, PARAMETERS, A_PARAMETER):
         return
+    plain = int if color is from_int else float
     if pname in NUMBERS:
-        _set_number(operation, context, light, pname, first(params))
+        _set_number(operation, context, light, pname, first(params, plain))
     elif pname in COLORS:
         _replace(context, light, **{COLORS[pname]: rounded(context, *vector(params, 4, color))})
     elif pname == gl.GL_POSITION:
-        _replace(context, light, position=in_eye_space(context, vector(params, 4)))
+        _replace(context, light, position=in_eye_space(context, vector(params, 4, plain)))
     else:
-        _replace(context, light, spot_direction=in_eye_space(context, vector(params, 3)))
+        _replace(context, light, spot_direction=in_eye_space(context, vector(params, 3, plain)))
 
 
 def in_eye_space(context: Context, place: Any) -> tuple[float, ...]:
@@ -150,13 +151,14 @@ def _set_model(operation: str, pname: int, params: Any, color: Callable[[Any], f
     allowed = (gl.GL_LIGHT_MODEL_AMBIENT, *MODEL_NUMBERS)
     if not is_one_of(operation, "pname", pname, allowed, "a light model parameter (GL 2.1, table 2.11)"):
         return
+    plain = int if color is from_int else float
     if pname == gl.GL_LIGHT_MODEL_AMBIENT:
         change(context, "lighting", model_ambient=rounded(context, *vector(params, 4, color)))
     elif pname in MODEL_SWITCHES:
-        change(context, "lighting", **{MODEL_SWITCHES[pname]: bool(first(params))})
+        change(context, "lighting", **{MODEL_SWITCHES[pname]: bool(first(params, plain))})
     else:
         expected = "GL_SINGLE_COLOR or GL_SEPARATE_SPECULAR_COLOR"
-        control = int(first(params))
+        control = int(first(params, plain))
         if is_one_of(operation, "param", control, COLOR_CONTROLS, expected):
             change(context, "lighting", color_control=control)
 

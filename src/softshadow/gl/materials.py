@@ -53,7 +53,7 @@ def glMaterialiv(face: int, pname: int, params: Any) -> None:
     if context is None:
         return
     if pname == gl.GL_SHININESS:
-        _set_shininess("glMaterialiv", context, face, first(params))
+        _set_shininess("glMaterialiv", context, face, first(params, int))
     else:
         set_material(context, face, dict.fromkeys(FIELDS[pname], tuple(vector(params, 4, from_int))))
 

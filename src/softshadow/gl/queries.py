@@ -52,7 +52,7 @@ def glGetIntegerv(pname: int, params: Any = None) -> Any:
 
 def glGetBooleanv(pname: int, params: Any = None) -> Any:
     """Return state as truth: whether it is not 0."""
-    return _get("glGetBooleanv", pname, params, np.bool_, bool)
+    return _get("glGetBooleanv", pname, params, np.uint8, bool)
 
 
 glGetFloat, glGetDouble, glGetInteger, glGetBoolean = glGetFloatv, glGetDoublev, glGetIntegerv, glGetBooleanv

@@ -18,9 +18,10 @@ A_UNIT = f"GL_TEXTURE0 … GL_TEXTURE{TEXTURE_UNITS - 1}"
 
 
 def _set(unit: int, *coordinates: float) -> None:
-    given = tuple(float(c) for c in coordinates)
-    give(current(), f"texcoord{unit}", len(given))
-    current().current.texcoords[unit] = given + REST[len(given) :]  # type: ignore[assignment]
+    context, given = current(), tuple(float(c) for c in coordinates)
+    standing = context.current.texcoords
+    kept = max(give(context, f"texcoord{unit}", len(given)), len(given))
+    standing[unit] = given + standing[unit][len(given) : kept] + REST[kept:]  # type: ignore[assignment]
 
 
 def _set_of(operation: str, target: int, *coordinates: float) -> None:
@@ -77,14 +78,38 @@ def glTexCoord4fv(v: Any) -> None:
     _set(0, *vector(v, 4))
 
 
+@in_lists
+def glTexCoord1iv(v: Any) -> None:
+    """Set the texture coordinate of unit 0 from a vector of integers."""
+    _set(0, *vector(v, 1, int))
+
+
+@in_lists
+def glTexCoord2iv(v: Any) -> None:
+    """Set the texture coordinate of unit 0 from a vector of integers."""
+    _set(0, *vector(v, 2, int))
+
+
+@in_lists
+def glTexCoord3iv(v: Any) -> None:
+    """Set the texture coordinate of unit 0 from a vector of integers."""
+    _set(0, *vector(v, 3, int))
+
+
+@in_lists
+def glTexCoord4iv(v: Any) -> None:
+    """Set the texture coordinate of unit 0 from a vector of integers."""
+    _set(0, *vector(v, 4, int))
+
+
 glTexCoord1d = glTexCoord1i = glTexCoord1s = glTexCoord1f
-glTexCoord1dv = glTexCoord1iv = glTexCoord1sv = glTexCoord1fv
+glTexCoord1dv, glTexCoord1sv = glTexCoord1fv, glTexCoord1iv
 glTexCoord2d = glTexCoord2i = glTexCoord2s = glTexCoord2f
-glTexCoord2dv = glTexCoord2iv = glTexCoord2sv = glTexCoord2fv
+glTexCoord2dv, glTexCoord2sv = glTexCoord2fv, glTexCoord2iv
 glTexCoord3d = glTexCoord3i = glTexCoord3s = glTexCoord3f
-glTexCoord3dv = glTexCoord3iv = glTexCoord3sv = glTexCoord3fv
+glTexCoord3dv, glTexCoord3sv = glTexCoord3fv, glTexCoord3iv
 glTexCoord4d = glTexCoord4i = glTexCoord4s = glTexCoord4f
-glTexCoord4dv = glTexCoord4iv = glTexCoord4sv = glTexCoord4fv
+glTexCoord4dv, glTexCoord4sv = glTexCoord4fv, glTexCoord4iv
 
 
 # -- any unit ----------------------------------------------------------------------------------------------------------
@@ -136,13 +161,37 @@ def glMultiTexCoord4fv(target: int, v: Any) -> None:
     _set_of("glMultiTexCoord4fv", target, *vector(v, 4))
 
 
+@in_lists
+def glMultiTexCoord1iv(target: int, v: Any) -> None:
+    """Set the texture coordinate of a unit from a vector of integers."""
+    _set_of("glMultiTexCoord1iv", target, *vector(v, 1, int))
+
+
+@in_lists
+def glMultiTexCoord2iv(target: int, v: Any) -> None:
+    """Set the texture coordinate of a unit from a vector of integers."""
+    _set_of("glMultiTexCoord2iv", target, *vector(v, 2, int))
+
+
+@in_lists
+def glMultiTexCoord3iv(target: int, v: Any) -> None:
+    """Set the texture coordinate of a unit from a vector of integers."""
+    _set_of("glMultiTexCoord3iv", target, *vector(v, 3, int))
+
+
+@in_lists
+def glMultiTexCoord4iv(target: int, v: Any) -> None:
+    """Set the texture coordinate of a unit from a vector of integers."""
+    _set_of("glMultiTexCoord4iv", target, *vector(v, 4, int))
+
+
 glMultiTexCoord1d = glMultiTexCoord1i = glMultiTexCoord1s = glMultiTexCoord1f
-glMultiTexCoord1dv = glMultiTexCoord1iv = glMultiTexCoord1sv = glMultiTexCoord1fv
+glMultiTexCoord1dv, glMultiTexCoord1sv = glMultiTexCoord1fv, glMultiTexCoord1iv
 glMultiTexCoord2d = glMultiTexCoord2i = glMultiTexCoord2s = glMultiTexCoord2f
-glMultiTexCoord2dv = glMultiTexCoord2iv = glMultiTexCoord2sv = glMultiTexCoord2fv
+glMultiTexCoord2dv, glMultiTexCoord2sv = glMultiTexCoord2fv, glMultiTexCoord2iv
 glMultiTexCoord3d = glMultiTexCoord3i = glMultiTexCoord3s = glMultiTexCoord3f
-glMultiTexCoord3dv = glMultiTexCoord3iv = glMultiTexCoord3sv = glMultiTexCoord3fv
+glMultiTexCoord3dv, glMultiTexCoord3sv = glMultiTexCoord3fv, glMultiTexCoord3iv
 glMultiTexCoord4d = glMultiTexCoord4i = glMultiTexCoord4s = glMultiTexCoord4f
-glMultiTexCoord4dv = glMultiTexCoord4iv = glMultiTexCoord4sv = glMultiTexCoord4fv
+glMultiTexCoord4dv, glMultiTexCoord4sv = glMultiTexCoord4fv, glMultiTexCoord4iv
 
 __all__ = spelled_like_gl(globals())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.conversions import first, from_int, numbers, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.texture_combiners import COMBINE_PARAMETERS, SCALES, parameter_of, with_parameter
 from softshadow.gl.textures import queried_color, set_unit
@@ -57,37 +59,35 @@ def glTexEnvf(target: int, pname: int, param: float) -> None:
 @in_lists
 def glTexEnvfv(target: int, pname: int, params: Any) -> None:
     """Set a parameter of the texture environment; GL_TEXTURE_ENV_COLOR takes four floats."""
-    _set_environment("glTexEnvfv", target, pname, np.asarray(params, np.float32))
+    _set_environment("glTexEnvfv", target, pname, numbers(params), is_vector=True)
 
 
 @in_lists
 def glTexEnviv(target: int, pname: int, params: Any) -> None:
     """Set a parameter of the texture environment; the colour's ints stand for 1 at 2**31 - 1."""
-    values = np.asarray(params)
-    if pname == gl.GL_TEXTURE_ENV_COLOR:
-        values = (np.float32(2) * values.astype(np.float32) + np.float32(1)) / np.float32(4294967294.0)
-    _set_environment("glTexEnviv", target, pname, values)
+    is_color = pname == gl.GL_TEXTURE_ENV_COLOR
+    values = vector(params, 4, from_int) if is_color else numbers(params, int)
+    _set_environment("glTexEnviv", target, pname, values, is_vector=True)
 
 
-def _set_environment(operation: str, target: int, pname: int, value: Any) -> None:
+def _set_environment(operation: str, target: int, pname: int, value: Any, is_vector: bool = False) -> None:
     if (context := outside_begin(operation)) is None:
         return None
-    vector = np.ravel(value)
-    if problem := _environment_problem(target, pname, isinstance(value, np.ndarray)):
+    values = np.ravel(value)
+    if problem := _environment_problem(target, pname, is_vector):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
     if pname == gl.GL_TEXTURE_ENV_COLOR:
-        if vector.shape != (4,):
-            raise ValueError(f"{operation}(GL_TEXTURE_ENV_COLOR): expected 4 numbers, got shape {vector.shape}")
-        set_unit(context, context.active_unit, env_color=tuple(float(c) for c in vector))
+        color = np.array(vector(values, 4), np.float32)
+        set_unit(context, context.active_unit, env_color=tuple(color.tolist()))
         return None
     if pname in COMBINE_PARAMETERS:
         unit = context.state.units[context.active_unit]
-        combine, why = with_parameter(unit.combine, pname, vector[0])
+        combine, why = with_parameter(unit.combine, pname, values[0])
         if combine is None:
             return fail(gl.GL_INVALID_VALUE if pname in SCALES else gl.GL_INVALID_ENUM, operation, why)
         set_unit(context, context.active_unit, combine=combine)
         return None
-    mode = int(vector[0])
+    mode = int(values[0])
     if mode not in ENVIRONMENT_MODES:
         expected = ", ".join(token_name(m, MODE_NAMES) for m in ENVIRONMENT_MODES)
         return fail(
@@ -97,10 +97,14 @@ def _set_environment(operation: str, target: int, pname: int, value: Any) -> Non
     return None
 
 
-def _environment_problem(target: int, pname: int, vector: bool) -> str | None:
+def _environment_problem(target: int, pname: int, is_vector: bool) -> str | None:
     if target != gl.GL_TEXTURE_ENV:
         return f"target={token_name(target)}: expected GL_TEXTURE_ENV"
-    if pname == gl.GL_TEXTURE_ENV_MODE or pname in COMBINE_PARAMETERS or (pname == gl.GL_TEXTURE_ENV_COLOR and vector):
+    if (
+        pname == gl.GL_TEXTURE_ENV_MODE
+        or pname in COMBINE_PARAMETERS
+        or (pname == gl.GL_TEXTURE_ENV_COLOR and is_vector)
+    ):
         return None
     return (
         f"pname={token_name(pname)}: expected GL_TEXTURE_ENV_MODE, a parameter of GL_COMBINE, or GL_TEXTURE_ENV_COLOR "
@@ -121,7 +125,7 @@ def glGetTexEnvfv(target: int, pname: int, params: Any = None) -> Any:
 def _environment(operation: str, target: int, pname: int, params: Any, dtype: type[np.generic]) -> Any:
     if (context := outside_begin(operation)) is None:
         return None
-    if problem := _environment_problem(target, pname, vector=True):
+    if problem := _environment_problem(target, pname, is_vector=True):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
     unit = context.state.units[context.active_unit]
     if pname == gl.GL_TEXTURE_ENV_MODE:
@@ -173,13 +177,13 @@ def glTexGendv(coord: int, pname: int, params: Any) -> None:
 @in_lists
 def glTexGeniv(coord: int, pname: int, params: Any) -> None:
     """Set a plane of a generated coordinate, or its mode."""
-    _set_generation("glTexGeniv", coord, pname, params)
+    _set_generation("glTexGeniv", coord, pname, params, int)
 
 
 def _set_mode(operation: str, coord: int, pname: int, value: Any) -> None:
     if (context := outside_begin(operation)) is None:
         return None
-    if problem := _generation_problem(coord, pname, vector=False):
+    if problem := _generation_problem(coord, pname, is_vector=False):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
     if int(value) not in GEN_MODES:
         return fail(
@@ -192,17 +196,16 @@ def _set_mode(operation: str, coord: int, pname: int, value: Any) -> None:
     return None
 
 
-def _set_generation(operation: str, coord: int, pname: int, params: Any) -> None:
+def _set_generation(
+    operation: str, coord: int, pname: int, params: Any, convert: Callable[[Any], float] = float
+) -> None:
     if (context := outside_begin(operation)) is None:
         return None
-    values = np.ravel(params)
     if pname == gl.GL_TEXTURE_GEN_MODE:
-        return _set_mode(operation, coord, pname, values[0])
-    if problem := _generation_problem(coord, pname, vector=True):
+        return _set_mode(operation, coord, pname, first(params, convert))
+    if problem := _generation_problem(coord, pname, is_vector=True):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
-    if values.shape != (4,):
-        raise ValueError(f"{operation}({token_name(pname)}): expected 4 numbers, got shape {values.shape}")
-    plane = values.astype(np.float32)
+    plane = np.array(vector(params, 4, convert), np.float32)
     if pname == gl.GL_EYE_PLANE:
         plane = eye_plane(context, plane)
     _replace_generation(context, coord, **{PLANES[pname]: tuple(float(p) for p in plane)})
@@ -219,10 +222,10 @@ def eye_plane(context: Context, plane: np.ndarray) -> np.ndarray:
         return np.asarray(a * m[0] + b * m[1] + c * m[2] + d * m[3], np.float32)
 
 
-def _generation_problem(coord: int, pname: int, vector: bool) -> str | None:
+def _generation_problem(coord: int, pname: int, is_vector: bool) -> str | None:
     if coord not in COORDINATES:
         return f"coord={token_name(coord)}: expected GL_S, GL_T, GL_R or GL_Q"
-    if pname == gl.GL_TEXTURE_GEN_MODE or (vector and pname in PLANES):
+    if pname == gl.GL_TEXTURE_GEN_MODE or (is_vector and pname in PLANES):
         return None
     planes = "or with four numbers GL_OBJECT_PLANE or GL_EYE_PLANE"
     return f"pname={token_name(pname)}: expected GL_TEXTURE_GEN_MODE, {planes}"
@@ -251,7 +254,7 @@ def glGetTexGendv(coord: int, pname: int, params: Any = None) -> Any:
 
 
 def _generation(operation: str, coord: int, pname: int, params: Any, dtype: type[np.generic]) -> Any:
-    if problem := _generation_problem(coord, pname, vector=True):
+    if problem := _generation_problem(coord, pname, is_vector=True):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
     if (context := outside_begin(operation)) is None:
         return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.conversions import first, from_int, nearest_int, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, listed, take
 from softshadow.pipeline.commands import AttachTexture, CreateTexture, DeleteTextures, SetSampler
@@ -147,29 +149,26 @@ def glTexParameterf(target: int, pname: int, param: float) -> None:
 def glTexParameterfv(target: int, pname: int, params: Any) -> None:
     """Set a parameter of the bound texture; GL_TEXTURE_BORDER_COLOR takes four floats."""
     if pname == gl.GL_TEXTURE_BORDER_COLOR:
-        _set_border("glTexParameterfv", target, np.asarray(params, np.float32))
+        _set_border("glTexParameterfv", target, vector(params, 4))
     else:
-        _set_parameter("glTexParameterfv", target, pname, np.ravel(params)[0])
+        _set_parameter("glTexParameterfv", target, pname, first(params))
 
 
 @in_lists
 def glTexParameteriv(target: int, pname: int, params: Any) -> None:
     """Set a parameter of the bound texture; GL_TEXTURE_BORDER_COLOR takes four ints, 2**31 - 1 stands for 1."""
     if pname == gl.GL_TEXTURE_BORDER_COLOR:
-        values = np.asarray(params, np.float32)
-        _set_border("glTexParameteriv", target, (np.float32(2) * values + np.float32(1)) / np.float32(4294967294.0))
+        _set_border("glTexParameteriv", target, vector(params, 4, from_int))
     else:
-        _set_parameter("glTexParameteriv", target, pname, np.ravel(params)[0])
+        _set_parameter("glTexParameteriv", target, pname, first(params, int))
 
 
-def _set_border(operation: str, target: int, color: np.ndarray) -> None:
+def _set_border(operation: str, target: int, color: Sequence[float]) -> None:
     if (context := outside_begin(operation)) is None:
         return None
     if problem := target_problem(context, target):
         return fail(problem[0], operation, problem[1])
-    if color.shape != (4,):
-        raise ValueError(f"{operation}(GL_TEXTURE_BORDER_COLOR): expected 4 numbers, got shape {color.shape}")
-    _set_sampler(context, target, border_color=tuple(float(c) for c in color))
+    _set_sampler(context, target, border_color=tuple(np.array(color, np.float32).tolist()))
     return None
 
 
@@ -189,11 +188,12 @@ def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
             )
         _set_sampler(context, target, **{field: int(value)})
     elif pname in LEVELS:
-        if value < 0:
+        level = nearest_int(value)
+        if level < 0:
             return fail(gl.GL_INVALID_VALUE, operation, f"{token_name(pname)}={value}: expected 0 or more")
-        _set_sampler(context, target, **{LEVELS[pname]: int(value)})
+        _set_sampler(context, target, **{LEVELS[pname]: level})
     elif pname in BOOLEANS:
-        _set_sampler(context, target, **{BOOLEANS[pname]: bool(value)})
+        _set_sampler(context, target, **{BOOLEANS[pname]: bool(nearest_int(value))})
     elif pname in NUMBERS:
         number = float(np.float32(value))
         limited = min(max(number, 0.0), 1.0) if pname == gl.GL_TEXTURE_PRIORITY else number

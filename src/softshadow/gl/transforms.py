@@ -34,6 +34,8 @@ def set_current(context: Context, matrix: np.ndarray, kind: int) -> None:
 
 def _given(context: Context, m: Any) -> np.ndarray:
     """Return a matrix argument, 16 numbers in GL's column-major order, as (4, 4) with column vectors."""
+    if isinstance(m, bytes | bytearray | memoryview):
+        m = np.frombuffer(m, np.float64 if len(m) == 128 else np.float32)
     return context.frozen(m).reshape(4, 4).T
 
 

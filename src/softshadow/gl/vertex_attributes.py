@@ -23,8 +23,10 @@ from softshadow.gl.vertex_format import give
 # -- colour ------------------------------------------------------------------------------------------------------------
 def _set_color(red: float, green: float, blue: float, *alpha: float) -> None:
     context = current()
-    give(context, "color", 3 + len(alpha))
-    context.current.color = (float(red), float(green), float(blue), float(alpha[0]) if alpha else 1.0)
+    kept = give(context, "color", 3 + len(alpha))
+    if not alpha:
+        alpha = context.current.color[3:] if kept > 3 else (1.0,)
+    context.current.color = (float(red), float(green), float(blue), float(alpha[0]))
     if context.primitive is None:  # inside, glEnd does it: the vertices take their colours along
         follow_color(context)
 
@@ -53,7 +55,19 @@ def glColor4fv(v: Any) -> None:
     _set_color(*vector(v, 4))
 
 
-glColor3d, glColor4d, glColor3dv, glColor4dv = glColor3f, glColor4f, glColor3fv, glColor4fv
+@in_lists
+def glColor3d(red: float, green: float, blue: float) -> None:
+    """Set the current colour, alpha 1."""
+    _set_color(red, green, blue, 1.0)  # to Mesa a call with four numbers, as all of glColor3 but glColor3f
+
+
+@in_lists
+def glColor3dv(v: Any) -> None:
+    """Set the current colour from a vector, alpha 1."""
+    _set_color(*vector(v, 3), 1.0)
+
+
+glColor4d, glColor4dv = glColor4f, glColor4fv
 
 
 def _calls_for(convert: Callable[[Any], float]) -> tuple[Callable[..., None], ...]:
@@ -62,7 +76,7 @@ def _calls_for(convert: Callable[[Any], float]) -> tuple[Callable[..., None], ..
     @in_lists
     def three(red: int, green: int, blue: int) -> None:
         """Set the current colour from integers, alpha 1."""
-        _set_color(convert(red), convert(green), convert(blue))
+        _set_color(convert(red), convert(green), convert(blue), 1.0)
 
     @in_lists
     def four(red: int, green: int, blue: int, alpha: int) -> None:
@@ -72,7 +86,7 @@ def _calls_for(convert: Callable[[Any], float]) -> tuple[Callable[..., None], ..
     @in_lists
     def three_of_vector(v: Any) -> None:
         """Set the current colour from a vector of integers, alpha 1."""
-        _set_color(*vector(v, 3, convert))
+        _set_color(*vector(v, 3, convert), 1.0)
 
     @in_lists
     def four_of_vector(v: Any) -> None:

@@ -28,11 +28,25 @@ def begin(context: Context, mode: int) -> None:
     context.primitive = Primitive(mode, from_list=context.list_depth > 0, materials=materials)
 
 
-def give(context: Context, name: str, size: int) -> None:
-    """Make the vertices to come carry an attribute of `size` numbers, sending off those that cannot."""
+def give(context: Context, name: str, size: int) -> int:
+    """Make the vertices to come carry an attribute of `size` numbers, sending off those that cannot.
+
+    Returns
+    -------
+    int
+        How many numbers of the attribute, from the first on, are the ones given or given before; those after them
+        become 0 and 1. Mesa sets what a call leaves out only where the call before gave more numbers, and it forgets
+        that one did: of glColor4, glColor3, glColor4, glColor3 the last keeps the alpha of the third. Display lists
+        keep count.
+    """
     sizes, primitive = context.vertex_sizes, context.primitive
-    if sizes.get(name, 0) >= size:
-        return
+    carried, given_before = sizes.get(name, 0), context.given_sizes.get(name, 0)
+    if carried >= size:
+        if size < given_before or context.list_depth:
+            context.given_sizes[name] = size
+            return size
+        return carried
+    context.given_sizes[name] = size
     context.draw_waiting()
     if primitive is not None:
         if not primitive.from_list:
@@ -43,6 +57,7 @@ def give(context: Context, name: str, size: int) -> None:
             sizes.clear()
         context.stored_vertices = 0
     sizes[name] = size
+    return size
 
 
 def _draw_finished(context: Context, primitive: Primitive) -> None:
