@@ -57,6 +57,27 @@ class CurrentVertex:
 
 
 @dataclass
+class GivenAttributes:
+    """Attributes that were given and not yet handed on to the current values, which Mesa keeps elsewhere.
+
+    That decides what glPopAttrib brings back: it takes the current values along, and sees as changed what was handed on
+    (vbo_exec_api.c; NeedFlush in mtypes.h).
+
+    Attributes
+    ----------
+    names : set of str       "color", "normal", "texcoord0", "front.diffuse" ...: given since they were last forgotten
+    before : dict            name: the current value, of those given and not handed on
+    waiting : dict           name: what was given, where glPopAttrib has brought another current value back since
+    stored : bool            whether the next change of state hands them on and forgets them
+    """
+
+    names: set[str] = field(default_factory=set)
+    before: dict[str, Any] = field(default_factory=dict)
+    waiting: dict[str, Any] = field(default_factory=dict)
+    stored: bool = False
+
+
+@dataclass
 class Primitive:
     """What glBegin ... glEnd has collected: a row per vertex; `from_list` says that a display list has begun it."""
 
@@ -169,6 +190,9 @@ class Context:
         self.stored_vertices = 0  # how many were collected since the last time they were sent off
         self.arrays = ClientArrays()
         self.attribute_stack: list[Any] = []
+        # since the last glPushAttrib or glPopAttrib: the state as it was, groups of attributes changed beside it
+        self.seen, self.touched = self.state, 0
+        self.given = GivenAttributes()
         self.lists: dict[int, DisplayList] = {}
         self.compiled_list: DisplayList | None = None  # between glNewList and glEndList
         self.list_base = 0
@@ -200,8 +224,13 @@ class Context:
 
     def change_state(self, state: State) -> None:
         """Replace the state; where that makes a difference to draws, it ends the batch of quads."""
-        if self.vertex_sizes and self.primitive is None and _drawn_under(state) != _drawn_under(self.state):
+        waits = self.vertex_sizes or self.given.stored
+        if waits and self.primitive is None and _drawn_under(state) != _drawn_under(self.state):
+            before = self.state
             self.settle()
+            if self.state is not before:  # materials were handed on
+                handed_on: Any = {"front": self.state.lighting.front, "back": self.state.lighting.back}
+                state = replace(state, lighting=replace(state.lighting, **handed_on))
         self.state = state
 
     def frozen(self, values: Any) -> np.ndarray:
@@ -246,6 +275,7 @@ class Context:
     def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:
         """Draw primitives under the present state. The arrays must be read-only and the caller's own no more."""
         self.settle()
+        self.read_given()
         self.draw_primitive(mode, vertices, indices)
 
     def draw_primitive(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:
@@ -273,6 +303,60 @@ class Context:
             self.draw_waiting()
             self.vertex_sizes.clear()
             self.stored_vertices = 0
+            if self.given.stored:
+                self.forget_given()
+
+    # -- current values ------------------------------------------------------------------------------------------------
+    def attribute(self, name: str) -> Any:
+        """Return a current value by its name: "color", "normal", "texcoord0", "front.diffuse" ..."""
+        if name.startswith("texcoord"):
+            return self.current.texcoords[int(name.removeprefix("texcoord"))]
+        side, _, material = name.partition(".")
+        return getattr(getattr(self.state.lighting, side), material) if material else getattr(self.current, name)
+
+    def set_attribute(self, name: str, value: Any) -> None:
+        """Set a current value by its name. A material ends no batch of quads by this."""
+        side, _, material = name.partition(".")
+        if name.startswith("texcoord"):
+            self.current.texcoords[int(name.removeprefix("texcoord"))] = value
+        elif material:
+            lighting = self.state.lighting
+            made: Any = {side: replace(getattr(lighting, side), **{material: value})}
+            self.state = replace(self.state, lighting=replace(lighting, **made))
+        else:
+            setattr(self.current, name, value)
+
+    def about_to_give(self, name: str) -> None:
+        """Remember that an attribute is given, and over which current value."""
+        given = self.given
+        if name not in given.before:
+            given.names.add(name)
+            given.before[name] = self.attribute(name)
+            given.waiting.pop(name, None)
+
+    def hand_on_given(self) -> None:
+        """Make current what was given, and mark the groups of attributes that this changes."""
+        given = self.given
+        for name, value in given.waiting.items():
+            given.before.setdefault(name, self.attribute(name))
+            self.set_attribute(name, value)
+        for name, before in given.before.items():
+            if before != self.attribute(name):
+                self.touched |= gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT
+        given.waiting.clear()
+        given.before.clear()
+
+    def read_given(self) -> None:
+        """Hand on what was given since the last time, as queries of current values do."""
+        if self.given.before:
+            self.hand_on_given()
+            self.given.stored = True
+
+    def forget_given(self) -> None:
+        """Hand on what was given; the vertices to come do not carry it by themselves any more."""
+        self.hand_on_given()
+        self.given.names.clear()
+        self.given.stored = False
 
     def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None) -> Draw:
         self.settle_kinds()

@@ -45,12 +45,14 @@ class Attachment:
 class Framebuffer:
     """The buffers that a draw writes. A missing buffer is None: its test passes and nothing is written.
 
-    `flipped` says that row 0 is the top row (the default framebuffer).
+    `flipped` says that row 0 is the top row (the default framebuffer), `clamps` that glGet answers colours clamped to
+    [0, 1]: Mesa finds out whether an object has buffers of floats when it first asks whether it is complete.
     """
 
     name: int
     attachments: dict[int, Attachment] = field(default_factory=dict)
     flipped: bool = False
+    clamps: bool = False
     draw_buffer: int = gl.GL_COLOR_ATTACHMENT0
     read_buffer: int = gl.GL_COLOR_ATTACHMENT0
     accumulation: np.ndarray | None = None
@@ -125,8 +127,9 @@ def default_framebuffer(
             gl.GL_STENCIL_ATTACHMENT: Attachment(stencil),
         },
         flipped=True,
-        draw_buffer=gl.GL_BACK,
-        read_buffer=gl.GL_BACK,
+        clamps=True,
+        draw_buffer=gl.GL_FRONT,
+        read_buffer=gl.GL_FRONT,
     )
 
 

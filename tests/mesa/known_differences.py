@@ -9,8 +9,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from mesa.gl_calls import Call
 
 CORNERS = [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.7)]
@@ -55,21 +53,6 @@ def triangle(gl: Any, mode: int, corners: list[tuple[float, float]]) -> None:
     gl.glEnd()
 
 
-def popped_color(gl: Any) -> list[Any]:
-    gl.glPushAttrib(gl.GL_ALL_ATTRIB_BITS)
-    gl.glFrontFace(gl.GL_CW)
-    gl.glColor3f(0.25, 0.5, 0.75)
-    gl.glPopAttrib()
-    return [gl.glGetFloatv(gl.GL_CURRENT_COLOR)]
-
-
-def popped_light(gl: Any) -> list[Any]:
-    gl.glPushAttrib(gl.GL_ENABLE_BIT)
-    gl.glEnable(gl.GL_LIGHT3)
-    gl.glPopAttrib()
-    return [np.array(int(gl.glIsEnabled(gl.GL_LIGHT3)))]
-
-
 def unfinished_quad(gl: Any) -> None:
     gl.glNewList(1, gl.GL_COMPILE)
     triangle(gl, gl.GL_QUADS, CORNERS[:3])
@@ -105,20 +88,6 @@ KNOWN = (
     ),
 )
 FAULTS = (
-    KnownDifference(
-        "popped colour",
-        "the current colour after glPopAttrib, where glFrontFace or glShadeModel was called since glPushAttrib",
-        "Mesa does not bring it back; GL 2.1, sec. 6.1.14, restores every group that was pushed",
-        255,
-        popped_color,
-    ),
-    KnownDifference(
-        "popped light",
-        "whether single lights are on after glPopAttrib of GL_ENABLE_BIT",
-        "Mesa leaves a light on that was off; GL 2.1, table 6.19, has the switches of lights in this group",
-        255,
-        popped_light,
-    ),
     KnownDifference(
         "unfinished quad in a list",
         "three vertices of GL_QUADS or GL_QUAD_STRIP in a display list, where a fourth never comes",

@@ -18,6 +18,7 @@ def glClearAccum(red: float, green: float, blue: float, alpha: float) -> None:
     """Set the colour that glClear writes to the accumulation buffer, clamped to [-1, 1]."""
     context = outside_begin("glClearAccum")
     if context is not None:
+        context.touched |= gl.GL_ACCUM_BUFFER_BIT
         clamped = [min(max(-1.0, float(c)), 1.0) for c in (red, green, blue, alpha)]
         change(context, "color", clear_accum=rounded(context, *clamped))
 

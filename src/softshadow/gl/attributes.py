@@ -1,56 +1,44 @@
-"""glPushAttrib and glPopAttrib: the groups of GL 2.1's state tables (sec. 6.2)."""
+"""glPushAttrib and glPopAttrib, as Mesa has them.
+
+Mesa is less thorough than GL 2.1, sec. 6.1.14 (main/attrib.c):
+
+- Of the groups that were pushed, it brings back those that it has seen change since.
+- A pop forgets what was changed between it and its push: an outer pop does not bring it back.
+- The switches of single lights come back with GL_LIGHTING_BIT, not with GL_ENABLE_BIT.
+- A colour, normal, texture coordinate or material that was given since the push, and that no vertex took along, is only
+  hidden: the next change of state, and the next glBegin, make it current again.
+"""
 
 from __future__ import annotations
 
 from copy import copy
 from dataclasses import dataclass, replace
-from typing import Any
 
 from softshadow import tokens as gl
 from softshadow.context import Context, CurrentVertex
+from softshadow.framebuffer import DEFAULT
+from softshadow.gl.attribute_groups import GROUPS, calls_made, changed_groups, with_group
 from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.capabilities import CAPABILITIES, CLIP_PLANES, GENERATED, LIGHTS, UNIT_CAPABILITIES, is_on, switched
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import glDrawBuffer, glReadBuffer
-from softshadow.gl.materials import follow_color
+from softshadow.gl.materials import start_to_follow
 from softshadow.gl.textures import BINDINGS
 from softshadow.pipeline.commands import CreateTexture, SetSampler
 from softshadow.state import State
 from softshadow.texture import Sampler
 
 DEEPEST_ATTRIBUTES = 16
-# bit: {group of the state: its fields that the bit saves, or all}
-GROUPS: dict[int, dict[str, tuple[str, ...]]] = {
-    gl.GL_COLOR_BUFFER_BIT: {"alpha": (), "blend": (), "color": ("mask", "clear", "dither")},
-    gl.GL_ACCUM_BUFFER_BIT: {"color": ("clear_accum",)},
-    gl.GL_DEPTH_BUFFER_BIT: {"depth": ("enabled", "func", "write", "clear")},
-    gl.GL_STENCIL_BUFFER_BIT: {"stencil": ()},
-    gl.GL_FOG_BIT: {"fog": ()},
-    gl.GL_LIGHTING_BIT: {
-        "lighting": (
-            "enabled", "lights", "model_ambient", "local_viewer", "two_side", "color_control", "front", "back",
-            "color_material", "color_material_face", "color_material_mode", "shade_model",
-        ),
-    },
-    gl.GL_LINE_BIT: {"polygon": ("line_width",)},
-    gl.GL_POINT_BIT: {"polygon": ("point_size",)},
-    gl.GL_POLYGON_BIT: {
-        "cull": (),
-        "polygon": ("mode_front", "mode_back", "offset_fill", "offset_line", "offset_point", "factor", "units"),
-    },
-    gl.GL_SCISSOR_BIT: {"scissor": ()},
-    gl.GL_TEXTURE_BIT: {"units": ()},
-    gl.GL_TRANSFORM_BIT: {"clip_planes": (), "lighting": ("normalize", "rescale_normal"), "depth": ("clamp",)},
-    gl.GL_VIEWPORT_BIT: {"viewport": ()},
-    gl.GL_MULTISAMPLE_BIT: {"color": ("multisample",)},
-}  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
 class Saved:
-    """What a push keeps: all of it, since a state is a reference; the mask says what the pop brings back."""
+    """What a push keeps: all of it, since a state is a reference; the mask says what the pop brings back.
+
+    `touched` are the groups that had been changed since the push before.
+    """
 
     mask: int
+    touched: int
     state: State
     current: CurrentVertex
     hints: dict[int, int]
@@ -71,13 +59,16 @@ def glPushAttrib(mask: int) -> None:
     if len(context.attribute_stack) == DEEPEST_ATTRIBUTES:
         fail(gl.GL_STACK_OVERFLOW, "glPushAttrib", f"this stack holds {DEEPEST_ATTRIBUTES} entries")
         return
+    touched = _touched(context)
+    if mask & (gl.GL_CURRENT_BIT | gl.GL_LIGHTING_BIT):
+        context.read_given()
     framebuffers, state = context.storage.framebuffers, context.state
-    vertex = replace(context.current, texcoords=list(context.current.texcoords))
     context.attribute_stack.append(
         Saved(
             mask=int(mask),
+            touched=touched,
             state=state,
-            current=vertex,
+            current=replace(context.current, texcoords=list(context.current.texcoords)),
             hints=copy(context.hints),
             matrix_mode=context.matrix_mode,
             active_unit=context.active_unit,
@@ -87,6 +78,12 @@ def glPushAttrib(mask: int) -> None:
             samplers=_bound_samplers(context) if mask & gl.GL_TEXTURE_BIT else {},
         )
     )
+    context.touched, context.seen = 0, state
+
+
+def _touched(context: Context) -> int:
+    """Return the groups that were changed since the last push or pop."""
+    return context.touched | changed_groups(context.seen, context.state)
 
 
 def _bound_samplers(context: Context) -> dict[tuple[int, int], Sampler]:
@@ -108,57 +105,93 @@ def glPopAttrib() -> None:
     if not context.attribute_stack:
         fail(gl.GL_STACK_UNDERFLOW, "glPopAttrib", "there was no glPushAttrib before it")
         return
-    saved: Saved = context.attribute_stack.pop()
-    state = context.state
-    for bit, groups in GROUPS.items():
-        if saved.mask & bit:
-            for group, fields in groups.items():
-                state = replace(state, **{group: _restored(getattr(state, group), getattr(saved.state, group), fields)})
     context.settle()
-    context.change_state(_with_capabilities(state, saved.state) if saved.mask & gl.GL_ENABLE_BIT else state)
-    _restore_the_rest(context, saved)
+    saved: Saved = context.attribute_stack.pop()
+    if saved.mask & gl.GL_CURRENT_BIT:
+        context.read_given()
+    mask = saved.mask & _touched(context)
+    for bit in GROUPS:
+        if mask & bit:
+            _bring_back(context, bit, saved)
+    _bring_back_buffers(context, mask, saved)
+    context.touched, context.seen = saved.touched, context.state
 
 
-def _restored(now: Any, before: Any, fields: tuple[str, ...]) -> Any:
-    return replace(now, **{field: getattr(before, field) for field in fields}) if fields else before
-
-
-def _with_capabilities(state: State, before: State) -> State:
-    """Return the state with every capability as it was before."""
-    everywhere = [(cap, 0) for cap in (*CAPABILITIES, *LIGHTS, *CLIP_PLANES)]
-    of_units = [(cap, unit) for cap in (*UNIT_CAPABILITIES, *GENERATED) for unit in range(len(state.units))]
-    for cap, unit in (*everywhere, *of_units):
-        on = is_on(before, cap, unit)
-        if is_on(state, cap, unit) != on:
-            state = switched(state, cap, unit, on)
-    return state
-
-
-def _restore_the_rest(context: Context, saved: Saved) -> None:
-    """Bring back what is not in the context's state value, and what follows from it."""
-    mask = saved.mask
-    if mask & gl.GL_CURRENT_BIT:
-        context.current = saved.current
-    if mask & gl.GL_HINT_BIT:
-        context.hints = saved.hints
-    if mask & gl.GL_LIST_BIT:
-        context.list_base = saved.list_base
-    if mask & gl.GL_TRANSFORM_BIT:
-        context.matrix_mode = saved.matrix_mode
-    if mask & gl.GL_TEXTURE_BIT:
+def _bring_back(context: Context, bit: int, saved: Saved) -> None:
+    """Bring back one group; what this makes Mesa call hands on the attributes given."""
+    now = context.state
+    restored = with_group(bit, now, saved.state)
+    if calls_made(bit, now, restored) or _sets_more(context, bit, saved):
+        context.settle()
+        now = context.state
+    context.state = with_group(bit, now, saved.state)
+    if bit == gl.GL_CURRENT_BIT:
+        _bring_back_current(context, saved)
+    elif bit == gl.GL_LIGHTING_BIT:
+        _bring_back_materials(context, saved)
+    elif bit == gl.GL_TEXTURE_BIT:
         context.active_unit = saved.active_unit
-        for (target, name), sampler in saved.samplers.items():
-            if name not in context.storage.textures:  # deleted meanwhile: binding the name makes it anew
-                context.execute(CreateTexture(name, target))
-            if context.storage.textures[name].sampler != sampler:
-                context.execute(SetSampler(name, sampler))
-    if mask & (gl.GL_CURRENT_BIT | gl.GL_ENABLE_BIT):
-        follow_color(context)
-    framebuffers, state = context.storage.framebuffers, context.state
+        _bring_back_samplers(context, saved)
+    elif bit == gl.GL_HINT_BIT:
+        context.hints = copy(saved.hints)
+    elif bit == gl.GL_LIST_BIT:
+        context.list_base = saved.list_base
+    elif bit == gl.GL_TRANSFORM_BIT:
+        context.matrix_mode = saved.matrix_mode
+    elif bit == gl.GL_ENABLE_BIT and saved.state.lighting.color_material and not now.lighting.color_material:
+        start_to_follow(context)
+
+
+def _sets_more(context: Context, bit: int, saved: Saved) -> bool:
+    """Return whether Mesa makes calls for what is not in `State`."""
+    return (
+        bit == gl.GL_PIXEL_MODE_BIT
+        or (bit == gl.GL_COLOR_BUFFER_BIT and _sets_draw_buffer(context, saved))
+        or (bit == gl.GL_HINT_BIT and context.hints != saved.hints)
+        or (bit == gl.GL_TEXTURE_BIT and context.active_unit != saved.active_unit)
+    )
+
+
+def _bring_back_current(context: Context, saved: Saved) -> None:
+    for name in context.given.names:
+        if "." not in name:
+            context.given.waiting.setdefault(name, context.attribute(name))
+    context.current = replace(saved.current, texcoords=list(saved.current.texcoords))
+
+
+def _bring_back_materials(context: Context, saved: Saved) -> None:
+    given = context.given
+    for name in given.names:
+        if "." in name and name not in given.before:
+            given.waiting.setdefault(name, context.attribute(name))
+    standing = {name: context.attribute(name) for name in given.before if "." in name}
+    before = saved.state.lighting
+    context.state = replace(
+        context.state, lighting=replace(context.state.lighting, front=before.front, back=before.back)
+    )
+    for name, value in standing.items():  # given and never handed on: the one that is popped stands below it
+        given.before[name] = context.attribute(name)
+        context.set_attribute(name, value)
+
+
+def _bring_back_samplers(context: Context, saved: Saved) -> None:
+    for (target, name), sampler in saved.samplers.items():
+        if name not in context.storage.textures:  # deleted meanwhile: binding the name makes it anew
+            context.execute(CreateTexture(name, target))
+        if context.storage.textures[name].sampler != sampler:
+            context.execute(SetSampler(name, sampler))
+
+
+def _sets_draw_buffer(context: Context, saved: Saved) -> bool:
+    """Return whether Mesa chooses the draw buffer of the push anew: it compares it with the window's, always."""
+    return saved.draw_buffer != context.storage.framebuffers[DEFAULT].draw_buffer
+
+
+def _bring_back_buffers(context: Context, mask: int, saved: Saved) -> None:
     # through GL's calls: the buffer may be none of the framebuffer that is bound now, which is an error
-    if mask & gl.GL_COLOR_BUFFER_BIT and framebuffers[state.draw_framebuffer].draw_buffer != saved.draw_buffer:
+    if mask & gl.GL_COLOR_BUFFER_BIT and _sets_draw_buffer(context, saved):
         glDrawBuffer(saved.draw_buffer)
-    if mask & gl.GL_PIXEL_MODE_BIT and framebuffers[state.read_framebuffer].read_buffer != saved.read_buffer:
+    if mask & gl.GL_PIXEL_MODE_BIT:
         glReadBuffer(saved.read_buffer)
 
 

@@ -9,7 +9,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import is_one_of, outside_begin, wrong_enum
-from softshadow.gl.materials import follow_color
+from softshadow.gl.materials import start_to_follow
 from softshadow.state import State
 
 # capability: (group of the state, field)
@@ -66,7 +66,7 @@ def _switch(operation: str, cap: int, on: bool) -> None:
     elif is_on(context.state, cap, context.active_unit) != on:
         context.change_state(switched(context.state, cap, context.active_unit, on))
         if cap == gl.GL_COLOR_MATERIAL and on:
-            follow_color(context)
+            start_to_follow(context)
 
 
 def is_on(state: State, cap: int, unit: int) -> bool:
@@ -129,6 +129,7 @@ def glHint(target: int, mode: int) -> None:
     if is_one_of("glHint", "target", target, HINTS, "a hint of GL 2.1 (sec. 5.6)"):
         if context.hints.get(target, gl.GL_DONT_CARE) != mode:
             context.settle()
+            context.touched |= gl.GL_HINT_BIT
         context.hints[target] = int(mode)
 
 

@@ -19,6 +19,7 @@ def glClearColor(red: float, green: float, blue: float, alpha: float) -> None:
     """Set the colour that glClear writes."""
     context = outside_begin("glClearColor")
     if context is not None:
+        context.touched |= gl.GL_COLOR_BUFFER_BIT
         change(context, "color", clear=rounded(context, red, green, blue, alpha))
 
 
@@ -27,6 +28,7 @@ def glClearDepth(depth: float) -> None:
     """Set the depth that glClear writes, clamped to [0, 1]."""
     context = outside_begin("glClearDepth")
     if context is not None:
+        context.touched |= gl.GL_DEPTH_BUFFER_BIT
         change(context, "depth", clear=clamp01(depth))
 
 
@@ -35,6 +37,7 @@ def glClearStencil(s: int) -> None:
     """Set the stencil value that glClear writes."""
     context = outside_begin("glClearStencil")
     if context is not None:
+        context.touched |= gl.GL_STENCIL_BUFFER_BIT
         change(context, "stencil", clear=c_int(int(s)).value)
 
 

@@ -66,10 +66,10 @@ def glDepthMask(flag: Any) -> None:
 
 @in_lists
 def glAlphaFunc(func: int, ref: float) -> None:
-    """Set comparison and reference (clamped to [0, 1]) of the alpha test."""
+    """Set comparison and reference of the alpha test, which clamps it to [0, 1]."""
     context = outside_begin("glAlphaFunc")
     if context is not None and is_one_of("glAlphaFunc", "func", func, FUNCTIONS, A_FUNCTION):
-        change(context, "alpha", func=int(func), ref=rounded(context, clamp01(ref)))
+        change(context, "alpha", func=int(func), ref=rounded(context, ref))
 
 
 # -- stencil test ------------------------------------------------------------------------------------------------------

@@ -142,7 +142,9 @@ def framebuffer_status(context: Context, framebuffer: int) -> int:
     """Return whether a framebuffer is complete, as glCheckFramebufferStatus says it."""
     if framebuffer == DEFAULT:
         return gl.GL_FRAMEBUFFER_COMPLETE
-    attachments = context.storage.framebuffers[framebuffer].attachments
+    target = context.storage.framebuffers[framebuffer]
+    attachments = target.attachments
+    target.clamps = all(attachment.image.format.kind != "float" for attachment in attachments.values())
     if not all(_serves(point, attachment) for point, attachment in attachments.items()):
         return gl.GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT
     return gl.GL_FRAMEBUFFER_COMPLETE if attachments else gl.GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT
@@ -224,6 +226,7 @@ def glDrawBuffers(*arguments: Any) -> None:
 def _select(operation: str, which: str, mode: int) -> None:
     if (context := outside_begin(operation)) is None:
         return None
+    context.touched |= gl.GL_COLOR_BUFFER_BIT if which == "draw" else gl.GL_PIXEL_MODE_BIT
     name = context.state.draw_framebuffer if which == "draw" else context.state.read_framebuffer
     attachments = range(gl.GL_COLOR_ATTACHMENT0, gl.GL_COLOR_ATTACHMENT0 + 32)
     if mode not in WINDOW_BUFFERS and mode not in MISSING_BUFFERS and mode not in attachments:

@@ -47,6 +47,7 @@ def glEnd() -> None:
         return
     context.primitive = None
     follow_color(context)
+    context.given.stored |= bool(primitive.positions)
     if not primitive.positions:
         if primitive.mode != gl.GL_QUADS:
             context.draw_waiting()

@@ -103,6 +103,7 @@ def glListBase(base: int) -> None:
     context = outside_begin("glListBase")
     if context is not None:
         context.list_base = int(base)
+        context.touched |= gl.GL_LIST_BIT
 
 
 def glDeleteLists(list: int, range: int) -> None:

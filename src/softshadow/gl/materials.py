@@ -94,6 +94,8 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
     made: dict[str, Material] = {}
     for side in SIDES[face]:
         free = {field: value for field, value in fields.items() if field not in followed(lighting, side)}
+        for field in free:
+            context.about_to_give(f"{side}.{field}")
         if context.primitive is not None:
             for field, value in free.items():
                 give(context, f"{side}.{field}", np.size(value))
@@ -118,7 +120,7 @@ def glColorMaterial(face: int, mode: int) -> None:
         return
     if is_one_of("glColorMaterial", "mode", mode, FIELDS, A_COLOR):
         change(context, "lighting", color_material_face=int(face), color_material_mode=int(mode))
-        follow_color(context)
+        start_to_follow(context)
 
 
 def followed(lighting: Lighting, side: str) -> tuple[str, ...]:
@@ -135,6 +137,19 @@ def follow_color(context: Context) -> None:
         sides = SIDES[lighting.color_material_face]
         made = {side: replace(getattr(lighting, side), **fields) for side in sides}
         context.state = replace(context.state, lighting=replace(lighting, **made))  # which ends no batch
+
+
+def start_to_follow(context: Context) -> None:
+    """Give the current colour to materials from now on; one that was given before and not forgotten comes back later.
+
+    Mesa hands it on a second time when the vertices are sent off (vbo_exec_copy_to_current).
+    """
+    if context.state.lighting.color_material:
+        context.read_given()
+        for name in context.given.names:
+            if "." in name:
+                context.given.waiting.setdefault(name, context.attribute(name))
+        follow_color(context)
 
 
 # -- queries -----------------------------------------------------------------------------------------------------------
@@ -154,6 +169,7 @@ def _material(operation: str, face: int, pname: int) -> Any:
     if context is None or not is_one_of(operation, "face", face, faces, "GL_FRONT or GL_BACK"):
         return None
     context.settle()
+    context.read_given()
     readable = [name for name, fields in PARAMETERS.items() if len(fields) == 1]
     if not is_one_of(operation, "pname", pname, readable, "a material parameter (GL 2.1, table 2.11)"):
         return None

@@ -15,6 +15,7 @@ from softshadow.gl.conversions import nearest_int, to_int
 from softshadow.gl.errors import outside_begin, wrong_enum
 from softshadow.gl.state_table import BY_TOKEN, NORMALISED
 
+GIVEN = (gl.GL_CURRENT_COLOR, gl.GL_CURRENT_NORMAL, gl.GL_CURRENT_TEXTURE_COORDS)
 DOUBLES = (gl.GL_DEPTH_RANGE, gl.GL_DEPTH_CLEAR_VALUE)  # what GL keeps in double precision
 STRINGS = {
     gl.GL_VENDOR: b"softshadow",
@@ -63,6 +64,8 @@ def _get(operation: str, pname: int, params: Any, dtype: type[np.generic], conve
     context = outside_begin(operation)
     if context is None:
         return None
+    if pname in GIVEN:
+        context.read_given()
     if pname in BY_TOKEN:
         value = BY_TOKEN[pname](context)
     elif pname in KNOWN:

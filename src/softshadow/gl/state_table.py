@@ -54,14 +54,13 @@ def accumulation_bits(c: Context) -> int:
 
 
 def shown_color(color: Callable[[Context], Any]) -> Read:
-    """Return the reader of a colour that glGet answers clamped to [0, 1], where the colour buffer holds no floats."""
+    """Return the reader of a colour that glGet answers clamped."""
+    return lambda c: clamped(c, *color(c))
 
-    def read(c: Context) -> tuple[float, ...]:
-        image = drawn_to(c).color
-        clamped = image is not None and image.format.kind != "float"
-        return tuple(min(max(v, 0.0), 1.0) for v in color(c)) if clamped else tuple(color(c))
 
-    return read
+def clamped(c: Context, *values: float) -> tuple[float, ...]:
+    """Return values clamped to [0, 1], but for a framebuffer object with a buffer of floats, or never yet validated."""
+    return tuple(min(max(v, 0.0), 1.0) for v in values) if drawn_to(c).clamps else values
 
 
 def stencil(prefix: str, face: Callable[[Context], StencilFace]) -> dict[str, Read]:
@@ -124,7 +123,7 @@ QUERIES: dict[str, Read] = {
     "GL_DEPTH_RANGE": lambda c: (c.state.viewport.near, c.state.viewport.far),
     "GL_SCISSOR_BOX": lambda c: (c.state.scissor.x, c.state.scissor.y, c.state.scissor.width, c.state.scissor.height),
     "GL_ALPHA_TEST_FUNC": lambda c: c.state.alpha.func,
-    "GL_ALPHA_TEST_REF": lambda c: c.state.alpha.ref,
+    "GL_ALPHA_TEST_REF": lambda c: clamped(c, c.state.alpha.ref)[0],
     **stencil("", lambda c: c.state.stencil.front),
     **stencil("BACK_", lambda c: c.state.stencil.back),
     "GL_STENCIL_CLEAR_VALUE": lambda c: c.state.stencil.clear,

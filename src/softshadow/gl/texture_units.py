@@ -39,6 +39,7 @@ def glActiveTexture(texture: int) -> None:
         )
     if context.active_unit != unit:
         context.settle()
+        context.touched |= gl.GL_TEXTURE_BIT
     context.active_unit = unit
     return None
 

@@ -209,6 +209,7 @@ def _set_sampler(context: Context, target: int, **fields: Any) -> None:
     texture = bound_texture(context, target)
     changed = replace(texture.sampler, **fields)
     if changed != texture.sampler:
+        context.touched |= gl.GL_TEXTURE_BIT
         context.execute(SetSampler(texture.name, changed))
 
 

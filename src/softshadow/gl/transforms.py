@@ -45,6 +45,8 @@ def glMatrixMode(mode: int) -> None:
     context = outside_begin("glMatrixMode")
     expected = "GL_MODELVIEW, GL_PROJECTION or GL_TEXTURE"
     if context is not None and is_one_of("glMatrixMode", "mode", mode, MATRIX_STACK_DEPTHS, expected):
+        if mode != context.matrix_mode or mode == gl.GL_TEXTURE:
+            context.touched |= gl.GL_TRANSFORM_BIT
         context.matrix_mode = mode
 
 

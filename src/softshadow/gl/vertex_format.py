@@ -24,6 +24,8 @@ def begin(context: Context, mode: int) -> None:
     """Start to collect a primitive. Attributes that were given before any vertex are constants of it."""
     if "position" not in context.vertex_sizes:
         context.vertex_sizes.clear()
+        if context.given.names:
+            context.forget_given()
     materials: dict[str, list[Any]] = {name: [] for name in context.vertex_sizes if "." in name}
     context.primitive = Primitive(mode, from_list=context.list_depth > 0, materials=materials)
 
@@ -39,6 +41,8 @@ def give(context: Context, name: str, size: int) -> int:
         that one did: of glColor4, glColor3, glColor4, glColor3 the last keeps the alpha of the third. Display lists
         keep count.
     """
+    if name != "position":
+        context.about_to_give(name)
     sizes, primitive = context.vertex_sizes, context.primitive
     carried, given_before = sizes.get(name, 0), context.given_sizes.get(name, 0)
     if carried >= size:

@@ -1,0 +1,117 @@
+"""The groups of attributes that glPushAttrib names by bits (GL 2.1, sec. 6.2), and what Mesa takes for changed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+from softshadow import tokens as gl
+from softshadow.gl.capabilities import CAPABILITIES, CLIP_PLANES, GENERATED, LIGHTS, UNIT_CAPABILITIES, is_on, switched
+from softshadow.state import State
+
+Fields = dict[str, tuple[str, ...]]  # group of the state: some of its fields, or () for all
+LIGHT_MODEL = ("enabled", "color_material", "color_material_face", "color_material_mode", "shade_model")
+# what a bit brings back, in Mesa's order (main/attrib.c); bits without a field stand for what is not in `State`
+GROUPS: dict[int, Fields] = {
+    gl.GL_ACCUM_BUFFER_BIT: {"color": ("clear_accum",)},
+    gl.GL_COLOR_BUFFER_BIT: {"alpha": (), "blend": (), "color": ("mask", "clear", "dither")},
+    gl.GL_CURRENT_BIT: {},
+    gl.GL_DEPTH_BUFFER_BIT: {"depth": ("enabled", "func", "write", "clear")},
+    gl.GL_ENABLE_BIT: {},
+    gl.GL_FOG_BIT: {"fog": ()},
+    gl.GL_HINT_BIT: {},
+    gl.GL_LIGHTING_BIT: {
+        "lighting": (*LIGHT_MODEL, "lights", "model_ambient", "local_viewer", "two_side", "color_control"),
+    },
+    gl.GL_LINE_BIT: {"polygon": ("line_width",)},
+    gl.GL_LIST_BIT: {},
+    gl.GL_PIXEL_MODE_BIT: {},
+    gl.GL_POINT_BIT: {"polygon": ("point_size",)},
+    gl.GL_POLYGON_BIT: {
+        "cull": (),
+        "polygon": ("mode_front", "mode_back", "offset_fill", "offset_line", "offset_point", "factor", "units"),
+    },
+    gl.GL_SCISSOR_BIT: {"scissor": ()},
+    gl.GL_STENCIL_BUFFER_BIT: {"stencil": ()},
+    gl.GL_TRANSFORM_BIT: {"clip_planes": (), "lighting": ("normalize", "rescale_normal"), "depth": ("clamp",)},
+    gl.GL_TEXTURE_BIT: {"units": ()},
+    gl.GL_VIEWPORT_BIT: {"viewport": ()},
+    gl.GL_MULTISAMPLE_BIT: {"color": ("multisample",)},
+}
+# of these, what Mesa brings back by calls that hand on the attributes given; the rest is copied
+CALLED: dict[int, Fields] = {
+    **GROUPS,
+    gl.GL_ACCUM_BUFFER_BIT: {},
+    gl.GL_COLOR_BUFFER_BIT: {"alpha": (), "blend": (), "color": ("mask", "dither")},
+    gl.GL_DEPTH_BUFFER_BIT: {"depth": ("enabled", "func", "write")},
+    gl.GL_LIGHTING_BIT: {"lighting": LIGHT_MODEL},
+    gl.GL_STENCIL_BUFFER_BIT: {"stencil": ("enabled", "front", "back")},
+    gl.GL_TRANSFORM_BIT: {
+        "clip_planes": ("enabled",),
+        "lighting": ("normalize", "rescale_normal"),
+        "depth": ("clamp",),
+    },
+    gl.GL_TEXTURE_BIT: {},
+    gl.GL_VIEWPORT_BIT: {},
+}
+
+
+def changed_groups(before: State, after: State) -> int:
+    """Return the bits of the groups in which two states differ.
+
+    Materials are not among them: they are attributes of vertices, and change when those are handed on.
+    """
+    if before is after:
+        return 0
+    bits = sum(bit for bit, groups in GROUPS.items() if differ(before, after, groups))
+    switches = _capabilities(after, lights=True)
+    any_switch = any(is_on(before, cap, unit) != is_on(after, cap, unit) for cap, unit in switches)
+    return bits | (gl.GL_ENABLE_BIT if any_switch else 0)
+
+
+def differ(before: State, after: State, groups: Fields) -> bool:
+    """Return whether two states differ in some fields of some groups."""
+    return any(
+        old is not new and (old != new if not fields else any(getattr(old, f) != getattr(new, f) for f in fields))
+        for old, new, fields in ((getattr(before, g), getattr(after, g), fields) for g, fields in groups.items())
+    )
+
+
+def calls_made(bit: int, before: State, after: State) -> bool:
+    """Return whether Mesa makes calls to get from one state to another in one group."""
+    if bit == gl.GL_LIGHTING_BIT and any(is_on(before, light, 0) != is_on(after, light, 0) for light in LIGHTS):
+        return True
+    if bit == gl.GL_ENABLE_BIT:
+        return before is not after
+    if bit == gl.GL_TEXTURE_BIT:
+        return any(
+            (old.bound_2d, old.bound_cube) != (new.bound_2d, new.bound_cube)
+            for old, new in zip(before.units, after.units, strict=True)
+        )
+    return differ(before, after, CALLED[bit])
+
+
+def with_group(bit: int, now: State, before: State) -> State:
+    """Return the state with one group as it was before."""
+    if bit == gl.GL_ENABLE_BIT:
+        return _with_capabilities(now, before)
+    made: dict[str, Any] = {}
+    for group, fields in GROUPS[bit].items():
+        old = getattr(before, group)
+        made[group] = replace(getattr(now, group), **{f: getattr(old, f) for f in fields}) if fields else old
+    return replace(now, **made) if made else now
+
+
+def _with_capabilities(state: State, before: State) -> State:
+    for cap, unit in _capabilities(state, lights=False):
+        on = is_on(before, cap, unit)
+        if is_on(state, cap, unit) != on:
+            state = switched(state, cap, unit, on)
+    return state
+
+
+def _capabilities(state: State, lights: bool) -> Iterable[tuple[int, int]]:
+    """Return (capability, texture unit); Mesa changes GL_ENABLE_BIT by the switch of a light, but never pops it."""
+    everywhere = [(cap, 0) for cap in (*CAPABILITIES, *(LIGHTS if lights else ()), *CLIP_PLANES)]
+    return everywhere + [(cap, unit) for cap in (*UNIT_CAPABILITIES, *GENERATED) for unit in range(len(state.units))]

@@ -1,0 +1,118 @@
+"""glPushAttrib and glPopAttrib leave what they leave on Mesa, where it is less than the specification asks for."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from softshadow.testing import compare
+
+SIZE = (8, 6)
+Step = Callable[[Any], Any]
+
+
+def color(gl: Any) -> None:
+    gl.glColor3f(0.25, 0.5, 0.75)
+
+
+def material(gl: Any) -> None:
+    gl.glMaterialfv(gl.GL_FRONT, gl.GL_AMBIENT, (0.5, 0.25, 0.5, 1))
+
+
+def shape(gl: Any) -> None:
+    gl.glBegin(gl.GL_TRIANGLES)
+    for corner in ((-1, -1), (1, -1), (0, 1)):
+        gl.glVertex2f(*corner)
+    gl.glEnd()
+
+
+STEPS: dict[str, Step] = {
+    "color": color,
+    "material": material,
+    "shape": shape,
+    "front face": lambda gl: gl.glFrontFace(gl.GL_CW),
+    "blend": lambda gl: gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ZERO),
+    "depth function": lambda gl: gl.glDepthFunc(gl.GL_GREATER),
+    "clear color": lambda gl: gl.glClearColor(0.25, 0, 0, 0),
+    "matrix mode": lambda gl: gl.glMatrixMode(gl.GL_PROJECTION),
+    "light": lambda gl: gl.glEnable(gl.GL_LIGHT3),
+    "fog": lambda gl: gl.glEnable(gl.GL_FOG),
+    "query color": lambda gl: gl.glGetFloatv(gl.GL_CURRENT_COLOR),
+    "query viewport": lambda gl: gl.glGetIntegerv(gl.GL_VIEWPORT),
+    "normal": lambda gl: gl.glNormal3f(1, 0, 0),
+    "color material": lambda gl: gl.glEnable(gl.GL_COLOR_MATERIAL),
+    "viewport": lambda gl: gl.glViewport(1, 1, 2, 2),
+    "push polygon": lambda gl: gl.glPushAttrib(gl.GL_POLYGON_BIT),
+    "push current": lambda gl: gl.glPushAttrib(gl.GL_CURRENT_BIT),
+    "pop": lambda gl: gl.glPopAttrib(),
+}
+BITS = ("GL_CURRENT_BIT", "GL_LIGHTING_BIT", "GL_ENABLE_BIT", "GL_ALL_ATTRIB_BITS")
+
+
+def left_by(bits: str, steps: tuple[str, ...], afterwards: tuple[str, ...] = ()) -> Callable[[Any], list[Any]]:
+    """Return a program that pushes, takes the steps, pops, takes more of them, and answers what state is left."""
+
+    def program(gl: Any) -> list[Any]:
+        gl.glPushAttrib(getattr(gl, bits))
+        for step in steps:
+            STEPS[step](gl)
+        gl.glPopAttrib()
+        for step in afterwards:
+            STEPS[step](gl)
+        answers = [
+            gl.glGetFloatv(gl.GL_CURRENT_COLOR),
+            gl.glGetFloatv(gl.GL_CURRENT_NORMAL),
+            gl.glGetMaterialfv(gl.GL_FRONT, gl.GL_AMBIENT),
+            [int(gl.glIsEnabled(cap)) for cap in (gl.GL_LIGHT3, gl.GL_FOG, gl.GL_COLOR_MATERIAL)],
+            [int(gl.glGetIntegerv(name)) for name in (gl.GL_FRONT_FACE, gl.GL_DEPTH_FUNC, gl.GL_MATRIX_MODE)],
+            gl.glGetIntegerv(gl.GL_VIEWPORT),
+        ]
+        return [np.array(answer) for answer in answers]
+
+    return program
+
+
+TOLD = [
+    ("GL_CURRENT_BIT", ("color",), ()),
+    ("GL_CURRENT_BIT", ("color",), ("front face",)),
+    ("GL_CURRENT_BIT", ("color",), ("shape",)),
+    ("GL_CURRENT_BIT", ("color", "shape"), ("shape",)),
+    ("GL_ALL_ATTRIB_BITS", ("front face", "color"), ()),
+    ("GL_ALL_ATTRIB_BITS", ("front face", "color", "query color"), ()),
+    ("GL_ALL_ATTRIB_BITS", ("front face", "color", "query viewport"), ()),
+    ("GL_ALL_ATTRIB_BITS", ("blend", "color"), ()),
+    ("GL_ALL_ATTRIB_BITS", ("viewport", "clear color", "matrix mode", "color"), ()),
+    ("GL_CURRENT_BIT", ("push polygon", "color", "pop"), ()),
+    ("GL_CURRENT_BIT", ("push polygon", "color", "query color", "pop"), ()),
+    ("GL_CURRENT_BIT", ("push current", "color", "pop"), ("front face",)),
+    ("GL_CURRENT_BIT", ("color", "push current", "pop"), ()),
+    ("GL_LIGHTING_BIT", ("material",), ()),
+    ("GL_LIGHTING_BIT", ("material", "shape"), ()),
+    ("GL_ALL_ATTRIB_BITS", ("material",), ("shape",)),
+    ("GL_ENABLE_BIT", ("light", "fog"), ()),
+    ("GL_LIGHTING_BIT", ("light",), ()),
+    ("GL_CURRENT_BIT", ("color material", "color", "shape"), ()),
+]
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize(("bits", "steps", "afterwards"), TOLD)
+def test_pop_leaves_what_mesa_leaves(bits, steps, afterwards):
+    comparison = compare(left_by(bits, steps, afterwards), SIZE)
+    assert comparison, str(comparison)
+
+
+@pytest.mark.mesa
+def test_random_steps_between_push_and_pop_leave_what_mesa_leaves():
+    rng = np.random.default_rng(11)
+    names = [name for name in STEPS if name != "pop" and "push" not in name]
+    for _ in range(60):
+        inside = [str(name) for name in rng.choice(names, rng.integers(1, 6))]
+        if rng.random() < 0.5:
+            at = int(rng.integers(len(inside) + 1))
+            inside[at:] = [str(rng.choice(["push polygon", "push current"])), *inside[at:], "pop"]
+        afterwards = tuple(str(name) for name in rng.choice(names, rng.integers(0, 3)))
+        bits = str(rng.choice(BITS))
+        comparison = compare(left_by(bits, tuple(inside), afterwards), SIZE)
+        assert comparison, (bits, inside, afterwards, str(comparison))
