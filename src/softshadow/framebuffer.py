@@ -67,6 +67,14 @@ class Framebuffer:
         return self._color_buffer(self.draw_buffer)
 
     @property
+    def first_color(self) -> Image | None:
+        """The first colour attachment, whichever is written, or None."""
+        points = [
+            point for point in self.attachments if point in range(gl.GL_COLOR_ATTACHMENT0, gl.GL_DEPTH_ATTACHMENT)
+        ]
+        return self.image(min(points)) if points else None
+
+    @property
     def read_color(self) -> Image | None:
         """The image that colours are read from, or None."""
         return self._color_buffer(self.read_buffer)

@@ -6,6 +6,7 @@ from softshadow import tokens as gl
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 
+LONGEST_NAME = 4096  # GL_MAX_DEBUG_MESSAGE_LENGTH of Mesa
 DEEPEST_GROUP = 63  # of GL's 64 groups the first is the default one
 SOURCES = (gl.GL_DEBUG_SOURCE_APPLICATION, gl.GL_DEBUG_SOURCE_THIRD_PARTY)
 
@@ -16,10 +17,13 @@ def glPushDebugGroup(source: int, id: int, length: int, message: str | bytes) ->
     expected = "GL_DEBUG_SOURCE_APPLICATION or GL_DEBUG_SOURCE_THIRD_PARTY"
     if context is None or not is_one_of("glPushDebugGroup", "source", source, SOURCES, expected):
         return
+    text = message.decode() if isinstance(message, bytes) else message
+    if max(length, len(text) if length < 0 else 0) >= LONGEST_NAME:
+        fail(gl.GL_INVALID_VALUE, "glPushDebugGroup", f"length={length}: expected less than {LONGEST_NAME} characters")
+        return
     if len(context.labels) == DEEPEST_GROUP:
         fail(gl.GL_STACK_OVERFLOW, "glPushDebugGroup", f"{DEEPEST_GROUP} groups are open already")
         return
-    text = message.decode() if isinstance(message, bytes) else message
     context.labels.append(text if length < 0 else text[:length])
 
 

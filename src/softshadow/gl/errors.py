@@ -49,8 +49,11 @@ def fail(code: int, operation: str, message: str) -> Any:
 
 
 def glGetError() -> int:
-    """Return the first error since the last call, and forget it."""
+    """Return the first error since the last call, and forget it. Between glBegin and glEnd it is an error itself."""
     context = current()
+    if context.primitive is not None:
+        context.error = context.error or gl.GL_INVALID_OPERATION  # recorded only: PyOpenGL does not check this call
+        return gl.GL_NO_ERROR
     code, context.error = context.error, gl.GL_NO_ERROR
     return code
 

@@ -64,7 +64,7 @@ def glDeleteFramebuffers(*arguments: Any) -> None:
     """Delete framebuffer objects: (name), (names) or (n, names). A bound one is replaced by the window."""
     if (context := outside_begin("glDeleteFramebuffers")) is None:
         return None
-    names = [name for name in listed(arguments) if name > 0]
+    names = [name for name in listed("glDeleteFramebuffers", arguments) if name > 0]
     for binding in BINDINGS[gl.GL_FRAMEBUFFER]:
         if getattr(context.state, binding) in names:
             context.set(**{binding: DEFAULT})
@@ -84,9 +84,12 @@ def glFramebufferTexture2D(target: int, attachment: int, textarget: int, texture
     operation, name = "glFramebufferTexture2D", int(texture)
     if (context := outside_begin(operation)) is None:
         return None
-    if problem := attachment_problem(context, target, attachment):
-        return fail(problem[0], operation, problem[1])
-    if name and (problem := _texture_problem(context, textarget, name, level)):
+    problem = (
+        target_problem(target)
+        or (_texture_problem(context, textarget, name, level) if name else None)
+        or attachment_problem(context, target, attachment)
+    )
+    if problem:
         return fail(problem[0], operation, problem[1])
     face = textarget - gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X if name and textarget != gl.GL_TEXTURE_2D else 0
     framebuffer = bound_framebuffer(context, target)
@@ -106,10 +109,13 @@ def bound_framebuffer(context: Context, target: int) -> int:
     return int(getattr(context.state, BINDINGS[target][0]))
 
 
+def target_problem(target: int) -> Problem | None:
+    """Return (error code, why) where a target is none of framebuffers, else None."""
+    return None if target in BINDINGS else (gl.GL_INVALID_ENUM, f"target={token_name(target)}: {EXPECTED_TARGET}")
+
+
 def attachment_problem(context: Context, target: int, attachment: int) -> Problem | None:
-    """Return (error code, why) where nothing can be attached there, else None."""
-    if target not in BINDINGS:
-        return gl.GL_INVALID_ENUM, f"target={token_name(target)}: {EXPECTED_TARGET}"
+    """Return (error code, why) where nothing can be attached there, else None; the target is a right one."""
     if bound_framebuffer(context, target) == DEFAULT:
         return gl.GL_INVALID_OPERATION, "the window is bound: its buffers cannot be exchanged"
     if attachment in range(gl.GL_COLOR_ATTACHMENT7 + 1, gl.GL_COLOR_ATTACHMENT0 + 32):
@@ -174,15 +180,25 @@ def glGetFramebufferAttachmentParameteriv(target: int, attachment: int, pname: i
     operation = "glGetFramebufferAttachmentParameteriv"
     if (context := outside_begin(operation)) is None:
         return None
+    if problem := target_problem(target):
+        return fail(problem[0], operation, problem[1])
+    if bound_framebuffer(context, target) == DEFAULT:
+        return fail(
+            gl.GL_INVALID_ENUM, operation, "the window is bound: only framebuffer objects answer in this subset"
+        )
     if problem := attachment_problem(context, target, attachment):
         return fail(problem[0], operation, problem[1])
     point = gl.GL_DEPTH_ATTACHMENT if attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT else attachment
     found = context.storage.framebuffers[bound_framebuffer(context, target)].attachments.get(point)
     kind = gl.GL_NONE if found is None else gl.GL_TEXTURE if found.texture else gl.GL_RENDERBUFFER
     answers = {gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE: kind, gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME: 0}
+    of_textures = (gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL, gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_CUBE_MAP_FACE)
+    if found is None and pname in of_textures:
+        return fail(gl.GL_INVALID_OPERATION, operation, f"pname={token_name(pname)}: nothing is attached there")
     if found is not None:
-        cube = found.texture and context.storage.textures[found.texture].target == gl.GL_TEXTURE_CUBE_MAP
         answers[gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME] = found.texture or found.renderbuffer
+    if found is not None and found.texture:
+        cube = context.storage.textures[found.texture].target == gl.GL_TEXTURE_CUBE_MAP
         answers[gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL] = found.level
         answers[gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_CUBE_MAP_FACE] = (
             gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X + found.face if cube else 0
@@ -210,9 +226,11 @@ def glReadBuffer(mode: int) -> None:
 @in_lists
 def glDrawBuffers(*arguments: Any) -> None:
     """Say which colour buffers are written: (buffers) or (n, buffers). Of several, only the first may be a buffer."""
-    modes = listed(arguments)
-    if not 1 <= len(modes) <= len(COLOR_ATTACHMENTS):
-        return fail(gl.GL_INVALID_VALUE, "glDrawBuffers", f"n={len(modes)}: expected 1 to {len(COLOR_ATTACHMENTS)}")
+    given = np.ravel(arguments[-1])
+    count = int(arguments[0]) if len(arguments) == 2 else len(given)
+    if not 1 <= count <= len(COLOR_ATTACHMENTS):
+        return fail(gl.GL_INVALID_VALUE, "glDrawBuffers", f"n={count}: expected 1 to {len(COLOR_ATTACHMENTS)}")
+    modes = [int(mode) for mode in given[:count]]
     if any(mode in SEVERAL for mode in modes):
         return fail(gl.GL_INVALID_ENUM, "glDrawBuffers", "a name for several buffers (GL_FRONT, GL_FRONT_AND_BACK ...)")
     if any(mode != gl.GL_NONE for mode in modes[1:]):

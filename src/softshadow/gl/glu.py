@@ -47,7 +47,7 @@ def gluLookAt(
 
 def gluProject(
     objX: float, objY: float, objZ: float, model: Any = None, proj: Any = None, view: Any = None
-) -> tuple[float, float, float]:  # fmt: skip
+) -> tuple[float, float, float] | None:  # fmt: skip
     """Return the window coordinates of a point, in double precision; y from the bottom.
 
     Matrices and viewport are the current ones where they are not given.
@@ -57,6 +57,8 @@ def gluProject(
     ValueError
         The point projects to infinity.
     """
+    if any(given is None for given in (model, proj, view)) and outside_begin("gluProject") is None:
+        return None
     model, proj, (left, bottom, width, height) = _current_or(model, proj, view)
     x, y, z, w = _applied(proj, _applied(model, (float(objX), float(objY), float(objZ), 1.0)))
     if w == 0:
@@ -67,7 +69,7 @@ def gluProject(
 
 def gluUnProject(
     winX: float, winY: float, winZ: float, model: Any = None, proj: Any = None, view: Any = None
-) -> tuple[float, float, float]:  # fmt: skip
+) -> tuple[float, float, float] | None:  # fmt: skip
     """Return the point whose window coordinates these are, in double precision.
 
     Raises
@@ -75,6 +77,8 @@ def gluUnProject(
     ValueError
         The matrices have no inverse, or the point lies at infinity.
     """
+    if any(given is None for given in (model, proj, view)) and outside_begin("gluUnProject") is None:
+        return None
     model, proj, (left, bottom, width, height) = _current_or(model, proj, view)
     ndc = [(winX - left) / width * 2 - 1, (winY - bottom) / height * 2 - 1, winZ * 2 - 1, 1.0]
     try:

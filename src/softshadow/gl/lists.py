@@ -5,6 +5,7 @@ What a list keeps is what `in_lists` decorates; arrays are read when the list is
 
 from __future__ import annotations
 
+from ctypes import c_uint
 from typing import Any
 
 import numpy as np
@@ -43,13 +44,14 @@ def glNewList(list: int, mode: int) -> None:
     if context is None:
         return
     context.settle()
-    if list <= 0:
+    name = c_uint(int(list)).value
+    if name == 0:
         fail(gl.GL_INVALID_VALUE, "glNewList", f"list={list}: expected 1 or more")
     elif is_one_of("glNewList", "mode", mode, MODES, "GL_COMPILE or GL_COMPILE_AND_EXECUTE"):
         if context.compiled_list is not None:
             fail(gl.GL_INVALID_OPERATION, "glNewList", f"list {context.compiled_list.name} has not been ended")
         else:
-            context.compiled_list = DisplayList(int(list), int(mode))
+            context.compiled_list = DisplayList(name, int(mode))
 
 
 def glEndList() -> None:
@@ -68,10 +70,11 @@ def glEndList() -> None:
 @in_lists
 def glCallList(list: int) -> None:
     """Carry out a list; a name without one does nothing."""
-    if list <= 0:
+    name = c_uint(int(list)).value
+    if name == 0:
         fail(gl.GL_INVALID_VALUE, "glCallList", f"list={list}: expected 1 or more")
     else:
-        _call(current(), int(list))
+        _call(current(), name)
 
 
 @in_lists

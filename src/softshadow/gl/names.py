@@ -33,8 +33,11 @@ def take(context: Context, kind: str, name: int) -> None:
     context.names[kind] = max(context.names[kind], name)
 
 
-def listed(arguments: tuple[Any, ...]) -> list[int]:
-    """Return the names in the arguments of a glDelete* call: (name), (names) or (n, names)."""
+def listed(operation: str, arguments: tuple[Any, ...]) -> list[int]:
+    """Return the names in the arguments of a glDelete* call: (name), (names) or (n, names); [] after an error."""
     count, given = (arguments[0], arguments[1]) if len(arguments) == 2 else (None, arguments[0])
     names = [int(name) for name in np.ravel(np.asarray(given))]
+    if count is not None and count < 0:
+        fail(gl.GL_INVALID_VALUE, operation, f"n={count}: expected 0 or more")
+        return []
     return names if count is None else names[:count]

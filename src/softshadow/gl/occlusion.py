@@ -27,7 +27,7 @@ def glDeleteQueries(*arguments: Any) -> None:
     context = outside_begin("glDeleteQueries")
     if context is None:
         return
-    for name in listed(arguments):
+    for name in listed("glDeleteQueries", arguments):
         if name and name == context.storage.active_query:
             context.execute(BeginQuery(0))
         context.query_targets.pop(name, None)

@@ -154,6 +154,24 @@ def glUniform1iv(location: int, count: int, value: Any) -> None:
 
 
 @in_lists
+def glUniform2iv(location: int, count: int, value: Any) -> None:
+    """Set an ivec2 uniform of the program in use from an array."""
+    _set_array("glUniform2iv", location, count, value, 2, "i")
+
+
+@in_lists
+def glUniform3iv(location: int, count: int, value: Any) -> None:
+    """Set an ivec3 uniform of the program in use from an array."""
+    _set_array("glUniform3iv", location, count, value, 3, "i")
+
+
+@in_lists
+def glUniform4iv(location: int, count: int, value: Any) -> None:
+    """Set an ivec4 uniform of the program in use from an array."""
+    _set_array("glUniform4iv", location, count, value, 4, "i")
+
+
+@in_lists
 def glUniformMatrix4fv(location: int, count: int, transpose: bool, value: Any) -> None:
     """Set a mat4 uniform of the program in use from 16 floats in column order, or in row order with `transpose`."""
     operation = "glUniformMatrix4fv"
@@ -173,8 +191,8 @@ def glUniformMatrix4fv(location: int, count: int, transpose: bool, value: Any) -
 
 def _set_array(operation: str, location: int, count: int, value: Any, size: int, kind: str) -> None:
     numbers = np.ravel(value)
-    if count >= 0 and len(numbers) < count * size:
-        raise ValueError(f"{operation}: value has {len(numbers)} numbers, count={count} needs {count * size}")
+    if count == 1 and len(numbers) < size:
+        raise ValueError(f"{operation}: value has {len(numbers)} numbers, count=1 needs {size}")
     _set(operation, location, list(numbers[:size]), kind, count)
 
 

@@ -8,7 +8,7 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import LARGEST_SIDE
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
-from softshadow.gl.framebuffers import attach, attachment_problem, bound_framebuffer
+from softshadow.gl.framebuffers import attach, attachment_problem, bound_framebuffer, target_problem
 from softshadow.gl.names import generate, listed, take
 from softshadow.image import FORMATS, storage_format
 from softshadow.pipeline.commands import AttachRenderbuffer, DefineRenderbuffer, DeleteRenderbuffers
@@ -20,7 +20,7 @@ def glFramebufferRenderbuffer(target: int, attachment: int, renderbuffertarget: 
     operation, name = "glFramebufferRenderbuffer", int(renderbuffer)
     if (context := outside_begin(operation)) is None:
         return None
-    if problem := attachment_problem(context, target, attachment):
+    if problem := target_problem(target):
         return fail(problem[0], operation, problem[1])
     if renderbuffertarget != gl.GL_RENDERBUFFER:
         return fail(
@@ -30,6 +30,8 @@ def glFramebufferRenderbuffer(target: int, attachment: int, renderbuffertarget: 
         )
     if name and name not in context.storage.renderbuffers:
         return fail(gl.GL_INVALID_OPERATION, operation, f"renderbuffer={name} does not exist")
+    if problem := attachment_problem(context, target, attachment):
+        return fail(problem[0], operation, problem[1])
     framebuffer = bound_framebuffer(context, target)
     attach(context, attachment, lambda point: AttachRenderbuffer(framebuffer, point, name))
     return None
@@ -78,7 +80,7 @@ def glDeleteRenderbuffers(*arguments: Any) -> None:
     """Delete renderbuffers: (name), (names) or (n, names). They leave the bound framebuffers."""
     if (context := outside_begin("glDeleteRenderbuffers")) is None:
         return None
-    names = [name for name in listed(arguments) if name > 0]
+    names = [name for name in listed("glDeleteRenderbuffers", arguments) if name > 0]
     for framebuffer in {context.state.draw_framebuffer, context.state.read_framebuffer}:
         for point, attachment in list(context.storage.framebuffers[framebuffer].attachments.items()):
             if attachment.renderbuffer in names:

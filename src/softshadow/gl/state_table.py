@@ -41,7 +41,7 @@ def bits(image: Image | None) -> int:
 
 def color_bits(channel: int) -> Read:
     def read(c: Context) -> int:
-        image = drawn_to(c).color
+        image = drawn_to(c).first_color
         if image is None or not image.format.written[channel]:
             return 0
         return np.dtype(image.format.dtype).itemsize * 8

@@ -8,7 +8,6 @@ from softshadow import tokens as gl
 from softshadow.context import current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import vector
-from softshadow.gl.errors import is_one_of
 from softshadow.gl.vertex_format import give
 from softshadow.state import TEXTURE_UNITS
 
@@ -24,9 +23,8 @@ def _set(unit: int, *coordinates: float) -> None:
     standing[unit] = given + standing[unit][len(given) : kept] + REST[kept:]  # type: ignore[assignment]
 
 
-def _set_of(operation: str, target: int, *coordinates: float) -> None:
-    if is_one_of(operation, "target", target, UNITS, A_UNIT):
-        _set(target - gl.GL_TEXTURE0, *coordinates)
+def _set_of(target: int, *coordinates: float) -> None:
+    _set(int(target) % TEXTURE_UNITS, *coordinates)  # GL leaves wrong targets undefined; Mesa takes their last bits
 
 
 # -- unit 0 ------------------------------------------------------------------------------------------------------------
@@ -116,73 +114,73 @@ glTexCoord4dv, glTexCoord4sv = glTexCoord4fv, glTexCoord4iv
 @in_lists
 def glMultiTexCoord1f(target: int, s: float) -> None:
     """Set the texture coordinate of a unit; t = r = 0, q = 1."""
-    _set_of("glMultiTexCoord1f", target, s)
+    _set_of(target, s)
 
 
 @in_lists
 def glMultiTexCoord1fv(target: int, v: Any) -> None:
     """Set the texture coordinate of a unit from a vector."""
-    _set_of("glMultiTexCoord1fv", target, *vector(v, 1))
+    _set_of(target, *vector(v, 1))
 
 
 @in_lists
 def glMultiTexCoord2f(target: int, s: float, t: float) -> None:
     """Set the texture coordinate of a unit; r = 0, q = 1."""
-    _set_of("glMultiTexCoord2f", target, s, t)
+    _set_of(target, s, t)
 
 
 @in_lists
 def glMultiTexCoord2fv(target: int, v: Any) -> None:
     """Set the texture coordinate of a unit from a vector."""
-    _set_of("glMultiTexCoord2fv", target, *vector(v, 2))
+    _set_of(target, *vector(v, 2))
 
 
 @in_lists
 def glMultiTexCoord3f(target: int, s: float, t: float, r: float) -> None:
     """Set the texture coordinate of a unit; q = 1."""
-    _set_of("glMultiTexCoord3f", target, s, t, r)
+    _set_of(target, s, t, r)
 
 
 @in_lists
 def glMultiTexCoord3fv(target: int, v: Any) -> None:
     """Set the texture coordinate of a unit from a vector."""
-    _set_of("glMultiTexCoord3fv", target, *vector(v, 3))
+    _set_of(target, *vector(v, 3))
 
 
 @in_lists
 def glMultiTexCoord4f(target: int, s: float, t: float, r: float, q: float) -> None:
     """Set the texture coordinate of a unit."""
-    _set_of("glMultiTexCoord4f", target, s, t, r, q)
+    _set_of(target, s, t, r, q)
 
 
 @in_lists
 def glMultiTexCoord4fv(target: int, v: Any) -> None:
     """Set the texture coordinate of a unit from a vector."""
-    _set_of("glMultiTexCoord4fv", target, *vector(v, 4))
+    _set_of(target, *vector(v, 4))
 
 
 @in_lists
 def glMultiTexCoord1iv(target: int, v: Any) -> None:
     """Set the texture coordinate of a unit from a vector of integers."""
-    _set_of("glMultiTexCoord1iv", target, *vector(v, 1, int))
+    _set_of(target, *vector(v, 1, int))
 
 
 @in_lists
 def glMultiTexCoord2iv(target: int, v: Any) -> None:
     """Set the texture coordinate of a unit from a vector of integers."""
-    _set_of("glMultiTexCoord2iv", target, *vector(v, 2, int))
+    _set_of(target, *vector(v, 2, int))
 
 
 @in_lists
 def glMultiTexCoord3iv(target: int, v: Any) -> None:
     """Set the texture coordinate of a unit from a vector of integers."""
-    _set_of("glMultiTexCoord3iv", target, *vector(v, 3, int))
+    _set_of(target, *vector(v, 3, int))
 
 
 @in_lists
 def glMultiTexCoord4iv(target: int, v: Any) -> None:
     """Set the texture coordinate of a unit from a vector of integers."""
-    _set_of("glMultiTexCoord4iv", target, *vector(v, 4, int))
+    _set_of(target, *vector(v, 4, int))
 
 
 glMultiTexCoord1d = glMultiTexCoord1i = glMultiTexCoord1s = glMultiTexCoord1f

@@ -10,6 +10,7 @@ from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import Problem
 from softshadow.gl.texture_images import (
     COMPONENT_NUMBERS,
+    border_problem,
     face_of,
     follow_base_level,
     internal_problem,
@@ -35,8 +36,9 @@ def glCopyTexImage2D(
         target_problem(context, target, faces=True)
         or level_problem(level)
         or _source_problem(context)
-        or size_problem(target, level, width, height, border)
+        or border_problem(border)
         or internal_problem(internalformat, gl.GL_INVALID_ENUM, exclude=COMPONENT_NUMBERS)
+        or size_problem(target, level, width, height, border)
         or _copy_problem(context, FORMATS[internalformat], internalformat in WITH_STENCIL)
     )
     if problem:

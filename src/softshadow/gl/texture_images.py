@@ -93,14 +93,17 @@ def glTexSubImage2D(
     problem = (
         target_problem(context, target, faces=True)
         or level_problem(level)
+        or _negative_problem(width, height)
         or missing_problem(context, target, level)
         or format_problem(format, type)
-        or region_problem(context, target, level, xoffset, yoffset, width, height)
     )
     if problem:
         return fail(problem[0], operation, problem[1])
     image = bound_texture(context, target).images[face_of(target), level]
-    if problem := upload_problem(format, image.format, image.stencil is not None):
+    problem = upload_problem(format, image.format, image.stencil is not None) or region_problem(
+        context, target, level, xoffset, yoffset, width, height
+    )
+    if problem:
         return fail(problem[0], operation, problem[1])
     if pixels is not None:
         cells, stencil = _cells(context, pixels, width, height, format, type, image.format, operation)
@@ -261,14 +264,21 @@ def size_problem(target: int, level: int, width: int, height: int, border: int) 
     """Return (error code, why) where a level cannot have that size, else None."""
     if problem := level_problem(level):
         return problem
-    if border != 0:
-        return gl.GL_INVALID_VALUE, f"border={border}: expected 0 (texel borders are not part of this subset)"
+    if problem := border_problem(border):
+        return problem
     largest = LARGEST_SIDE >> level
     if not (0 <= width <= largest and 0 <= height <= largest):
         return gl.GL_INVALID_VALUE, f"width={width}, height={height}: expected 0 to {largest} at level {level}"
     if target in FACES and width != height:
         return gl.GL_INVALID_VALUE, f"width={width}, height={height}: faces of a cube map are square"
     return None
+
+
+def border_problem(border: int) -> Problem | None:
+    """Return (error code, why) where an image has a border, else None."""
+    if border == 0:
+        return None
+    return gl.GL_INVALID_VALUE, f"border={border}: expected 0 (texel borders are not part of this subset)"
 
 
 def internal_problem(internalformat: int, code: int, exclude: tuple[int, ...] = ()) -> Problem | None:
@@ -285,12 +295,18 @@ def missing_problem(context: Context, target: int, level: int) -> Problem | None
     return gl.GL_INVALID_OPERATION, f"level {level} of the bound texture is not defined: call glTexImage2D first"
 
 
+def _negative_problem(width: int, height: int) -> Problem | None:
+    if width >= 0 and height >= 0:
+        return None
+    return gl.GL_INVALID_VALUE, f"width={width}, height={height}: expected 0 or more"
+
+
 def region_problem(
     context: Context, target: int, level: int, x: int, y: int, width: int, height: int
 ) -> Problem | None:
     """Return (error code, why) where a rectangle leaves the image, else None."""
-    if width < 0 or height < 0:
-        return gl.GL_INVALID_VALUE, f"width={width}, height={height}: expected 0 or more"
+    if problem := _negative_problem(width, height):
+        return problem
     image = image_at(context, target, level)
     assert image is not None
     if x < 0 or y < 0 or x + width > image.width or y + height > image.height:

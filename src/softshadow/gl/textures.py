@@ -79,7 +79,7 @@ def glDeleteTextures(*arguments: Any) -> None:
     """Delete textures: (name), (names) or (n, names). They leave all units and the bound framebuffers."""
     if (context := outside_begin("glDeleteTextures")) is None:
         return None
-    names = [name for name in listed(arguments) if name > 0]
+    names = [name for name in listed("glDeleteTextures", arguments) if name > 0]
     for framebuffer in {context.state.draw_framebuffer, context.state.read_framebuffer}:
         attachments = context.storage.framebuffers[framebuffer].attachments
         for point, attachment in list(attachments.items()):
@@ -226,7 +226,7 @@ def glGetTexParameteriv(target: int, pname: int, params: Any = None) -> Any:
 
 def queried_color(context: Context, color: tuple[float, ...]) -> np.ndarray:
     """Return a colour of texturing as a query answers it: clamped, unless colours are drawn as floats."""
-    target = context.storage.framebuffers[context.state.draw_framebuffer].color
+    target = context.storage.framebuffers[context.state.draw_framebuffer].first_color
     values = np.array(color, np.float32)
     return values if target is not None and target.format.kind == "float" else values.clip(0, 1)
 

@@ -26,6 +26,7 @@ TYPES = {
 }  # fmt: skip
 POSITION_TYPES = (gl.GL_SHORT, gl.GL_INT, gl.GL_FLOAT, gl.GL_DOUBLE)
 NORMAL_TYPES = (gl.GL_BYTE, *POSITION_TYPES)
+LARGEST_STRIDE = 2048  # GL_MAX_VERTEX_ATTRIB_STRIDE of Mesa
 INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
 ARRAYS = {gl.GL_VERTEX_ARRAY: "position", gl.GL_NORMAL_ARRAY: "normal", gl.GL_COLOR_ARRAY: "color"}
 NORMALISED = ("color", "normal")  # integers of these stand for 0 to 1 or -1 to 1
@@ -88,8 +89,8 @@ def _pointer(
         return
     if size not in sizes:
         fail(gl.GL_INVALID_VALUE, operation, f"size={size}: expected one of {', '.join(map(str, sizes))}")
-    elif stride < 0:
-        fail(gl.GL_INVALID_VALUE, operation, f"stride={stride}: expected 0 or more")
+    elif not 0 <= stride <= LARGEST_STRIDE:
+        fail(gl.GL_INVALID_VALUE, operation, f"stride={stride}: expected 0 to {LARGEST_STRIDE}")
     else:
         context.arrays.layouts[key] = ArrayLayout(int(size), int(type), int(stride))
         context.arrays.pointers.pop(key, None)
@@ -116,12 +117,11 @@ def glDrawArrays(mode: int, first: int, count: int) -> None:
     context = outside_begin("glDrawArrays")
     if context is not None:
         context.settle()
-    if context is None or not is_one_of("glDrawArrays", "mode", mode, MODES, A_MODE):
+    if context is None:
         return
-    if count < 0 or first < 0:
-        argument = f"count={count}" if count < 0 else f"first={first}"
-        fail(gl.GL_INVALID_VALUE, "glDrawArrays", f"{argument}: expected 0 or more")
-    elif can_draw(context, "glDrawArrays"):
+    if count < 0:
+        fail(gl.GL_INVALID_VALUE, "glDrawArrays", f"count={count}: expected 0 or more")
+    elif is_one_of("glDrawArrays", "mode", mode, MODES, A_MODE) and can_draw(context, "glDrawArrays"):
         vertices = _vertices(context, "glDrawArrays", int(first), int(first) + int(count))
         _draw(context, int(mode), vertices, None)
 
@@ -131,10 +131,12 @@ def glDrawElements(mode: int, count: int, type: int, indices: Any) -> None:
     context = outside_begin("glDrawElements")
     if context is not None:
         context.settle()
-    if context is None or not is_one_of("glDrawElements", "mode", mode, MODES, A_MODE):
+    if context is None:
         return
     if count < 0:
         fail(gl.GL_INVALID_VALUE, "glDrawElements", f"count={count}: expected 0 or more")
+        return
+    if not is_one_of("glDrawElements", "mode", mode, MODES, A_MODE):
         return
     expected = "GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT or GL_UNSIGNED_INT"
     if not is_one_of("glDrawElements", "type", type, INDEX_TYPES, expected) or not can_draw(context, "glDrawElements"):
@@ -172,6 +174,8 @@ def _vertices(context: Context, operation: str, first: int, end: int) -> Vertice
     ValueError
         An enabled array ends before `end`: GL would read memory that is not the array's.
     """
+    if first < 0:
+        raise ValueError(f"{operation}: first={first}: expected 0 or more")
     arrays, standing = context.arrays, context.current
     if "position" not in arrays.enabled or "position" not in arrays.pointers:
         return None
