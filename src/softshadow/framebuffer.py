@@ -17,6 +17,7 @@ from softshadow.texture import Texture
 
 DEFAULT = 0
 DEPTH_FORMATS = {"d24": D24, "d32f": D32F}
+DRAW_BUFFERS = 8
 LARGEST_SIDE = 16384  # Mesa's own limit; 8 sub-pixel bits keep integer coverage exact far beyond
 
 
@@ -45,6 +46,7 @@ class Attachment:
 class Framebuffer:
     """The buffers that a draw writes. A missing buffer is None: its test passes and nothing is written.
 
+    `draw_buffers` are the names of glDrawBuffers, up to `DRAW_BUFFERS` of them; what it does not name is GL_NONE.
     `flipped` says that row 0 is the top row (the default framebuffer), `clamps` that glGet answers colours clamped to
     [0, 1]: Mesa finds out whether an object has buffers of floats when it first asks whether it is complete.
     """
@@ -53,7 +55,7 @@ class Framebuffer:
     attachments: dict[int, Attachment] = field(default_factory=dict)
     flipped: bool = False
     clamps: bool = False
-    draw_buffer: int = gl.GL_COLOR_ATTACHMENT0
+    draw_buffers: tuple[int, ...] = (gl.GL_COLOR_ATTACHMENT0,)
     read_buffer: int = gl.GL_COLOR_ATTACHMENT0
     accumulation: np.ndarray | None = None
 
@@ -63,8 +65,18 @@ class Framebuffer:
 
     @property
     def color(self) -> Image | None:
-        """The image that colours are written to, or None (GL_NONE, or nothing attached)."""
-        return self._color_buffer(self.draw_buffer)
+        """The image of the first draw buffer, or None (GL_NONE, or nothing attached)."""
+        return self._color_buffer(self.draw_buffer_at(0))
+
+    @property
+    def colors(self) -> tuple[Image, ...]:
+        """The images that colours are written to: one per draw buffer that has an image."""
+        images = (self._color_buffer(choice) for choice in self.draw_buffers)
+        return tuple(image for image in images if image is not None)
+
+    def draw_buffer_at(self, index: int) -> int:
+        """Return the name of a draw buffer, counted from 0."""
+        return self.draw_buffers[index] if index < len(self.draw_buffers) else gl.GL_NONE
 
     @property
     def first_color(self) -> Image | None:
@@ -136,7 +148,7 @@ def default_framebuffer(
         },
         flipped=True,
         clamps=True,
-        draw_buffer=gl.GL_FRONT,
+        draw_buffers=(gl.GL_FRONT,),
         read_buffer=gl.GL_FRONT,
     )
 

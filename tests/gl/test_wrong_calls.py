@@ -42,7 +42,7 @@ def changeable(context: Context) -> dict[str, Any]:
         "textures": {name: (t.sampler, sorted(t.images)) for name, t in storage.textures.items()},
         "texels": [i.cells.tobytes() for t in storage.textures.values() for i in t.images.values()],
         "framebuffers": {
-            name: (f.attachments, f.draw_buffer, f.read_buffer) for name, f in storage.framebuffers.items()
+            name: (f.attachments, f.draw_buffers, f.read_buffer) for name, f in storage.framebuffers.items()
         },
         "pixels": [a.image.cells.tobytes() for f in storage.framebuffers.values() for a in f.attachments.values()],
     }

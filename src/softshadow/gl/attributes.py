@@ -16,11 +16,11 @@ from dataclasses import dataclass, replace
 
 from softshadow import tokens as gl
 from softshadow.context import Context, CurrentVertex
-from softshadow.framebuffer import DEFAULT
+from softshadow.framebuffer import Framebuffer
 from softshadow.gl.attribute_groups import GROUPS, calls_made, changed_groups, with_group
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
-from softshadow.gl.framebuffers import glDrawBuffer, glReadBuffer
+from softshadow.gl.framebuffers import glDrawBuffer, glDrawBuffers, glReadBuffer
 from softshadow.gl.materials import start_to_follow
 from softshadow.gl.textures import BINDINGS
 from softshadow.pipeline.commands import CreateTexture, SetSampler
@@ -45,7 +45,7 @@ class Saved:
     matrix_mode: int
     active_unit: int
     list_base: int
-    draw_buffer: int
+    draw_buffers: tuple[int, ...]
     read_buffer: int
     samplers: dict[tuple[int, int], Sampler]  # of the bound textures, by (target, name)
 
@@ -73,7 +73,7 @@ def glPushAttrib(mask: int) -> None:
             matrix_mode=context.matrix_mode,
             active_unit=context.active_unit,
             list_base=context.list_base,
-            draw_buffer=framebuffers[state.draw_framebuffer].draw_buffer,
+            draw_buffers=_named(framebuffers[state.draw_framebuffer]),
             read_buffer=framebuffers[state.read_framebuffer].read_buffer,
             samplers=_bound_samplers(context) if mask & gl.GL_TEXTURE_BIT else {},
         )
@@ -183,14 +183,24 @@ def _bring_back_samplers(context: Context, saved: Saved) -> None:
 
 
 def _sets_draw_buffer(context: Context, saved: Saved) -> bool:
-    """Return whether Mesa chooses the draw buffer of the push anew: it compares it with the window's, always."""
-    return saved.draw_buffer != context.storage.framebuffers[DEFAULT].draw_buffer
+    """Return whether Mesa chooses the draw buffers of the push anew: it compares them with the window's, always."""
+    return saved.draw_buffers != _named(context.storage.window)
+
+
+def _named(target: Framebuffer) -> tuple[int, ...]:
+    """Return the draw buffers up to the last that is not GL_NONE."""
+    return tuple(target.draw_buffer_at(i) for i in range(_last_named(target) + 1))
+
+
+def _last_named(target: Framebuffer) -> int:
+    return max((i for i, mode in enumerate(target.draw_buffers) if mode != gl.GL_NONE), default=0)
 
 
 def _bring_back_buffers(context: Context, mask: int, saved: Saved) -> None:
     # through GL's calls: the buffer may be none of the framebuffer that is bound now, which is an error
     if mask & gl.GL_COLOR_BUFFER_BIT and _sets_draw_buffer(context, saved):
-        glDrawBuffer(saved.draw_buffer)
+        # GL_FRONT cannot stand in glDrawBuffers, which takes single buffers only
+        glDrawBuffer(saved.draw_buffers[0]) if len(saved.draw_buffers) == 1 else glDrawBuffers(saved.draw_buffers)
     if mask & gl.GL_PIXEL_MODE_BIT:
         glReadBuffer(saved.read_buffer)
 

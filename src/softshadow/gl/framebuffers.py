@@ -9,7 +9,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.framebuffer import DEFAULT, LARGEST_SIDE, Attachment
+from softshadow.framebuffer import DEFAULT, DRAW_BUFFERS, LARGEST_SIDE, Attachment
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, listed, take
@@ -32,7 +32,7 @@ WINDOW_BUFFERS = (
     gl.GL_NONE, gl.GL_FRONT, gl.GL_BACK, gl.GL_LEFT, gl.GL_FRONT_LEFT, gl.GL_BACK_LEFT, gl.GL_FRONT_AND_BACK,
 )  # fmt: skip
 SEVERAL = (gl.GL_FRONT, gl.GL_LEFT, gl.GL_RIGHT, gl.GL_FRONT_AND_BACK)  # glDrawBuffers takes single buffers only
-MISSING_BUFFERS = (gl.GL_RIGHT, gl.GL_FRONT_RIGHT, gl.GL_BACK_RIGHT, gl.GL_AUX0)
+MISSING_BUFFERS = (gl.GL_RIGHT, gl.GL_FRONT_RIGHT, gl.GL_BACK_RIGHT, gl.GL_AUX0, gl.GL_AUX1, gl.GL_AUX2, gl.GL_AUX3)
 BINDINGS = {
     gl.GL_FRAMEBUFFER: ("draw_framebuffer", "read_framebuffer"),
     gl.GL_DRAW_FRAMEBUFFER: ("draw_framebuffer",),
@@ -213,7 +213,7 @@ def glGetFramebufferAttachmentParameteriv(target: int, attachment: int, pname: i
 # -- colour buffers ----------------------------------------------------------------------------------------------------
 @in_lists
 def glDrawBuffer(mode: int) -> None:
-    """Say which colour buffer of the draw framebuffer is written; GL_NONE: none."""
+    """Say which colour buffer of the draw framebuffer is written, alone; GL_NONE: none."""
     _select("glDrawBuffer", "draw", int(mode))
 
 
@@ -225,40 +225,60 @@ def glReadBuffer(mode: int) -> None:
 
 @in_lists
 def glDrawBuffers(*arguments: Any) -> None:
-    """Say which colour buffers are written: (buffers) or (n, buffers). Of several, only the first may be a buffer."""
-    given = np.ravel(arguments[-1])
+    """Say which colour buffers get the colour of a fragment: (buffers) or (n, buffers)."""
+    operation, given = "glDrawBuffers", np.ravel(arguments[-1])
+    if (context := outside_begin(operation)) is None:
+        return None
+    context.touched |= gl.GL_COLOR_BUFFER_BIT
     count = int(arguments[0]) if len(arguments) == 2 else len(given)
-    if not 1 <= count <= len(COLOR_ATTACHMENTS):
-        return fail(gl.GL_INVALID_VALUE, "glDrawBuffers", f"n={count}: expected 1 to {len(COLOR_ATTACHMENTS)}")
+    if not 0 <= count <= DRAW_BUFFERS:
+        return fail(gl.GL_INVALID_VALUE, operation, f"n={count}: expected 0 to {DRAW_BUFFERS}")
     modes = [int(mode) for mode in given[:count]]
-    if any(mode in SEVERAL for mode in modes):
-        return fail(gl.GL_INVALID_ENUM, "glDrawBuffers", "a name for several buffers (GL_FRONT, GL_FRONT_AND_BACK ...)")
-    if any(mode != gl.GL_NONE for mode in modes[1:]):
-        return fail(
-            gl.GL_INVALID_OPERATION, "glDrawBuffers", "more than one colour buffer at a time is not part of this subset"
-        )
-    _select("glDrawBuffers", "draw", modes[0])
+    name = context.state.draw_framebuffer
+    for index, mode in enumerate(modes):
+        if problem := _several_problem(name, modes, index) or _buffer_problem(name, mode):
+            return fail(problem[0], operation, problem[1])
+    context.execute(SelectBuffers(name, draw_buffers=tuple(modes)))
+    return None
+
+
+def _several_problem(framebuffer: int, modes: list[int], index: int) -> Problem | None:
+    """Return (error code, why) where a buffer cannot be one of several, else None."""
+    mode, in_window = modes[index], framebuffer == DEFAULT
+    if mode == gl.GL_BACK and in_window and len(modes) > 1:
+        return gl.GL_INVALID_OPERATION, "GL_BACK stands alone"
+    if mode in SEVERAL or (mode == gl.GL_BACK and not in_window):
+        return gl.GL_INVALID_ENUM, f"buffers={token_name(mode, BUFFER_NAMES)} may be several buffers"
+    before = [other for other in modes[:index] if other != gl.GL_NONE]
+    if mode in before or (in_window and before and mode in WINDOW_BUFFERS and mode != gl.GL_NONE):
+        return gl.GL_INVALID_OPERATION, f"buffers={token_name(mode, BUFFER_NAMES)} stands for a buffer named before"
     return None
 
 
 def _select(operation: str, which: str, mode: int) -> None:
     if (context := outside_begin(operation)) is None:
         return None
-    context.touched |= gl.GL_COLOR_BUFFER_BIT if which == "draw" else gl.GL_PIXEL_MODE_BIT
-    name = context.state.draw_framebuffer if which == "draw" else context.state.read_framebuffer
+    drawn = which == "draw"
+    context.touched |= gl.GL_COLOR_BUFFER_BIT if drawn else gl.GL_PIXEL_MODE_BIT
+    name = context.state.draw_framebuffer if drawn else context.state.read_framebuffer
+    if problem := _buffer_problem(name, mode):
+        return fail(problem[0], operation, problem[1])
+    context.execute(SelectBuffers(name, draw_buffers=(mode,)) if drawn else SelectBuffers(name, read_buffer=mode))
+    return None
+
+
+def _buffer_problem(framebuffer: int, mode: int) -> Problem | None:
+    """Return (error code, why) where a name is that of no colour buffer of a framebuffer, else None."""
     attachments = range(gl.GL_COLOR_ATTACHMENT0, gl.GL_COLOR_ATTACHMENT0 + 32)
     if mode not in WINDOW_BUFFERS and mode not in MISSING_BUFFERS and mode not in attachments:
-        return fail(gl.GL_INVALID_ENUM, operation, f"mode={token_name(mode, BUFFER_NAMES)} names no colour buffer")
-    allowed = WINDOW_BUFFERS if name == DEFAULT else (gl.GL_NONE, *COLOR_ATTACHMENTS)
-    if mode not in allowed:
-        expected = "GL_NONE, GL_FRONT or GL_BACK" if name == DEFAULT else "GL_NONE or GL_COLOR_ATTACHMENT0 to 7"
-        return fail(
-            gl.GL_INVALID_OPERATION,
-            operation,
-            f"mode={token_name(mode, BUFFER_NAMES)}: framebuffer {name} has no such buffer, expected {expected}",
-        )
-    context.execute(SelectBuffers(name, **{f"{which}_buffer": mode}))
-    return None
+        return gl.GL_INVALID_ENUM, f"mode={token_name(mode, BUFFER_NAMES)} names no colour buffer"
+    if mode in (WINDOW_BUFFERS if framebuffer == DEFAULT else (gl.GL_NONE, *COLOR_ATTACHMENTS)):
+        return None
+    expected = "GL_NONE, GL_FRONT or GL_BACK" if framebuffer == DEFAULT else "GL_NONE or GL_COLOR_ATTACHMENT0 to 7"
+    spelled = token_name(mode, BUFFER_NAMES)
+    return gl.GL_INVALID_OPERATION, (
+        f"mode={spelled}: framebuffer {framebuffer} has no such buffer, expected {expected}"
+    )
 
 
 __all__ = spelled_like_gl(globals())

@@ -9,7 +9,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import MATRIX_STACK_DEPTHS, Context
-from softshadow.framebuffer import DEFAULT, LARGEST_SIDE, Framebuffer
+from softshadow.framebuffer import DEFAULT, DRAW_BUFFERS, LARGEST_SIDE, Framebuffer
 from softshadow.gl.attributes import DEEPEST_ATTRIBUTES
 from softshadow.gl.capabilities import CLIP_PLANES, HINTS, LIGHTS
 from softshadow.gl.framebuffers import COLOR_ATTACHMENTS
@@ -47,6 +47,13 @@ def color_bits(channel: int) -> Read:
         return np.dtype(image.format.dtype).itemsize * 8
 
     return read
+
+
+def draw_buffers() -> dict[str, Read]:
+    def reader(index: int) -> Read:
+        return lambda c: drawn_to(c).draw_buffer_at(index)
+
+    return {f"GL_DRAW_BUFFER{index}": reader(index) for index in range(DRAW_BUFFERS)}
 
 
 def accumulation_bits(c: Context) -> int:
@@ -180,8 +187,9 @@ QUERIES: dict[str, Read] = {
     "GL_DRAW_FRAMEBUFFER_BINDING": lambda c: c.state.draw_framebuffer,
     "GL_READ_FRAMEBUFFER_BINDING": lambda c: c.state.read_framebuffer,
     "GL_RENDERBUFFER_BINDING": lambda c: c.renderbuffer,
-    "GL_DRAW_BUFFER": lambda c: drawn_to(c).draw_buffer,
-    "GL_DRAW_BUFFER0": lambda c: drawn_to(c).draw_buffer,
+    "GL_DRAW_BUFFER": lambda c: drawn_to(c).draw_buffer_at(0),
+    **draw_buffers(),
+    "GL_DOUBLEBUFFER": lambda c: False,
     "GL_READ_BUFFER": lambda c: read_from(c).read_buffer,
     "GL_CURRENT_PROGRAM": lambda c: c.state.program,
     **pixel_store("PACK", lambda c: c.pack_store),
@@ -210,6 +218,7 @@ QUERIES: dict[str, Read] = {
     "GL_MAX_TEXTURE_COORDS": lambda c: TEXTURE_UNITS,
     "GL_MAX_TEXTURE_IMAGE_UNITS": lambda c: TEXTURE_UNITS,
     "GL_MAX_CUBE_MAP_TEXTURE_SIZE": lambda c: LARGEST_SIDE,
+    "GL_MAX_DRAW_BUFFERS": lambda c: DRAW_BUFFERS,
     "GL_MAX_COLOR_ATTACHMENTS": lambda c: len(COLOR_ATTACHMENTS),
     "GL_MAX_RENDERBUFFER_SIZE": lambda c: LARGEST_SIDE,
     "GL_MAX_VIEWPORT_DIMS": lambda c: (LARGEST_VIEWPORT, LARGEST_VIEWPORT),

@@ -259,7 +259,7 @@ def _draw_rows(
     depth_range = depth_range_of(state, real)
     row, column = pixel.place
     inside, (culled, _) = _inside(state, pixel), culling(state.cull)
-    colored = window.color is not None and any(state.color.mask)
+    colored = bool(window.colors) and any(state.color.mask)
     for n, t in enumerate(fragments.triangle):
         front = geometry.facing(t)
         ops = fragment_ops(state, window.depth, window.stencil, bool(triangles.front[t]))
@@ -281,8 +281,8 @@ def _draw_rows(
         if ops.depth_write:
             pixel.depth.cells[pixel.place] = depth_after
         written = verdict == PASSED and colored
-        if written and window.color is not None:
-            write_colors(state, window.color, Fragments(*(part[n : n + 1] for part in fragments)), colors[n : n + 1])
+        for image in window.colors if written else ():
+            write_colors(state, image, Fragments(*(part[n : n + 1] for part in fragments)), colors[n : n + 1])
         z_pair, s_pair = (about["z"], before[1]), (before[2], int(s_after))
         reason = fragment_reason(state, ops, verdict, z_pair, s_pair, alpha, colored)
         yield pixel.row(where, before, VERDICTS[verdict], reason, color_written=written, **about)

@@ -56,7 +56,7 @@ def draw(command: Draw, storage: Storage, verdicts: np.ndarray | None = None) ->
         geometry = process_geometry(command, target, storage)
         if not len(geometry.triangles.ids):
             return
-        writes_color = target.color is not None and any(command.state.color.mask)
+        writes_color = bool(target.colors) and any(command.state.color.mask)
         if needs_order(command.state):
             _draw_in_order(command, target, geometry, writes_color, verdicts)
         else:
@@ -75,11 +75,13 @@ def _draw_opaque(
     front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
     depth_range = depth_range_of(state, geometry.window.dtype.type)
     fill(front, back, triangles, region, depth_range, depth, stencil, ids, verdicts)
-    if ids is not None and target.color is not None:
+    if ids is not None:
         rows, columns = np.nonzero(ids >= 0)
         stored_rows = (rows + region.first_row).astype(np.int32)
         visible = Fragments(stored_rows, columns.astype(np.int32), np.ascontiguousarray(ids[rows, columns]))
-        write_colors(state, target.color, visible, shade(geometry, visible))
+        colors = shade(geometry, visible)
+        for image in target.colors:
+            write_colors(state, image, visible, colors)
 
 
 def _draw_in_order(
@@ -102,9 +104,11 @@ def _draw_in_order(
     if verdicts is not None:
         verdicts[:-1] += np.bincount(verdict, minlength=VERDICT_COUNTS - 1)
         verdicts[-1] += changed
-    if writes_color and target.color is not None:
+    if writes_color:
         passed = verdict == PASSED
-        write_colors(state, target.color, Fragments(*(a[passed] for a in fragments)), colors[passed])
+        written, colors = Fragments(*(a[passed] for a in fragments)), colors[passed]
+        for image in target.colors:
+            write_colors(state, image, written, colors)
 
 
 def shade(geometry: Geometry, fragments: Fragments) -> np.ndarray:

@@ -36,11 +36,10 @@ def accumulate(command: Accumulate, storage: Storage) -> None:
     elif command.operation == gl.GL_MULT:
         sums[:] = cut(sums.astype(np.float32) * value)
     elif command.operation == gl.GL_RETURN:
-        if target.color is not None:
-            colors = to_unorm8(sums.astype(np.float32) * (value / LARGEST))
-            for channel, masked in enumerate(state.color.mask):
-                if masked:
-                    target.color.cells[where][..., channel] = colors[..., channel]
+        colors = to_unorm8(sums.astype(np.float32) * (value / LARGEST))
+        for image in target.colors:
+            for channel in np.flatnonzero(state.color.mask):
+                image.cells[where][..., channel] = colors[..., channel]
     elif target.read_color is not None:
         products = cut(target.read_color.cells[where].astype(np.float32) * BYTE_STEP * (value * LARGEST))
         if command.operation == gl.GL_LOAD:

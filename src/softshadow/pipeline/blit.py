@@ -54,15 +54,9 @@ def blit(command: BlitFramebuffer, storage: Storage) -> None:
     rectangles = rectangles_of(command, read, drawn)
     if rectangles is None:
         return
-    if command.mask & gl.GL_COLOR_BUFFER_BIT and read.read_color is not None and drawn.color is not None:
-        source = read.read_color.copy()
-        if command.filter == gl.GL_LINEAR:
-            draw_image(source, drawn.color, rectangles, gl.GL_LINEAR)
-        else:
-            where, texels = nearest_texels(source, drawn.color, rectangles)
-            made = convert_color(source.view[texels], source, drawn.color)
-            for channel in np.flatnonzero(drawn.color.format.written):
-                drawn.color.view[..., channel][where] = made[..., channel]
+    if command.mask & gl.GL_COLOR_BUFFER_BIT and read.read_color is not None:
+        for target in drawn.colors:
+            _blit_color(read.read_color.copy(), target, rectangles, command.filter)
     depth = command.mask & gl.GL_DEPTH_BUFFER_BIT and read.depth is not None and drawn.depth is not None
     stencil = command.mask & gl.GL_STENCIL_BUFFER_BIT and read.stencil is not None and drawn.stencil is not None
     if depth and read.depth is not None and drawn.depth is not None:
@@ -74,6 +68,16 @@ def blit(command: BlitFramebuffer, storage: Storage) -> None:
     if stencil and read.stencil is not None and drawn.stencil is not None:
         where, texels = nearest_texels(read.stencil, drawn.stencil, rectangles)
         drawn.stencil.view[where] = read.stencil.view[texels]
+
+
+def _blit_color(source: Image, target: Image, rectangles: Rectangles, texture_filter: int) -> None:
+    if texture_filter == gl.GL_LINEAR:
+        draw_image(source, target, rectangles, gl.GL_LINEAR)
+    else:
+        where, texels = nearest_texels(source, target, rectangles)
+        made = convert_color(source.view[texels], source, target)
+        for channel in np.flatnonzero(target.format.written):
+            target.view[..., channel][where] = made[..., channel]
 
 
 def _copies_depth(read: Framebuffer, drawn: Framebuffer, with_stencil: bool) -> bool:

@@ -28,12 +28,12 @@ def clear(command: Clear, storage: Storage) -> None:
     target = storage.framebuffers[state.draw_framebuffer]
     region = region_of(state, target)
     where = np.s_[region.first_row : region.end_row, region.left : region.right]
-    if command.mask & gl.GL_COLOR_BUFFER_BIT and target.color is not None:
+    for image in target.colors if command.mask & gl.GL_COLOR_BUFFER_BIT else ():
         color = np.array(state.color.clear, np.float32)
-        value = to_unorm8(color) if target.color.format.kind == "unorm8" else color
-        for channel, (masked, stored) in enumerate(zip(state.color.mask, target.color.format.written, strict=True)):
+        value = to_unorm8(color) if image.format.kind == "unorm8" else color
+        for channel, (masked, stored) in enumerate(zip(state.color.mask, image.format.written, strict=True)):
             if masked and stored:
-                target.color.cells[where][..., channel] = value[channel]
+                image.cells[where][..., channel] = value[channel]
     if command.mask & gl.GL_DEPTH_BUFFER_BIT and target.depth is not None and state.depth.write:
         drawn = is_drawn(state, target, command.mask) and target.depth.format.dtype == np.float32
         value_of = drawn_clear_depth if drawn else clear_depth

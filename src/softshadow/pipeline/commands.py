@@ -329,15 +329,15 @@ class AttachRenderbuffer:
 
 @dataclass(frozen=True, eq=False)
 class SelectBuffers:
-    """glDrawBuffer and glReadBuffer: they belong to the framebuffer object. None leaves a choice as it is."""
+    """glDrawBuffer, glDrawBuffers and glReadBuffer: they belong to the framebuffer object. None leaves it as it is."""
 
     framebuffer: int
-    draw_buffer: int | None = None
+    draw_buffers: tuple[int, ...] | None = None
     read_buffer: int | None = None
 
     def apply(self, storage: Storage) -> None:
         target = storage.framebuffers[self.framebuffer]
-        if self.draw_buffer is not None:
-            target.draw_buffer = self.draw_buffer
+        if self.draw_buffers is not None:
+            target.draw_buffers = self.draw_buffers
         if self.read_buffer is not None:
             target.read_buffer = self.read_buffer
