@@ -392,7 +392,7 @@ def _drawn_under(state: State) -> State:
         state,
         color=replace(state.color, clear=State().color.clear, clear_accum=State().color.clear_accum),
         depth=replace(state.depth, clear=State().depth.clear),
-        stencil=replace(state.stencil, clear=State().stencil.clear),
+        stencil=replace(state.stencil, clear=State().stencil.clear, active_back=False),
     )
 
 

@@ -96,15 +96,29 @@ class StencilFace:
 
 @dataclass(frozen=True)
 class Stencil:
+    """Stencil test of both facings, and the clear value.
+
+    There are two back states: GL 2.0's, and that of GL_EXT_stencil_two_side. `back` is the one in use, that of the
+    extension where `two_side`; `other_back` is the other one. `active_back` is what glActiveStencilFaceEXT sets.
+    """
+
     enabled: bool = False
     front: StencilFace = StencilFace()
     back: StencilFace = StencilFace()
     clear: int = 0
+    two_side: bool = False
+    active_back: bool = False
+    other_back: StencilFace = StencilFace()
 
     def calls(self) -> list[str]:
-        faces = (
-            self.front.calls() if self.front == self.back else self.front.calls("GL_FRONT") + self.back.calls("GL_BACK")
-        )
+        if self.two_side:
+            both = ["glActiveStencilFaceEXT(GL_FRONT)", *self.front.calls()]
+            both += ["glActiveStencilFaceEXT(GL_BACK)", *self.back.calls()]
+            faces = ["glEnable(GL_STENCIL_TEST_TWO_SIDE_EXT)", *both]
+        elif self.front == self.back:
+            faces = self.front.calls()
+        else:
+            faces = self.front.calls("GL_FRONT") + self.back.calls("GL_BACK")
         return [_switch("GL_STENCIL_TEST", self.enabled), *faces, f"glClearStencil({self.clear})"]
 
 

@@ -17,7 +17,9 @@ MATRIX = [float(number) for number in (2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 5, 6,
 TEXELS = ("GL_RGBA", "GL_UNSIGNED_BYTE")
 
 SINGLE: dict[str, tuple[Any, ...]] = {
-    "glAccum": ("GL_LOAD", 1.0), "glActiveTexture": ("GL_TEXTURE1",), "glAlphaFunc": ("GL_LESS", 0.5),
+    "glAccum": ("GL_LOAD", 1.0), "glActiveStencilFaceEXT": ("GL_BACK",),
+    "glStencilFuncSeparateATI": ("GL_LESS", "GL_EQUAL", 2, 15),
+    "glActiveTexture": ("GL_TEXTURE1",), "glAlphaFunc": ("GL_LESS", 0.5),
     "glBegin": ("GL_QUADS",), "glBeginQuery": ("GL_SAMPLES_PASSED", "@query"),
     "glBindFramebuffer": ("GL_FRAMEBUFFER", "@framebuffer"), "glBindRenderbuffer": ("GL_RENDERBUFFER", "@renderbuffer"),
     "glBindTexture": ("GL_TEXTURE_2D", "@texture"), "glBlendColor": (0.1, 0.2, 0.3, 0.4),
@@ -135,7 +137,7 @@ def families() -> dict[str, tuple[Any, ...]]:
 CALLS = {**SINGLE, **families()}
 NAMED_AGAIN = {  # spellings that are PyOpenGL's own: the same function
     "glGetBoolean": "glGetBooleanv", "glGetDouble": "glGetDoublev", "glGetFloat": "glGetFloatv",
-    "glGetInteger": "glGetIntegerv",
+    "glGetInteger": "glGetIntegerv", "glStencilOpSeparateATI": "glStencilOpSeparate",
 }  # fmt: skip
 
 

@@ -12,6 +12,7 @@ References: GL 2.1 specification; the surface and its conventions: docs/exactnes
 
 from __future__ import annotations
 
+from inspect import ismodule
 from typing import Any
 
 from softshadow.context import Context, current, make_current
@@ -23,6 +24,7 @@ from softshadow.gl.clears import *
 from softshadow.gl.clip_planes import *
 from softshadow.gl.debug_groups import *
 from softshadow.gl.errors import *
+from softshadow.gl.extensions import extension_names, missing, plain_name
 from softshadow.gl.fog import *
 from softshadow.gl.fragment_state import *
 from softshadow.gl.framebuffers import *
@@ -95,10 +97,16 @@ def create_context(
 def __dir__() -> list[str]:
     """The names a program can use."""
     own = ("Context", "GLError", "create_context", "program")
-    return sorted(name for name in globals() if name in own or name.startswith(("gl", "GL_")))
+    taken = (name for name, value in globals().items() if name.startswith(("gl", "GL_")) and not ismodule(value))
+    return sorted({*own, *taken})
 
 
 def __getattr__(name: str) -> Any:
+    if name == "__all__":
+        return [*__dir__(), *extension_names(__dir__())]
     if name.startswith(("gl", "GL_")):
-        raise AttributeError(f"{name} is not part of this subset of OpenGL", name=name, obj=None)
+        plain = plain_name(name, globals())
+        if plain is not None:
+            return globals()[plain]
+        raise AttributeError(missing(name, __dir__()), name=name)
     raise AttributeError(f"module 'softshadow.gl' has no attribute {name!r}", name=name)

@@ -8,6 +8,7 @@ from typing import Any
 
 from softshadow import tokens as gl
 from softshadow.gl.capabilities import CAPABILITIES, CLIP_PLANES, GENERATED, LIGHTS, UNIT_CAPABILITIES, is_on, switched
+from softshadow.gl.fragment_state import extension_back
 from softshadow.state import State
 
 Fields = dict[str, tuple[str, ...]]  # group of the state: some of its fields, or () for all
@@ -100,6 +101,9 @@ def with_group(bit: int, now: State, before: State) -> State:
     for group, fields in GROUPS[bit].items():
         old = getattr(before, group)
         made[group] = replace(getattr(now, group), **{f: getattr(old, f) for f in fields}) if fields else old
+    if bit == gl.GL_STENCIL_BUFFER_BIT:  # Mesa does not bring the extension's back state back
+        old = made["stencil"]
+        made["stencil"] = replace(old, **{extension_back(old): getattr(now.stencil, extension_back(now.stencil))})
     return replace(now, **made) if made else now
 
 

@@ -17,6 +17,7 @@ CAPABILITIES: dict[int, tuple[str, str]] = {
     gl.GL_SCISSOR_TEST: ("scissor", "enabled"),
     gl.GL_ALPHA_TEST: ("alpha", "enabled"),
     gl.GL_STENCIL_TEST: ("stencil", "enabled"),
+    gl.GL_STENCIL_TEST_TWO_SIDE_EXT: ("stencil", "two_side"),
     gl.GL_DEPTH_TEST: ("depth", "enabled"),
     gl.GL_DEPTH_CLAMP: ("depth", "clamp"),
     gl.GL_CULL_FACE: ("cull", "enabled"),
@@ -88,6 +89,8 @@ def switched(state: State, cap: int, unit: int, on: bool) -> State:
     if cap in CAPABILITIES:
         group, field = CAPABILITIES[cap]
         changed: Any = replace(getattr(state, group), **{field: on})
+        if cap == gl.GL_STENCIL_TEST_TWO_SIDE_EXT:
+            changed = replace(changed, back=changed.other_back, other_back=changed.back)
         return replace(state, **{group: changed})
     if cap in LIGHTS:
         index = cap - gl.GL_LIGHT0

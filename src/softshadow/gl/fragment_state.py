@@ -12,7 +12,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import is_one_of, outside_begin
-from softshadow.state import STENCIL_OPS
+from softshadow.state import STENCIL_OPS, Stencil
 
 FUNCTIONS = range(gl.GL_NEVER, gl.GL_ALWAYS + 1)
 A_FUNCTION = "GL_NEVER … GL_ALWAYS"
@@ -76,7 +76,7 @@ def glAlphaFunc(func: int, ref: float) -> None:
 @in_lists
 def glStencilFunc(func: int, ref: int, mask: int) -> None:
     """Set the stencil comparison of both facings: (ref & mask) func (stencil & mask)."""
-    _stencil_func("glStencilFunc", gl.GL_FRONT_AND_BACK, func, ref, mask)
+    _stencil_func("glStencilFunc", None, func, ref, mask)
 
 
 @in_lists
@@ -85,7 +85,7 @@ def glStencilFuncSeparate(face: int, func: int, ref: int, mask: int) -> None:
     _stencil_func("glStencilFuncSeparate", face, func, ref, mask)
 
 
-def _stencil_func(operation: str, face: int, func: int, ref: int, mask: int) -> None:
+def _stencil_func(operation: str, face: int | None, func: int, ref: int, mask: int) -> None:
     context = outside_begin(operation)
     if context is not None and is_one_of(operation, "func", func, FUNCTIONS, A_FUNCTION):
         _set_faces(context, operation, face, func=int(func), ref=c_int(int(ref)).value, read_mask=int(mask) & UNSIGNED)
@@ -94,7 +94,7 @@ def _stencil_func(operation: str, face: int, func: int, ref: int, mask: int) -> 
 @in_lists
 def glStencilOp(fail: int, zfail: int, zpass: int) -> None:
     """Set what happens to the stencil value of both facings: stencil test fails, depth test fails, both pass."""
-    _stencil_op("glStencilOp", gl.GL_FRONT_AND_BACK, fail, zfail, zpass)
+    _stencil_op("glStencilOp", None, fail, zfail, zpass)
 
 
 @in_lists
@@ -103,7 +103,7 @@ def glStencilOpSeparate(face: int, sfail: int, dpfail: int, dppass: int) -> None
     _stencil_op("glStencilOpSeparate", face, sfail, dpfail, dppass)
 
 
-def _stencil_op(operation: str, face: int, sfail: int, zfail: int, zpass: int) -> None:
+def _stencil_op(operation: str, face: int | None, sfail: int, zfail: int, zpass: int) -> None:
     context = outside_begin(operation)
     if context is None:
         return
@@ -116,7 +116,7 @@ def _stencil_op(operation: str, face: int, sfail: int, zfail: int, zpass: int) -
 @in_lists
 def glStencilMask(mask: int) -> None:
     """Set which stencil bits are written, for both facings."""
-    _stencil_mask("glStencilMask", gl.GL_FRONT_AND_BACK, mask)
+    _stencil_mask("glStencilMask", None, mask)
 
 
 @in_lists
@@ -125,21 +125,63 @@ def glStencilMaskSeparate(face: int, mask: int) -> None:
     _stencil_mask("glStencilMaskSeparate", face, mask)
 
 
-def _stencil_mask(operation: str, face: int, mask: int) -> None:
+def _stencil_mask(operation: str, face: int | None, mask: int) -> None:
     context = outside_begin(operation)
     if context is not None:
         _set_faces(context, operation, face, write_mask=int(mask) & UNSIGNED)
 
 
-def _set_faces(context: Context, operation: str, face: int, **fields: int) -> None:
-    if not is_one_of(operation, "face", face, FACES, A_FACE):
+def _set_faces(context: Context, operation: str, face: int | None, **fields: int) -> None:
+    """Set fields of the faces that a call names; one that names none is about the active face."""
+    if face is not None and not is_one_of(operation, "face", face, FACES, A_FACE):
         return
     stencil = context.state.stencil
+    if face is None and stencil.active_back:
+        name = extension_back(stencil)
+        context.set(stencil=replace(stencil, **{name: replace(getattr(stencil, name), **fields)}))
+        return
     if face != gl.GL_BACK:
         stencil = replace(stencil, front=replace(stencil.front, **fields))
     if face != gl.GL_FRONT:
-        stencil = replace(stencil, back=replace(stencil.back, **fields))
+        name = core_back(stencil)
+        stencil = replace(stencil, **{name: replace(getattr(stencil, name), **fields)})
     context.set(stencil=stencil)
+
+
+def extension_back(stencil: Stencil) -> str:
+    """Return the field that holds the back state of GL_EXT_stencil_two_side."""
+    return "back" if stencil.two_side else "other_back"
+
+
+def core_back(stencil: Stencil) -> str:
+    """Return the field that holds GL 2.0's back state."""
+    return "other_back" if stencil.two_side else "back"
+
+
+# -- two-sided stencil before GL 2.0 -----------------------------------------------------------------------------------
+@in_lists
+def glActiveStencilFaceEXT(face: int) -> None:
+    """Say whether glStencilFunc, glStencilOp and glStencilMask set the front state or the extension's back state.
+
+    That back state is in use while GL_STENCIL_TEST_TWO_SIDE_EXT is enabled.
+    """
+    context, faces = outside_begin("glActiveStencilFaceEXT"), (gl.GL_FRONT, gl.GL_BACK)
+    if context is not None and is_one_of("glActiveStencilFaceEXT", "face", face, faces, "GL_FRONT or GL_BACK"):
+        change(context, "stencil", active_back=face == gl.GL_BACK)
+
+
+@in_lists
+def glStencilFuncSeparateATI(frontfunc: int, backfunc: int, ref: int, mask: int) -> None:
+    """Set the stencil comparisons of the two facings, with one reference and one mask."""
+    context, operation = outside_begin("glStencilFuncSeparateATI"), "glStencilFuncSeparateATI"
+    if context is None or not is_one_of(operation, "frontfunc", frontfunc, FUNCTIONS, A_FUNCTION):
+        return
+    if is_one_of(operation, "backfunc", backfunc, FUNCTIONS, A_FUNCTION):
+        _stencil_func(operation, gl.GL_FRONT, frontfunc, ref, mask)
+        _stencil_func(operation, gl.GL_BACK, backfunc, ref, mask)
+
+
+glStencilOpSeparateATI = glStencilOpSeparate
 
 
 # -- colour ------------------------------------------------------------------------------------------------------------

@@ -12,6 +12,7 @@ from softshadow.context import MATRIX_STACK_DEPTHS, Context
 from softshadow.framebuffer import DEFAULT, DRAW_BUFFERS, LARGEST_SIDE, Framebuffer
 from softshadow.gl.attributes import DEEPEST_ATTRIBUTES
 from softshadow.gl.capabilities import CLIP_PLANES, HINTS, LIGHTS
+from softshadow.gl.fragment_state import core_back, extension_back
 from softshadow.gl.framebuffers import COLOR_ATTACHMENTS
 from softshadow.gl.lists import DEEPEST_LIST
 from softshadow.gl.rasterization import LARGEST_VIEWPORT
@@ -88,6 +89,13 @@ def stencil(prefix: str, face: Callable[[Context], StencilFace]) -> dict[str, Re
     }
 
 
+def active_face(c: Context) -> StencilFace:
+    """Return the stencil state that glStencilFunc is about."""
+    state = c.state.stencil
+    face: StencilFace = getattr(state, extension_back(state)) if state.active_back else state.front
+    return face
+
+
 def matrix(name: str, stack: Callable[[Context], list[np.ndarray]]) -> dict[str, Read]:
     """Return the readers of a matrix stack; the matrix as (4, 4) in GL's memory order, column after column."""
     return {
@@ -131,8 +139,9 @@ QUERIES: dict[str, Read] = {
     "GL_SCISSOR_BOX": lambda c: (c.state.scissor.x, c.state.scissor.y, c.state.scissor.width, c.state.scissor.height),
     "GL_ALPHA_TEST_FUNC": lambda c: c.state.alpha.func,
     "GL_ALPHA_TEST_REF": lambda c: clamped(c, c.state.alpha.ref)[0],
-    **stencil("", lambda c: c.state.stencil.front),
-    **stencil("BACK_", lambda c: c.state.stencil.back),
+    **stencil("", active_face),
+    **stencil("BACK_", lambda c: getattr(c.state.stencil, core_back(c.state.stencil))),
+    "GL_ACTIVE_STENCIL_FACE_EXT": lambda c: gl.GL_BACK if c.state.stencil.active_back else gl.GL_FRONT,
     "GL_STENCIL_CLEAR_VALUE": lambda c: c.state.stencil.clear,
     "GL_DEPTH_FUNC": lambda c: c.state.depth.func,
     "GL_DEPTH_WRITEMASK": lambda c: c.state.depth.write,

@@ -11,6 +11,7 @@ What differs from plain PyOpenGL:
 """
 
 import ctypes
+import importlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -41,6 +42,20 @@ DTYPES = {
     GL.GL_UNSIGNED_INT_24_8: np.uint32,
 }
 LARGEST_PIXEL = 16  # bytes; room for the read-out whose format or type GL is about to refuse
+
+# PyOpenGL keeps the names with a suffix in a module per extension
+EXTENSIONS = (
+    "ARB.multitexture", "ARB.occlusion_query", "ARB.draw_buffers", "ARB.texture_cube_map", "ARB.texture_border_clamp",
+    "ARB.texture_mirrored_repeat", "ARB.texture_env_combine", "ARB.texture_env_dot3", "ARB.depth_texture",
+    "ARB.shadow", "ARB.texture_float", "ARB.transpose_matrix", "ARB.multisample", "ARB.vertex_buffer_object",
+    "EXT.framebuffer_object", "EXT.framebuffer_blit", "EXT.packed_depth_stencil", "EXT.stencil_two_side",
+    "EXT.stencil_wrap", "EXT.blend_color", "EXT.blend_minmax", "EXT.blend_subtract", "EXT.blend_func_separate",
+    "EXT.blend_equation_separate", "EXT.bgra", "EXT.texture", "EXT.texture_object", "EXT.copy_texture",
+    "EXT.subtexture", "EXT.texture_cube_map", "EXT.texture_lod_bias", "EXT.texture_env_combine", "EXT.vertex_array",
+    "EXT.separate_specular_color", "EXT.rescale_normal", "EXT.draw_range_elements", "EXT.multi_draw_arrays",
+    "NV.depth_clamp", "ATI.separate_stencil", "ATI.draw_buffers", "SGIS.texture_edge_clamp", "SGIS.generate_mipmap",
+    "SGIS.texture_border_clamp", "SGIS.texture_lod", "SGIX.depth_texture", "IBM.texture_mirrored_repeat",
+)  # fmt: skip
 
 _current: "MesaGL | None" = None
 
@@ -81,6 +96,8 @@ class MesaGL:
             module = GLU if name.startswith(("glu", "GLU_")) else GL
             value = getattr(module, name, None)
         if value is None:
+            value = _of_extension(name)
+        if value is None:
             raise AttributeError(f"OpenGL has no {name}")
         if callable(value) and name.startswith("gl"):
             value = self._recorded(name, value)
@@ -113,6 +130,15 @@ class MesaGL:
             twin = programs.get(name)
             self._programs[name] = link_program(name, twin.glsl_vertex, twin.glsl_fragment)
         return self._programs[name]
+
+
+def _of_extension(name: str) -> Any:
+    """Return a name of one of the extensions that `softshadow.gl` knows, or None."""
+    for extension in EXTENSIONS:
+        value = getattr(importlib.import_module(f"OpenGL.GL.{extension}"), name, None)
+        if value is not None:
+            return value
+    return None
 
 
 def link_program(name: str, vertex_source: str, fragment_source: str) -> int:

@@ -1,0 +1,96 @@
+"""Names from the time before GL took an extension over: ``glActiveTextureARB``, ``GL_INCR_WRAP_EXT``.
+
+A name with the suffix of a vendor or of the review board is the plain name wherever GL took it over unchanged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable
+from difflib import get_close_matches
+from fnmatch import fnmatchcase
+
+# the plain names whose extension was taken over unchanged, by suffix; * and ? as in file names
+TAKEN_OVER = {
+    "ARB": """
+        GL_ACTIVE_TEXTURE GL_CLIENT_ACTIVE_TEXTURE GL_MAX_TEXTURE_UNITS GL_TEXTURE? GL_TEXTURE[123]?
+        glActiveTexture glClientActiveTexture glMultiTexCoord*
+        GL_COMBINE* GL_SOURCE[012]_* GL_OPERAND[012]_* GL_ADD_SIGNED GL_INTERPOLATE GL_SUBTRACT GL_CONSTANT
+        GL_PRIMARY_COLOR GL_PREVIOUS GL_RGB_SCALE GL_DOT3_RGB GL_DOT3_RGBA
+        GL_DEPTH_COMPONENT16 GL_DEPTH_COMPONENT24 GL_DEPTH_COMPONENT32 GL_DEPTH_TEXTURE_MODE GL_TEXTURE_DEPTH_SIZE
+        GL_TEXTURE_COMPARE_MODE GL_TEXTURE_COMPARE_FUNC GL_COMPARE_R_TO_TEXTURE
+        GL_TEXTURE_CUBE_MAP GL_TEXTURE_CUBE_MAP_[NP]* GL_TEXTURE_BINDING_CUBE_MAP GL_MAX_CUBE_MAP_TEXTURE_SIZE
+        GL_CLAMP_TO_BORDER GL_MIRRORED_REPEAT GL_RGB16F GL_RGB32F GL_RGBA16F GL_RGBA32F GL_TRANSPOSE_*
+        GL_MULTISAMPLE GL_MULTISAMPLE_BIT GL_SAMPLES GL_SAMPLE_*
+        GL_CURRENT_QUERY GL_QUERY_* GL_SAMPLES_PASSED glBeginQuery glEndQuery glGenQueries glDeleteQueries glIsQuery
+        glGetQuery*
+        GL_DRAW_BUFFER0 GL_MAX_DRAW_BUFFERS glDrawBuffers
+        GL_ARRAY_BUFFER* GL_ELEMENT_ARRAY_BUFFER* GL_*_ARRAY_BUFFER_BINDING GL_BUFFER_SIZE GL_BUFFER_USAGE
+        GL_STREAM_* GL_STATIC_* GL_DYNAMIC_*
+        glGenBuffers glBindBuffer glBufferData glBufferSubData glDeleteBuffers glIsBuffer glGetBuffer*
+        glLoadTransposeMatrix? glMultTransposeMatrix?
+    """,
+    "EXT": """
+        GL_FRAMEBUFFER GL_FRAMEBUFFER_A* GL_FRAMEBUFFER_BINDING GL_FRAMEBUFFER_COMPLETE GL_FRAMEBUFFER_I*
+        GL_FRAMEBUFFER_UNSUPPORTED GL_DRAW_FRAMEBUFFER* GL_READ_FRAMEBUFFER* GL_RENDERBUFFER* GL_COLOR_ATTACHMENT*
+        GL_DEPTH_ATTACHMENT GL_STENCIL_ATTACHMENT GL_MAX_COLOR_ATTACHMENTS GL_MAX_RENDERBUFFER_SIZE
+        GL_INVALID_FRAMEBUFFER_OPERATION GL_STENCIL_INDEX8
+        glBindFramebuffer glBindRenderbuffer glBlitFramebuffer glCheckFramebufferStatus glDeleteFramebuffers
+        glDeleteRenderbuffers glFramebufferRenderbuffer glFramebufferTexture2D glGenFramebuffers glGenRenderbuffers
+        glGenerateMipmap glGetFramebufferAttachmentParameteriv glGetRenderbufferParameteriv glIsFramebuffer
+        glIsRenderbuffer glRenderbufferStorage
+        GL_DEPTH_STENCIL GL_DEPTH24_STENCIL8 GL_UNSIGNED_INT_24_8 GL_INCR_WRAP GL_DECR_WRAP
+        GL_BLEND_COLOR GL_BLEND_*_ALPHA GL_BLEND_*_RGB GL_BLEND_EQUATION GL_CONSTANT GL_CONSTANT_ALPHA
+        GL_CONSTANT_COLOR GL_ONE_MINUS_CONSTANT_* GL_FUNC_* GL_MIN GL_MAX
+        glBlendColor glBlendEquation glBlendEquationSeparate glBlendFuncSeparate
+        GL_BGR GL_BGRA GL_ALPHA8 GL_INTENSITY* GL_LUMINANCE8 GL_LUMINANCE8_ALPHA8 GL_RGB8 GL_RGBA4 GL_RGBA8 GL_RGB5_A1
+        GL_TEXTURE_[!D]*_SIZE GL_TEXTURE_PRIORITY GL_TEXTURE_RESIDENT GL_TEXTURE_LOD_BIAS GL_TEXTURE_FILTER_CONTROL
+        GL_TEXTURE_CUBE_MAP GL_TEXTURE_CUBE_MAP_[NP]* GL_TEXTURE_BINDING_CUBE_MAP GL_MAX_CUBE_MAP_TEXTURE_SIZE
+        glBindTexture glCopyTexImage2D glCopyTexSubImage2D glDeleteTextures glGenTextures glIsTexture glTexSubImage2D
+        GL_COMBINE* GL_SOURCE[012]_* GL_OPERAND[012]_* GL_ADD_SIGNED GL_INTERPOLATE GL_PRIMARY_COLOR GL_PREVIOUS
+        GL_RGB_SCALE GL_LIGHT_MODEL_COLOR_CONTROL GL_SEPARATE_SPECULAR_COLOR GL_SINGLE_COLOR GL_RESCALE_NORMAL
+        GL_VERTEX_ARRAY GL_NORMAL_ARRAY GL_COLOR_ARRAY GL_TEXTURE_COORD_ARRAY GL_*_ARRAY_SIZE GL_*_ARRAY_STRIDE
+        GL_*_ARRAY_TYPE glArrayElement glDrawArrays glDrawRangeElements glMultiDrawArrays glMultiDrawElements
+    """,
+    "NV": "GL_DEPTH_CLAMP",
+    "ATI": """
+        GL_DRAW_BUFFER0 GL_MAX_DRAW_BUFFERS glDrawBuffers GL_STENCIL_BACK_F* GL_STENCIL_BACK_PASS_*
+    """,
+    "SGIS": """
+        GL_CLAMP_TO_BORDER GL_CLAMP_TO_EDGE GL_GENERATE_MIPMAP GL_GENERATE_MIPMAP_HINT GL_TEXTURE_BASE_LEVEL
+        GL_TEXTURE_MAX_L* GL_TEXTURE_MIN_LOD
+    """,
+    "SGIX": "GL_DEPTH_COMPONENT16 GL_DEPTH_COMPONENT24 GL_DEPTH_COMPONENT32",
+    "IBM": "GL_MIRRORED_REPEAT",
+}
+
+
+ALIKE = 0.85  # a slip of the pen, not another call: 'glStencilFnc', but not glDrawPixels for glReadPixels
+
+
+def plain_name(name: str, known: Container[str]) -> str | None:
+    """Return the name without a suffix that means the same, or None."""
+    for suffix in TAKEN_OVER:
+        plain = name.removesuffix(f"_{suffix}" if name.startswith("GL_") else suffix)
+        if plain != name and plain in known and _is_taken_over(plain, suffix):
+            return plain
+    return None
+
+
+def _is_taken_over(plain: str, suffix: str) -> bool:
+    return any(fnmatchcase(plain, pattern) for pattern in TAKEN_OVER[suffix].split())
+
+
+def extension_names(known: Iterable[str]) -> list[str]:
+    """Return all names with a suffix, for ``from softshadow.gl import *``."""
+    return sorted(
+        f"{plain}_{suffix}" if plain.startswith("GL_") else f"{plain}{suffix}"
+        for plain in known
+        for suffix in TAKEN_OVER
+        if _is_taken_over(plain, suffix)
+    )
+
+
+def missing(name: str, known: Iterable[str]) -> str:
+    """Return the message for a name that is not here: that it is no part, and which names are near."""
+    close = get_close_matches(name, list(known), n=1, cutoff=ALIKE)
+    return f"{name} is not part of this subset of OpenGL" + (f"; did you mean {close[0]!r}?" if close else "")
