@@ -48,9 +48,12 @@ class BlendOps(NamedTuple):
 
 
 def to_unorm8(values: np.ndarray) -> np.ndarray:
-    """Return colours as bytes: clamped to [0, 1], times 255, rounded half to even in the precision of `values`."""
+    """Return colours as bytes: clamped to [0, 1], times 255, rounded half to even in the precision of `values`.
+
+    NaN becomes 0, as in llvmpipe.
+    """
     real = values.dtype.type
-    return np.rint(np.minimum(np.maximum(values, real(0)), real(1)) * real(255)).astype(np.uint8)
+    return np.rint(np.minimum(np.fmax(values, real(0)), real(1)) * real(255)).astype(np.uint8)
 
 
 def compared_alpha(state: State, color: Image | None, alpha: np.ndarray) -> tuple[np.ndarray, int]:

@@ -46,8 +46,12 @@ class Planes(NamedTuple):
 
 @kernel
 def depth_units(z, depth_range, largest):
-    """Return z clamped, in buffer units: fixed-point formats round half to even, float formats keep z."""
-    z = depth_range.low if z < depth_range.low else depth_range.high if z > depth_range.high else z
+    """Return z clamped, in buffer units: fixed-point formats round half to even, float formats keep z.
+
+    NaN, which a triangle has whose area is 0 before snapping, becomes the upper end, as with llvmpipe's minps.
+    """
+    z = z if z < depth_range.high else depth_range.high
+    z = z if z > depth_range.low else depth_range.low
     return np.rint(z * np.float32(largest)) if largest else z
 
 
