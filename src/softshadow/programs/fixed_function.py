@@ -86,8 +86,19 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
     values = columns(front, rest, vertices.position.dtype)
     flat = np.zeros(values.shape[1], bool)
     one_color = not lighting.enabled and vertices.color.strides[0] == 0  # Mesa does not interpolate what is constant
-    flat[: 7 if is_separate(state) else 4] = lighting.shade_model == gl.GL_FLAT or one_color
+    column = 7 if is_separate(state) else 4
+    flat[:column] = lighting.shade_model == gl.GL_FLAT or one_color
+    for unit in units:
+        flat[column : column + 4] = has_one_coordinate(state, unit.index, vertices)
+        column += 4
     return Varyings(values, flat, None if back is None else columns(back, rest, values.dtype))
+
+
+def has_one_coordinate(state: State, unit: int, vertices: VertexInputs) -> bool:
+    """Return whether all vertices have the same coordinate in a unit, which Mesa then does not interpolate."""
+    given = vertices.texcoords[unit].strides[0] != 0  # a constant is spread with stride 0
+    made = any(gen.enabled for gen in state.units[unit].gen)
+    return not given and not made and np.array_equal(vertices.texture_matrices[unit], np.eye(4))
 
 
 def columns(colors: Colors, rest: list[np.ndarray], real: np.dtype) -> np.ndarray:
