@@ -25,6 +25,7 @@ BETWEEN = {
     "clear values": lambda gl: (gl.glClearColor(1, 0, 1, 1), gl.glClearDepth(0.5), gl.glClearStencil(3)),
     "matrix stack": lambda gl: (gl.glPushMatrix(), gl.glPopMatrix()),
     "matrix mode": lambda gl: (gl.glMatrixMode(gl.GL_PROJECTION), gl.glMatrixMode(gl.GL_MODELVIEW)),
+    "no matrix": lambda gl: gl.glLoadIdentity(),
     "identity": lambda gl: gl.glMultMatrixf(np.eye(4, dtype=np.float32)),
     "no way": lambda gl: gl.glTranslatef(0, 0, 0),
     "no turn": lambda gl: gl.glRotatef(0, 0, 0, 1),

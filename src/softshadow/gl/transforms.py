@@ -87,11 +87,7 @@ def glLoadIdentity() -> None:
     context = outside_begin("glLoadIdentity")
     if context is not None:
         # Mesa keeps what the matrix before could have had in it, and so inverts the next one more generally
-        kind, identity = context.kind_stack[-1] & ~UNKNOWN, np.eye(4, dtype=context.real)
-        if context.matrix_stack[-1].tobytes() != identity.tobytes():
-            set_current(context, identity, kind)
-        else:
-            context.kind_stack[-1] = kind
+        set_current(context, np.eye(4, dtype=context.real), context.kind_stack[-1] & ~UNKNOWN)
 
 
 @in_lists
