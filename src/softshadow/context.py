@@ -22,6 +22,8 @@ from softshadow.programs import Program
 from softshadow.programs.inverse import known_kind
 from softshadow.state import TEXTURE_UNITS, State
 
+VERTEX_BUFFER_BYTES = 512 * 1024  # that Mesa collects the vertices of immediate mode in (vbo_exec_draw.c)
+LEAST_BYTES = 1024  # with no more than these left, it takes a new buffer
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
 
 
@@ -79,15 +81,24 @@ class GivenAttributes:
 
 @dataclass
 class Primitive:
-    """What glBegin ... glEnd has collected: a row per vertex; `from_list` says that a display list has begun it."""
+    """What glBegin ... glEnd has collected: a row per vertex.
+
+    `from_list` says that a display list has begun it, `continued` that a part of it has been sent off.
+    """
 
     mode: int
     from_list: bool = False
+    continued: bool = False
     positions: list[tuple[float, float, float, float]] = field(default_factory=list)
     colors: list[tuple[float, float, float, float]] = field(default_factory=list)
     normals: list[tuple[float, float, float]] = field(default_factory=list)
     texcoords: list[tuple[tuple[float, float, float, float], ...]] = field(default_factory=list)
     materials: dict[str, list[Any]] = field(default_factory=dict)  # "front.diffuse": what glMaterial changed in between
+
+    @property
+    def rows(self) -> list[list[Any]]:
+        """All that there is a row per vertex of."""
+        return [self.positions, self.colors, self.normals, self.texcoords, *self.materials.values()]
 
 
 @dataclass(frozen=True)
@@ -188,6 +199,7 @@ class Context:
         self.vertex_sizes: dict[str, int] = {}  # what the vertices collected last carry: numbers per attribute
         self.given_sizes: dict[str, int] = {}  # how many of those the last call gave, as far as Mesa remembers
         self.stored_vertices = 0  # how many were collected since the last time they were sent off
+        self.buffer_used = 0  # bytes of the vertex buffer before them
         self.arrays = ClientArrays()
         self.attribute_stack: list[Any] = []
         # since the last glPushAttrib or glPopAttrib: the state as it was, groups of attributes changed beside it
@@ -195,6 +207,7 @@ class Context:
         self.given = GivenAttributes()
         self.lists: dict[int, DisplayList] = {}
         self.compiled_list: DisplayList | None = None  # between glNewList and glEndList
+        self.executes_list = False  # in a call that is carried out while its list is made
         self.list_base = 0
         self.list_depth = 0  # of lists that call each other
         self.hints: dict[int, int] = {}  # where not GL_DONT_CARE
@@ -300,11 +313,23 @@ class Context:
     def settle(self) -> None:
         """Draw the quads that wait; what is drawn next begins a batch of its own. Not between glBegin and glEnd."""
         if self.primitive is None:
-            self.draw_waiting()
+            self.send_off_vertices()
             self.vertex_sizes.clear()
-            self.stored_vertices = 0
             if self.given.stored:
                 self.forget_given()
+
+    @property
+    def vertex_bytes(self) -> int:
+        """The size of a vertex of immediate mode in Mesa's buffer."""
+        return 4 * sum(self.vertex_sizes.values())
+
+    def send_off_vertices(self) -> None:
+        """Draw the quads that wait; the vertices of immediate mode that follow come after them in Mesa's buffer."""
+        self.draw_waiting()
+        self.buffer_used += self.stored_vertices * self.vertex_bytes
+        self.stored_vertices = 0
+        if self.buffer_used + LEAST_BYTES >= VERTEX_BUFFER_BYTES:
+            self.buffer_used = 0
 
     # -- current values ------------------------------------------------------------------------------------------------
     def attribute(self, name: str) -> Any:

@@ -2,8 +2,7 @@
 
 A program draws a few batches of primitives, each under freshly drawn state, and reads some buffers on its way. Vertices
 are drawn from what rasterizers get wrong: tiny, huge and degenerate triangles, common planes, vertices on pixel
-centres, behind the eye, with w <= 0 and at infinity. Colours are multiples of 1/255, so that no exact tie of the
-rounding to 8 bits decides.
+centres, behind the eye, with w <= 0 and at infinity. Many colours are exact ties of the rounding to 8 bits.
 
 A family is a part of GL: what is prepared once, and the state drawn before every batch.
 """

@@ -43,7 +43,7 @@ def scissored_clears(writer: Writer) -> None:
 def listed(writer: Writer, wild: bool) -> None:
     """A draw and the state before it in a display list, which is carried out once or more, under other state too."""
     name = writer.integer(1, 3)
-    writer.colors = 1.0  # not the fault "late colour in a list" of known_differences.py
+    writer.colors, writer.color_sizes = 1.0, [4]  # not the fault "late colour in a list" of known_differences.py
     writer.call("glNewList", name, writer.pick(["GL_COMPILE", "GL_COMPILE", "GL_COMPILE_AND_EXECUTE"]))
     for _ in range(writer.integer(1, 2)):
         if writer.chance(0.5):

@@ -43,6 +43,7 @@ class Writer:
         self.second_coordinates = 0  # of texture unit 1: 0 or 2
         self.normals = False
         self.colors = 0.6  # the part of the vertices that bring a colour
+        self.color_sizes = [3, 4, 4, 4]  # how many numbers glColor gives
         self.reads_stencil = True
         self.primitives = PRIMITIVES
         self.spread = 1.0  # of object coordinates: about what the projection shows
@@ -63,7 +64,10 @@ class Writer:
         return int(self.rng.integers(low, high + 1))
 
     def color(self) -> tuple[float, ...]:
-        return tuple(round(self.integer(0, 255) / 255, 4) for _ in range(4))
+        """Return a colour of bytes, or one of tenths and halves of bytes: ties of the rounding to 8 bits."""
+        if self.chance(0.5):
+            return tuple(round(self.integer(0, 255) / 255, 4) for _ in range(4))
+        return tuple(self.pick([self.integer(0, 10) / 10, (self.integer(0, 254) + 0.5) / 255]) for _ in range(4))
 
     def switch(self, capability: str, probability: float) -> bool:
         enabled = self.chance(probability)
@@ -309,7 +313,8 @@ class Writer:
                 self.call("glBegin", mode)
             given = {name: values[number] for name, values in attributes.items() if values[number] is not None}
             if "color" in given:
-                self.call("glColor4f", *given["color"])
+                numbers = self.pick(self.color_sizes)
+                self.call(f"glColor{numbers}f", *given["color"][:numbers])
             if "normal" in given:
                 self.call("glNormal3f", *given["normal"])
             if "coordinate" in given:

@@ -2,7 +2,6 @@
 
 from typing import Any
 
-import numpy as np
 import pytest
 
 from softshadow.scene import Scene, scene_names
@@ -36,10 +35,7 @@ def test_a_technique_leaves_the_same_buffers_on_mesa(name: str, technique: str, 
     for title in here.titles:
         assert (here.stencil[title] == there.stencil[title]).all(), title
         assert (here.depth[title] == there.depth[title]).all(), title
-        # a colour of k + 1/2 steps (0.1 is 25.5) goes up or down by the last bit of its interpolation
-        steps = np.abs(here.color[title].astype(int) - there.color[title])
-        assert steps.max() <= 1, title
-        assert (steps > 0).mean() < 0.01, title
+        assert (here.color[title] == there.color[title]).all(), title
     assert here.maps.keys() == there.maps.keys()
     for key, array in here.maps.items():
         assert (array == there.maps[key]).all(), key

@@ -29,11 +29,11 @@ def in_lists(call: Call) -> Call:
         compiled.calls.append(functools.partial(call, *map(_owned, arguments), **named))
         if not compiled.executes:
             return None
-        context.compiled_list = None  # what the call itself calls is part of it
+        context.compiled_list, context.executes_list = None, True  # what the call itself calls is part of it
         try:
             return call(*arguments, **named)
         finally:
-            context.compiled_list = compiled
+            context.compiled_list, context.executes_list = compiled, False
 
     return recorded  # type: ignore[return-value]
 

@@ -13,8 +13,7 @@ from softshadow.gl.conversions import vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.materials import follow_color, material_field
-from softshadow.gl.texture_coordinates import REST
-from softshadow.gl.vertex_format import begin, give, vertices_of
+from softshadow.gl.vertex_format import REST, begin, end_continued_loop, give, store_vertex, vertices_of
 
 MODES = range(gl.GL_POINTS, gl.GL_POLYGON + 1)
 A_MODE = "GL_POINTS … GL_POLYGON"
@@ -52,6 +51,8 @@ def glEnd() -> None:
         if primitive.mode != gl.GL_QUADS:
             context.draw_waiting()
         return
+    if primitive.continued and primitive.mode == gl.GL_LINE_LOOP:
+        end_continued_loop(context, primitive)
     vertices = vertices_of(context, primitive)
     if primitive.from_list and context.list_depth > 0:
         context.draw(primitive.mode, vertices, in_order(len(vertices.position)))
@@ -82,7 +83,7 @@ def add_vertex(context: Context, *coordinates: float) -> None:
     primitive.texcoords.append(tuple(standing.texcoords))
     for name, rows in primitive.materials.items():
         rows.append(material_field(context, name))
-    context.stored_vertices += 1
+    store_vertex(context, primitive)
 
 
 @in_lists

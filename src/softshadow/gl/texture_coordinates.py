@@ -8,10 +8,9 @@ from softshadow import tokens as gl
 from softshadow.context import current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import vector
-from softshadow.gl.vertex_format import give
+from softshadow.gl.vertex_format import REST, give
 from softshadow.state import TEXTURE_UNITS
 
-REST = (0.0, 0.0, 0.0, 1.0)  # what a vector gets where the call gives fewer than four numbers
 UNITS = range(gl.GL_TEXTURE0, gl.GL_TEXTURE0 + TEXTURE_UNITS)
 A_UNIT = f"GL_TEXTURE0 … GL_TEXTURE{TEXTURE_UNITS - 1}"
 

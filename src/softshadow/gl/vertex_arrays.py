@@ -16,7 +16,8 @@ from softshadow.context import ArrayLayout, Context, current
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.immediate import A_MODE, MODES, can_draw, in_order
-from softshadow.gl.texture_coordinates import A_UNIT, REST, UNITS
+from softshadow.gl.texture_coordinates import A_UNIT, UNITS
+from softshadow.gl.vertex_format import REST
 from softshadow.pipeline.commands import Vertices
 from softshadow.state import TEXTURE_UNITS
 
