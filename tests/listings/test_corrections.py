@@ -5,7 +5,7 @@ import pytest
 
 from listings.drawn_listings import corrected, in_shadow, pixels, printed, without
 from softshadow import listings
-from softshadow.listings.stage import DOWN_THE_AXIS, FAR, NEAR_SHADOW, STAGE
+from softshadow.listings.stage import DOWN_THE_AXIS, FAR, NEAR_SHADOW, OVER_THE_TABLE, STAGE
 
 # pixels of colour, depth and stencil that differ when one correction is left out; equal on Mesa
 COUNTS = {
@@ -19,6 +19,7 @@ COUNTS = {
     ("planar-rays", "E21"): (752, 0, 0),
     ("planar-darken", "E60"): (500, 484, 0),
     ("planar-polygons", "E15"): (845, 1449, 0),
+    ("planar-faces", "E16"): (102, 0, 5939),
     ("volume-zpass", "E1"): (941, 0, 1460),
     ("volume-zpass", "E2"): (4927, 0, 0),
     ("volume-zpass", "E3"): (4927, 0, 0),
@@ -28,13 +29,16 @@ COUNTS = {
     ("volume-zfail", "E2"): (6304, 0, 0),
     ("volume-zfail", "E6"): (1497, 0, 3066),
     ("volume-zfail", "E8"): (81, 6387, 1648),
+    ("volume-far-side", "E7"): (3151, 0, 3151),
     ("volume-five-passes", "E38"): (302, 0, 0),
     ("volume-five-passes", "E63"): (78, 78, 0),
+    ("volume-five-passes-eye", "E40"): (450, 0, 450),
     ("volume-counter", "E20"): (4927, 0, 0),
     ("map", "E46"): (17, 0, 0),
     ("map", "E47"): (57, 0, 0),
     ("map", "E48"): (56, 0, 0),
     ("map", "E62"): (1513, 0, 0),
+    ("map-bias", "E49"): (43, 0, 0),
     ("map-two-stages", "E50"): (1441, 0, 0),
     ("map-two-stages", "E51"): (1848, 0, 0),
     ("map-two-stages", "E52"): (933, 0, 0),
@@ -73,7 +77,9 @@ def wrong(result, stage, far=None):
         ("volume-zpass-reversed", STAGE),
         ("volume-zpass-general", NEAR_SHADOW),
         ("volume-zfail", DOWN_THE_AXIS),
+        ("volume-far-side", OVER_THE_TABLE),
         ("volume-five-passes", STAGE),
+        ("volume-five-passes-eye", NEAR_SHADOW),
         ("volume-counter", STAGE),
     ],
 )
@@ -100,6 +106,15 @@ def test_e11_decrements_that_come_first_are_lost_at_zero():
 
 def test_e10_the_eye_s_number_is_wrong_where_the_near_rectangle_lies_outside():
     assert wrong(without("volume-zpass-general", "E10"), NEAR_SHADOW) == 5949
+
+
+def test_e40_five_passes_are_wrong_where_the_near_rectangle_lies_in_a_volume():
+    assert wrong(without("volume-five-passes-eye", "E40"), NEAR_SHADOW) == 450
+
+
+def test_e7_receiver_below_a_far_side_that_is_too_near_is_lit():
+    assert wrong(without("volume-far-side", "E7"), OVER_THE_TABLE) == 3151
+    assert not without("volume-far-side", "E7").stencil[corrected("volume-far-side").stencil == 0].any()
 
 
 def test_e6_sides_alone_count_too_little_where_the_ray_leaves_through_a_cap():
@@ -136,6 +151,13 @@ def test_e35_e36_all_of_the_shadow_is_clipped_with_the_wrong_sign(name, number):
     without_shadow = without(name, number)
     assert (without_shadow.depth == corrected(name).depth).all()
     assert pixels(without_shadow.color, corrected("planar").color) == counts("planar-point", "E35")[0]
+
+
+def test_e16_face_below_the_floor_paints_a_shadow_on_it_and_a_long_one_leaves_it():
+    painted = (without("planar-faces", "E16").color != corrected("planar-faces").color).any(axis=-1)
+    outside = corrected("planar-faces").depth == 2**24 - 1
+    assert np.count_nonzero(painted & outside) > 0
+    assert np.count_nonzero(painted & ~outside) > 0
 
 
 def test_point_matrix_draws_the_shadow_of_the_ground_matrix():
@@ -216,6 +238,15 @@ def test_e48_bias_and_offset_together_light_what_touches():
     shade = corrected("map").color.sum(axis=-1, dtype=int)
     brighter = without("map", "E48").color.sum(axis=-1, dtype=int) >= shade
     assert brighter.all()
+
+
+def test_e49_constant_bias_lights_what_an_offset_leaves_in_shadow():
+    shade = corrected("map-bias").color.sum(axis=-1, dtype=int)
+    assert (without("map-bias", "E49").color.sum(axis=-1, dtype=int) >= shade).all()
+
+
+def test_corrected_bias_is_the_corrected_map():
+    assert pixels(corrected("map-bias").color, corrected("map").color) == 0
 
 
 def test_e47_edge_of_the_map_is_smeared_over_what_the_light_does_not_see():

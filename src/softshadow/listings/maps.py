@@ -19,7 +19,7 @@ ALMOST_NO_BIAS = 0.0005  # of the map's depth: what E52 asks for at the least, h
 
 
 # -- CA ----------------------------------------------------------------------------------------------------------------
-def shadow_map(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> list[np.ndarray]:
+def shadow_map(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, *, offset: bool = True) -> list[np.ndarray]:
     """CA:498-637: one program of its four slides; returns the map that pass 1 leaves, (h, w) float32."""
     begin_frame(gl, stage)
     gl.glDisable(gl.GL_LIGHTING)
@@ -27,10 +27,10 @@ def shadow_map(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> list
     # Pas 1. Actualització del shadow map
     if "E62" in corrected:
         framebuffer = begin_framebuffer(gl, texture)
-        draw_from_light(gl, stage)
+        draw_from_light(gl, stage, offset)
         end_framebuffer(gl, framebuffer)
     else:
-        draw_from_light(gl, stage)
+        draw_from_light(gl, stage, offset)
         # 3. Guardar el z-buffer en una textura; E62: the window has no more than its own pixels to give
         gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
         gl.glCopyTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 0, 0, MAP_SIZE, MAP_SIZE)
@@ -43,10 +43,16 @@ def shadow_map(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> list
     # Pas 2, with the matrix of CA:559-575 and the shaders of CA:577-637
     program = gl.program("shadow-map" if "E47" in corrected else SLIDE_SHADER)  # E47: q > 0, 0 <= s, t <= 1
     # E48: "només si no hem usat glPolygonOffset", and pass 1 has used it
-    use(gl, program, light_matrix(gl, stage), 0.0 if "E48" in corrected else 0.01, AMBIENT)
+    use(gl, program, light_matrix(gl, stage), 0.0 if offset and "E48" in corrected else 0.01, AMBIENT)
     draw(gl, stage.scene, unlit=1.0)
     gl.glUseProgram(0)
     return [stored]
+
+
+def map_with_bias(gl: Any, corrected: frozenset[str]) -> list[np.ndarray]:
+    """CA:620: the bias alone, "només si no hem usat glPolygonOffset"."""
+    # E49: 0.01 of the depth range is another distance at every depth; an offset follows the slope
+    return shadow_map(gl, frozenset({"E46", "E47", "E48", "E62"}), offset="E49" in corrected)
 
 
 def set_up(gl: Any, corrected: frozenset[str], start: float = 0.0) -> int:
@@ -71,7 +77,7 @@ def set_up(gl: Any, corrected: frozenset[str], start: float = 0.0) -> int:
     return texture
 
 
-def draw_from_light(gl: Any, stage: Stage) -> None:
+def draw_from_light(gl: Any, stage: Stage, offset: bool = True) -> None:
     """CA:528-546: the camera at the light, the scene with an offset of (1, 1)."""
     gl.glViewport(0, 0, MAP_SIZE, MAP_SIZE)
     gl.glMatrixMode(gl.GL_PROJECTION)
@@ -82,7 +88,8 @@ def draw_from_light(gl: Any, stage: Stage) -> None:
     look_from_light(gl, stage)
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
     gl.glPolygonOffset(1, 1)
-    gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
+    if offset:
+        gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
     draw(gl, stage.scene)
     gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
 
@@ -204,6 +211,10 @@ LISTINGS = (
             "E48": "no bias besides the polygon offset",
             "E62": "the map is drawn into its texture, not copied from a smaller window",
         },
+    ),
+    Listing(
+        "map-bias", "Shadow map: a constant bias instead of the offset", "maps", "CA:620", map_with_bias,
+        {"E49": "an offset that follows the slope, not 0.01 of the depth range"},
     ),
     Listing(
         "map-two-stages", "Shadow map: Etapa I and Etapa II", "maps", "RO2:24-85", two_stages,

@@ -11,7 +11,7 @@ import numpy as np
 
 from softshadow.listings.listing import Listing
 from softshadow.listings.projection import along_direction, along_rays, from_point, onto_ground
-from softshadow.listings.stage import LOW_LAMP, STAGE, Stage, Thing, begin_frame, draw, draw_faces
+from softshadow.listings.stage import LOW_LAMP, OVER_THE_EDGE, STAGE, Stage, Thing, begin_frame, draw, draw_faces
 from softshadow.scene import Mesh, casting_faces
 
 GROUND = (0.0, 1.0, 0.0, 0.0)
@@ -193,6 +193,32 @@ def shadow_polygons(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) ->
         gl.glPopMatrix()
 
 
+def projected_faces(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_EDGE) -> None:
+    """RO1:43, "proiectând în scenă, din poziția sursei, toate poligoanele": every lit face, whatever is below it."""
+    begin_frame(gl, stage)
+    if "E16" in corrected:
+        gl.glEnable(gl.GL_STENCIL_TEST)  # E16: a projection ends where its receiver does
+        gl.glStencilFunc(gl.GL_ALWAYS, 1, 255)
+        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
+    draw(gl, stage.receiver)
+    gl.glStencilFunc(gl.GL_EQUAL, 1, 255)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_KEEP)
+    gl.glDisable(gl.GL_LIGHTING)
+    gl.glDisable(gl.GL_DEPTH_TEST)
+    for thing in stage.occluder:
+        if "E16" in corrected and thing.mesh.positions[:, 1].max() <= 0:
+            continue  # E16: of a face only the part on the light's side of the receiver casts; here all of it or none
+        lit = casting_faces(thing.mesh, np.array(stage.light)).kept
+        gl.glPushMatrix()
+        multiply(gl, onto_ground(stage.light))
+        draw_faces(gl, thing, thing.mesh.triangles[lit])
+        gl.glPopMatrix()
+    gl.glDisable(gl.GL_STENCIL_TEST)
+    gl.glEnable(gl.GL_LIGHTING)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    draw(gl, stage.occluder)
+
+
 LISTINGS = (
     Listing(
         "planar", "Projection onto one plane, depth test off", "planar", "CA:60-96", three_steps,
@@ -220,5 +246,9 @@ LISTINGS = (
     Listing(
         "planar-polygons", "Shadow polygons", "planar", "RO1:41-68", shadow_polygons,
         {"E15": "GL_LEQUAL and a polygon offset instead of no depth test"},
+    ),
+    Listing(
+        "planar-faces", "Every lit face projected", "planar", "RO1:43", projected_faces,
+        {"E16": "faces below the receiver cast nothing on it, and shadows end at its outline"},
     ),
 )  # fmt: skip

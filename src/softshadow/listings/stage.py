@@ -59,6 +59,7 @@ def moved(mesh: Mesh, x: float, y: float, z: float) -> Mesh:
 FLOOR = Thing(floor(5), (0.8, 0.8, 0.7))
 LOWER = Thing(moved(box(1.6, 1.0, 1.6, name="lower box"), 0.0, 0.5, 0.0), (0.9, 0.4, 0.2))
 UPPER = Thing(moved(box(0.8, 0.8, 0.8, name="upper box"), 0.1, 1.4, -0.1), (0.2, 0.5, 0.9))
+BELOW = Thing(moved(box(0.5, name="box below the floor"), 1.5, -0.6, -0.8), (0.3, 0.8, 0.3))
 STAGE = Stage((-2.0, 4.0, 1.5, 1.0), (4.2, 4.0, 6.1), (0.1, 0.5, -0.1), (FLOOR,), (LOWER, UPPER))
 
 # the eye among the shadows: part of the near rectangle lies in a volume, part of it outside
@@ -66,6 +67,15 @@ NEAR_SHADOW = Stage(STAGE.light, (1.6, 0.6, -0.8), (2.5, 0.0, 2.5), (FLOOR,), (L
 
 # the lamp behind the eye: rays run along the volumes and leave them far away
 DOWN_THE_AXIS = Stage((5.0, 3.2, 5.0, 1.0), STAGE.eye, STAGE.target, (FLOOR,), (LOWER, UPPER))
+
+# a lamp low over a long table: the middle of its top is much nearer than its corners
+OVER_THE_TABLE = Stage(
+    (0.1, 1.2, 0.0, 1.0),
+    STAGE.eye,
+    STAGE.target,
+    (FLOOR,),
+    (Thing(moved(box(0.8, 0.1, 2.4, name="table"), 0.0, 0.85, 0.0), LOWER.color),),
+)
 
 # a lamp below the upper box, and a box below the floor: neither casts a proper shadow on the floor
 LOW_LAMP = Stage(
@@ -76,9 +86,12 @@ LOW_LAMP = Stage(
     (
         Thing(moved(box(0.5, name="box on the floor"), -0.4, 0.25, 0.0), LOWER.color),
         Thing(moved(box(0.4, name="box above the lamp"), 1.2, 2.3, 0.6), UPPER.color),
-        Thing(moved(box(0.5, name="box below the floor"), 1.5, -0.6, -0.8), (0.3, 0.8, 0.3)),
+        BELOW,
     ),
 )
+
+# shadows that hang over the floor's edge, and a box below it
+OVER_THE_EDGE = Stage(STAGE.light, STAGE.eye, STAGE.target, (FLOOR,), (LOWER, UPPER, BELOW))
 
 
 def begin_frame(gl: Any, stage: Stage, far: float | None = FAR) -> None:

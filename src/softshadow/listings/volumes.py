@@ -1,67 +1,35 @@
 """Shadow volumes in the stencil buffer: RO1:142-353 (z-pass and z-fail), CA:398-492 (five passes), SK:261-286.
 
-"Trimite in banda grafica poligoanele de umbra" and ``dibuixa(volum_ombra)`` are ``draw_volumes``. The volumes reach to
-infinity and the camera of the corrected listings has no far plane, so that E7 (a far side that is not far enough) does
-not come up.
+The volumes reach to infinity, but for those of E7, which end at a far side (RO1:77-82). The camera of the corrected
+listings has no far plane.
 """
 
 from typing import Any
 
 import numpy as np
 
+from softshadow.listings.counting import (
+    ambient_scene,
+    begin_count,
+    count_passes,
+    draw_volumes,
+    lit_scene,
+    start_at_near_plane,
+    volumes_around_eye,
+)
 from softshadow.listings.listing import Listing
-from softshadow.listings.stage import DOWN_THE_AXIS, FAR, NEAR_SHADOW, STAGE, Stage, begin_frame, draw, draw_faces
-from softshadow.scene import shadow_volume
-
-
-def draw_volumes(gl: Any, stage: Stage, closed: bool = False) -> None:
-    """Draw the side polygons of every volume (RO1:93-101), counter-clockwise seen from outside; `closed`: caps, too."""
-    for thing in stage.occluder:
-        volume = shadow_volume(thing.mesh, np.array(stage.light))
-        gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, f"volume of the {thing.name}")
-        gl.glBegin(gl.GL_QUADS)
-        for corner in volume.sides.reshape(-1, 4).tolist():
-            gl.glVertex4f(*corner)
-        gl.glEnd()
-        if closed:
-            gl.glBegin(gl.GL_TRIANGLES)
-            for corner in volume.dark_cap.reshape(-1, 4).tolist():
-                gl.glVertex4f(*corner)
-            gl.glEnd()
-        gl.glPopDebugGroup()
-        if closed:
-            draw_faces(gl, thing, volume.light_cap)
-
-
-def ambient_scene(gl: Any, stage: Stage, far: float | None = None) -> None:
-    """Pasul 1 (RO1:175-191): the scene without light, colour and depth."""
-    begin_frame(gl, stage, far)  # "initializeaza z-buffer si stencil-buffer": E61, by glClear
-    gl.glDisable(gl.GL_LIGHTING)
-    draw(gl, stage.scene)
-
-
-def begin_count(gl: Any, corrected: frozenset[str]) -> None:
-    """RO1:200-204 and RO1:304-308 but for the faces that are culled: write the stencil buffer and nothing else."""
-    if "E1" in corrected:
-        gl.glEnable(gl.GL_STENCIL_TEST)  # E1: printed in step 4 only, after the counting
-        gl.glEnable(gl.GL_CULL_FACE)  # E1: printed nowhere
-    gl.glDepthMask(gl.GL_FALSE)
-    gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
-    gl.glFrontFace(gl.GL_CCW)
-    gl.glStencilFunc(gl.GL_ALWAYS, 0x0, 0xFF)
-
-
-def lit_scene(gl: Any, corrected: frozenset[str], stage: Stage) -> None:
-    """Pasul 4 (RO1:260-277): the scene with light where the count is 0."""
-    if "E2" in corrected:
-        gl.glDepthFunc(gl.GL_LEQUAL)  # E2: not printed; the second drawing has equal depth
-    gl.glEnable(gl.GL_STENCIL_TEST)
-    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_KEEP)  # E4: printed KEEP
-    gl.glStencilFunc(gl.GL_EQUAL, 0x0, 0xFF)
-    gl.glDepthMask(gl.GL_TRUE)
-    gl.glColorMask(gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE)
-    gl.glEnable(gl.GL_LIGHTING)
-    draw(gl, stage.scene)
+from softshadow.listings.stage import (
+    DOWN_THE_AXIS,
+    FAR,
+    NEAR_SHADOW,
+    OVER_THE_TABLE,
+    STAGE,
+    Stage,
+    Thing,
+    begin_frame,
+    draw,
+)  # fmt: skip
+from softshadow.scene import casting_faces
 
 
 def z_pass(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
@@ -71,18 +39,6 @@ def z_pass(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
     if "E3" in corrected:
         gl.glCullFace(gl.GL_BACK)  # E3: or step 4 draws back faces only
     lit_scene(gl, corrected, stage)
-
-
-def count_passes(gl: Any, corrected: frozenset[str], stage: Stage) -> None:
-    """Pasul 2 and Pasul 3 of z-pass (RO1:195-256)."""
-    begin_count(gl, corrected)
-    gl.glCullFace(gl.GL_BACK)  # nu sunt rasterizate poligoanele PUN
-    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR)
-    draw_volumes(gl, stage)
-
-    gl.glCullFace(gl.GL_FRONT)  # nu sunt rasterizate poligoanele PUV
-    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_DECR)
-    draw_volumes(gl, stage)
 
 
 def z_pass_decrement_first(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
@@ -116,32 +72,6 @@ def z_pass_general(gl: Any, corrected: frozenset[str], stage: Stage = NEAR_SHADO
     lit_scene(gl, frozenset({"E2"}), stage)
 
 
-def volumes_around_eye(stage: Stage) -> int:
-    """Return how many volumes contain the eye: the boxes that the way from the eye to the lamp meets."""
-    eye, way = np.array(stage.eye), np.array(stage.light[:3]) - np.array(stage.eye)
-    count = 0
-    for thing in stage.occluder:
-        low, high = thing.mesh.positions.min(axis=0), thing.mesh.positions.max(axis=0)
-        enters, leaves = np.sort([(low - eye) / way, (high - eye) / way], axis=0)
-        count += bool(max(enters.max(), 0) < min(leaves.min(), 1))
-    return count
-
-
-def start_at_near_plane(gl: Any, stage: Stage) -> None:
-    """E10: leave in each pixel the number of volumes that contain its point of the near plane.
-
-    A ray from there leaves each of them, and one that it enters on its way it leaves as well: of closed volumes it
-    meets as many more back faces, wherever they are.
-    """
-    begin_count(gl, frozenset({"E1"}))
-    gl.glDisable(gl.GL_DEPTH_TEST)
-    for cull, operation in ((gl.GL_FRONT, gl.GL_INCR_WRAP), (gl.GL_BACK, gl.GL_DECR_WRAP)):
-        gl.glCullFace(cull)
-        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, operation)
-        draw_volumes(gl, stage, closed=True)
-    gl.glEnable(gl.GL_DEPTH_TEST)
-
-
 def z_fail(gl: Any, corrected: frozenset[str], stage: Stage = DOWN_THE_AXIS) -> None:
     """RO1:289-353, Carmack's reverse: count behind what is seen, back faces up and front faces down."""
     # E8: "volumul este decupat la marginile volumului vizual" (RO1:83), and with it go the faces behind the far plane
@@ -158,26 +88,68 @@ def z_fail(gl: Any, corrected: frozenset[str], stage: Stage = DOWN_THE_AXIS) -> 
     lit_scene(gl, corrected, stage)
 
 
+def bounded(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_TABLE) -> None:
+    """RO1:77-82 by depth fail: one volume for each lit polygon, up to the same polygon scaled from the light."""
+    ambient_scene(gl, stage, None)
+    begin_count(gl, frozenset({"E1"}))
+    for cull, operation in ((gl.GL_FRONT, gl.GL_INCR_WRAP), (gl.GL_BACK, gl.GL_DECR_WRAP)):
+        gl.glCullFace(cull)
+        gl.glStencilOp(gl.GL_KEEP, operation, gl.GL_KEEP)
+        for thing in stage.occluder:
+            draw_bounded_volumes(gl, thing, stage, by_plane="E7" in corrected)
+    lit_scene(gl, frozenset({"E2"}), stage)
+
+
+def draw_bounded_volumes(gl: Any, thing: Thing, stage: Stage, by_plane: bool) -> None:
+    """Draw the prisms between the lit polygons and their scaled copies, counter-clockwise seen from outside.
+
+    The copy is where the light is negligible: here beyond all corners of the receiver. E7: that its vertices are this
+    far from the light does not mean that its plane is (`by_plane`).
+    """
+    light = np.array(stage.light[:3])
+    reach = max(np.linalg.norm(each.mesh.positions - light, axis=1).max() for each in stage.receiver)
+    for triangle in thing.mesh.triangles[casting_faces(thing.mesh, np.array(stage.light)).kept]:
+        generator = thing.mesh.positions[triangle].astype(np.float64)
+        normal = np.cross(generator[1] - generator[0], generator[2] - generator[0])
+        to_plane = abs((generator[0] - light) @ normal) / np.linalg.norm(normal)
+        nearest = np.linalg.norm(generator - light, axis=1).min()
+        end = light + (generator - light) * (reach / (to_plane if by_plane else nearest))
+        (a, b, c), (far_a, far_b, far_c) = generator.tolist(), end.tolist()
+        gl.glBegin(gl.GL_TRIANGLES)
+        for corner in (a, b, c, far_a, far_c, far_b):
+            gl.glVertex3f(*corner)
+        gl.glEnd()
+        gl.glBegin(gl.GL_QUADS)
+        for corner in (b, a, far_a, far_b, c, b, far_b, far_c, a, c, far_c, far_a):
+            gl.glVertex3f(*corner)
+        gl.glEnd()
+
+
 def five_passes(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
     """CA:398-492, Volums d'ombra: depth, front faces, back faces, dark scene, lit scene."""
+    up, down, closed = gl.GL_INCR, gl.GL_DECR, False
     begin_frame(gl, stage, None)
     # 1. Dibuixa l'escena al z-buffer
     gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
     draw(gl, stage.scene)
+
+    if "E40" in corrected:
+        start_at_near_plane(gl, stage)  # E40: the count is right only if the near rectangle lies outside all volumes
+        up, down, closed = gl.GL_INCR_WRAP, gl.GL_DECR_WRAP, True
 
     # 2. Dibuixa al stencil les cares frontals del volum
     gl.glEnable(gl.GL_STENCIL_TEST)
     gl.glDepthMask(gl.GL_FALSE)
     gl.glStencilFunc(gl.GL_ALWAYS, 0, 0)  # E39: GL_ALWAYS does not look at the mask
     gl.glEnable(gl.GL_CULL_FACE)
-    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, up)
     gl.glCullFace(gl.GL_BACK)
-    draw_volumes(gl, stage)
+    draw_volumes(gl, stage, closed)
 
     # 3. Dibuixa al stencil les cares posteriors del volum
-    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_DECR)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, down)
     gl.glCullFace(gl.GL_FRONT)
-    draw_volumes(gl, stage)
+    draw_volumes(gl, stage, closed)
 
     # 4. Dibuixa al color buffer la part fosca de l'escena
     gl.glDepthMask(gl.GL_TRUE)
@@ -203,6 +175,11 @@ def five_passes(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Non
     if "E63" in corrected:
         gl.glDisable(gl.GL_CULL_FACE)  # E63: "initial state" has no culling
     draw_mark(gl)
+
+
+def five_passes_in_shadow(gl: Any, corrected: frozenset[str]) -> None:
+    """CA:398-492 with the eye among the shadows, of which the slide does not speak."""
+    five_passes(gl, corrected | {"E38", "E63"}, NEAR_SHADOW)
 
 
 def draw_mark(gl: Any) -> None:
@@ -256,8 +233,16 @@ LISTINGS = (
         {"E1": COUNTED, "E2": EQUAL_DEPTH, "E6": "closed volumes: caps at both ends", "E8": "no far plane clips them"},
     ),
     Listing(
+        "volume-far-side", "Volumes that end at a scaled polygon", "volumes", "RO1:77-82", bounded,
+        {"E7": "the far side's plane, not only its vertices, is as far as the light reaches"},
+    ),
+    Listing(
         "volume-five-passes", "Shadow volumes in five passes", "volumes", "CA:398-492", five_passes,
         {"E38": "all bits of the count are tested, not one", "E63": "culling is disabled at the end"},
+    ),
+    Listing(
+        "volume-five-passes-eye", "Five passes, the eye in shadow", "volumes", "CA:398-492", five_passes_in_shadow,
+        {"E40": "the count starts from each pixel's point of the near plane"},
     ),
     Listing(
         "volume-counter", "The in-out counter", "volumes", "SK:261-286", in_out_counter,

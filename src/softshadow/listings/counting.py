@@ -1,0 +1,99 @@
+"""The steps that the listings of shadow volumes share: draw the volumes, count their faces, light the scene.
+
+"Trimite in banda grafica poligoanele de umbra" and ``dibuixa(volum_ombra)`` are ``draw_volumes``.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from softshadow.listings.stage import Stage, begin_frame, draw, draw_faces
+from softshadow.scene import shadow_volume
+
+
+def draw_volumes(gl: Any, stage: Stage, closed: bool = False) -> None:
+    """Draw the side polygons of every volume (RO1:93-101), counter-clockwise seen from outside; `closed`: caps, too."""
+    for thing in stage.occluder:
+        volume = shadow_volume(thing.mesh, np.array(stage.light))
+        gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, f"volume of the {thing.name}")
+        gl.glBegin(gl.GL_QUADS)
+        for corner in volume.sides.reshape(-1, 4).tolist():
+            gl.glVertex4f(*corner)
+        gl.glEnd()
+        if closed:
+            gl.glBegin(gl.GL_TRIANGLES)
+            for corner in volume.dark_cap.reshape(-1, 4).tolist():
+                gl.glVertex4f(*corner)
+            gl.glEnd()
+        gl.glPopDebugGroup()
+        if closed:
+            draw_faces(gl, thing, volume.light_cap)
+
+
+def ambient_scene(gl: Any, stage: Stage, far: float | None = None) -> None:
+    """Pasul 1 (RO1:175-191): the scene without light, colour and depth."""
+    begin_frame(gl, stage, far)  # "initializeaza z-buffer si stencil-buffer": E61, by glClear
+    gl.glDisable(gl.GL_LIGHTING)
+    draw(gl, stage.scene)
+
+
+def begin_count(gl: Any, corrected: frozenset[str]) -> None:
+    """RO1:200-204 and RO1:304-308 but for the faces that are culled: write the stencil buffer and nothing else."""
+    if "E1" in corrected:
+        gl.glEnable(gl.GL_STENCIL_TEST)  # E1: printed in step 4 only, after the counting
+        gl.glEnable(gl.GL_CULL_FACE)  # E1: printed nowhere
+    gl.glDepthMask(gl.GL_FALSE)
+    gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
+    gl.glFrontFace(gl.GL_CCW)
+    gl.glStencilFunc(gl.GL_ALWAYS, 0x0, 0xFF)
+
+
+def count_passes(gl: Any, corrected: frozenset[str], stage: Stage) -> None:
+    """Pasul 2 and Pasul 3 of z-pass (RO1:195-256)."""
+    begin_count(gl, corrected)
+    gl.glCullFace(gl.GL_BACK)  # nu sunt rasterizate poligoanele PUN
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR)
+    draw_volumes(gl, stage)
+
+    gl.glCullFace(gl.GL_FRONT)  # nu sunt rasterizate poligoanele PUV
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_DECR)
+    draw_volumes(gl, stage)
+
+
+def volumes_around_eye(stage: Stage) -> int:
+    """Return how many volumes contain the eye: the boxes that the way from the eye to the lamp meets."""
+    eye, way = np.array(stage.eye), np.array(stage.light[:3]) - np.array(stage.eye)
+    count = 0
+    for thing in stage.occluder:
+        low, high = thing.mesh.positions.min(axis=0), thing.mesh.positions.max(axis=0)
+        enters, leaves = np.sort([(low - eye) / way, (high - eye) / way], axis=0)
+        count += bool(max(enters.max(), 0) < min(leaves.min(), 1))
+    return count
+
+
+def start_at_near_plane(gl: Any, stage: Stage) -> None:
+    """E10: leave in each pixel the number of volumes that contain its point of the near plane.
+
+    A ray from there leaves each of them, and one that it enters on its way it leaves as well: of closed volumes it
+    meets as many more back faces, wherever they are.
+    """
+    begin_count(gl, frozenset({"E1"}))
+    gl.glDisable(gl.GL_DEPTH_TEST)
+    for cull, operation in ((gl.GL_FRONT, gl.GL_INCR_WRAP), (gl.GL_BACK, gl.GL_DECR_WRAP)):
+        gl.glCullFace(cull)
+        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, operation)
+        draw_volumes(gl, stage, closed=True)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+
+
+def lit_scene(gl: Any, corrected: frozenset[str], stage: Stage) -> None:
+    """Pasul 4 (RO1:260-277): the scene with light where the count is 0."""
+    if "E2" in corrected:
+        gl.glDepthFunc(gl.GL_LEQUAL)  # E2: not printed; the second drawing has equal depth
+    gl.glEnable(gl.GL_STENCIL_TEST)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_KEEP)  # E4: printed KEEP
+    gl.glStencilFunc(gl.GL_EQUAL, 0x0, 0xFF)
+    gl.glDepthMask(gl.GL_TRUE)
+    gl.glColorMask(gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE)
+    gl.glEnable(gl.GL_LIGHTING)
+    draw(gl, stage.scene)
