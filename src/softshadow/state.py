@@ -369,6 +369,7 @@ class TextureUnit:
     env_mode: int = gl.GL_MODULATE
     env_color: Color = (0.0, 0.0, 0.0, 0.0)
     combine: Combine = Combine()
+    lod_bias: float = 0.0
     gen: tuple[TexGen, TexGen, TexGen, TexGen] = field(default_factory=_initial_gen)
 
     def calls(self, index: int) -> list[str]:
@@ -383,17 +384,27 @@ class TextureUnit:
         ]
         if self.env_mode == gl.GL_COMBINE:
             made += self.combine.calls()
+        if self.lod_bias:
+            made.append(f"glTexEnvf(GL_TEXTURE_FILTER_CONTROL, GL_TEXTURE_LOD_BIAS, {self.lod_bias:g})")
         for name, gen in zip("STRQ", self.gen, strict=True):
             if gen.enabled:
-                plane, values = (
-                    ("GL_OBJECT_PLANE", gen.object_plane)
-                    if gen.mode == gl.GL_OBJECT_LINEAR
-                    else ("GL_EYE_PLANE", gen.eye_plane)
-                )
                 made.append(f"glTexGeni(GL_{name}, GL_TEXTURE_GEN_MODE, {token_name(gen.mode)})")
-                made.append(f"glTexGenfv(GL_{name}, {plane}, ({_numbers(*values)}))")
+                if gen.mode == gl.GL_OBJECT_LINEAR:
+                    made.append(f"glTexGenfv(GL_{name}, GL_OBJECT_PLANE, ({_numbers(*gen.object_plane)}))")
+                elif gen.mode == gl.GL_EYE_LINEAR:
+                    made.append(f"glTexGenfv(GL_{name}, GL_EYE_PLANE, ({_numbers(*gen.eye_plane)}))")
                 made.append(_switch(f"GL_TEXTURE_GEN_{name}", True))
         return made
+
+
+@dataclass(frozen=True)
+class CubeMaps:
+    """Whether linear filters of all cube maps go on over the edges of the faces."""
+
+    seamless: bool = False
+
+    def calls(self) -> list[str]:
+        return [_switch("GL_TEXTURE_CUBE_MAP_SEAMLESS", self.seamless)]
 
 
 @dataclass(frozen=True)
@@ -451,6 +462,7 @@ class State:
     color: ColorBuffer = ColorBuffer()
     lighting: Lighting = Lighting()
     units: tuple[TextureUnit, ...] = (TextureUnit(),) * TEXTURE_UNITS
+    cube_maps: CubeMaps = CubeMaps()
     fog: Fog = Fog()
     clip_planes: ClipPlanes = ClipPlanes()
     draw_framebuffer: int = 0

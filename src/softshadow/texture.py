@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from softshadow import tokens as gl
 from softshadow.image import Image
 
+DEFAULT_CUBE_MAP = -1  # what the cube map named 0 is stored as; 0 is the 2-D texture of that name
+
+
+def stored_name(target: int, name: int) -> int:
+    """Return what a texture of a target is stored as: its name, or what stands for the cube map named 0."""
+    return name if name or target == gl.GL_TEXTURE_2D else DEFAULT_CUBE_MAP
+
 
 @dataclass(frozen=True)
 class Sampler:
-    """What glTexParameter sets; initial values are GL's."""
+    """What glTexParameter sets; initial values are GL's.
+
+    `unit_lod_bias` is that of the texture unit: it stays 0 in the texture object itself, see `Texture.in_unit`.
+    """
 
     min_filter: int = gl.GL_NEAREST_MIPMAP_LINEAR
     mag_filter: int = gl.GL_LINEAR
@@ -26,6 +36,8 @@ class Sampler:
     min_lod: float = -1000.0
     max_lod: float = 1000.0
     lod_bias: float = 0.0
+    unit_lod_bias: float = 0.0
+    seamless: int = gl.GL_FALSE
     generate_mipmap: bool = False
     priority: float = 1.0
 
@@ -54,6 +66,14 @@ class Texture:
     def faces(self) -> tuple[int, ...]:
         """The numbers of the faces: six of a cube map, one of a 2-D texture."""
         return tuple(range(6)) if self.target == gl.GL_TEXTURE_CUBE_MAP else (0,)
+
+    def in_unit(self, lod_bias: float, seamless: bool) -> Texture:
+        """Return the texture, over the same images, as a unit of that bias samples it.
+
+        `seamless` is GL_TEXTURE_CUBE_MAP_SEAMLESS of the context.
+        """
+        sampler = replace(self.sampler, unit_lod_bias=lod_bias, seamless=int(seamless or self.sampler.seamless))
+        return Texture(self.name, self.target, sampler, self.images)
 
     def copy(self) -> Texture:
         return Texture(self.name, self.target, self.sampler, {k: i.copy() for k, i in self.images.items()})

@@ -94,7 +94,7 @@ def test_automatic_mipmaps_follow_the_base_level(context):
 
 
 def test_mipmaps_need_a_base_level(context):
-    with pytest.raises(gl.GLError, match="glGenerateMipmap: texture 0 needs a base level"):
+    with pytest.raises(gl.GLError, match="glGenerateMipmap: the bound texture needs a base level"):
         gl.glGenerateMipmap(gl.GL_TEXTURE_2D)
 
 

@@ -203,7 +203,8 @@ def test_an_incomplete_texture_is_black_and_opaque():
     assert sampled(one_level, np.zeros((2, 3), np.float32)).tolist() == [[0, 0, 0, 1]] * 2
     assert not sampling.is_complete(Texture(1, gl.GL_TEXTURE_2D))
     for level in (1, 2):
-        one_level.images[0, level] = Image.new(FORMATS[gl.GL_RGBA8], 4 >> level, 4 >> level)
+        internal_format = one_level.images[0, 0].internal_format
+        one_level.images[0, level] = Image.new(FORMATS[gl.GL_RGBA8], 4 >> level, 4 >> level, internal_format)
     assert sampling.is_complete(one_level)
 
 

@@ -81,7 +81,7 @@ def test_combined_units_are_mesas(seed):
     theirs = fragments_on_mesa(setup, {"texcoord": texcoord, "color": colors})
     with gl.create_context(8, 8) as context:
         setup(gl)
-        textures = {unit: context.storage.textures[unit + 1] for unit in (0, 1)}
+        textures = {(unit, gl.GL_TEXTURE_2D): context.storage.textures[unit + 1] for unit in (0, 1)}
         made = program(context.state, textures)
     second = np.broadcast_to(np.float32([0.3, 0.7, 0, 1]), (POINTS, 4))
     ours = np.empty_like(colors)

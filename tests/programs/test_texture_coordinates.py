@@ -8,13 +8,26 @@ import pytest
 
 from mesa_points import load, same_bits, vertices_on_mesa
 from softshadow import tokens as gl
-from softshadow.errors import StateError
 from softshadow.programs import VertexInputs
 from softshadow.programs.inverse import inverse
-from softshadow.programs.texture_coordinates import texture_coordinates
-from softshadow.state import TexGen, TextureUnit
+from softshadow.programs.lighting import eye_normals
+from softshadow.programs.texture_coordinates import (
+    Normals,
+    needs_normals,
+    reflections,
+    reflects_r,
+    sphere_map,
+    texture_coordinates,
+)
+from softshadow.state import Lighting, TexGen, TextureUnit
 
 COUNT = 300
+MODES_FROM_NORMALS = [
+    (gl.GL_SPHERE_MAP, gl.GL_SPHERE_MAP),
+    (gl.GL_REFLECTION_MAP, gl.GL_REFLECTION_MAP, gl.GL_REFLECTION_MAP),
+    (gl.GL_NORMAL_MAP, gl.GL_NORMAL_MAP, gl.GL_NORMAL_MAP),
+    (gl.GL_SPHERE_MAP, gl.GL_REFLECTION_MAP, gl.GL_REFLECTION_MAP),
+]
 
 
 def vertices(rng: np.random.Generator, modelview: np.ndarray, texture_matrix: np.ndarray) -> VertexInputs:
@@ -72,9 +85,43 @@ def test_components_without_generation_keep_what_was_given():
     assert (made[:, 1:] == given.texcoords[0][:, 1:]).all()
 
 
-def test_an_unsupported_generation_mode_is_named():
-    given = vertices(np.random.default_rng(1), np.eye(4, dtype=np.float32), np.eye(4, dtype=np.float32))
+@pytest.mark.mesa
+@pytest.mark.parametrize("modes", MODES_FROM_NORMALS, ids=lambda modes: "-".join(map(gl.token_name, modes)))
+@pytest.mark.parametrize("normals", ["plain", "normalize", "rescale_normal"])
+@pytest.mark.parametrize("kind", ["identity", "affine", "scale"])
+def test_coordinates_from_normals_are_mesas(kind, normals, modes):
+    rng = np.random.default_rng(22)
+    modelview = modelviews(rng)[kind]
+    given = replace(vertices(rng, modelview, np.eye(4, dtype=np.float32)), normal=normals_of(rng))
+
+    def setup(on: Any) -> None:
+        if normals != "plain":
+            on.glEnable(getattr(on, f"GL_{normals.upper()}"))
+        for name, mode in zip("STR", modes, strict=False):
+            on.glTexGeni(getattr(on, f"GL_{name}"), on.GL_TEXTURE_GEN_MODE, mode)
+            on.glEnable(getattr(on, f"GL_TEXTURE_GEN_{name}"))
+
+    lighting = Lighting(normalize=normals == "normalize", rescale_normal=normals == "rescale_normal")
+    gens = [TexGen(True, mode) for mode in modes] + [TexGen()] * (4 - len(modes))
+    unit = TextureUnit(enabled_2d=True, gen=(gens[0], gens[1], gens[2], gens[3]))
+    arrays = {"vertex": given.position, "texcoord": given.texcoords[0], "normal": given.normal}
+    _, theirs = vertices_on_mesa(setup, arrays, modelview)
+    assert same_bits(
+        texture_coordinates(0, unit, given, Normals(eye_normals(lighting, given), reflects_r(unit))), theirs
+    )
+
+
+def normals_of(rng: np.random.Generator) -> np.ndarray:
+    return rng.normal(size=(COUNT, 3)).astype(np.float32)
+
+
+def test_a_mirror_sends_an_eye_ray_back_along_its_normal():
+    position, normal = np.array([[0, 0, -2, 1]], np.float32), np.array([[0, 0, 1]], np.float32)
+    assert reflections(position, normal).tolist() == [[0, 0, 1]]
+    assert sphere_map(position, Normals(normal, False))[:, :2].tolist() == [[0.5, 0.5]]
+
+
+def test_only_units_that_ask_for_them_need_normals():
     s, t, r, q = TextureUnit().gen
-    unit = TextureUnit(gen=(s, replace(t, enabled=True, mode=gl.GL_SPHERE_MAP), r, q))
-    with pytest.raises(StateError, match="texture unit 0: GL_TEXTURE_GEN_MODE of GL_T is GL_SPHERE_MAP"):
-        texture_coordinates(0, unit, given)
+    assert not needs_normals(TextureUnit(gen=(replace(s, mode=gl.GL_SPHERE_MAP), t, r, q)))
+    assert needs_normals(TextureUnit(gen=(replace(s, mode=gl.GL_SPHERE_MAP, enabled=True), t, r, q)))

@@ -116,6 +116,10 @@ def _with_capabilities(state: State, before: State) -> State:
 
 
 def _capabilities(state: State, lights: bool) -> Iterable[tuple[int, int]]:
-    """Return (capability, texture unit); Mesa changes GL_ENABLE_BIT by the switch of a light, but never pops it."""
-    everywhere = [(cap, 0) for cap in (*CAPABILITIES, *(LIGHTS if lights else ()), *CLIP_PLANES)]
+    """Return (capability, texture unit); Mesa changes GL_ENABLE_BIT by the switch of a light, but never pops it.
+
+    GL_TEXTURE_CUBE_MAP_SEAMLESS, which is younger than GL 2.1, is in no group of Mesa's.
+    """
+    pushed = [cap for cap in CAPABILITIES if cap != gl.GL_TEXTURE_CUBE_MAP_SEAMLESS]
+    everywhere = [(cap, 0) for cap in (*pushed, *(LIGHTS if lights else ()), *CLIP_PLANES)]
     return everywhere + [(cap, unit) for cap in (*UNIT_CAPABILITIES, *GENERATED) for unit in range(len(state.units))]

@@ -25,7 +25,7 @@ from softshadow.gl.materials import start_to_follow
 from softshadow.gl.textures import BINDINGS
 from softshadow.pipeline.commands import CreateTexture, SetSampler
 from softshadow.state import State
-from softshadow.texture import Sampler
+from softshadow.texture import Sampler, stored_name
 
 DEEPEST_ATTRIBUTES = 16
 
@@ -47,7 +47,7 @@ class Saved:
     list_base: int
     draw_buffers: tuple[int, ...]
     read_buffer: int
-    samplers: dict[tuple[int, int], Sampler]  # of the bound textures, by (target, name)
+    samplers: dict[tuple[int, int], Sampler]  # of the bound textures, by (target, stored name)
 
 
 @in_lists
@@ -90,7 +90,7 @@ def _bound_samplers(context: Context) -> dict[tuple[int, int], Sampler]:
     textures, found = context.storage.textures, {}
     for unit in context.state.units:
         for target, binding in BINDINGS.items():
-            name = getattr(unit, binding)
+            name = stored_name(target, getattr(unit, binding))
             if name in textures:
                 found[target, name] = textures[name].sampler
     return found

@@ -33,6 +33,7 @@ CAPABILITIES: dict[int, tuple[str, str]] = {
     gl.GL_NORMALIZE: ("lighting", "normalize"),
     gl.GL_RESCALE_NORMAL: ("lighting", "rescale_normal"),
     gl.GL_FOG: ("fog", "enabled"),
+    gl.GL_TEXTURE_CUBE_MAP_SEAMLESS: ("cube_maps", "seamless"),
 }
 UNIT_CAPABILITIES = {gl.GL_TEXTURE_2D: "enabled_2d", gl.GL_TEXTURE_CUBE_MAP: "enabled_cube"}
 GENERATED = (gl.GL_TEXTURE_GEN_S, gl.GL_TEXTURE_GEN_T, gl.GL_TEXTURE_GEN_R, gl.GL_TEXTURE_GEN_Q)

@@ -150,9 +150,9 @@ def _base_problem(texture: Texture) -> Problem | None:
     first = bases[0]
     if first is None or any(base is None or base.view.shape != first.view.shape for base in bases):
         missing = "the base level of every face, all of one size" if len(bases) > 1 else "a base level"
-        return gl.GL_INVALID_OPERATION, f"texture {texture.name} needs {missing}: call glTexImage2D first"
+        return gl.GL_INVALID_OPERATION, f"the bound texture needs {missing}: call glTexImage2D first"
     if first.stencil is not None or first.format.kind == "stencil":
-        return gl.GL_INVALID_OPERATION, f"texture {texture.name} holds stencil values, which have no mipmaps"
+        return gl.GL_INVALID_OPERATION, "the bound texture holds stencil values, which have no mipmaps"
     return None
 
 

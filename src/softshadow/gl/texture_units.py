@@ -1,4 +1,4 @@
-"""Texture units: the active one, its environment, and the generation of its coordinates."""
+"""Texture units: the active one, its environment and level-of-detail bias, and the generation of its coordinates."""
 
 from __future__ import annotations
 
@@ -20,8 +20,14 @@ from softshadow.state import TEXTURE_UNITS, TexGen
 from softshadow.tokens import token_name
 
 ENVIRONMENT_MODES = (gl.GL_MODULATE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_REPLACE, gl.GL_ADD, gl.GL_COMBINE)
-GEN_MODES = (gl.GL_OBJECT_LINEAR, gl.GL_EYE_LINEAR)
 COORDINATES = (gl.GL_S, gl.GL_T, gl.GL_R, gl.GL_Q)
+GEN_MODES = {  # and the coordinates that can be generated so
+    gl.GL_OBJECT_LINEAR: COORDINATES,
+    gl.GL_EYE_LINEAR: COORDINATES,
+    gl.GL_SPHERE_MAP: COORDINATES[:2],
+    gl.GL_NORMAL_MAP: COORDINATES[:3],
+    gl.GL_REFLECTION_MAP: COORDINATES[:3],
+}
 PLANES = {gl.GL_OBJECT_PLANE: "object_plane", gl.GL_EYE_PLANE: "eye_plane"}
 
 
@@ -53,7 +59,7 @@ def glTexEnvi(target: int, pname: int, param: int) -> None:
 
 @in_lists
 def glTexEnvf(target: int, pname: int, param: float) -> None:
-    """Set how a texture's colour meets the fragment's."""
+    """Set how a texture's colour meets the fragment's, or GL_TEXTURE_LOD_BIAS of GL_TEXTURE_FILTER_CONTROL."""
     _set_environment("glTexEnvf", target, pname, param)
 
 
@@ -77,6 +83,9 @@ def _set_environment(operation: str, target: int, pname: int, value: Any, is_vec
     values = np.ravel(value)
     if problem := _environment_problem(target, pname, is_vector):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
+    if pname == gl.GL_TEXTURE_LOD_BIAS:
+        set_unit(context, context.active_unit, lod_bias=float(np.float32(values[0])))
+        return None
     if pname == gl.GL_TEXTURE_ENV_COLOR:
         color = np.array(vector(values, 4), np.float32)
         set_unit(context, context.active_unit, env_color=tuple(color.tolist()))
@@ -99,8 +108,10 @@ def _set_environment(operation: str, target: int, pname: int, value: Any, is_vec
 
 
 def _environment_problem(target: int, pname: int, is_vector: bool) -> str | None:
+    if target == gl.GL_TEXTURE_FILTER_CONTROL:
+        return None if pname == gl.GL_TEXTURE_LOD_BIAS else f"pname={token_name(pname)}: expected GL_TEXTURE_LOD_BIAS"
     if target != gl.GL_TEXTURE_ENV:
-        return f"target={token_name(target)}: expected GL_TEXTURE_ENV"
+        return f"target={token_name(target)}: expected GL_TEXTURE_ENV or GL_TEXTURE_FILTER_CONTROL"
     if (
         pname == gl.GL_TEXTURE_ENV_MODE
         or pname in COMBINE_PARAMETERS
@@ -114,12 +125,12 @@ def _environment_problem(target: int, pname: int, is_vector: bool) -> str | None
 
 
 def glGetTexEnviv(target: int, pname: int, params: Any = None) -> Any:
-    """Return the mode of the texture environment, or its colour as 4 int32."""
+    """Return the mode of the texture environment, its colour as 4 int32, or the unit's level-of-detail bias."""
     return _environment("glGetTexEnviv", target, pname, params, np.int32)
 
 
 def glGetTexEnvfv(target: int, pname: int, params: Any = None) -> Any:
-    """Return the mode of the texture environment as a float, or its colour as 4 float32."""
+    """Return what glGetTexEnviv does, as floats."""
     return _environment("glGetTexEnvfv", target, pname, params, np.float32)
 
 
@@ -131,6 +142,8 @@ def _environment(operation: str, target: int, pname: int, params: Any, dtype: ty
     unit = context.state.units[context.active_unit]
     if pname == gl.GL_TEXTURE_ENV_MODE:
         return _answer(np.array([unit.env_mode], dtype), params)
+    if pname == gl.GL_TEXTURE_LOD_BIAS:
+        return _answer(np.array([unit.lod_bias], np.float32).astype(dtype), params)
     if pname in COMBINE_PARAMETERS:
         return _answer(np.array([parameter_of(unit.combine, pname)], dtype), params)
     color = queried_color(context, unit.env_color)
@@ -147,7 +160,7 @@ def _answer(values: np.ndarray, params: Any) -> Any:
 # -- generated coordinates ---------------------------------------------------------------------------------------------
 @in_lists
 def glTexGeni(coord: int, pname: int, param: int) -> None:
-    """Say how a coordinate is generated: GL_OBJECT_LINEAR or GL_EYE_LINEAR."""
+    """Say how a coordinate is generated; GL_SPHERE_MAP makes only s and t, GL_NORMAL_MAP and GL_REFLECTION_MAP no q."""
     _set_mode("glTexGeni", coord, pname, param)
 
 
@@ -186,12 +199,12 @@ def _set_mode(operation: str, coord: int, pname: int, value: Any) -> None:
         return None
     if problem := _generation_problem(coord, pname, is_vector=False):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
-    if int(value) not in GEN_MODES:
+    if coord not in GEN_MODES.get(int(value), ()):
+        expected = ", ".join(token_name(mode) for mode, coordinates in GEN_MODES.items() if coord in coordinates)
         return fail(
             gl.GL_INVALID_ENUM,
             operation,
-            f"GL_TEXTURE_GEN_MODE={token_name(int(value))}: expected GL_OBJECT_LINEAR or GL_EYE_LINEAR "
-            "(others are not part of this subset)",
+            f"GL_TEXTURE_GEN_MODE={token_name(int(value))} of {token_name(coord)}: expected one of {expected}",
         )
     _replace_generation(context, coord, mode=int(value))
     return None

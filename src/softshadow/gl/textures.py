@@ -16,7 +16,7 @@ from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, listed, take
 from softshadow.pipeline.commands import AttachTexture, CreateTexture, DeleteTextures, SetSampler
 from softshadow.state import TextureUnit
-from softshadow.texture import Sampler, Texture
+from softshadow.texture import Sampler, Texture, stored_name
 from softshadow.tokens import token_name
 
 BINDINGS = {gl.GL_TEXTURE_2D: "bound_2d", gl.GL_TEXTURE_CUBE_MAP: "bound_cube"}
@@ -35,6 +35,7 @@ CHOICES: dict[int, tuple[str, tuple[int, ...]]] = {
     gl.GL_TEXTURE_COMPARE_MODE: ("compare_mode", (gl.GL_NONE, gl.GL_COMPARE_R_TO_TEXTURE)),
     gl.GL_TEXTURE_COMPARE_FUNC: ("compare_func", tuple(range(gl.GL_NEVER, gl.GL_ALWAYS + 1))),
     gl.GL_DEPTH_TEXTURE_MODE: ("depth_mode", (gl.GL_LUMINANCE, gl.GL_INTENSITY, gl.GL_ALPHA, gl.GL_RED)),
+    gl.GL_TEXTURE_CUBE_MAP_SEAMLESS: ("seamless", (gl.GL_FALSE, gl.GL_TRUE)),
 }
 LEVELS = {gl.GL_TEXTURE_BASE_LEVEL: "base_level", gl.GL_TEXTURE_MAX_LEVEL: "max_level"}
 NUMBERS = {
@@ -97,7 +98,7 @@ def glDeleteTextures(*arguments: Any) -> None:
 def glIsTexture(texture: int) -> bool:
     """Return whether a name is that of a texture, which it becomes when it is first bound."""
     context = outside_begin("glIsTexture")
-    return context is not None and texture != 0 and int(texture) in context.storage.textures
+    return context is not None and texture > 0 and int(texture) in context.storage.textures
 
 
 def set_unit(context: Context, index: int, **fields: Any) -> None:
@@ -107,17 +108,22 @@ def set_unit(context: Context, index: int, **fields: Any) -> None:
     context.set(units=tuple(units))
 
 
+def object_target(target: int) -> int:
+    """Return the target of the texture object that a target is about: faces are those of a cube map."""
+    return gl.GL_TEXTURE_CUBE_MAP if target in FACES else target
+
+
 def bound_name(context: Context, target: int) -> int:
-    """Return the name bound to the active unit for a target, or for a face of a cube map."""
-    binding = BINDINGS[gl.GL_TEXTURE_CUBE_MAP if target in FACES else target]
-    return int(getattr(context.state.units[context.active_unit], binding))
+    """Return what the texture is stored as that the active unit has for a target, or for a face of a cube map."""
+    target = object_target(target)
+    return stored_name(target, int(getattr(context.state.units[context.active_unit], BINDINGS[target])))
 
 
 def bound_texture(context: Context, target: int) -> Texture:
-    """Return the texture bound to the active unit; texture 0 is one, too, and made when it is first used."""
+    """Return the texture bound to the active unit; those named 0 are made when it is first used."""
     name = bound_name(context, target)
     if name not in context.storage.textures:
-        context.execute(CreateTexture(name, target))
+        context.execute(CreateTexture(name, object_target(target)))
     return context.storage.textures[name]
 
 
@@ -127,8 +133,6 @@ def target_problem(context: Context, target: int, faces: bool = False) -> tuple[
     if target not in allowed:
         expected = "expected GL_TEXTURE_2D or a face of GL_TEXTURE_CUBE_MAP" if faces else EXPECTED_TARGET
         return gl.GL_INVALID_ENUM, f"target={token_name(target)}: {expected}"
-    if target != gl.GL_TEXTURE_2D and bound_name(context, target) == 0:
-        return gl.GL_INVALID_OPERATION, "no cube map is bound (the cube map named 0 is not part of this subset)"
     return None
 
 

@@ -29,6 +29,7 @@ from softshadow.pipeline.vertex import to_clip, to_window
 from softshadow.programs import Program, VertexInputs
 from softshadow.programs.inverse import inverse
 from softshadow.state import Cull, Polygon, State
+from softshadow.texture import Texture, stored_name
 
 if TYPE_CHECKING:
     from softshadow.pipeline.commands import Draw
@@ -220,17 +221,30 @@ def primitive_count(command: Draw) -> int:
 
 def program_of(command: Draw, storage: Storage) -> tuple[Program, Mapping[str, Any]]:
     """Return the program of a draw and its uniforms, samplers resolved to textures."""
-    units = command.state.units
-    bound = {i: storage.textures[u.bound_2d] for i, u in enumerate(units) if u.bound_2d in storage.textures}
+    bound = bound_textures(command.state, storage)
     if not command.program_name:
         from softshadow.programs import fixed_function
 
-        used = {i: texture for i, texture in bound.items() if units[i].enabled_2d}
-        return fixed_function.program(command.state, used), command.uniforms
+        return fixed_function.program(command.state, bound), command.uniforms
     program = programs.get(command.program_name)
-    textures = {name: bound.get(value) for name, value in command.uniforms.items() if name in program.samplers}
+    textures = {
+        name: bound.get((value, gl.GL_TEXTURE_CUBE_MAP if name in program.cube_samplers else gl.GL_TEXTURE_2D))
+        for name, value in command.uniforms.items()
+        if name in program.samplers
+    }
     blocks = any(texture is not None and programs.needs_blocks(texture) for texture in textures.values())
     return replace(program, blocks=program.blocks or blocks), {**command.uniforms, **textures}
+
+
+def bound_textures(state: State, storage: Storage) -> dict[tuple[int, int], Texture]:
+    """Return what is bound by (unit, target), as the units sample it."""
+    bound = {}
+    for index, unit in enumerate(state.units):
+        for target, name in ((gl.GL_TEXTURE_2D, unit.bound_2d), (gl.GL_TEXTURE_CUBE_MAP, unit.bound_cube)):
+            texture = storage.textures.get(stored_name(target, name))
+            if texture is not None:
+                bound[index, target] = texture.in_unit(unit.lod_bias, state.cube_maps.seamless)
+    return bound
 
 
 def region_of(state: State, target: Framebuffer) -> Region:

@@ -15,6 +15,7 @@ import numpy as np
 from softshadow.errors import StateError, nearest
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.texture import Texture
+from softshadow.tokens import GL_LINEAR, GL_TEXTURE_CUBE_MAP
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,7 @@ class Program:
     uniforms : name -> initial value
         Ints, floats, tuples or (4, 4) float32 matrices; their shape is the uniform's type.
     samplers : names of the uniforms that are texture units
+    cube_samplers : those of them that look up cube maps (samplerCube); the others look up 2-D textures
     blocks : whether `shade` wants complete 2x2 blocks of pixels, because a texture's filters depend on the level of
         detail. Then N is a multiple of 4, each block has one triangle's values at an even row and column of the stored
         rows and at the three pixels right of it, in the next row, and right of that one.
@@ -74,14 +76,20 @@ class Program:
     shade: Callable[[np.ndarray, Mapping[str, Any], np.ndarray], None]
     uniforms: Mapping[str, Any] = field(default_factory=dict)
     samplers: tuple[str, ...] = ()
+    cube_samplers: tuple[str, ...] = ()
     blocks: bool = False
     glsl_vertex: str = ""
     glsl_fragment: str = ""
 
 
 def needs_blocks(texture: Texture) -> bool:
-    """Return whether the filters of a texture depend on the level of detail."""
-    return texture.sampler.min_filter != texture.sampler.mag_filter
+    """Return whether a texture is filtered by blocks of pixels.
+
+    Its filters depend on the level of detail, or they are linear and go over the edges of a cube map.
+    """
+    sampler = texture.sampler
+    over_edges = sampler.seamless and sampler.mag_filter == GL_LINEAR and texture.target == GL_TEXTURE_CUBE_MAP
+    return over_edges or sampler.min_filter != sampler.mag_filter
 
 
 _REGISTER: dict[str, Program] = {}

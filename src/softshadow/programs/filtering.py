@@ -7,10 +7,12 @@ maps).
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.image import Image
+from softshadow.image import Format, Image
 from softshadow.jit import kernel
 from softshadow.pixels import LARGEST_UINT, sampled_depth
 from softshadow.programs.wrapping import (
@@ -57,29 +59,40 @@ def sample_image(
 ) -> None:
     """Fill `out` (N, 4) from one image, with a linear or the nearest filter; coordinates (N, 3): s, t, reference."""
     cells = image.cells if image.cells.ndim == 3 else image.cells[:, :, np.newaxis]
-    real = coordinates.dtype  # float64 in the "exact" precision
-    border = np.array(sampler.border_color, real)
-    if image.format.kind == "depth":
-        largest = image.format.largest
-        unit = real.type(ONE / np.float32(largest) if largest else ONE)
-        if largest == LARGEST_UINT:  # llvmpipe reads 23 of 32 bits
-            cells, unit = sampled_depth(cells, image.format), real.type(ONE)
-        sources = np.array(DEPTH_SOURCES[sampler.depth_mode])
-        border = border.clip(ZERO, ONE) if largest else border
-        where = coordinates, cells, image.width, wraps, border, unit, linear
-        if sampler.compare_mode != gl.GL_NONE:
-            compare_depth(*where, sampler.compare_func, largest > 0, sources, out)
-        else:
-            filter_texels(*where, sources, out)
-        return
-    sources = np.array(SOURCES[image.format.base])
-    if image.format.kind == "float":
-        filter_texels(coordinates, cells, image.width, wraps, border, real.type(ONE), linear, sources, out)
-    elif linear and in_8_bits(image, wraps):
+    real, largest = coordinates.dtype, image.format.largest  # float64 in the "exact" precision
+    sources = sources_of(image, sampler)
+    if linear and in_8_bits(image, wraps):
         filter_fixed_point(coordinates, cells, image.width, wraps, sources, out)
+        return
+    unit = unit_of(image.format, real)
+    if largest == LARGEST_UINT:  # llvmpipe reads 23 of 32 bits
+        cells, unit = sampled_depth(cells, image.format), real.type(ONE)
+    border = np.array(sampler.border_color, real)
+    border = border.clip(ZERO, ONE) if largest else border
+    where = coordinates, cells, image.width, wraps, border, unit, linear
+    if image.format.kind == "depth" and sampler.compare_mode != gl.GL_NONE:
+        compare_depth(*where, sampler.compare_func, largest > 0, sources, out)
     else:
-        border = border.clip(ZERO, ONE)
-        filter_texels(coordinates, cells, image.width, wraps, border, real.type(UNORM8_STEP), linear, sources, out)
+        filter_texels(*where, sources, out)
+
+
+def sources_of(image: Image, sampler: Sampler) -> np.ndarray:
+    """Return where R, G, B and A of the result come from."""
+    depth = image.format.kind == "depth"
+    return np.array(DEPTH_SOURCES[sampler.depth_mode] if depth else SOURCES[image.format.base])
+
+
+def unit_of(format: Format, real: np.dtype) -> Any:
+    """Return what one cell unit of a format is worth, rounded to float32."""
+    return real.type(ONE / np.float32(format.largest) if format.largest else ONE)
+
+
+def texels_in_float(cells: np.ndarray, format: Format, real: np.dtype) -> np.ndarray:
+    """Return what cells of a format are worth."""
+    if format.largest == LARGEST_UINT:
+        return sampled_depth(cells, format).astype(real)
+    worth: np.ndarray = cells.astype(real) * unit_of(format, real)
+    return worth
 
 
 @kernel
@@ -169,14 +182,19 @@ def passes(func, reference, texel):
 
 
 @kernel
+def in_unit_range(r):
+    """Return a reference clamped to [0, 1]; NaN becomes 0."""
+    r = r if r > ZERO else ZERO
+    return r if r < ONE else ONE
+
+
+@kernel
 def compare_depth(coordinates, cells, width, wraps, border, unit, linear, func, clamped, sources, out):
     """Compare r with the depths: 0 or 1, or with GL_LINEAR the share of the 2x2 texels that pass (float weights)."""
     height = cells.shape[0]
     for n in range(len(coordinates)):
         r = coordinates[n, 2]
-        if clamped:
-            r = r if r > ZERO else ZERO
-            r = r if r < ONE else ONE
+        r = in_unit_range(r) if clamped else r
         if linear:
             i0, i1, x_weight = linear_texels(coordinates[n, 0], width, wraps[0])
             j0, j1, y_weight = linear_texels(coordinates[n, 1], height, wraps[1])

@@ -13,10 +13,17 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.errors import StateError
 from softshadow.programs import Program, Varyings, VertexInputs, needs_blocks
-from softshadow.programs.lighting import Colors, clamped, light_vertices, needs_eye_position
-from softshadow.programs.texture_coordinates import dot, texture_coordinates, transform
+from softshadow.programs.lighting import Colors, clamped, eye_normals, light_vertices, needs_eye_position
+from softshadow.programs.texture_coordinates import (
+    IN_EYE_SPACE,
+    Normals,
+    dot,
+    needs_normals,
+    reflects_r,
+    texture_coordinates,
+    transform,
+)
 from softshadow.state import State
 from softshadow.texture import Texture
 
@@ -29,16 +36,14 @@ class Unit:
     texture: Texture
 
 
-def program(state: State, textures: Mapping[int, Texture]) -> Program:
+def program(state: State, textures: Mapping[tuple[int, int], Texture]) -> Program:
     """Return the fixed function under a state.
 
     Parameters
     ----------
-    textures : unit -> Texture   what is bound to the units whose target is enabled; an incomplete one disables its unit
-
-    Raises
-    ------
-    StateError                   the state asks for something that is not supported; the message names what to set
+    textures : (unit, target) -> Texture
+        What is bound. A unit takes that of an enabled target, a cube map before a 2-D texture; incomplete ones count
+        as none.
     """
     units = units_in_use(state, textures)
 
@@ -51,20 +56,17 @@ def program(state: State, textures: Mapping[int, Texture]) -> Program:
     return Program("fixed function", vertex, shade, blocks=any(needs_blocks(unit.texture) for unit in units))
 
 
-def units_in_use(state: State, textures: Mapping[int, Texture]) -> list[Unit]:
+def units_in_use(state: State, textures: Mapping[tuple[int, int], Texture]) -> list[Unit]:
     """Return the texture units that take part in texturing."""
     units = []
     for index, unit in enumerate(state.units):
-        if unit.enabled_cube:
-            raise StateError(
-                f"texture unit {index}: GL_TEXTURE_CUBE_MAP is enabled: cube maps are not sampled by the fixed function"
-            )
-        if not unit.enabled_2d or index not in textures:
+        by_priority = ((gl.GL_TEXTURE_CUBE_MAP, unit.enabled_cube), (gl.GL_TEXTURE_2D, unit.enabled_2d))
+        enabled = [textures[index, target] for target, on in by_priority if on and (index, target) in textures]
+        if not enabled:
             continue
         from softshadow.programs import sampling  # kernels: not for draws without texture
 
-        if sampling.is_complete(textures[index]):
-            units.append(Unit(index, textures[index]))
+        units += [Unit(index, texture) for texture in enabled if sampling.is_complete(texture)][:1]
     return units
 
 
@@ -76,11 +78,17 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
     """Return the varyings of the vertices; the colour columns are flat under GL_FLAT."""
     lighting, back = state.lighting, None
     if lighting.enabled:
-        eye_linear = any(gen.enabled and gen.mode == gl.GL_EYE_LINEAR for unit in state.units for gen in unit.gen)
-        front, back = light_vertices(lighting, vertices, eye_linear)
+        in_eye_space = any(
+            gen.enabled and gen.mode in IN_EYE_SPACE for unit in units for gen in state.units[unit.index].gen
+        )
+        front, back = light_vertices(lighting, vertices, in_eye_space)
     else:
         front = Colors(clamped(vertices.color), None)
-    rest = [texture_coordinates(unit.index, state.units[unit.index], vertices) for unit in units]
+    settings = [state.units[unit.index] for unit in units]
+    normals: Normals | None = None
+    if any(needs_normals(setting) for setting in settings):
+        normals = Normals(eye_normals(lighting, vertices), any(reflects_r(setting) for setting in settings))
+    rest = [texture_coordinates(unit.index, state.units[unit.index], vertices, normals) for unit in units]
     if state.fog.enabled:
         rest.append(fog_distance(state, vertices)[:, np.newaxis])
     values = columns(front, rest, vertices.position.dtype)
@@ -119,13 +127,14 @@ def shade_fragments(state: State, units: list[Unit], inputs: np.ndarray, out: np
     column = 7 if is_separate(state) else 4
     if units:
         from softshadow.programs import texture_combine
-        from softshadow.programs.sampling import base_format, project, sample
+        from softshadow.programs.sampling import base_format, project, project_with_reference, sample
         from softshadow.programs.texture_environment import apply_environment
 
         texels = {}
         for unit in units:  # all of them first: a unit may combine what another one has sampled
             texels[unit.index] = np.empty_like(out)
-            sample(unit.texture, project(inputs[:, column : column + 4]), texels[unit.index])
+            divide = project_with_reference if unit.texture.target == gl.GL_TEXTURE_CUBE_MAP else project
+            sample(unit.texture, divide(inputs[:, column : column + 4]), texels[unit.index])
             column += 4
         for unit in units:
             setting, texel = state.units[unit.index], texels[unit.index]

@@ -59,7 +59,7 @@ def select_levels(squared: np.ndarray, sampler: Sampler, last: int) -> Levels:
     """Return the levels of blocks whose pixels cross so many texels, squared (B,); `last` is the smallest level."""
     squared = squared.astype(np.float32)
     between = FILTERS[sampler.min_filter][1]
-    least, most, bias = max(sampler.min_lod, 0.0), sampler.max_lod, quantized_bias(sampler.lod_bias)
+    least, most, bias = max(sampler.min_lod, 0.0), sampler.max_lod, bias_of(sampler)
     nothing = np.zeros(len(squared), np.float32)
     if least != most and bias == 0 and least == 0 and most >= LARGEST_LEVEL and between != gl.GL_LINEAR:
         exponents = (squared.view(np.int32) >> MANTISSA_BITS & 0xFF) - (EXPONENT_BIAS - 1)
@@ -82,6 +82,11 @@ def select_levels(squared: np.ndarray, sampler: Sampler, last: int) -> Levels:
 
 def _limits(least: float, most: float) -> bool:
     return least > 0 or most < LARGEST_LEVEL
+
+
+def bias_of(sampler: Sampler) -> float:
+    """Return the sum of the biases of the texture and of its unit, as they count."""
+    return quantized_bias(sampler.lod_bias) + quantized_bias(sampler.unit_lod_bias)
 
 
 def quantized_bias(bias: float) -> float:

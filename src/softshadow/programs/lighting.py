@@ -16,7 +16,7 @@ from softshadow import tokens as gl
 from softshadow.programs import VertexInputs
 from softshadow.programs.approximations import powers
 from softshadow.programs.inverse import inverse, is_length_preserving
-from softshadow.programs.texture_coordinates import dot, transform
+from softshadow.programs.texture_coordinates import dot, normalized_rows, reciprocal_root, transform
 from softshadow.state import Light, Lighting, Material
 
 ZERO, ONE = np.float32(0.0), np.float32(1.0)
@@ -54,12 +54,6 @@ class LightAtVertices:
     attenuation: np.ndarray | None
 
 
-def reciprocal_root(x: np.ndarray) -> np.ndarray:
-    """Return 1 / sqrt(x), both rounded; infinity at 0."""
-    root: np.ndarray = ONE / np.sqrt(x)
-    return root
-
-
 def power(x: np.ndarray, exponents: np.ndarray) -> np.ndarray:
     raised = np.empty_like(x)
     powers(x, exponents, raised)
@@ -74,13 +68,6 @@ def normalized(v: np.ndarray) -> np.ndarray:
     """Return one vector (3,) of unit length, as Mesa's C code makes it; 0 stays 0."""
     squared = (v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]
     return v * (ONE / np.sqrt(squared)) if squared else v
-
-
-def normalized_rows(v: np.ndarray) -> np.ndarray:
-    """Return rows (V, 3) of unit length, as Mesa's vertex program makes them; 0 becomes NaN."""
-    with np.errstate(invalid="ignore"):
-        unit: np.ndarray = v * reciprocal_root(dot(v, v))[:, np.newaxis]
-    return unit
 
 
 def enabled_lights(lighting: Lighting) -> list[Light]:
@@ -100,12 +87,11 @@ def has_highlights(lighting: Lighting) -> bool:
     return lighting.front.shininess != 0 or (lighting.two_side and lighting.back.shininess != 0)
 
 
-def in_object_space(lighting: Lighting, length_preserving: bool, eye_linear: bool) -> bool:
-    """Return whether Mesa lights in object space: directional lights, infinite viewer, nothing else in eye space."""
+def in_object_space(lighting: Lighting, length_preserving: bool) -> bool:
+    """Return whether Mesa lights in object space as far as lighting goes: directional lights, infinite viewer."""
     lights = enabled_lights(lighting)
     return (
-        not eye_linear
-        and not lighting.local_viewer
+        not lighting.local_viewer
         and lighting.color_control != gl.GL_SEPARATE_SPECULAR_COLOR
         and all(light.position[3] == 0 and light.spot_cutoff == 180 for light in lights)
         and length_preserving
@@ -113,17 +99,17 @@ def in_object_space(lighting: Lighting, length_preserving: bool, eye_linear: boo
 
 
 def light_vertices(
-    lighting: Lighting, vertices: VertexInputs, eye_linear: bool = False
+    lighting: Lighting, vertices: VertexInputs, in_eye_space: bool = False
 ) -> tuple[Colors, Colors | None]:
     """Return the colours of the vertices, and those of their back side under GL_LIGHT_MODEL_TWO_SIDE.
 
     Parameters
     ----------
-    eye_linear : bool            whether a texture unit generates coordinates in eye space: then lighting is there too
+    in_eye_space : bool          whether a texture unit generates coordinates in eye space: then lighting is there too
     """
     modelview = np.asarray(vertices.modelview, np.float32)
     length_preserving = is_length_preserving(modelview, vertices.modelview_kind)
-    object_space = in_object_space(lighting, length_preserving, eye_linear)
+    object_space = not in_eye_space and in_object_space(lighting, length_preserving)
     with np.errstate(all="ignore"):
         to_object = inverse(modelview, vertices.modelview_kind)
         normal = transformed_normals(lighting, vertices.normal, to_object, object_space, length_preserving)
@@ -134,6 +120,15 @@ def light_vertices(
         front = shade_side(lighting, lighting.front, "front", vertices, normal, lights)
         back = shade_side(lighting, lighting.back, "back", vertices, -normal, lights) if lighting.two_side else None
     return front, back
+
+
+def eye_normals(lighting: Lighting, vertices: VertexInputs) -> np.ndarray:
+    """Return the normals (V, 3) of the vertices in eye space, normalised or rescaled."""
+    modelview = np.asarray(vertices.modelview, np.float32)
+    with np.errstate(all="ignore"):
+        to_object = inverse(modelview, vertices.modelview_kind)
+        length_preserving = is_length_preserving(modelview, vertices.modelview_kind)
+        return transformed_normals(lighting, vertices.normal, to_object, False, length_preserving)
 
 
 def transformed_normals(

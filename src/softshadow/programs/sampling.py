@@ -6,15 +6,19 @@ gives is computed in `filtering`, which level by `level_of_detail`.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from softshadow.errors import StateError
-from softshadow.programs import needs_blocks
+from softshadow.image import Image
+from softshadow.programs import cube_maps, needs_blocks
+from softshadow.programs.cube_filtering import HEAVIEST, LINEAR, NEAREST, filter_cube
 from softshadow.programs.filtering import UNORM8_STEP, in_8_bits, sample_image, wraps_of
 from softshadow.programs.level_of_detail import FILTERS, Levels, select_levels, squared_texels_per_pixel
 from softshadow.programs.wrapping import ONE
 from softshadow.texture import Texture
-from softshadow.tokens import GL_LINEAR, GL_NONE
+from softshadow.tokens import GL_CLAMP_TO_EDGE, GL_LINEAR, GL_NONE, GL_TEXTURE_CUBE_MAP
 
 PIXELS_OF_A_BLOCK = 4
 WEIGHT_STEPS = np.float32(256.0)
@@ -29,26 +33,31 @@ def base_format(texture: Texture) -> int:
 
 
 def is_complete(texture: Texture) -> bool:
-    """Return whether the texture can be sampled: its base image exists, and all levels where the filter uses mipmaps.
+    """Return whether the texture can be sampled.
+
+    Its base image exists, and all levels where the filter uses mipmaps; so do those of the other faces of a cube map.
+    Sizes fit, and all were made with the same internal format.
 
     References: GL 2.1 sec. 3.8.10.
     """
     sampler, image = texture.sampler, texture.base()
     if image is None or image.width == 0 or image.height == 0:
         return False
-    if FILTERS[sampler.min_filter][1] == GL_NONE:
-        return True
+    last = sampler.base_level if FILTERS[sampler.min_filter][1] == GL_NONE else texture.last_level()
     width, height = image.width, image.height
-    for level in range(sampler.base_level + 1, texture.last_level() + 1):
-        width, height = max(width // 2, 1), max(height // 2, 1)
-        image_of_level = texture.images.get((0, level))
-        if (
-            image_of_level is None
-            or (image_of_level.width, image_of_level.height) != (width, height)
-            or image_of_level.format != image.format
+    for level in range(sampler.base_level, last + 1):
+        images = [texture.images.get((face, level)) for face in texture.faces]
+        if any(
+            found is None or (found.width, found.height) != (width, height) or not same_format(found, image)
+            for found in images
         ):
             return False
-    return sampler.max_level >= sampler.base_level
+        width, height = max(width // 2, 1), max(height // 2, 1)
+    return last >= sampler.base_level
+
+
+def same_format(image: Image, other: Image) -> bool:
+    return (image.format, image.internal_format) == (other.format, other.internal_format)
 
 
 def project(coordinates: np.ndarray) -> np.ndarray:
@@ -58,11 +67,32 @@ def project(coordinates: np.ndarray) -> np.ndarray:
     return projected
 
 
-def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
-    """Fill `out` (N, 4) with the texture's RGBA at coordinates (N, 3): s, t, and r for depth comparison.
+def project_with_reference(coordinates: np.ndarray) -> np.ndarray:
+    """Return (s, t, r, q) / q (N, 4): with a cube map the fixed function compares depths with q / q, about 1."""
+    with np.errstate(all="ignore"):
+        projected: np.ndarray = coordinates * (ONE / coordinates[:, 3:])
+    return projected
 
-    An incomplete texture gives (0, 0, 0, 1), as programs see it. Where the filter depends on the level of detail, the
-    coordinates must be complete 2x2 blocks of pixels (see `Program.blocks`).
+
+class Lookup(NamedTuple):
+    """Places in the images of a texture: coordinates (N, 3) are s, t and the reference, faces (N,) or None for 2-D."""
+
+    texture: Texture
+    wraps: tuple[int, int]
+    coordinates: np.ndarray
+    faces: np.ndarray | None
+
+
+def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
+    """Fill `out` (N, 4) with the texture's RGBA at coordinates.
+
+    Parameters
+    ----------
+    coordinates : (N, 3)         s, t, and r for depth comparison; of a cube map (N, 3) or (N, 4): the direction s, t, r
+                                 and, for depth comparison, the reference
+    out : (N, 4)                 an incomplete texture gives (0, 0, 0, 1), as programs see it
+
+    Where `needs_blocks` says so, the coordinates must be complete 2x2 blocks of pixels (see `Program.blocks`).
 
     Raises
     ------
@@ -72,33 +102,113 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
     if image is None or not is_complete(texture):
         out[:] = (0.0, 0.0, 0.0, 1.0)
         return
-    if not needs_blocks(texture):
-        first = texture.images.get((0, 0), image)
-        sample_image(image, sampler, wraps_of(sampler, first), sampler.mag_filter == GL_LINEAR, coordinates, out)
-        return
-    if len(coordinates) % PIXELS_OF_A_BLOCK:
+    if needs_blocks(texture) and len(coordinates) % PIXELS_OF_A_BLOCK:
         raise StateError(
             f"texture {texture.name}: GL_TEXTURE_MIN_FILTER and GL_TEXTURE_MAG_FILTER differ, which takes fragments in "
             "blocks; set both to GL_NEAREST or both to GL_LINEAR"
         )
-    squared = squared_texels_per_pixel(coordinates, image.width, image.height)
-    levels = select_levels(squared, sampler, texture.last_level() - sampler.base_level)
-    sample_levels(texture, Levels(*(np.repeat(a, PIXELS_OF_A_BLOCK) for a in levels)), coordinates, out)
+    lookup = look_up(texture, coordinates)
+    if filters_cube_in_float(texture):
+        sample_cube_in_float(lookup, levels_of(texture, coordinates), out)
+    elif sampler.min_filter == sampler.mag_filter:
+        sample_level(lookup, 0, sampler.mag_filter, out)
+    else:
+        sample_levels(lookup, levels_of(texture, coordinates), out)
 
 
-def sample_levels(texture: Texture, levels: Levels, coordinates: np.ndarray, out: np.ndarray) -> None:
-    """Fill `out` (N, 4) from the levels that were selected for each pixel (N,)."""
+def levels_of(texture: Texture, coordinates: np.ndarray) -> Levels:
+    """Return the levels of all pixels (N,), which llvmpipe decides by block; of a mipmapped cube map by pixel."""
     image, sampler = texture.base(), texture.sampler
     assert image is not None
-    wraps = wraps_of(sampler, texture.images.get((0, 0), image))
+    if texture.target != GL_TEXTURE_CUBE_MAP:
+        squared = squared_texels_per_pixel(coordinates, image.width, image.height)
+    else:
+        squared = cube_maps.squared_texels_per_pixel(coordinates, image.width)
+        squared = squared if is_mipmapped(texture) else squared[::PIXELS_OF_A_BLOCK]
+    levels = select_levels(squared, sampler, texture.last_level() - sampler.base_level)
+    return Levels(*(np.repeat(a, len(coordinates) // len(squared)) for a in levels)) if len(squared) else levels
+
+
+def look_up(texture: Texture, coordinates: np.ndarray) -> Lookup:
+    """Return the places at coordinates; wraps of cube maps are llvmpipe's: every face ends at its edge."""
+    if texture.target != GL_TEXTURE_CUBE_MAP:
+        first = texture.images.get((0, 0)) or texture.base()
+        assert first is not None
+        return Lookup(texture, wraps_of(texture.sampler, first), coordinates, None)
+    faces, places = cube_maps.on_faces(coordinates, decides_by_derivatives(texture))
+    return Lookup(texture, (GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE), places, faces)
+
+
+def decides_by_derivatives(texture: Texture) -> bool:
+    """Return whether llvmpipe computes a level of detail: a texture of one level needs none between its levels."""
+    sampler, within = texture.sampler, FILTERS[texture.sampler.min_filter][0]
+    decides = is_mipmapped(texture) or within != sampler.mag_filter
+    return decides and max(sampler.min_lod, 0.0) != sampler.max_lod
+
+
+def is_mipmapped(texture: Texture) -> bool:
+    """Return whether llvmpipe filters between levels: not where level 0 is the only one."""
+    sampler = texture.sampler
+    only_level = texture.last_level() == 0 and sampler.max_lod > 0
+    return FILTERS[sampler.min_filter][1] != GL_NONE and not only_level
+
+
+def filters_cube_in_float(texture: Texture) -> bool:
+    """Return whether the filter of a cube map crosses edges, or pixels of one block may take different filters."""
+    sampler, within = texture.sampler, FILTERS[texture.sampler.min_filter][0]
+    crosses = sampler.seamless and GL_LINEAR in (within, sampler.mag_filter)
+    by_pixel = is_mipmapped(texture) and within != sampler.mag_filter
+    return texture.target == GL_TEXTURE_CUBE_MAP and (bool(crosses) or by_pixel)
+
+
+def sample_cube_in_float(lookup: Lookup, levels: Levels, out: np.ndarray) -> None:
+    """Fill `out` (N, 4) from a cube map whose filter `filters_cube_in_float`."""
+    texture, sampler, faces = lookup.texture, lookup.texture.sampler, lookup.faces
+    within, between = FILTERS[sampler.min_filter]
+    assert faces is not None
+    linear = np.where(levels.minified, within, sampler.mag_filter) == GL_LINEAR
+    beside_linear = linear.reshape(-1, PIXELS_OF_A_BLOCK).any(axis=1).repeat(PIXELS_OF_A_BLOCK)
+    kinds = np.where(linear, LINEAR, np.where(beside_linear, HEAVIEST, NEAREST)).astype(np.int8)
+    lower = np.zeros_like(levels.lower) if between == GL_NONE else levels.lower
+    if within != sampler.mag_filter:
+        lower = np.where(levels.minified, lower, 0)
+    filter_cube(texture, lower + sampler.base_level, faces, lookup.coordinates, kinds, out)
+    mixed = levels.weight > 0
+    if between == GL_LINEAR and mixed.any():
+        upper = np.empty_like(out)
+        filter_cube(texture, levels.upper + sampler.base_level, faces, lookup.coordinates, kinds, upper)
+        out[mixed] = mix_in_float(out[mixed], upper[mixed], levels.weight[mixed, np.newaxis])
+
+
+def sample_level(lookup: Lookup, level: int, filter_name: int, out: np.ndarray) -> None:
+    """Fill `out` (N, 4) from one level, counted from the base level, with one filter."""
+    texture, linear = lookup.texture, filter_name == GL_LINEAR
+    images, level = texture.images, level + texture.sampler.base_level
+    if lookup.faces is None:
+        sample_image(images[0, level], texture.sampler, lookup.wraps, linear, lookup.coordinates, out)
+    else:
+        for face in np.unique(lookup.faces):
+            pixels = np.nonzero(lookup.faces == face)[0]
+            part = np.empty((len(pixels), 4), out.dtype)
+            coordinates = lookup.coordinates[pixels]
+            sample_image(images[int(face), level], texture.sampler, lookup.wraps, linear, coordinates, part)
+            out[pixels] = part
+
+
+def sample_levels(lookup: Lookup, levels: Levels, out: np.ndarray) -> None:
+    """Fill `out` (N, 4) from the levels that were selected for each pixel (N,)."""
+    texture = lookup.texture
+    image, sampler = texture.base(), texture.sampler
+    assert image is not None
     within, between = FILTERS[sampler.min_filter]
 
     def fill(chosen: np.ndarray, which: np.ndarray, filter_name: int, into: np.ndarray) -> None:
         for level in np.unique(which[chosen]):
             pixels = np.nonzero(chosen & (which == level))[0]
             part = np.empty((len(pixels), 4), out.dtype)
-            of_level = texture.images[0, sampler.base_level + int(level)]
-            sample_image(of_level, sampler, wraps, filter_name == GL_LINEAR, coordinates[pixels], part)
+            faces = None if lookup.faces is None else lookup.faces[pixels]
+            chosen_lookup = lookup._replace(coordinates=lookup.coordinates[pixels], faces=faces)
+            sample_level(chosen_lookup, int(level), filter_name, part)
             into[pixels] = part
 
     small = levels.minified if within != sampler.mag_filter else np.ones(len(out), bool)
@@ -110,7 +220,7 @@ def sample_levels(texture: Texture, levels: Levels, coordinates: np.ndarray, out
     if between == GL_LINEAR and both.any():
         upper = np.empty_like(out)
         fill(both, levels.upper, within, upper)
-        mix = mix_in_8_bits if in_8_bits(image, wraps) else mix_in_float
+        mix = mix_in_8_bits if in_8_bits(image, lookup.wraps) else mix_in_float
         out[both] = mix(out[both], upper[both], levels.weight[both, np.newaxis])
 
 

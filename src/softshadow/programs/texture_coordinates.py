@@ -1,4 +1,4 @@
-"""Eye positions and texture coordinates of the fixed function: generation (texgen) and texture matrices, per vertex.
+"""Texture coordinates of the fixed function, per vertex: generation (texgen) and texture matrices.
 
 Float32, in the order of Mesa's vertex program: a matrix times a vector adds columns from x to w, a dot product adds
 from the last component to the first. Shadow comparisons see every bit of this.
@@ -8,12 +8,17 @@ References: GL 2.1 sec. 2.11.2 (matrices) and 2.11.4 (texgen); ffvertex_prog.c o
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.errors import StateError
 from softshadow.programs import VertexInputs
-from softshadow.state import TextureUnit
+from softshadow.state import TexGen, TextureUnit
+
+ONE, HALF = np.float32(1.0), np.float32(0.5)
+WITH_NORMALS = (gl.GL_SPHERE_MAP, gl.GL_REFLECTION_MAP, gl.GL_NORMAL_MAP)
+IN_EYE_SPACE = (gl.GL_EYE_LINEAR, *WITH_NORMALS)
 
 
 def transform(matrix: np.ndarray, vectors: np.ndarray) -> np.ndarray:
@@ -33,31 +38,90 @@ def dot(vectors: np.ndarray, other: np.ndarray) -> np.ndarray:
     return result
 
 
-def texture_coordinates(index: int, unit: TextureUnit, vertices: VertexInputs) -> np.ndarray:
+def reciprocal_root(x: np.ndarray) -> np.ndarray:
+    """Return 1 / sqrt(x), both rounded; infinity at 0."""
+    root: np.ndarray = ONE / np.sqrt(x)
+    return root
+
+
+def normalized_rows(v: np.ndarray) -> np.ndarray:
+    """Return rows (V, 3) of unit length, as Mesa's vertex program makes them; 0 becomes NaN."""
+    with np.errstate(invalid="ignore"):
+        unit: np.ndarray = v * reciprocal_root(dot(v, v))[:, np.newaxis]
+    return unit
+
+
+def reflects_r(unit: TextureUnit) -> bool:
+    """Return whether a unit generates r as the z component of a reflection."""
+    return unit.gen[2].enabled and unit.gen[2].mode == gl.GL_REFLECTION_MAP
+
+
+def needs_normals(unit: TextureUnit) -> bool:
+    """Return whether a unit generates coordinates from normals."""
+    return any(gen.enabled and gen.mode in WITH_NORMALS for gen in unit.gen)
+
+
+class Normals(NamedTuple):
+    """The normals (V, 3) of the vertices in eye space, and whether a unit generates r by GL_REFLECTION_MAP.
+
+    The latter decides how Mesa adds up the z component that a sphere map needs.
+    """
+
+    eye: np.ndarray
+    reflects_r: bool
+
+
+def reflections(position: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    """Return the directions (V, 3) in which eye rays to eye positions (V, 3 or more) leave a mirror."""
+    turn, ray = turns_and_rays(position, normal)
+    return turn + ray
+
+
+def turns_and_rays(position: np.ndarray, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return -2 (n . u) n and the eye rays u, of unit length; (V, 3) both."""
+    ray = normalized_rows(position[:, :3])
+    cosine = dot(normal, ray)
+    return -(cosine + cosine)[:, np.newaxis] * normal, ray
+
+
+def sphere_map(position: np.ndarray, normals: Normals) -> np.ndarray:
+    """Return where on GL's sphere map the reflections are found: x and y over twice the length of (x, y, z + 1)."""
+    turn, ray = turns_and_rays(position, normals.eye)
+    reflected = turn + ray
+    half_way = reflected.copy()
+    half_way[:, 2] = reflected[:, 2] + ONE if normals.reflects_r else (turn[:, 2] + ONE) + ray[:, 2]
+    place: np.ndarray = reflected * (reciprocal_root(dot(half_way, half_way)) * HALF)[:, np.newaxis] + HALF
+    return place
+
+
+def generated(component: int, gen: TexGen, vertices: VertexInputs, normals: Normals | None) -> np.ndarray:
+    """Return one generated coordinate (V,)."""
+    real = vertices.position.dtype
+    if gen.mode == gl.GL_OBJECT_LINEAR:
+        return dot(vertices.position, np.array(gen.object_plane, real))
+    eye = transform(vertices.modelview, vertices.position)
+    if gen.mode == gl.GL_EYE_LINEAR:
+        return dot(eye, np.array(gen.eye_plane, real))
+    assert normals is not None
+    if gen.mode == gl.GL_NORMAL_MAP:
+        return normals.eye[:, component]
+    made = sphere_map(eye, normals) if gen.mode == gl.GL_SPHERE_MAP else reflections(eye, normals.eye)
+    return made[:, component]
+
+
+def texture_coordinates(
+    index: int, unit: TextureUnit, vertices: VertexInputs, normals: Normals | None = None
+) -> np.ndarray:
     """Return the coordinates (V, 4) of texture unit `index`: given or generated, then through the texture matrix.
 
-    Raises
-    ------
-    StateError                   a generation mode other than GL_OBJECT_LINEAR and GL_EYE_LINEAR is enabled
+    `normals` are needed by the modes of `WITH_NORMALS`.
     """
     coordinates = vertices.texcoords[index]
     if any(gen.enabled for gen in unit.gen):
         coordinates = coordinates.copy()
-        real = coordinates.dtype
-        eye: np.ndarray | None = None
-        for component, (name, gen) in enumerate(zip("STRQ", unit.gen, strict=True)):
-            if not gen.enabled:
-                continue
-            if gen.mode == gl.GL_OBJECT_LINEAR:
-                coordinates[:, component] = dot(vertices.position, np.array(gen.object_plane, real))
-            elif gen.mode == gl.GL_EYE_LINEAR:
-                eye = transform(vertices.modelview, vertices.position) if eye is None else eye
-                coordinates[:, component] = dot(eye, np.array(gen.eye_plane, real))
-            else:
-                raise StateError(
-                    f"texture unit {index}: GL_TEXTURE_GEN_MODE of GL_{name} is {gl.token_name(gen.mode)}: "
-                    "GL_OBJECT_LINEAR and GL_EYE_LINEAR are supported"
-                )
+        for component, gen in enumerate(unit.gen):
+            if gen.enabled:
+                coordinates[:, component] = generated(component, gen, vertices, normals)
     matrix = vertices.texture_matrices[index]
     if (matrix == np.eye(4)).all():
         return coordinates

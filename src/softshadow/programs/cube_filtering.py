@@ -1,0 +1,219 @@
+"""Filters of cube maps that 2-D filters cannot do: over the edges of faces, and chosen pixel by pixel; in float.
+
+With GL_TEXTURE_CUBE_MAP_SEAMLESS the next face follows beyond an edge; at a corner only three faces meet, and their
+three texels share the weight of the fourth. llvmpipe shades 2x2 blocks, and what one pixel of a block needs decides how
+all four are computed: the rounding of a pixel beside a corner is that of a sum of four products.
+
+References: GL 3.2 sec. 3.8.8 (seamless cube map filtering); lp_build_sample_image_linear, lp_build_cube_new_coords and
+lp_build_sample_mipmap_both of Mesa 22.3.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from softshadow.jit import kernel
+from softshadow.programs.filtering import CONSTANT_ZERO, in_unit_range, mix, passes, sources_of, texels_in_float
+from softshadow.programs.wrapping import HALF, ONE, ZERO, linear_texels, nearest_texel, to_integer
+from softshadow.texture import Texture
+from softshadow.tokens import GL_CLAMP_TO_EDGE, GL_NONE
+
+THIRD = ONE / np.float32(3.0)
+PIXELS_OF_A_BLOCK = 4
+# how a pixel is filtered: its nearest texel, a linear filter, or a linear filter's heaviest texel with all the weight
+NEAREST, LINEAR, HEAVIEST = 0, 1, 2
+
+# beyond the edges x < 0, x > last, y < 0, y > last (rows) of the six faces: the face that follows, and x and y on it as
+# the first texel, the last, that along the edge, or that from the edge's other end
+FIRST, LAST, ALONG, BACK = 0, 1, 2, 3
+BEYOND = np.array(
+    [
+        [(4, 1, 2), (5, 1, 2), (1, 2, 0), (1, 3, 1), (1, 1, 2), (0, 1, 2)],
+        [(5, 0, 2), (4, 0, 2), (0, 3, 0), (0, 2, 1), (0, 0, 2), (1, 0, 2)],
+        [(2, 1, 3), (2, 0, 2), (5, 3, 0), (4, 2, 1), (2, 2, 1), (2, 3, 0)],
+        [(3, 1, 2), (3, 0, 3), (4, 2, 0), (5, 3, 1), (3, 2, 0), (3, 3, 1)],
+    ],
+    np.int32,
+)
+
+
+class Neighbours(NamedTuple):
+    """The four texels of each pixel's filter: (x0, y0), (x1, y0), (x0, y1), (x1, y1).
+
+    texels (N, 4, 3) int32: face, x, y; weights (N, 2) of x1 and y1; corners (N,) int8: which of the four lies beyond a
+    corner of the cube, or -1.
+    """
+
+    texels: np.ndarray
+    weights: np.ndarray
+    corners: np.ndarray
+
+
+def filter_cube(
+    texture: Texture, levels: np.ndarray, faces: np.ndarray, places: np.ndarray, kinds: np.ndarray, out: np.ndarray
+) -> None:
+    """Fill `out` (N, 4) from one level for each pixel.
+
+    Parameters
+    ----------
+    levels : (N,) int32          absolute numbers of levels
+    faces, places : (N,), (N, 3) as `cube_maps.on_faces` returns them; pixels in complete 2x2 blocks
+    kinds : (N,) int8            `NEAREST`, `LINEAR` or `HEAVIEST`
+    """
+    sampler, image, real = texture.sampler, texture.base(), places.dtype
+    assert image is not None
+    sides = np.array([texture.images[0, level].width for level in range(sampler.base_level, texture.last_level() + 1)])
+    count = len(places)
+    found = Neighbours(np.empty((count, 4, 3), np.int32), np.empty((count, 2), real), np.empty(count, np.int8))
+    find_neighbours(faces, places, sides[levels - sampler.base_level], kinds, bool(sampler.seamless), found)
+    texels = gathered(texture, levels, found.texels, real)
+    sources = sources_of(image, sampler)
+    if image.format.kind == "depth" and sampler.compare_mode != GL_NONE:
+        mix_compared(texels, places[:, 2], found, sampler.compare_func, image.format.largest > 0, sources, out)
+    else:
+        mix_texels(texels, found, sources, out)
+
+
+def gathered(texture: Texture, levels: np.ndarray, texels: np.ndarray, real: np.dtype) -> np.ndarray:
+    """Return what texels (N, 4, 3) of the levels (N,) hold, (N, 4, channels) in [0, 1] units."""
+    image = texture.base()
+    assert image is not None
+    of_texels = np.repeat(levels, 4).reshape(-1, 4)
+    values = np.empty((*texels.shape[:2], image.format.channels), real)
+    for level in np.unique(levels):
+        for face in texture.faces:
+            chosen = (of_texels == level) & (texels[..., 0] == face)
+            if chosen.any():
+                x, y = texels[chosen, 1], texels[chosen, 2]
+                cells = texture.images[face, int(level)].cells[y, x]
+                values[chosen] = texels_in_float(cells.reshape(len(x), -1), image.format, real)
+    return values
+
+
+@kernel
+def on_next_face(edge, face, along, last):
+    """Return the texel (face, x, y) beyond an edge."""
+    following, x, y = BEYOND[edge, face]
+    return following, along_edge(x, along, last), along_edge(y, along, last)
+
+
+@kernel
+def along_edge(place, along, last):
+    if place == FIRST:
+        return 0
+    if place == LAST:
+        return last
+    return along if place == ALONG else last - along
+
+
+@kernel
+def seamless_texels(coordinate, size):
+    """Return (first texel, weight of the second): -1 and `size` lie beyond the edges."""
+    u = (coordinate if coordinate > ZERO else ZERO) * np.float32(size) - HALF
+    return to_integer(np.floor(u)), u - np.floor(u)
+
+
+@kernel
+def seamless_texel(face, x, y, last):
+    """Return the texel (face, x, y) that follows beyond an edge; beyond a corner, that beyond the edge in x."""
+    if x < 0 or x > last:
+        return on_next_face(0 if x < 0 else 1, face, min(max(y, 0), last), last)
+    if y < 0 or y > last:
+        return on_next_face(2 if y < 0 else 3, face, x, last)
+    return face, x, y
+
+
+@kernel
+def find_neighbours(faces, places, sizes, kinds, seamless, found):
+    """Write the four texels of each pixel's filter, their weights, and which of them is beyond a corner."""
+    for n in range(len(places)):
+        face, size = int(faces[n]), int(sizes[n])
+        last, corner = size - 1, -1
+        if kinds[n] == NEAREST:
+            x0 = x1 = nearest_texel(places[n, 0], size, GL_CLAMP_TO_EDGE)
+            y0 = y1 = nearest_texel(places[n, 1], size, GL_CLAMP_TO_EDGE)
+            x_weight = y_weight = places[n, 0] * ZERO
+        elif seamless:
+            x0, x_weight = seamless_texels(places[n, 0], size)
+            y0, y_weight = seamless_texels(places[n, 1], size)
+            x1, y1 = x0 + 1, y0 + 1
+            if (x0 < 0 or x1 > last) and (y0 < 0 or y1 > last):
+                corner = (1 if x1 > last else 0) + (2 if y1 > last else 0)
+        else:
+            x0, x1, x_weight = linear_texels(places[n, 0], size, GL_CLAMP_TO_EDGE)
+            y0, y1, y_weight = linear_texels(places[n, 1], size, GL_CLAMP_TO_EDGE)
+        if kinds[n] != LINEAR:
+            x_weight = ONE if x_weight > HALF else ZERO
+            y_weight = ONE if y_weight > HALF else ZERO
+        found.weights[n, 0], found.weights[n, 1] = x_weight, y_weight
+        found.corners[n] = corner
+        for i in range(4):
+            texel = seamless_texel(face, x1 if i % 2 else x0, y1 if i > 1 else y0, last)
+            found.texels[n, i, 0], found.texels[n, i, 1], found.texels[n, i, 2] = texel
+
+
+@kernel
+def corner_in_block(corners, n):
+    """Return whether one of the pixels of the block of pixel n has a texel beyond a corner."""
+    first = n - n % PIXELS_OF_A_BLOCK
+    return corners[first : first + PIXELS_OF_A_BLOCK].max() >= 0
+
+
+@kernel
+def corner_weights(weights, corner):
+    """Return the weights of the four texels; that of the one beyond a corner goes to the others."""
+    x, y = weights
+    w00, w01, w10, w11 = (ONE - x) * (ONE - y), x * (ONE - y), (ONE - x) * y, x * y
+    if corner < 0:
+        return w00, w01, w10, w11
+    share = (w00 if corner == 0 else w01 if corner == 1 else w10 if corner == 2 else w11) * THIRD
+    return (
+        ZERO if corner == 0 else w00 + share,
+        ZERO if corner == 1 else w01 + share,
+        ZERO if corner == 2 else w10 + share,
+        ZERO if corner == 3 else w11 + share,
+    )
+
+
+@kernel
+def mix_texels(texels, found, sources, out):
+    """Write the filtered colours `out` (N, 4) of texels (N, 4, channels)."""
+    for n in range(len(out)):
+        by_sum = corner_in_block(found.corners, n)
+        w00, w01, w10, w11 = corner_weights(found.weights[n], found.corners[n])
+        for c in range(4):
+            source = sources[c]
+            if source >= CONSTANT_ZERO:
+                out[n, c] = ZERO if source == CONSTANT_ZERO else ONE
+                continue
+            a, b = texels[n, 0, source], texels[n, 1, source]
+            d, e = texels[n, 2, source], texels[n, 3, source]
+            if by_sum:
+                out[n, c] = ((w00 * a + w01 * b) + w10 * d) + w11 * e
+            else:
+                x, y = found.weights[n]
+                out[n, c] = mix(y, mix(x, a, b), mix(x, d, e))
+
+
+@kernel
+def mix_compared(texels, references, found, func, clamped, sources, out):
+    """Write the share of the texels (N, 4, 1) that pass the comparison with the references (N,)."""
+    for n in range(len(out)):
+        r = in_unit_range(references[n]) if clamped else references[n]
+        w00, w01, w10, w11 = corner_weights(found.weights[n], found.corners[n])
+        x, y = found.weights[n]
+        if not corner_in_block(found.corners, n):
+            w00, w01, w10, w11 = ONE - x, x, ONE - x, x
+        lower = w00 if passes(func, r, texels[n, 0, 0]) else ZERO
+        lower = (w01 if passes(func, r, texels[n, 1, 0]) else ZERO) + lower
+        third = w10 if passes(func, r, texels[n, 2, 0]) else ZERO
+        fourth = w11 if passes(func, r, texels[n, 3, 0]) else ZERO
+        if corner_in_block(found.corners, n):
+            lit = (lower + third) + fourth
+        else:
+            lit = mix(y, lower, third + fourth)
+        for c in range(4):
+            source = sources[c]
+            out[n, c] = lit if source < CONSTANT_ZERO else (ZERO if source == CONSTANT_ZERO else ONE)

@@ -1,0 +1,107 @@
+"""Cube maps: which face a direction meets, where on it, and how fast that place moves from pixel to pixel.
+
+A direction (s, t, r) meets the face of its largest component; on a face the place is a pair of 2-D coordinates. Each
+pixel has a face of its own, so steps between pixels are taken of the directions, and carried to the pixel's face.
+
+References: GL 2.1 sec. 3.8.6 (table 3.21); lp_build_cube_lookup of Mesa 22.3.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from softshadow.jit import kernel
+
+ZERO, ONE, HALF = np.float32(0.0), np.float32(1.0), np.float32(0.5)
+X, Y, Z = 0, 1, 2
+
+
+@kernel
+def major_axis(s, t, r):
+    """Return the axis of the largest component: of equal ones z, then y."""
+    larger = abs(s) if abs(s) > abs(t) else abs(t)
+    if abs(r) >= larger:
+        return Z
+    return X if abs(s) > abs(t) else Y
+
+
+@kernel
+def component(axis, s, t, r):
+    return s if axis == X else (t if axis == Y else r)
+
+
+@kernel
+def across(axis, negative, s, t, r):
+    """Return the two other components, turned as the axes of the face are."""
+    if axis == X:
+        return r if negative else -r, -t
+    if axis == Y:
+        return s, -r if negative else r
+    return -s if negative else s, -t
+
+
+def on_faces(coordinates: np.ndarray, by_reciprocal: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Return the face (N,) of each direction, 0 to 5 from +x to -z, and where on it (N, 3): s, t, reference.
+
+    coordinates (N, 3) or (N, 4): s, t, r and the reference. `by_reciprocal` says how the direction is divided by its
+    largest component: llvmpipe multiplies by the reciprocal where it has that at hand for the level of detail.
+    """
+    faces, places = np.empty(len(coordinates), np.int8), np.empty((len(coordinates), 3), coordinates.dtype)
+    with np.errstate(all="ignore"):
+        project_onto_faces(coordinates, by_reciprocal, faces, places)
+    return faces, places
+
+
+def squared_texels_per_pixel(coordinates: np.ndarray, size: int) -> np.ndarray:
+    """Return the larger of the squared steps (N,) to the right and to the next row from every pixel of 2x2 blocks."""
+    squared = np.empty(len(coordinates), coordinates.dtype)
+    with np.errstate(all="ignore"):
+        write_squared_steps(coordinates, coordinates.dtype.type(size), squared)
+    return squared
+
+
+@kernel
+def project_onto_faces(coordinates, by_reciprocal, faces, places):
+    """Write faces (N,) and places (N, 3) of directions, see `on_faces`."""
+    for n in range(len(coordinates)):
+        s, t, r = coordinates[n, 0], coordinates[n, 1], coordinates[n, 2]
+        axis = major_axis(s, t, r)
+        major = component(axis, s, t, r)
+        negative = np.signbit(major)
+        if by_reciprocal:
+            scale = abs(HALF * (ONE / major))
+        else:
+            scale = HALF / abs(major) if abs(major) > ZERO else ZERO
+        a, b = across(axis, negative, s, t, r)
+        faces[n] = 2 * axis + (1 if negative else 0)
+        places[n, 0] = a * scale + HALF
+        places[n, 1] = b * scale + HALF
+        places[n, 2] = coordinates[n, 3] if coordinates.shape[1] > 3 else ZERO
+
+
+@kernel
+def squared_step(axis, negative, direction, left, right, size):
+    """Return the squared length in texels of the step from one direction to another, on the face of a third one."""
+    s, t, r = direction
+    reciprocal = ONE / component(axis, s, t, r)
+    ds, dt, dr = right[0] - left[0], right[1] - left[1], right[2] - left[2]
+    a, b = across(axis, negative, s, t, r)
+    da, db = across(axis, negative, ds, dt, dr)
+    major = component(axis, ds, dt, dr) * reciprocal
+    u = size * ((da - major * a) * (HALF * reciprocal))
+    v = size * ((db - major * b) * (HALF * reciprocal))
+    return u * u + v * v
+
+
+@kernel
+def write_squared_steps(coordinates, size, out):
+    """Write the larger of each pixel's squared steps to the right and to the next row: `out` (4 B,)."""
+    for n in range(len(coordinates)):
+        direction = coordinates[n, 0], coordinates[n, 1], coordinates[n, 2]
+        axis = major_axis(direction[0], direction[1], direction[2])
+        negative = np.signbit(component(axis, direction[0], direction[1], direction[2]))
+        row, column = n - n % 2, n - n % 4 + n % 2
+        x = squared_step(axis, negative, direction, coordinates[row], coordinates[row + 1], size)
+        y = squared_step(axis, negative, direction, coordinates[column], coordinates[column + 2], size)
+        larger = x if x > y else y
+        out[n] = larger if np.isfinite(larger) else ZERO
