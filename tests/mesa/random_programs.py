@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mesa import random_shading, random_structure, random_texturing
+from mesa import random_cube_maps, random_shading, random_structure, random_texturing
 from mesa.gl_calls import Call
 from mesa.random_writer import LINES_AND_POINTS, PRIMITIVES, Writer
 
@@ -91,6 +91,7 @@ FAMILIES = {
     "lists": Family(everything, batch=random_structure.listed),
     "attribute stacks": Family(random_structure.pushed),
     "offscreen": Family(random_structure.offset, random_structure.offscreen, random_structure.read_offscreen),
+    "cube maps": Family(random_cube_maps.mapped, random_cube_maps.cubes, random_cube_maps.copied_faces, wild=False),
 }
 
 

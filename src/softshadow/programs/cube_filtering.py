@@ -64,10 +64,11 @@ def filter_cube(
     """
     sampler, image, real = texture.sampler, texture.base(), places.dtype
     assert image is not None
-    sides = np.array([texture.images[0, level].width for level in range(sampler.base_level, texture.last_level() + 1)])
+    in_use, which = np.unique(levels, return_inverse=True)
+    sides = np.array([texture.images[0, int(level)].width for level in in_use])[which]
     count = len(places)
     found = Neighbours(np.empty((count, 4, 3), np.int32), np.empty((count, 2), real), np.empty(count, np.int8))
-    find_neighbours(faces, places, sides[levels - sampler.base_level], kinds, bool(sampler.seamless), found)
+    find_neighbours(faces, places, sides, kinds, bool(sampler.seamless), found)
     texels = gathered(texture, levels, found.texels, real)
     sources = sources_of(image, sampler)
     if image.format.kind == "depth" and sampler.compare_mode != GL_NONE:
