@@ -150,6 +150,11 @@ class Image:
         stencil = self.stencil.copy() if self.stencil else None
         return Image(self.format, self.width, self.height, self.cells.copy(), self.internal_format, stencil)
 
+    def is_laid_out_as(self, other: Image) -> bool:
+        """Return whether the other image has the same size and format, and was made with the same internal format."""
+        mine = (self.format, self.internal_format, self.width, self.height)
+        return mine == (other.format, other.internal_format, other.width, other.height)
+
     def same_as(self, other: Any) -> bool:
         """Return whether the other image has the same format and, bit for bit, the same cells."""
         return (

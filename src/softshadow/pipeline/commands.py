@@ -182,7 +182,10 @@ class CopyToTexture:
 
 @dataclass(frozen=True, eq=False)
 class GenerateMipmaps:
-    """glGenerateMipmap, or what GL_GENERATE_MIPMAP does to one face: all levels after the base level, to the last."""
+    """glGenerateMipmap, or what GL_GENERATE_MIPMAP does to one face: all levels after the base level, to the last.
+
+    The other faces of a cube map get levels of the same sizes, zeros where they had others, as in Mesa.
+    """
 
     texture: int
     faces: tuple[int, ...]
@@ -190,12 +193,17 @@ class GenerateMipmaps:
     last: int
 
     def apply(self, storage: Storage) -> None:
-        images = storage.textures[self.texture].images
-        for face in self.faces:
-            for level in range(self.base + 1, self.last + 1):
-                made = mipmaps.next_level(images[face, level - 1])
-                images[face, level] = made
-                storage.reattach(self.texture, face, level, made)
+        texture = storage.textures[self.texture]
+        images = texture.images
+        for level in range(self.base + 1, self.last + 1):
+            for face in self.faces:
+                images[face, level] = mipmaps.next_level(images[face, level - 1])
+            model = images[self.faces[0], level]
+            for face in texture.faces:
+                standing = images.get((face, level))
+                if standing is None or not standing.is_laid_out_as(model):
+                    images[face, level] = Image.new(model.format, model.width, model.height, model.internal_format)
+                storage.reattach(self.texture, face, level, images[face, level])
 
 
 @dataclass(frozen=True, eq=False)

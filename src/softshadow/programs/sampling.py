@@ -6,12 +6,12 @@ gives is computed in `filtering`, which level by `level_of_detail`.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from softshadow.errors import StateError
-from softshadow.image import Image
 from softshadow.programs import cube_maps, needs_blocks
 from softshadow.programs.cube_filtering import HEAVIEST, LINEAR, NEAREST, filter_cube
 from softshadow.programs.filtering import UNORM8_STEP, in_8_bits, sample_image, wraps_of
@@ -44,20 +44,13 @@ def is_complete(texture: Texture) -> bool:
     if image is None or image.width == 0 or image.height == 0:
         return False
     last = sampler.base_level if FILTERS[sampler.min_filter][1] == GL_NONE else texture.last_level()
-    width, height = image.width, image.height
+    model = image
     for level in range(sampler.base_level, last + 1):
         images = [texture.images.get((face, level)) for face in texture.faces]
-        if any(
-            found is None or (found.width, found.height) != (width, height) or not same_format(found, image)
-            for found in images
-        ):
+        if not all(found is not None and found.is_laid_out_as(model) for found in images):
             return False
-        width, height = max(width // 2, 1), max(height // 2, 1)
+        model = replace(model, width=max(model.width // 2, 1), height=max(model.height // 2, 1))
     return last >= sampler.base_level
-
-
-def same_format(image: Image, other: Image) -> bool:
-    return (image.format, image.internal_format) == (other.format, other.internal_format)
 
 
 def project(coordinates: np.ndarray) -> np.ndarray:
