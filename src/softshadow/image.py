@@ -1,8 +1,8 @@
 """A plane of pixels or texels: what a buffer of a framebuffer and a level of a texture are made of.
 
 The same `Image` serves as depth attachment and as depth texture, so rendering into a texture copies nothing.
-Depth is held in buffer units: integers (in float32, exact up to 2**24) for fixed-point formats, z itself for float
-formats.
+Depth is held in buffer units: integers for fixed-point formats (in float32, exact up to 2**24; of 32 bits in float64,
+where 2**32 stands for the largest, as drawing in float32 has it), z itself for float formats.
 """
 
 from __future__ import annotations
@@ -47,7 +47,8 @@ def _float(base: int) -> Format:
 
 
 def _depth(bits: int) -> Format:
-    return Format(gl.GL_DEPTH_COMPONENT, "depth", np.float32, 1, (1 << bits) - 1 if bits else 0)
+    dtype = np.float64 if bits == 32 else np.float32
+    return Format(gl.GL_DEPTH_COMPONENT, "depth", dtype, 1, (1 << bits) - 1 if bits else 0)
 
 
 D24, D32F = _depth(24), _depth(0)

@@ -1,8 +1,8 @@
 """Pixels between client memory and storage: the number formats of glTexImage2D, glReadPixels and glGetTexImage.
 
 Bit for bit those of llvmpipe, but for colours read as GL_INT or GL_UNSIGNED_INT out of float images (Mesa's product
-overflows at 1.0 and answers 0) and for 32-bit fixed-point depth (cells keep 24 of its bits). What is surprising is
-GL's: a float becomes depth by cutting, not by rounding, and the luminance that glReadPixels reads is R + G + B.
+overflows at 1.0 and answers 0). What is surprising is GL's: a float becomes depth by cutting, not by rounding, and the
+luminance that glReadPixels reads is R + G + B.
 """
 
 from __future__ import annotations
@@ -25,6 +25,11 @@ def largest_of(dtype: type[np.generic]) -> int:
     return int(1 << (8 * kind.itemsize - (kind.kind == "i"))) - 1
 
 
+def largest_stood_for(units: np.ndarray) -> np.ndarray:
+    """Return depth in buffer units of any fixed-point format with 2**32 in place of the largest of 32 bits."""
+    return np.where(units == LARGEST_UINT, np.float64(1 << 32), units)
+
+
 # -- depth -------------------------------------------------------------------------------------------------------------
 def quantized_depth(z: np.ndarray, format: Format) -> np.ndarray:
     """Return float32 z in [0, 1] in buffer units, rounded as a fragment's depth is."""
@@ -40,7 +45,7 @@ def sampled_depth(cells: np.ndarray, format: Format) -> np.ndarray:
     if not format.largest:
         return cells.astype(F32)
     if format.largest == LARGEST_UINT:
-        return np.minimum(np.floor(cells / F32(512)), F32(LARGEST_SAMPLED)) * (F32(1) / F32(LARGEST_SAMPLED))
+        return np.minimum(np.floor(cells / 512), LARGEST_SAMPLED).astype(F32) * (F32(1) / F32(LARGEST_SAMPLED))
     return cells * (F32(1) / F32(format.largest))
 
 
@@ -58,12 +63,14 @@ def unpack_depth(pixels: np.ndarray, format: Format) -> np.ndarray:
     if pixels.dtype == np.uint16 and format.largest == (1 << 16) - 1:
         return pixels.astype(F32)
     if pixels.dtype == np.uint32 and format.largest == LARGEST_UINT:
-        return pixels.astype(F32)
+        return largest_stood_for(pixels.astype(np.float64))
     if pixels.dtype == np.uint32 and format.largest == (1 << 16) - 1:
         return (pixels >> np.uint32(16)).astype(F32)
+    if pixels.dtype == np.uint16 and format.largest == LARGEST_UINT:
+        return largest_stood_for(pixels * np.float64((1 << 16) + 1))
     z = np.clip(_depth_from_client(pixels), F32(0), F32(1))
     if format.largest == LARGEST_UINT:
-        return np.floor(z * np.float64(LARGEST_UINT)).astype(F32)
+        return largest_stood_for(np.floor(z * np.float64(LARGEST_UINT)))
     return np.floor(z * F32(format.largest)) if format.largest else z
 
 

@@ -97,7 +97,7 @@ def fill(
 
     `ids` and `verdicts` are those of `Planes`; verdicts are counted by the generic binding in one band.
     """
-    columns = np.arange(max(*depth.shape, region.right, region.end_row), dtype=depth.dtype)
+    columns = np.arange(max(*depth.shape, region.right, region.end_row), dtype=triangles.depth.dtype)
     two_sided, writes_ids, counts = int(front != back), int(ids is not None), int(verdicts is not None)
     planes = Planes(
         columns,

@@ -22,7 +22,7 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import DEFAULT, Attachment, Framebuffer, Storage
 from softshadow.image import FORMATS, Image
 from softshadow.pipeline.transfer import convert_color
-from softshadow.pixels import quantized_depth, sampled_depth
+from softshadow.pixels import LARGEST_UINT, quantized_depth, sampled_depth
 from softshadow.state import Scissor, State, TextureUnit, Viewport
 from softshadow.texture import Sampler, Texture
 
@@ -60,7 +60,8 @@ def blit(command: BlitFramebuffer, storage: Storage) -> None:
     depth = command.mask & gl.GL_DEPTH_BUFFER_BIT and read.depth is not None and drawn.depth is not None
     stencil = command.mask & gl.GL_STENCIL_BUFFER_BIT and read.stencil is not None and drawn.stencil is not None
     if depth and read.depth is not None and drawn.depth is not None:
-        plain = rectangles.straight and _copies_depth(read, drawn, bool(stencil))
+        whole = drawn.depth.format.largest == LARGEST_UINT  # llvmpipe copies 32 bits as integers (lp_surface.c)
+        plain = whole or (rectangles.straight and _copies_depth(read, drawn, bool(stencil)))
         where, texels = nearest_texels(read.depth, drawn.depth, rectangles)
         cells = read.depth.view[texels]
         through = cells if plain else quantized_depth(sampled_depth(cells, read.depth.format), drawn.depth.format)

@@ -11,11 +11,11 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import DEFAULT, Framebuffer, Storage
-from softshadow.image import Image
+from softshadow.image import EXACT_DEPTH, Image
 from softshadow.pipeline import accumulation
 from softshadow.pipeline.blend import to_unorm8
 from softshadow.pipeline.geometry import region_of
-from softshadow.pixels import quantized_depth
+from softshadow.pixels import largest_stood_for, quantized_depth
 from softshadow.state import State
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def clear(command: Clear, storage: Storage) -> None:
             if masked and stored:
                 image.cells[where][..., channel] = value[channel]
     if command.mask & gl.GL_DEPTH_BUFFER_BIT and target.depth is not None and state.depth.write:
-        drawn = is_drawn(state, target, command.mask) and target.depth.format.dtype == np.float32
+        drawn = is_drawn(state, target, command.mask) and target.depth.format != EXACT_DEPTH
         value_of = drawn_clear_depth if drawn else clear_depth
         target.depth.cells[where] = value_of(state.depth.clear, target.depth)
     if command.mask & gl.GL_STENCIL_BUFFER_BIT and target.stencil is not None:
@@ -49,7 +49,7 @@ def clear(command: Clear, storage: Storage) -> None:
 def clear_depth(value: float, depth: Image) -> float:
     """Return the clear depth in buffer units: rounded in double precision for fixed-point formats."""
     clamped = min(max(value, 0.0), 1.0)
-    return float(np.rint(clamped * depth.format.largest)) if depth.format.largest else clamped
+    return float(largest_stood_for(np.rint(clamped * depth.format.largest))) if depth.format.largest else clamped
 
 
 def is_drawn(state: State, target: Framebuffer, mask: int) -> bool:

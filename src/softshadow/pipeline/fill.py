@@ -8,8 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.jit import inlined, kernel
+from softshadow.pipeline.constants import HALF_RANGE, TWO
 from softshadow.pipeline.coverage import bounds, row_span
 from softshadow.pipeline.fragment_ops import PASSED, process_fragment
+from softshadow.pixels import LARGEST_UINT
 
 
 class Region(NamedTuple):
@@ -32,9 +34,9 @@ class DepthRange(NamedTuple):
 class Planes(NamedTuple):
     """What the fill stage reads and writes, full rows with their padding.
 
-    columns: 0, 1, 2 ... in the precision of depth; depth and stencil (H, pitch); ids (rows of the region, pitch) int32
-    receives the number of the triangle whose fragment passed last; verdicts (6,) int64 counts the fragments by verdict,
-    and last the stencil values that changed.
+    columns: 0, 1, 2 ... in the precision of the triangles' planes; depth and stencil (H, pitch); ids (rows of the
+    region, pitch) int32 receives the number of the triangle whose fragment passed last; verdicts (6,) int64 counts the
+    fragments by verdict, and last the stencil values that changed.
     """
 
     columns: np.ndarray
@@ -48,10 +50,13 @@ class Planes(NamedTuple):
 def depth_units(z, depth_range, largest):
     """Return z clamped, in buffer units: fixed-point formats round half to even, float formats keep z.
 
-    NaN, which a triangle has whose area is 0 before snapping, becomes the upper end, as with llvmpipe's minps.
+    NaN, which a triangle has whose area is 0 before snapping, becomes the upper end, as with llvmpipe's minps. Of 32
+    bits llvmpipe fills the upper 31, cutting (lp_bld_conv.c).
     """
     z = z if z < depth_range.high else depth_range.high
     z = z if z > depth_range.low else depth_range.low
+    if largest == LARGEST_UINT:
+        return np.floor(z * HALF_RANGE) * TWO
     return np.rint(z * np.float32(largest)) if largest else z
 
 
