@@ -33,11 +33,24 @@ def test_listings_are_listed_with_slide_and_corrections() -> None:
 def test_stencil_counts_are_a_table_on_stdout() -> None:
     stencil = run_here(listings.get("volume-zpass").corrected, SIZE).stencil
     text = done("listings", "volume-zpass", *SMALL).stdout
-    rows = [line.split() for line in text.splitlines()]
+    rows = [line.split() for line in text.partition("\n\n")[0].splitlines()]
     assert rows[0] == ["stencil", "pixels"]
     expected = zip(*np.unique(stencil, return_counts=True), strict=True)
     assert rows[1:] == [[str(value), str(pixels)] for value, pixels in expected]
     assert len(rows) > 2
+
+
+def test_corrections_are_told_with_the_first_pixel_they_change_and_its_two_histories() -> None:
+    text = done("listings", "volume-zpass", *SMALL).stdout
+    assert "E2      the lit scene is drawn with GL_LEQUAL" in text
+    _, _, changed = text.partition("as printed and as corrected:\n")
+    assert changed.startswith("color: ")
+    before, after = changed.split("as corrected, pixel ")
+    assert "as printed, pixel " in before
+    assert before.splitlines()[-2].split("LESS: ")[1].split(" is ")[1].startswith("false")  # E2
+    assert "LEQUAL" in after
+    assert as_json("listings", "volume-zpass", *SMALL)["correcting"][0]["buffer"] == "color"
+    assert "nothing to correct" in done("listings", "planar-stencil", *SMALL).stdout
 
 
 def test_buffers_are_one_picture_named_by_the_listing_or_one_each_in_a_folder(here: Path) -> None:

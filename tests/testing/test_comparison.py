@@ -96,4 +96,26 @@ def test_a_program_that_asks_where_it_runs_is_caught():
 
     found = compare(two_faced, (6, 4))
     assert not found
-    assert str(found) == "stencil: 24 differ, first at x=0, y=0 (row 3 from the top): 2 and 1"
+    first, _, history = str(found).partition("\n")
+    assert first == "stencil: 24 differ, first at x=0, y=0 (row 3 from the top): 2 and 1"
+    assert history.endswith("glClear: stencil 2")
+
+
+@pytest.mark.mesa
+def test_comparison_tells_the_history_of_the_first_differing_pixel():
+    def program(gl):
+        gl.glRectf(-0.5, -0.5, 0.5, 0.5 if gl.__name__ == "softshadow.gl" else 0.4)
+
+    found = compare(program, (32, 32))
+    assert not found
+    assert found.history.gl_y == found.differences[0].y
+    assert [row.verdict for row in found.history][-1] == "passed"
+    assert str(found).endswith(str(found.history))
+    assert compare(lambda gl: gl.glRectf(-1, -1, 1, 1), (32, 32)).history is None
+
+
+def test_what_is_no_program_or_no_size_is_told():
+    with pytest.raises(TypeError, match=r"program=None: expected a function program\(gl\)"):
+        run_here(None, (4, 4))
+    with pytest.raises(TypeError, match=r"size=64: expected \(width, height\)"):
+        run_here(print, 64)

@@ -224,3 +224,17 @@ def test_a_missing_package_is_named(monkeypatch):
         assert "PyOpenGL" in mesa_reason()
     finally:
         mesa_reason.cache_clear()
+
+
+@pytest.mark.mesa
+def test_program_that_calls_softshadow_itself_is_told_to_call_its_namespace():
+    from softshadow.gl import GL_COLOR_BUFFER_BIT, glClear
+
+    with pytest.raises(MesaError, match="has to call the namespace it is given"):
+        run_on_mesa(lambda gl: glClear(GL_COLOR_BUFFER_BIT), (8, 8))
+
+
+@pytest.mark.mesa
+def test_returned_value_that_cannot_travel_is_told():
+    with pytest.raises(TypeError, match="what the program returned cannot be brought back"):
+        run_on_mesa(lambda gl: (number for number in range(3)), (8, 8))

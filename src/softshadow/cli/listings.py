@@ -13,7 +13,7 @@ from softshadow.cli.talk import print_json, say, say_if_compiling, table
 if TYPE_CHECKING:
     import numpy as np
 
-    from softshadow.context import Frame
+    from softshadow.inspection.history import PixelHistory
     from softshadow.listings import Listing
     from softshadow.testing import Difference, ProgramResult
 
@@ -39,6 +39,7 @@ def listings(
 ) -> None:  # fmt: skip
     """List the GL listings of the course, or run one and show the buffers it leaves."""
     from softshadow import listings as register
+    from softshadow import testing
 
     if name is None:
         if printed or on or output:
@@ -49,26 +50,43 @@ def listings(
     target = output or f"{name}{'-printed' if printed else ''}.png"
     _refuse(target, force)
     say_if_compiling()
-    result, frame = _run(listing, printed, size)
-    found = _differences_on_mesa(listing, printed, size, result) if on else ()
-    history = _history(frame, found) if found else None
+    program = listing.printed if printed else listing.corrected
+    result, frame = testing.run_recorded(program, size)
+    found = testing.differences(result, testing.run_on_mesa(program, size)) if on else ()
+    history = testing.history_of_first(frame, found)
+    changed, histories = _changed(listing, size)
     _write(target, result, force)
     counts = _counts(result.stencil)
     if as_json:
         print_json(
             "listings", written=target, printed=printed, size=size, stencil_counts=counts, on=on,
             differences=[vars(each) for each in found], history=history.to_dicts() if history else [],
-            **_about(listing),
+            correcting=[vars(each) for each in changed], **_about(listing),
         )  # fmt: skip
     else:
         say(f"{listing.title} ({listing.slide}), {'as printed' if printed else 'as corrected'}; written: {target}")
         table("Stencil buffer", ["stencil", "pixels"], [[value, str(pixels)] for value, pixels in counts.items()])
+        _say_corrections(listing, changed, histories)
         if on:
             click.echo("\n".join(map(str, found)) or "no pixel differs on Mesa")
         if history:
             click.echo(history)
     if found:
         context.exit(DIFFERENT)
+
+
+def _say_corrections(listing: Listing, changed: tuple[Difference, ...], histories: list[PixelHistory]) -> None:
+    """Print the corrections, how many pixels they change, and the first of these as printed and as corrected."""
+    if not listing.corrections:
+        click.echo("\nnothing to correct")
+        return
+    click.echo("")
+    table("Corrections", ["number", "correction"], [list(each) for each in listing.corrections.items()])
+    click.echo("\nas printed and as corrected:")
+    click.echo("\n".join(map(str, changed)) or "no pixel differs")
+    for which, history in zip(("as printed", "as corrected"), histories, strict=False):
+        click.echo(f"\n{which}, {history}")
+    click.echo("")
 
 
 def _list(found: list[Listing], as_json: bool) -> None:
@@ -89,33 +107,15 @@ def _about(listing: Listing) -> dict[str, Any]:
     }
 
 
-def _run(listing: Listing, printed: bool, size: tuple[int, int]) -> tuple[ProgramResult, Frame]:
-    """Return the buffers that a listing leaves, and the recording of its calls."""
-    from softshadow import gl
-    from softshadow.testing.result import read_result
+def _changed(listing: Listing, size: tuple[int, int]) -> tuple[tuple[Difference, ...], list[PixelHistory]]:
+    """Return what differs between the slide as printed and as corrected, and both histories of the first such pixel."""
+    from softshadow.testing import differences, history_of_first, run_recorded
 
-    with gl.create_context(*size) as context:
-        returned = (listing.printed if printed else listing.corrected)(gl)
-        context.end_step(listing.name)
-        return read_result(gl, size, returned), context.frame
-
-
-def _differences_on_mesa(
-    listing: Listing, printed: bool, size: tuple[int, int], ours: ProgramResult
-) -> tuple[Difference, ...]:
-    from softshadow.testing import differences, run_on_mesa
-
-    return differences(ours, run_on_mesa(listing.printed if printed else listing.corrected, size))
-
-
-def _history(frame: Frame, found: tuple[Difference, ...]) -> Any:
-    """Return the history of the first differing pixel of the window, or None where only a map differs."""
-    from softshadow.inspection import pixel_history
-
-    for each in found:
-        if each.buffer in ("color", "depth", "stencil"):
-            return pixel_history(frame, each.x, each.y_from_top)
-    return None
+    (printed, before), (corrected, after) = (
+        run_recorded(program, size) for program in (listing.printed, listing.corrected)
+    )
+    found = differences(printed, corrected)
+    return found, [each for frame in (before, after) if (each := history_of_first(frame, found))]
 
 
 def _counts(stencil: np.ndarray) -> dict[str, int]:

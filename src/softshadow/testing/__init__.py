@@ -1,6 +1,15 @@
 """Run one GL program on softshadow and on Mesa, and say where they differ."""
 
-from softshadow.testing.comparison import Comparison, Difference, compare, difference, differences, run_here
+from softshadow.testing.comparison import (
+    Comparison,
+    Difference,
+    compare,
+    difference,
+    differences,
+    history_of_first,
+    run_here,
+    run_recorded,
+)
 from softshadow.testing.mesa import (
     EXPECTED_VERSION,
     MesaError,
@@ -25,11 +34,13 @@ __all__ = [
     "diff_programs",
     "difference",
     "differences",
+    "history_of_first",
     "mesa_available",
     "mesa_gl",
     "mesa_reason",
     "mesa_version",
     "run_here",
     "run_on_mesa",
+    "run_recorded",
     "stop_workers",
 ]

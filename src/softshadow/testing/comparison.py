@@ -2,13 +2,18 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from softshadow.testing.mesa import run_on_mesa
+from softshadow.testing.mesa import check, run_on_mesa
 from softshadow.testing.result import ProgramResult, read_result
 
+if TYPE_CHECKING:
+    from softshadow.context import Frame
+    from softshadow.inspection.history import PixelHistory
+
+WINDOW = ("color", "depth", "stencil")
 Program = Callable[[Any], Any]
 
 
@@ -40,17 +45,30 @@ class Difference:
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Two results of a program and their differences; true where there are none."""
+    """Two results of a program and their differences; true where there are none.
+
+    Attributes
+    ----------
+    ours, theirs : what the program left here and there
+    differences : one for each buffer that differs
+    history : PixelHistory or None     every fragment that met the first differing pixel of the window, here
+    """
 
     ours: ProgramResult
     theirs: ProgramResult
     differences: tuple[Difference, ...]
+    history: "PixelHistory | None" = None
 
     def __bool__(self) -> bool:
         return not self.differences
 
     def __str__(self) -> str:
-        return "\n".join(map(str, self.differences)) or "no pixel differs"
+        if self:
+            return "no pixel differs"
+        return "\n".join(map(str, [*self.differences, *([self.history] if self.history else [])]))
+
+    def __repr__(self) -> str:
+        return f"<Comparison: {self}>"
 
 
 def difference(buffer: str, ours: np.ndarray, theirs: np.ndarray) -> Difference | None:
@@ -75,7 +93,7 @@ def difference(buffer: str, ours: np.ndarray, theirs: np.ndarray) -> Difference 
 
 def differences(ours: ProgramResult, theirs: ProgramResult) -> tuple[Difference, ...]:
     """Return the differences of colour, depth, stencil and of the arrays that the two programs returned."""
-    pairs = [(name, getattr(ours, name), getattr(theirs, name)) for name in ("color", "depth", "stencil")]
+    pairs = [(name, getattr(ours, name), getattr(theirs, name)) for name in WINDOW]
     if isinstance(ours.returned, list | tuple) and isinstance(theirs.returned, list | tuple):
         for index, (mine, other) in enumerate(zip(ours.returned, theirs.returned, strict=True)):
             if isinstance(mine, np.ndarray) and isinstance(other, np.ndarray):
@@ -86,11 +104,31 @@ def differences(ours: ProgramResult, theirs: ProgramResult) -> tuple[Difference,
 
 def run_here(program: Program, size: tuple[int, int]) -> ProgramResult:
     """Return the buffers that a program leaves in a fresh context of `softshadow.gl` of (width, height) pixels."""
+    return run_recorded(program, size)[0]
+
+
+def run_recorded(program: Program, size: tuple[int, int]) -> "tuple[ProgramResult, Frame]":
+    """Return the buffers that a program leaves here, and the recording of its calls, which knows the pixels' histories.
+
+    Raises
+    ------
+    TypeError                    the program cannot be called, or the size is not a pair
+    """
     from softshadow import gl  # brings the kernels, which a Mesa worker has no use for
 
-    with gl.create_context(*size):
+    check(program, size)
+    with gl.create_context(*size) as context:
         returned = program(gl)
-        return read_result(gl, size, returned)
+        context.end_step(getattr(program, "__name__", "program"))
+        return read_result(gl, size, returned), context.frame
+
+
+def history_of_first(frame: "Frame", found: tuple[Difference, ...]) -> "PixelHistory | None":
+    """Return the history of the window's first differing pixel; None where nothing of the window differs."""
+    from softshadow.inspection import pixel_history
+
+    first = next((each for each in found if each.buffer in WINDOW), None)
+    return None if first is None else pixel_history(frame, first.x, first.y_from_top)
 
 
 def compare(program: Program, size: tuple[int, int] = (640, 480), driver: str = "llvmpipe") -> Comparison:
@@ -102,5 +140,6 @@ def compare(program: Program, size: tuple[int, int] = (640, 480), driver: str = 
     size : (width, height) of the default framebuffer
     driver : "llvmpipe" or "softpipe"
     """
-    ours, theirs = run_here(program, size), run_on_mesa(program, size, driver)
-    return Comparison(ours, theirs, differences(ours, theirs))
+    (ours, frame), theirs = run_recorded(program, size), run_on_mesa(program, size, driver)
+    found = differences(ours, theirs)
+    return Comparison(ours, theirs, found, history_of_first(frame, found))

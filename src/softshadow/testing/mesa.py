@@ -104,6 +104,7 @@ def run_on_mesa(
     MesaError                    Mesa is missing, crashed or took too long, or the program met a GL error (see `err`)
     Exception                    whatever the program raised, with the worker's traceback as its cause
     """
+    check(program, size)
     width, height = size
     if not (1 <= width <= LARGEST_SIDE and 1 <= height <= LARGEST_SIDE):
         raise ValueError(f"size={size!r}: width and height must be between 1 and {LARGEST_SIDE}")
@@ -119,6 +120,19 @@ def run_on_mesa(
         raise _failure(answer["failure"])
     result: ProgramResult = answer["result"]
     return result
+
+
+def check(program: Any, size: Any) -> None:
+    """Make sure that this is a program and a size.
+
+    Raises
+    ------
+    TypeError                    it is not
+    """
+    if not callable(program):
+        raise TypeError(f"program={program!r}: expected a function program(gl), not what it returned")
+    if not isinstance(size, tuple | list) or len(size) != 2:
+        raise TypeError(f"size={size!r}: expected (width, height)")
 
 
 def _pickled(program: Callable[[Any], Any]) -> bytes:
@@ -143,7 +157,13 @@ def _pickled(program: Callable[[Any], Any]) -> bytes:
 
 def _failure(failure: dict[str, Any]) -> Exception:
     error: Any = None
-    if failure["exception"] is not None:
+    if failure["type"] == "StateError" and "no current context" in failure["message"]:
+        # `from softshadow.gl import *`: on Mesa these names have no context
+        error = MesaError(
+            "the program calls softshadow.gl by itself; to run on Mesa, too, it has to call the namespace it is given: "
+            "gl.glBegin(gl.GL_TRIANGLES) in a function program(gl)"
+        )
+    elif failure["exception"] is not None:
         with contextlib.suppress(Exception):  # its class may exist in the worker only; then its text has to do
             error = pickle.loads(failure["exception"])
     if not isinstance(error, Exception):

@@ -100,7 +100,10 @@ def answer_request(request: dict[str, Any]) -> bytes:
         gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
         gl.glReadBuffer(gl.GL_FRONT)  # an OSMesa context has no back buffer
         result = read_result(gl, request["size"], returned, tuple(errors))
-        return cloudpickle.dumps({"result": result})
+        try:
+            return cloudpickle.dumps({"result": result})
+        except Exception as error:
+            raise TypeError(f"what the program returned cannot be brought back from Mesa's process: {error}") from error
     except BaseException as error:  # sys.exit() in a program ends the program, not the worker
         failure = {
             "type": type(error).__name__,
