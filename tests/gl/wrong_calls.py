@@ -123,6 +123,25 @@ WRONG_CALLS: dict[str, Callable[[World], Any]] = {
     "upload: type of packed format": lambda w: upload(
         w.gl, internal=w.gl.GL_DEPTH24_STENCIL8, format=w.gl.GL_DEPTH_STENCIL
     ),
+    "upload: cube map, not a face": lambda w: upload(w.gl, target=w.gl.GL_TEXTURE_CUBE_MAP),
+    "upload: oblong face": lambda w: upload(w.gl, target=w.gl.GL_TEXTURE_CUBE_MAP_NEGATIVE_Y, width=2),
+    "update: cube map, not a face": lambda w: update(w.gl, target=w.gl.GL_TEXTURE_CUBE_MAP),
+    "update: face without image": lambda w: update(w.gl, target=w.gl.GL_TEXTURE_CUBE_MAP_POSITIVE_Z),
+    "copy: oblong face": lambda w: copy_image(w.gl, target=w.gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X, width=4),
+    "mipmaps: of a face": lambda w: w.gl.glGenerateMipmap(w.gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X),
+    "mipmaps: of a cube map without faces": lambda w: w.gl.glGenerateMipmap(w.gl.GL_TEXTURE_CUBE_MAP),
+    "parameter: of a face": lambda w: w.gl.glTexParameteri(
+        w.gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X, w.gl.GL_TEXTURE_WRAP_S, w.gl.GL_REPEAT
+    ),
+    "parameter: seamless": lambda w: w.gl.glTexParameteri(
+        w.gl.GL_TEXTURE_CUBE_MAP, w.gl.GL_TEXTURE_CUBE_MAP_SEAMLESS, 2
+    ),
+    "level query: cube map, not a face": lambda w: w.gl.glGetTexLevelParameteriv(
+        w.gl.GL_TEXTURE_CUBE_MAP, 0, w.gl.GL_TEXTURE_WIDTH
+    ),
+    "get image: cube map, not a face": lambda w: w.gl.glGetTexImage(
+        w.gl.GL_TEXTURE_CUBE_MAP, 0, w.gl.GL_RGBA, w.gl.GL_FLOAT
+    ),
     "update: target": lambda w: update(w.gl, target=NO_TOKEN),
     "update: level": lambda w: update(w.gl, level=-1),
     "update: level without image": lambda w: update(w.gl, level=2),
@@ -190,6 +209,19 @@ WRONG_CALLS: dict[str, Callable[[World], Any]] = {
     "environment: mode": lambda w: w.gl.glTexEnvi(w.gl.GL_TEXTURE_ENV, w.gl.GL_TEXTURE_ENV_MODE, w.gl.GL_RGBA),
     "generation: coordinate": lambda w: w.gl.glTexGeni(NO_TOKEN, w.gl.GL_TEXTURE_GEN_MODE, w.gl.GL_EYE_LINEAR),
     "generation: name": lambda w: w.gl.glTexGeni(w.gl.GL_S, NO_TOKEN, w.gl.GL_EYE_LINEAR),
+    "environment: name of filter control": lambda w: w.gl.glTexEnvf(
+        w.gl.GL_TEXTURE_FILTER_CONTROL, w.gl.GL_TEXTURE_ENV_MODE, 1.0
+    ),
+    "environment: bias": lambda w: w.gl.glTexEnvf(w.gl.GL_TEXTURE_ENV, w.gl.GL_TEXTURE_LOD_BIAS, 1.0),
+    "environment query: name of filter control": lambda w: w.gl.glGetTexEnvfv(
+        w.gl.GL_TEXTURE_FILTER_CONTROL, w.gl.GL_TEXTURE_ENV_MODE
+    ),
+    "generation: sphere map of r": lambda w: w.gl.glTexGeni(w.gl.GL_R, w.gl.GL_TEXTURE_GEN_MODE, w.gl.GL_SPHERE_MAP),
+    "generation: sphere map of q": lambda w: w.gl.glTexGeni(w.gl.GL_Q, w.gl.GL_TEXTURE_GEN_MODE, w.gl.GL_SPHERE_MAP),
+    "generation: normal map of q": lambda w: w.gl.glTexGeni(w.gl.GL_Q, w.gl.GL_TEXTURE_GEN_MODE, w.gl.GL_NORMAL_MAP),
+    "generation: reflection of q": lambda w: w.gl.glTexGenfv(
+        w.gl.GL_Q, w.gl.GL_TEXTURE_GEN_MODE, [w.gl.GL_REFLECTION_MAP]
+    ),
     "generation: mode": lambda w: w.gl.glTexGeni(w.gl.GL_S, w.gl.GL_TEXTURE_GEN_MODE, NO_TOKEN),
     "bind framebuffer: target": lambda w: w.gl.glBindFramebuffer(NO_TOKEN, 0),
     "attach: to the window": lambda w: w.gl.glFramebufferTexture2D(

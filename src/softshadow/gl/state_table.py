@@ -224,6 +224,7 @@ QUERIES: dict[str, Read] = {
     "GL_SUBPIXEL_BITS": lambda c: 8,
     "GL_MAX_TEXTURE_UNITS": lambda c: TEXTURE_UNITS,
     "GL_MAX_TEXTURE_SIZE": lambda c: LARGEST_SIDE,
+    "GL_MAX_TEXTURE_LOD_BIAS": lambda c: 16.0,  # Mesa's answer; larger ones count, too
     "GL_MAX_TEXTURE_COORDS": lambda c: TEXTURE_UNITS,
     "GL_MAX_TEXTURE_IMAGE_UNITS": lambda c: TEXTURE_UNITS,
     "GL_MAX_CUBE_MAP_TEXTURE_SIZE": lambda c: LARGEST_SIDE,

@@ -138,18 +138,20 @@ def glGenerateMipmap(target: int) -> None:
     operation = "glGenerateMipmap"
     if (context := outside_begin(operation)) is None:
         return None
-    if problem := target_problem(context, target) or _base_problem(bound_texture(context, target)):
+    if problem := target_problem(context, target) or _base_problem(context, target):
         return fail(problem[0], operation, problem[1])
     texture = bound_texture(context, target)
     _generate(context, texture, texture.faces)
     return None
 
 
-def _base_problem(texture: Texture) -> Problem | None:
-    bases = [texture.base(face) for face in texture.faces]
+def _base_problem(context: Context, target: int) -> Problem | None:
+    texture = context.storage.textures.get(bound_name(context, target))
+    bases = [texture.base(face) for face in texture.faces] if texture is not None else [None]
     first = bases[0]
     if first is None or any(base is None or base.view.shape != first.view.shape for base in bases):
-        missing = "the base level of every face, all of one size" if len(bases) > 1 else "a base level"
+        cube = target == gl.GL_TEXTURE_CUBE_MAP
+        missing = "the base level of every face, all of one size" if cube else "a base level"
         return gl.GL_INVALID_OPERATION, f"the bound texture needs {missing}: call glTexImage2D first"
     if first.stencil is not None or first.format.kind == "stencil":
         return gl.GL_INVALID_OPERATION, "the bound texture holds stencil values, which have no mipmaps"
