@@ -111,6 +111,14 @@ class ArrayLayout:
 
 
 @dataclass
+class BufferObject:
+    """The bytes of a buffer object, and the usage it was given."""
+
+    content: np.ndarray = field(default_factory=lambda: np.zeros(0, np.uint8))
+    usage: int = gl.GL_STATIC_DRAW
+
+
+@dataclass
 class ClientArrays:
     """Vertex arrays: which are enabled, the array each pointer call gave, and what drawn arrays were converted to.
 
@@ -119,6 +127,9 @@ class ClientArrays:
 
     enabled: set[str] = field(default_factory=set)
     pointers: dict[str, np.ndarray] = field(default_factory=dict)
+    offsets: dict[str, tuple[int, int]] = field(default_factory=dict)  # (buffer object, byte) instead of an array
+    array_buffer: int = 0
+    element_buffer: int = 0
     layouts: dict[str, ArrayLayout] = field(default_factory=dict)
     converted: dict[Any, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
     active_unit: int = 0
@@ -201,6 +212,8 @@ class Context:
         self.stored_vertices = 0  # how many were collected since the last time they were sent off
         self.buffer_used = 0  # bytes of the vertex buffer before them
         self.arrays = ClientArrays()
+        self.client_stack: list[Any] = []
+        self.buffers: dict[int, BufferObject] = {}
         self.attribute_stack: list[Any] = []
         # since the last glPushAttrib or glPopAttrib: the state as it was, groups of attributes changed beside it
         self.seen, self.touched = self.state, 0
@@ -213,7 +226,7 @@ class Context:
         self.hints: dict[int, int] = {}  # where not GL_DONT_CARE
         self.pack_store, self.unpack_store = PixelStore(), PixelStore()
         # the highest name that glGen* has given out, per kind; an object exists in storage once it has been bound
-        self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query"), 0)
+        self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query", "buffer"), 0)
         self.renderbuffer = 0
         self.query_targets: dict[int, int] = {}  # of the queries that have been begun
 

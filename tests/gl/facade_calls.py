@@ -17,7 +17,21 @@ MATRIX = [float(number) for number in (2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 5, 6,
 TEXELS = ("GL_RGBA", "GL_UNSIGNED_BYTE")
 
 SINGLE: dict[str, tuple[Any, ...]] = {
-    "glAccum": ("GL_LOAD", 1.0), "glActiveStencilFaceEXT": ("GL_BACK",),
+    "glAccum": ("GL_LOAD", 1.0), "glArrayElement": (1,), "glBindBuffer": ("GL_ARRAY_BUFFER", "@buffer"),
+    "glBufferData": ("GL_ELEMENT_ARRAY_BUFFER", 12, INDICES, "GL_STATIC_DRAW"),
+    "glBufferSubData": ("GL_ELEMENT_ARRAY_BUFFER", 4, 4, INDICES), "glDeleteBuffers": (1, ["@buffer"]),
+    "glDrawElementsub": ("GL_TRIANGLES", INDICES), "glDrawElementsui": ("GL_TRIANGLES", INDICES),
+    "glDrawElementsus": ("GL_TRIANGLES", INDICES),
+    "glDrawRangeElements": ("GL_TRIANGLES", 0, 2, 3, "GL_UNSIGNED_INT", INDICES), "glGenBuffers": (2,),
+    "glGetBufferParameteriv": ("GL_ELEMENT_ARRAY_BUFFER", "GL_BUFFER_SIZE"),
+    "glGetBufferSubData": ("GL_ELEMENT_ARRAY_BUFFER", 0, 4),
+    "glGetRenderbufferParameteriv": ("GL_RENDERBUFFER", "GL_RENDERBUFFER_WIDTH"),
+    "glInterleavedArrays": ("GL_C4UB_V3F", 0, np.zeros(48, np.uint8)), "glIsBuffer": ("@buffer",),
+    "glMultiDrawArrays": ("GL_TRIANGLES", np.array([0, 1], np.int32), np.array([3, 2], np.int32), 2),
+    "glPopClientAttrib": (), "glPushClientAttrib": ("GL_CLIENT_VERTEX_ARRAY_BIT",),
+    "glColor": (0.5, 0.25, 0.75), "glVertex": (0.5, 0.25, 0.75), "glMaterial": ("GL_FRONT", "GL_DIFFUSE", [1, 0, 1, 0]),
+    "glTexParameter": ("GL_TEXTURE_2D", "GL_TEXTURE_MIN_FILTER", "GL_NEAREST"),
+ "glActiveStencilFaceEXT": ("GL_BACK",),
     "glStencilFuncSeparateATI": ("GL_LESS", "GL_EQUAL", 2, 15),
     "glActiveTexture": ("GL_TEXTURE1",), "glAlphaFunc": ("GL_LESS", 0.5),
     "glBegin": ("GL_QUADS",), "glBeginQuery": ("GL_SAMPLES_PASSED", "@query"),
@@ -94,11 +108,15 @@ def families() -> dict[str, tuple[Any, ...]]:
         for name, values in calls.items()
         if name.startswith("glTexCoord")
     }
+    for name, types in (("Vertex", "dfis"), ("Normal", "bdfis"), ("TexCoord", "dfis")):
+        calls |= {f"gl{name}Pointer{kind}": (CORNERS,) for kind in types}
+    calls |= {f"glColorPointer{kind}": (CORNERS,) for kind in ("b", "d", "f", "i", "s", "ub", "ui", "us")}
     for kind in "dfis":
         calls |= {f"glRect{kind}": (0, 0, 1, 1), f"glRect{kind}v": ([0, 0], [1, 1])}
     for kind in "df":
         calls |= {
             f"glLoadMatrix{kind}": (MATRIX,), f"glMultMatrix{kind}": (MATRIX,), f"glRotate{kind}": (30.0, 1, 2, 3),
+            f"glLoadTransposeMatrix{kind}": (MATRIX,), f"glMultTransposeMatrix{kind}": (MATRIX,),
             f"glScale{kind}": (1, 2, 3), f"glTranslate{kind}": (1, 2, 3),
         }  # fmt: skip
     for kind in "fi":
@@ -137,7 +155,9 @@ def families() -> dict[str, tuple[Any, ...]]:
 CALLS = {**SINGLE, **families()}
 NAMED_AGAIN = {  # spellings that are PyOpenGL's own: the same function
     "glGetBoolean": "glGetBooleanv", "glGetDouble": "glGetDoublev", "glGetFloat": "glGetFloatv",
-    "glGetInteger": "glGetIntegerv", "glStencilOpSeparateATI": "glStencilOpSeparate",
+    "glGetInteger": "glGetIntegerv", "glClearDepthf": "glClearDepth", "glDepthRangef": "glDepthRange",
+    "glRotate": "glRotated", "glTranslate": "glTranslated", "glScale": "glScaled", "glLight": "glLightfv",
+    "glTexCoord": "glTexCoord2d", "glNormal": "glNormal3d", "glStencilOpSeparateATI": "glStencilOpSeparate",
 }  # fmt: skip
 
 
@@ -170,6 +190,10 @@ def prepare(gl: Any) -> World:
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
     gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, attached, 0)
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+    buffer = int(gl.glGenBuffers(1))
+    gl.glBindBuffer(gl.GL_ELEMENT_ARRAY_BUFFER, buffer)
+    gl.glBufferData(gl.GL_ELEMENT_ARRAY_BUFFER, 12, INDICES, gl.GL_DYNAMIC_DRAW)
+    gl.glBindBuffer(gl.GL_ELEMENT_ARRAY_BUFFER, 0)
     query = int(gl.glGenQueries(1))
     gl.glBeginQuery(gl.GL_SAMPLES_PASSED, query)
     gl.glEndQuery(gl.GL_SAMPLES_PASSED)
@@ -181,13 +205,21 @@ def prepare(gl: Any) -> World:
     uniforms = {f"@{name}": gl.glGetUniformLocation(program, name) for name in ("bias", "ambient", "shadowMap")}
     uniforms["@lightMatrix"] = gl.glGetUniformLocation(program, "lightMatrix")
     gl.glUseProgram(0)
-    made = {"texture": texture, "framebuffer": framebuffer, "renderbuffer": renderbuffer, "query": query}
+    made = {
+        "texture": texture,
+        "framebuffer": framebuffer,
+        "renderbuffer": renderbuffer,
+        "query": query,
+        "buffer": buffer,
+    }
     return World({f"@{name}": value for name, value in made.items()} | uniforms | {"@program": program})
 
 
 # numbers that GL takes for right ones, and then reads memory that is not the array's, or what there is more of in Mesa
 LEFT_OUT = {
-    "glDrawArrays": (-1, 40, 99999), "glDrawElements": (40, 99999), "glTexImage2D": (40,), "glUniform1i": (40,),
+    "glArrayElement": (-1, 40, 99999), "glBufferData": (40, 99999), "glDrawArrays": (-1, 40, 99999),
+    "glDrawElements": (40, 99999), "glDrawRangeElements": (40, 99999), "glMultiDrawArrays": (40, 99999),
+    "glTexImage2D": (40,), "glUniform1i": (40,), "glInterleavedArrays": (99999,),
 }  # fmt: skip
 
 

@@ -29,7 +29,8 @@ def undo(namespace: Any) -> None:
     """End what a call may have begun, and bind nothing."""
     for name, arguments in (
         ("glEnd", ()), ("glEndList", ()), ("glEndQuery", ("GL_SAMPLES_PASSED",)), ("glUseProgram", (0,)),
-        ("glBindFramebuffer", ("GL_FRAMEBUFFER", 0)),
+        ("glBindFramebuffer", ("GL_FRAMEBUFFER", 0)), ("glBindBuffer", ("GL_ARRAY_BUFFER", 0)),
+        ("glBindBuffer", ("GL_ELEMENT_ARRAY_BUFFER", 0)),
     ):  # fmt: skip
         attempt(namespace, World({}), name, arguments)
         namespace.glGetError()
@@ -43,6 +44,8 @@ def codes_and_state(namespace: Any, names: list[str]) -> tuple[dict[str, Any], d
         for arguments in attempts(name):
             if name.startswith("glUniform"):
                 namespace.glUseProgram(world.names["@program"])
+            if name.startswith(("glBuffer", "glGetBuffer")):
+                namespace.glBindBuffer(namespace.GL_ELEMENT_ARRAY_BUFFER, world.names["@buffer"])
             refused = attempt(namespace, world, name, arguments)
             codes[f"{name}{arguments[:8]!r}"] = refused or int(namespace.glGetError())
             undo(namespace)

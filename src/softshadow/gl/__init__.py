@@ -17,8 +17,10 @@ from typing import Any
 
 from softshadow.context import Context, current, make_current
 from softshadow.gl.accumulation import *
+from softshadow.gl.array_draws import *
 from softshadow.gl.attributes import *
 from softshadow.gl.blits import *
+from softshadow.gl.buffers import *
 from softshadow.gl.capabilities import *
 from softshadow.gl.clears import *
 from softshadow.gl.clip_planes import *
@@ -36,6 +38,7 @@ from softshadow.gl.materials import *
 from softshadow.gl.occlusion import *
 from softshadow.gl.pixels import *
 from softshadow.gl.programs import *
+from softshadow.gl.pyopengl import *
 from softshadow.gl.queries import *
 from softshadow.gl.rasterization import *
 from softshadow.gl.renderbuffers import *

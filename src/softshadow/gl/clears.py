@@ -32,6 +32,9 @@ def glClearDepth(depth: float) -> None:
         change(context, "depth", clear=clamp01(depth))
 
 
+glClearDepthf = glClearDepth
+
+
 @in_lists
 def glClearStencil(s: int) -> None:
     """Set the stencil value that glClear writes."""

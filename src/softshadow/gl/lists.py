@@ -16,6 +16,7 @@ from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 
 DEEPEST_LIST = 64
+NAME_TYPES = range(gl.GL_BYTE, gl.GL_FLOAT + 1)
 MODES = (gl.GL_COMPILE, gl.GL_COMPILE_AND_EXECUTE)
 
 
@@ -78,9 +79,20 @@ def glCallList(list: int) -> None:
 
 
 @in_lists
-def glCallLists(lists: Any) -> None:
-    """Carry out the lists of an array of names, or of the characters of a string, counted from glListBase on."""
-    context = current()
+def glCallLists(*arguments: Any) -> None:
+    """Carry out the lists of an array of names, or of the characters of a string, counted from glListBase on.
+
+    (lists), or (n, type, lists) as in C.
+    """
+    context, lists = current(), arguments[-1]
+    if len(arguments) == 3:
+        count, type, _ = arguments
+        if count < 0:
+            fail(gl.GL_INVALID_VALUE, "glCallLists", f"n={count}: expected 0 or more")
+            return
+        if not is_one_of("glCallLists", "type", type, NAME_TYPES, "an integer type or GL_FLOAT"):
+            return
+        lists = lists[:count]
     characters = lists.encode() if isinstance(lists, str) else lists
     names = list(characters) if isinstance(characters, bytes) else np.ravel(characters).tolist()
     for name in names:

@@ -110,4 +110,6 @@ def glDepthRange(zNear: float, zFar: float) -> None:
         change(context, "viewport", near=near, far=far)
 
 
+glDepthRangef = glDepthRange
+
 __all__ = spelled_like_gl(globals())

@@ -4,15 +4,23 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from softshadow import tokens as gl
 from softshadow.framebuffer import LARGEST_SIDE
 from softshadow.gl.calls import spelled_like_gl
-from softshadow.gl.errors import fail, outside_begin
+from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import attach, attachment_problem, bound_framebuffer, target_problem
 from softshadow.gl.names import generate, listed, take
+from softshadow.gl.texture_images import channel_bits
 from softshadow.image import FORMATS, storage_format
 from softshadow.pipeline.commands import AttachRenderbuffer, DefineRenderbuffer, DeleteRenderbuffers
 from softshadow.tokens import token_name
+
+CHANNELS = {
+    getattr(gl, f"GL_RENDERBUFFER_{name}_SIZE"): getattr(gl, f"GL_TEXTURE_{name}_SIZE")
+    for name in ("RED", "GREEN", "BLUE", "ALPHA", "DEPTH", "STENCIL")
+}
 
 
 def glFramebufferRenderbuffer(target: int, attachment: int, renderbuffertarget: int, renderbuffer: int) -> None:
@@ -74,6 +82,27 @@ def glRenderbufferStorage(target: int, internalformat: int, width: int, height: 
     stored = storage_format(internalformat)
     context.execute(DefineRenderbuffer(context.renderbuffer, stored, internalformat, width, height))
     return None
+
+
+def glGetRenderbufferParameteriv(target: int, pname: int, params: Any = None) -> Any:
+    """Return a property of the bound renderbuffer, an int."""
+    context, operation = outside_begin("glGetRenderbufferParameteriv"), "glGetRenderbufferParameteriv"
+    if context is None or not is_one_of(operation, "target", target, (gl.GL_RENDERBUFFER,), "GL_RENDERBUFFER"):
+        return None
+    if context.renderbuffer == 0:
+        return fail(gl.GL_INVALID_OPERATION, operation, "no renderbuffer is bound")
+    image = context.storage.renderbuffers[context.renderbuffer]
+    answers = {
+        gl.GL_RENDERBUFFER_WIDTH: image.width,
+        gl.GL_RENDERBUFFER_HEIGHT: image.height,
+        gl.GL_RENDERBUFFER_INTERNAL_FORMAT: image.internal_format or gl.GL_RGBA,
+        **{name: channel_bits(image, size) for name, size in CHANNELS.items()},
+    }
+    if not is_one_of(operation, "pname", pname, answers, "GL_RENDERBUFFER_WIDTH … GL_RENDERBUFFER_STENCIL_SIZE"):
+        return None
+    if params is not None:
+        np.asarray(params)[:1] = answers[pname]
+    return answers[pname]
 
 
 def glDeleteRenderbuffers(*arguments: Any) -> None:

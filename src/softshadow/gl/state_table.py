@@ -116,6 +116,7 @@ def client_array(name: str, token: int) -> dict[str, Read]:
         f"GL_{name}_ARRAY": lambda c: key(c) in c.arrays.enabled,
         f"GL_{name}_ARRAY_TYPE": lambda c: c.arrays.layout(key(c)).type,
         f"GL_{name}_ARRAY_STRIDE": lambda c: c.arrays.layout(key(c)).stride,
+        f"GL_{name}_ARRAY_BUFFER_BINDING": lambda c: c.arrays.offsets.get(key(c), (0, 0))[0],
     }
     if name != "NORMAL":
         made[f"GL_{name}_ARRAY_SIZE"] = lambda c: c.arrays.layout(key(c)).size
@@ -191,6 +192,9 @@ QUERIES: dict[str, Read] = {
     **client_array("NORMAL", gl.GL_NORMAL_ARRAY),
     **client_array("COLOR", gl.GL_COLOR_ARRAY),
     **client_array("TEXTURE_COORD", gl.GL_TEXTURE_COORD_ARRAY),
+    "GL_ARRAY_BUFFER_BINDING": lambda c: c.arrays.array_buffer,
+    "GL_ELEMENT_ARRAY_BUFFER_BINDING": lambda c: c.arrays.element_buffer,
+    "GL_CLIENT_ATTRIB_STACK_DEPTH": lambda c: len(c.client_stack),
     "GL_TEXTURE_BINDING_2D": lambda c: c.state.units[c.active_unit].bound_2d,
     "GL_TEXTURE_BINDING_CUBE_MAP": lambda c: c.state.units[c.active_unit].bound_cube,
     "GL_DRAW_FRAMEBUFFER_BINDING": lambda c: c.state.draw_framebuffer,

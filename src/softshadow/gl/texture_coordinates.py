@@ -15,7 +15,8 @@ UNITS = range(gl.GL_TEXTURE0, gl.GL_TEXTURE0 + TEXTURE_UNITS)
 A_UNIT = f"GL_TEXTURE0 … GL_TEXTURE{TEXTURE_UNITS - 1}"
 
 
-def _set(unit: int, *coordinates: float) -> None:
+def set_coordinate(unit: int, *coordinates: float) -> None:
+    """Set the current texture coordinate of a unit."""
     context, given = current(), tuple(float(c) for c in coordinates)
     standing = context.current.texcoords
     kept = max(give(context, f"texcoord{unit}", len(given)), len(given))
@@ -23,80 +24,81 @@ def _set(unit: int, *coordinates: float) -> None:
 
 
 def _set_of(target: int, *coordinates: float) -> None:
-    _set(int(target) % TEXTURE_UNITS, *coordinates)  # GL leaves wrong targets undefined; Mesa takes their last bits
+    # GL leaves wrong targets undefined; Mesa takes their last bits
+    set_coordinate(int(target) % TEXTURE_UNITS, *coordinates)
 
 
 # -- unit 0 ------------------------------------------------------------------------------------------------------------
 @in_lists
 def glTexCoord1f(s: float) -> None:
     """Set the texture coordinate of unit 0; t = r = 0, q = 1."""
-    _set(0, s)
+    set_coordinate(0, s)
 
 
 @in_lists
 def glTexCoord1fv(v: Any) -> None:
     """Set the texture coordinate of unit 0 from a vector."""
-    _set(0, *vector(v, 1))
+    set_coordinate(0, *vector(v, 1))
 
 
 @in_lists
 def glTexCoord2f(s: float, t: float) -> None:
     """Set the texture coordinate of unit 0; r = 0, q = 1."""
-    _set(0, s, t)
+    set_coordinate(0, s, t)
 
 
 @in_lists
 def glTexCoord2fv(v: Any) -> None:
     """Set the texture coordinate of unit 0 from a vector."""
-    _set(0, *vector(v, 2))
+    set_coordinate(0, *vector(v, 2))
 
 
 @in_lists
 def glTexCoord3f(s: float, t: float, r: float) -> None:
     """Set the texture coordinate of unit 0; q = 1."""
-    _set(0, s, t, r)
+    set_coordinate(0, s, t, r)
 
 
 @in_lists
 def glTexCoord3fv(v: Any) -> None:
     """Set the texture coordinate of unit 0 from a vector."""
-    _set(0, *vector(v, 3))
+    set_coordinate(0, *vector(v, 3))
 
 
 @in_lists
 def glTexCoord4f(s: float, t: float, r: float, q: float) -> None:
     """Set the texture coordinate of unit 0."""
-    _set(0, s, t, r, q)
+    set_coordinate(0, s, t, r, q)
 
 
 @in_lists
 def glTexCoord4fv(v: Any) -> None:
     """Set the texture coordinate of unit 0 from a vector."""
-    _set(0, *vector(v, 4))
+    set_coordinate(0, *vector(v, 4))
 
 
 @in_lists
 def glTexCoord1iv(v: Any) -> None:
     """Set the texture coordinate of unit 0 from a vector of integers."""
-    _set(0, *vector(v, 1, int))
+    set_coordinate(0, *vector(v, 1, int))
 
 
 @in_lists
 def glTexCoord2iv(v: Any) -> None:
     """Set the texture coordinate of unit 0 from a vector of integers."""
-    _set(0, *vector(v, 2, int))
+    set_coordinate(0, *vector(v, 2, int))
 
 
 @in_lists
 def glTexCoord3iv(v: Any) -> None:
     """Set the texture coordinate of unit 0 from a vector of integers."""
-    _set(0, *vector(v, 3, int))
+    set_coordinate(0, *vector(v, 3, int))
 
 
 @in_lists
 def glTexCoord4iv(v: Any) -> None:
     """Set the texture coordinate of unit 0 from a vector of integers."""
-    _set(0, *vector(v, 4, int))
+    set_coordinate(0, *vector(v, 4, int))
 
 
 glTexCoord1d = glTexCoord1i = glTexCoord1s = glTexCoord1f

@@ -110,6 +110,18 @@ def glMultMatrixf(m: Any) -> None:
             multiply_current(context, made, GENERAL | UNKNOWN)
 
 
+@in_lists
+def glLoadTransposeMatrixf(m: Any) -> None:
+    """Make a matrix current: 16 numbers, row after row."""
+    glLoadMatrixf(np.reshape(m, (4, 4)).T)
+
+
+@in_lists
+def glMultTransposeMatrixf(m: Any) -> None:
+    """Multiply the current matrix from the right: 16 numbers, row after row."""
+    glMultMatrixf(np.reshape(m, (4, 4)).T)
+
+
 def multiply_current(context: Context, matrix: np.ndarray, kind: int) -> None:
     """Multiply the current matrix from the right by one of a kind."""
     set_current(context, matrices.multiply(context.matrix_stack[-1], matrix), context.kind_stack[-1] | kind)
@@ -172,6 +184,7 @@ def glOrtho(left: float, right: float, bottom: float, top: float, zNear: float, 
 
 
 glLoadMatrixd, glMultMatrixd = glLoadMatrixf, glMultMatrixf
+glLoadTransposeMatrixd, glMultTransposeMatrixd = glLoadTransposeMatrixf, glMultTransposeMatrixf
 glTranslated, glScaled, glRotated = glTranslatef, glScalef, glRotatef
 
 

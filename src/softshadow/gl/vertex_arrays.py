@@ -1,25 +1,18 @@
-"""Vertex arrays: pointers to a user's arrays, and the calls that draw from them.
-
-A user's array is copied once per content, so that many draws of a recording share it; a read-only array that owns its
-memory is taken as it is.
-"""
+"""Vertex arrays: pointers to a user's arrays or into buffer objects, and which of them are enabled."""
 
 from __future__ import annotations
 
-import hashlib
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import ArrayLayout, Context, current
+from softshadow.context import ArrayLayout, current
+from softshadow.gl.buffers import offset_of
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.immediate import A_MODE, MODES, can_draw, in_order
 from softshadow.gl.texture_coordinates import A_UNIT, UNITS
-from softshadow.gl.vertex_format import REST
-from softshadow.pipeline.commands import Vertices
-from softshadow.state import TEXTURE_UNITS
 
 TYPES = {
     gl.GL_BYTE: np.int8, gl.GL_UNSIGNED_BYTE: np.uint8, gl.GL_SHORT: np.int16, gl.GL_UNSIGNED_SHORT: np.uint16,
@@ -28,9 +21,17 @@ TYPES = {
 POSITION_TYPES = (gl.GL_SHORT, gl.GL_INT, gl.GL_FLOAT, gl.GL_DOUBLE)
 NORMAL_TYPES = (gl.GL_BYTE, *POSITION_TYPES)
 LARGEST_STRIDE = 2048  # GL_MAX_VERTEX_ATTRIB_STRIDE of Mesa
-INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
 ARRAYS = {gl.GL_VERTEX_ARRAY: "position", gl.GL_NORMAL_ARRAY: "normal", gl.GL_COLOR_ARRAY: "color"}
-NORMALISED = ("color", "normal")  # integers of these stand for 0 to 1 or -1 to 1
+# glInterleavedArrays: numbers of texture coordinates, colour (a 4 of bytes), normal (3 or none), position
+INTERLEAVED = {
+    gl.GL_V2F: (0, "", 0, 2), gl.GL_V3F: (0, "", 0, 3), gl.GL_C4UB_V2F: (0, "4ub", 0, 2),
+    gl.GL_C4UB_V3F: (0, "4ub", 0, 3), gl.GL_C3F_V3F: (0, "3f", 0, 3), gl.GL_N3F_V3F: (0, "", 3, 3),
+    gl.GL_C4F_N3F_V3F: (0, "4f", 3, 3), gl.GL_T2F_V3F: (2, "", 0, 3), gl.GL_T4F_V4F: (4, "", 0, 4),
+    gl.GL_T2F_C4UB_V3F: (2, "4ub", 0, 3), gl.GL_T2F_C3F_V3F: (2, "3f", 0, 3), gl.GL_T2F_N3F_V3F: (2, "", 3, 3),
+    gl.GL_T2F_C4F_N3F_V3F: (2, "4f", 3, 3), gl.GL_T4F_C4F_N3F_V4F: (4, "4f", 3, 4),
+}  # fmt: skip
+COLORS = {"": (0, 0), "3f": (3, 12), "4f": (4, 16), "4ub": (4, 4)}  # numbers, bytes
+DEEPEST_CLIENT_ATTRIBUTES = 16
 
 
 # -- which arrays ------------------------------------------------------------------------------------------------------
@@ -94,12 +95,16 @@ def _pointer(
         fail(gl.GL_INVALID_VALUE, operation, f"stride={stride}: expected 0 to {LARGEST_STRIDE}")
     else:
         context.arrays.layouts[key] = ArrayLayout(int(size), int(type), int(stride))
-        context.arrays.pointers.pop(key, None)
-        if pointer is not None:
-            context.arrays.pointers[key] = _rows(pointer, np.dtype(TYPES[type]), size, stride)
+        arrays = context.arrays
+        arrays.pointers.pop(key, None)
+        arrays.offsets.pop(key, None)
+        if arrays.array_buffer:
+            arrays.offsets[key] = (arrays.array_buffer, offset_of(pointer))
+        elif pointer is not None:
+            arrays.pointers[key] = rows_of(pointer, np.dtype(TYPES[type]), size, stride)
 
 
-def _rows(pointer: Any, dtype: np.dtype, size: int, stride: int) -> np.ndarray:
+def rows_of(pointer: Any, dtype: np.dtype, size: int, stride: int) -> np.ndarray:
     """Return an array as rows of `size` numbers, without copying one that fits; `stride` in bytes, 0 for none."""
     if isinstance(pointer, bytes | bytearray | memoryview):
         values = np.frombuffer(pointer, dtype)
@@ -112,125 +117,75 @@ def _rows(pointer: Any, dtype: np.dtype, size: int, stride: int) -> np.ndarray:
     return values.reshape(-1)[: values.size // size * size].reshape(-1, size)
 
 
-# -- drawing -----------------------------------------------------------------------------------------------------------
-def glDrawArrays(mode: int, first: int, count: int) -> None:
-    """Draw `count` vertices of the enabled arrays from `first` on."""
-    context = outside_begin("glDrawArrays")
-    if context is not None:
-        context.settle()
+# -- several at once ---------------------------------------------------------------------------------------------------
+def glInterleavedArrays(format: int, stride: int, pointer: Any) -> None:
+    """Take positions, normals, colours and texture coordinates from one array in one of fourteen layouts."""
+    context, operation = outside_begin("glInterleavedArrays"), "glInterleavedArrays"
     if context is None:
         return
-    if count < 0:
-        fail(gl.GL_INVALID_VALUE, "glDrawArrays", f"count={count}: expected 0 or more")
-    elif is_one_of("glDrawArrays", "mode", mode, MODES, A_MODE) and can_draw(context, "glDrawArrays"):
-        vertices = _vertices(context, "glDrawArrays", int(first), int(first) + int(count))
-        _draw(context, int(mode), vertices, None)
-
-
-def glDrawElements(mode: int, count: int, type: int, indices: Any) -> None:
-    """Draw the vertices of the enabled arrays that `indices` name."""
-    context = outside_begin("glDrawElements")
-    if context is not None:
-        context.settle()
-    if context is None:
+    if stride < 0:
+        fail(gl.GL_INVALID_VALUE, operation, f"stride={stride}: expected 0 or more")
         return
-    if count < 0:
-        fail(gl.GL_INVALID_VALUE, "glDrawElements", f"count={count}: expected 0 or more")
+    if not is_one_of(operation, "format", format, INTERLEAVED, "GL_V2F … GL_T4F_C4F_N3F_V4F"):
         return
-    if not is_one_of("glDrawElements", "mode", mode, MODES, A_MODE):
-        return
-    expected = "GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT or GL_UNSIGNED_INT"
-    if not is_one_of("glDrawElements", "type", type, INDEX_TYPES, expected) or not can_draw(context, "glDrawElements"):
-        return
-    if isinstance(indices, bytes | bytearray | memoryview):
-        indices = np.frombuffer(indices, TYPES[type])
-    numbers = np.ravel(indices)[:count]
-    if len(numbers) < count:
-        raise ValueError(f"glDrawElements(count={count}): only {len(numbers)} indices are there")
-    owned = np.array(numbers, np.int32)
-    if count and owned.min() < 0:
-        raise ValueError(f"glDrawElements: index {owned.min()} is negative")
-    owned.setflags(write=False)
-    vertices = _vertices(context, "glDrawElements", 0, int(owned.max()) + 1 if count else 0)
-    _draw(context, int(mode), vertices, owned)
-
-
-def _draw(context: Context, mode: int, vertices: Vertices | None, indices: np.ndarray | None) -> None:
-    """Draw now, or from the display list: the arrays are read when the list is made."""
-    if vertices is None or not len(vertices.position):
-        return
-    compiled = context.compiled_list
-    if compiled is not None:
-        kept = in_order(len(vertices.position)) if indices is None else indices
-        compiled.calls.append(lambda: current().draw(mode, vertices, kept))
-    if compiled is None or compiled.executes:
-        context.draw(mode, vertices, indices)
-
-
-def _vertices(context: Context, operation: str, first: int, end: int) -> Vertices | None:
-    """Return the vertices [first, end) of the enabled arrays; None without an array of positions.
-
-    Raises
-    ------
-    ValueError
-        An enabled array ends before `end`: GL would read memory that is not the array's.
-    """
-    if first < 0:
-        raise ValueError(f"{operation}: first={first}: expected 0 or more")
-    arrays, standing = context.arrays, context.current
-    if "position" not in arrays.enabled or "position" not in arrays.pointers:
-        return None
-
-    def attribute(key: str, constant: tuple[float, ...]) -> np.ndarray:
-        rows = arrays.pointers.get(key)
-        if key not in arrays.enabled or rows is None:
-            return np.broadcast_to(np.array(constant, context.real), (end - first, len(constant)))
-        if len(rows) < end:
-            raise ValueError(f"{operation}: vertex {end - 1} is asked for, the array of {key}s has {len(rows)}")
-        return _full(rows, len(constant), context, key in NORMALISED)[first:end]
-
-    texcoords = tuple(attribute(f"texcoord{unit}", standing.texcoords[unit]) for unit in range(TEXTURE_UNITS))
-    return Vertices(
-        attribute("position", REST), attribute("color", standing.color), attribute("normal", standing.normal), texcoords
-    )
-
-
-# -- what a recording keeps --------------------------------------------------------------------------------------------
-def _full(rows: np.ndarray, width: int, context: Context, normalised: bool) -> np.ndarray:
-    """Return rows as read-only (V, width) of the context's precision; the same content is converted once."""
-    root = _root(rows)
-    if root.flags.writeable:
-        content: Any = hashlib.blake2b(np.ascontiguousarray(rows).data, digest_size=16).digest()
+    texcoord, color, normal, position = INTERLEAVED[format]
+    numbers, bytes_of_color = COLORS[color]
+    ends = np.cumsum([0, 4 * texcoord, bytes_of_color, 4 * normal, 4 * position]).tolist()
+    step = stride or ends[-1]
+    if context.arrays.array_buffer:
+        places = [offset_of(pointer) + end for end in ends[:4]]
     else:
-        content = (id(root), rows.__array_interface__["data"][0], rows.strides)
-    key = (content, rows.shape, rows.dtype, width, normalised)
-    if key not in context.arrays.converted:
-        # the root is kept beside the result, so that its id stays its own
-        context.arrays.converted[key] = (_converted(rows, width, context, normalised), root)
-    return context.arrays.converted[key][0]
+        memory = _memory(pointer)
+        places = [memory[end:] for end in ends[:4]]
+    color_type = gl.GL_UNSIGNED_BYTE if color == "4ub" else gl.GL_FLOAT
+    for array, size, point in (
+        (gl.GL_TEXTURE_COORD_ARRAY, texcoord, lambda: glTexCoordPointer(texcoord, gl.GL_FLOAT, step, places[0])),
+        (gl.GL_COLOR_ARRAY, numbers, lambda: glColorPointer(numbers, color_type, step, places[1])),
+        (gl.GL_NORMAL_ARRAY, normal, lambda: glNormalPointer(gl.GL_FLOAT, step, places[2])),
+        (gl.GL_VERTEX_ARRAY, position, lambda: glVertexPointer(position, gl.GL_FLOAT, step, places[3])),
+    ):
+        (glEnableClientState if size else glDisableClientState)(array)
+        if size:
+            point()
 
 
-def _root(rows: np.ndarray) -> np.ndarray:
-    """Return the array that owns the memory, as far as NumPy tells."""
-    while isinstance(rows.base, np.ndarray):
-        rows = rows.base
-    return rows
+def _memory(pointer: Any) -> memoryview:
+    """Return an array as bytes; numbers of another type are kept as they are, since a layout may mix types."""
+    values = np.array(pointer, np.float32) if isinstance(pointer, list | tuple) else pointer
+    return memoryview(values if isinstance(values, bytes) else np.ascontiguousarray(values).tobytes())
 
 
-def _converted(rows: np.ndarray, width: int, context: Context, normalised: bool) -> np.ndarray:
-    """Return rows with all their components: a missing fourth is 1, others 0."""
-    fits = rows.shape[1] == width and rows.dtype == context.real and rows.flags.c_contiguous
-    if fits and not _root(rows).flags.writeable:
-        return rows
-    full = np.empty((len(rows), width), context.real)
-    full[:] = REST[:width]
-    with np.errstate(over="ignore"):
-        if rows.dtype.kind in "iu" and normalised:
-            full[:, : rows.shape[1]] = rows / context.real(np.iinfo(rows.dtype).max)
-        else:
-            full[:, : rows.shape[1]] = rows
-    full.setflags(write=False)
-    return full
+def glPushClientAttrib(mask: int) -> None:
+    """Keep vertex arrays and pixel store until the matching pop."""
+    context = outside_begin("glPushClientAttrib")
+    if context is None:
+        return
+    if len(context.client_stack) == DEEPEST_CLIENT_ATTRIBUTES:
+        fail(gl.GL_STACK_OVERFLOW, "glPushClientAttrib", f"this stack holds {DEEPEST_CLIENT_ATTRIBUTES} entries")
+        return
+    arrays = replace(
+        context.arrays,
+        enabled=set(context.arrays.enabled),
+        pointers=dict(context.arrays.pointers),
+        layouts=dict(context.arrays.layouts),
+        offsets=dict(context.arrays.offsets),
+    )
+    context.client_stack.append((int(mask), arrays, context.pack_store, context.unpack_store))
+
+
+def glPopClientAttrib() -> None:
+    """Bring back what the last push kept."""
+    context = outside_begin("glPopClientAttrib")
+    if context is None:
+        return
+    if not context.client_stack:
+        fail(gl.GL_STACK_UNDERFLOW, "glPopClientAttrib", "there was no glPushClientAttrib before it")
+        return
+    mask, arrays, pack_store, unpack_store = context.client_stack.pop()
+    if mask & gl.GL_CLIENT_VERTEX_ARRAY_BIT:
+        context.arrays = replace(arrays, converted=context.arrays.converted)
+    if mask & gl.GL_CLIENT_PIXEL_STORE_BIT:
+        context.pack_store, context.unpack_store = pack_store, unpack_store
 
 
 __all__ = spelled_like_gl(globals())

@@ -21,7 +21,7 @@ from softshadow.gl.vertex_format import give
 
 
 # -- colour ------------------------------------------------------------------------------------------------------------
-def _set_color(red: float, green: float, blue: float, *alpha: float) -> None:
+def set_color(red: float, green: float, blue: float, *alpha: float) -> None:
     context = current()
     kept = give(context, "color", 3 + len(alpha))
     if not alpha:
@@ -34,37 +34,37 @@ def _set_color(red: float, green: float, blue: float, *alpha: float) -> None:
 @in_lists
 def glColor3f(red: float, green: float, blue: float) -> None:
     """Set the current colour, alpha 1."""
-    _set_color(red, green, blue)
+    set_color(red, green, blue)
 
 
 @in_lists
 def glColor4f(red: float, green: float, blue: float, alpha: float) -> None:
     """Set the current colour."""
-    _set_color(red, green, blue, alpha)
+    set_color(red, green, blue, alpha)
 
 
 @in_lists
 def glColor3fv(v: Any) -> None:
     """Set the current colour from a vector, alpha 1."""
-    _set_color(*vector(v, 3))
+    set_color(*vector(v, 3))
 
 
 @in_lists
 def glColor4fv(v: Any) -> None:
     """Set the current colour from a vector."""
-    _set_color(*vector(v, 4))
+    set_color(*vector(v, 4))
 
 
 @in_lists
 def glColor3d(red: float, green: float, blue: float) -> None:
     """Set the current colour, alpha 1."""
-    _set_color(red, green, blue, 1.0)  # to Mesa a call with four numbers, as all of glColor3 but glColor3f
+    set_color(red, green, blue, 1.0)  # to Mesa a call with four numbers, as all of glColor3 but glColor3f
 
 
 @in_lists
 def glColor3dv(v: Any) -> None:
     """Set the current colour from a vector, alpha 1."""
-    _set_color(*vector(v, 3), 1.0)
+    set_color(*vector(v, 3), 1.0)
 
 
 glColor4d, glColor4dv = glColor4f, glColor4fv
@@ -76,22 +76,22 @@ def _calls_for(convert: Callable[[Any], float]) -> tuple[Callable[..., None], ..
     @in_lists
     def three(red: int, green: int, blue: int) -> None:
         """Set the current colour from integers, alpha 1."""
-        _set_color(convert(red), convert(green), convert(blue), 1.0)
+        set_color(convert(red), convert(green), convert(blue), 1.0)
 
     @in_lists
     def four(red: int, green: int, blue: int, alpha: int) -> None:
         """Set the current colour from integers."""
-        _set_color(convert(red), convert(green), convert(blue), convert(alpha))
+        set_color(convert(red), convert(green), convert(blue), convert(alpha))
 
     @in_lists
     def three_of_vector(v: Any) -> None:
         """Set the current colour from a vector of integers, alpha 1."""
-        _set_color(*vector(v, 3, convert), 1.0)
+        set_color(*vector(v, 3, convert), 1.0)
 
     @in_lists
     def four_of_vector(v: Any) -> None:
         """Set the current colour from a vector of integers."""
-        _set_color(*vector(v, 4, convert))
+        set_color(*vector(v, 4, convert))
 
     return three, four, three_of_vector, four_of_vector
 
@@ -105,7 +105,7 @@ glColor3ui, glColor4ui, glColor3uiv, glColor4uiv = _calls_for(from_unsigned_int)
 
 
 # -- normal ------------------------------------------------------------------------------------------------------------
-def _set_normal(x: float, y: float, z: float) -> None:
+def set_normal(x: float, y: float, z: float) -> None:
     give(current(), "normal", 3)
     current().current.normal = (float(x), float(y), float(z))
 
@@ -113,13 +113,13 @@ def _set_normal(x: float, y: float, z: float) -> None:
 @in_lists
 def glNormal3f(nx: float, ny: float, nz: float) -> None:
     """Set the current normal."""
-    _set_normal(nx, ny, nz)
+    set_normal(nx, ny, nz)
 
 
 @in_lists
 def glNormal3fv(v: Any) -> None:
     """Set the current normal from a vector."""
-    _set_normal(*vector(v, 3))
+    set_normal(*vector(v, 3))
 
 
 glNormal3d, glNormal3dv = glNormal3f, glNormal3fv
@@ -128,37 +128,37 @@ glNormal3d, glNormal3dv = glNormal3f, glNormal3fv
 @in_lists
 def glNormal3b(nx: int, ny: int, nz: int) -> None:
     """Set the current normal from bytes that stand for -1 to 1."""
-    _set_normal(from_byte(nx), from_byte(ny), from_byte(nz))
+    set_normal(from_byte(nx), from_byte(ny), from_byte(nz))
 
 
 @in_lists
 def glNormal3s(nx: int, ny: int, nz: int) -> None:
     """Set the current normal from shorts that stand for -1 to 1."""
-    _set_normal(from_short(nx), from_short(ny), from_short(nz))
+    set_normal(from_short(nx), from_short(ny), from_short(nz))
 
 
 @in_lists
 def glNormal3i(nx: int, ny: int, nz: int) -> None:
     """Set the current normal from ints that stand for -1 to 1."""
-    _set_normal(from_int(nx), from_int(ny), from_int(nz))
+    set_normal(from_int(nx), from_int(ny), from_int(nz))
 
 
 @in_lists
 def glNormal3bv(v: Any) -> None:
     """Set the current normal from a vector of bytes."""
-    _set_normal(*vector(v, 3, from_byte))
+    set_normal(*vector(v, 3, from_byte))
 
 
 @in_lists
 def glNormal3sv(v: Any) -> None:
     """Set the current normal from a vector of shorts."""
-    _set_normal(*vector(v, 3, from_short))
+    set_normal(*vector(v, 3, from_short))
 
 
 @in_lists
 def glNormal3iv(v: Any) -> None:
     """Set the current normal from a vector of ints."""
-    _set_normal(*vector(v, 3, from_int))
+    set_normal(*vector(v, 3, from_int))
 
 
 __all__ = spelled_like_gl(globals())

@@ -1,0 +1,246 @@
+"""Drawing from vertex arrays and buffer objects.
+
+A user's array is copied once per content, so that many draws of a recording share it; a read-only array that owns its
+memory is taken as it is.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from ctypes import c_uint
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import Context, current
+from softshadow.gl.buffers import content_from, offset_of
+from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.conversions import (
+    from_byte,
+    from_int,
+    from_short,
+    from_unsigned_byte,
+    from_unsigned_int,
+    from_unsigned_short,
+)
+from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.gl.immediate import A_MODE, MODES, add_vertex, can_draw, in_order
+from softshadow.gl.texture_coordinates import set_coordinate
+from softshadow.gl.vertex_arrays import TYPES, rows_of
+from softshadow.gl.vertex_attributes import set_color, set_normal
+from softshadow.gl.vertex_format import REST
+from softshadow.pipeline.commands import Vertices
+from softshadow.state import TEXTURE_UNITS
+
+INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
+AN_INDEX_TYPE = "GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT or GL_UNSIGNED_INT"
+NORMALISED = ("color", "normal")  # integers of these stand for 0 to 1 or -1 to 1
+CONVERSIONS: dict[type[np.generic], Callable[[Any], float]] = {  # of glArrayElement: those of glColor and glNormal
+    np.int8: from_byte, np.uint8: from_unsigned_byte, np.int16: from_short, np.uint16: from_unsigned_short,
+    np.int32: from_int, np.uint32: from_unsigned_int,
+}  # fmt: skip
+
+
+# -- drawing -----------------------------------------------------------------------------------------------------------
+def glDrawArrays(mode: int, first: int, count: int) -> None:
+    """Draw `count` vertices of the enabled arrays from `first` on."""
+    context = outside_begin("glDrawArrays")
+    if context is not None:
+        context.settle()
+    if context is None:
+        return
+    if count < 0:
+        fail(gl.GL_INVALID_VALUE, "glDrawArrays", f"count={count}: expected 0 or more")
+    elif is_one_of("glDrawArrays", "mode", mode, MODES, A_MODE) and can_draw(context, "glDrawArrays"):
+        vertices = _vertices(context, "glDrawArrays", int(first), int(first) + int(count))
+        _draw(context, int(mode), vertices, None)
+
+
+def glDrawElements(mode: int, count: int, type: int, indices: Any) -> None:
+    """Draw the vertices of the enabled arrays that `indices` name, or an offset into the bound buffer object."""
+    _draw_elements("glDrawElements", mode, count, type, indices)
+
+
+def glDrawRangeElements(mode: int, start: int, end: int, count: int, type: int, indices: Any) -> None:
+    """Draw as glDrawElements does, of whose indices one knows that they lie from `start` to `end`."""
+    if outside_begin("glDrawRangeElements") is None:
+        return
+    if c_uint(int(end)).value < c_uint(int(start)).value:
+        fail(gl.GL_INVALID_VALUE, "glDrawRangeElements", f"end={end}: expected {start} or more")
+    else:
+        _draw_elements("glDrawRangeElements", mode, count, type, indices)
+
+
+def glMultiDrawArrays(mode: int, first: Any, count: Any, drawcount: int) -> None:
+    """Draw `drawcount` primitives from the enabled arrays, each with its own first vertex and number of vertices."""
+    context, operation = outside_begin("glMultiDrawArrays"), "glMultiDrawArrays"
+    if context is None:
+        return
+    context.settle()
+    firsts, counts = np.ravel(first)[:drawcount].tolist(), np.ravel(count)[: max(drawcount, 0)].tolist()
+    if drawcount < 0 or min(counts, default=0) < 0:
+        fail(gl.GL_INVALID_VALUE, operation, f"count={counts}, drawcount={drawcount}: expected 0 or more")
+    elif is_one_of(operation, "mode", mode, MODES, A_MODE) and can_draw(context, operation):
+        for begin, number in zip(firsts, counts, strict=True):
+            _draw(context, int(mode), _vertices(context, operation, int(begin), int(begin + number)), None)
+
+
+def _draw_elements(operation: str, mode: int, count: int, type: int, indices: Any) -> None:
+    context = outside_begin(operation)
+    if context is None:
+        return
+    context.settle()
+    if count < 0:
+        fail(gl.GL_INVALID_VALUE, operation, f"count={count}: expected 0 or more")
+        return
+    if not is_one_of(operation, "mode", mode, MODES, A_MODE):
+        return
+    if not is_one_of(operation, "type", type, INDEX_TYPES, AN_INDEX_TYPE) or not can_draw(context, operation):
+        return
+    owned = _owned_indices(context, operation, int(count), np.dtype(TYPES[type]), indices)
+    vertices = _vertices(context, operation, 0, int(owned.max()) + 1 if count else 0)
+    _draw(context, int(mode), vertices, owned)
+
+
+def _owned_indices(context: Context, operation: str, count: int, dtype: np.dtype, indices: Any) -> np.ndarray:
+    """Return indices that the caller cannot change, read-only int32.
+
+    Raises
+    ------
+    ValueError
+        There are fewer than `count`, or one is negative.
+    """
+    if context.arrays.element_buffer:
+        indices = content_from(context, context.arrays.element_buffer, offset_of(indices), dtype)
+    elif isinstance(indices, bytes | bytearray | memoryview):
+        indices = np.frombuffer(indices, dtype)
+    numbers = np.ravel(indices)[:count]
+    if len(numbers) < count:
+        raise ValueError(f"{operation}(count={count}): only {len(numbers)} indices are there")
+    owned = np.array(numbers, np.int32)
+    if count and owned.min() < 0:
+        raise ValueError(f"{operation}: index {owned.min()} is negative")
+    owned.setflags(write=False)
+    return owned
+
+
+def glArrayElement(i: int) -> None:
+    """Give the attributes of one vertex of the enabled arrays, and the vertex itself between glBegin and glEnd."""
+    context = current()
+    for key in sorted(context.arrays.enabled, key=lambda key: key == "position"):
+        rows = _rows_of_array(context, key)
+        if rows is None:
+            continue
+        if not 0 <= i < len(rows):
+            raise ValueError(f"glArrayElement(i={i}): the array of {key}s has {len(rows)}")
+        convert = CONVERSIONS.get(rows.dtype.type, float) if key in NORMALISED else float
+        _give(key, [convert(number) for number in rows[i].tolist()])
+
+
+@in_lists
+def _give(key: str, values: list[float]) -> None:
+    if key == "position":
+        add_vertex(current(), *values)
+    elif key == "color":
+        set_color(*values)
+    elif key == "normal":
+        set_normal(*values)
+    else:
+        set_coordinate(int(key.removeprefix("texcoord")), *values)
+
+
+def _draw(context: Context, mode: int, vertices: Vertices | None, indices: np.ndarray | None) -> None:
+    """Draw now, or from the display list: the arrays are read when the list is made."""
+    if vertices is None or not len(vertices.position):
+        return
+    compiled = context.compiled_list
+    if compiled is not None:
+        kept = in_order(len(vertices.position)) if indices is None else indices
+        compiled.calls.append(lambda: current().draw(mode, vertices, kept))
+    if compiled is None or compiled.executes:
+        context.draw(mode, vertices, indices)
+
+
+def _vertices(context: Context, operation: str, first: int, end: int) -> Vertices | None:
+    """Return the vertices [first, end) of the enabled arrays; None without an array of positions.
+
+    Raises
+    ------
+    ValueError
+        An enabled array ends before `end`: GL would read memory that is not the array's.
+    """
+    if first < 0:
+        raise ValueError(f"{operation}: first={first}: expected 0 or more")
+    arrays, standing = context.arrays, context.current
+    if "position" not in arrays.enabled or _rows_of_array(context, "position") is None:
+        return None
+
+    def attribute(key: str, constant: tuple[float, ...]) -> np.ndarray:
+        rows = _rows_of_array(context, key) if key in arrays.enabled else None
+        if rows is None:
+            return np.broadcast_to(np.array(constant, context.real), (end - first, len(constant)))
+        if len(rows) < end:
+            raise ValueError(f"{operation}: vertex {end - 1} is asked for, the array of {key}s has {len(rows)}")
+        return _full(rows, len(constant), context, key in NORMALISED)[first:end]
+
+    texcoords = tuple(attribute(f"texcoord{unit}", standing.texcoords[unit]) for unit in range(TEXTURE_UNITS))
+    return Vertices(
+        attribute("position", REST), attribute("color", standing.color), attribute("normal", standing.normal), texcoords
+    )
+
+
+def _rows_of_array(context: Context, key: str) -> np.ndarray | None:
+    """Return the array of an attribute as rows, a user's or that in a buffer object."""
+    arrays = context.arrays
+    if key not in arrays.offsets:
+        return arrays.pointers.get(key)
+    name, offset = arrays.offsets[key]
+    layout = arrays.layout(key)
+    dtype = np.dtype(TYPES[layout.type])
+    content = np.ascontiguousarray(context.buffers[name].content[offset:])
+    return rows_of(
+        content.tobytes()[: len(content) // dtype.itemsize * dtype.itemsize], dtype, layout.size, layout.stride
+    )
+
+
+# -- what a recording keeps --------------------------------------------------------------------------------------------
+def _full(rows: np.ndarray, width: int, context: Context, normalised: bool) -> np.ndarray:
+    """Return rows as read-only (V, width) of the context's precision; the same content is converted once."""
+    root = _root(rows)
+    if root.flags.writeable:
+        content: Any = hashlib.blake2b(np.ascontiguousarray(rows).data, digest_size=16).digest()
+    else:
+        content = (id(root), rows.__array_interface__["data"][0], rows.strides)
+    key = (content, rows.shape, rows.dtype, width, normalised)
+    if key not in context.arrays.converted:
+        # the root is kept beside the result, so that its id stays its own
+        context.arrays.converted[key] = (_converted(rows, width, context, normalised), root)
+    return context.arrays.converted[key][0]
+
+
+def _root(rows: np.ndarray) -> np.ndarray:
+    """Return the array that owns the memory, as far as NumPy tells."""
+    while isinstance(rows.base, np.ndarray):
+        rows = rows.base
+    return rows
+
+
+def _converted(rows: np.ndarray, width: int, context: Context, normalised: bool) -> np.ndarray:
+    """Return rows with all their components: a missing fourth is 1, others 0."""
+    fits = rows.shape[1] == width and rows.dtype == context.real and rows.flags.c_contiguous
+    if fits and not _root(rows).flags.writeable:
+        return rows
+    full = np.empty((len(rows), width), context.real)
+    full[:] = REST[:width]
+    with np.errstate(over="ignore"):
+        if rows.dtype.kind in "iu" and normalised:
+            full[:, : rows.shape[1]] = rows / context.real(np.iinfo(rows.dtype).max)
+        else:
+            full[:, : rows.shape[1]] = rows
+    full.setflags(write=False)
+    return full
+
+
+__all__ = spelled_like_gl(globals())

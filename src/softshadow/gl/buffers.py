@@ -1,0 +1,162 @@
+"""Buffer objects: vertex arrays and indices that GL keeps."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import BufferObject, Context
+from softshadow.gl.calls import spelled_like_gl
+from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.gl.names import generate, listed, take
+
+TARGETS = {gl.GL_ARRAY_BUFFER: "array_buffer", gl.GL_ELEMENT_ARRAY_BUFFER: "element_buffer"}
+A_TARGET = "GL_ARRAY_BUFFER or GL_ELEMENT_ARRAY_BUFFER"
+USAGES = (
+    gl.GL_STREAM_DRAW, gl.GL_STREAM_READ, gl.GL_STREAM_COPY, gl.GL_STATIC_DRAW, gl.GL_STATIC_READ, gl.GL_STATIC_COPY,
+    gl.GL_DYNAMIC_DRAW, gl.GL_DYNAMIC_READ, gl.GL_DYNAMIC_COPY,
+)  # fmt: skip
+A_USAGE = "GL_STREAM_DRAW … GL_DYNAMIC_COPY"
+
+
+# -- objects -----------------------------------------------------------------------------------------------------------
+def glGenBuffers(n: int, buffers: Any = None) -> Any:
+    """Return unused buffer names: an int for n = 1, else an array."""
+    return generate("glGenBuffers", "buffer", n, buffers)
+
+
+def glBindBuffer(target: int, buffer: int) -> None:
+    """Make the pointer calls that follow, or the indices, offsets into a buffer object; 0 goes back to arrays."""
+    context = outside_begin("glBindBuffer")
+    if context is None or not is_one_of("glBindBuffer", "target", target, TARGETS, A_TARGET):
+        return
+    name = int(buffer)
+    if name and name not in context.buffers:
+        take(context, "buffer", name)
+        context.buffers[name] = BufferObject()
+    setattr(context.arrays, TARGETS[target], name)
+
+
+def glDeleteBuffers(*arguments: Any) -> None:
+    """Delete buffer objects: (name), (names) or (n, names). They leave the bindings and the vertex arrays."""
+    context = outside_begin("glDeleteBuffers")
+    if context is None:
+        return
+    for name in listed("glDeleteBuffers", arguments):
+        context.buffers.pop(name, None)
+        for binding in TARGETS.values():
+            if name and getattr(context.arrays, binding) == name:
+                setattr(context.arrays, binding, 0)
+        for key in [key for key, (held, _) in context.arrays.offsets.items() if held == name]:
+            del context.arrays.offsets[key]
+
+
+def glIsBuffer(buffer: int) -> bool:
+    """Return whether a name is that of a buffer object, which it becomes when it is first bound."""
+    context = outside_begin("glIsBuffer")
+    return context is not None and int(buffer) in context.buffers
+
+
+# -- contents ----------------------------------------------------------------------------------------------------------
+def glBufferData(target: int, size: Any, data: Any = None, usage: int | None = None) -> None:
+    """Give the bound buffer object its bytes: (target, size, data, usage) or (target, data, usage); None is zeros."""
+    if usage is None:
+        size, data, usage = None, size, data
+    given = None if data is None else _bytes(data)
+    count = int(size) if size is not None else 0 if given is None else len(given)
+    context, operation = outside_begin("glBufferData"), "glBufferData"
+    if context is None or (bound := _bound(context, operation, target)) is None:
+        return
+    if count < 0:
+        fail(gl.GL_INVALID_VALUE, operation, f"size={count}: expected 0 or more")
+    elif is_one_of(operation, "usage", usage, USAGES, A_USAGE):
+        if given is not None and len(given) < count:
+            raise ValueError(f"glBufferData: size={count}, but data has {len(given)} bytes")
+        bound.content = np.zeros(count, np.uint8) if given is None else given[:count].copy()
+        bound.usage = int(usage)
+
+
+def glBufferSubData(target: int, offset: int, size: Any = None, data: Any = None) -> None:
+    """Replace bytes of the bound buffer object: (target, offset, size, data) or (target, offset, data)."""
+    if data is None:
+        size, data = None, size
+    given = _bytes(data)
+    count = len(given) if size is None else int(size)
+    context = outside_begin("glBufferSubData")
+    bound = context and _bound(context, "glBufferSubData", target)
+    if bound and _is_inside("glBufferSubData", bound, int(offset), count):
+        bound.content = bound.content.copy()  # what a drawn array shares with it stays as it was drawn
+        bound.content[offset : offset + count] = given[:count]
+
+
+def glGetBufferSubData(target: int, offset: int, size: int, data: Any = None) -> Any:
+    """Return bytes of the bound buffer object, (size,) uint8."""
+    context = outside_begin("glGetBufferSubData")
+    bound = context and _bound(context, "glGetBufferSubData", target)
+    if not bound or not _is_inside("glGetBufferSubData", bound, int(offset), int(size)):
+        return None
+    found = bound.content[offset : offset + size].copy()
+    if data is not None:
+        np.asarray(data).reshape(-1).view(np.uint8)[:size] = found
+    return found
+
+
+def glGetBufferParameteriv(target: int, pname: int, params: Any = None) -> Any:
+    """Return size in bytes or usage of the bound buffer object."""
+    context, operation = outside_begin("glGetBufferParameteriv"), "glGetBufferParameteriv"
+    bound = context and _bound(context, operation, target)
+    if not bound:
+        return None
+    answers = {gl.GL_BUFFER_SIZE: len(bound.content), gl.GL_BUFFER_USAGE: bound.usage}
+    if not is_one_of(operation, "pname", pname, answers, "GL_BUFFER_SIZE or GL_BUFFER_USAGE"):
+        return None
+    if params is not None:
+        np.asarray(params)[:1] = answers[pname]
+    return answers[pname]
+
+
+def _bound(context: Context, operation: str, target: int) -> BufferObject | None:
+    if not is_one_of(operation, "target", target, TARGETS, A_TARGET):
+        return None
+    name = getattr(context.arrays, TARGETS[target])
+    if name:
+        return context.buffers[name]
+    fail(gl.GL_INVALID_OPERATION, operation, "no buffer object is bound")
+    return None
+
+
+def _is_inside(operation: str, bound: BufferObject, offset: int, size: int) -> bool:
+    if offset >= 0 and size >= 0 and offset + size <= len(bound.content):
+        return True
+    message = f"offset={offset}, size={size}: expected a range of the {len(bound.content)} bytes"
+    fail(gl.GL_INVALID_VALUE, operation, message)
+    return False
+
+
+def _bytes(data: Any) -> np.ndarray:
+    if isinstance(data, bytes | bytearray | memoryview):
+        return np.frombuffer(data, np.uint8)
+    return np.ascontiguousarray(data).reshape(-1).view(np.uint8)
+
+
+# -- offsets -----------------------------------------------------------------------------------------------------------
+def offset_of(pointer: Any) -> int:
+    """Return the offset that a pointer argument is while a buffer object is bound: None, an int, ctypes.c_void_p."""
+    value = pointer.value if isinstance(pointer, ctypes.c_void_p) else pointer
+    if value is None:
+        return 0
+    if isinstance(value, int | np.integer):
+        return int(value)
+    raise TypeError(f"pointer={pointer!r:.60}: a buffer object is bound, expected an offset (None, int, c_void_p)")
+
+
+def content_from(context: Context, name: int, offset: int, dtype: np.dtype) -> np.ndarray:
+    """Return a buffer object's content from an offset on, as numbers of a type; the rest of a number is left out."""
+    content = context.buffers[name].content[offset:]
+    return np.frombuffer(content.tobytes(), dtype, len(content) // dtype.itemsize)
+
+
+__all__ = spelled_like_gl(globals())
