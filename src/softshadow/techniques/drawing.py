@@ -188,6 +188,20 @@ def draw_polygons(gl: Any, polygons: np.ndarray) -> None:
     gl.glDisableClientState(gl.GL_VERTEX_ARRAY)
 
 
+@contextmanager
+def texture_attached(gl: Any, attachment: int, texture: int) -> Iterator[None]:
+    """Inside, draw into a texture: it is this attachment of a framebuffer object that has no other."""
+    framebuffer = gl.glGenFramebuffers(1)
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
+    gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, attachment, gl.GL_TEXTURE_2D, texture, 0)
+    if attachment == gl.GL_DEPTH_ATTACHMENT:
+        gl.glDrawBuffer(gl.GL_NONE)
+        gl.glReadBuffer(gl.GL_NONE)
+    yield
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+    gl.glDeleteFramebuffers(1, [framebuffer])
+
+
 # -- read-out ----------------------------------------------------------------------------------------------------------
 
 

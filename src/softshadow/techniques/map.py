@@ -39,6 +39,7 @@ from softshadow.techniques.drawing import (
     read_stencil,
     set_camera,
     set_material,
+    texture_attached,
     title_of,
     visibility_maps,
 )
@@ -196,14 +197,8 @@ def draw_casters_from(gl: Any, scene: Scene, camera: LightCamera, map_size: int)
 
 def draw_into(gl: Any, scene: Scene, camera: LightCamera, shadow_map: int, map_size: int) -> None:
     """Draw the map with the texture itself as the depth buffer."""
-    framebuffer = gl.glGenFramebuffers(1)
-    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
-    gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_DEPTH_ATTACHMENT, gl.GL_TEXTURE_2D, shadow_map, 0)
-    gl.glDrawBuffer(gl.GL_NONE)
-    gl.glReadBuffer(gl.GL_NONE)
-    draw_casters_from(gl, scene, camera, map_size)
-    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
-    gl.glDeleteFramebuffers(1, [framebuffer])
+    with texture_attached(gl, gl.GL_DEPTH_ATTACHMENT, shadow_map):
+        draw_casters_from(gl, scene, camera, map_size)
 
 
 def draw_and_copy(gl: Any, scene: Scene, camera: LightCamera, shadow_map: int, map_size: int) -> None:

@@ -23,6 +23,7 @@ from softshadow.techniques.drawing import (
     read_stencil,
     set_camera,
     set_material,
+    texture_attached,
     title_of,
 )
 from softshadow.techniques.flattened import draw_flattened, draw_the_casters
@@ -98,26 +99,22 @@ def shadow_texture(
     gl.glTexImage2D(
         gl.GL_TEXTURE_2D, 0, gl.GL_RGBA8, texture_size, texture_size, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, None
     )
-    framebuffer = gl.glGenFramebuffers(1)
-    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
-    gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, name, 0)
-    gl.glViewport(0, 0, texture_size, texture_size)
-    gl.glClearColor(1.0, 1.0, 1.0, 1.0)
-    gl.glClear(gl.GL_COLOR_BUFFER_BIT)
+    with texture_attached(gl, gl.GL_COLOR_ATTACHMENT0, name):
+        gl.glViewport(0, 0, texture_size, texture_size)
+        gl.glClearColor(1.0, 1.0, 1.0, 1.0)
+        gl.glClear(gl.GL_COLOR_BUFFER_BIT)
 
-    gl.glMatrixMode(gl.GL_PROJECTION)
-    gl.glLoadIdentity()
-    gl.glOrtho(0, 1, 0, 1, -1, 1)
-    gl.glMatrixMode(gl.GL_MODELVIEW)
-    gl.glLoadIdentity()
-    gl.glMultMatrixd(column_major(world_to_receiver(receiver)))
-    gl.glDisable(gl.GL_LIGHTING)
-    gl.glColor4f(1.0, 1.0, 1.0, 0.0)  # shadow is in alpha, which is tested; in colour it would fade the lit edge
-    draw_flattened(gl, scene, receiver, light, clip)
+        gl.glMatrixMode(gl.GL_PROJECTION)
+        gl.glLoadIdentity()
+        gl.glOrtho(0, 1, 0, 1, -1, 1)
+        gl.glMatrixMode(gl.GL_MODELVIEW)
+        gl.glLoadIdentity()
+        gl.glMultMatrixd(column_major(world_to_receiver(receiver)))
+        gl.glDisable(gl.GL_LIGHTING)
+        gl.glColor4f(1.0, 1.0, 1.0, 0.0)  # shadow is in alpha, which is tested; in colour it would fade the lit edge
+        draw_flattened(gl, scene, receiver, light, clip)
 
-    image = gl.glReadPixels(0, 0, texture_size, texture_size, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
-    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
-    gl.glDeleteFramebuffers(1, [framebuffer])
+        image = gl.glReadPixels(0, 0, texture_size, texture_size, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
     gl.glClearColor(*scene.background, 1.0)
     return name, image[:, :, 3].astype(np.float32) / 255
 
