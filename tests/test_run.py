@@ -299,6 +299,12 @@ def test_a_folder_gets_every_buffer_of_every_step(zfail, tmp_path):
     zfail.save(folder)  # its own files may be written again
 
 
+def test_a_path_without_an_ending_is_a_folder_though_it_has_no_slash(zfail, tmp_path):
+    assert (zfail.save(tmp_path / "steps") / "run.npz").is_file()
+    with pytest.raises(ValueError, match="a path that ends in /"):
+        zfail.save(str(tmp_path / "other"))
+
+
 def test_a_folder_with_one_foreign_file_in_the_way_is_left_as_it_was(zfail, tmp_path):
     (tmp_path / "state.txt").write_text("mine")
     with pytest.raises(ss.SoftShadowError, match="was not written by softshadow"):

@@ -1,5 +1,8 @@
 """The tour from the command line: progress on stderr, the page's path on stdout, all of it or nothing."""
 
+import os
+import signal
+import time
 from pathlib import Path
 
 import pytest
@@ -84,3 +87,15 @@ def test_tour_of_a_real_model_has_every_stop(model: str) -> None:
     assert f"--mesh {file}" in page
     for stop in STOPS:
         assert ss.load_run(f"t/{stop.name}/run.npz").shadow_mask.any()
+
+
+def test_tour_that_is_ended_leaves_nothing_behind(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def end(*_: object, **__: object) -> None:
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(1)
+
+    monkeypatch.setattr("softshadow.report.tour.run", end)
+    before = signal.getsignal(signal.SIGTERM)
+    assert ask("tour", *SMALL).exit_code == 143
+    assert list(here.iterdir()) == []
+    assert signal.getsignal(signal.SIGTERM) is before

@@ -1,13 +1,17 @@
 """The command line: ``softshadow COMMAND``. Data goes to stdout, talk to stderr.
 
-Exit codes: 0 done, 1 a check failed, 2 wrong usage, 3 bad input, 130 interrupted. Whatever is slow to import is
-imported inside the commands, so that ``--help`` answers at once.
+Exit codes: 0 done, 1 a check failed, 2 wrong usage, 3 bad input, 130 interrupted, 143 ended by SIGTERM. Whatever is
+slow to import is imported inside the commands, so that ``--help`` answers at once.
 """
 
 from __future__ import annotations
 
 import errno
+import signal
 import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import click
@@ -20,7 +24,7 @@ from softshadow.cli.runs import pixel, render, steps
 from softshadow.cli.tours import tour
 from softshadow.errors import SoftShadowError
 
-BAD_INPUT, INTERRUPTED = 3, 130
+BAD_INPUT, INTERRUPTED, ENDED = 3, 130, 143
 SPELLED_HERE = {"force=True": "--force"}  # what the package's messages call by the name of an argument
 
 
@@ -38,7 +42,8 @@ class Commands(click.Group):
 
     def invoke(self, ctx: click.Context) -> Any:
         try:
-            return super().invoke(ctx)
+            with cleaning_up():
+                return super().invoke(ctx)
         except (SoftShadowError, ValueError, TypeError, OSError, MemoryError) as error:
             # a pipe that was closed, as by head, is no mistake: click ends quietly
             if ctx.params.get("traceback") or getattr(error, "errno", None) == errno.EPIPE:
@@ -47,6 +52,23 @@ class Commands(click.Group):
         except KeyboardInterrupt:
             click.echo("interrupted", err=True)
             raise click.exceptions.Exit(INTERRUPTED) from None
+
+
+@contextmanager
+def cleaning_up() -> Iterator[None]:
+    """Inside, SIGTERM ends the command as Ctrl-C does: with nothing half-written left behind."""
+
+    def end(*_: Any) -> None:
+        sys.exit(ENDED)
+
+    if threading.current_thread() is not threading.main_thread():  # only that one may listen
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _said(error: BaseException) -> str:

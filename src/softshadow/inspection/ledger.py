@@ -10,7 +10,11 @@ from softshadow import pipeline
 from softshadow.context import Frame
 from softshadow.pipeline import VERDICTS
 from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.fragment_ops import SCISSORED
 from softshadow.pipeline.geometry import primitive_count
+
+# rasterization ends at the scissor box: outside it there is no fragment to count
+COUNTED = tuple(verdict for verdict in VERDICTS if verdict != VERDICTS[SCISSORED])
 
 
 @dataclass
@@ -18,13 +22,14 @@ class Counts:
     """What one step cost.
 
     `triangles` are those handed in, before clipping and culling, lines and points among them; `fragments` has one count
-    per verdict; a stencil update is a stencil value that changed. Draws into framebuffer objects count, too.
+    per verdict but the scissor's, outside whose box none are made; a stencil update is a stencil value that changed.
+    Draws into framebuffer objects count, too.
     """
 
     title: str
     draws: int = 0
     triangles: int = 0
-    fragments: dict[str, int] = field(default_factory=lambda: dict.fromkeys(VERDICTS, 0))
+    fragments: dict[str, int] = field(default_factory=lambda: dict.fromkeys(COUNTED, 0))
     stencil_updates: int = 0
 
     @property
@@ -89,7 +94,8 @@ def ledger_of(frame: Frame) -> Ledger:
                 counts.triangles += primitive_count(command)
             else:
                 command.apply(storage)
-        counts.fragments = dict(zip(VERDICTS, verdicts.tolist(), strict=False))  # the last number counts updates
+        by_verdict = dict(zip(VERDICTS, verdicts.tolist(), strict=False))  # the last number counts updates
+        counts.fragments = {verdict: by_verdict[verdict] for verdict in COUNTED}
         counts.stencil_updates = int(verdicts[-1])
         counted.append(counts)
         first = end

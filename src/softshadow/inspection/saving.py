@@ -52,8 +52,12 @@ def save(run: Run, path: str | os.PathLike[str], force: bool) -> Path:
 
 
 def is_folder(path: str | os.PathLike[str]) -> bool:
-    """Return whether a path names a folder: there is one, or it ends as the name of one."""
-    return str(path).endswith(("/", os.sep)) or Path(path).is_dir()
+    """Return whether a path names a folder: there is one, or it ends as the name of one.
+
+    A `Path` has lost the slash that it was made with, so one without an ending is a folder.
+    """
+    lost = isinstance(path, Path) and not path.suffix and not path.exists()
+    return lost or str(path).endswith(("/", os.sep)) or Path(path).is_dir()
 
 
 def refuse(path: str | os.PathLike[str], force: bool) -> None:
