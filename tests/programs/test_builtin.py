@@ -85,6 +85,19 @@ def test_shadow_map_leaves_what_the_light_does_not_see_lit():
     assert lit((0.5, 0.5, 0.9, 0))
 
 
+def texture_of(depths: np.ndarray, filter_name: int) -> Any:
+    """Return the calls that bind a depth texture (16, 16)."""
+
+    def setup(on: Any) -> None:
+        on.glBindTexture(on.GL_TEXTURE_2D, on.glGenTextures(1))
+        formats = on.GL_DEPTH_COMPONENT24, 16, 16, 0, on.GL_DEPTH_COMPONENT, on.GL_FLOAT
+        on.glTexImage2D(on.GL_TEXTURE_2D, 0, *formats, depths)
+        on.glTexParameteri(on.GL_TEXTURE_2D, on.GL_TEXTURE_MIN_FILTER, filter_name)
+        on.glTexParameteri(on.GL_TEXTURE_2D, on.GL_TEXTURE_MAG_FILTER, filter_name)
+
+    return setup
+
+
 @pytest.mark.mesa
 @pytest.mark.parametrize("filter_name", [gl.GL_NEAREST, gl.GL_LINEAR], ids=gl.token_name)
 def test_shadow_map_is_its_glsl_twin(filter_name):
@@ -94,17 +107,10 @@ def test_shadow_map_is_its_glsl_twin(filter_name):
         light_matrix = rng.normal(0, 0.5, (4, 4)).astype(np.float32)
         light_matrix[:, 3] += (0.5, 0.5, 0.5, 1.5)
 
-        def setup(on: Any, depths: np.ndarray = depths) -> None:
-            on.glBindTexture(on.GL_TEXTURE_2D, on.glGenTextures(1))
-            formats = on.GL_DEPTH_COMPONENT24, 16, 16, 0, on.GL_DEPTH_COMPONENT, on.GL_FLOAT
-            on.glTexImage2D(on.GL_TEXTURE_2D, 0, *formats, depths)
-            on.glTexParameteri(on.GL_TEXTURE_2D, on.GL_TEXTURE_MIN_FILTER, filter_name)
-            on.glTexParameteri(on.GL_TEXTURE_2D, on.GL_TEXTURE_MAG_FILTER, filter_name)
-
         uniforms = {"lightMatrix": light_matrix, "bias": 0.01, "ambient": (0.3, 0.2, 0.1, 1.0)}
         ours = shaded("shadow-map", given, {**uniforms, "shadowMap": depth_map(np.floor(depths * D24), filter_name)})
         assert 0 < (ours != given.color).any(axis=1).mean() < 1
-        assert same_bits(ours, shaded_on_mesa("shadow-map", given, uniforms, setup))
+        assert same_bits(ours, shaded_on_mesa("shadow-map", given, uniforms, texture_of(depths, filter_name)))
 
 
 @pytest.mark.mesa
@@ -117,6 +123,32 @@ def test_blinn_phong_is_its_glsl_twin(light, shininess):
     assert same_bits(
         shaded("blinn-phong", given, uniforms), shaded_on_mesa("blinn-phong", given, uniforms, lambda on: None)
     )
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize("name", ["blinn-phong-shadowed", "blinn-phong-shadowed-5x5"])
+@pytest.mark.parametrize("filter_name", [gl.GL_NEAREST, gl.GL_LINEAR], ids=gl.token_name)
+def test_blinn_phong_under_a_shadow_map_is_its_glsl_twin(name, filter_name):
+    for seed in range(3):
+        rng, given = np.random.default_rng(seed), points(seed)
+        depths = rng.random((16, 16), np.float32)
+        light_matrix = rng.normal(0, 0.5, (4, 4)).astype(np.float32)
+        light_matrix[:, 3] += (0.5, 0.5, 0.5, 1.5)
+        colors = {"ambient": (0.1, 0.2, 0.3), "diffuse": (0.6, 0.5, 0.4), "specular": (0.3, 0.4, 0.5)}
+        light = {"lightPosition": (1.0, 2.0, 3.0, 1.0), "shininess": 10.0}
+        uniforms = {**colors, **light, "lightMatrix": light_matrix, "bias": 0.01, "texel": 1 / 16}
+        ours = shaded(name, given, {**uniforms, "shadowMap": depth_map(np.floor(depths * D24), filter_name)})
+        without = shaded("blinn-phong", given, {**colors, **light})
+        assert 0 < (ours != without).any(axis=1).mean() < 1
+        assert same_bits(ours, shaded_on_mesa(name, given, uniforms, texture_of(depths, filter_name)))
+
+
+def test_what_no_map_shadows_is_lit_as_without_one():
+    given = points(3)
+    light = {"lightPosition": (1.0, 2.0, 3.0, 1.0), "shininess": 10.0, "specular": (0.3, 0.4, 0.5)}
+    far = depth_map(np.full((1, 1), D24, np.float32))
+    lit = shaded("blinn-phong-shadowed", given, {**light, "shadowMap": far, "bias": 1.0})
+    np.testing.assert_array_equal(lit, shaded("blinn-phong", given, light))
 
 
 def test_an_unknown_program_names_the_nearest():

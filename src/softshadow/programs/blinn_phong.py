@@ -83,19 +83,26 @@ def normalize(v):
 
 
 @kernel
+def lit_by(inputs, n, light, shininess):
+    """Return (facing, highlight) of pixel n: the weights of the diffuse and of the specular light."""
+    eye = (inputs[n, 4], inputs[n, 5], inputs[n, 6])
+    normal = normalize((inputs[n, 7], inputs[n, 8], inputs[n, 9]))
+    w = light[3]
+    towards_light = normalize((light[0] - w * eye[0], light[1] - w * eye[1], light[2] - w * eye[2]))
+    view = normalize(eye)
+    halfway = normalize((towards_light[0] - view[0], towards_light[1] - view[1], towards_light[2] - view[2]))
+    facing = max(dot(normal, towards_light), ZERO)
+    highlight = ZERO
+    if facing > ZERO:
+        highlight = power(max(dot(normal, halfway), ZERO), shininess)
+    return facing, highlight
+
+
+@kernel
 def light_pixels(inputs, light, ambient, diffuse, specular, shininess, out):
     """Light pixels with inputs (N, 10): color, eye position, normal."""
     for n in range(len(inputs)):
-        eye = (inputs[n, 4], inputs[n, 5], inputs[n, 6])
-        normal = normalize((inputs[n, 7], inputs[n, 8], inputs[n, 9]))
-        w = light[3]
-        towards_light = normalize((light[0] - w * eye[0], light[1] - w * eye[1], light[2] - w * eye[2]))
-        view = normalize(eye)
-        halfway = normalize((towards_light[0] - view[0], towards_light[1] - view[1], towards_light[2] - view[2]))
-        facing = max(dot(normal, towards_light), ZERO)
-        highlight = ZERO
-        if facing > ZERO:
-            highlight = power(max(dot(normal, halfway), ZERO), shininess)
+        facing, highlight = lit_by(inputs, n, light, shininess)
         for c in range(3):
             out[n, c] = inputs[n, c] * (ambient[c] + facing * diffuse[c]) + highlight * specular[c]
         out[n, 3] = inputs[n, 3]

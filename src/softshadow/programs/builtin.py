@@ -8,7 +8,8 @@ def load() -> None:
     """Register the built-in programs; their kernels compile where they are first drawn with."""
     from softshadow.programs import register
     from softshadow.programs.blinn_phong import BLINN_PHONG
+    from softshadow.programs.blinn_phong_shadowed import BLINN_PHONG_SHADOWED, BLINN_PHONG_SHADOWED_5X5
     from softshadow.programs.shadow_map import SHADOW_MAP
 
-    register(BLINN_PHONG)
-    register(SHADOW_MAP)
+    for program in (BLINN_PHONG, SHADOW_MAP, BLINN_PHONG_SHADOWED, BLINN_PHONG_SHADOWED_5X5):
+        register(program)
