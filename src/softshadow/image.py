@@ -87,10 +87,11 @@ FORMATS: dict[int, Format] = {
     gl.GL_DEPTH_COMPONENT32F: D32F,
     gl.GL_DEPTH_STENCIL: D24,  # with a stencil plane beside it, see `Image.new`
     gl.GL_DEPTH24_STENCIL8: D24,
+    gl.GL_DEPTH32F_STENCIL8: D32F,
     gl.GL_STENCIL_INDEX: STENCIL8,
     gl.GL_STENCIL_INDEX8: STENCIL8,
 }
-WITH_STENCIL = (gl.GL_DEPTH_STENCIL, gl.GL_DEPTH24_STENCIL8)
+WITH_STENCIL = (gl.GL_DEPTH_STENCIL, gl.GL_DEPTH24_STENCIL8, gl.GL_DEPTH32F_STENCIL8)
 
 
 def storage_format(internal_format: int, type: int = gl.GL_FLOAT) -> Format:

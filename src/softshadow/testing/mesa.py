@@ -108,17 +108,9 @@ def run_on_mesa(
     width, height = size
     if not (1 <= width <= LARGEST_SIDE and 1 <= height <= LARGEST_SIDE):
         raise ValueError(f"size={size!r}: width and height must be between 1 and {LARGEST_SIDE}")
-    request = {
-        "program": _pickled(program),
-        "size": (int(width), int(height)),
-        "raise_errors": raise_errors,
-        "path": [entry or os.getcwd() for entry in sys.path],
-    }
+    request = {"task": "run", "raise_errors": raise_errors, **program_request(program, (int(width), int(height)))}
     with _lock:
-        answer = _worker(driver).ask(pickle.dumps(request), timeout)
-    if "failure" in answer:
-        raise _failure(answer["failure"])
-    result: ProgramResult = answer["result"]
+        result: ProgramResult = _worker(driver).ask(request, timeout)
     return result
 
 
@@ -133,6 +125,11 @@ def check(program: Any, size: Any) -> None:
         raise TypeError(f"program={program!r}: expected a function program(gl), not what it returned")
     if not isinstance(size, tuple | list) or len(size) != 2:
         raise TypeError(f"size={size!r}: expected (width, height)")
+
+
+def program_request(program: Callable[[Any], Any], size: tuple[int, int]) -> dict[str, Any]:
+    """Return what a request to a worker says about a program: itself, the window, where its modules are."""
+    return {"program": _pickled(program), "size": size, "path": [entry or os.getcwd() for entry in sys.path]}
 
 
 def _pickled(program: Callable[[Any], Any]) -> bytes:
@@ -173,16 +170,16 @@ def _failure(failure: dict[str, Any]) -> Exception:
 
 
 class Worker:
-    """One Mesa process and the pipes to it."""
+    """One Mesa process and the pipes to it; `rasterizer_threads` 0: llvmpipe draws on the thread that calls it."""
 
-    def __init__(self, driver: str) -> None:
+    def __init__(self, driver: str, rasterizer_threads: int = 0) -> None:
         environment = {
             **os.environ,
             "PYTHONPATH": os.pathsep.join(entry or os.getcwd() for entry in sys.path),
             "PYOPENGL_PLATFORM": "osmesa",
             "GALLIUM_DRIVER": driver,
             "GALLIUM_OVERRIDE_CPU_CAPS": "sse4.1",  # no fused multiply-add
-            "LP_NUM_THREADS": "0",
+            "LP_NUM_THREADS": str(rasterizer_threads),
         }
         self.driver = driver
         self.programs = 0
@@ -201,13 +198,21 @@ class Worker:
             self.stop()
             raise MesaError(f"Mesa does not start ({INSTALL}):\n{self.introduction['failed']}")
 
-    def ask(self, request: bytes, timeout: float) -> dict[str, Any]:
-        """Return the answer to a request; without one, end the process: a late answer would be taken for the next."""
+    def ask(self, request: dict[str, Any], timeout: float) -> Any:
+        """Return the answer to a request; without one, end the process: a late answer would be taken for the next.
+
+        Raises
+        ------
+        MesaError, Exception         as `run_on_mesa`
+        """
         self.programs += 1
         assert self.process.stdin is not None
         with contextlib.suppress(OSError):  # it has ended: the missing answer says so
-            write_message(self.process.stdin, request)
-        return self._receive(timeout)
+            write_message(self.process.stdin, pickle.dumps(request))
+        answer = self._receive(timeout)
+        if "failure" in answer:
+            raise _failure(answer["failure"])
+        return answer["result"]
 
     def _receive(self, timeout: float) -> dict[str, Any]:
         try:

@@ -17,7 +17,8 @@ from typing import Any
 import numpy as np
 
 from softshadow.testing.messages import read_message, write_message
-from softshadow.testing.result import read_result
+from softshadow.testing.result import ProgramResult, read_result
+from softshadow.testing.timing import Timing, read_buffers, timed
 
 ERROR_NAMES = {
     0x0500: "GL_INVALID_ENUM",
@@ -86,20 +87,12 @@ def end_primitive() -> None:
 
 
 def answer_request(request: dict[str, Any]) -> bytes:
-    """Return the pickled answer: buffers and the returned value, or what the program raised."""
+    """Return the pickled answer: the task's result, or what the program raised."""
     import cloudpickle
 
-    sys.path[:] = request["path"]
     errors: list[tuple[str, int]] = []
     try:
-        program: Callable[[Any], Any] = pickle.loads(request["program"])
-        gl = fresh_context(request["size"], request["raise_errors"])
-        errors = gl.errors
-        returned = program(gl)
-        end_primitive()
-        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
-        gl.glReadBuffer(gl.GL_FRONT)  # an OSMesa context has no back buffer
-        result = read_result(gl, request["size"], returned, tuple(errors))
+        result = TASKS[request["task"]](request, errors)
         try:
             return cloudpickle.dumps({"result": result})
         except Exception as error:
@@ -117,6 +110,47 @@ def answer_request(request: dict[str, Any]) -> bytes:
             with suppress(Exception):
                 failure["exception"] = cloudpickle.dumps(error)
         return pickle.dumps({"failure": failure})
+
+
+def run(request: dict[str, Any], errors: list[tuple[str, int]]) -> ProgramResult:
+    """Run a program in a fresh context and return its buffers; GL errors are appended to `errors`."""
+    sys.path[:] = request["path"]
+    program: Callable[[Any], Any] = pickle.loads(request["program"])
+    gl = fresh_context(request["size"], request["raise_errors"])
+    gl.errors = errors
+    returned = program(gl)
+    end_primitive()
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+    gl.glReadBuffer(gl.GL_FRONT)  # an OSMesa context has no back buffer
+    return read_result(gl, request["size"], returned, tuple(errors))
+
+
+# -- timed frames ------------------------------------------------------------------------------------------------------
+_frames: list[tuple[Any, Callable[[], Any]]] = []  # the namespace and the frame that tasks after "prepare" are about
+
+
+def prepare(request: dict[str, Any], errors: list[tuple[str, int]]) -> Timing:
+    """Call a program in a fresh context; what it returns draws the frames that follow."""
+    sys.path[:] = request["path"]
+    program: Callable[[Any], Any] = pickle.loads(request["program"])
+    gl = fresh_context(request["size"], raise_errors=True)
+    frame, taken = timed(gl, lambda: program(gl))
+    _frames[:] = [(gl, frame)]
+    return taken
+
+
+def time_frames(request: dict[str, Any], errors: list[tuple[str, int]]) -> list[Timing]:
+    """Draw frames, and return what each took."""
+    gl, frame = _frames[0]
+    return [timed(gl, frame)[1] for _ in range(request["repeats"])]
+
+
+def read_frame(request: dict[str, Any], errors: list[tuple[str, int]]) -> dict[str, np.ndarray]:
+    """Return the buffers of the framebuffer that is bound."""
+    return read_buffers(_frames[0][0], request["size"])
+
+
+TASKS = {"run": run, "prepare": prepare, "time": time_frames, "read": read_frame}
 
 
 def describe(error: BaseException) -> str:
