@@ -26,6 +26,7 @@ ASKED = {
     "scenes": [],
     "listings": [],
     "doctor": [],
+    "bench": ["w5", "--rounds", "1", "--size", "16x12"],
 }
 
 
@@ -42,7 +43,8 @@ def test_line_of_the_page_runs(line: str) -> None:
     program, command, *arguments = shlex.split(line.split(" > ")[0])
     assert program == "softshadow"
     # later sizes win; the pixels are those of the full size
-    done(command, *arguments, *(["--size", "48x36"] if command in ("tour", "render", "steps") else []))
+    sized = command in ("tour", "render", "steps") or (command == "bench" and arguments)
+    done(command, *arguments, *(["--size", "48x36"] if sized else []))
 
 
 def test_every_command_is_on_the_page() -> None:
@@ -64,7 +66,8 @@ def test_keys_of_the_json_are_those_of_the_page(command: str) -> None:
     shared = SHARED if command in ("render", "steps", "pixel") else {"schema"}
     assert set(answer) == shared | set(re.findall(r"`(.*?)`", keys))
     if keys_of_rows:
-        assert set(answer[command][0]) == set(re.findall(r"`(.*?)`", keys_of_rows))
+        rows = answer[re.findall(r"`(.*?)`", keys)[-1]]
+        assert set(rows[0]) == set(re.findall(r"`(.*?)`", keys_of_rows))
 
 
 def test_picture_of_the_readme_is_made_by_the_command_beside_it() -> None:

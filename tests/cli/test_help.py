@@ -16,7 +16,10 @@ from softshadow.cli import main
 
 COMMANDS = list(main.commands)
 SLOW = ("warmup",)  # compiles every state of every technique
-SMALL = {"tour": ["--size", "48x36"], "render": ["--size", "48x36"], "steps": ["--size", "48x36"]}
+SMALL = {
+    **{command: ["--size", "48x36"] for command in ("tour", "render", "steps")},
+    "bench": ["--size", "48x36", "--rounds", "1"],
+}
 HEAVY = ("numpy", "numba", "trimesh", "PIL", "pydantic", "jinja2", "rich")
 
 

@@ -17,6 +17,7 @@ from typing import Any
 import click
 
 import softshadow
+from softshadow.cli.bench import bench
 from softshadow.cli.listings import listings
 from softshadow.cli.lists import scenes, techniques
 from softshadow.cli.machine import doctor, warmup
@@ -89,7 +90,7 @@ def main(traceback: bool) -> None:
     """Real-time shadow algorithms, step by step, on a software rasterizer whose every pixel explains itself."""
 
 
-for command in (tour, render, steps, pixel, techniques, scenes, listings, warmup, doctor):
+for command in (tour, render, steps, pixel, techniques, scenes, listings, bench, warmup, doctor):
     main.add_command(command)
 
 

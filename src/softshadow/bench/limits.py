@@ -1,0 +1,65 @@
+"""What the machine can do: memory bandwidth, and the plainest loop that tests depth and updates a stencil value.
+
+No rasterizer can be faster than these, so a workload's share of them says what is left to gain.
+
+References: McCalpin 1995, "Memory bandwidth and machine balance in current high performance computers" (triad).
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from softshadow.bench.results import Limits
+from softshadow.jit import kernel
+
+TRIAD_ELEMENTS = 1 << 23  # float32, three arrays of 32 MiB: more than a core's share of any cache
+STENCIL_PIXELS = 1 << 14  # 80 KiB of depth and stencil: fits into a core's second-level cache
+STENCIL_SWEEPS = 2000
+ROUNDS = 5
+BYTES_PER_ELEMENT = 12  # two read, one written
+
+
+@kernel
+def triad(a, b, c, scale):
+    """Write a = b + scale c."""
+    for i in range(len(a)):
+        a[i] = b[i] + scale * c[i]
+
+
+@kernel
+def stencil_sweeps(depth, stencil, z, sweeps):
+    """Count up where z passes under GL_LESS, `sweeps` times over all pixels; z moves, so that no sweep is left out."""
+    for sweep in range(sweeps):
+        z_now = z[sweep & 1]
+        for i in range(len(depth)):
+            stencil[i] = stencil[i] + (1 if z_now < depth[i] else 0)
+
+
+def measure_limits(threads: int) -> Limits:
+    """Return the limits with a number of threads that all work at once, each on arrays of its own."""
+    random = np.random.default_rng(0)
+    share = TRIAD_ELEMENTS // threads
+    arrays = [[np.ones(share, np.float32) for _ in range(3)] for _ in range(threads)]
+    planes = [(random.random(STENCIL_PIXELS, np.float32), np.zeros(STENCIL_PIXELS, np.uint8)) for _ in range(threads)]
+    z = np.array([0.4, 0.6], np.float32)
+    scale = np.float32(3.0)
+    seconds = side_by_side(threads, lambda k: triad(*arrays[k], scale))
+    triad_rate = BYTES_PER_ELEMENT * share * threads / seconds
+    seconds = side_by_side(threads, lambda k: stencil_sweeps(*planes[k], z, STENCIL_SWEEPS))
+    return Limits(threads, triad_rate, STENCIL_PIXELS * STENCIL_SWEEPS * threads / seconds)
+
+
+def side_by_side(threads: int, work: Callable[[int], None]) -> float:
+    """Return the fewest seconds that `threads` calls take side by side: what the machine can, not what it did."""
+    with ThreadPoolExecutor(threads) as pool:
+        list(pool.map(work, range(threads)))
+        taken = []
+        for _ in range(ROUNDS):
+            start = time.perf_counter()
+            list(pool.map(work, range(threads)))
+            taken.append(time.perf_counter() - start)
+    return min(taken)

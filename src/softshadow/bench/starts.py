@@ -1,0 +1,61 @@
+"""How long the first frame takes in a process of its own: with nothing compiled, and with everything in the cache.
+
+Run as ``python -m softshadow.bench.starts WORKLOAD WxH`` it is that process, and prints its seconds as JSON.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+from softshadow.bench.workload import Workload
+
+PARTS = ("process", "imports", "prepare", "first frame")
+
+
+def measure_starts(workload: Workload) -> dict[str, float]:
+    """Return seconds until the first frame is there.
+
+    Returns
+    -------
+    dict      "cold" (kernels have to be compiled) and "warm" (they are in the cache), each with the whole process and
+              with its parts: "cold process", "cold imports", "cold prepare", "cold first frame", "warm process" ...
+
+    Raises
+    ------
+    subprocess.CalledProcessError      the process failed
+    """
+    width, height = workload.size
+    command = [sys.executable, "-m", __name__, workload.name, f"{width}x{height}"]
+    found: dict[str, float] = {}
+    with tempfile.TemporaryDirectory() as folder:
+        environment = {**os.environ, "NUMBA_CACHE_DIR": folder}
+        for name in ("cold", "warm"):
+            start = time.perf_counter()
+            answer = subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout
+            seconds = {"process": time.perf_counter() - start, **json.loads(answer.splitlines()[-1])}
+            found.update({f"{name} {part}": seconds[part] for part in PARTS})
+    return found
+
+
+def main(name: str, size: str) -> None:
+    """Draw the first frame of a workload, and print what it took."""
+    start = time.perf_counter()
+    from softshadow import gl
+    from softshadow.bench.workloads import get
+    from softshadow.testing.timing import timed
+
+    width, height = map(int, size.split("x"))
+    imports = time.perf_counter() - start
+    gl.create_context(width, height)
+    frame, prepare = timed(gl, lambda: get(name).resized((width, height)).program(gl))
+    _, first = timed(gl, frame)
+    print(json.dumps({"imports": imports, "prepare": prepare.wall, "first frame": first.wall}))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,90 @@
+"""A report as tables of text: (columns, rows)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from softshadow.bench.growth import Growth
+from softshadow.bench.peers import OWN
+from softshadow.bench.regression import Change
+from softshadow.bench.results import PeerTimes, Report, Summary, WorkloadResult
+
+Table = tuple[list[str], list[list[str]]]
+NOTHING = "-"
+
+
+def limit_rows(report: Report) -> Table:
+    """Return the machine's limits per number of threads."""
+    rows = [
+        [str(each.threads), f"{each.triad / 1e9:.1f} GB/s", f"{each.stencil / 1e9:.2f} Gfrag/s"]
+        for each in report.limits
+    ]
+    return ["threads", "triad", "cache-resident stencil loop"], rows
+
+
+def result_rows(report: Report) -> Table:
+    """Return a row per workload and peer."""
+    columns = [
+        "workload", "size", "who", "threads", "wall ms", "CPU ms", "first ms", "Mfrag/s", "of limit", "x wall", "x CPU",
+        "aim", "equal",
+    ]  # fmt: skip
+    return columns, [_row(report, each, times) for each in report.workloads for times in each.peers]
+
+
+def _row(report: Report, workload: WorkloadResult, times: PeerTimes) -> list[str]:
+    ratio = next((r for r in workload.ratios if (r.renderer, r.threads) == (times.renderer, times.threads)), None)
+    own = times.renderer == OWN
+    share = report.share(workload, times.threads) if own else None
+    differing = workload.differing[times.renderer]
+    equal = "yes" if not any(differing.values()) else ", ".join(f"{k}: {n} differ" for k, n in differing.items() if n)
+    return [
+        workload.name,
+        f"{workload.size[0]}x{workload.size[1]}",
+        times.renderer,
+        str(times.threads),
+        milliseconds(times.wall),
+        milliseconds(times.cpu),
+        f"{1e3 * times.first:.1f}",
+        f"{workload.fragments / times.wall.median / 1e6:.1f}",
+        NOTHING if share is None else f"{share:.2%}",
+        NOTHING if ratio is None else f"{ratio.wall.median:.2f}",
+        NOTHING if ratio is None else f"{ratio.cpu.median:.2f}",
+        NOTHING if ratio is None or workload.aim is None else f"{workload.aim:g}",
+        NOTHING if own else equal,
+    ]
+
+
+def milliseconds(summary: Summary) -> str:
+    """Return a median with its spread.
+
+    Examples
+    --------
+    >>> milliseconds(Summary(0.0123, 0.051))
+    '12.3 ±5%'
+    """
+    return f"{1e3 * summary.median:.1f} ±{summary.spread:.0%}"
+
+
+def growth_rows(growth: Growth) -> Table:
+    """Return a row per peer: milliseconds at each amount, and the exponent."""
+    rows = []
+    for one in growth.results[0].peers:
+        found = [result.times(one.renderer, one.threads) for result in growth.results]
+        power = growth.exponents.get(f"{one.renderer}@{one.threads}")
+        cells = [milliseconds(times.wall) if times else NOTHING for times in found]
+        rows.append([one.renderer, str(one.threads), *cells, NOTHING if power is None else f"{power:.2f}"])
+    return ["who", "threads", *map(str, growth.amounts), "exponent"], rows
+
+
+def start_rows(report: Report) -> Table:
+    """Return a row per workload: the parts of a cold and of a warm start."""
+    columns = list(next(iter(report.starts.values())))
+    return ["workload", *columns], [
+        [name, *(f"{found[column]:.2f}" for column in columns)] for name, found in report.starts.items()
+    ]
+
+
+def change_rows(changed: Sequence[Change]) -> Table:
+    """Return a row per workload that an earlier report has, too."""
+    rows = [[e.workload, str(e.threads), f"{e.factor:.2f}", f"{e.allowed:.2f}", e.verdict] for e in changed]
+    return ["workload", "threads", "time now / then", "allowed", "verdict"], rows

@@ -1,0 +1,119 @@
+"""The register of workloads: those of the performance targets, and each technique on each scene."""
+
+from __future__ import annotations
+
+from softshadow import techniques
+from softshadow.bench import (
+    light_samples,
+    shadow_map_shading,
+    small_triangles,
+    stencil_fill,
+    technique_frame,
+    volume_frame,
+)
+from softshadow.bench.workload import Workload
+from softshadow.errors import nearest
+from softshadow.scene import scene_names
+
+FULL_HD, HD, SQUARE, VGA = (1920, 1080), (1280, 720), (2048, 2048), (640, 480)
+
+
+def _stencil_fill(counting: str, depth_format: str) -> Workload:
+    where = "passes" if counting == "zpass" else "fails"
+    return Workload(
+        f"w1-{counting}-{depth_format}",
+        f"stencil fill: 400 large quads counted where the depth test {where}, {depth_format}",
+        stencil_fill.prepare,
+        FULL_HD,
+        {"counting": counting, "depth_format": depth_format, "quads": stencil_fill.QUADS},
+        aim=6.0,
+    )
+
+
+def _small_triangles(shape: str) -> Workload:
+    amounts = {"shape": shape, "triangles": small_triangles.TRIANGLES}
+    title = f"small triangles: depth only, 1 M triangles of a {shape}"
+    return Workload(f"w2-{shape}", title, small_triangles.prepare, SQUARE, amounts, aim=3.0)
+
+
+def _shading(name: str, program: str, lookups: str) -> Workload:
+    amounts = {"program": program, "triangles": 70_000, "map_size": shadow_map_shading.MAP_SIZE}
+    title = f"shading: Blinn-Phong per pixel under a shadow map, {lookups}"
+    return Workload(f"w3-{name}", title, shadow_map_shading.prepare, FULL_HD, amounts, aim=1.8)
+
+
+REGISTER = {
+    workload.name: workload
+    for workload in (
+        _stencil_fill("zpass", "d24"),
+        _stencil_fill("zfail", "d24"),
+        _stencil_fill("zpass", "d32f"),
+        _stencil_fill("zfail", "d32f"),
+        _small_triangles("sphere"),
+        _small_triangles("grid"),
+        _shading("nearest", "blinn-phong-shadowed", "one comparison"),
+        _shading("pcf", "blinn-phong-shadowed-5x5", "5x5 comparisons"),
+        Workload(
+            "w4",
+            "whole z-fail frame: silhouette, extrusion, ambient, two volume passes, light",
+            volume_frame.prepare,
+            HD,
+            {"triangles": 70_000},
+            aim=2.5,
+        ),
+        Workload(
+            "w5",
+            "soft shadow by light samples: a shadow map each, accumulated",
+            light_samples.prepare,
+            VGA,
+            {"samples": light_samples.SAMPLES, "triangles": light_samples.TRIANGLES},
+            aim=5.0,
+        ),
+    )
+}
+
+
+def names() -> list[str]:
+    """Return the names of all workloads: the numbered ones, then TECHNIQUE/SCENE."""
+    return [*REGISTER, *(f"{technique}/{scene}" for technique in techniques.names() for scene in scene_names())]
+
+
+def get(name: str) -> Workload:
+    """Return a workload by its name.
+
+    Raises
+    ------
+    ValueError                   there is none of that name; the message has the nearest one
+    """
+    technique, slash, scene = name.partition("/")
+    if name in REGISTER:
+        return REGISTER[name]
+    if not slash:
+        raise ValueError(f"unknown workload {name!r}: {nearest(name, [*REGISTER, 'TECHNIQUE/SCENE'])}")
+    title = techniques.get(technique).title
+    if scene not in scene_names():
+        raise ValueError(f"workload {name!r}: unknown scene {scene!r}: {nearest(scene, scene_names())}")
+    amounts = {"technique": technique, "scene": scene}
+    return Workload(name, f"{title}, scene {scene}", technique_frame.prepare, VGA, amounts)
+
+
+def chosen(patterns: list[str]) -> list[Workload]:
+    """Return the workloads that names ask for, each once.
+
+    A name may be the beginning of numbered ones ("w1", "w3-"), "all" for all of these, or "TECHNIQUE/all" for each
+    scene.
+
+    Raises
+    ------
+    ValueError                   as `get`
+    """
+    found: list[str] = []
+    for pattern in patterns:
+        technique, slash, scene = pattern.partition("/")
+        if pattern == "all":
+            found += REGISTER
+        elif slash and scene == "all":
+            found += [f"{technique}/{each}" for each in scene_names()]
+        else:
+            found += [name for name in REGISTER if name.partition("-")[0] == pattern.rstrip("-")] or [pattern]
+    return [get(name) for name in dict.fromkeys(found)]
