@@ -93,6 +93,8 @@ def _bound_samplers(context: Context) -> dict[tuple[int, int], Sampler]:
             name = stored_name(target, getattr(unit, binding))
             if name in textures:
                 found[target, name] = textures[name].sampler
+            elif name <= 0:  # those named 0 are there from the beginning, but made when they are first used
+                found[target, name] = Sampler()
     return found
 
 
@@ -176,9 +178,10 @@ def _bring_back_materials(context: Context, saved: Saved) -> None:
 
 def _bring_back_samplers(context: Context, saved: Saved) -> None:
     for (target, name), sampler in saved.samplers.items():
-        if name not in context.storage.textures:  # deleted meanwhile: binding the name makes it anew
+        standing = context.storage.textures.get(name)
+        if standing is None and name > 0:  # deleted meanwhile: binding the name makes it anew
             context.execute(CreateTexture(name, target))
-        if context.storage.textures[name].sampler != sampler:
+        if sampler != (standing.sampler if standing is not None else Sampler()):
             context.execute(SetSampler(name, sampler))
 
 
