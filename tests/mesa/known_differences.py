@@ -38,6 +38,7 @@ def back_colors(gl: Any) -> None:
     for capability in ("GL_LIGHTING", "GL_LIGHT0", "GL_COLOR_MATERIAL"):
         gl.glEnable(getattr(gl, capability))
     gl.glLightModeli(gl.GL_LIGHT_MODEL_TWO_SIDE, 1)
+    gl.glMaterialf(gl.GL_FRONT_AND_BACK, gl.GL_SHININESS, 8)
     gl.glColorMaterial(gl.GL_BACK, gl.GL_AMBIENT)
     gl.glBegin(gl.GL_TRIANGLES)
     gl.glColor3f(0.25, 0.5, 0.75)
@@ -74,14 +75,24 @@ def late_color(gl: Any) -> None:
 
 def follows_back_only(calls: list[Call]) -> bool:
     two_sided = ("glLightModeli", ("GL_LIGHT_MODEL_TWO_SIDE", 1)) in calls
-    return two_sided and any(name == "glColorMaterial" and values[0] == "GL_BACK" for name, values in calls)
+    follows = any(name == "glColorMaterial" and values[0] == "GL_BACK" for name, values in calls)
+    return two_sided and follows and not all(is_plain(*call) for call in calls)
+
+
+def is_plain(name: str, values: tuple[Any, ...]) -> bool:
+    """Whether a call leaves lights directional and without highlights of their own: there Mesa's result is modelled."""
+    positional = name.startswith("glLight") and values[1:2] == ("GL_POSITION",) and values[2][3] != 0
+    shiny = name.startswith("glMaterial") and values[1:2] == ("GL_SHININESS",) and values[2] != 0
+    separate = name.startswith("glLightModel") and values[0] == "GL_LIGHT_MODEL_COLOR_CONTROL"
+    return not (positional or shiny or separate)
 
 
 KNOWN = (
     KnownDifference(
-        "back colour material",
-        "colours of back faces in two-sided lighting, glColor inside glBegin, where glColorMaterial has GL_BACK alone",
-        "Mesa leaves green and blue of all back faces at 0; with GL_FRONT_AND_BACK it does not",
+        "unwritten registers",
+        "green and blue of back faces in two-sided lighting, glColor inside glBegin, where glColorMaterial has GL_BACK "
+        "alone and a light is positional or makes highlights",
+        "Mesa reads registers that it has not written; what is in them depends on its compiler, not on the program",
         255,
         back_colors,
         follows_back_only,

@@ -8,6 +8,7 @@ translates.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,22 +16,16 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.programs import VertexInputs
 from softshadow.programs.approximations import powers
+from softshadow.programs.back_products import NAMES, Scratch, leftovers
 from softshadow.programs.inverse import inverse, is_length_preserving
+from softshadow.programs.reflectances import Reflectances, vector
 from softshadow.programs.texture_coordinates import dot, normalized_rows, reciprocal_root, transform
-from softshadow.state import Light, Lighting, Material
+from softshadow.state import Light, Lighting
 
 ZERO, ONE = np.float32(0.0), np.float32(1.0)
 TOWARDS_EYE = np.array([0.0, 0.0, 1.0], np.float32)
 LARGEST_SHININESS = np.float32(128.0)
 SMALLEST_SCALE = np.float32(1e-12)
-
-COLOR_MATERIAL = {
-    gl.GL_AMBIENT: ("ambient",),
-    gl.GL_DIFFUSE: ("diffuse",),
-    gl.GL_SPECULAR: ("specular",),
-    gl.GL_EMISSION: ("emission",),
-    gl.GL_AMBIENT_AND_DIFFUSE: ("ambient", "diffuse"),
-}
 
 
 @dataclass(frozen=True)
@@ -45,23 +40,21 @@ class Colors:
 class LightAtVertices:
     """One light seen from the vertices, in the space of the normals.
 
-    direction (V, 3) or (3,) towards the light, half the same halfway to the eye, attenuation (V,) or None for 1.
+    direction (V, 3) or (3,) towards the light, half the same halfway to the eye, attenuation (V,) or None for 1; parts
+    are what the attenuation was made of: "distance", "spot", "inside" (V,).
     """
 
     light: Light
     direction: np.ndarray
     half: np.ndarray
     attenuation: np.ndarray | None
+    parts: Mapping[str, np.ndarray]
 
 
 def power(x: np.ndarray, exponents: np.ndarray) -> np.ndarray:
     raised = np.empty_like(x)
     powers(x, exponents, raised)
     return raised
-
-
-def vector(values: tuple[float, ...]) -> np.ndarray:
-    return np.array(values, np.float32)
 
 
 def normalized(v: np.ndarray) -> np.ndarray:
@@ -117,9 +110,12 @@ def light_vertices(
         lights = [
             at_vertices(light, lighting, eye, modelview, to_object, object_space) for light in enabled_lights(lighting)
         ]
-        front = shade_side(lighting, lighting.front, "front", vertices, normal, lights)
-        back = shade_side(lighting, lighting.back, "back", vertices, -normal, lights) if lighting.two_side else None
-    return front, back
+        front_side, back_side = (Reflectances(lighting, vertices, side) for side in ("front", "back"))
+        front = shade_side(lighting, front_side, vertices, normal, lights)
+        if not lighting.two_side:
+            return front, None
+        stray = stray_products(lighting, front_side, back_side, lights) if vertices.color.dtype == np.float32 else []
+        return front, shade_side(lighting, back_side, vertices, -normal, lights, stray)
 
 
 def eye_normals(lighting: Lighting, vertices: VertexInputs) -> np.ndarray:
@@ -174,64 +170,88 @@ def at_vertices(
         half = normalized_rows(direction - normalized_rows(eye))
     elif half.ndim == 2:
         half = normalized_rows(half)
-    return LightAtVertices(light, direction, half, attenuation(light, direction, squared_distance))
+    return LightAtVertices(light, direction, half, *attenuation(light, direction, squared_distance))
 
 
-def attenuation(light: Light, direction: np.ndarray, squared_distance: np.ndarray | None) -> np.ndarray | None:
-    """Return the spot factor times the distance factor (V,) or (1,); None where both are 1 by their settings."""
+def attenuation(
+    light: Light, direction: np.ndarray, squared_distance: np.ndarray | None
+) -> tuple[np.ndarray | None, dict[str, np.ndarray]]:
+    """Return the spot factor times the distance factor (V,) or (1,), and the parts of `LightAtVertices`.
+
+    The factor is None where both are 1 by their settings.
+    """
     factor: np.ndarray | None = None
+    parts: dict[str, np.ndarray] = {}
     if light.spot_cutoff != 180:
         spot_direction = normalized(normalized(vector(light.spot_direction)))
         cosine = max(ZERO, np.float32(math.cos(np.float32(np.float32(light.spot_cutoff) * math.pi / 180.0))))
         spot = dot(np.atleast_2d(-direction), spot_direction)
         inside = np.where(cosine < spot, ONE, ZERO)
-        factor = inside * power(abs(spot), np.full_like(spot, light.spot_exponent))
+        raised = power(abs(spot), np.full_like(spot, light.spot_exponent))
+        factor = inside * raised
+        parts = {"spot": raised, "inside": inside}
+    if squared_distance is not None:
+        parts["distance"] = reciprocal_root(squared_distance)
     coefficients = (light.constant_attenuation, light.linear_attenuation, light.quadratic_attenuation)
     if coefficients != (1.0, 0.0, 0.0) and squared_distance is not None:
         constant, linear, quadratic = vector(coefficients)
         distance = np.sqrt(squared_distance)
         one = reciprocal_root(squared_distance) * distance  # but for rounding: Mesa's first component is made so
-        by_distance = ONE / ((quadratic * squared_distance + linear * distance) + constant * one)
+        polynomial = (quadratic * squared_distance + linear * distance) + constant * one
+        by_distance = ONE / polynomial
+        parts["distance"] = polynomial if factor is None else by_distance
         factor = by_distance if factor is None else by_distance * factor
-    return factor
+    return factor, parts
+
+
+def stray_products(
+    lighting: Lighting, front: Reflectances, back: Reflectances, lights: list[LightAtVertices]
+) -> list[dict[str, np.ndarray]]:
+    """Return what Mesa has in green and blue of the products of the back, where they vary, per light."""
+
+    def scratch(source: LightAtVertices) -> Scratch:
+        positional = source.light.position[3] != 0
+        makes_half = has_highlights(lighting) and (positional or lighting.local_viewer)
+        return Scratch(
+            direction=source.direction if positional else None,
+            distance=source.parts.get("distance"),
+            spot=source.parts.get("spot"),
+            inside=source.parts.get("inside"),
+            attenuation=source.attenuation,
+            half=source.half if makes_half else None,
+            front={name: front.product(name, source.light, {}) for name in NAMES if name in front.varying},
+        )
+
+    if not back.varying & set(NAMES):
+        return []
+    return leftovers([scratch(source) for source in lights], back.varying, lighting.local_viewer)
 
 
 def shade_side(
     lighting: Lighting,
-    material: Material,
-    side: str,
+    reflectance: Reflectances,
     vertices: VertexInputs,
     normal: np.ndarray,
     lights: list[LightAtVertices],
+    stray: Sequence[Mapping[str, np.ndarray]] = (),
 ) -> Colors:
     """Return the colours of one side: emission and ambient, then each light's ambient, diffuse and specular part."""
-    tracked: tuple[str, ...] = ()
-    sides = gl.GL_FRONT_AND_BACK, gl.GL_FRONT if side == "front" else gl.GL_BACK
-    if lighting.color_material and lighting.color_material_face in sides:
-        tracked = COLOR_MATERIAL[lighting.color_material_mode]
-
-    def reflectance(name: str) -> np.ndarray:
-        if name in tracked:
-            return vertices.color
-        given = vertices.materials.get(f"{side}.{name}")
-        return vector(getattr(material, name))[np.newaxis] if given is None else np.asarray(given, np.float32)
-
-    count = len(vertices.position)
-    shininess = np.broadcast_to(vertices.materials.get(f"{side}.shininess", np.float32(material.shininess)), count)
+    count, shininess = len(vertices.position), reflectance.shininess
     scene = vector(lighting.model_ambient)[:3] * reflectance("ambient")[:, :3] + reflectance("emission")[:, :3]
     rgb = np.broadcast_to(scene, (count, 3))
     separate = lighting.color_control == gl.GL_SEPARATE_SPECULAR_COLOR
     highlight = np.zeros((count, 3), np.float32)
-    for source in lights:
+    for number, source in enumerate(lights):
+        found = stray[number] if stray else {}
         diffuse, specular = lit_factors(lighting, shininess, normal, source)
         factor = source.attenuation
-        ambient_part = vector(source.light.ambient)[:3] * reflectance("ambient")[:, :3]
+        ambient_part = reflectance.product("ambient", source.light, found)
         if factor is not None:
             diffuse, specular = diffuse * factor, specular * factor
             ambient_part = factor[:, np.newaxis] * ambient_part
         rgb = ambient_part + rgb
-        rgb = diffuse[:, np.newaxis] * (vector(source.light.diffuse)[:3] * reflectance("diffuse")[:, :3]) + rgb
-        shine = specular[:, np.newaxis] * (vector(source.light.specular)[:3] * reflectance("specular")[:, :3])
+        rgb = diffuse[:, np.newaxis] * reflectance.product("diffuse", source.light, found) + rgb
+        shine = specular[:, np.newaxis] * reflectance.product("specular", source.light, found)
         if separate:
             highlight = shine + highlight
         else:
