@@ -59,11 +59,14 @@ def combine(setting: Combine, sources: Sources) -> np.ndarray:
 def _arguments(
     names: tuple[int, ...], operands: tuple[int, ...], sources: Sources, channels: slice, mode: int
 ) -> list[np.ndarray]:
-    made = []
+    made: list[np.ndarray] = []
     for name, operand in list(zip(names, operands, strict=True))[: ARGUMENTS.get(mode, 2)]:
         color = sources.color(name)
         taken = color[:, 3:] if operand in (gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA) else color[:, channels]
-        made.append(ONE - taken if operand in INVERTED else taken)
+        if mode == gl.GL_ADD_SIGNED and not made:  # Mesa takes the half from the first argument, before the sum
+            made.append(HALF - taken if operand in INVERTED else taken - HALF)
+        else:
+            made.append(ONE - taken if operand in INVERTED else taken)
     if mode == gl.GL_INTERPOLATE:  # the rest of the weight; of 1 - x that is x itself
         made.append(taken if operand in INVERTED else ONE - taken)
     return made
@@ -76,10 +79,8 @@ def _function(mode: int, arguments: list[np.ndarray]) -> np.ndarray:
     b = rest[0]
     if mode == gl.GL_MODULATE:
         return a * b
-    if mode == gl.GL_ADD:
+    if mode in (gl.GL_ADD, gl.GL_ADD_SIGNED):
         return a + b
-    if mode == gl.GL_ADD_SIGNED:
-        return (a + b) - HALF
     if mode == gl.GL_SUBTRACT:
         return a - b
     if mode == gl.GL_INTERPOLATE:
