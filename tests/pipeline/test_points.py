@@ -55,3 +55,9 @@ def test_nothing_culls_points_and_the_front_stencil_state_is_theirs():
         gl.glEnd()
         stencil = gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_STENCIL_INDEX, gl.GL_UNSIGNED_BYTE)
     assert stencil.sum() == 1
+
+
+@pytest.mark.parametrize(("height", "row"), [(12 - 1 / 512, 11), (12 - 1 / 1024, 12), (12 + 1 / 512, 12)])
+def test_a_place_halfway_between_two_subpixels_goes_the_way_of_mesa(height, row):
+    # stored rows run downwards: half a subpixel below an edge is rounded away from the top, the lower row keeps it
+    assert np.flatnonzero(drawn(12.5, height, 1).any(axis=1)).tolist() == [row]

@@ -10,8 +10,8 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.jit import kernel
 from softshadow.pipeline.clip import Clipped, distance, frustum_and
-from softshadow.pipeline.constants import HALF, ONE, SUBPIXEL_BITS, ZERO
-from softshadow.pipeline.setup import Setup, line_gradient, line_plane, snap
+from softshadow.pipeline.constants import HALF, ONE, SUBPIXEL_BITS, SUBPIXELS, ZERO
+from softshadow.pipeline.setup import Setup, half_away, line_gradient, line_plane
 
 LINES = (gl.GL_LINES, gl.GL_LINE_STRIP, gl.GL_LINE_LOOP)
 WIDEST = 255
@@ -176,8 +176,14 @@ def line_corners(window, a, b, across, quad):
     for corner in range(4):
         end, move = (first, first_move) if corner == 0 or corner == 3 else (last, last_move)
         side = -(across // 2) if corner < 2 else across // 2
-        quad[2 * corner + u] = snap(window[end, u] + move)
-        quad[2 * corner + v] = snap(window[end, v] + move * slope) + side
+        quad[2 * corner + u] = snap_end(window[end, u] + move)
+        quad[2 * corner + v] = snap_end(window[end, v] + move * slope) + side
+
+
+@kernel
+def snap_end(coordinate):
+    """Return a window coordinate in 1/256 pixel, as `snap` does it but for a half, which goes away from zero."""
+    return int(half_away((coordinate - HALF) * SUBPIXELS))
 
 
 @kernel

@@ -9,7 +9,7 @@ import numpy as np
 from softshadow.pipeline.clip import Clipped
 from softshadow.pipeline.constants import SUBPIXEL_BITS, SUBPIXELS
 from softshadow.pipeline.lines import NO_VERTEX
-from softshadow.pipeline.setup import Setup
+from softshadow.pipeline.setup import Setup, half_away
 
 PIXEL = 1 << SUBPIXEL_BITS
 LARGEST = 255.0
@@ -36,9 +36,9 @@ def set_up_points(window: np.ndarray, points: np.ndarray, ids: np.ndarray, size:
     at = window[points]
     finite = np.isfinite(at[:, :3]).all(axis=1)
     points, ids, at = points[finite], ids[finite], at[finite]
-    width = max(1, int(np.rint(np.float32(min(size, LARGEST)) * SUBPIXELS)) + PIXEL // 2 - 1 >> SUBPIXEL_BITS)
+    width = max(1, int(half_away(np.float32(min(size, LARGEST)) * SUBPIXELS)) + PIXEL // 2 - 1 >> SUBPIXEL_BITS)
     # a point on the edge of a row belongs to the upper one (GL's up), as on the edge of a triangle
-    snapped = np.rint(at[:, :2] * SUBPIXELS).astype(np.int64) - (0, int(flipped))
+    snapped = half_away(at[:, :2] * SUBPIXELS).astype(np.int64) - (0, int(flipped))
     middle = snapped if width % 2 else snapped + PIXEL // 2
     first = (middle >> SUBPIXEL_BITS) - width // 2
     # corners half a pixel outside the first and last samples, which lie on multiples of 256

@@ -115,6 +115,16 @@ def snap(coordinate):
 
 
 @kernel
+def half_away(values):
+    """Return numbers rounded to whole ones, a half away from zero.
+
+    So Mesa 22.3 rounds what belongs to lines and points (util_iround: add a half, then cut off), where those of
+    triangles go through an instruction that rounds a half to even.
+    """
+    return np.trunc(values + np.copysign(HALF, values))
+
+
+@kernel
 def plane(x0, y0, dx01, dy01, dx20, dy20, a0, a1, a2):
     """Return (value at pixel (0, 0), d/di, d/dj) of the plane through three vertices, in llvmpipe's order of
     operations.
