@@ -92,7 +92,8 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull:
     else:
         modes = drawn_modes(state)
         make = _filled if modes == (gl.GL_FILL, gl.GL_FILL) else _outlined
-        assembled = assembled_triangles(command, codes != 0, batch_needs_clipping(command, planes))
+        across = varyings.flat_input and (bool(target.colors) or state.alpha.enabled)  # else Mesa shades nothing
+        assembled = assembled_triangles(command, codes != 0, batch_needs_clipping(command, planes), across)
         provoking = assembled.provoking
         edges = edge_flags(command.mode, len(provoking)) if make is _outlined else NO_EDGES
         clipped = clip_triangles(clip, columns, assembled.corners, codes, planes, edges)
@@ -189,25 +190,26 @@ def batch_needs_clipping(command: Draw, planes: np.ndarray) -> np.ndarray | None
     return outcodes(clip, command.state.depth.clamp, planes) != 0
 
 
-def assembled_triangles(command: Draw, needs_clipping: np.ndarray, in_batch: np.ndarray | None = None) -> Triangles:
+def assembled_triangles(
+    command: Draw, needs_clipping: np.ndarray, in_batch: np.ndarray | None = None, across: bool = False
+) -> Triangles:
     """Return the triangles of a draw over its vertices.
 
-    `needs_clipping` (V,) bool; `in_batch` (N,) the same for the batch of quads that the draw is a part of.
+    `needs_clipping` (V,) bool; `in_batch` (N,) the same for the batch of quads that the draw is a part of; `across`
+    says to cut quads along the other diagonal (`Varyings.flat_input`).
     """
     indices = command.indices
     count = len(needs_clipping) if indices is None else len(indices)
     if command.mode not in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
         assembled = assemble(command.mode, count)
     else:
-        varying_color = command.vertices.color.strides[0] != 0  # a constant is spread with stride 0
-        flat = command.state.lighting.shade_model == gl.GL_FLAT and varying_color
         whole = needs_clipping if in_batch is None else in_batch
         clipped = in_clipped_batch(command.mode, whole, indices) if whole.any() else None
         if clipped is not None and in_batch is not None:
             clipped = clipped[command.batch_start // 4 :][: count // 4]
         if drawn_modes(command.state) != (gl.GL_FILL, gl.GL_FILL):
             clipped = np.ones(quads_of(command.mode, count)[0], bool)  # cut where clipped ones are
-        assembled = assemble(command.mode, count, clipped, across=flat or indices is not None)
+        assembled = assemble(command.mode, count, clipped, across=across or indices is not None)
     return assembled if indices is None else through_indices(assembled, indices)
 
 

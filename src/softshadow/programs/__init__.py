@@ -44,12 +44,14 @@ class Varyings:
     """What the vertex stage hands on: values (V, k) to be interpolated, perspective-correct.
 
     `flat` (k,) bool marks columns that take the provoking vertex's value; `back` (V, k) replaces `values` on
-    back-facing triangles (two-sided lighting).
+    back-facing triangles (two-sided lighting). `flat_input` says that one of them differs from vertex to vertex and the
+    fragment stage takes it: Mesa then cuts quads along the other diagonal.
     """
 
     values: np.ndarray
     flat: np.ndarray
     back: np.ndarray | None = None
+    flat_input: bool = False
 
 
 @dataclass(frozen=True)

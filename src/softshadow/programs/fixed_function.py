@@ -99,7 +99,18 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
     for unit in units:
         flat[column : column + 4] = has_one_coordinate(state, unit.index, vertices)
         column += 4
-    return Varyings(values, flat, None if back is None else columns(back, rest, values.dtype))
+    flat_input = lighting.shade_model == gl.GL_FLAT and not one_color and takes_color(state, units)
+    return Varyings(values, flat, None if back is None else columns(back, rest, values.dtype), flat_input)
+
+
+def takes_color(state: State, units: list[Unit]) -> bool:
+    """Return whether the colours of fragments depend on those of the vertices."""
+    if not units or is_separate(state):
+        return True
+    from softshadow.programs.color_use import uses_color
+    from softshadow.programs.sampling import base_format
+
+    return uses_color([(state.units[unit.index], base_format(unit.texture)) for unit in units])
 
 
 def has_one_coordinate(state: State, unit: int, vertices: VertexInputs) -> bool:
