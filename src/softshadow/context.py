@@ -183,7 +183,7 @@ class Context:
         if polygon_offset_unit not in ("mesa", "spec"):
             raise ValueError(f"polygon_offset_unit={polygon_offset_unit!r}: expected 'mesa' or 'spec'")
         self._frame = Frame((width, height), depth_format, stencil_bits, precision)
-        self.storage = self._frame.fresh_storage()  # without the quads that wait: `settle` first
+        self.storage = self._frame.fresh_storage()  # without what waits: `settle` first
         self.offset_slope, self.offset_unit = polygon_offset_slope, polygon_offset_unit
         self.raise_errors = raise_errors
         self.before: Context | None = None  # what a with statement brings back
@@ -206,7 +206,7 @@ class Context:
         self.uniforms: dict[int, dict[str, Any]] = {}
         self.labels: list[str] = []
         self.primitive: Primitive | None = None  # between glBegin and glEnd
-        self.batch: Batch | None = None  # quads that wait for more of them
+        self.batch: Batch | None = None  # triangles or quads that wait for more of them
         self.vertex_sizes: dict[str, int] = {}  # what the vertices collected last carry: numbers per attribute
         self.given_sizes: dict[str, int] = {}  # how many of those the last call gave, as far as Mesa remembers
         self.stored_vertices = 0  # how many were collected since the last time they were sent off
@@ -309,22 +309,22 @@ class Context:
         self.draw_waiting()
         self._carry_out(self._draw_command(mode, vertices, indices))
 
-    def collect_quads(self, vertices: Vertices) -> None:
-        """Draw quads of immediate mode, later: the ones that follow may belong to the same batch."""
-        if self.batch is None or not self.batch.takes_more:
+    def collect(self, mode: int, vertices: Vertices) -> None:
+        """Draw triangles or quads of immediate mode, later: the ones that follow may belong to the same batch."""
+        if self.batch is None or self.batch.first.mode != mode or not self.batch.takes_more:
             self.draw_waiting()
-            self.batch = Batch(self._draw_command(gl.GL_QUADS, vertices, None))
+            self.batch = Batch(self._draw_command(mode, vertices, None))
         self.batch.parts.append(("/".join(self.labels), vertices))
 
     def draw_waiting(self) -> None:
-        """Draw the quads that wait."""
+        """Draw what waits."""
         batch, self.batch = self.batch, None
         if batch is not None:
             for command in batch.commands():
                 self._carry_out(command)
 
     def settle(self) -> None:
-        """Draw the quads that wait; what is drawn next begins a batch of its own. Not between glBegin and glEnd."""
+        """Draw what waits; what is drawn next begins a batch of its own. Not between glBegin and glEnd."""
         if self.primitive is None:
             self.send_off_vertices()
             self.vertex_sizes.clear()
@@ -337,7 +337,7 @@ class Context:
         return 4 * sum(self.vertex_sizes.values())
 
     def send_off_vertices(self) -> None:
-        """Draw the quads that wait; the vertices of immediate mode that follow come after them in Mesa's buffer."""
+        """Draw what waits; the vertices of immediate mode that follow come after them in Mesa's buffer."""
         self.draw_waiting()
         self.buffer_used += self.stored_vertices * self.vertex_bytes
         self.stored_vertices = 0

@@ -100,10 +100,8 @@ class Writer:
         for face, mode in zip(("GL_FRONT", "GL_BACK"), modes, strict=True):
             self.call("glPolygonMode", face, mode)
         capabilities = ("GL_POLYGON_OFFSET_FILL", "GL_POLYGON_OFFSET_LINE", "GL_POLYGON_OFFSET_POINT")
-        # with two modes, all or none: Mesa offsets both as the first triangle of all merged glBegin pairs is offset
-        together = self.chance(0.3)
         for capability in capabilities:
-            self.switch(capability, float(together) if modes[0] != modes[1] else 0.3)
+            self.switch(capability, 0.3)
 
     def depth_state(self) -> None:
         if self.switch("GL_DEPTH_TEST", 0.8):

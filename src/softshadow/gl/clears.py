@@ -60,14 +60,14 @@ def glClear(mask: int) -> None:
 
 
 def glFlush() -> None:
-    """Draw the quads that wait for more of them; everything else has been carried out when its call returned."""
+    """Draw triangles and quads that wait for more; everything else has been carried out when its call returned."""
     context = outside_begin("glFlush")
     if context is not None:
         context.settle()
 
 
 def glFinish() -> None:
-    """Draw the quads that wait for more of them; everything else has been carried out when its call returned."""
+    """Draw triangles and quads that wait for more; everything else has been carried out when its call returned."""
     context = outside_begin("glFinish")
     if context is not None:
         context.settle()

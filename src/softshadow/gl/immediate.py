@@ -14,6 +14,7 @@ from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.materials import follow_color, material_field
 from softshadow.gl.vertex_format import REST, begin, end_continued_loop, give, store_vertex, vertices_of
+from softshadow.pipeline.batches import CORNERS
 
 MODES = range(gl.GL_POINTS, gl.GL_POLYGON + 1)
 A_MODE = "GL_POINTS … GL_POLYGON"
@@ -48,7 +49,7 @@ def glEnd() -> None:
     follow_color(context)
     context.given.stored |= bool(primitive.positions)
     if not primitive.positions:
-        if primitive.mode != gl.GL_QUADS:
+        if context.batch is not None and context.batch.first.mode != primitive.mode:
             context.draw_waiting()
         return
     if primitive.continued and primitive.mode == gl.GL_LINE_LOOP:
@@ -56,10 +57,13 @@ def glEnd() -> None:
     vertices = vertices_of(context, primitive)
     if primitive.from_list and context.list_depth > 0:
         context.draw(primitive.mode, vertices, in_order(len(vertices.position)))
-    elif primitive.mode == gl.GL_QUADS:
-        context.collect_quads(vertices)
+        return
+    one_triangle = primitive.mode in (gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN) and len(vertices.position) == 3
+    mode = gl.GL_TRIANGLES if one_triangle else primitive.mode  # as Mesa has it (vbo_try_prim_conversion)
+    if mode in CORNERS:
+        context.collect(mode, vertices)
     else:
-        context.draw_primitive(primitive.mode, vertices)
+        context.draw_primitive(mode, vertices)
 
 
 def in_order(count: int) -> np.ndarray:

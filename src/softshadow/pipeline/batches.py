@@ -1,7 +1,8 @@
-"""Batches: consecutive glBegin ... glEnd pairs of quads that nothing separates are drawn as one.
+"""Batches: consecutive glBegin ... glEnd pairs of quads, or of triangles, that nothing separates are drawn as one.
 
 How llvmpipe cuts a quad into triangles depends on whether any vertex of its batch is clipped, so the pairs have to be
-known before the first of them is drawn (`softshadow.pipeline.primitives`).
+known before the first of them is drawn (`softshadow.pipeline.primitives`). Of triangles it counts how many there are
+(`softshadow.pipeline.level_triangles`).
 """
 
 from __future__ import annotations
@@ -12,9 +13,10 @@ from itertools import groupby
 
 import numpy as np
 
+from softshadow import tokens as gl
 from softshadow.pipeline.commands import Draw, Vertices
 
-QUAD_CORNERS = 4
+CORNERS = {gl.GL_TRIANGLES: 3, gl.GL_QUADS: 4}  # modes whose pairs are drawn as one
 
 
 @dataclass(eq=False)
@@ -33,8 +35,8 @@ class Batch:
 
     @property
     def takes_more(self) -> bool:
-        """Whether another pair can join: only after whole quads."""
-        return self.vertex_count % QUAD_CORNERS == 0
+        """Whether another pair can join: only after whole primitives."""
+        return self.vertex_count % CORNERS[self.first.mode] == 0
 
     def commands(self) -> list[Draw]:
         """Return the draws: one where all pairs stand in the same debug groups, else one for each of these."""

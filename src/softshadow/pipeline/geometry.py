@@ -13,6 +13,7 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.clip import NO_EDGES, Clipped, clip_triangles, outcodes
 from softshadow.pipeline.fill import DepthRange, Region
+from softshadow.pipeline.level_triangles import ALL, is_left_out, segment_of_three
 from softshadow.pipeline.lines import LINES, NO_VERTEX, assemble_lines, clip_lines, set_up_lines
 from softshadow.pipeline.points import clip_points, set_up_points
 from softshadow.pipeline.primitives import (
@@ -94,6 +95,8 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull:
         make = _filled if modes == (gl.GL_FILL, gl.GL_FILL) else _outlined
         across = varyings.flat_input and (bool(target.colors) or state.alpha.enabled)  # else Mesa shades nothing
         assembled = assembled_triangles(command, codes != 0, batch_needs_clipping(command, planes), across)
+        if make is _filled and not across and three_are_left_out(command, target, planes):
+            assembled = without_last_three(command, assembled)
         provoking = assembled.provoking
         edges = edge_flags(command.mode, len(provoking)) if make is _outlined else NO_EDGES
         clipped = clip_triangles(clip, columns, assembled.corners, codes, planes, edges)
@@ -211,6 +214,25 @@ def assembled_triangles(
             clipped = np.ones(quads_of(command.mode, count)[0], bool)  # cut where clipped ones are
         assembled = assemble(command.mode, count, clipped, across=across or indices is not None)
     return assembled if indices is None else through_indices(assembled, indices)
+
+
+def three_are_left_out(command: Draw, target: Framebuffer, planes: np.ndarray) -> bool:
+    """Return whether the last three triangles of a batch are ones that llvmpipe does not draw."""
+    positions = command.vertices.position if command.batch is None else command.batch
+    first = segment_of_three(len(positions))
+    if command.mode != gl.GL_TRIANGLES or command.indices is not None or first < 0:
+        return False
+    clip = to_clip(matrices.multiply(command.projection, command.modelview), positions[first : first + ALL])
+    if outcodes(clip, command.state.depth.clamp, planes).any():
+        return False
+    return is_left_out(to_window(clip, command.state.viewport, target.size[1], target.flipped))
+
+
+def without_last_three(command: Draw, assembled: Triangles) -> Triangles:
+    """Return the triangles of a draw without the last three of its batch."""
+    count = len(command.vertices.position if command.batch is None else command.batch)
+    kept = max(segment_of_three(count) - command.batch_start, 0) // 3
+    return Triangles(assembled.corners[:kept], assembled.provoking[:kept])
 
 
 def primitive_count(command: Draw) -> int:
