@@ -205,7 +205,8 @@ def draw_image(source: Image, target: Image, rectangles: Rectangles, texture_fil
         (np.array([(s, t, 0, 1) for s, t in ((s0, t0), (s1, t0), (s1, t1), (s0, t1))], F32),)
         + (ones,) * (len(state.units) - 1),
     )
-    command = Draw(state, gl.GL_TRIANGLE_FAN, vertices, None, identity, identity, (identity,) * len(state.units))
+    matrices = (identity, identity, (identity,) * len(state.units))
+    command = Draw(state, gl.GL_TRIANGLE_FAN, vertices, None, *matrices, linear=True)
     pipeline.draw(command, Storage({1: framebuffer}, {1: texture}))
 
 

@@ -41,6 +41,7 @@ def clip_triangles(
     codes: np.ndarray,
     user_planes: np.ndarray,
     edges: np.ndarray = NO_EDGES,
+    linear: bool = False,
 ) -> Clipped:
     """Return the parts of the triangles inside the frustum and the user planes, in drawing order.
 
@@ -52,6 +53,7 @@ def clip_triangles(
     codes : (V,) int32, what each vertex is outside of: `outcodes`
     user_planes : (P, 4) in clip space; a vertex is kept where its dot product is not negative
     edges : (T, 3) uint8, for polygons that are not filled: the edges to be drawn
+    linear : whether values change linearly in the window, instead of in perspective
     """
     if not len(edges):
         edges = np.ones((len(triangles), 3), np.uint8)
@@ -71,7 +73,7 @@ def clip_triangles(
     source, piece_edges = np.empty(len(pieces), np.int32), np.empty((len(pieces), 3), np.uint8)
     count, vertices = cut_triangles(
         triangles, edges, codes, planes, more_clip, more_values, len(clip), pieces, source, piece_edges,
-        np.zeros((2, room + 3), np.int32), np.zeros((2, room + 3), np.uint8),
+        np.zeros((2, room + 3), np.int32), np.zeros((2, room + 3), np.uint8), int(linear),
     )  # fmt: skip
     return Clipped(
         np.ascontiguousarray(more_clip[:vertices]),
@@ -107,8 +109,21 @@ def distance(plane, position):
 
 
 @kernel
+def part_in_window(clip, first, second, between, t):
+    """Return how far a vertex lies between two others in the window, by its x if they differ in that; `t` is in space.
+
+    As Mesa does it for what is interpolated without perspective (draw_pipe_clip.c).
+    """
+    for k in range(2):
+        if clip[first, k] != clip[second, k]:
+            start, end = clip[first, k] / clip[first, 3], clip[second, k] / clip[second, 3]
+            return (clip[between, k] / clip[between, 3] - start) / (end - start)
+    return t
+
+
+@kernel
 def cut_triangles(
-    triangles, edges, codes, planes, clip, values, vertices, pieces, source, piece_edges, polygons, drawn
+    triangles, edges, codes, planes, clip, values, vertices, pieces, source, piece_edges, polygons, drawn, linear
 ):
     """Clip triangle by triangle (Sutherland & Hodgman 1974); new vertices are appended from row `vertices` on.
 
@@ -128,7 +143,7 @@ def cut_triangles(
             if union >> p & 1:
                 corners, vertices = cut_polygon(
                     planes[p], p >= FRUSTUM_PLANES, polygons[now], drawn[now], corners, polygons[1 - now],
-                    drawn[1 - now], clip, values, vertices,
+                    drawn[1 - now], clip, values, vertices, linear,
                 )  # fmt: skip
                 now = 1 - now
         if union == 0:
@@ -150,7 +165,7 @@ def cut_triangles(
 
 
 @kernel
-def cut_polygon(plane, draws_cut, polygon, drawn, corners, out, out_drawn, clip, values, vertices):
+def cut_polygon(plane, draws_cut, polygon, drawn, corners, out, out_drawn, clip, values, vertices, linear):
     """Keep the part of a convex polygon on the positive side of a plane; returns its corners and the vertex count.
 
     A distance that is not finite drops the polygon. The new edge along the plane is to be drawn where `draws_cut`: that
@@ -180,6 +195,8 @@ def cut_polygon(plane, draws_cut, polygon, drawn, corners, out, out_drawn, clip,
                 first, second, t = previous, current, -before / span
             for k in range(4):
                 clip[vertices, k] = clip[first, k] + t * (clip[second, k] - clip[first, k])
+            if linear:
+                t = part_in_window(clip, first, second, vertices, t)
             for k in range(values.shape[1]):
                 values[vertices, k] = values[first, k] + t * (values[second, k] - values[first, k])
             out[kept] = vertices

@@ -50,7 +50,8 @@ class Draw:
     `mode` is GL_POINTS ... GL_POLYGON, `indices` (N,) int32 into the vertices, or None for all in order; `label` names
     the debug groups the draw stands in ("step/torus"); `uniforms` are those of the program in use; the kinds of the
     matrices decide how they are inverted. Quads that share a batch with draws of other debug groups have the positions
-    (N, 4) of the whole `batch` and the number of their first vertex in it.
+    (N, 4) of the whole `batch` and the number of their first vertex in it. `linear` says that clipping interpolates
+    values without perspective.
     """
 
     state: State
@@ -69,6 +70,7 @@ class Draw:
     projection_kind: int = UNKNOWN
     batch: np.ndarray | None = None
     batch_start: int = 0
+    linear: bool = False
 
     def apply(self, storage: Storage) -> None:
         if not storage.active_query:

@@ -99,7 +99,7 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull:
             assembled = without_last_three(command, assembled)
         provoking = assembled.provoking
         edges = edge_flags(command.mode, len(provoking)) if make is _outlined else NO_EDGES
-        clipped = clip_triangles(clip, columns, assembled.corners, codes, planes, edges)
+        clipped = clip_triangles(clip, columns, assembled.corners, codes, planes, edges, command.linear)
     window = to_window(clipped.clip, state.viewport, target.size[1], target.flipped)
     k = varyings.values.shape[1]
     made = Geometry(
