@@ -4,9 +4,6 @@ llvmpipe draws a textured rectangle, so the same is done here: what texel a pixe
 other, and the last bits of a mixture, are those of the pipeline's own interpolation and sampling. Both framebuffers are
 taken as they are stored: the window's rows are counted from the top, and a copy between it and an object is mirrored.
 
-Not Mesa's bits yet: pixels of a scaled rectangle whose centre falls exactly between two texels may get the other one
-(2 of 80 random programs; 7 of 60 where rectangles reach out of the draw framebuffer; up to 17 pixels each).
-
 References: GL 4.5 compatibility, sec. 18.3.1; Mesa, main/blit.c, main/image.c and gallium's util/u_blitter.c.
 """
 
@@ -34,12 +31,17 @@ HALF = F32(0.5)
 
 
 class Rectangles(NamedTuple):
-    """Where a blit reads and writes, in stored rows; `box` (left, first row, right, end row) is what may be written."""
+    """Where a blit reads and writes, in stored rows; `box` (left, first row, right, end row) is what may be written.
+
+    `in_texels` says that the source is the window, which Mesa reads as a rectangle texture: its coordinates are not
+    divided by the size.
+    """
 
     source: tuple[int, int, int, int]
     target: tuple[int, int, int, int]
     box: tuple[int, int, int, int]
     cut: bool
+    in_texels: bool
 
     @property
     def straight(self) -> bool:
@@ -123,7 +125,7 @@ def rectangles_of(command: BlitFramebuffer, read: Framebuffer, drawn: Framebuffe
     if dy0 > dy1:
         dy0, dy1, sy0, sy1 = dy1, dy0, sy1, sy0
     box_of = (min(columns), min(rows), max(columns), max(rows))
-    return Rectangles((sx0, sy0, sx1, sy1), (dx0, dy0, dx1, dy1), box_of, cut)
+    return Rectangles((sx0, sy0, sx1, sy1), (dx0, dy0, dx1, dy1), box_of, cut, read.name == DEFAULT)
 
 
 Span = tuple[int, int]
@@ -181,6 +183,8 @@ def draw_image(source: Image, target: Image, rectangles: Rectangles, texture_fil
     """Draw an image as a textured rectangle: a fan of two triangles, in the order of gallium's blitter."""
     from softshadow.pipeline.commands import Draw, Vertices
 
+    if rectangles.in_texels:
+        source = _padded(source)
     left, first, right, end = rectangles.box
     edge = gl.GL_CLAMP_TO_EDGE
     sampler = Sampler(min_filter=texture_filter, mag_filter=texture_filter, wrap_s=edge, wrap_t=edge)
@@ -208,6 +212,17 @@ def draw_image(source: Image, target: Image, rectangles: Rectangles, texture_fil
     matrices = (identity, identity, (identity,) * len(state.units))
     command = Draw(state, gl.GL_TRIANGLE_FAN, vertices, None, *matrices, linear=True)
     pipeline.draw(command, Storage({1: framebuffer}, {1: texture}))
+
+
+def _padded(image: Image) -> Image:
+    """Return an image with its last texels repeated until the sizes are powers of two.
+
+    Dividing by such a size and multiplying by it loses no bit, so that coordinates are what they are in texels.
+    """
+    width, height = (1 << (size - 1).bit_length() for size in (image.width, image.height))
+    made = Image.new(image.format, width, height, image.internal_format)
+    made.view[...] = np.pad(image.view, ((0, height - image.height), (0, width - image.width), (0, 0)), "edge")
+    return made
 
 
 def _spread(corners: tuple[int, int, int, int], image: Image, scale: np.float32, shift: np.float32) -> list[np.float32]:
