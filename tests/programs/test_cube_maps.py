@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mesa_points import same_bits
+from oracle import cube as oracle
 from softshadow import tokens as gl
 from softshadow.image import FORMATS, Image
 from softshadow.programs import Program, Varyings, VertexInputs, cube_filtering, cube_maps, register, sampling
@@ -14,26 +15,9 @@ from softshadow.testing import compare
 from softshadow.texture import Sampler, Texture
 
 SIZE = (40, 33)
-# GL 2.1, table 3.21: the axes of sc, tc and ma of each face, and their signs
-TABLE = (
-    ((2, -1), (1, -1), (0, 1)),
-    ((2, 1), (1, -1), (0, -1)),
-    ((0, 1), (2, 1), (1, 1)),
-    ((0, 1), (2, -1), (1, -1)),
-    ((0, 1), (1, -1), (2, 1)),
-    ((0, -1), (1, -1), (2, -1)),
-)
 FACES = ("POSITIVE_X", "NEGATIVE_X", "POSITIVE_Y", "NEGATIVE_Y", "POSITIVE_Z", "NEGATIVE_Z")
 FILTERS = ("GL_NEAREST", "GL_LINEAR")
 MIN_FILTERS = FILTERS + tuple(f"{within}_MIPMAP_{between}" for within in FILTERS for between in ("NEAREST", "LINEAR"))
-
-
-def on_cube(face: int, s: float, t: float) -> np.ndarray:
-    """The point of the cube with sides from -1 to 1 at the place (s, t) of a face."""
-    point = np.zeros(3)
-    for (axis, sign), value in zip(TABLE[face], (2 * s - 1, 2 * t - 1, 1), strict=True):
-        point[axis] = sign * value
-    return point
 
 
 def directions(seed: int, count: int, columns: int = 3) -> np.ndarray:
@@ -42,14 +26,19 @@ def directions(seed: int, count: int, columns: int = 3) -> np.ndarray:
 
 # -- faces -------------------------------------------------------------------------------------------------------------
 @pytest.mark.interpreted
-def test_a_direction_meets_the_face_and_the_place_of_gls_table():
+def test_faces_and_places_are_the_oracles():
     given = directions(1, 200, 4)
+    faces, places = cube_maps.on_faces(given, False)
+    for direction, face, place in zip(given, faces, places, strict=True):
+        assert (face, *place) == (*oracle.on_face(direction[:3]), direction[3])
+
+
+def test_a_direction_meets_its_place_on_the_cube():
+    given = directions(2, 200)
     for by_reciprocal in (False, True):
         faces, places = cube_maps.on_faces(given, by_reciprocal)
-        for direction, face, (s, t, reference) in zip(given, faces, places, strict=True):
-            hit = direction[:3] / abs(direction[:3]).max()
-            assert np.allclose(on_cube(face, s, t), hit, atol=1e-6)  # float32 against float64
-            assert reference == direction[3]
+        met = [oracle.point(face, s, t) for face, (s, t, _) in zip(faces, places, strict=True)]
+        assert np.allclose(met, given / abs(given).max(axis=1, keepdims=True), atol=1e-6)  # float32 against float64
 
 
 def test_equal_components_prefer_z_then_y():
@@ -79,12 +68,18 @@ def test_a_step_is_measured_on_the_pixels_own_face():
 def test_the_texel_beyond_an_edge_is_the_one_that_touches_it(edge, face):
     size = 4
     for along in range(size):
-        middle = (along + 0.5) / size
-        s, t = ((0.0, middle), (1.0, middle), (middle, 0.0), (middle, 1.0))[edge]
-        following, x, y = cube_filtering.on_next_face(edge, face, along, size - 1)
-        assert following != face
-        centre = on_cube(following, (x + 0.5) / size, (y + 0.5) / size)
-        assert np.isclose(np.linalg.norm(centre - on_cube(face, s, t)), 1 / size)  # half a texel
+        x, y = ((-1, along), (size, along), (along, -1), (along, size))[edge]
+        assert cube_filtering.on_next_face(edge, face, along, size - 1) == oracle.beyond(face, x, y, size)
+
+
+@pytest.mark.interpreted
+def test_seamless_filters_are_the_oracles():
+    cells = np.random.default_rng(4).integers(0, 256, (6, 3, 3, 4), dtype=np.uint8)
+    made = cube_map(cells, min_filter=gl.GL_LINEAR, mag_filter=gl.GL_LINEAR, seamless=1)
+    given = np.array([d for d in directions(5, 400) if not oracle.reaches_a_corner(d, 3)][:200])
+    colors = cells.astype(np.float32) * (np.float32(1) / np.float32(255))
+    for direction, color in zip(given, sampled(made, given), strict=True):
+        assert same_bits(color, oracle.sample_seamlessly(colors, direction))
 
 
 def cube_map(cells: np.ndarray, **parameters: Any) -> Texture:
