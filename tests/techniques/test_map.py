@@ -48,8 +48,10 @@ def test_map_holds_the_depth_of_the_first_caster_seen_from_the_light(scene: Scen
         extreme([np.roll(expected, (y, x), (0, 1)) for y in (-1, 0, 1) for x in (-1, 0, 1)], axis=0)
         for extreme in (np.min, np.max)
     )
-    assert (stored >= lowest - DEPTH_ROUNDING).all()
-    assert (stored <= highest + DEPTH_ROUNDING).all()
+    # vertices are snapped to 1/256 texel: so far beyond its edge a face may reach, and its plane with it
+    snapped = DEPTH_ROUNDING + (highest - lowest) / 256
+    assert (stored >= lowest - snapped).all()
+    assert (stored <= highest + snapped).all()
     close = np.abs(stored - expected) <= DEPTH_ROUNDING
     assert close[off_the_edges(stored < 1)].mean() > 0.99
 
