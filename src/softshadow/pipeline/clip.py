@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.jit import kernel
-from softshadow.pipeline.constants import ZERO
+from softshadow.pipeline.constants import SMALLEST_NORMAL, ZERO
 
 # plane k keeps a x + b y + c z + d w >= 0; the order is the order of clipping
 FRUSTUM = np.array([[-1, 0, 0, 1], [1, 0, 0, 1], [0, -1, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [0, 0, -1, 1]], np.float32)
@@ -90,16 +90,16 @@ def frustum_and(user_planes: np.ndarray, dtype: np.dtype) -> np.ndarray:
 
 
 def outcodes(clip: np.ndarray, depth_clamp: bool, user_planes: np.ndarray) -> np.ndarray:
-    """Return, per vertex, a bit for each plane it is outside of; on the boundary counts as inside.
+    """Return, per vertex, a bit for each plane it is outside of; on the boundary counts as inside, NaN as outside.
 
     With `depth_clamp` near and far do not clip.
     """
     x, y, z, w = clip.T
-    tests = [x > w, x + w < 0, y > w, y + w < 0, z + w < 0, z > w]
-    tests += [((x * p[0] + y * p[1]) + z * p[2]) + w * p[3] < 0 for p in user_planes.astype(clip.dtype)]
+    inside = [x <= w, x + w >= 0, y <= w, y + w >= 0, z + w >= 0, z <= w]
+    inside += [((x * p[0] + y * p[1]) + z * p[2]) + w * p[3] >= 0 for p in user_planes.astype(clip.dtype)]
     codes = np.zeros(len(clip), np.int32)
-    for bit, test in enumerate(tests):
-        codes |= test.astype(np.int32) << bit
+    for bit, test in enumerate(inside):
+        codes |= (~test).astype(np.int32) << bit
     return codes & ~NEAR_FAR if depth_clamp else codes
 
 
@@ -193,6 +193,7 @@ def cut_polygon(plane, draws_cut, polygon, drawn, corners, out, out_drawn, clip,
                 first, second, t = current, previous, now / span
             else:
                 first, second, t = previous, current, -before / span
+            t = t if t >= SMALLEST_NORMAL else ZERO  # llvmpipe runs with denormal results flushed to 0
             for k in range(4):
                 clip[vertices, k] = clip[first, k] + t * (clip[second, k] - clip[first, k])
             if linear:

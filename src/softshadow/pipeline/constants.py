@@ -9,3 +9,4 @@ HALF = np.float32(0.5)
 SUBPIXEL_BITS = 8
 SUBPIXELS = np.float32(1 << SUBPIXEL_BITS)
 HALF_RANGE = np.float32(1 << 31)  # of an unsigned 32-bit integer
+SMALLEST_NORMAL = np.finfo(np.float32).tiny

@@ -3,6 +3,7 @@
 import numpy as np
 
 from softshadow.jit import kernel
+from softshadow.pipeline.constants import SMALLEST_NORMAL
 from softshadow.state import Viewport
 
 
@@ -46,6 +47,7 @@ def to_window(clip: np.ndarray, viewport: Viewport, framebuffer_height: int, fli
     scale = np.array([viewport.width / 2, y_scale, real(0.5) * (far - near)], clip.dtype)
     shift = np.array([viewport.x + viewport.width / 2, y_shift, real(0.5) * (far + near)], clip.dtype)
     window = np.empty_like(clip)
-    window[:, 3] = real(1) / clip[:, 3]
+    over_w = real(1) / clip[:, 3]
+    window[:, 3] = np.where(abs(over_w) < SMALLEST_NORMAL, real(0), over_w)  # llvmpipe flushes denormal results to 0
     window[:, :3] = (clip[:, :3] * window[:, 3:]) * scale + shift
     return window
