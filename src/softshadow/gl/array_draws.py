@@ -36,6 +36,7 @@ from softshadow.state import TEXTURE_UNITS
 
 INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
 AN_INDEX_TYPE = "GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT or GL_UNSIGNED_INT"
+LARGEST_FRACTION = (1 << 23) - 1  # llvmpipe fetches as many bits of an unsigned int as float32 has
 NORMALISED = ("color", "normal")  # integers of these stand for 0 to 1 or -1 to 1
 CONVERSIONS: dict[type[np.generic], Callable[[Any], float]] = {  # of glArrayElement: those of glColor and glNormal
     np.int8: from_byte, np.uint8: from_unsigned_byte, np.int16: from_short, np.uint16: from_unsigned_short,
@@ -235,12 +236,17 @@ def _converted(rows: np.ndarray, width: int, context: Context, normalised: bool)
     full = np.empty((len(rows), width), context.real)
     full[:] = REST[:width]
     with np.errstate(over="ignore"):
-        if rows.dtype.kind in "iu" and normalised:
-            full[:, : rows.shape[1]] = rows / context.real(np.iinfo(rows.dtype).max)
-        else:
-            full[:, : rows.shape[1]] = rows
+        fractions = rows.dtype.kind in "iu" and normalised
+        full[:, : rows.shape[1]] = _fractions(rows, context.real) if fractions else rows
     full.setflags(write=False)
     return full
+
+
+def _fractions(rows: np.ndarray, real: type[np.floating]) -> np.ndarray:
+    """Return integers as the fractions they stand for: times the rounded step; of unsigned ints the upper 23 bits."""
+    if rows.dtype == np.uint32:
+        return (rows >> np.uint32(9)).astype(real) * real(1 / LARGEST_FRACTION)
+    return rows.astype(real) * real(1 / np.iinfo(rows.dtype).max)
 
 
 __all__ = spelled_like_gl(globals())
