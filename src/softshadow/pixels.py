@@ -1,8 +1,8 @@
 """Pixels between client memory and storage: the number formats of glTexImage2D, glReadPixels and glGetTexImage.
 
-Bit for bit those of llvmpipe, but for colours read as GL_INT or GL_UNSIGNED_INT out of float images (Mesa's product
-overflows at 1.0 and answers 0). What is surprising is GL's: a float becomes depth by cutting, not by rounding, and the
-luminance that glReadPixels reads is R + G + B.
+Bit for bit those of llvmpipe. What is surprising is GL's: a float becomes depth by cutting, not by rounding, and the
+luminance that glReadPixels reads is R + G + B. Mesa's own is that a float of exactly 1 read as GL_UNSIGNED_INT answers 0,
+as GL_INT the smallest integer.
 """
 
 from __future__ import annotations
@@ -182,7 +182,8 @@ def pack_color(
     """Return colour cells (h, w, 4) as client pixels (h, w, components).
 
     Luminance and intensity answer (L, 0, 0, A). `from_framebuffer`: luminance is R + G + B, and what becomes an integer
-    is clamped to [0, 1] first.
+    is clamped to [0, 1] first. Textures are clamped for unsigned types only, which takes luminance through floats; an
+    alpha that a format has not is the largest integer.
     """
     one = 255 if format.kind == "unorm8" else 1
     base = {gl.GL_LUMINANCE: "R001", gl.GL_INTENSITY: "R001", gl.GL_LUMINANCE_ALPHA: "R00A"}.get(format.base, "RGBA")
@@ -198,8 +199,15 @@ def pack_color(
         if clamped or format.kind == "unorm8":
             total = np.clip(total, F32(0), F32(1))
         rgba = np.stack([total, total, total, rgba[..., 3]], axis=-1)
+    elif "L" in names and np.dtype(dtype).kind == "u" and not from_framebuffer:
+        rgba, one = color_as_float(rgba), 1
     chosen = _swizzled(rgba, names.replace("L", "R"), one)
-    return _from_unorm8(chosen, dtype) if chosen.dtype == np.uint8 else _from_float(chosen, dtype)
+    if chosen.dtype == np.uint8:
+        return _from_unorm8(chosen, dtype)
+    answer = _from_float(chosen, dtype)
+    if np.dtype(dtype).kind == "i" and not from_framebuffer and not format.written[3]:
+        answer[..., [name == "A" for name in names]] = largest_of(dtype)
+    return answer
 
 
 def _from_unorm8(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
@@ -215,5 +223,6 @@ def _from_float(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
         return values.astype(dtype)
     largest = largest_of(dtype)
     low = F32(-1) if np.dtype(dtype).kind == "i" else F32(0)
-    scaled = np.rint(np.clip(values, low, F32(1)) * F32(largest)).astype(np.int64)
-    return np.minimum(scaled, largest).astype(dtype)  # float32 has no 2**32 - 1
+    # float32 has no 2**32 - 1: the product of 1 is one too large for 32 bits, and wraps around
+    scaled = np.rint(np.clip(values, low, F32(1)) * F32(largest)).astype(np.int64).astype(dtype)
+    return np.where(values > F32(1), dtype(largest), scaled) if np.dtype(dtype).kind == "i" else scaled

@@ -28,7 +28,10 @@ from softshadow.pipeline.commands import CopyToTexture, DefineImage
 def glCopyTexImage2D(
     target: int, level: int, internalformat: int, x: int, y: int, width: int, height: int, border: int
 ) -> None:
-    """Define a level of the bound texture from a rectangle of the read framebuffer."""
+    """Define a level of the bound texture from a rectangle of the read framebuffer.
+
+    Outside the framebuffer texels become 0; in an image that had this format and size already they stay.
+    """
     operation = "glCopyTexImage2D"
     if (context := outside_begin(operation)) is None:
         return None
@@ -44,7 +47,10 @@ def glCopyTexImage2D(
     if problem:
         return fail(problem[0], operation, problem[1])
     texture, face = bound_texture(context, target), face_of(target)
-    context.execute(DefineImage(texture.name, face, level, FORMATS[internalformat], internalformat, width, height))
+    before = texture.images.get((face, level))
+    if before is None or (before.internal_format, before.width, before.height) != (internalformat, width, height):
+        stored = FORMATS[internalformat]
+        context.execute(DefineImage(texture.name, face, level, stored, internalformat, width, height))
     context.execute(CopyToTexture(context.state.read_framebuffer, texture.name, face, level, 0, 0, x, y, width, height))
     follow_base_level(context, texture, face, level)
     return None
