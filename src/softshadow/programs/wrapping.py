@@ -85,8 +85,8 @@ def linear_texels(coordinate, size, wrap):
         return max(first, 0), min(first + 1, last), u - np.floor(u)
     u = coordinate * length
     if wrap == GL_CLAMP:
+        u = u if u < length else length  # NaN too
         u = u if u > ZERO else ZERO
-        u = u if u < length else length
     u = u - HALF
     first = to_integer(np.floor(u))
     return first, first + 1, u - np.floor(u)
