@@ -4,7 +4,8 @@ The one door to PyOpenGL. Import it only in a Mesa worker: PyOpenGL chooses its 
 What differs from plain PyOpenGL:
 
 - glReadPixels and glGetTexImage return (h, w) or (h, w, channels), first row = bottom row, without row padding, and
-  know GL_UNSIGNED_INT_24_8; images handed in are read without row padding too, whatever GL_UNPACK_ALIGNMENT says.
+  know GL_UNSIGNED_INT_24_8; images handed in are read without row padding too where they are too small for that of
+  GL_UNPACK_ALIGNMENT.
 - glGen* return a plain int for one name.
 - A GL error is raised as GL.GLError, and glGetError still answers its code afterwards, as in `softshadow.gl`.
 - `program(name)` compiles the GLSL twin of a softshadow program and returns a name for glUseProgram.
@@ -19,6 +20,8 @@ from typing import Any
 import numpy as np
 from OpenGL import GL, GLU, images
 from OpenGL.raw.GL.VERSION import GL_1_0 as raw
+
+from softshadow.pixel_store import PixelStore
 
 # unknown to PyOpenGL 3.1's image tables; one 32-bit word per pixel
 images.TYPE_TO_ARRAYTYPE[GL.GL_UNSIGNED_INT_24_8] = GL.GL_UNSIGNED_INT
@@ -216,15 +219,30 @@ def glGetTexImage(target: int, level: int, format: int, type: int, array: np.nda
     return out
 
 
-def _with_tight_rows(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return an upload function that reads the image it is given without row padding."""
+def _with_tight_rows(function: Callable[..., Any], size_at: int) -> Callable[..., Any]:
+    """Return an upload function that reads the image it is given without row padding, unless it has room for that.
+
+    `size_at` is the place of the width among the arguments; format, type and image are the last ones.
+    """
 
     def upload(*arguments: Any) -> Any:
         with _tight_rows():
-            GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)
+            if not _has_padding(*arguments[size_at : size_at + 2], *arguments[-3:]):
+                GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)
             return function(*arguments)
 
     return upload
+
+
+def _has_padding(width: int, height: int, pixel_format: int, pixel_type: int, image: Any) -> bool:
+    """Return whether an image is large enough for rows at the alignment that GL_UNPACK_ALIGNMENT asks for."""
+    channels, dtype = CHANNELS.get(pixel_format), DTYPES.get(pixel_type)
+    if channels is None or dtype is None or not isinstance(image, np.ndarray):
+        return False
+    names = (GL.GL_UNPACK_ALIGNMENT, GL.GL_UNPACK_ROW_LENGTH, GL.GL_UNPACK_SKIP_ROWS, GL.GL_UNPACK_SKIP_PIXELS)
+    store = PixelStore(*(int(GL.glGetIntegerv(name)) for name in names))
+    pixel = channels * np.dtype(dtype).itemsize
+    return image.size * np.dtype(dtype).itemsize >= store.layout(width, height, pixel, aligned=True)[-1]
 
 
 def _with_plain_names(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -253,7 +271,9 @@ def _with_unknown_names(function: Callable[..., Any], ctype: Any) -> Callable[..
 OWN: dict[str, Callable[..., Any]] = {
     "glReadPixels": glReadPixels,
     "glGetTexImage": glGetTexImage,
-    **{name: _with_tight_rows(getattr(GL, name)) for name in ("glTexImage2D", "glTexSubImage2D", "glDrawPixels")},
+    "glTexImage2D": _with_tight_rows(GL.glTexImage2D, size_at=3),
+    "glTexSubImage2D": _with_tight_rows(GL.glTexSubImage2D, size_at=4),
+    "glDrawPixels": _with_tight_rows(GL.glDrawPixels, size_at=0),
     **{
         name: _with_plain_names(getattr(GL, name))
         for name in ("glGenTextures", "glGenFramebuffers", "glGenRenderbuffers", "glGenBuffers", "glGenQueries")
