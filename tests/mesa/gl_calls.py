@@ -2,15 +2,24 @@
 
 import re
 from collections.abc import Callable
+from functools import reduce
+from operator import or_
 from typing import Any
 
 import numpy as np
 
-# (name of the function, arguments): numbers, arrays, tokens by name ("GL_LESS"), objects by kind and number ("query 0")
+# (name of the function, arguments): numbers, arrays, tokens by name ("GL_LESS", "GL_COLOR_BUFFER_BIT | GL_..."),
+# objects by kind and number ("query 0")
 Call = tuple[str, tuple[Any, ...]]
 
-OBJECT = re.compile(r"(texture|framebuffer|query) (\d+)")
-GENERATORS = {"texture": "glGenTextures", "framebuffer": "glGenFramebuffers", "query": "glGenQueries"}
+OBJECT = re.compile(r"(texture|framebuffer|renderbuffer|query) (\d+)")
+GENERATORS = {
+    "texture": "glGenTextures",
+    "framebuffer": "glGenFramebuffers",
+    "renderbuffer": "glGenRenderbuffers",
+    "query": "glGenQueries",
+}
+BITS = " | "  # between the tokens of a bit mask
 READS = ("glReadPixels", "glGet", "glIsEnabled", "glCheck")
 
 
@@ -19,10 +28,12 @@ def replay(gl: Any, calls: list[Call]) -> list[Any]:
     objects: dict[str, int] = {}
 
     def value(argument: Any) -> Any:
+        if isinstance(argument, np.ndarray):
+            return argument.copy()  # reads may fill it
         if not isinstance(argument, str):
             return argument
         if OBJECT.fullmatch(argument) is None:
-            return getattr(gl, argument)
+            return reduce(or_, (getattr(gl, token) for token in argument.split(BITS)))
         if argument not in objects:
             objects[argument] = getattr(gl, GENERATORS[argument.split()[0]])(1)
         return objects[argument]
@@ -60,7 +71,7 @@ def _spelled(argument: Any) -> str:
     if _is_object(argument):
         return argument.replace(" ", "_")
     if isinstance(argument, str):
-        return f"gl.{argument}"
+        return BITS.join(f"gl.{token}" for token in argument.split(BITS))
     if isinstance(argument, np.ndarray):
         shortest = np.array([str(number) for number in argument.ravel()]).reshape(argument.shape).tolist()
         return f"np.array({shortest}, np.{argument.dtype})".replace("'", "")

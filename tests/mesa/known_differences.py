@@ -47,6 +47,34 @@ def back_colors(gl: Any) -> None:
     gl.glEnd()
 
 
+def back_material(gl: Any) -> None:
+    gl.glEnable(gl.GL_LIGHTING)
+    gl.glEnable(gl.GL_LIGHT0)
+    gl.glLightModeli(gl.GL_LIGHT_MODEL_TWO_SIDE, 1)
+    gl.glBegin(gl.GL_TRIANGLES)
+    gl.glMaterialfv(gl.GL_BACK, gl.GL_AMBIENT, [0.25, 0.5, 0.75, 1.0])
+    for corner in CORNERS[2::-1]:
+        gl.glVertex2f(*corner)
+    gl.glEnd()
+
+
+def no_place(gl: Any) -> None:
+    gl.glBegin(gl.GL_TRIANGLES)
+    gl.glVertex4f(0.0, 0.0, 0.0, 0.0)
+    gl.glVertex2f(-0.4, -0.2)
+    gl.glVertex2f(-0.9, -0.8)
+    gl.glEnd()
+
+
+def short_texels(gl: Any) -> None:
+    texels = np.full((1, 1, 4), 25854, np.uint16)  # 100.6 / 255
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 1, 1, 0, gl.GL_RGBA, gl.GL_UNSIGNED_SHORT, texels)
+    gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+    gl.glEnable(gl.GL_TEXTURE_2D)
+    gl.glColor4f(0.75, 0.75, 0.75, 0.75)
+    triangle(gl, gl.GL_TRIANGLES, CORNERS[:3])
+
+
 def triangle(gl: Any, mode: int, corners: list[tuple[float, float]]) -> None:
     gl.glBegin(mode)
     for corner in corners:
@@ -73,6 +101,11 @@ def late_color(gl: Any) -> None:
     gl.glCallList(1)
 
 
+def has_short_texels(calls: list[Call]) -> bool:
+    images = (values for name, values in calls if name == "glTexImage2D")
+    return any(values[2] == values[6] and values[7] == "GL_UNSIGNED_SHORT" for values in images)
+
+
 def follows_back_only(calls: list[Call]) -> bool:
     two_sided = ("glLightModeli", ("GL_LIGHT_MODEL_TWO_SIDE", 1)) in calls
     follows = any(name == "glColorMaterial" and values[0] == "GL_BACK" for name, values in calls)
@@ -97,8 +130,32 @@ KNOWN = (
         back_colors,
         follows_back_only,
     ),
+    KnownDifference(
+        "colours of 16 bits",
+        "textures whose internal format is GL_RGBA, GL_LUMINANCE or the like, and whose pixels are GL_UNSIGNED_SHORT of "
+        "the same format",
+        "Mesa keeps 16 bits a channel then, here it is 8 as for all other pixels",
+        1,
+        short_texels,
+        has_short_texels,
+    ),
 )
 FAULTS = (
+    KnownDifference(
+        "back material",
+        "colours of back faces in two-sided lighting where glMaterial is called inside glBegin",
+        "Mesa leaves green and blue of back faces at 0, or gives them those of another material",
+        255,
+        back_material,
+    ),
+    KnownDifference(
+        "no place in the window",
+        "a triangle with a vertex inside the clip volume whose window coordinates are no numbers: clip coordinates "
+        "(0, 0, 0, 0) or (inf, inf, inf, inf)",
+        "Mesa's integers overflow, and it fills parts of the window, or nothing; here such a triangle is left out",
+        255,
+        no_place,
+    ),
     KnownDifference(
         "unfinished quad in a list",
         "three vertices of GL_QUADS or GL_QUAD_STRIP in a display list, where a fourth never comes",

@@ -12,7 +12,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mesa import random_cube_maps, random_shading, random_structure, random_texturing
+from mesa import (
+    random_arrays,
+    random_buffers,
+    random_combining,
+    random_cube_maps,
+    random_extremes,
+    random_images,
+    random_mipmaps,
+    random_scenes,
+    random_shading,
+    random_structure,
+    random_texturing,
+)
 from mesa.gl_calls import Call
 from mesa.random_writer import LINES_AND_POINTS, PRIMITIVES, Writer
 
@@ -92,6 +104,28 @@ FAMILIES = {
     "attribute stacks": Family(random_structure.pushed),
     "offscreen": Family(random_structure.offset, random_structure.offscreen, random_structure.read_offscreen),
     "cube maps": Family(random_cube_maps.mapped, random_cube_maps.cubes, random_cube_maps.copied_faces, wild=False),
+    "arrays": Family(random_arrays.pointed_state, random_texturing.texture, batch=random_arrays.pointed),
+    "mipmaps": Family(random_mipmaps.minified, random_mipmaps.levels, wild=False),
+    "images": Family(random_images.uploaded, wild=False),
+    "depth images": Family(random_images.uploaded_depth, wild=False),
+    "read-outs": Family(everything, finish=random_images.read_out),
+    "combiners": Family(random_combining.combined, random_combining.two_images, wild=False),
+    "accumulation": Family(random_buffers.accumulated, finish=random_buffers.accumulated_lights),
+    "queries": Family(everything, batch=random_buffers.counted),
+    "float targets": Family(random_buffers.blended_floats, random_buffers.float_target, random_buffers.read_target),
+    "several framebuffers": Family(
+        random_buffers.switched, random_buffers.several_framebuffers, random_buffers.read_framebuffers, wild=False
+    ),
+    "many lights": Family(random_shading.lit, random_shading.many_lights, batch=random_shading.with_materials),
+    "planar shadows": Family(random_scenes.view, batch=random_scenes.planar_shadow),
+    "shadow volumes": Family(random_scenes.view, batch=random_scenes.shadow_volumes),
+    "shadow maps": Family(random_scenes.view, batch=random_scenes.shadow_mapped),
+    "lights one by one": Family(random_scenes.view, batch=random_scenes.lights_one_by_one),
+    "soft shadows": Family(random_scenes.view, batch=random_scenes.soft_shadow),
+    "far coordinates": Family(random_extremes.extreme, random_extremes.odd_window, batch=random_extremes.far_away),
+    "extreme viewports": Family(random_extremes.extreme, random_extremes.odd_window),
+    "slivers": Family(geometry, random_extremes.odd_window, batch=random_extremes.sliver),
+    "meshes": Family(geometry, random_extremes.odd_window, batch=random_extremes.mesh),
 }
 
 
