@@ -134,10 +134,12 @@ Span = tuple[int, int]
 def _clipped(source: Span, target: Span, read_end: int, first: int, end: int) -> Span | None:
     """Return what is left of the target's span when both are clipped (Mesa, _mesa_clip_blit)."""
     for span, low, high in ((target, first, end), (source, 0, read_end)):
-        if span[0] == span[1] or max(span) <= low or min(span) >= high:
+        if span[0] == span[1] or low >= high or max(span) <= low or min(span) >= high:
             return None
     source, target = _cut_above(source, target, end)
     source, target = _cut_below(source, target, first)
+    if source[0] == source[1]:
+        return None
     target, source = _cut_above(target, source, read_end)
     target, source = _cut_below(target, source, 0)
     return target
