@@ -9,6 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from mesa.gl_calls import Call
 
 CORNERS = [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.7)]
@@ -132,8 +134,8 @@ KNOWN = (
     ),
     KnownDifference(
         "colours of 16 bits",
-        "textures whose internal format is GL_RGBA, GL_LUMINANCE or the like, and whose pixels are GL_UNSIGNED_SHORT of "
-        "the same format",
+        "textures whose internal format is GL_RGBA, GL_LUMINANCE or the like, and whose pixels are GL_UNSIGNED_SHORT "
+        "of the same format",
         "Mesa keeps 16 bits a channel then, here it is 8 as for all other pixels",
         1,
         short_texels,
@@ -150,8 +152,8 @@ FAULTS = (
     ),
     KnownDifference(
         "no place in the window",
-        "a triangle with a vertex inside the clip volume whose window coordinates are no numbers: clip coordinates "
-        "(0, 0, 0, 0) or (inf, inf, inf, inf)",
+        "a triangle with a vertex that is not outside any clip plane and has no finite window coordinates: at "
+        "(0, 0, 0, 0) or (inf, inf, inf, inf), or made with w = 0 by clipping an edge from w = -1e15",
         "Mesa's integers overflow, and it fills parts of the window, or nothing; here such a triangle is left out",
         255,
         no_place,

@@ -16,8 +16,8 @@ from softshadow.testing import EXPECTED_VERSION, compare, differences, mesa_vers
 
 pytestmark = pytest.mark.mesa
 
-SHORT_LANE = "32"  # programs of each of the 16 families: 512 in all
-LONG_LANE = "313"  # 5,008 in all
+SHORT_LANE = "14"  # programs of each of the 36 families: 504 in all
+LONG_LANE = "139"  # 5,004 in all
 
 
 def seeds(lane: str) -> range:

@@ -109,3 +109,11 @@ def test_pieces_know_the_triangle_they_come_from():
     assert made.source[0] == 0
     assert set(made.source) <= {0, 1, 2}
     assert (np.diff(made.source) >= 0).all()
+
+
+@pytest.mark.parametrize("column", range(4))
+def test_a_vertex_that_is_no_number_is_outside(column):
+    vertex = np.array([[0.1, 0.2, 0.3, 1.0]], np.float32)
+    assert outcodes(vertex, False, NO_PLANES)[0] == 0
+    vertex[0, column] = np.nan
+    assert outcodes(vertex, False, NO_PLANES)[0] != 0

@@ -86,6 +86,18 @@ def test_images_are_read_without_row_padding():
     assert alignments == [4, 4]
 
 
+def test_images_with_room_for_it_are_read_with_row_padding():
+    padded = np.arange(24, dtype=np.uint8).reshape(2, 12)
+
+    def program(gl):
+        gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGB8, 3, 2, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, padded)
+        return gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)
+
+    image = run_on_mesa(program, SIZE).returned
+    np.testing.assert_array_equal(image, padded[:, :9].reshape(2, 3, 3))
+
+
 def test_one_name_is_an_int_and_several_are_an_array():
     def program(gl):
         generators = (gl.glGenTextures, gl.glGenFramebuffers, gl.glGenQueries)
