@@ -1,8 +1,8 @@
 """Pixels between client memory and storage: the number formats of glTexImage2D, glReadPixels and glGetTexImage.
 
 Bit for bit those of llvmpipe. What is surprising is GL's: a float becomes depth by cutting, not by rounding, and the
-luminance that glReadPixels reads is R + G + B. Mesa's own is that a float of exactly 1 read as GL_UNSIGNED_INT answers 0,
-as GL_INT the smallest integer.
+luminance that glReadPixels reads is R + G + B. Mesa's own is that a float of exactly 1 read as GL_UNSIGNED_INT answers
+0, as GL_INT the smallest integer.
 """
 
 from __future__ import annotations
