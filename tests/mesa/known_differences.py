@@ -49,17 +49,6 @@ def back_colors(gl: Any) -> None:
     gl.glEnd()
 
 
-def back_material(gl: Any) -> None:
-    gl.glEnable(gl.GL_LIGHTING)
-    gl.glEnable(gl.GL_LIGHT0)
-    gl.glLightModeli(gl.GL_LIGHT_MODEL_TWO_SIDE, 1)
-    gl.glBegin(gl.GL_TRIANGLES)
-    gl.glMaterialfv(gl.GL_BACK, gl.GL_AMBIENT, [0.25, 0.5, 0.75, 1.0])
-    for corner in CORNERS[2::-1]:
-        gl.glVertex2f(*corner)
-    gl.glEnd()
-
-
 def no_place(gl: Any) -> None:
     gl.glBegin(gl.GL_TRIANGLES)
     gl.glVertex4f(0.0, 0.0, 0.0, 0.0)
@@ -143,13 +132,6 @@ KNOWN = (
     ),
 )
 FAULTS = (
-    KnownDifference(
-        "back material",
-        "colours of back faces in two-sided lighting where glMaterial is called inside glBegin",
-        "Mesa leaves green and blue of back faces at 0, or gives them those of another material",
-        255,
-        back_material,
-    ),
     KnownDifference(
         "no place in the window",
         "a triangle with a vertex that is not outside any clip plane and has no finite window coordinates: at "

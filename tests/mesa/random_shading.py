@@ -89,7 +89,7 @@ def many_lights(writer: Writer) -> None:
 def with_materials(writer: Writer, wild: bool) -> None:
     """Vertices between which normals and colours change, and on one-sided surfaces materials."""
     changing = writer.chance(0.5)
-    if changing:  # not the fault "back material" of known_differences.py
+    if changing:
         writer.call("glLightModeli", "GL_LIGHT_MODEL_TWO_SIDE", 0)
     mode = writer.pick(writer.primitives)
     writer.call("glBegin", mode)
