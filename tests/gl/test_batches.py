@@ -116,3 +116,9 @@ def test_an_attribute_that_comes_later_sends_off_the_quads_before_it(context):
     first, rest = context.frame.commands
     assert (len(first.vertices.position), len(rest.vertices.position)) == (4, 2)
     assert rest.vertices.color.tolist() == [[1, 1, 1, 1], [1, 0, 0, 1]]
+
+
+def test_a_light_model_set_to_what_it_is_ends_no_batch(context):
+    before = context.state
+    gl.glLightModelfv(gl.GL_LIGHT_MODEL_AMBIENT, (0.2, 0.2, 0.2, 1.0))
+    assert context.state is before

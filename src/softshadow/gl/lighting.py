@@ -153,7 +153,9 @@ def _set_model(operation: str, pname: int, params: Any, color: Callable[[Any], f
         return
     plain = int if color is from_int else float
     if pname == gl.GL_LIGHT_MODEL_AMBIENT:
-        change(context, "lighting", model_ambient=rounded(context, *vector(params, 4, color)))
+        ambient = rounded(context, *vector(params, 4, color))
+        if ambient != rounded(context, *context.state.lighting.model_ambient):  # the initial 0.2 is no float32
+            change(context, "lighting", model_ambient=ambient)
     elif pname in MODEL_SWITCHES:
         change(context, "lighting", **{MODEL_SWITCHES[pname]: bool(first(params, plain))})
     else:

@@ -71,14 +71,14 @@ def glRenderbufferStorage(target: int, internalformat: int, width: int, height: 
         return None
     if target != gl.GL_RENDERBUFFER:
         return fail(gl.GL_INVALID_ENUM, operation, f"target={token_name(target)}: expected GL_RENDERBUFFER")
+    if context.renderbuffer == 0:
+        return fail(gl.GL_INVALID_OPERATION, operation, "no renderbuffer is bound")
     if internalformat not in FORMATS or internalformat in (1, 2, 3, 4):
         return fail(
             gl.GL_INVALID_ENUM, operation, f"internalformat={token_name(internalformat)} is not part of this subset"
         )
     if not (0 <= width <= LARGEST_SIDE and 0 <= height <= LARGEST_SIDE):
         return fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 to {LARGEST_SIDE}")
-    if context.renderbuffer == 0:
-        return fail(gl.GL_INVALID_OPERATION, operation, "no renderbuffer is bound")
     stored = storage_format(internalformat)
     context.execute(DefineRenderbuffer(context.renderbuffer, stored, internalformat, width, height))
     return None
