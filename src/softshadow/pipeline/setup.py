@@ -67,9 +67,10 @@ def add_float_units(offsets: np.ndarray, window_z: np.ndarray, units: float) -> 
 
     Float depth formats.
     """
-    _, exponent = np.frexp(np.abs(window_z).max(axis=1))
+    largest = np.abs(window_z).max(axis=1)
+    _, exponent = np.frexp(largest)
     step = np.ldexp(offsets.dtype.type(1), exponent - 1 - MANTISSA_BITS)
-    tiny = step < np.finfo(np.float32).tiny
+    tiny = (step < np.finfo(np.float32).tiny) | (largest == 0)  # frexp gives 0 the exponent of 1/2
     offsets += offsets.dtype.type(units) * np.where(tiny, offsets.dtype.type(0), step)
 
 
