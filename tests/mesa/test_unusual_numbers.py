@@ -55,3 +55,23 @@ def test_coordinates_that_are_no_numbers_find_the_same_texels(size, filtering):
 
     comparison = compare(program, (4, 4))
     assert comparison, str(comparison)
+
+
+@pytest.mark.parametrize("function", ["GL_LESS", "GL_LEQUAL", "GL_EQUAL", "GL_NOTEQUAL", "GL_GEQUAL", "GL_GREATER"])
+def test_an_alpha_that_is_no_number_is_compared_as_one(function):
+    texels = np.full((4, 4, 4), 200, np.uint8)
+
+    def program(gl):
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA8, 4, 4, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_LINEAR)
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_WRAP_S, gl.GL_MIRRORED_REPEAT)
+        gl.glEnable(gl.GL_TEXTURE_2D)
+        gl.glEnable(gl.GL_ALPHA_TEST)
+        gl.glAlphaFunc(getattr(gl, function), 0.5)
+        gl.glEnable(gl.GL_STENCIL_TEST)
+        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR)
+        gl.glTexCoord4f(0.0, 0.0, 0.0, 0.0)
+        gl.glRectf(-1, -1, 1, 1)
+
+    comparison = compare(program, (4, 4))
+    assert comparison, str(comparison)

@@ -60,10 +60,11 @@ def compared_alpha(state: State, color: Image | None, alpha: np.ndarray) -> tupl
     """Return alpha values (n,) uint8 and the reference that the alpha test compares them with.
 
     Both are 0-255 for a buffer of 8-bit RGB or RGBA. For every other one llvmpipe compares them unrounded: then 0, 1, 2
-    say whether an alpha is less than, equal to or greater than the reference, which is 1.
+    say whether an alpha is less than, equal to or greater than the reference, which is 1. NaN is compared as 1, though
+    it is written as 0.
     """
     if color is not None and color.format.kind == "unorm8" and color.format.base in (gl.GL_RGB, gl.GL_RGBA):
-        return to_unorm8(alpha), int(to_unorm8(np.array(state.alpha.ref, np.float32)))
+        return to_unorm8(np.fmin(alpha, alpha.dtype.type(1))), int(to_unorm8(np.array(state.alpha.ref, np.float32)))
     ref = alpha.dtype.type(state.alpha.ref)
     return (alpha >= ref).astype(np.uint8) + (alpha > ref).astype(np.uint8), 1
 
