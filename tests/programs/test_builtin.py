@@ -86,11 +86,11 @@ def test_shadow_map_leaves_what_the_light_does_not_see_lit():
 
 
 def texture_of(depths: np.ndarray, filter_name: int) -> Any:
-    """Return the calls that bind a depth texture (16, 16)."""
+    """Return the calls that bind a square depth texture."""
 
     def setup(on: Any) -> None:
         on.glBindTexture(on.GL_TEXTURE_2D, on.glGenTextures(1))
-        formats = on.GL_DEPTH_COMPONENT24, 16, 16, 0, on.GL_DEPTH_COMPONENT, on.GL_FLOAT
+        formats = on.GL_DEPTH_COMPONENT24, *depths.shape, 0, on.GL_DEPTH_COMPONENT, on.GL_FLOAT
         on.glTexImage2D(on.GL_TEXTURE_2D, 0, *formats, depths)
         on.glTexParameteri(on.GL_TEXTURE_2D, on.GL_TEXTURE_MIN_FILTER, filter_name)
         on.glTexParameteri(on.GL_TEXTURE_2D, on.GL_TEXTURE_MAG_FILTER, filter_name)
@@ -141,6 +141,23 @@ def test_blinn_phong_under_a_shadow_map_is_its_glsl_twin(name, filter_name):
         without = shaded("blinn-phong", given, {**colors, **light})
         assert 0 < (ours != without).any(axis=1).mean() < 1
         assert same_bits(ours, shaded_on_mesa(name, given, uniforms, texture_of(depths, filter_name)))
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize("name", ["shadow-map", "blinn-phong-shadowed", "blinn-phong-shadowed-5x5"])
+@pytest.mark.parametrize("q", [1.1, 2.7, 4.3])
+def test_coordinates_on_edges_of_texels_find_the_texels_of_mesa(name, q):
+    rng, given = np.random.default_rng(5), points(5)
+    depths = rng.random((32, 32), np.float32)
+    # s / q is k / 32 but for the last bit: pixel centres are edges of texels
+    uniforms: dict[str, Any] = {"lightMatrix": np.eye(4, dtype=np.float32) * np.float32(q), "bias": 0.0}
+    if name != "shadow-map":
+        uniforms |= {"texel": 1 / 32, "ambient": (0.1, 0.2, 0.3), "diffuse": (0.6, 0.5, 0.4)}
+        uniforms |= {"lightPosition": (1.0, 2.0, 3.0, 1.0), "shininess": 10.0, "specular": (0.3, 0.4, 0.5)}
+    else:
+        uniforms |= {"ambient": (0.3, 0.2, 0.1, 1.0)}
+    ours = shaded(name, given, {**uniforms, "shadowMap": depth_map(np.floor(depths * D24))})
+    assert same_bits(ours, shaded_on_mesa(name, given, uniforms, texture_of(depths, gl.GL_NEAREST)))
 
 
 def test_what_no_map_shadows_is_lit_as_without_one():

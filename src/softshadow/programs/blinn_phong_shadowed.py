@@ -18,7 +18,7 @@ from softshadow.jit import kernel
 from softshadow.programs import Program, Varyings, VertexInputs
 from softshadow.programs.blinn_phong import BLINN_PHONG, lit_by
 from softshadow.programs.blinn_phong import vertex as blinn_phong_vertex
-from softshadow.programs.sampling import project, sample
+from softshadow.programs.sampling import divide, sample
 from softshadow.programs.texture_coordinates import transform
 
 VERTEX = """#version 120
@@ -93,7 +93,7 @@ def shade_5x5(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) 
 def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], radius: int, out: np.ndarray) -> None:
     """Fill `out` (N, 4) with the lit colours; the map is compared at (2 radius + 1)² places round each pixel's own."""
     real = inputs.dtype.type
-    projected = project(inputs[:, 10:])
+    projected = divide(inputs[:, 10:])
     true_depth = projected[:, 2] - real(uniforms["bias"])
     texel = real(uniforms["texel"])
     lit = np.zeros(len(inputs), inputs.dtype)

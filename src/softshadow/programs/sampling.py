@@ -76,6 +76,17 @@ class Lookup(NamedTuple):
     faces: np.ndarray | None
 
 
+def divide(coordinates: np.ndarray) -> np.ndarray:
+    """Return (s, t, r) / q of coordinates (N, 4) as GLSL's operator does it: rounded once.
+
+    It decides which texel a coordinate on the edge of two finds: `project` is what texture2DProj and the fixed function
+    do, and differs from this in the last bit of a quarter of all quotients.
+    """
+    with np.errstate(all="ignore"):  # q = 0 gives infinities, as in GL
+        quotients: np.ndarray = coordinates[:, :3] / coordinates[:, 3:]
+    return quotients
+
+
 def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
     """Fill `out` (N, 4) with the texture's RGBA at coordinates.
 

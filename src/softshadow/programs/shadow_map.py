@@ -15,7 +15,7 @@ import numpy as np
 
 from softshadow.jit import kernel
 from softshadow.programs import Program, Varyings, VertexInputs
-from softshadow.programs.sampling import project, sample
+from softshadow.programs.sampling import divide, sample
 from softshadow.programs.texture_coordinates import transform
 
 ZERO, ONE = np.float32(0.0), np.float32(1.0)
@@ -61,7 +61,7 @@ def vertex(vertices: VertexInputs) -> Varyings:
 
 def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
     """Fill `out` (N, 4) with the lit or the shaded colour."""
-    projected = project(inputs[:, 4:])
+    projected = divide(inputs[:, 4:])
     stored = np.empty_like(out)
     sample(uniforms["shadowMap"], projected, stored)
     ambient = np.array(uniforms["ambient"], inputs.dtype)
