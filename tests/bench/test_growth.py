@@ -62,7 +62,6 @@ def test_without_matplotlib_the_message_says_how_to_get_it(monkeypatch: pytest.M
 
 
 def test_picture_is_written(tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib")
     grown = growth("w4", "triangles", [1, 2], [result(), result()])
     save_plot(str(tmp_path / "bench.png"), report(result()), [grown])
     assert (tmp_path / "bench.png").read_bytes().startswith(b"\x89PNG")
