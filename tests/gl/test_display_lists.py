@@ -125,3 +125,44 @@ def test_wrong_calls_have_their_error_codes():
         )
     value, operation = gl.GL_INVALID_VALUE, gl.GL_INVALID_OPERATION
     assert codes == [value, gl.GL_INVALID_ENUM, operation, value, value, value, 0, operation]
+
+
+def test_errors_in_a_list_do_not_stop_it():
+    gl.glNewList(1, gl.GL_COMPILE)
+    gl.glEnable(gl.GL_LESS)
+    gl.glCallList(0)
+    gl.glDrawArrays(gl.GL_LESS, 0, 3)
+    gl.glEnable(gl.GL_BLEND)
+    gl.glEndList()
+    assert gl.glGetError() == gl.GL_NO_ERROR
+    with pytest.raises(gl.GLError, match="glEnable"):
+        gl.glCallList(1)
+    assert gl.glGetError() == gl.GL_INVALID_ENUM
+    assert gl.glIsEnabled(gl.GL_BLEND)
+
+
+def test_errors_in_a_list_do_not_stop_the_lists_after_it():
+    for name, cap in ((1, gl.GL_LESS), (2, gl.GL_BLEND)):
+        gl.glNewList(name, gl.GL_COMPILE)
+        gl.glEnable(cap)
+        gl.glEndList()
+    with pytest.raises(gl.GLError, match="glEnable"):
+        gl.glCallLists(np.array([1, 2], np.uint32))
+    assert gl.glIsEnabled(gl.GL_BLEND)
+
+
+def test_list_that_ends_in_an_open_primitive_ends_with_an_error():
+    gl.glNewList(1, gl.GL_COMPILE_AND_EXECUTE)
+    gl.glBegin(gl.GL_LINES)
+    with pytest.raises(gl.GLError, match="glEndList"):
+        gl.glEndList()
+    gl.glEnd()
+    assert gl.glIsList(1)
+    assert gl.glGetError() == gl.GL_INVALID_OPERATION
+
+
+@pytest.mark.parametrize(("name", "mode"), [(0, gl.GL_COMPILE), (2, gl.GL_LESS), (2, gl.GL_COMPILE)])
+def test_list_cannot_start_in_another(name, mode):
+    gl.glNewList(1, gl.GL_COMPILE)
+    with pytest.raises(gl.GLError, match="GL_INVALID_OPERATION"):
+        gl.glNewList(name, mode)

@@ -45,6 +45,8 @@ def test_error_is_raised_and_recorded_until_it_is_asked_for():
         with pytest.raises(gl.GLError) as raised:
             gl.glDepthFunc(gl.GL_KEEP)
         assert raised.value.err == gl.GL_INVALID_ENUM
+        assert (raised.value.baseOperation, raised.value.result) == ("glDepthFunc", None)
+        assert raised.value.description == "invalid enumerant"
         assert (gl.glGetError(), gl.glGetError()) == (gl.GL_INVALID_ENUM, gl.GL_NO_ERROR)
 
 

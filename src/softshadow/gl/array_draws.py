@@ -25,7 +25,7 @@ from softshadow.gl.conversions import (
     from_unsigned_int,
     from_unsigned_short,
 )
-from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
 from softshadow.gl.immediate import A_MODE, MODES, add_vertex, can_draw, in_order
 from softshadow.gl.texture_coordinates import set_coordinate
 from softshadow.gl.vertex_arrays import TYPES, rows_of
@@ -52,9 +52,7 @@ def glDrawArrays(mode: int, first: int, count: int) -> None:
         context.settle()
     if context is None:
         return
-    if count < 0:
-        fail(gl.GL_INVALID_VALUE, "glDrawArrays", f"count={count}: expected 0 or more")
-    elif is_one_of("glDrawArrays", "mode", mode, MODES, A_MODE) and can_draw(context, "glDrawArrays"):
+    if not _refused("glDrawArrays", mode, count) and can_draw(context, "glDrawArrays"):
         vertices = _vertices(context, "glDrawArrays", int(first), int(first) + int(count))
         _draw(context, int(mode), vertices, None)
 
@@ -93,16 +91,24 @@ def _draw_elements(operation: str, mode: int, count: int, type: int, indices: An
     if context is None:
         return
     context.settle()
-    if count < 0:
-        fail(gl.GL_INVALID_VALUE, operation, f"count={count}: expected 0 or more")
-        return
-    if not is_one_of(operation, "mode", mode, MODES, A_MODE):
+    if _refused(operation, mode, count):
         return
     if not is_one_of(operation, "type", type, INDEX_TYPES, AN_INDEX_TYPE) or not can_draw(context, operation):
         return
     owned = _owned_indices(context, operation, int(count), np.dtype(TYPES[type]), indices)
     vertices = _vertices(context, operation, 0, int(owned.max()) + 1 if count else 0)
     _draw(context, int(mode), vertices, owned)
+
+
+def _refused(operation: str, mode: int, count: int) -> bool:
+    """Return whether a draw has failed; a display list keeps the error for when it is called."""
+    if count < 0:
+        in_lists(fail)(gl.GL_INVALID_VALUE, operation, f"count={count}: expected 0 or more")
+    elif mode not in MODES:
+        in_lists(wrong_enum)(operation, "mode", mode, A_MODE)
+    else:
+        return False
+    return True
 
 
 def _owned_indices(context: Context, operation: str, count: int, dtype: np.dtype, indices: Any) -> np.ndarray:

@@ -19,20 +19,27 @@ FIRST_DISTINCT_TOKEN = 0x100  # numbers below are shared by many tokens: GL_ZERO
 
 
 class GLError(SoftShadowError):
-    """A GL call that failed and changed nothing.
+    """A GL call that failed and changed nothing. PyOpenGL's own error has `err` to `result`, too.
 
     Attributes
     ----------
     err : int, GL's error code
+    description : str, its words as gluErrorString has them; PyOpenGL: bytes, and only once the error has been printed
+    baseOperation : str, the call; PyOpenGL: the function
+    result : None, since a failed call has none
     operation : str, the call
     """
+
+    result = None
 
     def __init__(self, err: int, operation: str, message: str) -> None:
         argument, colon, expected = message.partition(": ")
         named = colon and "=" in argument.split(" ")[0]
         said = f"{operation}({argument}): {expected}" if named else f"{operation}: {message}"
-        super().__init__(f"{token_name(err, ERROR_NAMES)}: {said}")
-        self.err, self.operation = err, operation
+        name = token_name(err, ERROR_NAMES)
+        super().__init__(f"{name}: {said}")
+        self.err, self.operation, self.baseOperation = err, operation, operation
+        self.description = name.removeprefix("GL_").replace("ENUM", "ENUMERANT").replace("_", " ").lower()
 
 
 def fail(code: int, operation: str, message: str) -> Any:

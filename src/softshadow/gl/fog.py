@@ -30,6 +30,8 @@ def glFogiv(pname: int, params: Any) -> None:
 @in_lists
 def glFogf(pname: int, param: float) -> None:
     """Set a fog parameter that is one number."""
+    if outside_begin("glFogf") is None:
+        return
     if is_one_of("glFogf", "pname", pname, (gl.GL_FOG_MODE, *NUMBERS), "a fog parameter that is one number"):
         _set("glFogf", pname, param, float)
 

@@ -167,10 +167,10 @@ def _serves(point: int, attachment: Attachment) -> bool:
 
 def glCheckFramebufferStatus(target: int) -> int:
     """Return GL_FRAMEBUFFER_COMPLETE, or what is missing in the bound framebuffer (0 after an error)."""
+    if (context := outside_begin("glCheckFramebufferStatus")) is None:
+        return 0
     if target not in BINDINGS:
         fail(gl.GL_INVALID_ENUM, "glCheckFramebufferStatus", f"target={token_name(target)}: {EXPECTED_TARGET}")
-        return 0
-    if (context := outside_begin("glCheckFramebufferStatus")) is None:
         return 0
     return framebuffer_status(context, bound_framebuffer(context, target))
 

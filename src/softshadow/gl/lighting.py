@@ -52,6 +52,8 @@ def glLightiv(light: int, pname: int, params: Any) -> None:
 @in_lists
 def glLightf(light: int, pname: int, param: float) -> None:
     """Set a parameter of a light that is one number."""
+    if outside_begin("glLightf") is None:
+        return
     if is_one_of("glLightf", "pname", pname, NUMBERS, "a light parameter that is one number"):
         _set("glLightf", light, pname, param, float)
 
@@ -137,6 +139,8 @@ def glLightModeliv(pname: int, params: Any) -> None:
 @in_lists
 def glLightModelf(pname: int, param: float) -> None:
     """Set a switch of the light model: local viewer, two sides, separate specular colour."""
+    if outside_begin("glLightModelf") is None:
+        return
     if is_one_of("glLightModelf", "pname", pname, MODEL_NUMBERS, "a light model parameter that is one number"):
         _set_model("glLightModelf", pname, param, float)
 

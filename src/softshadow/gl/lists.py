@@ -5,7 +5,9 @@ What a list keeps is what `in_lists` decorates; arrays are read when the list is
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from ctypes import c_uint
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,7 +15,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context, DisplayList, current
 from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.gl.errors import GLError, fail, is_one_of, outside_begin
 
 DEEPEST_LIST = 64
 NAME_TYPES = range(gl.GL_BYTE, gl.GL_FLOAT + 1)
@@ -45,34 +47,40 @@ def glNewList(list: int, mode: int) -> None:
     if context is None:
         return
     context.settle()
+    context.read_given()
     name = c_uint(int(list)).value
-    if name == 0:
+    if context.compiled_list is not None:
+        fail(gl.GL_INVALID_OPERATION, "glNewList", f"list {context.compiled_list.name} has not been ended")
+    elif name == 0:
         fail(gl.GL_INVALID_VALUE, "glNewList", f"list={list}: expected 1 or more")
     elif is_one_of("glNewList", "mode", mode, MODES, "GL_COMPILE or GL_COMPILE_AND_EXECUTE"):
-        if context.compiled_list is not None:
-            fail(gl.GL_INVALID_OPERATION, "glNewList", f"list {context.compiled_list.name} has not been ended")
-        else:
-            context.compiled_list = DisplayList(name, int(mode))
+        context.compiled_list = DisplayList(name, int(mode))
 
 
 def glEndList() -> None:
-    """End the list: it replaces the one of its name."""
-    context = outside_begin("glEndList")
-    if context is None:
+    """End the list: it replaces the one of its name. An open glBegin is an error, but the list ends."""
+    context = current()
+    compiled, context.compiled_list = context.compiled_list, None
+    if compiled is not None:
+        context.lists[compiled.name] = compiled
+    if outside_begin("glEndList") is None:
         return
     context.settle()
-    if context.compiled_list is None:
+    if compiled is None:
         fail(gl.GL_INVALID_OPERATION, "glEndList", "there was no glNewList before it")
-    else:
-        context.lists[context.compiled_list.name] = context.compiled_list
-        context.compiled_list = None
 
 
 @in_lists
 def glCallList(list: int) -> None:
-    """Carry out a list; a name without one does nothing."""
+    """Carry out a list; a name without one does nothing, nor does name 0 in a list.
+
+    Raises
+    ------
+    GLError
+        GL_INVALID_VALUE for list 0; else the first error of the list, whose calls after it are carried out, too.
+    """
     name = c_uint(int(list)).value
-    if name == 0:
+    if name == 0 and current().list_depth == 0:
         fail(gl.GL_INVALID_VALUE, "glCallList", f"list={list}: expected 1 or more")
     else:
         _call(current(), name)
@@ -95,8 +103,7 @@ def glCallLists(*arguments: Any) -> None:
         lists = lists[:count]
     characters = lists.encode() if isinstance(lists, str) else lists
     names = list(characters) if isinstance(characters, bytes) else np.ravel(characters).tolist()
-    for name in names:
-        _call(context, context.list_base + int(name))
+    _carry_out(partial(_call, context, context.list_base + int(name)) for name in names)
 
 
 def _call(context: Context, name: int) -> None:
@@ -105,11 +112,22 @@ def _call(context: Context, name: int) -> None:
         return
     context.list_depth += 1
     try:
-        for call in context.lists[name].calls:
-            call()
+        _carry_out(context.lists[name].calls)
     finally:
         context.list_depth -= 1
         context.settle()
+
+
+def _carry_out(calls: Iterable[Callable[[], Any]]) -> None:
+    """Make all calls, then raise the first of their errors: GL does not stop at one."""
+    first_error = None
+    for call in calls:
+        try:
+            call()
+        except GLError as error:
+            first_error = first_error or error
+    if first_error is not None:
+        raise first_error
 
 
 @in_lists

@@ -268,10 +268,10 @@ def glGetTexGendv(coord: int, pname: int, params: Any = None) -> Any:
 
 
 def _generation(operation: str, coord: int, pname: int, params: Any, dtype: type[np.generic]) -> Any:
-    if problem := _generation_problem(coord, pname, is_vector=True):
-        return fail(gl.GL_INVALID_ENUM, operation, problem)
     if (context := outside_begin(operation)) is None:
         return None
+    if problem := _generation_problem(coord, pname, is_vector=True):
+        return fail(gl.GL_INVALID_ENUM, operation, problem)
     gen = context.state.units[context.active_unit].gen[COORDINATES.index(coord)]
     values = [gen.mode] if pname == gl.GL_TEXTURE_GEN_MODE else getattr(gen, PLANES[pname])
     return _answer(np.array(values, np.float32).astype(dtype), params)
