@@ -11,6 +11,8 @@ pytestmark = pytest.mark.mesa
 
 WRAPS = ["GL_REPEAT", "GL_MIRRORED_REPEAT", "GL_CLAMP_TO_EDGE", "GL_CLAMP_TO_BORDER", "GL_CLAMP"]
 COORDINATES = [(0.0, 0.0, 0.0, 0.0), (1.0, -1.0, 0.0, 0.0), (1e30, -1e20, 0.0, 1.0)]  # NaN, infinite, huge
+# on both sides of 2**31 / 255, and no numbers
+LARGE_COLORS = [1.5, 8e6, 8421504, 8421505, 8.5e6, 1e30, 3e38, np.inf, -np.inf, np.nan, -1e30]
 
 
 @pytest.mark.parametrize("place", range(4))
@@ -74,4 +76,58 @@ def test_an_alpha_that_is_no_number_is_compared_as_one(function):
         gl.glRectf(-1, -1, 1, 1)
 
     comparison = compare(program, (4, 4))
+    assert comparison, str(comparison)
+
+
+@pytest.mark.parametrize("blended", [False, True])
+@pytest.mark.parametrize("internal_format", ["GL_RGBA8", "GL_RGB8", "GL_RG8", "GL_R8", "GL_RGBA32F"])
+def test_colors_too_large_for_an_integer_are_written_as_by_mesa(internal_format, blended):
+    texels = np.full((16, 1, 4), 0.5, np.float32)
+    texels[: len(LARGE_COLORS), 0, ::2] = np.array(LARGE_COLORS)[:, None]
+    texels[: len(LARGE_COLORS), 0, 3] = LARGE_COLORS
+
+    def program(gl):
+        target, source = gl.glGenTextures(2)
+        gl.glBindTexture(gl.GL_TEXTURE_2D, target)
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, getattr(gl, internal_format), 4, 16, 0, gl.GL_RGBA, gl.GL_FLOAT, None)
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, gl.glGenFramebuffers(1))
+        gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, target, 0)
+        gl.glClearColor(0.5, 0.5, 0.5, 0.5)
+        gl.glClear(gl.GL_COLOR_BUFFER_BIT)
+        gl.glBindTexture(gl.GL_TEXTURE_2D, source)
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA32F, 1, 16, 0, gl.GL_RGBA, gl.GL_FLOAT, texels)
+        for parameter in (gl.GL_TEXTURE_MIN_FILTER, gl.GL_TEXTURE_MAG_FILTER):
+            gl.glTexParameteri(gl.GL_TEXTURE_2D, parameter, gl.GL_NEAREST)
+        gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, gl.GL_REPLACE)
+        gl.glEnable(gl.GL_TEXTURE_2D)
+        if blended:
+            gl.glEnable(gl.GL_BLEND)
+            gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
+        gl.glBegin(gl.GL_QUADS)
+        for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+            gl.glTexCoord2f((x + 1) / 2, (y + 1) / 2)
+            gl.glVertex2f(x, y)
+        gl.glEnd()
+        return [gl.glReadPixels(0, 0, 4, 16, gl.GL_RGBA, gl.GL_FLOAT)]
+
+    comparison = compare(program, (4, 4))
+    assert comparison, str(comparison)
+
+
+def test_pixels_where_one_over_w_cancels_to_0_are_written_as_by_mesa():
+    rng = np.random.default_rng(0)
+    width, height = 64, 32
+    far = 1e10 * np.concatenate([(rng.integers(0, (width, height), (60, 2)) + 0.5) / (width, height) * 2 - 1,
+                                 np.ones((60, 2))], axis=1)  # on pixel centres  # fmt: skip
+    near = np.concatenate([rng.uniform(-1, 1, (60, 2, 3)), rng.uniform(1, 2, (60, 2, 1))], axis=2)
+
+    def program(gl):
+        gl.glBegin(gl.GL_TRIANGLES)
+        gl.glColor3f(0.1, 0.2, 0.3)
+        for first, (second, third) in zip(far.tolist(), near.tolist(), strict=True):
+            for vertex in (first, second, third):
+                gl.glVertex4f(*vertex)
+        gl.glEnd()
+
+    comparison = compare(program, (width, height))
     assert comparison, str(comparison)

@@ -86,3 +86,16 @@ def test_alphas_are_compared_in_the_precision_of_the_buffer():
     assert (codes.tolist(), ref) == ([64, 128, 128], 128)
     codes, ref = compared_alpha(state, Image.new(FORMATS[gl.GL_RGBA32F], 1, 1), alpha)
     assert (codes.tolist(), ref) == ([0, 1, 2], 1)
+
+
+def test_a_color_that_does_not_fit_an_integer_is_written_as_0():
+    large = (np.inf, 8421505.0, 8421504.0, np.inf)  # times 255: on both sides of 2**31
+    image = Image.new(FORMATS[gl.GL_RGBA8], 1, 1)
+    first = np.zeros(1, np.int32)
+    write_colors(State(), image, Fragments(first, first, first), np.array([large], F32))
+    assert image.cells[0, 0].tolist() == [0, 0, 255, 0]
+
+
+def test_an_alpha_without_room_in_the_buffer_is_clamped():
+    over = func(gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
+    assert blended(gl.GL_R8, (0.5, 0.0, 0.0, np.inf), (7, 0, 0, 255), **over)[0] == 128

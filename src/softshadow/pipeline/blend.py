@@ -16,6 +16,8 @@ from softshadow.pipeline.fragments import Fragments
 from softshadow.state import Blend, State
 
 ALPHA = 3
+INT32_END = 2.0**31
+FOUR_BYTES = (gl.GL_RGB, gl.GL_RGBA)  # the formats of 8-bit buffers that have room for an alpha
 OF_ALPHA_ONE = {gl.GL_DST_ALPHA: gl.GL_ONE, gl.GL_ONE_MINUS_DST_ALPHA: gl.GL_ZERO}
 # a factor and its complement in pairs, the plain one first
 COMPLEMENTS = (
@@ -56,6 +58,20 @@ def to_unorm8(values: np.ndarray) -> np.ndarray:
     return np.rint(np.minimum(np.fmax(values, real(0)), real(1)) * real(255)).astype(np.uint8)
 
 
+def written_unorm8(values: np.ndarray, format: Format) -> np.ndarray:
+    """Return colours (n, 4) of fragments as the bytes that are written: `to_unorm8`, but 0 from 2**31 / 255 on.
+
+    llvmpipe makes them int32 before it clamps them, and what does not fit, infinity too, becomes the lowest integer
+    (cvtps2dq; lp_bld_conv.c). A colour is infinite where its triangle's 1/w is 0. An alpha that has no room in the
+    buffer, and only blends, is clamped first.
+    """
+    real = values.dtype.type
+    written = to_unorm8(np.where(values * real(255) < real(INT32_END), values, real(0)))
+    if format.base not in FOUR_BYTES:
+        written[:, ALPHA] = to_unorm8(values[:, ALPHA])
+    return written
+
+
 def compared_alpha(state: State, color: Image | None, alpha: np.ndarray) -> tuple[np.ndarray, int]:
     """Return alpha values (n,) uint8 and the reference that the alpha test compares them with.
 
@@ -63,7 +79,7 @@ def compared_alpha(state: State, color: Image | None, alpha: np.ndarray) -> tupl
     say whether an alpha is less than, equal to or greater than the reference, which is 1. NaN is compared as 1, though
     it is written as 0.
     """
-    if color is not None and color.format.kind == "unorm8" and color.format.base in (gl.GL_RGB, gl.GL_RGBA):
+    if color is not None and color.format.kind == "unorm8" and color.format.base in FOUR_BYTES:
         return to_unorm8(np.fmin(alpha, alpha.dtype.type(1))), int(to_unorm8(np.array(state.alpha.ref, np.float32)))
     ref = alpha.dtype.type(state.alpha.ref)
     return (alpha >= ref).astype(np.uint8) + (alpha > ref).astype(np.uint8), 1
@@ -279,7 +295,7 @@ def write_colors(state: State, color: Image, fragments: Fragments, values: np.nd
     rows, columns = fragments.row, fragments.column
     mask = np.array(state.color.mask) & np.array(color.format.written)
     floats = color.format.kind == "float"
-    stored = values.astype(np.float32) if floats else to_unorm8(values)
+    stored = values.astype(np.float32) if floats else written_unorm8(values, color.format)
     if floats and state.blend.enabled and not state.blend.logic_enabled:
         blend_float_fragments(blend_ops(state.blend, color.format), rows, columns, stored, mask, color.cells)
     elif not floats and (state.blend.enabled or state.blend.logic_enabled):
