@@ -8,9 +8,10 @@ from typing import Any
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.errors import is_one_of, outside_begin, wrong_enum
+from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.materials import start_to_follow
 from softshadow.state import State
+from softshadow.tokens import token_name
 
 # capability: (group of the state, field)
 CAPABILITIES: dict[int, tuple[str, str]] = {
@@ -41,6 +42,9 @@ LIGHTS = range(gl.GL_LIGHT0, gl.GL_LIGHT7 + 1)
 CLIP_PLANES = range(gl.GL_CLIP_PLANE0, gl.GL_CLIP_PLANE5 + 1)
 KNOWN = {*CAPABILITIES, *UNIT_CAPABILITIES, *GENERATED, *LIGHTS, *CLIP_PLANES}
 A_CAPABILITY = "a capability of this subset"
+LEFT_OUT = (
+    gl.GL_POINT_SMOOTH, gl.GL_LINE_SMOOTH, gl.GL_POLYGON_SMOOTH, gl.GL_LINE_STIPPLE, gl.GL_POLYGON_STIPPLE,
+)  # fmt: skip
 HINTS = (
     gl.GL_PERSPECTIVE_CORRECTION_HINT, gl.GL_POINT_SMOOTH_HINT, gl.GL_LINE_SMOOTH_HINT, gl.GL_POLYGON_SMOOTH_HINT,
     gl.GL_FOG_HINT, gl.GL_TEXTURE_COMPRESSION_HINT, gl.GL_GENERATE_MIPMAP_HINT,
@@ -63,12 +67,20 @@ def _switch(operation: str, cap: int, on: bool) -> None:
     context = outside_begin(operation)
     if context is None:
         return
-    if cap not in KNOWN:
-        wrong_enum(operation, "cap", cap, A_CAPABILITY)
-    elif is_on(context.state, cap, context.active_unit) != on:
+    if not _is_known(operation, cap):
+        return
+    if is_on(context.state, cap, context.active_unit) != on:
         context.change_state(switched(context.state, cap, context.active_unit, on))
         if cap == gl.GL_COLOR_MATERIAL and on:
             start_to_follow(context)
+
+
+def _is_known(operation: str, cap: int) -> bool:
+    """Return whether a capability is known; if not, the call has failed."""
+    if cap in LEFT_OUT:
+        fail(gl.GL_INVALID_ENUM, operation, f"cap={token_name(cap)} is not part of this subset")
+        return False
+    return is_one_of(operation, "cap", cap, KNOWN, A_CAPABILITY)
 
 
 def is_on(state: State, cap: int, unit: int) -> bool:
@@ -118,7 +130,7 @@ def with_item(items: tuple[Any, ...], index: int, item: Any) -> Any:
 def glIsEnabled(cap: int) -> bool | None:
     """Return whether a capability is on."""
     context: Context | None = outside_begin("glIsEnabled")
-    if context is None or not is_one_of("glIsEnabled", "cap", cap, KNOWN, A_CAPABILITY):
+    if context is None or not _is_known("glIsEnabled", cap):
         return None
     return is_on(context.state, cap, context.active_unit)
 
