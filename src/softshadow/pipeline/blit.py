@@ -138,8 +138,9 @@ def _clipped(source: Span, target: Span, read_end: int, first: int, end: int) ->
             return None
     source, target = _cut_above(source, target, end)
     source, target = _cut_below(source, target, first)
-    if source[0] == source[1]:
-        return None
+    if source[0] == source[1]:  # rounded to nothing: no more is cut off, and outside of the source Mesa divides by 0
+        inside = source[0] <= read_end and (source[0] >= 0 or target[0] < target[1])
+        return target if inside else None
     target, source = _cut_above(target, source, read_end)
     target, source = _cut_below(target, source, 0)
     return target
