@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from softshadow import tokens as gl
 from softshadow.context import Context
+from softshadow.framebuffer import DEFAULT, Framebuffer
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import Problem, framebuffer_status
+from softshadow.image import FORMATS, WITH_STENCIL, Format
 from softshadow.pipeline.commands import BlitFramebuffer
 from softshadow.tokens import token_name
 
@@ -50,10 +52,23 @@ def _problem(context: Context, mask: int, filter: int) -> Problem | None:
     if mask & WITHOUT_FILTER and filter != gl.GL_NEAREST:
         return gl.GL_INVALID_OPERATION, "filter=GL_LINEAR: depth and stencil take GL_NEAREST"
     read, drawn = (context.storage.framebuffers[name] for name in names)
-    formats = {each.depth.format for each in (read, drawn) if each.depth is not None}
-    if mask & gl.GL_DEPTH_BUFFER_BIT and len(formats) > 1:
+    depths = {each.depth.format for each in (read, drawn) if each.depth is not None}
+    if mask & gl.GL_DEPTH_BUFFER_BIT and len(depths) > 1:
         return gl.GL_INVALID_OPERATION, "the two depth buffers have different formats"
+    if mask & gl.GL_STENCIL_BUFFER_BIT and read.stencil is not None and drawn.stencil is not None:
+        formats = {_depth_beside(read), _depth_beside(drawn)} - {None}
+        if len(formats) > 1:
+            return gl.GL_INVALID_OPERATION, "the depths beside the two stencil buffers have different formats"
     return None
+
+
+def _depth_beside(target: Framebuffer) -> Format | None:
+    """Return the format of the depths that are stored with the stencil values, whether attached or not."""
+    if target.name == DEFAULT:
+        return target.depth.format if target.depth is not None else None
+    assert target.stencil is not None
+    internal_format = target.stencil.internal_format
+    return FORMATS[internal_format] if internal_format in WITH_STENCIL else None
 
 
 __all__ = spelled_like_gl(globals())
