@@ -9,7 +9,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.framebuffer import DEFAULT, DRAW_BUFFERS, LARGEST_SIDE, Attachment
+from softshadow.framebuffer import DEFAULT, DRAW_BUFFERS, LARGEST_SIDE, Attachment, Framebuffer
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, listed, take
@@ -153,7 +153,21 @@ def framebuffer_status(context: Context, framebuffer: int) -> int:
     target.clamps = all(attachment.image.format.kind != "float" for attachment in attachments.values())
     if not all(_serves(point, attachment) for point, attachment in attachments.items()):
         return gl.GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT
+    if depth_and_stencil_differ(target):
+        return gl.GL_FRAMEBUFFER_UNSUPPORTED
     return gl.GL_FRAMEBUFFER_COMPLETE if attachments else gl.GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT
+
+
+def depth_and_stencil_differ(target: Framebuffer) -> bool:
+    """Return whether depth and stencil values would lie in two objects, which gallium's drivers cannot draw to."""
+    found = [target.attachments[point] for point in KINDS if point in target.attachments]
+    return len({(each.texture, each.renderbuffer) for each in found}) > 1
+
+
+def _shares_depth_and_stencil(target: Framebuffer) -> bool:
+    """Return whether the two points have the same object, or both nothing."""
+    depth, stencil = (target.attachments.get(point) for point in KINDS)
+    return (depth is None) == (stencil is None) and not depth_and_stencil_differ(target)
 
 
 def _serves(point: int, attachment: Attachment) -> bool:
@@ -188,8 +202,10 @@ def glGetFramebufferAttachmentParameteriv(target: int, attachment: int, pname: i
         )
     if problem := attachment_problem(context, target, attachment):
         return fail(problem[0], operation, problem[1])
-    point = gl.GL_DEPTH_ATTACHMENT if attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT else attachment
-    found = context.storage.framebuffers[bound_framebuffer(context, target)].attachments.get(point)
+    both, bound = attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT, bound_framebuffer(context, target)
+    if both and not _shares_depth_and_stencil(context.storage.framebuffers[bound]):
+        return fail(gl.GL_INVALID_OPERATION, operation, "depth and stencil are not the same attachment")
+    found = context.storage.framebuffers[bound].attachments.get(gl.GL_DEPTH_ATTACHMENT if both else attachment)
     kind = gl.GL_NONE if found is None else gl.GL_TEXTURE if found.texture else gl.GL_RENDERBUFFER
     answers = {gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE: kind, gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME: 0}
     of_textures = (gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL, gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_CUBE_MAP_FACE)

@@ -13,7 +13,7 @@ from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import attach, attachment_problem, bound_framebuffer, target_problem
 from softshadow.gl.names import generate, listed, take
 from softshadow.gl.texture_images import channel_bits
-from softshadow.image import FORMATS, storage_format
+from softshadow.image import FORMATS, WITH_STENCIL, storage_format
 from softshadow.pipeline.commands import AttachRenderbuffer, DefineRenderbuffer, DeleteRenderbuffers
 from softshadow.tokens import token_name
 
@@ -40,6 +40,11 @@ def glFramebufferRenderbuffer(target: int, attachment: int, renderbuffertarget: 
         return fail(gl.GL_INVALID_OPERATION, operation, f"renderbuffer={name} does not exist")
     if problem := attachment_problem(context, target, attachment):
         return fail(problem[0], operation, problem[1])
+    if name and attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT:
+        internal_format = context.storage.renderbuffers[name].internal_format
+        if internal_format and internal_format not in WITH_STENCIL:
+            why = f"renderbuffer={name} is of {token_name(internal_format)}, not of depth and stencil values"
+            return fail(gl.GL_INVALID_OPERATION, operation, why)
     framebuffer = bound_framebuffer(context, target)
     attach(context, attachment, lambda point: AttachRenderbuffer(framebuffer, point, name))
     return None
