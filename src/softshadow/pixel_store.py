@@ -18,7 +18,11 @@ TYPES: dict[int, type[np.generic]] = {
     gl.GL_INT: np.int32,
     gl.GL_HALF_FLOAT: np.float16,
     gl.GL_FLOAT: np.float32,
-    gl.GL_UNSIGNED_INT_24_8: np.uint32,
+}
+# a whole pixel in one element; of the word that GL_FLOAT_32_UNSIGNED_INT_24_8_REV has beside z, 8 bits are used
+PACKED_TYPES: dict[int, np.dtype] = {
+    gl.GL_UNSIGNED_INT_24_8: np.dtype(np.uint32),
+    gl.GL_FLOAT_32_UNSIGNED_INT_24_8_REV: np.dtype([("depth", np.float32), ("stencil", np.uint32)]),
 }
 COMPONENTS: dict[int, str] = {
     gl.GL_RED: "R",
@@ -36,6 +40,11 @@ COMPONENTS: dict[int, str] = {
     gl.GL_STENCIL_INDEX: "S",
     gl.GL_DEPTH_STENCIL: "D",
 }
+
+
+def dtype_of(type: int) -> np.dtype:
+    """Return the dtype of an array's elements for a client type, packed or not."""
+    return PACKED_TYPES[type] if type in PACKED_TYPES else np.dtype(TYPES[type])
 
 
 @dataclass(frozen=True)
@@ -69,7 +78,7 @@ def rows_in(
     ValueError
         The memory is too small; the message names the size that was needed.
     """
-    dtype, components = np.dtype(TYPES[type]), len(COMPONENTS[format])
+    dtype, components = dtype_of(type), len(COMPONENTS[format])
     shape = (height, width, components)
     pixel = dtype.itemsize * components
     raw = memory.reshape(-1).view(np.uint8)
@@ -96,12 +105,14 @@ def client_image(
     TypeError, ValueError
         The pixels are not numbers, or too few.
     """
-    dtype = np.dtype(TYPES[type])
+    dtype = dtype_of(type)
     if isinstance(pixels, bytes | bytearray | memoryview):
         memory = np.frombuffer(pixels, np.uint8)
     else:
         given = np.asarray(pixels)
-        if given.dtype.kind not in "biuf" or (given.dtype.kind == "f" and dtype.kind != "f"):
+        if dtype.names and given.dtype != dtype:
+            raise TypeError(f"{operation}: pixels are {given.dtype}; type={gl.token_name(type)} takes {dtype} or bytes")
+        if not dtype.names and (given.dtype.kind not in "biuf" or (given.dtype.kind == "f" and dtype.kind != "f")):
             raise TypeError(
                 f"{operation}: pixels are {given.dtype}; type={gl.token_name(type)} takes {dtype} numbers or bytes"
             )
@@ -121,7 +132,7 @@ def answer_array(
     TypeError, ValueError
         The user's array cannot be written, has another dtype, or is too small.
     """
-    dtype = np.dtype(TYPES[type])
+    dtype = dtype_of(type)
     if array is None:
         components = len(COMPONENTS[format])
         made = np.zeros((height, width) if components == 1 else (height, width, components), dtype)

@@ -11,10 +11,11 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.image import Format
-from softshadow.pixel_store import COMPONENTS
+from softshadow.pixel_store import COMPONENTS, PACKED_TYPES
 
 F32 = np.float32
 LARGEST_UINT = (1 << 32) - 1
+LARGEST_24 = (1 << 24) - 1
 LARGEST_SAMPLED = (1 << 23) - 1  # llvmpipe's textures read the upper 23 of 32 bits of depth
 CHANNEL = {"R": 0, "G": 1, "B": 2, "A": 3}
 
@@ -68,7 +69,12 @@ def unpack_depth(pixels: np.ndarray, format: Format) -> np.ndarray:
         return (pixels >> np.uint32(16)).astype(F32)
     if pixels.dtype == np.uint16 and format.largest == LARGEST_UINT:
         return largest_stood_for(pixels * np.float64((1 << 16) + 1))
-    z = np.clip(_depth_from_client(pixels), F32(0), F32(1))
+    return _cut_depth(_depth_from_client(pixels), format)
+
+
+def _cut_depth(z: np.ndarray, format: Format) -> np.ndarray:
+    """Return float32 z of any size in buffer units, cut and not rounded, as an upload's depth is."""
+    z = np.clip(z, F32(0), F32(1))
     if format.largest == LARGEST_UINT:
         return largest_stood_for(np.floor(z * np.float64(LARGEST_UINT)))
     return np.floor(z * F32(format.largest)) if format.largest else z
@@ -101,7 +107,7 @@ def pack_depth(cells: np.ndarray, format: Format, dtype: type[np.generic], throu
         units = np.minimum(cells.astype(np.float64), format.largest).astype(np.int64)
         if format.largest == (1 << 16) - 1:
             units = units << 16 | units
-        elif format.largest == (1 << 24) - 1:
+        elif format.largest == LARGEST_24:
             units = units << 8 | units >> 16
         return units.astype(np.uint32)
     if np.dtype(dtype).kind == "f":
@@ -117,6 +123,34 @@ def pack_depth(cells: np.ndarray, format: Format, dtype: type[np.generic], throu
 def pack_stencil(cells: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
     """Return stencil values as a client type; GL_BYTE has room for 7 bits."""
     return (cells & np.uint8(127) if dtype == np.int8 else cells).astype(dtype)
+
+
+# -- depth and stencil in one element ----------------------------------------------------------------------------------
+def unpack_packed_depth(pixels: np.ndarray, format: Format) -> np.ndarray:
+    """Return the depth of packed client pixels (h, w) in buffer units; 24 bits stay as they are."""
+    if pixels.dtype.names:
+        return _cut_depth(pixels["depth"], format)
+    units = (pixels >> np.uint32(8)).astype(F32)
+    return units if format.largest == LARGEST_24 else _cut_depth(units * (F32(1) / F32(LARGEST_24)), format)
+
+
+def unpack_packed_stencil(pixels: np.ndarray) -> np.ndarray:
+    """Return the stencil values of packed client pixels (h, w), uint8."""
+    words = pixels["stencil"] if pixels.dtype.names else pixels
+    return (words & np.uint32(255)).astype(np.uint8)
+
+
+def pack_depth_stencil(depth: np.ndarray, stencil: np.ndarray, format: Format, type: int) -> np.ndarray:
+    """Return depth in buffer units and stencil values (h, w) as a packed client type.
+
+    24 bits stay as they are; a float is cut to 24 bits after a product in its own precision.
+    """
+    if type == gl.GL_UNSIGNED_INT_24_8:
+        units = depth if format.largest == LARGEST_24 else depth * depth.dtype.type(LARGEST_24)
+        return units.astype(np.uint32) << np.uint32(8) | stencil
+    packed = np.zeros(depth.shape, PACKED_TYPES[type])
+    packed["depth"], packed["stencil"] = depth_as_float(depth, format), stencil
+    return packed
 
 
 # -- colour ------------------------------------------------------------------------------------------------------------

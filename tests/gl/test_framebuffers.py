@@ -147,6 +147,42 @@ def test_packed_depth_and_stencil_are_two_buffers_of_one_texture():
     assert (word >> 8, word & 255) == (8388608, 7)
 
 
+def test_float_depth_and_stencil_are_two_fields_of_one_pixel():
+    bound_framebuffer(depth_stencil=texture(gl.GL_DEPTH32F_STENCIL8))
+    gl.glClearDepth(0.1)
+    gl.glClearStencil(7)
+    gl.glClear(gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
+    packed = (gl.GL_DEPTH_STENCIL, gl.GL_FLOAT_32_UNSIGNED_INT_24_8_REV)
+    pixels = gl.glReadPixels(0, 0, 4, 3, *packed)
+    assert (pixels["depth"] == np.float32(0.1)).all()
+    assert (pixels["stencil"] == 7).all()
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH32F_STENCIL8, 4, 3, 0, *packed, pixels.tobytes())
+    assert (gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, *packed) == pixels).all()
+    with pytest.raises(TypeError, match="pixels are float32"):
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH32F_STENCIL8, 4, 3, 0, *packed, pixels["depth"])
+
+
+def test_depth_and_stencil_in_two_objects_are_not_drawn_to():
+    depth, stencil = texture(gl.GL_DEPTH_COMPONENT24), texture(gl.GL_DEPTH24_STENCIL8)
+    bound_framebuffer(depth=depth, stencil=stencil)
+    assert status() == gl.GL_FRAMEBUFFER_UNSUPPORTED
+    with pytest.raises(gl.GLError, match="GL_INVALID_FRAMEBUFFER_OPERATION"):
+        gl.glClear(gl.GL_DEPTH_BUFFER_BIT)
+    with pytest.raises(gl.GLError, match="not the same"):
+        gl.glGetFramebufferAttachmentParameteriv(
+            gl.GL_FRAMEBUFFER, gl.GL_DEPTH_STENCIL_ATTACHMENT, gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE
+        )
+
+
+def test_a_renderbuffer_of_depth_alone_is_not_attached_to_both_points():
+    bound_framebuffer(color=texture())
+    made = gl.glGenRenderbuffers(1)
+    gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, made)
+    gl.glRenderbufferStorage(gl.GL_RENDERBUFFER, gl.GL_DEPTH_COMPONENT24, 4, 3)
+    with pytest.raises(gl.GLError, match="GL_DEPTH_COMPONENT24, not of depth and stencil"):
+        gl.glFramebufferRenderbuffer(gl.GL_FRAMEBUFFER, gl.GL_DEPTH_STENCIL_ATTACHMENT, gl.GL_RENDERBUFFER, made)
+
+
 def test_a_renderbuffer_serves_as_a_buffer():
     made = gl.glGenRenderbuffers(1)
     gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, made)

@@ -120,6 +120,9 @@ WRONG_CALLS: dict[str, Callable[[World], Any]] = {
         w.gl, format=w.gl.GL_DEPTH_COMPONENT, type=w.gl.GL_FLOAT, pixels=FLOATS
     ),
     "upload: packed type": lambda w: upload(w.gl, type=w.gl.GL_UNSIGNED_INT_24_8, pixels=WORDS),
+    "upload: packed float type": lambda w: upload(
+        w.gl, type=w.gl.GL_FLOAT_32_UNSIGNED_INT_24_8_REV, pixels=bytes(8 * 16)
+    ),
     "upload: type of packed format": lambda w: upload(
         w.gl, internal=w.gl.GL_DEPTH24_STENCIL8, format=w.gl.GL_DEPTH_STENCIL
     ),
@@ -198,6 +201,7 @@ WRONG_CALLS: dict[str, Callable[[World], Any]] = {
     "read: width": lambda w: read(w.gl, w.gl.GL_RGBA, w.gl.GL_UNSIGNED_BYTE, -1),
     "read: type of packed format": lambda w: read(w.gl, w.gl.GL_DEPTH_STENCIL, w.gl.GL_UNSIGNED_BYTE),
     "read: packed type": lambda w: read(w.gl, w.gl.GL_RGBA, w.gl.GL_UNSIGNED_INT_24_8),
+    "read: packed float type": lambda w: read(w.gl, w.gl.GL_DEPTH_COMPONENT, w.gl.GL_FLOAT_32_UNSIGNED_INT_24_8_REV),
     "read: no depth": lambda w: inside(w, lambda: read(w.gl, w.gl.GL_DEPTH_COMPONENT, w.gl.GL_FLOAT)),
     "read: no stencil": lambda w: inside(w, lambda: read(w.gl, w.gl.GL_STENCIL_INDEX, w.gl.GL_UNSIGNED_BYTE)),
     "pixel store: alignment": lambda w: w.gl.glPixelStorei(w.gl.GL_PACK_ALIGNMENT, 3),

@@ -4,10 +4,13 @@ import numpy as np
 import pytest
 
 from softshadow.errors import StateError
+from softshadow.pixel_store import dtype_of
 from softshadow.testing import run_on_mesa
+from softshadow.tokens import GL_FLOAT_32_UNSIGNED_INT_24_8_REV
 
 pytestmark = pytest.mark.mesa
 SIZE = (7, 5)
+FLOAT_AND_STENCIL = dtype_of(GL_FLOAT_32_UNSIGNED_INT_24_8_REV)
 
 
 def draw_a_slope(gl):
@@ -34,6 +37,7 @@ def draw_a_slope(gl):
         ("GL_DEPTH_COMPONENT", "GL_UNSIGNED_SHORT", (2, 3), np.uint16),
         ("GL_STENCIL_INDEX", "GL_UNSIGNED_BYTE", (2, 3), np.uint8),
         ("GL_DEPTH_STENCIL", "GL_UNSIGNED_INT_24_8", (2, 3), np.uint32),
+        ("GL_DEPTH_STENCIL", "GL_FLOAT_32_UNSIGNED_INT_24_8_REV", (2, 3), FLOAT_AND_STENCIL),
     ],
 )
 def test_pixels_are_rows_from_the_bottom_returned_or_filled_in(pixel_format, pixel_type, shape, dtype):

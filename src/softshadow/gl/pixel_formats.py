@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from softshadow import tokens as gl
 from softshadow.image import Format, Image
-from softshadow.pixel_store import COMPONENTS, TYPES
+from softshadow.pixel_store import COMPONENTS, PACKED_TYPES, TYPES
 from softshadow.tokens import token_name
 
 Problem = tuple[int, str]  # GL error code and what was expected
@@ -15,13 +15,14 @@ def format_problem(format: int, type: int) -> Problem | None:
     if format not in COMPONENTS:
         expected = ", ".join(token_name(f) for f in COMPONENTS)
         return gl.GL_INVALID_ENUM, f"format={token_name(format)}: expected one of {expected}"
-    if type not in TYPES:
-        expected = ", ".join(token_name(t) for t in TYPES)
+    if type not in TYPES and type not in PACKED_TYPES:
+        expected = ", ".join(token_name(t) for t in (*TYPES, *PACKED_TYPES))
         return gl.GL_INVALID_ENUM, f"type={token_name(type, TYPE_NAMES)}: expected one of {expected}"
-    if format == gl.GL_DEPTH_STENCIL and type != gl.GL_UNSIGNED_INT_24_8:
-        return gl.GL_INVALID_ENUM, f"type={token_name(type)}: GL_DEPTH_STENCIL takes GL_UNSIGNED_INT_24_8"
-    if format != gl.GL_DEPTH_STENCIL and type == gl.GL_UNSIGNED_INT_24_8:
-        return gl.GL_INVALID_OPERATION, f"GL_UNSIGNED_INT_24_8 takes format=GL_DEPTH_STENCIL, not {token_name(format)}"
+    if format == gl.GL_DEPTH_STENCIL and type not in PACKED_TYPES:
+        expected = " or ".join(token_name(t) for t in PACKED_TYPES)
+        return gl.GL_INVALID_ENUM, f"type={token_name(type)}: GL_DEPTH_STENCIL takes {expected}"
+    if format != gl.GL_DEPTH_STENCIL and type in PACKED_TYPES:
+        return gl.GL_INVALID_OPERATION, f"{token_name(type)} takes format=GL_DEPTH_STENCIL, not {token_name(format)}"
     return None
 
 

@@ -16,7 +16,7 @@ from softshadow.gl.pixel_formats import format_problem, kind_of
 from softshadow.image import Image
 from softshadow.pipeline.transfer import bottom_up, clipped
 from softshadow.pixel_store import TYPES, answer_array
-from softshadow.pixels import pack_color, pack_depth, pack_stencil
+from softshadow.pixels import pack_color, pack_depth, pack_depth_stencil, pack_stencil
 from softshadow.tokens import token_name
 
 STORES = {
@@ -85,7 +85,7 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
     rows, columns, left, bottom = clipped(source, int(x), int(y), int(width), int(height))
     cells = [bottom_up(source, plane)[rows, columns] for plane in planes]
     answer, view = answer_array(array, context.pack_store, width, height, format, type, operation)
-    inside = _packed(cells, planes, format, TYPES[type])
+    inside = _packed(cells, planes, format, type)
     view[bottom : bottom + inside.shape[0], left : left + inside.shape[1]] = inside
     return answer
 
@@ -101,17 +101,17 @@ def _planes(source: Framebuffer, kind: str) -> list[Image] | None:
     return planes if len(planes) == len(wanted) else None
 
 
-def _packed(cells: list[np.ndarray], planes: list[Image], format: int, dtype: type[np.generic]) -> np.ndarray:
+def _packed(cells: list[np.ndarray], planes: list[Image], format: int, type: int) -> np.ndarray:
     """Return framebuffer cells as client pixels (h, w, components)."""
     kind, stored = kind_of(format), planes[0].format
+    if kind == "depth-stencil":
+        return pack_depth_stencil(cells[0], cells[1], stored, type)[..., None]
+    dtype = TYPES[type]
     if kind == "color":
         return pack_color(cells[0], stored, format, dtype, from_framebuffer=True)
     if kind == "depth":
         return pack_depth(cells[0], stored, dtype)[..., None]
-    if kind == "stencil":
-        return pack_stencil(cells[0], dtype)[..., None]
-    units = cells[0] if stored.largest == (1 << 24) - 1 else np.floor(np.float64(cells[0]) * ((1 << 24) - 1))
-    return (units.astype(np.uint32) << np.uint32(8) | cells[1])[..., None]
+    return pack_stencil(cells[0], dtype)[..., None]
 
 
 __all__ = spelled_like_gl(globals())

@@ -16,7 +16,16 @@ from softshadow.gl.textures import FACES, bound_name, bound_texture, target_prob
 from softshadow.image import FORMATS, WITH_STENCIL, Format, Image, storage_format
 from softshadow.pipeline.commands import DefineImage, GenerateMipmaps, UpdateImage
 from softshadow.pixel_store import TYPES, answer_array, client_image
-from softshadow.pixels import pack_color, pack_depth, pack_stencil, unpack_color, unpack_depth
+from softshadow.pixels import (
+    pack_color,
+    pack_depth,
+    pack_depth_stencil,
+    pack_stencil,
+    unpack_color,
+    unpack_depth,
+    unpack_packed_depth,
+    unpack_packed_stencil,
+)
 from softshadow.texture import Texture
 from softshadow.tokens import token_name
 
@@ -125,7 +134,7 @@ def _cells(
         return unpack_color(image, format, stored).copy(), None
     plane = image[..., 0]
     if kind == "depth-stencil":
-        return (plane >> np.uint32(8)).astype(np.float32), (plane & np.uint32(255)).astype(np.uint8)
+        return unpack_packed_depth(plane, stored), unpack_packed_stencil(plane)
     if kind == "depth":
         return unpack_depth(plane, stored), None
     values = plane.astype(np.int64).astype(np.uint8)
@@ -194,15 +203,17 @@ def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = 
 
 def texture_pixels(image: Image, format: int, type: int) -> np.ndarray:
     """Return a texture's image as client pixels (h, w, components)."""
-    kind, dtype = kind_of(format), TYPES[type]
+    kind = kind_of(format)
+    if kind == "depth-stencil":
+        assert image.stencil is not None
+        return pack_depth_stencil(image.view, image.stencil.view, image.format, type)[..., None]
+    dtype = TYPES[type]
     if kind == "color":
         return pack_color(image.view, image.format, format, dtype)
     if kind == "depth":
         return pack_depth(image.view, image.format, dtype, through_float=True)[..., None]
     stencil = image.stencil.view if image.stencil is not None else image.view
-    if kind == "stencil":
-        return pack_stencil(stencil, dtype)[..., None]
-    return (image.view.astype(np.uint32) << np.uint32(8) | stencil)[..., None]
+    return pack_stencil(stencil, dtype)[..., None]
 
 
 def glGetTexLevelParameteriv(target: int, level: int, pname: int, params: Any = None) -> Any:

@@ -4,7 +4,7 @@ The one door to PyOpenGL. Import it only in a Mesa worker: PyOpenGL chooses its 
 What differs from plain PyOpenGL:
 
 - glReadPixels and glGetTexImage return (h, w) or (h, w, channels), first row = bottom row, without row padding, and
-  know GL_UNSIGNED_INT_24_8; images handed in are read without row padding too where they are too small for that of
+  know packed depth and stencil; images handed in are read without row padding too where they are too small for that of
   GL_UNPACK_ALIGNMENT.
 - glGen* return a plain int for one name.
 - A GL error is raised as GL.GLError, and glGetError still answers its code afterwards, as in `softshadow.gl`.
@@ -21,10 +21,11 @@ import numpy as np
 from OpenGL import GL, GLU, images
 from OpenGL.raw.GL.VERSION import GL_1_0 as raw
 
-from softshadow.pixel_store import PixelStore
+from softshadow.pixel_store import PACKED_TYPES, PixelStore
 
-# unknown to PyOpenGL 3.1's image tables; one 32-bit word per pixel
+# unknown to PyOpenGL 3.1's image tables; one 32-bit word per pixel, or two
 images.TYPE_TO_ARRAYTYPE[GL.GL_UNSIGNED_INT_24_8] = GL.GL_UNSIGNED_INT
+images.TYPE_TO_ARRAYTYPE[GL.GL_FLOAT_32_UNSIGNED_INT_24_8_REV] = GL.GL_UNSIGNED_BYTE  # handed over as bytes
 
 CHANNELS = {
     **dict.fromkeys((GL.GL_RED, GL.GL_GREEN, GL.GL_BLUE, GL.GL_ALPHA, GL.GL_LUMINANCE), 1),
@@ -33,7 +34,7 @@ CHANNELS = {
     **dict.fromkeys((GL.GL_RGB, GL.GL_BGR), 3),
     **dict.fromkeys((GL.GL_RGBA, GL.GL_BGRA), 4),
 }
-DTYPES = {
+DTYPES: dict[int, Any] = {
     GL.GL_UNSIGNED_BYTE: np.uint8,
     GL.GL_BYTE: np.int8,
     GL.GL_UNSIGNED_SHORT: np.uint16,
@@ -42,7 +43,7 @@ DTYPES = {
     GL.GL_INT: np.int32,
     GL.GL_HALF_FLOAT: np.float16,
     GL.GL_FLOAT: np.float32,
-    GL.GL_UNSIGNED_INT_24_8: np.uint32,
+    **PACKED_TYPES,
 }
 LARGEST_PIXEL = 16  # bytes; room for the read-out whose format or type GL is about to refuse
 
@@ -229,6 +230,9 @@ def _with_tight_rows(function: Callable[..., Any], size_at: int) -> Callable[...
         with _tight_rows():
             if not _has_padding(*arguments[size_at : size_at + 2], *arguments[-3:]):
                 GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)
+            image = arguments[-1]
+            if isinstance(image, np.ndarray) and image.dtype.names:
+                return function(*arguments[:-1], np.frombuffer(image.tobytes(), np.uint8))
             return function(*arguments)
 
     return upload
