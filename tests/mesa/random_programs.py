@@ -20,6 +20,7 @@ from mesa import (
     random_extremes,
     random_images,
     random_mipmaps,
+    random_packed,
     random_scenes,
     random_shading,
     random_structure,
@@ -126,6 +127,9 @@ FAMILIES = {
     "extreme viewports": Family(random_extremes.extreme, random_extremes.odd_window),
     "slivers": Family(geometry, random_extremes.odd_window, batch=random_extremes.sliver),
     "meshes": Family(geometry, random_extremes.odd_window, batch=random_extremes.mesh),
+    "packed depth and stencil": Family(
+        random_packed.packed_state, random_packed.packed_targets, random_packed.read_packed
+    ),
 }
 
 
