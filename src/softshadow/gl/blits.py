@@ -8,7 +8,7 @@ from softshadow.framebuffer import DEFAULT, Framebuffer
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import Problem, framebuffer_status
-from softshadow.image import FORMATS, WITH_STENCIL, Format
+from softshadow.image import D24, FORMATS, WITH_STENCIL, Format
 from softshadow.pipeline.commands import BlitFramebuffer
 from softshadow.tokens import token_name
 
@@ -65,7 +65,7 @@ def _problem(context: Context, mask: int, filter: int) -> Problem | None:
 def _depth_beside(target: Framebuffer) -> Format | None:
     """Return the format of the depths that are stored with the stencil values, whether attached or not."""
     if target.name == DEFAULT:
-        return target.depth.format if target.depth is not None else None
+        return D24  # as on Mesa; what else the window's depth may be here does not lie with the stencil values
     assert target.stencil is not None
     internal_format = target.stencil.internal_format
     return FORMATS[internal_format] if internal_format in WITH_STENCIL else None
