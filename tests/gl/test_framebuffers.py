@@ -16,7 +16,8 @@ def texture(internal=gl.GL_RGBA8, width=4, height=3):
     """A new bound texture of zeros."""
     name = gl.glGenTextures(1)
     gl.glBindTexture(gl.GL_TEXTURE_2D, name)
-    depth = internal in (gl.GL_DEPTH_COMPONENT24, gl.GL_DEPTH_COMPONENT32F, gl.GL_DEPTH24_STENCIL8)
+    packed = (gl.GL_DEPTH24_STENCIL8, gl.GL_DEPTH32F_STENCIL8)
+    depth = internal in (gl.GL_DEPTH_COMPONENT24, gl.GL_DEPTH_COMPONENT32F, *packed)
     format = gl.GL_DEPTH_COMPONENT if depth else gl.GL_RGBA
     gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, internal, width, height, 0, format, gl.GL_FLOAT, None)
     return name
