@@ -15,7 +15,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
-from softshadow.pipeline.batches import Batch
+from softshadow.pipeline.batches import SEPARATE, Batch, Pairs, Run
 from softshadow.pipeline.commands import Command, Draw, Vertices
 from softshadow.pixel_store import PixelStore
 from softshadow.programs import Program
@@ -207,6 +207,7 @@ class Context:
         self.labels: list[str] = []
         self.primitive: Primitive | None = None  # between glBegin and glEnd
         self.batch: Batch | None = None  # triangles or quads that wait for more of them
+        self.pairs, self.run = Pairs(), Run()  # of glBegin and glEnd, since vertices were sent off
         self.vertex_sizes: dict[str, int] = {}  # what the vertices collected last carry: numbers per attribute
         self.given_sizes: dict[str, int] = {}  # how many of those the last call gave, as far as Mesa remembers
         self.stored_vertices = 0  # how many were collected since the last time they were sent off
@@ -302,12 +303,27 @@ class Context:
         """Draw primitives under the present state. The arrays must be read-only and the caller's own no more."""
         self.settle()
         self.read_given()
-        self.draw_primitive(mode, vertices, indices)
+        self._carry_out(self._draw_command(mode, vertices, indices))
 
-    def draw_primitive(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:
+    def draw_primitive(self, mode: int, vertices: Vertices) -> None:
         """Draw a primitive of immediate mode: vertices that follow may still carry the same attributes."""
         self.draw_waiting()
-        self._carry_out(self._draw_command(mode, vertices, indices))
+        self._draw_in_run(self._draw_command(mode, vertices, None))
+
+    def _draw_in_run(self, command: Draw) -> None:
+        if command.mode != self.run.mode:
+            self.run = Run(command.mode)
+        if not self.run.is_lost:
+            self._carry_out(self.run.part(command, self.storage))
+
+    def end_pair(self, mode: int, vertices: int) -> None:
+        """Count a pair of glBegin and glEnd; what waits is drawn if an empty one has another mode, or at the 64th."""
+        if not vertices and self.pairs.mode != mode:
+            self.draw_waiting()
+            self.run = Run(mode, is_lost=mode not in SEPARATE)
+        self.pairs.add(mode, vertices)
+        if self.pairs.too_many:
+            self.send_off_vertices()
 
     def collect(self, mode: int, vertices: Vertices) -> None:
         """Draw triangles or quads of immediate mode, later: the ones that follow may belong to the same batch."""
@@ -321,12 +337,13 @@ class Context:
         batch, self.batch = self.batch, None
         if batch is not None:
             for command in batch.commands():
-                self._carry_out(command)
+                self._draw_in_run(command)
 
     def settle(self) -> None:
         """Draw what waits; what is drawn next begins a batch of its own. Not between glBegin and glEnd."""
         if self.primitive is None:
-            self.send_off_vertices()
+            if self.stored_vertices or self.batch is not None:  # pairs without vertices are still counted after this
+                self.send_off_vertices()
             self.vertex_sizes.clear()
             if self.given.stored:
                 self.forget_given()
@@ -339,6 +356,8 @@ class Context:
     def send_off_vertices(self) -> None:
         """Draw what waits; the vertices of immediate mode that follow come after them in Mesa's buffer."""
         self.draw_waiting()
+        self.run = Run()
+        self.pairs = Pairs()
         self.buffer_used += self.stored_vertices * self.vertex_bytes
         self.stored_vertices = 0
         if self.buffer_used + LEAST_BYTES >= VERTEX_BUFFER_BYTES:

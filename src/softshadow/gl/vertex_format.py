@@ -14,12 +14,12 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import VERTEX_BUFFER_BYTES, Context, Primitive
+from softshadow.pipeline.batches import SEPARATE
 from softshadow.pipeline.commands import Vertices
 from softshadow.state import TEXTURE_UNITS
 
 REST = (0.0, 0.0, 0.0, 1.0)  # what a vector gets where the call gives fewer than four numbers
 FEW_VERTICES = 8  # an attribute given after more of them, outside glBegin, makes Mesa forget all others
-SEPARATE = {gl.GL_POINTS: 1, gl.GL_LINES: 2, gl.GL_TRIANGLES: 3, gl.GL_QUADS: 4}  # vertices of each
 
 
 class Cut(NamedTuple):
@@ -105,9 +105,9 @@ def _wrap(context: Context, primitive: Primitive) -> None:
     """Draw what has been collected, and keep the vertices that the rest of the primitive needs."""
     count, alone = len(primitive.positions), context.stored_vertices == len(primitive.positions)
     cut = _cut(primitive, count)
-    context.send_off_vertices()
     if cut.end > cut.start and not (alone and len(cut.kept) == count):
         context.draw_primitive(cut.mode, vertices_of(context, primitive, cut.start, cut.end))
+    context.send_off_vertices()
     for rows in primitive.rows:
         rows[:] = [rows[i] for i in cut.kept]
     primitive.continued = primitive.continued or len(cut.kept) != count

@@ -3,6 +3,9 @@
 How llvmpipe cuts a quad into triangles depends on whether any vertex of its batch is clipped, so the pairs have to be
 known before the first of them is drawn (`softshadow.pipeline.primitives`). Of triangles it counts how many there are
 (`softshadow.pipeline.level_triangles`).
+
+Pairs of other modes are not joined, but those of one mode in a row are still one draw of the driver, in which the first
+triangle decides about the polygon offset of all.
 """
 
 from __future__ import annotations
@@ -14,9 +17,15 @@ from itertools import groupby
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.framebuffer import Storage
 from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.pipeline.geometry import process_geometry
+from softshadow.pipeline.setup import offset_is_on
+from softshadow.pipeline.unfilled import drawn_modes
 
 CORNERS = {gl.GL_TRIANGLES: 3, gl.GL_QUADS: 4}  # modes whose pairs are drawn as one
+SEPARATE = {gl.GL_POINTS: 1, gl.GL_LINES: 2, **CORNERS}  # vertices of primitives that share none
+MAX_PAIRS = 64  # that Mesa collects before it draws them (VBO_MAX_PRIM)
 
 
 @dataclass(eq=False)
@@ -49,6 +58,54 @@ class Batch:
             vertices = joined(parts)
             made.append(replace(self.first, vertices=vertices, label=label, batch=whole, batch_start=start))
             start += len(vertices.position)
+        return made
+
+
+@dataclass
+class Pairs:
+    """The glBegin ... glEnd pairs that Mesa has collected: how many it has not joined, mode and vertices of the last.
+
+    Where they become too many, they are drawn, and what follows is not joined to them (vbo_exec_api.c, _mesa_End).
+    """
+
+    count: int = 0
+    mode: int = -1
+    vertices: int = 0
+
+    def add(self, mode: int, vertices: int) -> None:
+        """Count a pair, or join it to the one before."""
+        if mode == self.mode and mode in SEPARATE and self.vertices % SEPARATE[mode] == 0:
+            self.vertices += vertices
+            return
+        self.count, self.mode, self.vertices = self.count + 1, mode, vertices
+
+    @property
+    def too_many(self) -> bool:
+        return self.count >= MAX_PAIRS
+
+
+@dataclass
+class Run:
+    """Draws of one mode that are one draw of the driver: a call of Mesa's st_draw_gallium_multimode is cut into such.
+
+    `is_lost` says that it begins with a pair without vertices, because of which Mesa takes all of it for empty.
+    `offset_mode` is the polygon mode whose offset the first triangle that is not culled has chosen, or 0 before that.
+    """
+
+    mode: int = -1
+    is_lost: bool = False
+    offset_mode: int = 0
+
+    def part(self, command: Draw, storage: Storage) -> Draw:
+        """Return a draw as it is in this run, after the ones before it."""
+        front, back = drawn_modes(command.state)
+        if front == back or not offset_is_on(command.state.polygon):
+            return command
+        made = replace(command, offset_mode=self.offset_mode)
+        if not self.offset_mode:
+            target = storage.framebuffers[command.state.draw_framebuffer]
+            with np.errstate(all="ignore"):  # as in pipeline.draw
+                self.offset_mode = process_geometry(command, target, storage).offset_mode
         return made
 
 

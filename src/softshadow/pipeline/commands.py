@@ -51,7 +51,8 @@ class Draw:
     the debug groups the draw stands in ("step/torus"); `uniforms` are those of the program in use; the kinds of the
     matrices decide how they are inverted. Quads that share a batch with draws of other debug groups have the positions
     (N, 4) of the whole `batch` and the number of their first vertex in it. `linear` says that clipping interpolates
-    values without perspective.
+    values without perspective. `offset_mode` is the polygon mode whose offset unfilled polygons get where an earlier
+    draw has decided it, else 0.
     """
 
     state: State
@@ -71,6 +72,7 @@ class Draw:
     batch: np.ndarray | None = None
     batch_start: int = 0
     linear: bool = False
+    offset_mode: int = 0
 
     def apply(self, storage: Storage) -> None:
         if not storage.active_query:

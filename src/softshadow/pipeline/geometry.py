@@ -49,7 +49,8 @@ class Geometry(NamedTuple):
 
     triangles: those that are not culled and have an area; window (V', 4): x, y, z, 1/w; values, back (V', k) and flat
     (k,): what the vertex stage hands on; source (T',) which assembled primitive each clipped one is a piece of;
-    provoking (T',); faces: of which polygons, (T',) bool, the lines and points of glPolygonMode are the front, or None.
+    provoking (T',); faces: of which polygons, (T',) bool, the lines and points of glPolygonMode are the front, or None;
+    offset_mode: the mode of unfilled polygons whose offset applies, or 0.
     """
 
     triangles: Setup
@@ -62,6 +63,7 @@ class Geometry(NamedTuple):
     program: Program
     uniforms: Mapping[str, Any]
     faces: np.ndarray | None = None
+    offset_mode: int = 0
 
     def facing(self, row: int) -> bool | None:
         """Return whether a row of `triangles` belongs to a front face; None for lines and points, which have none."""
@@ -144,7 +146,7 @@ def _outlined(made: Geometry, clipped: Clipped, command: Draw, target: Framebuff
     state, flipped = command.state, target.flipped
     drawn = outline(
         made.window, made.values, made.back, made.flat, clipped.triangles, clipped.edges, made.provoking, state, cull,
-        target.depth, command.offset_slope, command.offset_unit, flipped,
+        target.depth, command.offset_slope, command.offset_unit, flipped, command.offset_mode,
     )  # fmt: skip
     window, polygon = drawn.window, state.polygon
     none = offset_of(Polygon(), target.depth, window.dtype.type, command.offset_slope, command.offset_unit, flipped)
@@ -159,6 +161,7 @@ def _outlined(made: Geometry, clipped: Clipped, command: Draw, target: Framebuff
         back=None,
         provoking=np.arange(len(drawn.front), dtype=np.int32) * 3,
         faces=drawn.front,
+        offset_mode=drawn.offset_mode,
     )
 
 

@@ -21,7 +21,8 @@ class Outlined(NamedTuple):
     """What becomes of clipped triangles, over vertices of their own: 3t, 3t + 1, 3t + 2 for triangle t.
 
     window (3T, 4), z with its offset; values (3T, k), those of the facing, flat ones equal on all three; triangles
-    (A, 3), lines (B, 2) and points (C,) int32; their number t is a vertex // 3; front (T,) bool.
+    (A, 3), lines (B, 2) and points (C,) int32; their number t is a vertex // 3; front (T,) bool; offset_mode: the
+    polygon mode whose offset was added, 0 where no triangle decides it.
     """
 
     window: np.ndarray
@@ -30,6 +31,7 @@ class Outlined(NamedTuple):
     lines: np.ndarray
     points: np.ndarray
     front: np.ndarray
+    offset_mode: int
 
 
 def drawn_modes(state: State) -> tuple[int, int]:
@@ -55,6 +57,7 @@ def outline(
     slope: str,
     unit: str,
     flipped: bool,
+    offset_mode: int = 0,
 ) -> Outlined:
     """Return triangles, lines and points that are left of triangles in the window.
 
@@ -66,6 +69,7 @@ def outline(
     triangles, edges : (T, 3), corners, and which edges are drawn
     cull : what is left out; `state.cull` decides about modes
     depth, slope, unit : of the polygon offset, as for `offset_of`
+    offset_mode : the polygon mode whose offset is added; 0: that of the first triangle that is not culled
     """
     corners = window[triangles]
     det = _determinant(corners)
@@ -78,7 +82,9 @@ def outline(
     polygon = state.polygon
     if offset_is_on(polygon):
         decisive = np.flatnonzero(_kept(front, state.cull))[:1]
-        offset = _offset(polygon, int(mode[decisive[0]]) if len(decisive) else gl.GL_FILL)
+        if offset_mode == 0 and len(decisive):
+            offset_mode = int(mode[decisive[0]])
+        offset = _offset(polygon, offset_mode or gl.GL_FILL)
         corners[:, :, 2] = _with_offset(corners, det, offset, depth, slope, unit, flipped)
     shown, constant = values[triangles], values[provoking]
     if back is not None:
@@ -96,6 +102,7 @@ def outline(
         _lines(first[lined], edges[lined]),
         (first[dotted][:, None] + np.arange(3, dtype=np.int32))[edges[dotted] != 0],
         front,
+        offset_mode,
     )
 
 
