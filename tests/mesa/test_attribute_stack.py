@@ -1,6 +1,7 @@
 """glPushAttrib and glPopAttrib leave what they leave on Mesa, where it is less than the specification asks for."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -116,3 +117,39 @@ def test_random_steps_between_push_and_pop_leave_what_mesa_leaves():
         bits = str(rng.choice(BITS))
         comparison = compare(left_by(bits, tuple(inside), afterwards), SIZE)
         assert comparison, (bits, inside, afterwards, str(comparison))
+
+
+def popped_elsewhere(bits: str, pushed_in: int, popped_in: int, changes: tuple[str, ...]) -> Callable[[Any], list[Any]]:
+    """Return a program that pushes in one framebuffer and pops in another; it answers the codes and both buffers."""
+
+    def program(gl: Any) -> list[Any]:
+        objects = [0, *(int(name) for name in gl.glGenFramebuffers(2))]
+        for name in objects[1:]:
+            gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, name)
+            gl.glDrawBuffer(gl.GL_COLOR_ATTACHMENT0 + name)
+            gl.glReadBuffer(gl.GL_COLOR_ATTACHMENT0 + name)
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, objects[pushed_in])
+        gl.glPushAttrib(getattr(gl, bits))
+        for call in changes:
+            getattr(gl, call)(gl.GL_NONE)
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, objects[popped_in])
+        with suppress(gl.GLError):
+            gl.glPopAttrib()
+        answers = [int(gl.glGetError())]
+        for name in objects:
+            gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, name)
+            answers += [int(gl.glGetIntegerv(each)) for each in (gl.GL_DRAW_BUFFER, gl.GL_READ_BUFFER)]
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+        gl.glReadBuffer(gl.GL_BACK)  # the comparison reads the window
+        return [np.array(answers)]
+
+    return program
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize("bits", ["GL_COLOR_BUFFER_BIT", "GL_PIXEL_MODE_BIT", "GL_ALL_ATTRIB_BITS"])
+@pytest.mark.parametrize(("pushed_in", "popped_in"), [(0, 1), (1, 0), (1, 2), (1, 1)])
+def test_pop_in_another_framebuffer_leaves_what_mesa_leaves(bits, pushed_in, popped_in):
+    for changes in ((), ("glDrawBuffer",), ("glReadBuffer",), ("glDrawBuffer", "glReadBuffer")):
+        comparison = compare(popped_elsewhere(bits, pushed_in, popped_in, changes), SIZE)
+        assert comparison, (changes, str(comparison))

@@ -20,6 +20,7 @@ from softshadow.pipeline.commands import (
     DeleteFramebuffers,
     SelectBuffers,
 )
+from softshadow.programs.sampling import is_mipmap_complete
 from softshadow.tokens import token_name
 
 Problem = tuple[int, str]
@@ -151,7 +152,7 @@ def framebuffer_status(context: Context, framebuffer: int) -> int:
     target = context.storage.framebuffers[framebuffer]
     attachments = target.attachments
     target.clamps = all(attachment.image.format.kind != "float" for attachment in attachments.values())
-    if not all(_serves(point, attachment) for point, attachment in attachments.items()):
+    if not all(_serves(context, point, attachment) for point, attachment in attachments.items()):
         return gl.GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT
     if depth_and_stencil_differ(target):
         return gl.GL_FRAMEBUFFER_UNSUPPORTED
@@ -170,9 +171,11 @@ def _shares_depth_and_stencil(target: Framebuffer) -> bool:
     return (depth is None) == (stencil is None) and not depth_and_stencil_differ(target)
 
 
-def _serves(point: int, attachment: Attachment) -> bool:
-    image = attachment.image
+def _serves(context: Context, point: int, attachment: Attachment) -> bool:
+    image, texture = attachment.image, context.storage.textures.get(attachment.texture)
     if not (image.width > 0 and image.height > 0):
+        return False
+    if texture is not None and attachment.level > texture.sampler.base_level and not is_mipmap_complete(texture):
         return False
     if point in KINDS:
         return image.format.kind in KINDS[point]

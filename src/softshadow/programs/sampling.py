@@ -40,17 +40,26 @@ def is_complete(texture: Texture) -> bool:
 
     References: GL 2.1 sec. 3.8.10.
     """
-    sampler, image = texture.sampler, texture.base()
+    mipmaps = FILTERS[texture.sampler.min_filter][1] != GL_NONE
+    return _has_levels(texture, texture.last_level() if mipmaps else texture.sampler.base_level)
+
+
+def is_mipmap_complete(texture: Texture) -> bool:
+    """Return whether all levels are there, whatever the filter: only then Mesa draws to one that is not the base."""
+    return _has_levels(texture, texture.last_level())
+
+
+def _has_levels(texture: Texture, last: int) -> bool:
+    image, base = texture.base(), texture.sampler.base_level
     if image is None or image.width == 0 or image.height == 0:
         return False
-    last = sampler.base_level if FILTERS[sampler.min_filter][1] == GL_NONE else texture.last_level()
     model = image
-    for level in range(sampler.base_level, last + 1):
+    for level in range(base, last + 1):
         images = [texture.images.get((face, level)) for face in texture.faces]
         if not all(found is not None and found.is_laid_out_as(model) for found in images):
             return False
         model = replace(model, width=max(model.width // 2, 1), height=max(model.height // 2, 1))
-    return last >= sampler.base_level
+    return last >= base
 
 
 def project(coordinates: np.ndarray) -> np.ndarray:
