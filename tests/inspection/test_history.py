@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from recorded_frames import ALL_BUFFERS, SIZE, covering, random_frame
 
 from draws import draw
+from softshadow import gl as facade
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.inspection import ledger_of, pixel_history
@@ -117,6 +118,22 @@ def test_reason_of_a_failed_alpha_test_has_both_alphas():
     context.set(alpha=replace(context.state.alpha, enabled=True, func=gl.GL_GREATER, ref=0.6))
     draw(context, context.state, covering(-0.5, (1, 1, 1, 0.4)))
     assert last_reason(context) == "alpha test GREATER: 0.4 > 0.6 is false: discarded"
+
+
+def test_alpha_that_is_no_number_is_compared_as_one():
+    with facade.create_context(*SIZE) as context:
+        facade.glBindTexture(gl.GL_TEXTURE_2D, facade.glGenTextures(1))
+        texel = np.array([[[1, 1, 1, np.nan]]], np.float32)
+        facade.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA32F, 1, 1, 0, gl.GL_RGBA, gl.GL_FLOAT, texel)
+        facade.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+        facade.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, gl.GL_REPLACE)
+        for capability in (gl.GL_TEXTURE_2D, gl.GL_ALPHA_TEST):
+            facade.glEnable(capability)
+        facade.glAlphaFunc(gl.GL_GREATER, 0.6)
+        facade.glRectf(-1, -1, 1, 1)
+        context.end_step("last")
+    assert pixel_history(context.frame, 5, 5)[-1].verdict == "passed"
+    assert read_window(context.storage.window).color[5, 5].tolist() == [255, 255, 255, 0]
 
 
 def test_culled_triangles_and_pixels_outside_the_scissor_box_have_rows():

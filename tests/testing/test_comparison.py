@@ -45,6 +45,23 @@ def test_returned_arrays_are_compared_too():
     assert (found.buffer, found.count, found.x, found.ours, found.theirs) == ("returned[2]", 1, 1, 2, 5)
 
 
+@pytest.mark.parametrize(
+    ("ours", "theirs", "name"),
+    [
+        (np.zeros(3), np.array([0, 1, 0]), "returned"),
+        (7, 8, "returned"),
+        ({"map": np.ones((2, 2))}, {"map": np.eye(2)}, "returned['map']"),
+    ],
+)
+def test_what_is_returned_alone_or_in_a_dict_is_compared_too(ours, theirs, name):
+    assert [found.buffer for found in differences(result(returned=ours), result(returned=theirs))] == [name]
+
+
+def test_arrays_that_only_one_program_returns_are_named():
+    with pytest.raises(ValueError, match=r"returned\[0\], returned\[1\] and returned\[0\]"):
+        differences(result(returned=[1, 2]), result(returned=[1]))
+
+
 def test_nan_equals_nan_and_minus_zero_equals_zero():
     assert difference("returned[0]", np.array([[np.nan, 0.0]]), np.array([[np.nan, -0.0]])) is None
 

@@ -22,7 +22,7 @@ from softshadow.inspection.reasons import clear_reason, culled_reason, fragment_
 from softshadow.inspection.step import object_of
 from softshadow.inspection.tables import html_table, text_table
 from softshadow.pipeline import commands
-from softshadow.pipeline.blend import to_unorm8, write_colors
+from softshadow.pipeline.blend import compared_alpha, write_colors
 from softshadow.pipeline.commands import Clear, Command, Draw
 from softshadow.pipeline.coverage import triangles_at
 from softshadow.pipeline.fragment_ops import PASSED, SCISSORED, VERDICTS, fragment_ops, process_fragment
@@ -275,7 +275,8 @@ def _draw_rows(
         if front is not None and culled & (CULL_FRONT if front else CULL_BACK):
             yield pixel.row(where, before, CULLED, culled_reason(front, state), **about)
             continue
-        alpha = int(to_unorm8(colors[n : n + 1, 3])[0])
+        compared, alpha_ref = compared_alpha(state, window.color, colors[n : n + 1, 3])
+        ops, alpha = ops._replace(alpha_ref=alpha_ref), int(compared[0])
         verdict, s_after, depth_after = process_fragment(ops, inside, alpha, z, stored_z, s)
         pixel.stencil.cells[pixel.place] = s_after
         if ops.depth_write:

@@ -23,7 +23,7 @@ class Difference:
 
     Attributes
     ----------
-    buffer : "color", "depth", "stencil" or "returned[2]", the third array that the program returned
+    buffer : "color", "depth", "stencil", or "returned", "returned[2]", "returned['map']": what the program returned
     count : int                  differing pixels (texels, elements)
     x, y : int                   the first of them by rows from the bottom, as in GL
     y_from_top : int             the same row in an image whose row 0 is on top
@@ -92,14 +92,36 @@ def difference(buffer: str, ours: np.ndarray, theirs: np.ndarray) -> Difference 
 
 
 def differences(ours: ProgramResult, theirs: ProgramResult) -> tuple[Difference, ...]:
-    """Return the differences of colour, depth, stencil and of the arrays that the two programs returned."""
+    """Return the differences of colour, depth, stencil and of the arrays that the two programs returned.
+
+    Raises
+    ------
+    ValueError                   one program returned arrays that the other did not, or arrays of other shapes
+    """
+    mine, other = returned_arrays(ours.returned), returned_arrays(theirs.returned)
+    if mine.keys() != other.keys():
+        raise ValueError(f"the programs returned {', '.join(mine) or 'no array'} and {', '.join(other) or 'no array'}")
     pairs = [(name, getattr(ours, name), getattr(theirs, name)) for name in WINDOW]
-    if isinstance(ours.returned, list | tuple) and isinstance(theirs.returned, list | tuple):
-        for index, (mine, other) in enumerate(zip(ours.returned, theirs.returned, strict=True)):
-            if isinstance(mine, np.ndarray) and isinstance(other, np.ndarray):
-                pairs.append((f"returned[{index}]", mine, other))
-    found = (difference(name, mine, other) for name, mine, other in pairs)
+    pairs += [(name, mine[name], other[name]) for name in mine]
+    found = (difference(*pair) for pair in pairs)
     return tuple(one for one in found if one is not None)
+
+
+def returned_arrays(returned: Any) -> dict[str, Any]:
+    """Return the arrays and numbers among what a program returned: itself, or the items of a list, tuple or dict.
+
+    Examples
+    --------
+    >>> returned_arrays([7, "text", np.zeros(2)])
+    {'returned[0]': 7, 'returned[2]': array([0., 0.])}
+    """
+    if isinstance(returned, dict):
+        items = [(f"returned[{key!r}]", value) for key, value in returned.items()]
+    elif isinstance(returned, list | tuple):
+        items = [(f"returned[{index}]", value) for index, value in enumerate(returned)]
+    else:
+        items = [("returned", returned)]
+    return {name: value for name, value in items if isinstance(value, np.ndarray | np.number | int | float)}
 
 
 def run_here(program: Program, size: tuple[int, int]) -> ProgramResult:
@@ -136,7 +158,8 @@ def compare(program: Program, size: tuple[int, int] = (640, 480), driver: str = 
 
     Parameters
     ----------
-    program : callable           ``program(gl)`` with PyOpenGL's names; arrays in a list it returns are compared, too
+    program : callable           ``program(gl)`` with PyOpenGL's names; arrays and numbers that it returns, alone or in
+        a list, tuple or dict, are compared, too
     size : (width, height) of the default framebuffer
     driver : "llvmpipe" or "softpipe"
     """
