@@ -88,3 +88,28 @@ def program_of(seed):
 def test_blits_have_the_bits_of_mesa(seed):
     comparison = compare(program_of(seed), SIZE)
     assert comparison, str(comparison)
+
+
+@pytest.mark.parametrize("target", [(9, 3, 20, 21), (20, 21, 9, 3), (9, 21, 20, 39), (2, 3, 24, 39)])
+def test_linear_filter_is_for_scaled_blits_of_floats_only(target):
+    width, height = OBJECT_SIZE
+    texels = np.random.default_rng(1).random((height, width, 4), np.float32)
+
+    def program(gl):
+        names = []
+        for _ in range(2):
+            names.append(gl.glGenFramebuffers(1))
+            gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, names[-1])
+            texture = gl.glGenTextures(1)
+            gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
+            gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA32F, width, height, 0, gl.GL_RGBA, gl.GL_FLOAT, texels)
+            gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, texture, 0)
+        gl.glBindFramebuffer(gl.GL_READ_FRAMEBUFFER, names[0])
+        gl.glBlitFramebuffer(3, 4, 14, 22, *target, gl.GL_COLOR_BUFFER_BIT, gl.GL_LINEAR)
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, names[1])
+        return [gl.glReadPixels(0, 0, width, height, gl.GL_RGBA, gl.GL_FLOAT)]
+
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)
+    copied = np.isin(comparison.ours.returned[0], texels).all()
+    assert copied == (abs(target[2] - target[0]) == 11 and abs(target[3] - target[1]) == 18)

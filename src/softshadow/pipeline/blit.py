@@ -44,6 +44,12 @@ class Rectangles(NamedTuple):
     in_texels: bool
 
     @property
+    def scaled(self) -> bool:
+        """Whether the two rectangles differ in size."""
+        (a, b, c, d), (e, f, g, h) = self.source, self.target
+        return (abs(c - a), abs(d - b)) != (abs(g - e), abs(h - f))
+
+    @property
     def straight(self) -> bool:
         """Whether every pixel is copied as it is: no scaling, no mirroring, nothing cut off."""
         (a, b, c, d), (e, f, g, h) = self.source, self.target
@@ -74,7 +80,7 @@ def blit(command: BlitFramebuffer, storage: Storage) -> None:
 
 
 def _blit_color(source: Image, target: Image, rectangles: Rectangles, texture_filter: int) -> None:
-    if texture_filter == gl.GL_LINEAR:
+    if texture_filter == gl.GL_LINEAR and rectangles.scaled:  # the blitter filters nothing else
         draw_image(source, target, rectangles, gl.GL_LINEAR)
     else:
         where, texels = nearest_texels(source, target, rectangles)
