@@ -57,6 +57,24 @@ def no_place(gl: Any) -> None:
     gl.glEnd()
 
 
+def rectangle_and_level_triangle(gl: Any) -> list[Any]:
+    """The colours of an object of 150 x 150 pixels."""
+    side = 150
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, gl.glGenFramebuffers(1))
+    gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, gl.glGenRenderbuffers(1))
+    gl.glRenderbufferStorage(gl.GL_RENDERBUFFER, gl.GL_RGBA8, side, side)
+    gl.glFramebufferRenderbuffer(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_RENDERBUFFER, 1)
+    gl.glViewport(0, 0, side, side)
+    left, bottom, right, top = -0.7, -0.83, 0.91, 0.77
+    corners = [(left, bottom), (right, bottom), (right, top), (left, top)]
+    gl.glBegin(gl.GL_TRIANGLES)
+    for index in (1, 2, 3, 0, 3, 1, 0, 1, 1):
+        gl.glColor3f(0.25 * index, 0.5, 1 - 0.25 * index)
+        gl.glVertex2f(*corners[index])
+    gl.glEnd()
+    return [gl.glReadPixels(0, 0, side, side, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)]
+
+
 def short_texels(gl: Any) -> None:
     texels = np.full((1, 1, 4), 25854, np.uint16)  # 100.6 / 255
     gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 1, 1, 0, gl.GL_RGBA, gl.GL_UNSIGNED_SHORT, texels)
@@ -64,6 +82,19 @@ def short_texels(gl: Any) -> None:
     gl.glEnable(gl.GL_TEXTURE_2D)
     gl.glColor4f(0.75, 0.75, 0.75, 0.75)
     triangle(gl, gl.GL_TRIANGLES, CORNERS[:3])
+
+
+def shiny_backs(gl: Any) -> None:
+    for capability in ("GL_LIGHTING", "GL_LIGHT0"):
+        gl.glEnable(getattr(gl, capability))
+    gl.glLightModeli(gl.GL_LIGHT_MODEL_TWO_SIDE, 1)
+    gl.glMaterialf(gl.GL_FRONT_AND_BACK, gl.GL_SHININESS, 8)
+    gl.glLightfv(gl.GL_LIGHT0, gl.GL_POSITION, (0.0, 0.0, -2.0, 0.0))
+    gl.glBegin(gl.GL_TRIANGLES)
+    for corner in CORNERS[2::-1]:
+        gl.glMaterialfv(gl.GL_BACK, gl.GL_DIFFUSE, (0.75, 0.5, 0.25, 1.0))
+        gl.glVertex2f(*corner)
+    gl.glEnd()
 
 
 def triangle(gl: Any, mode: int, corners: list[tuple[float, float]]) -> None:
@@ -103,6 +134,19 @@ def follows_back_only(calls: list[Call]) -> bool:
     return two_sided and follows and not all(is_plain(*call) for call in calls)
 
 
+def gives_back_only(calls: list[Call]) -> bool:
+    """Whether a back material changes inside glBegin and the front's does not, which GL_FRONT colour material holds."""
+    two_sided = ("glLightModeli", ("GL_LIGHT_MODEL_TWO_SIDE", 1)) in calls
+    faces = {"GL_BACK"}
+    inside = given = False
+    for name, values in calls:
+        if name == "glColorMaterial" and values[0] == "GL_FRONT":
+            faces.add("GL_FRONT_AND_BACK")
+        inside = name == "glBegin" or (inside and name != "glEnd")
+        given = given or (inside and name.startswith("glMaterial") and values[0] in faces)
+    return two_sided and given and not all(is_plain(*call) for call in calls)
+
+
 def is_plain(name: str, values: tuple[Any, ...]) -> bool:
     """Whether a call leaves lights directional and without highlights of their own: there Mesa's result is modelled."""
     positional = name.startswith("glLight") and values[1:2] == ("GL_POSITION",) and values[2][3] != 0
@@ -122,6 +166,15 @@ KNOWN = (
         follows_back_only,
     ),
     KnownDifference(
+        "shiny backs",
+        "green and blue of back faces in two-sided lighting, glMaterial inside glBegin for GL_BACK alone (or for both "
+        "faces under glColorMaterial of GL_FRONT), where a light makes highlights",
+        "as for unwritten registers: Mesa writes such products in red only",
+        255,
+        shiny_backs,
+        gives_back_only,
+    ),
+    KnownDifference(
         "colours of 16 bits",
         "textures whose internal format is GL_RGBA, GL_LUMINANCE or the like, and whose pixels are GL_UNSIGNED_SHORT "
         "of the same format",
@@ -134,11 +187,21 @@ KNOWN = (
 FAULTS = (
     KnownDifference(
         "no place in the window",
-        "a triangle with a vertex that is not outside any clip plane and has no finite window coordinates: at "
-        "(0, 0, 0, 0) or (inf, inf, inf, inf), or made with w = 0 by clipping an edge from w = -1e15",
-        "Mesa's integers overflow, and it fills parts of the window, or nothing; here such a triangle is left out",
+        "a triangle with a vertex that is not outside any clip plane and has window coordinates beyond 2^23 or none: "
+        "at (0, 0, 0, 0) or (inf, inf, inf, inf), or made with w = 0 by clipping an edge from w = -1e15, or between "
+        "w = 1e-30 and w = 3e38",
+        "Mesa's integers of 1/256 pixel overflow, and it fills parts of the window, or nothing; here the triangle is "
+        "left out where its corners are not finite",
         255,
         no_place,
+    ),
+    KnownDifference(
+        "rectangle and a level triangle",
+        "colours and texture coordinates of three triangles drawn at once, the first two of which make a rectangle and "
+        "the last is level in the window, in two of the orders of their corners",
+        "Mesa draws the rectangle with the plane of its first triangle; here each triangle has its own",
+        242,
+        rectangle_and_level_triangle,
     ),
     KnownDifference(
         "unfinished quad in a list",

@@ -5,8 +5,9 @@ import numpy as np
 from mesa.random_vertices import Vertex
 from mesa.random_writer import Writer
 
-UNUSUAL = [float("nan"), 1e-30, -0.0, 1000.0]
-FAR = [*UNUSUAL, 1e10, 1e20, 1e30, 3e38]
+NOWHERE = [float("nan"), -0.0]
+UNUSUAL = [*NOWHERE, 1e-30, 1000.0]
+FAR = [1e-30, 1000.0, 1e10, 1e20, 1e30, 3e38]
 INFINITE = [-1e15, float("inf"), float("-inf")]
 ODD_SIZES = [(1, 1), (3, 2), (17, 129), (65, 64), (64, 65), (300, 200), (131, 77), (5, 200)]
 
@@ -44,9 +45,11 @@ def far_away(writer: Writer, wild: bool) -> None:
     """Triangles some of whose coordinates are huge, infinite, or no numbers."""
     count = writer.integer(1, 4) * 12
     probability = writer.pick([0.02, 0.1, 0.4])
-    # w far below 0, or all infinite, would be the fault "no place in the window" of known_differences.py
-    places = FAR + INFINITE
-    choices = [places, places, places, FAR] if writer.spread == 1 else [UNUSUAL] * 4
+    # w far below 0, all infinite, or two far places of different kinds in one triangle would be the fault
+    # "no place in the window" of known_differences.py
+    far = writer.pick(FAR + INFINITE)
+    places = [*NOWHERE, far]
+    choices = [places, places, places, places if far in FAR else NOWHERE] if writer.spread == 1 else [UNUSUAL] * 4
     vertices = [
         tuple(writer.pick(far) if writer.chance(probability) else a for a, far in zip(vertex, choices, strict=True))
         for vertex in writer.vertices(count, wild)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from mesa.known_differences import CORNERS, FAULTS, KNOWN, explanation, follows_back_only, triangle
+from mesa.known_differences import CORNERS, FAULTS, KNOWN, explanation, follows_back_only, gives_back_only, triangle
 from softshadow.testing import compare
 
 SIZE = (24, 20)
@@ -34,6 +34,16 @@ def test_stencil_and_depth_are_never_explained():
     assert explanation(calls, ("color", "stencil")) == ""
     assert explanation(calls, ("depth",)) == ""
     assert explanation([], ("color",)) == ""
+
+
+def test_shiny_backs_are_those_given_inside_a_primitive_for_the_back_alone():
+    shiny = [("glLightModeli", ("GL_LIGHT_MODEL_TWO_SIDE", 1)), ("glMaterialf", ("GL_BACK", "GL_SHININESS", 8.0))]
+    given, both = (("glMaterialfv", (face, "GL_DIFFUSE", (1.0,) * 4)) for face in ("GL_BACK", "GL_FRONT_AND_BACK"))
+    begin, end = ("glBegin", ("GL_TRIANGLES",)), ("glEnd", ())
+    assert gives_back_only([*shiny, begin, given, end])
+    assert not gives_back_only([*shiny, begin, end, given])
+    assert not gives_back_only([*shiny, begin, both, end])
+    assert gives_back_only([*shiny, ("glColorMaterial", ("GL_FRONT", "GL_DIFFUSE")), begin, both, end])
 
 
 @pytest.mark.mesa
