@@ -26,6 +26,14 @@ def random_triangles(rng: np.random.Generator, count: int) -> Vertices:
     return vertices(positions * np.float32(rng.choice([0.3, 1, 3])), rng.random((3 * count, 4)))
 
 
+def small_triangles(rng: np.random.Generator, count: int) -> Vertices:
+    """Triangles of up to a few pixels in a small window, some of them beyond its edges, all inside the near plane."""
+    positions = np.ones((count, 3, 4), np.float32)
+    positions[:, :, :3] = rng.uniform(-1.05, 1.05, (count, 1, 3))
+    positions[:, :, :3] += rng.normal(0, 1, (count, 3, 3)) * rng.choice([0.02, 0.1, 0.3], (count, 1, 1))
+    return vertices(positions.reshape(-1, 4), rng.random((3 * count, 4)))
+
+
 def random_state(rng: np.random.Generator, state: State) -> State:
     """A state of tests, ops, masks, offset and culling drawn at random."""
 

@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from draws import draw, random_state, random_triangles, same_window
+from draws import draw, random_state, random_triangles, same_window, small_triangles
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.framebuffer import Attachment
 from softshadow.image import FORMATS, Image
-from softshadow.pipeline import set_threads, threads, use_binding
+from softshadow.pipeline import binding, set_threads, threads, use_binding
 
 WIDTH, HEIGHT = 48, 40
 # each of these compiles code of its own: a fixed sample, so that the cache on disk has them from the second run on
@@ -40,6 +40,7 @@ def drawn(seed: int, depth_format: str = "d24", precision: str = "mesa", ordered
         else:
             state = replace(state, alpha=replace(state.alpha, enabled=False))
         draw(context, state, random_triangles(rng, 6))
+        draw(context, state, small_triangles(rng, 12))
     return context
 
 
@@ -57,16 +58,23 @@ def test_ordered_path_draws_what_the_opaque_path_draws(seed, depth_format):
     assert same_window(drawn(seed, depth_format, ordered=True), drawn(seed, depth_format))
 
 
-@given(st.integers(0, 2**32 - 1))
-def test_results_do_not_depend_on_the_number_of_threads(seed):
+@pytest.mark.interpreted
+@given(st.integers(0, 2**32 - 1), st.sampled_from([1, 5, binding.AT_A_TIME]))
+def test_results_do_not_depend_on_the_number_of_threads_or_the_bands(seed, at_a_time):
     before = threads()
-    try:
+    with pytest.MonkeyPatch.context() as patch:
         set_threads(1)
         expected = drawn(seed)
-        set_threads(3)
-        assert same_window(drawn(seed), expected)
-    finally:
-        set_threads(before)
+        patch.setattr(binding, "WORTH", 0)  # so small a window would not be divided
+        patch.setattr(binding, "AT_A_TIME", at_a_time)
+        try:
+            set_threads(3)
+            assert same_window(drawn(seed), expected)
+            set_threads(1)
+            patch.setattr(binding, "LAYERS", 0)
+            assert same_window(drawn(seed), expected)
+        finally:
+            set_threads(before)
 
 
 DIGESTS = """

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softshadow.pipeline.coverage import triangles_at
+from softshadow.pipeline.boxes import columns_of
+from softshadow.pipeline.coverage import bounds, edge, row_span, triangles_at
 from softshadow.pipeline.fill import Region
 from softshadow.pipeline.fragments import list_fragments
 from softshadow.pipeline.setup import MAX_SLOPE, Offset, Setup, set_up
@@ -115,6 +116,22 @@ def test_triangles_at_a_pixel_are_those_that_cover_it(fan, column, row):
     count = triangles_at(made.corners, column, row, 1, found)
     here = (fragments.row == row) & (fragments.column == column)
     assert found[:count].tolist() == fragments.triangle[here].tolist()
+
+
+@given(window_fans(SIZE), st.booleans())
+def test_the_sides_of_a_pixel_say_what_the_spans_say(fan, downwards):
+    corners = set_up_in_window(*fan).corners
+    for t, (x0, y0, x1, y1, x2, y2) in enumerate(corners.tolist()):
+        first_column, end_column = columns_of(corners, t)
+        first_row, end_row = bounds(corners, t)
+        edges = [edge(*ends, downwards) for ends in ((x0, y0, x1, y1), (x1, y1, x2, y2), (x2, y2, x0, y0))]
+        for row in range(first_row, end_row):
+            inside = [
+                column
+                for column in range(first_column, end_column)
+                if all(at + along * (row << 8) - across * (column << 8) >= 0 for across, along, at in edges)
+            ]
+            assert inside == list(range(*row_span(corners, t, row, int(downwards))))
 
 
 def test_a_triangle_without_snapped_area_covers_nothing():

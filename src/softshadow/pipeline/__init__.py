@@ -24,7 +24,7 @@ from softshadow.pipeline.bands import set_threads, threads
 from softshadow.pipeline.binding import VERDICT_COUNTS, fill, use_binding
 from softshadow.pipeline.blend import compared_alpha, needs_order, write_colors
 from softshadow.pipeline.clear import clear
-from softshadow.pipeline.fill import Region
+from softshadow.pipeline.coverage import extent
 from softshadow.pipeline.fragment_ops import PASSED, VERDICTS, fragment_ops
 from softshadow.pipeline.fragments import Fragments, in_blocks, list_fragments, test_fragments
 from softshadow.pipeline.geometry import Geometry, depth_range_of, process_geometry, region_of
@@ -67,14 +67,16 @@ def _draw_opaque(
     command: Draw, target: Framebuffer, geometry: Geometry, writes_color: bool, verdicts: np.ndarray | None
 ) -> None:
     state, triangles = command.state, geometry.triangles
-    region = _rows_of(geometry, region_of(state, target))
+    first, end, fragments = extent(triangles.corners)
+    region = region_of(state, target)
+    region = region._replace(first_row=max(region.first_row, first), end_row=min(region.end_row, end))
     if region.first_row >= region.end_row:
         return
     depth, stencil = _planes(target, geometry.window.dtype)
     ids = np.full((region.end_row - region.first_row, depth.shape[1]), -1, np.int32) if writes_color else None
     front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
     depth_range = depth_range_of(state, geometry.window.dtype.type)
-    fill(front, back, triangles, region, depth_range, depth, stencil, ids, verdicts)
+    fill(front, back, triangles, fragments, region, depth_range, depth, stencil, ids, verdicts)
     if ids is not None:
         rows, columns = np.nonzero(ids >= 0)
         stored_rows = (rows + region.first_row).astype(np.int32)
@@ -125,13 +127,6 @@ def _shade_all(geometry: Geometry, fragments: Fragments) -> np.ndarray:
     out = np.empty((len(inputs), 4), inputs.dtype)
     geometry.program.shade(inputs, geometry.uniforms, out)
     return out
-
-
-def _rows_of(geometry: Geometry, region: Region) -> Region:
-    """Return the part of the region between the topmost and the lowest triangle."""
-    rows = geometry.triangles.corners[:, 1::2]
-    first, end = (int(rows.min()) + 255) >> 8, (int(rows.max()) >> 8) + 1
-    return region._replace(first_row=max(region.first_row, first), end_row=min(region.end_row, end))
 
 
 def _planes(target: Framebuffer, real: np.dtype) -> tuple[np.ndarray, np.ndarray]:

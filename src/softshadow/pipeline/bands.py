@@ -1,14 +1,18 @@
-"""Threads:
+"""Threads: pieces of work on a persistent pool, each handed to the thread that is free next.
 
-Bands of rows on a persistent pool. Each pixel is processed in drawing order by one thread, whatever their number.
+Which piece goes where changes no result: a pixel lies in one band of rows, and a band is processed in drawing order by
+one thread (`bins.py`).
 """
 
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextvars import copy_context
+from typing import TypeVar, cast
 
-ROWS = 16  # of a band; measured flat within 3 % from 1 to 16
-WORTH = 200_000  # fragments from which the hand-over to other threads is small against the work
+Result = TypeVar("Result")
+
+PART = 1 << 15  # vertices or triangles; some tenths of a millisecond
 
 _threads = [0]
 _pool: dict[int, ThreadPoolExecutor] = {}
@@ -34,13 +38,31 @@ def threads() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def in_bands(work: Callable[[int, int], None], first_row: int, end_row: int, fragments: int) -> None:
-    """Call ``work(first, end)`` for all rows, in bands on the threads where there is enough to do."""
-    n = threads()
-    if n == 1 or fragments < WORTH or end_row - first_row <= ROWS:
-        work(first_row, end_row)
-        return
-    if n not in _pool:
-        _pool[n] = ThreadPoolExecutor(n, thread_name_prefix="softshadow")
-    starts = range(first_row, end_row, ROWS)
-    list(_pool[n].map(lambda start: work(start, min(start + ROWS, end_row)), starts))
+def share(work: Callable[[int], Result], count: int) -> list[Result]:
+    """Return ``[work(0), ..., work(count - 1)]``, each called on whichever thread is free next."""
+    n = min(threads(), count)
+    numbers, results = iter(range(count)), [cast(Result, None)] * count
+
+    def until_none_is_left() -> None:
+        for number in numbers:  # the threads share the iterator: each number is handed out once
+            results[number] = work(number)
+
+    if n > 1 and threads() not in _pool:
+        _pool[threads()] = ThreadPoolExecutor(threads(), thread_name_prefix="softshadow")
+    # the caller is the first thread; with its context, the others warn of no more than it does
+    others = [_pool[threads()].submit(copy_context().run, until_none_is_left) for _ in range(n - 1)]
+    try:
+        until_none_is_left()
+    finally:
+        for other in others:
+            other.result()
+    return results
+
+
+def parts_of(count: int) -> list[tuple[int, int]]:
+    """Return first and end of the parts of ``range(count)`` to share: one for one thread, else each worth the
+    hand-over.
+    """
+    if threads() == 1:
+        return [(0, count)]
+    return [(first, min(first + PART, count)) for first in range(0, max(count, 1), PART)]

@@ -13,14 +13,18 @@ from pathlib import Path
 import numpy as np
 
 from softshadow.jit import cache_folder, inlined, kernel
-from softshadow.pipeline.bands import in_bands
-from softshadow.pipeline.fill import DepthRange, Planes, Region, fill_triangles
+from softshadow.pipeline.bands import share, threads
+from softshadow.pipeline.bins import AT_A_TIME, ROWS, Bins, bands_of, sort_into_bands
+from softshadow.pipeline.fill import Planes, Region, fill_triangles
 from softshadow.pipeline.fragment_ops import FragmentOps
 from softshadow.pipeline.setup import Setup
+from softshadow.pipeline.spans import DepthRange
 
 PAYS_AFTER = (
     40_000_000  # fragments of one state; measured: about 0.4 s of compilation at the speed of the generic binding
 )
+WORTH = 200_000  # fragments from which sorting and the hand-over to other threads are small against the work
+LAYERS = 4
 VERDICT_COUNTS = 6  # one per verdict, and the number of stencil values that changed
 
 _compiled: dict[tuple[int, ...], Callable[..., None]] = {}
@@ -42,9 +46,9 @@ def use_binding(policy: str) -> Iterator[None]:
 
 
 @kernel
-def generic(front, back, two_sided, writes_ids, counts, triangles, region, depth_range, planes):
+def generic(front, back, two_sided, writes_ids, counts, triangles, numbers, region, depth_range, planes):
     """`fill_triangles` with the state as an argument."""
-    fill_triangles(front, back, two_sided, writes_ids, counts, triangles, region, depth_range, planes)
+    fill_triangles(front, back, two_sided, writes_ids, counts, triangles, numbers, region, depth_range, planes)
 
 
 @inlined
@@ -61,9 +65,9 @@ def specialise(front_code: FragmentOps, back_code: FragmentOps, two_sided: int, 
     """Return `fill_triangles` compiled for the code of one state; reference values and masks are still arguments."""
 
     @kernel
-    def fill(front, back, triangles, region, depth_range, planes):
+    def fill(front, back, triangles, numbers, region, depth_range, planes):
         now_front, now_back = with_numbers(front_code, front), with_numbers(back_code, back)
-        fill_triangles(now_front, now_back, two_sided, writes_ids, 0, triangles, region, depth_range, planes)
+        fill_triangles(now_front, now_back, two_sided, writes_ids, 0, triangles, numbers, region, depth_range, planes)
 
     return fill
 
@@ -86,6 +90,7 @@ def fill(
     front: FragmentOps,
     back: FragmentOps,
     triangles: Setup,
+    fragments: int,
     region: Region,
     depth_range: DepthRange,
     depth: np.ndarray,
@@ -93,9 +98,10 @@ def fill(
     ids: np.ndarray | None = None,
     verdicts: np.ndarray | None = None,
 ) -> None:
-    """Process all fragments of the triangles inside the region, on the binding that pays.
+    """Process all fragments of the triangles inside the region, on the binding that pays and in bands where they pay.
 
-    `ids` and `verdicts` are those of `Planes`; verdicts are counted by the generic binding in one band.
+    `fragments` is about how many there are (`coverage.extent`), `ids` and `verdicts` are those of `Planes`; verdicts
+    are counted by the generic binding in one band.
     """
     columns = np.arange(max(*depth.shape, region.right, region.end_row), dtype=triangles.depth.dtype)
     two_sided, writes_ids, counts = int(front != back), int(ids is not None), int(verdicts is not None)
@@ -106,21 +112,41 @@ def fill(
         np.empty((1, 1), np.int32) if ids is None else ids,
         np.zeros(VERDICT_COUNTS, np.int64) if verdicts is None else verdicts,
     )
-    area = _area(triangles)
-    compiled = None if counts else _compiled_for(front.code(), back.code(), two_sided, writes_ids, area)
+    compiled = None if counts else _compiled_for(front.code(), back.code(), two_sided, writes_ids, fragments)
 
-    def band(first_row: int, end_row: int) -> None:
+    def fill_rows(numbers: np.ndarray, first_row: int, end_row: int) -> None:
         part = region._replace(first_row=first_row, end_row=end_row)
         rows = planes._replace(ids=planes.ids[first_row - region.first_row :]) if writes_ids else planes
         if compiled is None:
-            generic(front, back, two_sided, writes_ids, counts, triangles, part, depth_range, rows)
+            generic(front, back, two_sided, writes_ids, counts, triangles, numbers, part, depth_range, rows)
         else:
-            compiled(front, back, triangles, part, depth_range, rows)
+            compiled(front, back, triangles, numbers, part, depth_range, rows)
 
-    if counts:
-        band(region.first_row, region.end_row)
-    else:
-        in_bands(band, region.first_row, region.end_row, area)
+    if counts or not _bands_pay(region, fragments):
+        fill_rows(np.arange(len(triangles.ids), dtype=np.int32), region.first_row, region.end_row)
+        return
+    for begin in range(0, len(triangles.ids), AT_A_TIME):
+        bins = sort_into_bands(triangles.corners, begin, min(begin + AT_A_TIME, len(triangles.ids)), region)
+
+        def fill_band(band: int, bins: Bins = bins) -> None:
+            first = region.first_row + band * ROWS
+            numbers = bins.of(band)
+            if len(numbers):
+                fill_rows(numbers, first, min(first + ROWS, region.end_row))
+
+        share(fill_band, bands_of(region))
+
+
+def _bands_pay(region: Region, fragments: int) -> bool:
+    """Return whether to sort the triangles into bands.
+
+    For several threads where there is enough to do, and for one where many layers lie on each other: the planes of a
+    band stay in the cache while all of them are drawn.
+    """
+    if region.end_row - region.first_row <= ROWS or fragments < WORTH:
+        return False
+    pixels = (region.right - region.left) * (region.end_row - region.first_row)
+    return threads() > 1 or fragments > LAYERS * pixels
 
 
 def _compiled_for(
@@ -136,9 +162,3 @@ def _compiled_for(
         if marker is not None:
             marker.touch()
     return _compiled.get(key)
-
-
-def _area(triangles: Setup) -> int:
-    """Return the area of all triangles in pixels: about the number of their fragments."""
-    x0, y0, x1, y1, x2, y2 = triangles.corners.astype(np.float64).T
-    return int(np.abs((x0 - x1) * (y2 - y0) - (x2 - x0) * (y0 - y1)).sum()) >> 17

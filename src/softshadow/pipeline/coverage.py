@@ -6,7 +6,7 @@ one of them: left and bottom edges are inside, right and top edges outside (docs
 
 from softshadow.jit import kernel
 
-FIRST_COLUMN, END_COLUMN = -(1 << 30), 1 << 30
+FARTHEST = 1 << 30
 
 
 @kernel
@@ -17,12 +17,37 @@ def bounds(corners, t):
 
 
 @kernel
+def extent(corners):
+    """Return first and end row of all triangles, and the sum of their areas in pixels: about how many fragments."""
+    first, end, area = FARTHEST, -FARTHEST, 0
+    for t in range(corners.shape[0]):
+        low, high = bounds(corners, t)
+        first, end = min(first, low), max(end, high)
+        x0, y0 = int(corners[t, 0]), int(corners[t, 1])
+        x1, y1 = int(corners[t, 2]), int(corners[t, 3])
+        x2, y2 = int(corners[t, 4]), int(corners[t, 5])
+        # in 1/256 pixels, so that the sum of millions of the largest triangles stays within 64 bits
+        area += abs((x0 - x1) * (y2 - y0) - (x2 - x0) * (y0 - y1)) >> 9
+    return first, end, area >> 8
+
+
+@kernel
+def edge(x0, y0, x1, y1, downwards):
+    """Return (across, along, at) of the edge from corner 0 to corner 1.
+
+    Inside are the samples with ``at + along * 256 row - across * 256 column >= 0``: with the edge itself where it is
+    inclusive.
+    """
+    across, along = int(y0) - int(y1), int(x0) - int(x1)
+    inclusive = across < 0 or (across == 0 and ((along < 0) == (downwards == 1)))
+    return across, along, across * int(x0) - along * int(y0) + (0 if inclusive else -1)
+
+
+@kernel
 def narrow(x0, y0, x1, y1, row, downwards, first, end):
     """Return the columns of [first, end) that lie inside the edge from corner 0 to corner 1."""
-    across, along = y0 - y1, x0 - x1
-    inclusive = across < 0 or (across == 0 and ((along < 0) == (downwards == 1)))
-    # inside: value - across * 256 * column >= 0, with the edge itself counted where it is inclusive
-    value = across * x0 + along * ((row << 8) - y0) + (0 if inclusive else -1)
+    across, along, at = edge(x0, y0, x1, y1, downwards)
+    value = at + along * (row << 8)
     if across > 0:
         end = min(end, value // (across << 8) + 1)
     elif across < 0:
@@ -41,7 +66,7 @@ def row_span(corners, t, row, downwards):
     x0, y0 = int(corners[t, 0]), int(corners[t, 1])
     x1, y1 = int(corners[t, 2]), int(corners[t, 3])
     x2, y2 = int(corners[t, 4]), int(corners[t, 5])
-    first, end = narrow(x0, y0, x1, y1, row, downwards, FIRST_COLUMN, END_COLUMN)
+    first, end = narrow(x0, y0, x1, y1, row, downwards, -FARTHEST, FARTHEST)
     first, end = narrow(x1, y1, x2, y2, row, downwards, first, end)
     return narrow(x2, y2, x0, y0, row, downwards, first, end)
 

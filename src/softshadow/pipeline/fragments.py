@@ -10,9 +10,10 @@ import numpy as np
 
 from softshadow.jit import kernel
 from softshadow.pipeline.coverage import bounds, row_span
-from softshadow.pipeline.fill import Region, depth_units
+from softshadow.pipeline.fill import Region
 from softshadow.pipeline.fragment_ops import process_fragment
 from softshadow.pipeline.setup import Setup
+from softshadow.pipeline.spans import depth_units
 
 
 class Fragments(NamedTuple):

@@ -12,7 +12,7 @@ from softshadow import matrices, programs
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.clip import NO_EDGES, Clipped, clip_triangles, outcodes
-from softshadow.pipeline.fill import DepthRange, Region
+from softshadow.pipeline.fill import Region
 from softshadow.pipeline.level_triangles import ALL, is_left_out, segment_of_three
 from softshadow.pipeline.lines import LINES, NO_VERTEX, assemble_lines, clip_lines, set_up_lines
 from softshadow.pipeline.points import clip_points, set_up_points
@@ -25,6 +25,7 @@ from softshadow.pipeline.primitives import (
     through_indices,
 )
 from softshadow.pipeline.setup import Setup, add_float_units, in_order, offset_is_on, offset_of, set_up
+from softshadow.pipeline.spans import DepthRange
 from softshadow.pipeline.unfilled import drawn_modes, outline
 from softshadow.pipeline.vertex import to_clip, to_window
 from softshadow.programs import Program, VertexInputs

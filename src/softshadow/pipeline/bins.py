@@ -1,0 +1,77 @@
+"""Bins: which triangles meet which band of rows, so that a thread that has a band walks these and no others.
+
+A counting sort: count per band, add up, write. Within a band the numbers keep the drawing order, which is what makes
+results the same for any number of threads.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from softshadow.jit import kernel
+from softshadow.pipeline.bands import parts_of, share
+from softshadow.pipeline.coverage import bounds
+from softshadow.pipeline.fill import Region
+
+ROWS_LOG2 = 5  # rows of a band, 32
+ROWS = 1 << ROWS_LOG2
+AT_A_TIME = 1 << 19  # triangles; bounds the memory of triangles that all meet all bands
+
+
+class Bins(NamedTuple):
+    """The numbers of the triangles in band b: ``numbers[starts[b] : starts[b + 1]]``."""
+
+    starts: np.ndarray
+    numbers: np.ndarray
+
+    def of(self, band: int) -> np.ndarray:
+        """Return the numbers of the triangles of one band, in drawing order."""
+        return self.numbers[self.starts[band] : self.starts[band + 1]]
+
+
+def bands_of(region: Region) -> int:
+    """Return how many bands the rows of a region make."""
+    return -(-(region.end_row - region.first_row) // ROWS)
+
+
+def sort_into_bands(corners: np.ndarray, begin: int, end: int, region: Region) -> Bins:
+    """Return the bins of the triangles [begin, end) for the bands of a region."""
+    parts = [(begin + first, begin + last) for first, last in parts_of(end - begin)]
+    counts = np.zeros((len(parts), bands_of(region)), np.int64)
+    share(lambda n: count_per_band(corners, *parts[n], region, counts[n]), len(parts))
+    # band after band, and in a band part after part: so the drawing order is kept
+    ends = np.cumsum(counts.T).reshape(counts.T.shape).T
+    places = np.ascontiguousarray(ends - counts)
+    starts = np.append(places[0], ends[-1, -1])
+    numbers = np.empty(starts[-1], np.int32)
+    share(lambda n: write_numbers(corners, *parts[n], region, places[n], numbers), len(parts))
+    return Bins(starts, numbers)
+
+
+@kernel
+def bands_met(corners, t, region):
+    """Return first and end band of a triangle (end exclusive); an empty range where it meets none."""
+    first, end = bounds(corners, t)
+    first, end = max(first, region.first_row), min(end, region.end_row)
+    if first >= end:
+        return 0, 0
+    return (first - region.first_row) >> ROWS_LOG2, ((end - 1 - region.first_row) >> ROWS_LOG2) + 1
+
+
+@kernel
+def count_per_band(corners, begin, end, region, counts):
+    """Add to `counts` (bands,) how many triangles meet each band."""
+    for t in range(begin, end):
+        first_band, end_band = bands_met(corners, t, region)
+        for band in range(first_band, end_band):
+            counts[band] += 1
+
+
+@kernel
+def write_numbers(corners, begin, end, region, places, numbers):
+    """Write the number of each triangle where its bands go on; `places` (bands,) moves along."""
+    for t in range(begin, end):
+        first_band, end_band = bands_met(corners, t, region)
+        for band in range(first_band, end_band):
+            numbers[places[band]] = t
+            places[band] += 1

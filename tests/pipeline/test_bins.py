@@ -1,0 +1,52 @@
+"""Bins: every triangle in every band that it meets, in drawing order."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softshadow.pipeline.bins import ROWS, bands_of, sort_into_bands
+from softshadow.pipeline.coverage import bounds, extent
+from softshadow.pipeline.fill import Region
+
+pytestmark = pytest.mark.interpreted
+
+
+def random_corners(seed: int, count: int) -> np.ndarray:
+    """Corners of triangles around and beyond 100 rows, the small ones first turned so that their area is positive."""
+    rng = np.random.default_rng(seed)
+    corners = rng.integers(-5000, 30000, (count, 1, 2)) + rng.integers(-3000, 3000, (count, 3, 2))
+    turned = np.linalg.det((corners[:, 1:] - corners[:, :1]).astype(float)) < 0
+    corners[turned] = corners[turned][:, ::-1]
+    return np.ascontiguousarray(corners.reshape(-1, 6), np.int32)
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(0, 40), st.integers(0, 50), st.integers(1, 90))
+def test_a_band_has_the_triangles_that_meet_it_in_drawing_order(seed, count, first_row, rows):
+    corners = random_corners(seed, count)
+    region = Region(0, 100, first_row, first_row + rows, 1)
+    begin, end = count // 4, count - count // 5
+    bins = sort_into_bands(corners, begin, end, region)
+    assert bands_of(region) == len(bins.starts) - 1
+    for band in range(bands_of(region)):
+        low = first_row + band * ROWS
+        high = min(low + ROWS, region.end_row)
+        spans = [(t, *bounds(corners, t)) for t in range(begin, end)]
+        assert bins.of(band).tolist() == [t for t, first, last in spans if max(first, low) < min(last, high)]
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 40))
+def test_the_extent_has_all_rows_and_the_area_of_all_triangles(seed, count):
+    corners = random_corners(seed, count)
+    first, end, area = extent(corners)
+    spans = [bounds(corners, t) for t in range(count)]
+    assert (first, end) == (min(a for a, _ in spans), max(b for _, b in spans))
+    points = corners.reshape(-1, 3, 2) / 256
+    exact = np.abs(np.linalg.det(points[:, 1:] - points[:, :1])).sum() / 2
+    assert exact - count / 256 - 1 <= area <= exact + 1e-6  # each is cut to 1/256, the sum to whole pixels
+
+
+def test_no_triangles_have_no_rows():
+    first, end, area = extent(np.empty((0, 6), np.int32))
+    assert first >= end
+    assert area == 0
