@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numba
+import numpy as np
 
 KERNEL_BLOCKS = ("jit.py", "tokens.py", "pipeline", "programs", "truth", "scene")
 KEPT_VERSIONS = 8
@@ -82,3 +83,14 @@ def kernel(function: Callable[..., Any]) -> Any:
 def inlined(function: Callable[..., Any]) -> Any:
     """Compile a function into each kernel that calls it (decorator): what it is called with there is folded away."""
     return numba.njit(inline="always", nogil=True, error_model="numpy")(function)
+
+
+def read_only(array: np.ndarray) -> np.ndarray:
+    """Return a view that cannot be written to.
+
+    To the compiler it is another type: a kernel that gets users' arrays, which are read-only, gets all its arrays so,
+    or it would be compiled twice.
+    """
+    view = array.view()
+    view.flags.writeable = False
+    return view

@@ -25,10 +25,10 @@ from softshadow.pipeline import commands
 from softshadow.pipeline.blend import compared_alpha, write_colors
 from softshadow.pipeline.commands import Clear, Command, Draw
 from softshadow.pipeline.coverage import triangles_at
+from softshadow.pipeline.facing import CULL_BACK, CULL_FRONT, culling
 from softshadow.pipeline.fragment_ops import PASSED, SCISSORED, VERDICTS, fragment_ops, process_fragment
 from softshadow.pipeline.fragments import Fragments, fragment_depth
 from softshadow.pipeline.geometry import Geometry, depth_range_of, process_geometry, region_of
-from softshadow.pipeline.setup import CULL_BACK, CULL_FRONT, culling
 from softshadow.pixels import depth_as_float
 
 CULLED, CLEARED, WRITTEN = "culled", "clear", "written"

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import kernel, read_only
 from softshadow.pipeline.constants import SMALLEST_NORMAL, ZERO
 
 # plane k keeps a x + b y + c z + d w >= 0; the order is the order of clipping
@@ -52,36 +52,28 @@ def clip_triangles(
     triangles : (T, 3) int32
     codes : (V,) int32, what each vertex is outside of: `outcodes`
     user_planes : (P, 4) in clip space; a vertex is kept where its dot product is not negative
-    edges : (T, 3) uint8, for polygons that are not filled: the edges to be drawn
+    edges : (T, 3) uint8, for polygons that are not filled: the edges to be drawn; none: nobody asks which
     linear : whether values change linearly in the window, instead of in perspective
     """
-    if not len(edges):
-        edges = np.ones((len(triangles), 3), np.uint8)
-    used = codes[triangles]
-    outside = (used[:, 0] & used[:, 1] & used[:, 2]) != 0
-    crossing = ((used[:, 0] | used[:, 1] | used[:, 2]) != 0) & ~outside
-    cut = int(np.count_nonzero(crossing))
-    if cut == 0:
-        kept = np.flatnonzero(~outside).astype(np.int32)
-        return Clipped(clip, values, np.ascontiguousarray(triangles[kept]), kept, edges[kept])
+    triangles = read_only(triangles)
+    if not codes.any():
+        return Clipped(clip, values, triangles, np.arange(len(triangles), dtype=np.int32), edges)
+    whole, cut = count_inside(triangles, codes)
     planes = frustum_and(user_planes, clip.dtype)
     room = len(planes) * ADDED_PER_PLANE
-    more_clip = np.empty((len(clip) + cut * room, 4), clip.dtype)
-    more_values = np.empty((len(clip) + cut * room, values.shape[1]), values.dtype)
-    more_clip[: len(clip)], more_values[: len(clip)] = clip, values
-    pieces = np.empty((len(triangles) + cut * (len(planes) + 1), 3), np.int32)
-    source, piece_edges = np.empty(len(pieces), np.int32), np.empty((len(pieces), 3), np.uint8)
+    more_clip, more_values = clip, values
+    if cut:
+        more_clip = np.empty((len(clip) + cut * room, 4), clip.dtype)
+        more_values = np.empty((len(clip) + cut * room, values.shape[1]), values.dtype)
+        more_clip[: len(clip)], more_values[: len(clip)] = clip, values
+    pieces = np.empty((whole + cut * (room + 1), 3), np.int32)
+    source = np.empty(len(pieces), np.int32)
+    piece_edges = np.empty((len(pieces) if len(edges) else 0, 3), np.uint8)
     count, vertices = cut_triangles(
         triangles, edges, codes, planes, more_clip, more_values, len(clip), pieces, source, piece_edges,
         np.zeros((2, room + 3), np.int32), np.zeros((2, room + 3), np.uint8), int(linear),
     )  # fmt: skip
-    return Clipped(
-        np.ascontiguousarray(more_clip[:vertices]),
-        np.ascontiguousarray(more_values[:vertices]),
-        pieces[:count].copy(),
-        source[:count].copy(),
-        piece_edges[:count].copy(),
-    )
+    return Clipped(more_clip[:vertices], more_values[:vertices], pieces[:count], source[:count], piece_edges[:count])
 
 
 def frustum_and(user_planes: np.ndarray, dtype: np.dtype) -> np.ndarray:
@@ -94,13 +86,42 @@ def outcodes(clip: np.ndarray, depth_clamp: bool, user_planes: np.ndarray) -> np
 
     With `depth_clamp` near and far do not clip.
     """
-    x, y, z, w = clip.T
-    inside = [x <= w, x + w >= 0, y <= w, y + w >= 0, z + w >= 0, z <= w]
-    inside += [((x * p[0] + y * p[1]) + z * p[2]) + w * p[3] >= 0 for p in user_planes.astype(clip.dtype)]
-    codes = np.zeros(len(clip), np.int32)
-    for bit, test in enumerate(inside):
-        codes |= (~test).astype(np.int32) << bit
-    return codes & ~NEAR_FAR if depth_clamp else codes
+    codes = np.empty(len(clip), np.int32)
+    write_outcodes(clip, user_planes.astype(clip.dtype), NEAR_FAR if depth_clamp else 0, codes)
+    return codes
+
+
+@kernel
+def outcode(x, y, z, w, user_planes):
+    """Return the bits of one vertex. Each test is one that NaN fails."""
+    code = 0 if x <= w else 1
+    code |= 0 if x + w >= ZERO else 2
+    code |= 0 if y <= w else 4
+    code |= 0 if y + w >= ZERO else 8
+    code |= 0 if z + w >= ZERO else 16
+    code |= 0 if z <= w else 32
+    for p in range(user_planes.shape[0]):
+        kept = (x * user_planes[p, 0] + y * user_planes[p, 1]) + z * user_planes[p, 2] + w * user_planes[p, 3] >= ZERO
+        code |= 0 if kept else 1 << (FRUSTUM_PLANES + p)
+    return code
+
+
+@kernel
+def write_outcodes(clip, user_planes, ignored, codes):
+    for v in range(clip.shape[0]):
+        codes[v] = outcode(clip[v, 0], clip[v, 1], clip[v, 2], clip[v, 3], user_planes) & ~ignored
+
+
+@kernel
+def count_inside(triangles, codes):
+    """Return how many triangles are inside of all planes, and how many have to be cut."""
+    whole, cut = 0, 0
+    for t in range(triangles.shape[0]):
+        a, b, c = codes[triangles[t, 0]], codes[triangles[t, 1]], codes[triangles[t, 2]]
+        none_outside, one_inside = (a | b | c) == 0, (a & b & c) == 0
+        whole += 1 if none_outside else 0
+        cut += 1 if one_inside and not none_outside else 0
+    return whole, cut
 
 
 @kernel
@@ -130,14 +151,22 @@ def cut_triangles(
     Returns the number of pieces and the number of vertices. `polygons` and `drawn` are scratch: two lists of vertex
     numbers, and whether the edge that starts at each of them is to be drawn.
     """
-    count = 0
+    count, with_edges = 0, edges.shape[0] > 0
     for t in range(triangles.shape[0]):
         a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
         if codes[a] & codes[b] & codes[c]:
             continue
         union = codes[a] | codes[b] | codes[c]
+        if union == 0:
+            pieces[count, 0], pieces[count, 1], pieces[count, 2] = a, b, c
+            source[count] = t
+            if with_edges:
+                piece_edges[count] = edges[t]
+            count += 1
+            continue
         polygons[0, 0], polygons[0, 1], polygons[0, 2] = a, b, c
-        drawn[0, 0], drawn[0, 1], drawn[0, 2] = edges[t, 0], edges[t, 1], edges[t, 2]
+        if with_edges:
+            drawn[0, 0], drawn[0, 1], drawn[0, 2] = edges[t, 0], edges[t, 1], edges[t, 2]
         corners, now = 3, 0
         for p in range(planes.shape[0]):
             if union >> p & 1:
@@ -146,21 +175,16 @@ def cut_triangles(
                     drawn[1 - now], clip, values, vertices, linear,
                 )  # fmt: skip
                 now = 1 - now
-        if union == 0:
-            pieces[count, 0], pieces[count, 1], pieces[count, 2] = a, b, c
-            piece_edges[count] = edges[t]
+        for i in range(2, corners):
+            pieces[count, 0], pieces[count, 1] = polygons[now, i - 1], polygons[now, i]
+            pieces[count, 2] = polygons[now, 0]
             source[count] = t
-            count += 1
-        else:
-            for i in range(2, corners):
-                pieces[count, 0], pieces[count, 1] = polygons[now, i - 1], polygons[now, i]
-                pieces[count, 2] = polygons[now, 0]
+            if with_edges:
                 # only the outline of the fan, not the cuts between its triangles
                 piece_edges[count, 0] = drawn[now, i - 1]
                 piece_edges[count, 1] = drawn[now, i] if i == corners - 1 else 0
                 piece_edges[count, 2] = drawn[now, 0] if i == 2 else 0
-                source[count] = t
-                count += 1
+            count += 1
     return count, vertices
 
 

@@ -22,12 +22,13 @@ from softshadow.pipeline.primitives import (
     edge_flags,
     in_clipped_batch,
     quads_of,
+    separate,
     through_indices,
 )
 from softshadow.pipeline.setup import Setup, add_float_units, in_order, offset_is_on, offset_of, set_up
 from softshadow.pipeline.spans import DepthRange
 from softshadow.pipeline.unfilled import drawn_modes, outline
-from softshadow.pipeline.vertex import to_clip, to_window
+from softshadow.pipeline.vertex import process_vertices, to_clip, to_window
 from softshadow.programs import Program, VertexInputs
 from softshadow.programs.inverse import inverse
 from softshadow.state import Cull, Polygon, State
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
     from softshadow.pipeline.commands import Draw
 
 NOTHING = Setup(
-    np.empty((0, 6), np.int64),
+    np.empty((0, 6), np.int32),
     np.empty((0, 3), np.int32),
     np.empty((0, 4), np.float32),
     np.empty(0, np.uint8),
@@ -84,9 +85,11 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull:
     arrays = (vertices.position, vertices.color, vertices.normal, vertices.texcoords)
     transforms = (command.modelview, command.projection, command.texture_matrices)
     varyings = program.vertex(VertexInputs(*arrays, *transforms, uniforms, command.modelview_kind, vertices.materials))
-    clip = to_clip(matrices.multiply(command.projection, command.modelview), vertices.position)
-    planes = user_planes(command)
-    codes = outcodes(clip, state.depth.clamp, planes)
+    planes, to_stored_rows = user_planes(command), (state.viewport, target.size[1], target.flipped)
+    clip, codes, window = process_vertices(
+        matrices.multiply(command.projection, command.modelview), vertices.position, planes, state.depth.clamp,
+        *to_stored_rows,
+    )  # fmt: skip
     columns = varyings.values if varyings.back is None else np.hstack([varyings.values, varyings.back])
     if command.mode in (gl.GL_POINTS, *LINES):
         make, primitives = _points_and_lines, _indexed_lines_or_points(command)
@@ -103,7 +106,8 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull:
         provoking = assembled.provoking
         edges = edge_flags(command.mode, len(provoking)) if make is _outlined else NO_EDGES
         clipped = clip_triangles(clip, columns, assembled.corners, codes, planes, edges, command.linear)
-    window = to_window(clipped.clip, state.viewport, target.size[1], target.flipped)
+    if len(clipped.clip) > len(clip):  # the cuts' own vertices come after all others
+        window = np.concatenate([window, to_window(clipped.clip[len(clip) :], *to_stored_rows)])
     k = varyings.values.shape[1]
     made = Geometry(
         NOTHING,
@@ -206,6 +210,8 @@ def assembled_triangles(
     says to cut quads along the other diagonal (`Varyings.flat_input`).
     """
     indices = command.indices
+    if command.mode == gl.GL_TRIANGLES and indices is not None:
+        return separate(indices)
     count = len(needs_clipping) if indices is None else len(indices)
     if command.mode not in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
         assembled = assemble(command.mode, count)

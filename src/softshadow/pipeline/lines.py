@@ -106,7 +106,7 @@ def set_up_lines(window: np.ndarray, lines: np.ndarray, ids: np.ndarray, width: 
     across = max(1, min(int(width + 0.5), WIDEST)) << SUBPIXEL_BITS
     n = 2 * len(lines)
     made = Setup(
-        np.empty((n, 6), np.int64),
+        np.empty((n, 6), np.int32),
         np.full((n, 3), NO_VERTEX, np.int32),
         np.zeros((n, 4), window.dtype),
         np.ones(n, np.uint8),

@@ -46,9 +46,9 @@ def set_up_points(window: np.ndarray, points: np.ndarray, ids: np.ndarray, size:
     high = low + width * PIXEL
     x0, y0, x1, y1 = low[:, 0], low[:, 1], high[:, 0], high[:, 1]
     n = len(points)
-    corners = np.stack([x1, y0, x0, y0, x0, y1, x1, y0, x0, y1, x1, y1], axis=1).reshape(2 * n, 6)
+    corners = np.stack([x1, y0, x0, y0, x0, y1, x1, y0, x0, y1, x1, y1], axis=1).reshape(2 * n, 6).astype(np.int32)
     vertices = np.full((2 * n, 3), NO_VERTEX, np.int32)
     vertices[:, 0] = np.repeat(points, 2)
     depth = np.zeros((2 * n, 4), window.dtype)
     depth[:, 0] = np.repeat(at[:, 2], 2)
-    return Setup(np.ascontiguousarray(corners), vertices, depth, np.ones(2 * n, np.uint8), np.repeat(ids, 2))
+    return Setup(corners, vertices, depth, np.ones(2 * n, np.uint8), np.repeat(ids, 2))

@@ -19,7 +19,6 @@ class Triangles(NamedTuple):
 
 # Each row: vertices of one triangle relative to the first vertex of its primitive, then the provoking one. The order of
 # the vertices decides the last bits of interpolated values, so it is llvmpipe's (docs/exactness.md, 5).
-TRIANGLE = ((0, 1, 2, 2),)
 QUAD = ((0, 1, 2, 3), (0, 2, 3, 3))
 QUAD_ACROSS = ((0, 1, 3, 3), (1, 2, 3, 3))  # cut along the other diagonal
 QUAD_OF_STRIP = ((0, 1, 3, 3), (2, 0, 3, 3))
@@ -45,8 +44,8 @@ def assemble(mode: int, count: int, clipped: np.ndarray | None = None, across: b
     GL 2.1, sec. 2.6.1 (primitives) and 2.14.7 (flat shading).
     """
     if mode == gl.GL_TRIANGLES:
-        rows = _repeat(TRIANGLE, count // 3, 3)
-    elif mode in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
+        return separate(np.arange(count, dtype=np.int32))
+    if mode in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
         rows = _quads(mode, count, clipped, across)
     elif mode == gl.GL_TRIANGLE_STRIP:
         triangles = max(count - 2, 0)
@@ -58,6 +57,12 @@ def assemble(mode: int, count: int, clipped: np.ndarray | None = None, across: b
         rows = np.stack(fan, axis=1)
     rows = np.ascontiguousarray(rows, np.int32)
     return Triangles(np.ascontiguousarray(rows[:, :3]), np.ascontiguousarray(rows[:, 3]))
+
+
+def separate(order: np.ndarray) -> Triangles:
+    """Return the triangles that each three vertices of `order` (N,) make, as views of it: a mesh may have millions."""
+    corners = order[: len(order) // 3 * 3].reshape(-1, 3)
+    return Triangles(corners, corners[:, 2])
 
 
 def edge_flags(mode: int, triangles: int) -> np.ndarray:

@@ -1,28 +1,29 @@
-"""Triangle setup: snapped corners, facing, culling, the depth plane and its polygon offset."""
+"""Triangle setup: the corners of the triangles that are drawn, the depth plane and its polygon offset."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from softshadow import tokens as gl
 from softshadow.image import Image
-from softshadow.jit import kernel
-from softshadow.pipeline.constants import HALF, ONE, SUBPIXELS, ZERO
+from softshadow.jit import kernel, read_only
+from softshadow.pipeline.bands import parts_of, share
+from softshadow.pipeline.constants import HALF, ONE, ZERO
+from softshadow.pipeline.facing import count_kept, culling, facing_and_area, snap_vertices
 from softshadow.state import Cull, Polygon
 
 SLOPES = {"max": 0, "length": 1, "slide": 2}
 MAX_SLOPE, LENGTH_SLOPE = 0, 1
-CULL_NONE, CULL_FRONT, CULL_BACK = 0, 1, 2
 MANTISSA_BITS = 23
 
 
 class Setup(NamedTuple):
     """The triangles that reach the pixels, in drawing order.
 
-    corners (n, 6) int64: snapped X0 Y0 X1 Y1 X2 Y2 in 1/256 pixel, sample (i, j) at (256 i, 256 j), turned so that the
-    area is positive; vertices (n, 3) int32 in the same order; depth (n, 4): z at pixel (0, 0), dz/di, dz/dj, offset;
-    front (n,) uint8; ids (n,) int32: which primitive each is, or is a half of. Lines and points are two triangles each:
-    their vertices are (a, b, -1) and (a, -1, -1).
+    corners (n, 6) int32: snapped X0 Y0 X1 Y1 X2 Y2 in 1/256 pixel, sample (i, j) at (256 i, 256 j), turned so that the
+    area is positive (as in llvmpipe, 32 bits reach far beyond the largest viewport; their products need 64); vertices
+    (n, 3) int32 in the same order; depth (n, 4): z at pixel (0, 0), dz/di, dz/dj, offset; front (n,) uint8; ids (n,)
+    int32: which primitive each is, or is a half of. Lines and points are two triangles each: their vertices are
+    (a, b, -1) and (a, -1, -1).
     """
 
     corners: np.ndarray
@@ -81,12 +82,6 @@ def in_order(setups: list[Setup]) -> Setup:
     return Setup(*(array[order] for array in joined))
 
 
-def culling(cull: Cull) -> tuple[int, bool]:
-    """Return what is culled (CULL_NONE, _FRONT, _BACK or both) and whether counter-clockwise is front."""
-    faces = {gl.GL_FRONT: CULL_FRONT, gl.GL_BACK: CULL_BACK, gl.GL_FRONT_AND_BACK: CULL_FRONT | CULL_BACK}
-    return (faces[cull.face] if cull.enabled else CULL_NONE), cull.front_face == gl.GL_CCW
-
-
 def set_up(window: np.ndarray, triangles: np.ndarray, cull: Cull, offset: Offset, flipped: bool) -> Setup:
     """Return the triangles with an area that are not culled.
 
@@ -96,23 +91,29 @@ def set_up(window: np.ndarray, triangles: np.ndarray, cull: Cull, offset: Offset
     triangles : (T, 3) int32
     """
     culled, ccw_is_front = culling(cull)
-    n = len(triangles)
+    # stored rows that grow downwards mirror the picture: there, a positive area is counter-clockwise
+    facing = culled, int(ccw_is_front == flipped)
+    triangles, snapped = read_only(triangles), np.empty((len(window), 2), np.int32)
+    vertex_parts, parts = parts_of(len(window)), parts_of(len(triangles))
+    share(lambda n: snap_vertices(window, *vertex_parts[n], snapped), len(vertex_parts))
+    if len(parts) > 1:
+        counts = share(lambda n: count_kept(snapped, triangles, *parts[n], *facing), len(parts))
+        places = np.cumsum([0, *counts])  # where the triangles of each part begin
+    else:
+        places = np.array([0, len(triangles)])  # there may be fewer
+    n = places[-1]
     made = Setup(
-        np.empty((n, 6), np.int64),
+        np.empty((n, 6), np.int32),
         np.empty((n, 3), np.int32),
         np.empty((n, 4), window.dtype),
         np.empty(n, np.uint8),
         np.empty(n, np.int32),
     )
-    # stored rows that grow downwards mirror the picture: there, a positive area is counter-clockwise
-    kept = set_up_triangles(window, triangles, culled, int(ccw_is_front == flipped), offset, *made)
-    return Setup(*(array[:kept] for array in made))
 
-
-@kernel
-def snap(coordinate):
-    """Return a window coordinate in 1/256 pixel, samples on multiples of 256 (rounded half to even)."""
-    return int(np.rint((coordinate - HALF) * SUBPIXELS))
+    ends = share(
+        lambda n: set_up_triangles(window, snapped, triangles, *parts[n], *facing, offset, places[n], *made), len(parts)
+    )
+    return Setup(*(array[: ends[-1]] for array in made))
 
 
 @kernel
@@ -183,31 +184,24 @@ def polygon_offset(offset, dx01, dy01, dz01, dx20, dy20, dz20, over_area):
 
 
 @kernel
-def set_up_triangles(window, triangles, culled, positive_is_front, offset, corners, vertices, depth, front, ids):
-    """Fill the arrays of `Setup`; returns how many triangles are left."""
-    kept = 0
-    for t in range(triangles.shape[0]):
+def set_up_triangles(
+    window, snapped, triangles, first, end, culled, positive_is_front, offset, kept, corners, vertices, depth, front,
+    ids,
+):  # fmt: skip
+    """Fill the arrays of `Setup` with those of the triangles [first, end) that are drawn, from row `kept` on.
+
+    Returns the row after the last.
+    """
+    for t in range(first, end):
+        facing, area = facing_and_area(snapped, triangles, t, culled, positive_is_front)
+        if facing < 0:
+            continue
         v0, v1, v2 = triangles[t, 0], triangles[t, 1], triangles[t, 2]
-        finite = True
-        for v in (v0, v1, v2):
-            for k in range(3):
-                finite = finite and np.isfinite(window[v, k])
-        if not finite:
-            continue
-        x0, y0 = snap(window[v0, 0]), snap(window[v0, 1])
-        x1, y1 = snap(window[v1, 0]), snap(window[v1, 1])
-        x2, y2 = snap(window[v2, 0]), snap(window[v2, 1])
-        area = (x0 - x1) * (y2 - y0) - (x2 - x0) * (y0 - y1)
-        if area == 0:
-            continue
-        facing = 1 if (area > 0) == (positive_is_front == 1) else 0
-        if (facing == 1 and culled & CULL_FRONT) or (facing == 0 and culled & CULL_BACK):
-            continue
         if area < 0:
             v0, v1 = v1, v0
-            x0, y0, x1, y1 = x1, y1, x0, y0
-        corners[kept, 0], corners[kept, 1], corners[kept, 2], corners[kept, 3] = x0, y0, x1, y1
-        corners[kept, 4], corners[kept, 5] = x2, y2
+        corners[kept, 0], corners[kept, 1] = snapped[v0, 0], snapped[v0, 1]
+        corners[kept, 2], corners[kept, 3] = snapped[v1, 0], snapped[v1, 1]
+        corners[kept, 4], corners[kept, 5] = snapped[v2, 0], snapped[v2, 1]
         vertices[kept, 0], vertices[kept, 1], vertices[kept, 2] = v0, v1, v2
         dx01, dy01, dx20, dy20, over_area = edge_differences(window, v0, v1, v2)
         z0, z1, z2 = window[v0, 2], window[v1, 2], window[v2, 2]

@@ -11,7 +11,8 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.image import Image
-from softshadow.pipeline.setup import CULL_BACK, CULL_FRONT, Offset, add_float_units, culling, offset_is_on, offset_of
+from softshadow.pipeline.facing import CULL_BACK, CULL_FRONT, culling
+from softshadow.pipeline.setup import Offset, add_float_units, offset_is_on, offset_of
 from softshadow.state import Cull, Polygon, State
 
 EDGES_IN_ORDER = ((2, 0), (0, 1), (1, 2))  # of a triangle, as they are drawn

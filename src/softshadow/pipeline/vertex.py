@@ -3,20 +3,10 @@
 import numpy as np
 
 from softshadow.jit import kernel
-from softshadow.pipeline.constants import SMALLEST_NORMAL
+from softshadow.pipeline.bands import parts_of, share
+from softshadow.pipeline.clip import NEAR_FAR, outcode
+from softshadow.pipeline.constants import ONE, SMALLEST_NORMAL, ZERO
 from softshadow.state import Viewport
-
-
-@kernel
-def transform(matrix, positions, out):
-    """Write ``matrix @ position`` for each row of `positions` (V, 4) into `out` (V, 4), in GL's order of operations.
-
-    Each product and each sum is rounded on its own: ((c0 x + c1 y) + c2 z) + c3 w.
-    """
-    for v in range(positions.shape[0]):
-        x, y, z, w = positions[v, 0], positions[v, 1], positions[v, 2], positions[v, 3]
-        for i in range(4):
-            out[v, i] = ((matrix[i, 0] * x + matrix[i, 1] * y) + matrix[i, 2] * z) + matrix[i, 3] * w
 
 
 def to_clip(model_view_projection: np.ndarray, positions: np.ndarray) -> np.ndarray:
@@ -37,17 +27,91 @@ def to_window(clip: np.ndarray, viewport: Viewport, framebuffer_height: int, fli
     ----------
     GL 2.1, sec. 2.11 (coordinate transformations).
     """
-    real = clip.dtype.type
+    window = np.empty_like(clip)
+    write_window(clip, *scale_and_shift(viewport, framebuffer_height, flipped, clip.dtype), window)
+    return window
+
+
+def process_vertices(
+    model_view_projection: np.ndarray,
+    positions: np.ndarray,
+    user_planes: np.ndarray,
+    depth_clamp: bool,
+    viewport: Viewport,
+    framebuffer_height: int,
+    flipped: bool,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return `to_clip`, `outcodes` and `to_window` of object positions (V, 4), in one walk over them."""
+    clip, window = np.empty_like(positions), np.empty_like(positions)
+    codes = np.empty(len(positions), np.int32)
+    scale, shift = scale_and_shift(viewport, framebuffer_height, flipped, positions.dtype)
+    planes, ignored = user_planes.astype(positions.dtype), NEAR_FAR if depth_clamp else 0
+
+    parts = parts_of(len(positions))
+
+    def process(part: int) -> None:
+        own = slice(*parts[part])
+        write_vertices(
+            model_view_projection, positions[own], planes, ignored, scale, shift, clip[own], codes[own], window[own]
+        )
+
+    share(process, len(parts))
+    return clip, codes, window
+
+
+def scale_and_shift(
+    viewport: Viewport, framebuffer_height: int, flipped: bool, dtype: np.dtype
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return what x/w, y/w and z/w are multiplied by for the window, and what is added then, (3,) each."""
+    real = dtype.type
     near, far = real(viewport.near), real(viewport.far)
     half_height = viewport.height / 2
     if flipped:
         y_scale, y_shift = -half_height, framebuffer_height - (viewport.y + half_height)
     else:
         y_scale, y_shift = half_height, viewport.y + half_height
-    scale = np.array([viewport.width / 2, y_scale, real(0.5) * (far - near)], clip.dtype)
-    shift = np.array([viewport.x + viewport.width / 2, y_shift, real(0.5) * (far + near)], clip.dtype)
-    window = np.empty_like(clip)
-    over_w = real(1) / clip[:, 3]
-    window[:, 3] = np.where(abs(over_w) < SMALLEST_NORMAL, real(0), over_w)  # llvmpipe flushes denormal results to 0
-    window[:, :3] = (clip[:, :3] * window[:, 3:]) * scale + shift
-    return window
+    scale = np.array([viewport.width / 2, y_scale, real(0.5) * (far - near)], dtype)
+    shift = np.array([viewport.x + viewport.width / 2, y_shift, real(0.5) * (far + near)], dtype)
+    return scale, shift
+
+
+@kernel
+def clip_position(matrix, positions, v, out):
+    """Write ``matrix @ position`` of vertex `v` to its row of `out` (V, 4), in GL's order of operations.
+
+    Each product and each sum is rounded on its own: ((c0 x + c1 y) + c2 z) + c3 w.
+    """
+    x, y, z, w = positions[v, 0], positions[v, 1], positions[v, 2], positions[v, 3]
+    for i in range(4):
+        out[v, i] = ((matrix[i, 0] * x + matrix[i, 1] * y) + matrix[i, 2] * z) + matrix[i, 3] * w
+
+
+@kernel
+def window_position(clip, v, scale, shift, window):
+    """Write the window position of vertex `v` to its row of `window` (V, 4)."""
+    over_w = ONE / clip[v, 3]
+    if abs(over_w) < SMALLEST_NORMAL:
+        over_w = ZERO  # llvmpipe flushes denormal results to 0
+    for k in range(3):
+        window[v, k] = (clip[v, k] * over_w) * scale[k] + shift[k]
+    window[v, 3] = over_w
+
+
+@kernel
+def transform(matrix, positions, out):
+    for v in range(positions.shape[0]):
+        clip_position(matrix, positions, v, out)
+
+
+@kernel
+def write_window(clip, scale, shift, window):
+    for v in range(clip.shape[0]):
+        window_position(clip, v, scale, shift, window)
+
+
+@kernel
+def write_vertices(matrix, positions, user_planes, ignored, scale, shift, clip, codes, window):
+    for v in range(positions.shape[0]):
+        clip_position(matrix, positions, v, clip)
+        codes[v] = outcode(clip[v, 0], clip[v, 1], clip[v, 2], clip[v, 3], user_planes) & ~ignored
+        window_position(clip, v, scale, shift, window)

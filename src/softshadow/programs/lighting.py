@@ -281,5 +281,6 @@ def lit_factors(
 
 def clamped(colors: np.ndarray) -> np.ndarray:
     """Return colours in [0, 1]; NaN becomes 0."""
-    within: np.ndarray = np.fmin(np.fmax(colors, ZERO), ONE)
-    return within
+    given = colors[:1] if colors.strides[0] == 0 else colors  # one colour for all vertices
+    within: np.ndarray = np.fmin(np.fmax(given, ZERO), ONE)
+    return np.broadcast_to(within, colors.shape)

@@ -1,0 +1,68 @@
+"""The vertex stage: one walk gives what three give, and what NumPy gives."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softshadow.pipeline import bands, set_threads, threads
+from softshadow.pipeline.clip import FRUSTUM, outcodes
+from softshadow.pipeline.vertex import process_vertices, to_clip, to_window
+from softshadow.state import Viewport
+
+pytestmark = pytest.mark.interpreted
+VIEWPORT = Viewport(x=3, y=5, width=37, height=23, near=0.25, far=0.75)
+
+
+def random_positions(rng: np.random.Generator, count: int, real: type) -> np.ndarray:
+    """Homogeneous positions inside, outside and on the frustum, some of them infinite, NaN, or with a w near 0."""
+    odd = [0, 1, -1, np.inf, -np.inf, np.nan, 1e38, 1e-40]
+    return np.where(rng.random((count, 4)) < 0.2, rng.choice(odd, (count, 4)), rng.normal(0, 1, (count, 4))).astype(
+        real
+    )
+
+
+@pytest.mark.parametrize("real", [np.float32, np.float64])
+@given(seed=st.integers(0, 2**32 - 1), flipped=st.booleans(), clamp=st.booleans(), planes=st.integers(0, 3))
+def test_one_walk_over_the_vertices_gives_what_three_give(real, seed, flipped, clamp, planes):
+    rng = np.random.default_rng(seed)
+    matrix, positions = rng.normal(0, 1, (4, 4)).astype(real), random_positions(rng, 20, real)
+    user_planes = rng.normal(0, 1, (planes, 4)).astype(np.float32)
+    before = threads()
+    with np.errstate(all="ignore"), pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bands, "PART", 7)
+        set_threads(2)
+        try:
+            clip, codes, window = process_vertices(matrix, positions, user_planes, clamp, VIEWPORT, 40, flipped)
+        finally:
+            set_threads(before)
+        expected = to_clip(matrix, positions)
+        np.testing.assert_array_equal(clip.view(np.uint8), expected.view(np.uint8))
+        np.testing.assert_array_equal(codes, outcodes(expected, clamp, user_planes))
+        np.testing.assert_array_equal(window, to_window(expected, VIEWPORT, 40, flipped))
+
+
+@given(seed=st.integers(0, 2**32 - 1), planes=st.integers(0, 3))
+def test_a_vertex_has_a_bit_for_each_plane_that_it_is_not_inside_of(seed, planes):
+    rng = np.random.default_rng(seed)
+    clip = random_positions(rng, 20, np.float32)
+    user_planes = rng.normal(0, 1, (planes, 4)).astype(np.float32)
+    with np.errstate(all="ignore"):
+        x, y, z, w = clip.T
+        inside = [x <= w, x + w >= 0, y <= w, y + w >= 0, z + w >= 0, z <= w]
+        inside += [((x * p[0] + y * p[1]) + z * p[2]) + w * p[3] >= 0 for p in user_planes]
+        codes = outcodes(clip, False, user_planes)
+    assert len(inside) == len(FRUSTUM) + planes
+    np.testing.assert_array_equal(codes, sum((~test).astype(int) << bit for bit, test in enumerate(inside)))
+
+
+@given(seed=st.integers(0, 2**32 - 1))
+def test_window_positions_are_quotients_scaled_and_shifted_with_tiny_reciprocals_flushed(seed):
+    clip = random_positions(np.random.default_rng(seed), 20, np.float32)
+    with np.errstate(all="ignore"):
+        window = to_window(clip, VIEWPORT, 40, False)
+        over_w = np.float32(1) / clip[:, 3:]
+        over_w = np.where(abs(over_w) < np.finfo(np.float32).tiny, np.float32(0), over_w)
+        scale = np.array([18.5, 11.5, 0.25], np.float32)
+        shift = np.array([21.5, 16.5, 0.5], np.float32)
+        np.testing.assert_array_equal(window, np.hstack([(clip[:, :3] * over_w) * scale + shift, over_w]))
