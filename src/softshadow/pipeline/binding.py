@@ -24,7 +24,7 @@ PAYS_AFTER = (
     40_000_000  # fragments of one state; measured: about 0.4 s of compilation at the speed of the generic binding
 )
 WORTH = 200_000  # fragments from which sorting and the hand-over to other threads are small against the work
-LAYERS = 4
+LAYERS = 4  # of fragments over each other, from which bands pay on one thread, too
 VERDICT_COUNTS = 6  # one per verdict, and the number of stencil values that changed
 
 _compiled: dict[tuple[int, ...], Callable[..., None]] = {}

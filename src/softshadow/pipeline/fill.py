@@ -50,10 +50,12 @@ def fill_triangles(front, back, two_sided, writes_ids, counts, triangles, number
         t = int(numbers[n])
         first, end = bounds(triangles.corners, t)
         first, end = max(first, region.first_row), min(end, region.end_row)
-        plane = triangles.depth[t]
-        is_back = two_sided and not triangles.front[t]
         box_left, box_right = columns_of(triangles.corners, t)
         box_left, box_right = max(box_left, region.left), min(box_right, region.right)
+        if first >= end or box_left >= box_right:
+            continue
+        plane = triangles.depth[t]
+        is_back = two_sided and not triangles.front[t]
         if box_right - box_left <= WIDEST and not counts:
             # two calls: each is compiled for its own state
             if is_back:

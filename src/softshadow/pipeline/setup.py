@@ -192,26 +192,27 @@ def set_up_triangles(
 
     Returns the row after the last.
     """
+    row = np.uint64(kept)  # unsigned, as the vertices are: no wrap-around of negative indices is compiled in
     for t in range(first, end):
         facing, area = facing_and_area(snapped, triangles, t, culled, positive_is_front)
         if facing < 0:
             continue
-        v0, v1, v2 = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        v0, v1, v2 = np.uint64(triangles[t, 0]), np.uint64(triangles[t, 1]), np.uint64(triangles[t, 2])
         if area < 0:
             v0, v1 = v1, v0
-        corners[kept, 0], corners[kept, 1] = snapped[v0, 0], snapped[v0, 1]
-        corners[kept, 2], corners[kept, 3] = snapped[v1, 0], snapped[v1, 1]
-        corners[kept, 4], corners[kept, 5] = snapped[v2, 0], snapped[v2, 1]
-        vertices[kept, 0], vertices[kept, 1], vertices[kept, 2] = v0, v1, v2
+        corners[row, 0], corners[row, 1] = snapped[v0, 0], snapped[v0, 1]
+        corners[row, 2], corners[row, 3] = snapped[v1, 0], snapped[v1, 1]
+        corners[row, 4], corners[row, 5] = snapped[v2, 0], snapped[v2, 1]
+        vertices[row, 0], vertices[row, 1], vertices[row, 2] = v0, v1, v2
         dx01, dy01, dx20, dy20, over_area = edge_differences(window, v0, v1, v2)
         z0, z1, z2 = window[v0, 2], window[v1, 2], window[v2, 2]
         at_origin, di, dj = plane(
             window[v0, 0], window[v0, 1], dx01 * over_area, dy01 * over_area, dx20 * over_area, dy20 * over_area,
             z0, z1, z2,
         )  # fmt: skip
-        depth[kept, 0], depth[kept, 1], depth[kept, 2] = at_origin, di, dj
-        depth[kept, 3] = polygon_offset(offset, dx01, dy01, z0 - z1, dx20, dy20, z2 - z0, over_area)
-        front[kept] = facing
-        ids[kept] = t
-        kept += 1
-    return kept
+        depth[row, 0], depth[row, 1], depth[row, 2] = at_origin, di, dj
+        depth[row, 3] = polygon_offset(offset, dx01, dy01, z0 - z1, dx20, dy20, z2 - z0, over_area)
+        front[row] = facing
+        ids[row] = t
+        row += np.uint64(1)
+    return row
