@@ -40,17 +40,18 @@ def threads() -> int:
 
 def share(work: Callable[[int], Result], count: int) -> list[Result]:
     """Return ``[work(0), ..., work(count - 1)]``, each called on whichever thread is free next."""
-    n = min(threads(), count)
+    most = threads()
+    n = min(most, count)
     numbers, results = iter(range(count)), [cast(Result, None)] * count
 
     def until_none_is_left() -> None:
         for number in numbers:  # the threads share the iterator: each number is handed out once
             results[number] = work(number)
 
-    if n > 1 and threads() not in _pool:
-        _pool[threads()] = ThreadPoolExecutor(threads(), thread_name_prefix="softshadow")
+    if n > 1 and most not in _pool:
+        _pool[most] = ThreadPoolExecutor(most, thread_name_prefix="softshadow")
     # the caller is the first thread; with its context, the others warn of no more than it does
-    others = [_pool[threads()].submit(copy_context().run, until_none_is_left) for _ in range(n - 1)]
+    others = [_pool[most].submit(copy_context().run, until_none_is_left) for _ in range(n - 1)]
     try:
         until_none_is_left()
     finally:
