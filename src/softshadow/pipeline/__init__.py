@@ -6,10 +6,11 @@
              vertex > clip > window > setup                              |
                                                                          v
              opaque:   fill (coverage, depth, process_fragment) ----> triangle per pixel --> shade --> write
-             ordered:  list fragments --> shade --> process_fragment, blend ------------------------> write
+             ordered:  list fragments --> process_fragment --> those that passed --> shade --> blend, write
 
 Opaque draws shade each visible pixel once, after the fill; draws whose colours depend on the order of their fragments
-(alpha test, blending, logic op) take the ordered path. Both leave the same buffers.
+(alpha test, blending, logic op) take the ordered path, and with an alpha test are shaded before `process_fragment`.
+Both leave the same buffers.
 """
 
 from __future__ import annotations
@@ -22,13 +23,13 @@ from softshadow.errors import StateError
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.bands import set_threads, threads
 from softshadow.pipeline.binding import VERDICT_COUNTS, fill, use_binding
-from softshadow.pipeline.blend import compared_alpha, needs_order, write_colors
+from softshadow.pipeline.blend import compared_alpha, needs_order, tests_alpha, write_colors
 from softshadow.pipeline.clear import clear
 from softshadow.pipeline.coverage import extent
 from softshadow.pipeline.fragment_ops import PASSED, VERDICTS, fragment_ops
-from softshadow.pipeline.fragments import Fragments, in_blocks, list_fragments, test_fragments
+from softshadow.pipeline.fragments import Fragments, list_fragments, test_fragments
 from softshadow.pipeline.geometry import Geometry, depth_range_of, process_geometry, region_of
-from softshadow.pipeline.interpolate import inputs_of
+from softshadow.pipeline.shading import list_visible, shade, shade_and_write
 
 if TYPE_CHECKING:
     from softshadow.pipeline.commands import Draw
@@ -78,12 +79,7 @@ def _draw_opaque(
     depth_range = depth_range_of(state, geometry.window.dtype.type)
     fill(front, back, triangles, fragments, region, depth_range, depth, stencil, ids, verdicts)
     if ids is not None:
-        rows, columns = np.nonzero(ids >= 0)
-        stored_rows = (rows + region.first_row).astype(np.int32)
-        visible = Fragments(stored_rows, columns.astype(np.int32), np.ascontiguousarray(ids[rows, columns]))
-        colors = shade(geometry, visible)
-        for image in target.colors:
-            write_colors(state, image, visible, colors)
+        shade_and_write(state, target, geometry, list_visible(ids, region.first_row), ordered=False)
 
 
 def _draw_in_order(
@@ -92,9 +88,11 @@ def _draw_in_order(
     state, triangles = command.state, geometry.triangles
     region = region_of(state, target)
     fragments = list_fragments(triangles, region)
-    colors = shade(geometry, fragments)
+    colors = shade(geometry, fragments) if tests_alpha(state) else None
     depth, stencil = _planes(target, geometry.window.dtype)
-    alpha, alpha_ref = compared_alpha(state, target.color, colors[:, 3])
+    alpha, alpha_ref = np.zeros(len(fragments.row), np.uint8), 0
+    if colors is not None:
+        alpha, alpha_ref = compared_alpha(state, target.color, colors[:, 3])
     front, back = (
         fragment_ops(state, target.depth, target.stencil, facing)._replace(alpha_ref=alpha_ref)
         for facing in (True, False)
@@ -107,26 +105,13 @@ def _draw_in_order(
         verdicts[:-1] += np.bincount(verdict, minlength=VERDICT_COUNTS - 1)
         verdicts[-1] += changed
     if writes_color:
-        passed = verdict == PASSED
-        written, colors = Fragments(*(a[passed] for a in fragments)), colors[passed]
-        for image in target.colors:
-            write_colors(state, image, written, colors)
-
-
-def shade(geometry: Geometry, fragments: Fragments) -> np.ndarray:
-    """Return the colours (n, 4) of fragments, unclamped: interpolate, then call the program once."""
-    if geometry.program.blocks:
-        complete, own = in_blocks(fragments)
-        return _shade_all(geometry, complete)[own]
-    return _shade_all(geometry, fragments)
-
-
-def _shade_all(geometry: Geometry, fragments: Fragments) -> np.ndarray:
-    values = (geometry.values, geometry.back, geometry.flat, geometry.provoking)
-    inputs = inputs_of(fragments, geometry.triangles, geometry.window, *values)
-    out = np.empty((len(inputs), 4), inputs.dtype)
-    geometry.program.shade(inputs, geometry.uniforms, out)
-    return out
+        passed = np.flatnonzero(verdict == PASSED)
+        written = Fragments(*(part[passed] for part in fragments))
+        if colors is None:
+            shade_and_write(state, target, geometry, written, ordered=True)
+        else:
+            for image in target.colors:
+                write_colors(state, image, written, colors[passed])
 
 
 def _planes(target: Framebuffer, real: np.dtype) -> tuple[np.ndarray, np.ndarray]:

@@ -67,3 +67,8 @@ def parts_of(count: int) -> list[tuple[int, int]]:
     if threads() == 1:
         return [(0, count)]
     return [(first, min(first + PART, count)) for first in range(0, max(count, 1), PART)]
+
+
+def in_batches(work: Callable[[int, int], None], count: int, size: int) -> None:
+    """Call ``work(first, end)`` for 0 to `count` in batches of `size`, on whichever threads are free."""
+    share(lambda n: work(n * size, min(n * size + size, count)), -(-count // size))

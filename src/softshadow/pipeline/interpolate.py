@@ -77,8 +77,8 @@ def interpolate(planes, rows, columns, numbers, coordinates, flat, out):
                 out[n, c] = ((planes[t, c, 1] * i + planes[t, c, 0]) + planes[t, c, 2] * j) * w
 
 
-def inputs_of(
-    fragments: Fragments,
+def planes_of(
+    wanted: np.ndarray,
     triangles: Setup,
     window: np.ndarray,
     values: np.ndarray,
@@ -86,25 +86,29 @@ def inputs_of(
     flat: np.ndarray,
     provoking: np.ndarray,
 ) -> np.ndarray:
-    """Return what the fragment stage of a program gets: (n, k), one row per fragment.
+    """Return the planes (n, k + 1, 3) of all triangles, filled for the wanted ones; see `attribute_planes`.
 
     Parameters
     ----------
-    fragments : their `triangle` is a row of `triangles`
+    wanted : (N,) int32, rows of `triangles`, each any number of times
     window : (V, 4) window x, y, z, 1/w
     values, back : (V, k) from the vertex stage, for front- and back-facing triangles
     flat : (k,) bool
     provoking : (T,) int32, by the triangles that ``triangles.ids`` numbers
     """
-    k = values.shape[1]
-    wanted = np.zeros(len(triangles.ids), np.uint8)
-    wanted[fragments.triangle] = 1
-    planes = np.zeros((len(triangles.ids), k + 1, 3), window.dtype)
+    is_wanted = np.zeros(len(triangles.ids), np.uint8)
+    is_wanted[wanted] = 1
+    planes = np.zeros((len(triangles.ids), values.shape[1] + 1, 3), window.dtype)
     attribute_planes(
-        window, values, values if back is None else back, triangles.vertices, triangles.front, wanted, flat,
+        window, values, values if back is None else back, triangles.vertices, triangles.front, is_wanted, flat,
         provoking[triangles.ids], planes,
     )  # fmt: skip
+    return planes
+
+
+def inputs_at(fragments: Fragments, planes: np.ndarray, flat: np.ndarray) -> np.ndarray:
+    """Return what the fragment stage of a program gets: (n, k), one row per fragment."""
     size = int(max(fragments.row.max(initial=0), fragments.column.max(initial=0))) + 1
-    out = np.empty((len(fragments.row), k), window.dtype)
-    interpolate(planes, *fragments, np.arange(size, dtype=window.dtype), flat, out)
+    out = np.empty((len(fragments.row), len(flat)), planes.dtype)
+    interpolate(planes, *fragments, np.arange(size, dtype=planes.dtype), flat, out)
     return out

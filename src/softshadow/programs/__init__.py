@@ -1,7 +1,8 @@
 """Shading programs: a vertex stage, a batch fragment stage, and the GLSL twin that real GL compiles.
 
-A program is data: functions and sources, no class hierarchy. `shade` is called once per draw with all fragments, so it
-may be plain NumPy; the programs of this package call one cached kernel each.
+A program is data: functions and sources, no class hierarchy. `shade` is called with thousands of a draw's fragments
+at a time, in several threads where there are several, so it may be plain NumPy; the programs of this package call one
+or a few cached kernels each.
 """
 
 from __future__ import annotations

@@ -18,7 +18,8 @@ from softshadow.jit import kernel
 from softshadow.programs import Program, Varyings, VertexInputs
 from softshadow.programs.blinn_phong import BLINN_PHONG, lit_by
 from softshadow.programs.blinn_phong import vertex as blinn_phong_vertex
-from softshadow.programs.sampling import divide, sample
+from softshadow.programs.percentage_closer import count_lit
+from softshadow.programs.sampling import divide
 from softshadow.programs.texture_coordinates import transform
 
 VERTEX = """#version 120
@@ -95,15 +96,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], radius: int, out: np.
     real = inputs.dtype.type
     projected = divide(inputs[:, 10:])
     true_depth = projected[:, 2] - real(uniforms["bias"])
-    texel = real(uniforms["texel"])
-    lit = np.zeros(len(inputs), inputs.dtype)
-    place, stored = projected.copy(), np.empty((len(inputs), 4), inputs.dtype)
-    for j in range(-radius, radius + 1):
-        place[:, 1] = projected[:, 1] + real(j) * texel
-        for i in range(-radius, radius + 1):
-            place[:, 0] = projected[:, 0] + real(i) * texel
-            sample(uniforms["shadowMap"], place, stored)
-            lit += true_depth <= stored[:, 0]
+    lit = count_lit(uniforms["shadowMap"], projected, true_depth, radius, real(uniforms["texel"]))
     lit *= real(share(radius))
     names = ("lightPosition", "ambient", "diffuse", "specular")
     light, ambient, diffuse, specular = (np.array(uniforms[name], inputs.dtype) for name in names)

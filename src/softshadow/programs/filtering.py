@@ -14,7 +14,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.image import Format, Image
 from softshadow.jit import kernel
-from softshadow.pixels import LARGEST_UINT, sampled_depth
+from softshadow.pixels import LARGEST_SAMPLED, LARGEST_UINT, sampled_depth
 from softshadow.programs.wrapping import (
     FIXED_POINT_WRAPS,
     ONE,
@@ -28,6 +28,7 @@ from softshadow.texture import Sampler
 from softshadow.tokens import GL_ALWAYS, GL_EQUAL, GL_GEQUAL, GL_GREATER, GL_LEQUAL, GL_LESS, GL_NOTEQUAL
 
 UNORM8_STEP = ONE / np.float32(255.0)
+STEP_OF_23_BITS = ONE / np.float32(LARGEST_SAMPLED)  # of the 32 bits of a depth llvmpipe reads the upper 23
 
 # where R, G, B, A of the result come from: a channel of the cells, or a constant
 CONSTANT_ZERO, CONSTANT_ONE = 4, 5
@@ -57,23 +58,29 @@ def in_8_bits(image: Image, wraps: tuple[int, int]) -> bool:
 def sample_image(
     image: Image, sampler: Sampler, wraps: tuple[int, int], linear: bool, coordinates: np.ndarray, out: np.ndarray
 ) -> None:
-    """Fill `out` (N, 4) from one image, with a linear or the nearest filter; coordinates (N, 3): s, t, reference."""
-    cells = image.cells if image.cells.ndim == 3 else image.cells[:, :, np.newaxis]
-    real, largest = coordinates.dtype, image.format.largest  # float64 in the "exact" precision
+    """Fill `out` (N, k) from one image, with a linear or the nearest filter; coordinates (N, 3): s, t, reference."""
     sources = sources_of(image, sampler)
     if linear and in_8_bits(image, wraps):
+        cells = image.cells if image.cells.ndim == 3 else image.cells[:, :, np.newaxis]
         filter_fixed_point(coordinates, cells, image.width, wraps, sources, out)
         return
-    unit = unit_of(image.format, real)
-    if largest == LARGEST_UINT:  # llvmpipe reads 23 of 32 bits
-        cells, unit = sampled_depth(cells, image.format), real.type(ONE)
-    border = np.array(sampler.border_color, real)
-    border = border.clip(ZERO, ONE) if largest else border
+    cells, border, unit = texels_of(image, sampler, coordinates.dtype)
     where = coordinates, cells, image.width, wraps, border, unit, linear
     if image.format.kind == "depth" and sampler.compare_mode != gl.GL_NONE:
-        compare_depth(*where, sampler.compare_func, largest > 0, sources, out)
+        compare_depth(*where, sampler.compare_func, image.format.largest > 0, sources, out)
     else:
         filter_texels(*where, sources, out)
+
+
+def texels_of(image: Image, sampler: Sampler, real: np.dtype) -> tuple[np.ndarray, np.ndarray, Any]:
+    """Return (cells (H, pitch, channels), border colour, value of a cell unit), which `fetch` takes.
+
+    `real` is the precision: float64 in "exact".
+    """
+    cells = image.cells if image.cells.ndim == 3 else image.cells[:, :, np.newaxis]
+    border = np.array(sampler.border_color, real)
+    border = border.clip(ZERO, ONE) if image.format.largest else border
+    return cells, border, unit_of(image.format, real)
 
 
 def sources_of(image: Image, sampler: Sampler) -> np.ndarray:
@@ -83,7 +90,9 @@ def sources_of(image: Image, sampler: Sampler) -> np.ndarray:
 
 
 def unit_of(format: Format, real: np.dtype) -> Any:
-    """Return what one cell unit of a format is worth, rounded to float32."""
+    """Return what one cell unit of a format is worth, rounded to float32; see `fetch` for 32 bits."""
+    if format.largest == LARGEST_UINT:
+        return real.type(STEP_OF_23_BITS)
     return real.type(ONE / np.float32(format.largest) if format.largest else ONE)
 
 
@@ -99,6 +108,9 @@ def texels_in_float(cells: np.ndarray, format: Format, real: np.dtype) -> np.nda
 def fetch(cells, width, border, unit, i, j, channel):
     """Return one channel of a texel in [0, 1] units, or of the border colour outside the image."""
     if i >= 0 and i < width and j >= 0 and j < cells.shape[0]:
+        if unit == STEP_OF_23_BITS:  # as `sampled_depth`
+            upper = min(np.floor(cells[j, i, channel] / 512.0), LARGEST_SAMPLED)
+            return border.dtype.type(np.float32(upper) * STEP_OF_23_BITS)
         return border.dtype.type(cells[j, i, channel]) * unit
     return border[channel]
 
@@ -126,7 +138,7 @@ def filter_texels(coordinates, cells, width, wraps, border, unit, linear, source
         else:
             i0 = nearest_texel(coordinates[n, 0], width, wraps[0])
             j0 = nearest_texel(coordinates[n, 1], height, wraps[1])
-        for c in range(4):
+        for c in range(out.shape[1]):
             source = sources[c]
             if source >= CONSTANT_ZERO:
                 out[n, c] = ZERO if source == CONSTANT_ZERO else ONE
@@ -153,7 +165,7 @@ def filter_fixed_point(coordinates, cells, width, wraps, sources, out):
     for n in range(len(coordinates)):
         i0, i1, x_weight = fixed_point_texels(coordinates[n, 0], width, wraps[0])
         j0, j1, y_weight = fixed_point_texels(coordinates[n, 1], height, wraps[1])
-        for c in range(4):
+        for c in range(out.shape[1]):
             source = sources[c]
             if source >= CONSTANT_ZERO:
                 out[n, c] = ZERO if source == CONSTANT_ZERO else ONE
@@ -208,6 +220,6 @@ def compare_depth(coordinates, cells, width, wraps, border, unit, linear, func, 
             i0 = nearest_texel(coordinates[n, 0], width, wraps[0])
             j0 = nearest_texel(coordinates[n, 1], height, wraps[1])
             lit = ONE if passes(func, r, fetch(cells, width, border, unit, i0, j0, 0)) else ZERO
-        for c in range(4):
+        for c in range(out.shape[1]):
             source = sources[c]
             out[n, c] = lit if source < CONSTANT_ZERO else (ZERO if source == CONSTANT_ZERO else ONE)

@@ -97,13 +97,13 @@ def divide(coordinates: np.ndarray) -> np.ndarray:
 
 
 def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
-    """Fill `out` (N, 4) with the texture's RGBA at coordinates.
+    """Fill `out` (N, k) with the first k channels of the texture's RGBA at coordinates.
 
     Parameters
     ----------
     coordinates : (N, 3)         s, t, and r for depth comparison; of a cube map (N, 3) or (N, 4): the direction s, t, r
                                  and, for depth comparison, the reference
-    out : (N, 4)                 an incomplete texture gives (0, 0, 0, 1), as programs see it
+    out : (N, k)                 of a cube map k is 4; an incomplete texture gives (0, 0, 0, 1), as programs see it
 
     Where `needs_blocks` says so, the coordinates must be complete 2x2 blocks of pixels (see `Program.blocks`).
 
@@ -113,7 +113,7 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
     """
     image, sampler = texture.base(), texture.sampler
     if image is None or not is_complete(texture):
-        out[:] = (0.0, 0.0, 0.0, 1.0)
+        out[:] = (0.0, 0.0, 0.0, 1.0)[: out.shape[1]]
         return
     if needs_blocks(texture) and len(coordinates) % PIXELS_OF_A_BLOCK:
         raise StateError(
@@ -202,7 +202,7 @@ def sample_level(lookup: Lookup, level: int, filter_name: int, out: np.ndarray) 
     else:
         for face in np.unique(lookup.faces):
             pixels = np.nonzero(lookup.faces == face)[0]
-            part = np.empty((len(pixels), 4), out.dtype)
+            part = np.empty((len(pixels), out.shape[1]), out.dtype)
             coordinates = lookup.coordinates[pixels]
             sample_image(images[int(face), level], texture.sampler, lookup.wraps, linear, coordinates, part)
             out[pixels] = part
@@ -218,7 +218,7 @@ def sample_levels(lookup: Lookup, levels: Levels, out: np.ndarray) -> None:
     def fill(chosen: np.ndarray, which: np.ndarray, filter_name: int, into: np.ndarray) -> None:
         for level in np.unique(which[chosen]):
             pixels = np.nonzero(chosen & (which == level))[0]
-            part = np.empty((len(pixels), 4), out.dtype)
+            part = np.empty((len(pixels), out.shape[1]), out.dtype)
             faces = None if lookup.faces is None else lookup.faces[pixels]
             chosen_lookup = lookup._replace(coordinates=lookup.coordinates[pixels], faces=faces)
             sample_level(chosen_lookup, int(level), filter_name, part)

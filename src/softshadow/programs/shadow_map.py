@@ -62,7 +62,7 @@ def vertex(vertices: VertexInputs) -> Varyings:
 def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
     """Fill `out` (N, 4) with the lit or the shaded colour."""
     projected = divide(inputs[:, 4:])
-    stored = np.empty_like(out)
+    stored = np.empty((len(out), 1), out.dtype)
     sample(uniforms["shadowMap"], projected, stored)
     ambient = np.array(uniforms["ambient"], inputs.dtype)
     compare(inputs, projected, stored, ambient, inputs.dtype.type(uniforms["bias"]), out)
@@ -70,7 +70,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
 
 @kernel
 def compare(inputs, projected, stored, ambient, bias, out):
-    """Choose the colours of pixels with inputs (N, 8), projected coordinates (N, 3) and stored depths (N, 4)."""
+    """Choose the colours of pixels with inputs (N, 8), projected coordinates (N, 3) and stored depths (N, 1)."""
     for n in range(len(inputs)):
         s, t, true_depth = projected[n, 0], projected[n, 1], projected[n, 2]
         outside = inputs[n, 7] <= ZERO or s < ZERO or s > ONE or t < ZERO or t > ONE
