@@ -30,6 +30,7 @@ from softshadow.pipeline.fragment_ops import PASSED, VERDICTS, fragment_ops
 from softshadow.pipeline.fragments import Fragments, list_fragments, test_fragments
 from softshadow.pipeline.geometry import Geometry, depth_range_of, process_geometry, region_of
 from softshadow.pipeline.shading import list_visible, shade, shade_and_write
+from softshadow.pipeline.sole_fragments import sole_fragments
 
 if TYPE_CHECKING:
     from softshadow.pipeline.commands import Draw
@@ -87,6 +88,14 @@ def _draw_in_order(
 ) -> None:
     state, triangles = command.state, geometry.triangles
     region = region_of(state, target)
+    depth_range = depth_range_of(state, geometry.window.dtype.type)
+    if writes_color and verdicts is None and not tests_alpha(state):
+        used = _rows_of(geometry, region)
+        front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
+        ids = sole_fragments(front, back, triangles, used, depth_range, *_planes(target, geometry.window.dtype))
+        if ids is not None:
+            shade_and_write(state, target, geometry, list_visible(ids, used.first_row), ordered=False)
+            return
     fragments = list_fragments(triangles, region)
     colors = shade(geometry, fragments) if tests_alpha(state) else None
     depth, stencil = _planes(target, geometry.window.dtype)
@@ -98,7 +107,6 @@ def _draw_in_order(
         for facing in (True, False)
     )
     verdict = np.empty(len(fragments.row), np.uint8)
-    depth_range = depth_range_of(state, geometry.window.dtype.type)
     columns = np.arange(max(depth.shape), dtype=geometry.window.dtype)
     changed = test_fragments(front, back, fragments, alpha, triangles, depth_range, columns, depth, stencil, verdict)
     if verdicts is not None:

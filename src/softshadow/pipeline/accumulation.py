@@ -41,7 +41,8 @@ def accumulate(command: Accumulate, storage: Storage) -> None:
             for channel in np.flatnonzero(state.color.mask):
                 image.cells[where][..., channel] = colors[..., channel]
     elif target.read_color is not None:
-        products = cut(target.read_color.cells[where].astype(np.float32) * BYTE_STEP * (value * LARGEST))
+        of_each_byte = cut(np.arange(256, dtype=np.float32) * BYTE_STEP * (value * LARGEST))
+        products = of_each_byte[target.read_color.cells[where]]
         if command.operation == gl.GL_LOAD:
             sums[:] = products
         else:

@@ -67,7 +67,8 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
     """Fill `out` (N, 4) with the lit colours."""
     names = ("lightPosition", "ambient", "diffuse", "specular")
     light, ambient, diffuse, specular = (np.array(uniforms[name], inputs.dtype) for name in names)
-    light_pixels(inputs, light, ambient, diffuse, specular, inputs.dtype.type(uniforms["shininess"]), out)
+    facing, highlight = lit_by(inputs, light, inputs.dtype.type(uniforms["shininess"]))
+    light_pixels(inputs, facing, highlight, ambient, diffuse, specular, out)
 
 
 @kernel
@@ -82,29 +83,36 @@ def normalize(v):
     return v[0] * scale, v[1] * scale, v[2] * scale
 
 
-@kernel
-def lit_by(inputs, n, light, shininess):
-    """Return (facing, highlight) of pixel n: the weights of the diffuse and of the specular light."""
-    eye = (inputs[n, 4], inputs[n, 5], inputs[n, 6])
-    normal = normalize((inputs[n, 7], inputs[n, 8], inputs[n, 9]))
-    w = light[3]
-    towards_light = normalize((light[0] - w * eye[0], light[1] - w * eye[1], light[2] - w * eye[2]))
-    view = normalize(eye)
-    halfway = normalize((towards_light[0] - view[0], towards_light[1] - view[1], towards_light[2] - view[2]))
-    facing = max(dot(normal, towards_light), ZERO)
-    highlight = ZERO
-    if facing > ZERO:
-        highlight = power(max(dot(normal, halfway), ZERO), shininess)
+def lit_by(inputs: np.ndarray, light: np.ndarray, shininess: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Return (facing, highlight) (N,) of pixels: the weights of the diffuse and of the specular light."""
+    eye_and_normal = np.ascontiguousarray(inputs[:, 4:10].T)
+    facing, highlight = np.empty(len(inputs), inputs.dtype), np.empty(len(inputs), inputs.dtype)
+    weigh(eye_and_normal, light, shininess, facing, highlight)
     return facing, highlight
 
 
 @kernel
-def light_pixels(inputs, light, ambient, diffuse, specular, shininess, out):
-    """Light pixels with inputs (N, 10): color, eye position, normal."""
+def weigh(eye_and_normal, light, shininess, facings, highlights):
+    """Write both weights (N,) of pixels; `eye_and_normal` (6, N): each component by itself, so that it vectorises."""
+    w = light[3]
+    for n in range(eye_and_normal.shape[1]):
+        eye = (eye_and_normal[0, n], eye_and_normal[1, n], eye_and_normal[2, n])
+        normal = normalize((eye_and_normal[3, n], eye_and_normal[4, n], eye_and_normal[5, n]))
+        towards_light = normalize((light[0] - w * eye[0], light[1] - w * eye[1], light[2] - w * eye[2]))
+        view = normalize(eye)
+        halfway = normalize((towards_light[0] - view[0], towards_light[1] - view[1], towards_light[2] - view[2]))
+        facing = max(dot(normal, towards_light), ZERO)
+        highlight = power(max(dot(normal, halfway), ZERO), shininess)
+        facings[n] = facing
+        highlights[n] = highlight if facing > ZERO else ZERO
+
+
+@kernel
+def light_pixels(inputs, facings, highlights, ambient, diffuse, specular, out):
+    """Light pixels with inputs (N, 4 or more), of which the first are the color, by their weights (N,)."""
     for n in range(len(inputs)):
-        facing, highlight = lit_by(inputs, n, light, shininess)
         for c in range(3):
-            out[n, c] = inputs[n, c] * (ambient[c] + facing * diffuse[c]) + highlight * specular[c]
+            out[n, c] = inputs[n, c] * (ambient[c] + facings[n] * diffuse[c]) + highlights[n] * specular[c]
         out[n, 3] = inputs[n, 3]
 
 

@@ -14,9 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.jit import kernel
 from softshadow.programs import Program, Varyings, VertexInputs
-from softshadow.programs.blinn_phong import BLINN_PHONG, lit_by
+from softshadow.programs.blinn_phong import BLINN_PHONG, light_pixels, lit_by
 from softshadow.programs.blinn_phong import vertex as blinn_phong_vertex
 from softshadow.programs.percentage_closer import count_lit
 from softshadow.programs.sampling import divide
@@ -100,23 +99,13 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], radius: int, out: np.
     lit *= real(share(radius))
     names = ("lightPosition", "ambient", "diffuse", "specular")
     light, ambient, diffuse, specular = (np.array(uniforms[name], inputs.dtype) for name in names)
-    light_visible_pixels(inputs, lit, light, ambient, diffuse, specular, real(uniforms["shininess"]), out)
+    facing, highlight = lit_by(inputs, light, real(uniforms["shininess"]))
+    light_pixels(inputs, lit * facing, lit * highlight, ambient, diffuse, specular, out)
 
 
 def share(radius: int) -> float:
     """Return the weight of one comparison, as the GLSL twin spells it."""
     return 1.0 / (2 * radius + 1) ** 2
-
-
-@kernel
-def light_visible_pixels(inputs, visible, light, ambient, diffuse, specular, shininess, out):
-    """Light pixels with inputs (N, 14), of which the first ten are those of Blinn-Phong; `visible` (N,) is 0 to 1."""
-    for n in range(len(inputs)):
-        facing, highlight = lit_by(inputs, n, light, shininess)
-        facing, highlight = visible[n] * facing, visible[n] * highlight
-        for c in range(3):
-            out[n, c] = inputs[n, c] * (ambient[c] + facing * diffuse[c]) + highlight * specular[c]
-        out[n, 3] = inputs[n, 3]
 
 
 def _program(name: str, radius: int, shade_pixels: Any) -> Program:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.errors import StateError
+from softshadow.jit import kernel
 from softshadow.programs import cube_maps, needs_blocks
 from softshadow.programs.cube_filtering import HEAVIEST, LINEAR, NEAREST, filter_cube
 from softshadow.programs.filtering import UNORM8_STEP, in_8_bits, sample_image, wraps_of
@@ -91,9 +92,18 @@ def divide(coordinates: np.ndarray) -> np.ndarray:
     It decides which texel a coordinate on the edge of two finds: `project` is what texture2DProj and the fixed function
     do, and differs from this in the last bit of a quarter of all quotients.
     """
-    with np.errstate(all="ignore"):  # q = 0 gives infinities, as in GL
-        quotients: np.ndarray = coordinates[:, :3] / coordinates[:, 3:]
+    quotients = np.empty((len(coordinates), 3), coordinates.dtype)
+    divide_all(coordinates, quotients)
     return quotients
+
+
+@kernel
+def divide_all(coordinates, quotients):
+    """Write (s, t, r) / q of coordinates (N, 4) to `quotients` (N, 3); q = 0 gives infinities, as in GL."""
+    for n in range(len(coordinates)):
+        q = coordinates[n, 3]
+        for c in range(3):
+            quotients[n, c] = coordinates[n, c] / q
 
 
 def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
