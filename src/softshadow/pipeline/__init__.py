@@ -10,7 +10,7 @@
 
 Opaque draws shade each visible pixel once, after the fill; draws whose colours depend on the order of their fragments
 (alpha test, blending, logic op) take the ordered path, and with an alpha test are shaded before `process_fragment`.
-Both leave the same buffers.
+Blended draws whose fragments do not overlap go the first way after all (`sole_fragments`). All leave the same buffers.
 """
 
 from __future__ import annotations

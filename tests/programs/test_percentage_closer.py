@@ -1,0 +1,64 @@
+"""Percentage-closer filtering: base and offsets find the texels that as many separate lookups find."""
+
+import numpy as np
+import pytest
+from test_sampling import SHAPES, WRAPS, bytes_of, coordinates, texture
+
+from softshadow.programs import percentage_closer, sampling
+
+pytestmark = pytest.mark.interpreted
+
+FORMATS = ("GL_DEPTH_COMPONENT16", "GL_DEPTH_COMPONENT24", "GL_DEPTH_COMPONENT32", "GL_DEPTH_COMPONENT32F", "GL_RGBA8")
+LARGEST = {"GL_DEPTH_COMPONENT16": 2**16 - 1, "GL_DEPTH_COMPONENT24": 2**24 - 1, "GL_DEPTH_COMPONENT32": 2**32 - 1}
+
+
+def cells_of(internal, shape):
+    if internal == "GL_RGBA8":
+        return bytes_of(1, shape)
+    units = np.random.default_rng(1).random(shape)
+    return np.rint(units * LARGEST[internal]) if internal in LARGEST else units
+
+
+def places():
+    """Some on the edges of texels, some nowhere."""
+    made = coordinates(3, 60)
+    made[-2:, :2] = np.nan, np.inf
+    return made
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("wrap", WRAPS)
+@pytest.mark.parametrize("internal", FORMATS)
+def test_texels_round_a_place_are_those_of_separate_lookups(internal, wrap, shape, monkeypatch):
+    made = texture(internal, cells_of(internal, shape), wrap_s=wrap, wrap_t=wrap)
+    arguments = made, places(), places()[:, 2].copy(), 2, np.float32(1 / 16)
+    assert percentage_closer.is_plain(made)
+    together = percentage_closer.count_lit(*arguments)
+    monkeypatch.setattr(percentage_closer, "is_plain", lambda _: False)
+    assert np.array_equal(together, percentage_closer.count_lit(*arguments))
+    assert 0 < together.sum() < 25 * len(together)
+
+
+@pytest.mark.parametrize(
+    "parameters",
+    [
+        {"min_filter": "GL_LINEAR"},
+        {"compare_mode": "GL_COMPARE_R_TO_TEXTURE"},
+        {"depth_mode": "GL_ALPHA"},
+        {"min_filter": "GL_NEAREST_MIPMAP_NEAREST", "mag_filter": "GL_NEAREST"},
+    ],
+)
+def test_what_is_not_one_texel_as_it_is_takes_separate_lookups(parameters):
+    made = texture("GL_DEPTH_COMPONENT24", cells_of("GL_DEPTH_COMPONENT24", SHAPES[0]), **parameters)
+    assert not percentage_closer.is_plain(made)
+
+
+@pytest.mark.parametrize("compare_mode", ["GL_NONE", "GL_COMPARE_R_TO_TEXTURE"])
+@pytest.mark.parametrize("min_filter", ["GL_NEAREST", "GL_LINEAR"])
+@pytest.mark.parametrize("internal", FORMATS)
+def test_a_lookup_of_one_channel_is_the_first_of_four(internal, min_filter, compare_mode):
+    made = texture(internal, cells_of(internal, SHAPES[0]), min_filter=min_filter, compare_mode=compare_mode)
+    four, one = np.empty((60, 4), np.float32), np.empty((60, 1), np.float32)
+    sampling.sample(made, places(), four)
+    sampling.sample(made, places(), one)
+    assert np.array_equal(four[:, :1], one, equal_nan=True)
