@@ -12,6 +12,13 @@ FORMATS = ("GL_DEPTH_COMPONENT16", "GL_DEPTH_COMPONENT24", "GL_DEPTH_COMPONENT32
 LARGEST = {"GL_DEPTH_COMPONENT16": 2**16 - 1, "GL_DEPTH_COMPONENT24": 2**24 - 1, "GL_DEPTH_COMPONENT32": 2**32 - 1}
 
 
+@pytest.fixture(autouse=True)
+def quiet():
+    """What has no number is no warning, as inside a draw."""
+    with np.errstate(all="ignore"):
+        yield
+
+
 def cells_of(internal, shape):
     if internal == "GL_RGBA8":
         return bytes_of(1, shape)

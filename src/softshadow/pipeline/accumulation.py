@@ -13,6 +13,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.pipeline.bands import ROWS, in_batches
 from softshadow.pipeline.blend import to_unorm8
 from softshadow.pipeline.geometry import region_of
 
@@ -41,12 +42,19 @@ def accumulate(command: Accumulate, storage: Storage) -> None:
             for channel in np.flatnonzero(state.color.mask):
                 image.cells[where][..., channel] = colors[..., channel]
     elif target.read_color is not None:
-        of_each_byte = cut(np.arange(256, dtype=np.float32) * BYTE_STEP * (value * LARGEST))
-        products = of_each_byte[target.read_color.cells[where]]
         if command.operation == gl.GL_LOAD:
-            sums[:] = products
-        else:
-            sums += products
+            sums[:] = 0
+        add_products(target.read_color.cells[where], value, sums)
+
+
+def add_products(colors: np.ndarray, value: np.float32, sums: np.ndarray) -> None:
+    """Add bytes (rows, columns, 4) times a value to the sums, a few rows at a time, which stay in the cache."""
+
+    def rows(first: int, end: int) -> None:
+        with np.errstate(all="ignore"):  # set per thread
+            sums[first:end] += cut(colors[first:end].astype(np.float32) * BYTE_STEP * (value * LARGEST))
+
+    in_batches(rows, len(colors), ROWS)
 
 
 def buffer_of(target: Framebuffer) -> np.ndarray:

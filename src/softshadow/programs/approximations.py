@@ -74,7 +74,7 @@ def log2(x):
 @kernel
 def power(x, exponent):
     """Return x^exponent as 2^(log2(x) exponent); 0 wherever x is 0, even for the exponent 0."""
-    raised = exp2(log2(x) * exponent)
+    raised = exp2(log2(x if x != ZERO else ONE) * exponent)
     return raised if x != ZERO else ZERO
 
 
