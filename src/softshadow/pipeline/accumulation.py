@@ -13,7 +13,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
-from softshadow.pipeline.bands import ROWS, in_batches
+from softshadow.pipeline.bands import in_batches
 from softshadow.pipeline.blend import to_unorm8
 from softshadow.pipeline.geometry import region_of
 
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 LARGEST = np.float32(32767)
 BYTE_STEP = np.float32(1) / np.float32(255)
 CHANNELS = 4
+ROWS = 16  # at a time; 640 columns of their intermediate floats stay in the cache
 
 
 def accumulate(command: Accumulate, storage: Storage) -> None:
