@@ -26,9 +26,11 @@ from softshadow.pipeline.binding import VERDICT_COUNTS, fill, use_binding
 from softshadow.pipeline.blend import compared_alpha, needs_order, tests_alpha, write_colors
 from softshadow.pipeline.clear import clear
 from softshadow.pipeline.coverage import extent
+from softshadow.pipeline.fill import Region
 from softshadow.pipeline.fragment_ops import PASSED, VERDICTS, fragment_ops
 from softshadow.pipeline.fragments import Fragments, list_fragments, test_fragments
 from softshadow.pipeline.geometry import Geometry, depth_range_of, process_geometry, region_of
+from softshadow.pipeline.setup import Setup
 from softshadow.pipeline.shading import list_visible, shade, shade_and_write
 from softshadow.pipeline.sole_fragments import sole_fragments
 
@@ -69,9 +71,7 @@ def _draw_opaque(
     command: Draw, target: Framebuffer, geometry: Geometry, writes_color: bool, verdicts: np.ndarray | None
 ) -> None:
     state, triangles = command.state, geometry.triangles
-    first, end, fragments = extent(triangles.corners)
-    region = region_of(state, target)
-    region = region._replace(first_row=max(region.first_row, first), end_row=min(region.end_row, end))
+    region, fragments = _covered(triangles, region_of(state, target))
     if region.first_row >= region.end_row:
         return
     depth, stencil = _planes(target, geometry.window.dtype)
@@ -90,9 +90,10 @@ def _draw_in_order(
     region = region_of(state, target)
     depth_range = depth_range_of(state, geometry.window.dtype.type)
     if writes_color and verdicts is None and not tests_alpha(state):
-        used = _rows_of(geometry, region)
+        used, count = _covered(triangles, region)
         front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
-        ids = sole_fragments(front, back, triangles, used, depth_range, *_planes(target, geometry.window.dtype))
+        planes = _planes(target, geometry.window.dtype)
+        ids = sole_fragments(front, back, triangles, count, used, depth_range, *planes)
         if ids is not None:
             shade_and_write(state, target, geometry, list_visible(ids, used.first_row), ordered=False)
             return
@@ -120,6 +121,13 @@ def _draw_in_order(
         else:
             for image in target.colors:
                 write_colors(state, image, written, colors[passed])
+
+
+def _covered(triangles: Setup, region: Region) -> tuple[Region, int]:
+    """Return the region cut to the rows that the triangles meet, and about how many fragments they have."""
+    first, end, fragments = extent(triangles.corners)
+    cut = region._replace(first_row=max(region.first_row, first), end_row=min(region.end_row, end))
+    return cut, int(fragments)
 
 
 def _planes(target: Framebuffer, real: np.dtype) -> tuple[np.ndarray, np.ndarray]:

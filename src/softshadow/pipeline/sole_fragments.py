@@ -10,15 +10,17 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.jit import kernel
 from softshadow.pipeline.binding import fill
-from softshadow.pipeline.fill import DepthRange, Region
+from softshadow.pipeline.fill import Region
 from softshadow.pipeline.fragment_ops import FragmentOps
 from softshadow.pipeline.setup import Setup
+from softshadow.pipeline.spans import DepthRange
 
 
 def sole_fragments(
     front: FragmentOps,
     back: FragmentOps,
     triangles: Setup,
+    fragments: int,
     region: Region,
     depth_range: DepthRange,
     depth: np.ndarray,
@@ -34,9 +36,9 @@ def sole_fragments(
         return None
     shape = (region.end_row - region.first_row, depth.shape[1])
     last, first = np.full(shape, -1, np.int32), np.full(shape, -1, np.int32)
-    fill(front, back, triangles, region, depth_range, depth, stencil, last)
+    fill(front, back, triangles, fragments, region, depth_range, depth, stencil, last)
     backwards = Setup(*(np.ascontiguousarray(part[::-1]) for part in triangles))
-    fill(front, back, backwards, region, depth_range, depth, stencil, first)
+    fill(front, back, backwards, fragments, region, depth_range, depth, stencil, first)
     return last if agree(last, first, len(triangles.ids)) else None
 
 
