@@ -12,7 +12,11 @@ from softshadow.bench.workloads import REGISTER, chosen, get, names
 from softshadow.scene import Scene
 from softshadow.testing.sessions import MesaSession, OwnSession
 
-DRAWN = [*REGISTER, *(f"{technique}/boxes" for technique in techniques.names())]
+WITHOUT_PICTURE = "silhouette"
+DRAWN = [
+    *(name for name in REGISTER if name != WITHOUT_PICTURE),
+    *(f"{technique}/boxes" for technique in techniques.names()),
+]
 
 
 @pytest.mark.mesa

@@ -10,6 +10,7 @@ from softshadow.bench import (
     stencil_fill,
     technique_frame,
     volume_frame,
+    volume_geometry,
 )
 from softshadow.bench.workload import Workload
 from softshadow.errors import nearest
@@ -68,6 +69,13 @@ REGISTER = {
             VGA,
             {"samples": light_samples.SAMPLES, "triangles": light_samples.TRIANGLES},
             aim=5.0,
+        ),
+        Workload(
+            "silhouette",
+            "silhouette, extrusion and caps of a shadow volume, nothing drawn",
+            volume_geometry.prepare,
+            VGA,
+            {"triangles": volume_geometry.TRIANGLES},
         ),
     )
 }

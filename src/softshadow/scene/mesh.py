@@ -76,6 +76,11 @@ class Mesh:
         return face_normals(self.positions, self.triangles)
 
     @cached_property
+    def doubled_areas(self) -> np.ndarray:
+        """(T,) float64: twice the area of each triangle, the length of its face normal."""
+        return np.linalg.norm(self.face_normals, axis=1)
+
+    @cached_property
     def first_corners(self) -> np.ndarray:
         """(T, 3) float64: a point in the plane of each triangle."""
         return self.positions[self.triangles[:, 0]].astype(np.float64)
@@ -83,7 +88,9 @@ class Mesh:
     @cached_property
     def bounds(self) -> np.ndarray:
         """(2, 3) float64: smallest and largest coordinates of the vertices that a triangle uses."""
-        used = self.positions[np.unique(self.triangles)].astype(np.float64)
+        is_used = np.zeros(len(self.positions), bool)
+        is_used[self.triangles] = True
+        used = self.positions[is_used].astype(np.float64)
         return np.stack([used.min(axis=0), used.max(axis=0)])
 
     def __repr__(self) -> str:

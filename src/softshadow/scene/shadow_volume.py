@@ -42,13 +42,22 @@ class ShadowVolume:
     light_cap_reversed : (R, 3) int32    the same, to be drawn under glFrontFace(GL_CW)
     sides : (S, 4, 4) float32            homogeneous quads v, u, u_far, v_far, counter-clockwise from outside;
                                          (S, 3, 4) triangles where the far two are one point at infinity
-    dark_cap : (D, 3, 4) float32         homogeneous triangles, counter-clockwise from outside; none where not needed
+    far_vertices : (V, 4) float32        where the volume ends behind each vertex of the mesh. The dark cap is the light
+                                         cap's triangles over these, seen from the other side; (0, 4) where there is
+                                         none: without caps, and where all of them are one point at infinity
     """
 
     light_cap: np.ndarray
     light_cap_reversed: np.ndarray
     sides: np.ndarray
-    dark_cap: np.ndarray
+    far_vertices: np.ndarray
+
+    @property
+    def dark_cap(self) -> np.ndarray:
+        """(C + R, 3, 4) float32: the dark cap's triangles, counter-clockwise from outside; none where not needed."""
+        if not len(self.far_vertices):
+            return np.zeros((0, 3, 4), np.float32)
+        return self.far_vertices[np.concatenate([self.light_cap[:, ::-1], self.light_cap_reversed])]
 
 
 def shadow_volume(
@@ -79,29 +88,27 @@ def shadow_volume(
     light = homogeneous_light(light)
     faces = casting_faces(mesh, light)
     far = _far_vertices(mesh, light, faces, extrusion)
-    near = np.ones((len(mesh.positions), 4), dtype=np.float32)
-    near[:, :3] = mesh.positions
-
     u, v = (_polygon_edges(mesh, faces) if generator == "per-polygon" else _silhouette_edges(mesh, faces)).T
     one_far_point = bool(light[3] == 0) and extrusion == "infinite"
-    corners = [near[v], near[u], far[u]] if one_far_point else [near[v], near[u], far[u], far[v]]
-    sides = np.ascontiguousarray(np.stack(corners, axis=1))
-
-    nothing = np.zeros((0, 3), dtype=np.int32)
+    corners = [_near(mesh, v), _near(mesh, u), far[u]] + ([] if one_far_point else [far[v]])
+    sides = np.stack(corners, axis=1)
     if not caps:
-        return ShadowVolume(nothing, nothing, sides, np.zeros((0, 3, 4), dtype=np.float32))
-    oriented = _oriented(mesh, faces)
-    dark_cap = far[oriented[:0] if one_far_point else oriented[:, ::-1]]
-    return ShadowVolume(mesh.triangles[faces.kept], mesh.triangles[faces.reversed], sides, dark_cap)
+        nothing = np.zeros((0, 3), dtype=np.int32)
+        return ShadowVolume(nothing, nothing, sides, far[:0])
+    far_vertices = far[:0] if one_far_point else far
+    return ShadowVolume(mesh.triangles[faces.kept], mesh.triangles[faces.reversed], sides, far_vertices)
 
 
-def _oriented(mesh: Mesh, faces: CastingFaces) -> np.ndarray:
-    """Return (C + R, 3): the casting faces, all counter-clockwise seen from the light."""
-    return np.concatenate([mesh.triangles[faces.kept], mesh.triangles[faces.reversed][:, ::-1]])
+def _near(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:
+    """Return (N, 4) float32: vertices of the mesh as homogeneous points."""
+    near = np.ones((len(vertices), 4), dtype=np.float32)
+    near[:, :3] = mesh.positions[vertices]
+    return near
 
 
 def _polygon_edges(mesh: Mesh, faces: CastingFaces) -> np.ndarray:
-    triangles = _oriented(mesh, faces)
+    """Return (3 (C + R), 2): the edges of the casting faces, all counter-clockwise seen from the light."""
+    triangles = np.concatenate([mesh.triangles[faces.kept], mesh.triangles[faces.reversed][:, ::-1]])
     return np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2)
 
 
@@ -142,7 +149,6 @@ def _scale(mesh: Mesh, light: np.ndarray, faces: CastingFaces, reach: float) -> 
     used = np.concatenate([faces.kept, faces.reversed])
     if not len(used):
         return 1.0
-    area = np.linalg.norm(mesh.face_normals[used], axis=1)  # twice the area, as in the distances
-    distance = np.abs(light_distances(mesh, light)[used]) / area
-    largest = np.abs(mesh.positions[mesh.triangles[used]] - light[:3]).max()
+    distance = np.abs(light_distances(mesh, light)[used]) / mesh.doubled_areas[used]
+    largest = np.abs(mesh.bounds - light[:3]).max()
     return float(min(max(reach / distance.min(), 1.0), FARTHEST / largest))

@@ -48,8 +48,11 @@ def light_distances(mesh: Mesh, light: np.ndarray) -> np.ndarray:
     ----------
     light : (4,) float64      homogeneous, object space, w >= 0; w = 0 is a direction towards the light
     """
-    light = homogeneous_light(light)
-    return np.einsum("ij,ij->i", light[:3] - light[3] * mesh.first_corners, mesh.face_normals)
+    from softshadow.scene.face_kernels import distances_to_planes
+
+    distances = np.empty(len(mesh.triangles))
+    distances_to_planes(homogeneous_light(light), mesh.first_corners, mesh.face_normals, distances)
+    return distances
 
 
 def casting_faces(mesh: Mesh, light: np.ndarray) -> CastingFaces:

@@ -65,11 +65,13 @@ class Topology:
         faces : (C,) int             faces as stored
         reversed_faces : (R,) int    faces to be taken the other way round
         """
-        edges, signs = self.face_edges[faces], self.face_signs[faces].astype(np.float64)
+        from softshadow.scene.face_kernels import add_chain
+
+        sums = np.zeros(len(self.edges) + 1, np.int32)  # one more: degenerate faces add their zeros somewhere
+        add_chain(self.face_edges, self.face_signs, np.asarray(faces, np.int32), 1, sums)
         if reversed_faces is not None and len(reversed_faces):
-            edges = np.concatenate([edges, self.face_edges[reversed_faces]])
-            signs = np.concatenate([signs, -self.face_signs[reversed_faces].astype(np.float64)])
-        return np.bincount(edges.ravel(), signs.ravel(), minlength=len(self.edges)).astype(np.int32)
+            add_chain(self.face_edges, self.face_signs, np.asarray(reversed_faces, np.int32), -1, sums)
+        return sums[:-1]
 
     @cached_property
     def face_bodies(self) -> np.ndarray:

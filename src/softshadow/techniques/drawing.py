@@ -168,11 +168,11 @@ def draw_mesh(gl: Any, thing: SceneObject, shaded: bool, texture_coordinates: bo
 
 
 def draw_triangles(gl: Any, positions: np.ndarray, triangles: np.ndarray) -> None:
-    """Draw triangles (T, 3) int32 over positions (V, 3) float32."""
+    """Draw triangles (T, 3) int32 over positions (V, 3) or homogeneous (V, 4) float32."""
     if len(triangles) == 0:
         return
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
-    gl.glVertexPointer(3, gl.GL_FLOAT, 0, positions)
+    gl.glVertexPointer(positions.shape[1], gl.GL_FLOAT, 0, positions)
     gl.glDrawElements(gl.GL_TRIANGLES, triangles.size, gl.GL_UNSIGNED_INT, triangles.view(np.uint32))
     gl.glDisableClientState(gl.GL_VERTEX_ARRAY)
 

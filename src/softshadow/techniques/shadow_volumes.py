@@ -98,14 +98,18 @@ def draw_volumes(gl: Any, volumes: Iterable[CasterVolume], light_caps: bool = Tr
         with object_space(gl, item.caster):
             gl.glFrontFace(gl.GL_CCW)
             draw_polygons(gl, volume.sides)
-            if dark_caps:
-                draw_polygons(gl, volume.dark_cap)
-            if light_caps:
-                # the surface's own vertices in the surface's own order: re-oriented faces turn the rule, not the order
-                draw_triangles(gl, item.caster.mesh.positions, volume.light_cap)
-                gl.glFrontFace(gl.GL_CW)
-                draw_triangles(gl, item.caster.mesh.positions, volume.light_cap_reversed)
-                gl.glFrontFace(gl.GL_CCW)
+            # the surface's own vertices in the surface's own order: what faces the other way turns the rule, not the
+            # order
+            for positions, is_drawn, kept, turned in (
+                (volume.far_vertices, dark_caps and len(volume.far_vertices), gl.GL_CW, gl.GL_CCW),
+                (item.caster.mesh.positions, light_caps, gl.GL_CCW, gl.GL_CW),
+            ):
+                if is_drawn:
+                    gl.glFrontFace(kept)
+                    draw_triangles(gl, positions, volume.light_cap)
+                    gl.glFrontFace(turned)
+                    draw_triangles(gl, positions, volume.light_cap_reversed)
+            gl.glFrontFace(gl.GL_CCW)
 
 
 def begin_count(gl: Any) -> None:
