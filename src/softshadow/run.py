@@ -37,7 +37,7 @@ from softshadow.inspection import (
 )
 from softshadow.inspection.explanation import explain
 from softshadow.inspection.hard_truth import hard_visibility
-from softshadow.inspection.replay import BUDGET, read_window
+from softshadow.inspection.replay import BUDGET
 from softshadow.pipeline.commands import Draw
 from softshadow.scene import Scene
 from softshadow.techniques import Technique
@@ -294,7 +294,7 @@ def _draw(
                 title, named = (item, {}) if isinstance(item, str) else item
                 context.end_step(title)
                 maps.append({name: top_row_first(array) for name, array in named.items()})
-                replay.keep(index, read_window(context.storage.window))
+                replay.keep_window(index, context.storage.window)
         finally:
             make_current(before)
     for warning in caught:  # what others warned of is theirs

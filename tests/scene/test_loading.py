@@ -13,7 +13,6 @@ from paths import shared_file, shared_files
 from softshadow.errors import MeshError, PartlyReadFile, SceneError
 from softshadow.scene import Scene, shapes
 from softshadow.scene.loading import load_mesh
-from softshadow.scene.surprises import signed_volume
 
 CUBE_OBJ = (Path(__file__).parents[2] / "docs" / "scenes" / "crate.obj").read_text()
 
@@ -202,7 +201,7 @@ def test_quads_with_normals_keep_their_creases_and_are_closed(tmp_path: Path) ->
     assert len(mesh.triangles) == 12
     assert mesh.topology.describe() == "closed, 1 body"
     assert len(mesh.positions) == 24
-    assert signed_volume(mesh) == pytest.approx(1)
+    assert mesh.signed_volume == pytest.approx(1)
     assert ((mesh.face_normals * mesh.normals[mesh.triangles[:, 0]]).sum(axis=1) == 1).all()
     assert notes == []
 

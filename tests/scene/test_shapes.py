@@ -5,7 +5,6 @@ import pytest
 
 from softshadow.scene import Mesh, shapes
 from softshadow.scene.plane import flat_plane
-from softshadow.scene.surprises import signed_volume
 
 # volumes of inscribed polyhedra are somewhat below those of the smooth solids
 VOLUMES = [
@@ -21,7 +20,7 @@ VOLUMES = [
 
 @pytest.mark.parametrize(("mesh", "volume", "below"), VOLUMES, ids=lambda value: getattr(value, "name", ""))
 def test_faces_look_outward_and_enclose_the_volume(mesh: Mesh, volume: float, below: float) -> None:
-    assert signed_volume(mesh) == pytest.approx(volume, rel=below)
+    assert mesh.signed_volume == pytest.approx(volume, rel=below)
 
 
 @pytest.mark.parametrize("mesh", [case[0] for case in VOLUMES], ids=lambda mesh: mesh.name)

@@ -93,6 +93,13 @@ class Mesh:
         used = self.positions[is_used].astype(np.float64)
         return np.stack([used.min(axis=0), used.max(axis=0)])
 
+    @cached_property
+    def signed_volume(self) -> float:
+        """Volume of a closed mesh in object units, negative when its triangles run clockwise seen from outside."""
+        # from the middle: far from the origin the sum of large volumes would round away the small one
+        corners = self.first_corners - self.first_corners.mean(axis=0)
+        return float(np.einsum("ij,ij", corners, self.face_normals)) / 6
+
     def __repr__(self) -> str:
         return f"Mesh({self.name!r}, {len(self.positions)} vertices, {len(self.triangles)} triangles)"
 

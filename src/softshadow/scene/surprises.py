@@ -26,7 +26,7 @@ def surprises(scene: "Scene") -> Iterator[errors.Warning]:
                 f"{caster.name}: {topology.nonmanifold_edges} edges have more than two faces, or two that disagree "
                 f"about the outside. Volumes stay closed, but triangles may be drawn inside out: culled or unlit"
             )
-        if topology.closed and signed_volume(caster.mesh) < 0:
+        if topology.closed and caster.mesh.signed_volume < 0:
             yield errors.InsideOutMesh(
                 f"{caster.name}: the triangles run clockwise seen from outside. Culling and lighting show the inside, "
                 f"and the far side casts instead of the near one"
@@ -39,13 +39,6 @@ def surprises(scene: "Scene") -> Iterator[errors.Warning]:
                     f"{light.name}: the light is inside {caster.name}. Faces seen from behind cast no volume, so "
                     f"volumes let the light out, while shadow maps and rays keep it in"
                 )
-
-
-def signed_volume(mesh: Mesh) -> float:
-    """Return the volume of a closed mesh in object units, negative when its triangles run clockwise from outside."""
-    a, b, c = (mesh.positions[mesh.triangles[:, corner]].astype(np.float64) for corner in range(3))
-    middle = a.mean(axis=0)  # far from the origin the sum of large volumes would round away the small one
-    return float(((a - middle) * np.cross(b - middle, c - middle)).sum()) / 6
 
 
 def _is_inside(mesh: Mesh, point: np.ndarray) -> bool:
