@@ -1,5 +1,6 @@
 """The cache of compiled kernels: never stale, never in the way."""
 
+import ast
 import os
 import shutil
 import subprocess
@@ -7,6 +8,7 @@ import sys
 from pathlib import Path
 
 import softshadow
+from softshadow.jit import KERNEL_SOURCES
 
 PACKAGE = Path(softshadow.__file__).parent
 COUNT_UP = """
@@ -72,3 +74,34 @@ def test_code_of_old_versions_is_deleted(tmp_path):
     assert len(left) == 8
     assert f"{11:016x}" in left  # the last that was used
     assert f"{0:016x}" not in left
+
+
+def sources_of(name: str) -> list[Path]:
+    path = PACKAGE / name
+    return [path] if path.is_file() else sorted(path.rglob("*.py"))
+
+
+def imported_by(file: Path) -> set[str]:
+    """Return the modules of the package that a file imports from, as "pipeline" or "pixels.py"."""
+    found = set()
+    for node in ast.walk(ast.parse(file.read_text())):
+        modules = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+        if isinstance(node, ast.ImportFrom) and node.module:
+            modules = [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
+        for module in modules:
+            parts = module.split(".")
+            if parts[0] == "softshadow" and len(parts) > 1:
+                found |= {name for name in (parts[1], f"{parts[1]}.py") if (PACKAGE / name).exists()}
+    return found
+
+
+def test_the_hash_takes_in_whatever_kernels_are_made_of():
+    for name in KERNEL_SOURCES:
+        for file in sources_of(name):
+            assert imported_by(file) <= set(KERNEL_SOURCES), file.name
+
+
+def test_only_hashed_sources_have_kernels():
+    hashed = {file for name in KERNEL_SOURCES for file in sources_of(name)}
+    for file in set(PACKAGE.rglob("*.py")) - hashed:
+        assert not {"@kernel", "@inlined"} & set(file.read_text().split()), file

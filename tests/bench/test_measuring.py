@@ -5,9 +5,10 @@ import pytest
 
 from bench.small_workloads import small
 from softshadow.bench import measuring
-from softshadow.bench.limits import measure_limits, stencil_sweeps
+from softshadow.bench.limits import measure_limits
 from softshadow.bench.measuring import measure
 from softshadow.bench.peers import Peer
+from softshadow.bench.plain_loops import stencil_sweeps
 from softshadow.testing.timing import Timing
 
 OURS, THEIRS = Peer("softshadow"), Peer("llvmpipe")

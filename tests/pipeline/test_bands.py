@@ -2,8 +2,8 @@
 
 import pytest
 
-from softshadow.pipeline import set_threads, threads
-from softshadow.pipeline.bands import PART, parts_of, share
+from softshadow.pipeline import bands, set_threads, threads
+from softshadow.pipeline.bands import PART, VARIABLE, parts_of, share
 
 
 @pytest.fixture(params=[1, 3], ids="{} threads".format)
@@ -38,3 +38,33 @@ def test_what_a_piece_raises_reaches_the_caller(some_threads):
 @pytest.mark.parametrize("count", [0, 1, PART, PART + 1, 5 * PART - 1])
 def test_parts_make_up_the_whole(some_threads, count):
     assert [n for first, end in parts_of(count) for n in range(first, end)] == list(range(count))
+
+
+@pytest.fixture
+def nothing_set(monkeypatch):
+    monkeypatch.setattr(bands, "_threads", [0])
+    return monkeypatch
+
+
+def test_the_environment_says_how_many_threads_unless_set(nothing_set):
+    nothing_set.setenv(VARIABLE, "3")
+    assert threads() == 3
+    set_threads(2)
+    assert threads() == 2
+
+
+def test_without_any_word_there_are_as_many_threads_as_cores(nothing_set):
+    nothing_set.setenv(VARIABLE, "")
+    nothing_set.setattr(bands.os, "sched_getaffinity", lambda process: {0, 1, 5}, raising=False)
+    assert threads() == 3
+
+
+@pytest.mark.parametrize("value", ["0", "-1", "two", "1.5"])
+def test_a_number_of_threads_that_is_none_is_told(nothing_set, value):
+    nothing_set.setenv(VARIABLE, value)
+    with pytest.raises(ValueError, match=f"{VARIABLE}='{value}': expected a number of threads, 1 or more"):
+        threads()
+
+
+def test_work_inside_of_work_is_done(some_threads):
+    assert share(lambda outer: sum(share(lambda inner: outer * inner, 5)), 6) == [10 * n for n in range(6)]

@@ -13,30 +13,14 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
+from softshadow.bench.plain_loops import stencil_sweeps, triad
 from softshadow.bench.results import Limits
-from softshadow.jit import kernel
 
 TRIAD_ELEMENTS = 1 << 23  # float32, three arrays of 32 MiB: more than a core's share of any cache
 STENCIL_PIXELS = 1 << 14  # 80 KiB of depth and stencil: fits into a core's second-level cache
 STENCIL_SWEEPS = 2000
 ROUNDS = 25  # of a few milliseconds; the best of them is one that nothing interrupted
 BYTES_PER_ELEMENT = 12  # two read, one written
-
-
-@kernel
-def triad(a, b, c, scale):
-    """Write a = b + scale c."""
-    for i in range(len(a)):
-        a[i] = b[i] + scale * c[i]
-
-
-@kernel
-def stencil_sweeps(depth, stencil, z, sweeps):
-    """Count up where z passes under GL_LESS, `sweeps` times over all pixels; z moves, so that no sweep is left out."""
-    for sweep in range(sweeps):
-        z_now = z[sweep & 1]
-        for i in range(len(depth)):
-            stencil[i] = stencil[i] + (1 if z_now < depth[i] else 0)
 
 
 def measure_limits(threads: int) -> Limits:

@@ -8,18 +8,22 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextvars import copy_context
+from threading import Lock
 from typing import TypeVar, cast
 
 Result = TypeVar("Result")
 
 PART = 1 << 15  # vertices or triangles; some tenths of a millisecond
 
+VARIABLE = "SOFTSHADOW_THREADS"
+
 _threads = [0]
 _pool: dict[int, ThreadPoolExecutor] = {}
+_making = Lock()
 
 
 def set_threads(n: int) -> None:
-    """Set how many threads a draw may use. Results do not depend on it.
+    """Set how many threads a draw may use, in this process. Results do not depend on it.
 
     Raises
     ------
@@ -32,10 +36,21 @@ def set_threads(n: int) -> None:
 
 
 def threads() -> int:
-    """Return how many threads a draw may use: as many as there are cores, unless set."""
+    """Return how many threads a draw may use: what was set, else SOFTSHADOW_THREADS, else as many as there are cores.
+
+    Raises
+    ------
+    ValueError
+        The environment variable is not a whole number from 1 on.
+    """
     if _threads[0]:
         return _threads[0]
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    given = os.environ.get(VARIABLE, "").strip()
+    if not given:
+        return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    if not given.isdecimal() or int(given) < 1:
+        raise ValueError(f"{VARIABLE}={given!r}: expected a number of threads, 1 or more")
+    return int(given)
 
 
 def share(work: Callable[[int], Result], count: int) -> list[Result]:
@@ -48,15 +63,17 @@ def share(work: Callable[[int], Result], count: int) -> list[Result]:
         for number in numbers:  # the threads share the iterator: each number is handed out once
             results[number] = work(number)
 
-    if n > 1 and most not in _pool:
-        _pool[most] = ThreadPoolExecutor(most, thread_name_prefix="softshadow")
+    with _making:
+        if n > 1 and most not in _pool:
+            _pool[most] = ThreadPoolExecutor(most, thread_name_prefix="softshadow")
     # the caller is the first thread; with its context, the others warn of no more than it does
     others = [_pool[most].submit(copy_context().run, until_none_is_left) for _ in range(n - 1)]
     try:
         until_none_is_left()
     finally:
         for other in others:
-            other.result()
+            if not other.cancel():  # what has not begun yet is not waited for: nothing is left to do
+                other.result()
     return results
 
 

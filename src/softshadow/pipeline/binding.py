@@ -8,6 +8,7 @@ specialised once it has drawn enough fragments to pay for the compilation, at on
 import hashlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 
 import numpy as np
@@ -29,7 +30,7 @@ VERDICT_COUNTS = 6  # one per verdict, and the number of stencil values that cha
 
 _compiled: dict[tuple[int, ...], Callable[..., None]] = {}
 _drawn: dict[tuple[int, ...], int] = {}
-_policy = ["auto"]
+_policy: ContextVar[str] = ContextVar("policy", default="auto")  # each thread has its own
 
 
 @contextmanager
@@ -38,11 +39,11 @@ def use_binding(policy: str) -> Iterator[None]:
 
     Results are the same; for tests, `warmup` and the ledger.
     """
-    _policy.append(policy)
+    before = _policy.set(policy)
     try:
         yield
     finally:
-        _policy.pop()
+        _policy.reset(before)
 
 
 @kernel
@@ -79,8 +80,8 @@ def _marker(key: tuple[int, ...]) -> Path | None:
 
 
 def _pays(key: tuple[int, ...], fragments: int) -> bool:
-    if _policy[-1] != "auto":
-        return _policy[-1] == "specialised"
+    if _policy.get() != "auto":
+        return _policy.get() == "specialised"
     _drawn[key] = _drawn.get(key, 0) + fragments
     marker = _marker(key)
     return _drawn[key] > PAYS_AFTER or (marker is not None and marker.exists())
@@ -153,7 +154,7 @@ def _compiled_for(
     front_code: FragmentOps, back_code: FragmentOps, two_sided: int, writes_ids: int, fragments: int
 ) -> Callable[..., None] | None:
     """Return the specialised fill of a state, compiling it where that pays; None where the generic one is better."""
-    if _policy[-1] == "generic":
+    if _policy.get() == "generic":
         return None
     key = (*front_code, *back_code, two_sided, writes_ids)
     if key not in _compiled and _pays(key, fragments):
