@@ -1,5 +1,7 @@
 """What Hypothesis draws: every strategy of the tests, one section for each block of the package."""
 
+from dataclasses import replace
+
 import numpy as np
 from hypothesis import reject
 from hypothesis import strategies as st
@@ -34,6 +36,22 @@ def floor_scenes(draw: st.DrawFn, lights: int = 1) -> Scene:
         scale = draw(st.sampled_from([0.7, 1.0, 1.3]))
         objects.append(SceneObject(SOLIDS[solid], placement(move, turn, scale), name=f"{solid} {index}"))
     return Scene("drawn", Camera((4, 5, 7), (0, 0.7, 0), near=1, far=40), draw(_lights_above(lights)), tuple(objects))
+
+
+@st.composite
+def scenes_from_within(draw: st.DrawFn, lights: int = 1) -> Scene:
+    """Return a scene as above whose camera stands in or beside the shadow of a caster, often with a volume's side
+    through the near rectangle.
+    """
+    scene = draw(floor_scenes(lights))
+    caster, light = draw(st.sampled_from(scene.casters)), scene.lights[0].position
+    middle = caster.object_to_world[:3, 3]
+    away = middle - light[:3] if light[3] else -light[:3]
+    beside = np.array([draw(coordinates(-1, 1)), 0, draw(coordinates(-1, 1))])
+    eye = middle + draw(st.sampled_from([0.8, 1.2])) * away / np.linalg.norm(away) + beside
+    target = eye + np.array([draw(coordinates(-1, 1)), draw(coordinates(-1, 0.5)), -1])
+    near = draw(st.sampled_from([0.02, 0.25, 0.8]))
+    return replace(scene, camera=Camera(eye, target, fov_y=60, near=near, far=40))
 
 
 def _lights_above(count: int) -> st.SearchStrategy[tuple[Light, ...]]:

@@ -112,11 +112,18 @@ def title_of(title: str, scene: Scene, light: Light) -> str:
 @contextmanager
 def object_space(gl: Any, thing: SceneObject) -> Iterator[None]:
     """Draw in the space of an object, under its name."""
+    with named(gl, thing):
+        gl.glPushMatrix()
+        gl.glMultMatrixd(column_major(thing.object_to_world))
+        yield
+        gl.glPopMatrix()
+
+
+@contextmanager
+def named(gl: Any, thing: SceneObject) -> Iterator[None]:
+    """Draw under the name of an object."""
     gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, thing.name)
-    gl.glPushMatrix()
-    gl.glMultMatrixd(column_major(thing.object_to_world))
     yield
-    gl.glPopMatrix()
     gl.glPopDebugGroup()
 
 

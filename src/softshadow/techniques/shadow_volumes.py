@@ -1,4 +1,4 @@
-"""What z-pass and z-fail share: the volumes of a light, how they are drawn, and the light pass after the count.
+"""What all ways of counting share: the volumes of a light, how they are drawn, and the light pass after the count.
 
 A volume is made in its object's own space, with the light carried there, and drawn under the object's own modelview
 matrix: its light cap then has the depth of the surface it lies on, bit for bit.
@@ -11,10 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.errors import CounterSaturated, NearClipZPass
-from softshadow.scene import Camera, Light, Scene, SceneObject
-from softshadow.scene.shadow_volume import ShadowVolume, casting_faces, shadow_volume
-from softshadow.techniques.clipping import clip_to_planes, pyramid_between
+from softshadow.errors import CounterSaturated
+from softshadow.scene import Light, Scene, SceneObject
+from softshadow.scene.shadow_volume import ShadowVolume, shadow_volume
 from softshadow.techniques.drawing import (
     added,
     draw_objects,
@@ -56,8 +55,6 @@ OPTIONS = {
 
 # a little further than the farthest vertex, so that rounding does not leave it outside
 BEYOND = 1.01
-# under GL_DEPTH_CLAMP nothing is cut at the near plane, so the count starts next to the eye
-AT_THE_EYE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,29 +151,3 @@ def warn_when_saturated(gl: Any, stencil: np.ndarray, ops: str, light: Light) ->
             CounterSaturated,
             stacklevel=3,
         )
-
-
-def warn_when_near_rectangle_in_shadow(scene: Scene, light: Light, size: tuple[int, int], far: str) -> None:
-    """Warn when a volume cuts or contains the near rectangle: z-pass then counts from a wrong value (E10, E40)."""
-    names = [caster.name for caster in scene.casters if shadows_near_rectangle(caster, light, scene.camera, size, far)]
-    if names:
-        warnings.warn(
-            f"light {light.name!r}: the camera's near rectangle lies at least partly in shadow of {', '.join(names)}; "
-            "z-pass starts from 0 there and shows shadow as light and light as shadow (volume-zfail does not)",
-            NearClipZPass,
-            stacklevel=3,
-        )
-
-
-def shadows_near_rectangle(caster: SceneObject, light: Light, camera: Camera, size: tuple[int, int], far: str) -> bool:
-    """Return whether a casting face stands between the light and a point of the near rectangle.
-
-    That is the case exactly when the volume contains or cuts the rectangle: the count somewhere on it is not 0.
-    """
-    width, height = size
-    corners = camera.near_points(np.array([[0, height], [width, height], [width, 0], [0, 0]], np.float64), size)
-    if far == "clamp":
-        corners = camera.eye + AT_THE_EYE * (corners - camera.eye)
-    faces = casting_faces(caster.mesh, light.in_object_space(caster.object_to_world))
-    triangles = caster.world_positions[caster.mesh.triangles[np.concatenate([faces.kept, faces.reversed])]]
-    return len(clip_to_planes(triangles, pyramid_between(light.position, corners))) > 0

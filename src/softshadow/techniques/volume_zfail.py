@@ -16,6 +16,7 @@ volumes open where they leave the view; saturating counters as in z-pass; edges 
 from typing import Any
 
 from softshadow.scene import Scene
+from softshadow.techniques.choice import Counting, choose_option, count_by_choice
 from softshadow.techniques.drawing import (
     begin_frame,
     draw_objects,
@@ -42,6 +43,7 @@ from softshadow.techniques.technique import Option, Steps
 
 OPTIONS = {
     **SHARED_OPTIONS,
+    "choose": choose_option("zfail"),
     "closed": Option(True, bool, "close the volumes with both caps; False shows the slide's failure"),
 }
 
@@ -57,6 +59,7 @@ def steps(
     far: str = "infinite",
     ops: str = "wrap",
     two_sided: bool = False,
+    choose: str = "zfail",
     closed: bool = True,
 ) -> Steps:
     """Draw the scene with z-fail shadow volumes; see `OPTIONS`."""
@@ -75,7 +78,10 @@ def steps(
         begin_count(gl)
         gl.glDisable(gl.GL_LIGHTING)
 
-        if two_sided:
+        if choose != "zfail":
+            counting = Counting(up, down, two_sided, caps=closed, finite=closed and cap == "finite")
+            yield from count_by_choice(gl, scene, light, volumes, counting, choose=choose, size=size, far=far)
+        elif two_sided:
             # steps 2 and 3 in one: hidden back faces count up, hidden front faces count down
             gl.glDisable(gl.GL_CULL_FACE)
             gl.glStencilOpSeparate(gl.GL_BACK, gl.GL_KEEP, up, gl.GL_KEEP)

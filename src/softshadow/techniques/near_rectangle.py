@@ -1,0 +1,89 @@
+"""What stands between the light and the near rectangle, where the line of sight of every pixel begins.
+
+Z-pass counts from there on, so it has to begin with the number of volumes around that point: the number of casting
+faces between it and the light. Most often that is 0; where it is not, it may differ from pixel to pixel.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from softshadow import matrices
+from softshadow.scene import Camera, Light, Scene, SceneObject
+from softshadow.scene.shadow_volume import casting_faces
+from softshadow.techniques.clipping import clip_to_planes, pyramid_between
+from softshadow.truth import casting_faces_between
+
+# under GL_DEPTH_CLAMP nothing is cut at the near plane, so the count starts next to the eye
+AT_THE_EYE = 1e-6
+# sine of the angle to the near plane below which flattening blows rounding errors of float32 up to pixels
+EDGE_ON = 1e-6
+
+
+def start_points(camera: Camera, window: np.ndarray, size: tuple[int, int], far: str) -> np.ndarray:
+    """Return (N, 3) float64: where the lines of sight through window positions (N, 2) begin, y from the top."""
+    points = camera.near_points(window, size)
+    return camera.eye + AT_THE_EYE * (points - camera.eye) if far == "clamp" else points
+
+
+def near_rectangle(camera: Camera, size: tuple[int, int], far: str) -> np.ndarray:
+    """Return (4, 3) float64: the corners of the near rectangle, in order."""
+    width, height = size
+    return start_points(camera, np.array([[0, height], [width, height], [width, 0], [0, 0]], np.float64), size, far)
+
+
+def near_counts(
+    scene: Scene, light: Light, casters: Sequence[SceneObject], size: tuple[int, int], far: str
+) -> np.ndarray:
+    """Return (h, w) int32, first row = bottom: how many volumes contain the point where each pixel's count begins.
+
+    A ray is cast from each of these points to the light.
+    """
+    width, height = size
+    x, y = np.meshgrid(np.arange(width) + 0.5, height - (np.arange(height) + 0.5))
+    points = start_points(scene.camera, np.stack([x.ravel(), y.ravel()], axis=1), size, far)
+    return casting_faces_between(points, light.position, casters).reshape(height, width)
+
+
+def eye_count(scene: Scene, light: Light, casters: Sequence[SceneObject]) -> int:
+    """Return how many volumes contain the eye."""
+    return int(casting_faces_between(scene.camera.eye[None], light.position, casters)[0])
+
+
+def faces_before(caster: SceneObject, light: Light, rectangle: np.ndarray) -> np.ndarray:
+    """Return (N, 3, 3) float64, world space: the parts of casting faces between the light and a rectangle (4, 3)."""
+    faces = casting_faces(caster.mesh, light.in_object_space(caster.object_to_world))
+    triangles = caster.world_positions[caster.mesh.triangles[np.concatenate([faces.kept, faces.reversed])]]
+    return clip_to_planes(triangles, pyramid_between(light.position, rectangle))
+
+
+def shadows_near_rectangle(caster: SceneObject, light: Light, camera: Camera, size: tuple[int, int], far: str) -> bool:
+    """Return whether a casting face stands between the light and a point of the near rectangle.
+
+    That is the case exactly when the volume contains or cuts the rectangle: the count somewhere on it is not 0.
+    """
+    return len(faces_before(caster, light, near_rectangle(camera, size, far))) > 0
+
+
+def seen_edge_on(light: Light, camera: Camera) -> bool:
+    """Return whether the near rectangle is (nearly) a line as the light sees it: nothing can be flattened onto it."""
+    position, w = light.position[:3], light.position[3]
+    middle = camera.eye - camera.near * camera.frame[2]
+    toward = position - w * middle
+    return bool(abs(camera.frame[2] @ toward) <= EDGE_ON * np.linalg.norm(toward))
+
+
+def near_cap(caster: SceneObject, light: Light, camera: Camera, size: tuple[int, int]) -> np.ndarray:
+    """Return (N, 3, 3) float32, eye space: the casting faces flattened by S(Λ) onto the near rectangle.
+
+    A point of the rectangle is in as many volumes as there are of these triangles over it. Flattened in double
+    precision: float32 matrices are a pixel out when the near plane is close to the eye.
+    """
+    world_to_eye = np.eye(4)
+    world_to_eye[:3, :3] = camera.frame
+    world_to_eye[:3, 3] = -camera.frame @ camera.eye
+    plane = np.array([0, 0, 1, camera.near])
+    faces = faces_before(caster, light, near_rectangle(camera, size, "infinite"))
+    matrix = matrices.planar_shadow(plane, world_to_eye @ light.position) @ world_to_eye
+    flattened = faces @ matrix[:, :3].T + matrix[:, 3]
+    return np.ascontiguousarray(flattened[..., :3] / flattened[..., 3:], np.float32)
