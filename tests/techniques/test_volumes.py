@@ -8,10 +8,10 @@ import pytest
 from hypothesis import assume, given, settings
 
 from softshadow.errors import CounterSaturated, NearClipZPass
-from softshadow.scene import Camera, Light, Scene, SceneObject, placement, scene_names, shapes
+from softshadow.scene import Camera, Light, Mesh, Scene, SceneObject, placement, scene_names, shapes
 from softshadow.techniques import drawing
 from softshadow.techniques.shadow_volumes import begin_count, draw_volumes, volumes_of
-from strategies import floor_scenes
+from strategies import coordinates, floor_scenes, open_meshes
 from techniques.drawn_frames import SIZE, Drawn, cast_rays, draw, off_the_edges, run
 
 FLOOR = SceneObject(shapes.floor(12), casts=False, receives=True, name="floor")
@@ -40,6 +40,18 @@ def count_differs_from_rays(drawn: Drawn, scene: Scene, size: tuple[int, int] = 
 @given(floor_scenes())
 def test_count_is_the_number_of_casting_faces_between_light_and_point(scene: Scene) -> None:
     assert not count_differs_from_rays(draw("volume-zfail", scene), scene).any()
+
+
+@settings(max_examples=15)
+@given(open_meshes(), coordinates(-2, 2))
+def test_count_of_an_open_or_non_manifold_caster_is_that_of_rays(soup: Mesh, aside: float) -> None:
+    caster = SceneObject(soup, placement((0, 1.5, 0), (30, 1, 2, 3), 0.3), name="soup")
+    scene = replace(SCENE, lights=(Light((aside, 6, 1)),), objects=(FLOOR, caster))
+    silhouette, per_polygon = (draw("volume-zfail", scene, generator=g) for g in ("silhouette", "per-polygon"))
+    for drawn in (silhouette, per_polygon):
+        assert not count_differs_from_rays(drawn, scene).any()
+    assert NearClipZPass not in draw("volume-zpass", scene).warnings
+    assert (counts("volume-zpass", scene) == counts("volume-zfail", scene)).all()
 
 
 @pytest.mark.parametrize("name", scene_names())
@@ -207,9 +219,14 @@ def test_light_is_added_just_where_the_count_is_0(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "two_sided", "passes"),
-    [("volume-zpass", False, 4), ("volume-zfail", False, 4), ("volume-zpass", True, 3), ("volume-zfail", True, 3)],
-)
-def test_passes_are_those_of_the_table(name: str, two_sided: bool, passes: int) -> None:
-    objects = list(draw(name, SCENE, two_sided=two_sided).objects.values())
-    assert objects == [["floor", "box"], *[["box"]] * (passes - 2), ["floor", "box"]]
+    ("name", "options", "passes"),
+    [
+        ("volume-zpass", {}, 4), ("volume-zfail", {}, 4), ("volume-zpass-plus", {}, 5), ("volume-parity", {}, 3),
+        ("volume-zpass", {"two_sided": True}, 3), ("volume-zfail", {"two_sided": True}, 3),
+        ("volume-zpass-plus", {"two_sided": True}, 4), ("volume-zpass", {"start": "preload"}, 6),
+        ("volume-zfail", {"choose": "per-caster"}, 4),
+    ],
+)  # fmt: skip
+def test_passes_are_those_of_the_table(name: str, options: dict[str, Any], passes: int) -> None:
+    drawn = [thing for step in draw(name, SCENE, **options).objects.values() for thing in step]
+    assert drawn == ["floor", "box", *["box"] * (passes - 2), "floor", "box"]

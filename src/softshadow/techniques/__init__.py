@@ -6,7 +6,7 @@ the calls of OpenGL, which yields the title of every step it has finished, with 
 """
 
 from softshadow.errors import nearest
-from softshadow.techniques import map, planar, volume_zfail, volume_zpass
+from softshadow.techniques import map, planar, volume_parity, volume_zfail, volume_zpass, volume_zpass_plus
 from softshadow.techniques.technique import Option, Steps, Technique
 
 __all__ = ["Option", "Steps", "Technique", "describe", "get", "names"]
@@ -39,6 +39,22 @@ REGISTER = {
             volume_zfail.OPTIONS,
         ),
         Technique(
+            "volume-zpass-plus",
+            "Shadow volumes, z-pass from the near-plane count",
+            "volume",
+            "Hornus et al. 2005, ZP+: correct Z-pass stencil shadows",
+            volume_zpass_plus.steps,
+            volume_zpass_plus.OPTIONS,
+        ),
+        Technique(
+            "volume-parity",
+            "Shadow volumes, parity",
+            "volume",
+            "Heidmann 1991, Real shadows, real time (with one bit for the counter)",
+            volume_parity.steps,
+            volume_parity.OPTIONS,
+        ),
+        Technique(
             "map",
             "Shadow map",
             "map",
@@ -56,7 +72,7 @@ def names() -> list[str]:
     Examples
     --------
     >>> names()
-    ['planar', 'volume-zpass', 'volume-zfail', 'map']
+    ['planar', 'volume-zpass', 'volume-zfail', 'volume-zpass-plus', 'volume-parity', 'map']
     """
     return list(REGISTER)
 
