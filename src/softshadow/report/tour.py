@@ -99,6 +99,22 @@ STOPS = (
         {"two_sided": True},
     ),
     Stop(
+        "Shadow volumes, z-pass or z-fail for each pixel",
+        "volume-zfail",
+        "A plane through each shadow marks what lies behind it: z-fail there, z-pass before it. Compare the updates.",
+        {"choose": "split-plane"},
+    ),
+    Stop(
+        "Shadow volumes, z-pass from the near-plane count",
+        "volume-zpass-plus",
+        "Casting faces thrown onto the near rectangle start the count: z-pass, right wherever the eye is.",
+    ),
+    Stop(
+        "Shadow volumes, parity",
+        "volume-parity",
+        "One bit, inverted at every face: light where two volumes overlap.",
+    ),
+    Stop(
         "Shadow map",
         "map",
         "The scene's depths from the light, compared for each pixel: blocky edges, no geometry to extrude.",
