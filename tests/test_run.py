@@ -14,6 +14,7 @@ from softshadow import gl
 from softshadow.context import current, make_current
 from softshadow.inspection import Replay
 from softshadow.inspection.replay import read_window
+from softshadow.techniques import Option, Technique
 from strategies import floor_scenes
 
 SIZE = (64, 48)
@@ -188,6 +189,22 @@ def test_comparisons_that_make_no_sense_are_refused(zfail):
 
 
 # -- misuse ------------------------------------------------------------------------------------------------------------
+def test_a_technique_of_ones_own_is_run_like_a_registered_one():
+    def steps(gl, scene, *, size, stencil=3):
+        gl.glClearStencil(stencil)
+        gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
+        yield "clear"
+
+    options = {"stencil": Option(3, int, "what to clear to")}
+    own = Technique("own", "Its own", "tests", "nowhere", steps, options)
+    assert (ss.run(own, "torus", SIZE).stencil == 3).all()
+    made = ss.run(own, "torus", SIZE, stencil=5)
+    assert (made.technique, made.steps.titles) == ("own", ["clear"])
+    assert (made.stencil == 5).all()
+    with pytest.raises(ValueError, match="technique 'own' has no option 'stencl': did you mean 'stencil'"):
+        ss.run(own, "torus", SIZE, stencl=5)
+
+
 def test_unknown_names_are_answered_with_the_nearest():
     with pytest.raises(ValueError, match="did you mean 'volume-zfail'"):
         ss.run("volume-zfial", "torus", SIZE)

@@ -231,7 +231,7 @@ class Run:
 
 # -- running -----------------------------------------------------------------------------------------------------------
 def run(
-    technique: str,
+    technique: str | Technique,
     scene: Scene | str,
     size: tuple[int, int] = (640, 480),
     *,
@@ -249,7 +249,7 @@ def run(
 
     Parameters
     ----------
-    technique : str              a name of `technique_names`
+    technique : str or Technique a name of `technique_names`, or a technique of your own
     scene : Scene or str         a scene, or a name of `scene_names`
     size : (width, height)       pixels
     depth_format, stencil_bits, precision, polygon_offset_slope, polygon_offset_unit : as in `gl.create_context`
@@ -261,7 +261,7 @@ def run(
     ValueError, TypeError        an unknown technique, scene or option (with the nearest name), a size that is none
     StateError                   a picture that does not fit in memory
     """
-    chosen = techniques.get(technique)
+    chosen = technique if isinstance(technique, Technique) else techniques.get(technique)
     drawn = Scene.named(scene) if isinstance(scene, str) else scene
     if not isinstance(drawn, Scene):
         raise TypeError(f"scene={scene!r}: expected a Scene or the name of one")
@@ -276,7 +276,7 @@ def run(
         own += saturated(steps, stencil_bits)
     for message in own:
         warnings.warn(message, stacklevel=2)
-    return Run(technique, drawn, (width, height), given, tuple(own), steps, context.frame)
+    return Run(chosen.name, drawn, (width, height), given, tuple(own), steps, context.frame)
 
 
 def _draw(
