@@ -20,14 +20,8 @@ def hard_visibility(scene: Scene, size: tuple[int, int]) -> tuple[list[np.ndarra
     (H, W) bool                  where a surface is seen between the near and the far plane
     """
     width, height = size
-    camera = scene.camera
-    x, y = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
-    near_points = camera.near_points(np.stack([x.ravel(), y.ravel()], axis=1), size)
-    directions = near_points - camera.eye
-    objects, triangles, distances = first_faces(near_points, directions, scene.objects)
-    # in units of the direction, which spans eye to near plane, the far plane is far / near away from the eye
-    seen = (objects >= 0) & (1 + distances <= camera.far / camera.near)
-    points = near_points[seen] + distances[seen, None] * directions[seen]
+    objects, triangles, points = seen_faces(scene, size)
+    seen, eye = objects >= 0, scene.camera.eye
     as_caster = np.full(len(scene.objects) + 1, -1)
     casters = [index for index, thing in enumerate(scene.objects) if thing.casts]
     as_caster[casters] = np.arange(len(casters))
@@ -35,7 +29,28 @@ def hard_visibility(scene: Scene, size: tuple[int, int]) -> tuple[list[np.ndarra
     visible = []
     for light in scene.lights:
         lit = np.ones(width * height, np.float32)
-        counts = casting_faces_between(points, light.position, scene.casters, exclude=exclude, viewer=camera.eye)
+        counts = casting_faces_between(points[seen], light.position, scene.casters, exclude=exclude, viewer=eye)
         lit[seen] = counts == 0
         visible.append(lit.reshape(height, width))
     return visible, seen.reshape(height, width)
+
+
+def seen_faces(scene: Scene, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return what every pixel centre shows, row by row from the top.
+
+    Returns
+    -------
+    (H * W,) int                 object, -1 where none is seen between the near and the far plane
+    (H * W,) int                 triangle of the object
+    (H * W, 3) float64           world point
+    """
+    width, height = size
+    camera = scene.camera
+    x, y = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
+    near_points = camera.near_points(np.stack([x.ravel(), y.ravel()], axis=1), size)
+    directions = near_points - camera.eye
+    objects, triangles, distances = first_faces(near_points, directions, scene.objects)
+    # in units of the direction, which spans eye to near plane, the far plane is far / near away from the eye
+    seen = (objects >= 0) & (1 + distances <= camera.far / camera.near)
+    distances = np.where(seen, distances, 0)
+    return np.where(seen, objects, -1), triangles, near_points + distances[:, None] * directions
