@@ -32,6 +32,14 @@ def test_the_function_run_is_not_hidden_by_its_module():
     assert python("import softshadow as ss; ss.run; import softshadow.run; print(callable(ss.run))") == "True"
 
 
+def test_the_gallery_is_not_hidden_by_its_package():
+    assert python("import softshadow.failures, softshadow as ss; print('acne' in ss.failures)") == "True"
+    assert (
+        python("import softshadow as ss; ss.failures; import softshadow.failures; print(len(ss.failures) > 1)")
+        == "True"
+    )
+
+
 def test_a_name_that_is_not_there_is_an_attribute_error():
     with pytest.raises(AttributeError, match="has no attribute 'rum'"):
         ss.rum  # noqa: B018

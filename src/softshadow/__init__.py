@@ -25,6 +25,7 @@ if TYPE_CHECKING:
         StateError,
         Warning,
     )
+    from softshadow.failures import GALLERY as failures
     from softshadow.inspection.pictures import stencil_palette
     from softshadow.pipeline import set_threads
     from softshadow.run import Run, load_run, run
@@ -56,6 +57,7 @@ __all__ = [
     "StateError",
     "Warning",
     "describe",
+    "failures",
     "gl",
     "load_run",
     "run",
@@ -67,7 +69,7 @@ __all__ = [
 ]
 
 _MODULES = ("gl", "testing")
-_RENAMED = {"technique_names": ("softshadow.techniques", "names")}
+_RENAMED = {"failures": ("softshadow.failures", "GALLERY"), "technique_names": ("softshadow.techniques", "names")}
 _HOMES = {
     "softshadow.errors": (
         "CounterSaturated", "InsideOutMesh", "LightInsideCaster", "MeshError", "NearClipZPass", "NonManifoldMesh",
@@ -98,10 +100,10 @@ def __dir__() -> list[str]:
 
 
 class _Package(ModuleType):
-    """The package itself: importing its module `run` must not hide the function of that name."""
+    """The package itself: importing its modules `run` and `failures` must not hide what has their names."""
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name != "run" or not isinstance(value, ModuleType):
+        if name not in ("run", "failures") or not isinstance(value, ModuleType):
             super().__setattr__(name, value)
 
 

@@ -25,6 +25,7 @@ ASKED = {
     "techniques": [],
     "scenes": [],
     "listings": [],
+    "failures": [],
     "doctor": [],
     "bench": ["w5", "--rounds", "1", "--size", "16x12"],
 }

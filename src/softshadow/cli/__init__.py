@@ -18,6 +18,7 @@ import click
 
 import softshadow
 from softshadow.cli.bench import bench
+from softshadow.cli.failures import failures
 from softshadow.cli.listings import listings
 from softshadow.cli.lists import scenes, techniques
 from softshadow.cli.machine import doctor, warmup
@@ -90,7 +91,7 @@ def main(traceback: bool) -> None:
     """Real-time shadow algorithms, step by step, on a software rasterizer whose every pixel explains itself."""
 
 
-for command in (tour, render, steps, pixel, techniques, scenes, listings, bench, warmup, doctor):
+for command in (tour, render, steps, pixel, techniques, scenes, listings, failures, bench, warmup, doctor):
     main.add_command(command)
 
 

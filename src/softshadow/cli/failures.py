@@ -1,0 +1,122 @@
+"""``softshadow failures``: what goes wrong in each algorithm of the course, and what one call makes of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from softshadow.cli.arguments import Size, as_json, force
+from softshadow.cli.talk import print_json, say, say_if_compiling, table
+
+if TYPE_CHECKING:
+    from softshadow.failures import Failure
+
+
+@click.command(epilog="Examples:  softshadow failures  |  softshadow failures mask-1 -o mask-1.png")
+@click.argument("name", required=False)
+@click.option("--numbers", is_flag=True, help="Run all of them, and list how many pixels are wrong.")
+@click.option("--size", type=Size(), default="240x180", show_default=True, help="Of each picture.")
+@click.option(
+    "-o", "--output", metavar="OUT", help="Both pictures side by side (.png), or the story as a page (.html)."
+)
+@force
+@as_json
+def failures(
+    name: str | None, numbers: bool, size: tuple[int, int], output: str | None, force: bool, as_json: bool
+) -> None:
+    """List the known failures of shadow algorithms, or show one beside its cure."""
+    from softshadow import failures as gallery
+
+    if name is None:
+        if output:
+            raise click.UsageError("--output: expected the NAME of a failure")
+        _list([failure.at(size) for failure in gallery.values()], numbers, as_json)
+        return
+    if name not in gallery:
+        from softshadow.errors import nearest
+
+        raise ValueError(f"unknown failure {name!r}: {nearest(name, gallery)}")
+    failure = gallery[name].at(size)
+    if output:
+        _refuse(output, force)
+    say_if_compiling()
+    if output:
+        _write(failure, output, force)
+        say(f"written: {output}")
+    if as_json:
+        histories = {side: run.pixel(*failure.pixel).to_dicts() for side, run in _sides(failure)}
+        print_json("failures", written=output, size=size, history=histories, failures=[_measured(failure)])
+        return
+    click.echo(failure.explain())
+    for side, run in _sides(failure):
+        click.echo(f"\n{side}, {run.pixel(*failure.pixel)}")
+
+
+def _sides(failure: Failure) -> list[tuple[str, Any]]:
+    return [("with the failure", failure.wrong), ("with the cure", failure.cured)]
+
+
+def _list(found: list[Failure], numbers: bool, as_json: bool) -> None:
+    if numbers:
+        say_if_compiling()
+    if as_json:
+        print_json("failures", failures=[_measured(each) if numbers else _about(each) for each in found])
+        return
+    columns = ["name", "family", "what goes wrong"]
+    if numbers:
+        columns[2:2] = ["wrong pixels", "cured"]
+    table("Failures", columns, [_row(each, numbers) for each in found])
+
+
+def _row(failure: Failure, numbers: bool) -> list[str]:
+    measured = [str(failure.number_wrong), str(failure.number_cured)] if numbers else []
+    return [failure.name, failure.family, *measured, failure.title]
+
+
+def _about(failure: Failure) -> dict[str, Any]:
+    return {
+        "name": failure.name,
+        "title": failure.title,
+        "family": failure.family,
+        "reference": failure.reference,
+        "reason": failure.reason,
+    }
+
+
+def _measured(failure: Failure) -> dict[str, Any]:
+    return _about(failure) | {
+        "scene": failure.scene.name,
+        "counted": failure.counted,
+        "number_wrong": failure.number_wrong,
+        "number_cured": failure.number_cured,
+        "floor": failure.floor,
+        "why_floor": failure.why_floor,
+        "pixel": failure.pixel,
+        "diff": failure.diff,
+    }
+
+
+def _refuse(output: str, force: bool) -> None:
+    """Make sure before the drawing that the file may be written."""
+    from softshadow.inspection.files import refuse_foreign
+
+    if Path(output).suffix.lower() not in (".png", ".html"):
+        raise ValueError(f"{output}: expected an ending of .png or .html")
+    refuse_foreign(Path(output), force)
+
+
+def _write(failure: Failure, output: str, force: bool) -> None:
+    from functools import partial
+
+    from softshadow.inspection.files import write_whole
+
+    if Path(output).suffix.lower() == ".png":
+        from softshadow.inspection.pictures import save_png
+
+        write_whole(Path(output), partial(save_png, failure.picture()), force)
+    else:
+        from softshadow.report.failure import write
+
+        write_whole(Path(output), partial(write, failure), force)

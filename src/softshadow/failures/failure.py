@@ -1,0 +1,168 @@
+"""One failure of a shadow algorithm: a program that goes wrong, the one that does not, and what tells them apart."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from softshadow import techniques
+from softshadow.failures.call_difference import call_difference
+from softshadow.failures.calls import Call, Change, recorded
+from softshadow.failures.expected import without_warnings
+from softshadow.failures.measures import deepest, is_lit
+from softshadow.inspection.explanation import explain
+from softshadow.run import Run, run
+from softshadow.scene import Scene
+from softshadow.techniques import Technique
+
+if TYPE_CHECKING:
+    from PIL.Image import Image as Picture
+
+SIZE = (240, 180)
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """A technique, its options, and the GL calls of it that are altered."""
+
+    technique: Technique | str
+    options: Mapping[str, Any] = field(default_factory=dict)
+    changes: tuple[Change, ...] = ()
+
+    def draw(self, scene: Scene, size: tuple[int, int], **window: Any) -> tuple[Run, list[Call]]:
+        """Return the run and its calls; of what goes wrong it says nothing, that is the point."""
+        calls: list[Call] = []
+        technique = self.technique if isinstance(self.technique, Technique) else techniques.get(self.technique)
+        with without_warnings():
+            return run(recorded(technique, self.changes, calls), scene, size, **window, **self.options), calls
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Failure:
+    """A known failure and its cure. The runs are made, and the numbers measured, when they are first asked for.
+
+    Attributes
+    ----------
+    name, title, family : str
+    reference : str              where the course tells of it, as in "E38, CA:470"; E-numbers are docs/corrections.md
+    reason : str                 one sentence
+    make_scene : callable        what it is shown on
+    with_failure, with_cure : Setting
+    measure : callable           the pixels of a run that are wrong, (H, W) bool
+    counted : str                what the numbers are, in words
+    floor : int                  what the cure leaves of the number at most
+    why_floor : str              and why
+    size : (width, height)
+    """
+
+    name: str
+    title: str
+    family: str
+    reference: str
+    reason: str
+    make_scene: Callable[[], Scene]
+    with_failure: Setting
+    with_cure: Setting
+    measure: Callable[[Run], np.ndarray]
+    counted: str
+    floor: int = 0
+    why_floor: str = ""
+    size: tuple[int, int] = SIZE
+
+    def at(self, size: tuple[int, int]) -> Failure:
+        """Return the same failure in pictures of another size."""
+        return replace(self, size=size)
+
+    # -- runs ----------------------------------------------------------------------------------------------------------
+    @cached_property
+    def scene(self) -> Scene:
+        """What it is shown on."""
+        return self.make_scene()
+
+    @property
+    def wrong(self) -> Run:
+        """The run with the failure."""
+        return self._wrong[0]
+
+    @property
+    def cured(self) -> Run:
+        """The run with the cure."""
+        return self._cured[0]
+
+    @cached_property
+    def _wrong(self) -> tuple[Run, list[Call]]:
+        return self.with_failure.draw(self.scene, self.size)
+
+    @cached_property
+    def _cured(self) -> tuple[Run, list[Call]]:
+        return self.with_cure.draw(self.scene, self.size)
+
+    # -- numbers -------------------------------------------------------------------------------------------------------
+    @cached_property
+    def number_wrong(self) -> int:
+        """How many pixels are wrong with the failure."""
+        return int(self.measure(self.wrong).sum())
+
+    @cached_property
+    def number_cured(self) -> int:
+        """How many pixels are wrong with the cure."""
+        return int(self.measure(self.cured).sum())
+
+    @cached_property
+    def pixel(self) -> tuple[int, int]:
+        """x, y of the pixel to click: deepest among those that are wrong with the failure and right with the cure."""
+        return deepest(self.measure(self.wrong) & ~self.measure(self.cured))
+
+    # -- words and pictures --------------------------------------------------------------------------------------------
+    @cached_property
+    def diff(self) -> str:
+        """The cure as a diff of GL calls: - with the failure, + with the cure."""
+        return call_difference(self._wrong[1], self._cured[1])
+
+    def explain(self) -> str:
+        """Return the story: the reason, both numbers, the cure, and why the pixel to click is what it is in both."""
+        left = f" ({self.why_floor})" if self.number_cured and self.why_floor else ""
+        return "\n".join(
+            [
+                f"{self.name}: {self.title} ({self.reference})",
+                "",
+                self.reason,
+                "",
+                f"{self.counted}, of {self.size[0]} x {self.size[1]} on scene {self.scene.name}:",
+                f"  with the failure  {self.number_wrong}",
+                f"  with the cure     {self.number_cured}{left}",
+                "",
+                self.diff,
+                "",
+                f"with the failure: {told(self.wrong, *self.pixel)}",
+                f"with the cure:    {told(self.cured, *self.pixel)}",
+            ]
+        )
+
+    def picture(self) -> Picture:
+        """Return both pictures side by side, a ring around the pixel to click."""
+        from softshadow.failures.picture import side_by_side
+
+        return side_by_side(self)
+
+    def __repr__(self) -> str:
+        return f"Failure({self.name!r}: {self.title})"
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        """Return what a notebook shows: the pictures."""
+        png = BytesIO()
+        self.picture().save(png, "PNG")
+        return {"text/plain": self.explain(), "image/png": b64encode(png.getvalue()).decode()}
+
+
+def told(run: Run, x: int, y: int) -> str:
+    """Return one sentence about a pixel by its colour: what a failing program says of its light may be wrong."""
+    history = run.pixel(x, y)
+    colored = any(row.color_written for row in history)
+    return explain(history, float(is_lit(run, x, y)), colored)

@@ -1,0 +1,65 @@
+"""Failures of shadow maps: a picture with a resolution, a rounding, an outside, and a shader around it."""
+
+from dataclasses import replace
+
+from softshadow.failures.course_stage import as_listed, scene_of
+from softshadow.failures.failure import Failure, Setting
+from softshadow.failures.measures import wrong_flat_colors, wrong_flat_light, wrong_inside_faces
+from softshadow.listings.stage import STAGE
+from softshadow.scene import Scene
+
+COUNTED = "pixels whose colour is not that of the lights they see"
+
+# its shadow stays within what the light of the listings sees
+ONE_BOX = replace(STAGE, occluder=STAGE.occluder[:1])
+
+FAILURES = (
+    Failure(
+        "acne", "Surfaces shadow themselves", "maps", "E49, E52, SK:369-373",
+        "Between the centres of two texels a sloping surface is nearer to the light than its own stored depth says.",
+        lambda: Scene.named("boxes"),
+        Setting("map", {"factor": 0.0, "units": 0.0}),
+        Setting("map"),
+        wrong_inside_faces, COUNTED,
+    ),
+    Failure(
+        "peter-panning", "The shadow comes off its caster's foot", "maps", "E48, E49, CA:620",
+        "What is nearer to its caster than the bias counts as the caster's own surface, and is lit.",
+        lambda: Scene.named("thin-wall"),
+        Setting("map", {"map_size": 1024, "factor": 0.0, "units": 0.0, "bias": 0.1}),
+        Setting("map", {"map_size": 1024}),
+        wrong_inside_faces, COUNTED,
+    ),
+    Failure(
+        "jagged-edges", "Edges have steps as large as a texel", "maps", "SK:382-383, CA:639",
+        "All points of a texel get the same answer, and a texel of the map covers many pixels of the picture.",
+        lambda: Scene.named("boxes"),
+        Setting("map", {"map_size": 64}),
+        Setting("map", {"map_size": 2048}),
+        wrong_inside_faces, COUNTED,
+    ),
+    Failure(
+        "edge-smear", "GL_CLAMP_TO_EDGE smears the map's edge over the scene", "maps", "E47, CA:516-517",
+        "Beside the light's view the nearest texel of the edge answers, whatever it holds.",
+        lambda: scene_of(ONE_BOX, "one box"),
+        as_listed("map", "E47", stage=ONE_BOX),
+        as_listed("map", stage=ONE_BOX),
+        wrong_flat_light, "pixels that are dark in light, or bright in shadow",
+    ),
+    Failure(
+        "factor-on-whole-color", "The factor dims the whole colour", "maps", "E53, RO2:85",
+        "Ambient light reaches a shadow undiminished; the factor belongs to the direct light of one source alone.",
+        lambda: scene_of(ONE_BOX, "one box"),
+        as_listed("map-two-stages", "E53", stage=ONE_BOX),
+        as_listed("map-two-stages", stage=ONE_BOX),
+        wrong_flat_colors, "pixels whose colour is neither that in light nor that in shadow",
+    ),
+    Failure(
+        "map-larger-than-window", "A map drawn in a smaller window", "maps", "E62, CA:531-553",
+        "What the window does not hold is not drawn, and nothing of it is copied.",
+        lambda: Scene.named("boxes"),
+        Setting("map", {"storage": "copy"}),
+        Setting("map"),
+        wrong_inside_faces, COUNTED,
+    ),
+)  # fmt: skip

@@ -1,0 +1,110 @@
+"""Which pixels are wrong: each measure takes a run and returns them, (H, W) bool, row 0 on top.
+
+Shadow edges are not measured: within a pixel of them, rays and fragments may decide differently.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from softshadow.failures.expected import expected
+from softshadow.run import Run
+from softshadow.techniques.planar import DARKNESS
+
+ROUNDING = 2  # levels of 255: a sum of lights is rounded once, or once for each light and for the ambient light
+
+
+def wrong_colors(run: Run) -> np.ndarray:
+    """Return where the colour is not that of the lights which a ray finds."""
+    truth = expected(run.scene, run.size)
+    return differ(run.image, truth.image) & differ(run.image, truth.added) & truth.sure
+
+
+def wrong_on_receivers(run: Run) -> np.ndarray:
+    """Return where that is so on receivers: planar shadows are nowhere else."""
+    return wrong_colors(run) & expected(run.scene, run.size).receiver
+
+
+def wrong_inside_faces(run: Run) -> np.ndarray:
+    """Return where that is so off creases, where a texel of a map sees another face than the pixel."""
+    return wrong_colors(run) & expected(run.scene, run.size).inside_faces
+
+
+def wrong_flat_colors(run: Run) -> np.ndarray:
+    """Return where the colour is not the surface's own in light, and its ambient share in shadow."""
+    truth = expected(run.scene, run.size, flat=True)
+    return differ(run.image, truth.image) & truth.sure & truth.inside_faces
+
+
+def wrong_flat_light(run: Run) -> np.ndarray:
+    """Return where a surface is darker than its own colour in light, or as bright in shadow."""
+    truth = expected(run.scene, run.size, flat=True)
+    return (differ(run.image, truth.lit) != truth.shadow) & truth.sure & truth.inside_faces
+
+
+def wrong_paint(run: Run) -> np.ndarray:
+    """Return where shadow is painted that no receiver has, or not painted where one has it."""
+    truth = expected(run.scene, run.size)
+    painted = differ(run.image, truth.lit)
+    return (painted != (truth.shadow & truth.receiver)) & truth.on_receivers
+
+
+def wrong_paint_on_receivers(run: Run) -> np.ndarray:
+    """Return where that is so on receivers."""
+    return wrong_paint(run) & expected(run.scene, run.size).receiver
+
+
+def painted_lit(run: Run) -> np.ndarray:
+    """Return where shadow is painted on receivers that have none."""
+    return wrong_paint_on_receivers(run) & ~expected(run.scene, run.size).shadow
+
+
+def painted_background(run: Run) -> np.ndarray:
+    """Return where shadow is painted beside all surfaces."""
+    truth = expected(run.scene, run.size)
+    return wrong_paint(run) & ~truth.seen
+
+
+def painted_casters(run: Run) -> np.ndarray:
+    """Return where shadow is painted over a nearer caster."""
+    truth = expected(run.scene, run.size)
+    return wrong_paint(run) & truth.seen & ~truth.receiver & truth.inside_faces
+
+
+def darkened_twice(run: Run) -> np.ndarray:
+    """Return where a shadow on a receiver is darker than one layer makes it."""
+    truth = expected(run.scene, run.size)
+    one_layer = truth.lit * (1 - DARKNESS)
+    darker = (run.image < one_layer - ROUNDING).any(axis=-1)
+    return darker & truth.receiver & truth.on_receivers
+
+
+def is_lit(run: Run, x: int, y: int) -> bool:
+    """Return whether a pixel has the colour that all lights give it."""
+    return not differ(run.image, expected(run.scene, run.size).lit)[y, x]
+
+
+def differ(image: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Return where two pictures (H, W, 3) differ by more than rounding, (H, W) bool."""
+    return (np.abs(image.astype(np.int16) - other) > ROUNDING).any(axis=-1)
+
+
+def deepest(mask: np.ndarray) -> tuple[int, int]:
+    """Return x, y of the place that lies deepest inside a mask (H, W) bool, the first of several.
+
+    Examples
+    --------
+    >>> mask = np.zeros((6, 8), bool)
+    >>> mask[1:4, 2:7] = True
+    >>> deepest(mask)
+    (3, 2)
+    """
+    kept = mask
+    while True:
+        framed = np.pad(kept, 1)
+        shifts = [framed[y : y + mask.shape[0], x : x + mask.shape[1]] for y in range(3) for x in range(3)]
+        inner = np.logical_and.reduce(shifts)
+        if not inner.any():
+            y, x = np.unravel_index(np.argmax(kept), kept.shape)
+            return int(x), int(y)
+        kept = inner

@@ -1,0 +1,79 @@
+"""Failures of the state around the count: right volumes, and one call of the stencil, depth or culling state amiss."""
+
+from softshadow.failures.calls import Change
+from softshadow.failures.course_stage import as_listed, scene_of
+from softshadow.failures.failure import Failure, Setting
+from softshadow.failures.measures import wrong_colors
+from softshadow.listings.stage import STAGE
+from softshadow.scene import Scene
+
+COUNTED = "pixels whose colour is not that of the lights they see"
+
+
+def altered(technique: str, *calls: tuple[str, str | None]) -> Setting:
+    """Return a technique with calls of it replaced, or left out."""
+    return Setting(technique, {}, tuple(Change(call, instead) for call, instead in calls))
+
+
+FAILURES = (
+    Failure(
+        "parity-overlap", "Parity instead of a count", "stencil", "E38, CA:470",
+        "GL_INVERT knows odd and even: a point in two volumes has been inverted twice, and is lit.",
+        lambda: Scene.named("overlapping"),
+        altered(
+            "volume-zfail",
+            ("glStencilOp(GL_KEEP, GL_INCR_WRAP, GL_KEEP)", "glStencilOp(GL_KEEP, GL_INVERT, GL_KEEP)"),
+            ("glStencilOp(GL_KEEP, GL_DECR_WRAP, GL_KEEP)", "glStencilOp(GL_KEEP, GL_INVERT, GL_KEEP)"),
+        ),
+        Setting("volume-zfail"),
+        wrong_colors, COUNTED,
+    ),
+    Failure(
+        "mask-1", "The light pass tests one bit of the count", "stencil", "E38, CA:470, CA:482",
+        "The last bit of a count is its parity, and two volumes over each other read as none.",
+        lambda: Scene.named("overlapping"),
+        altered("volume-zfail", ("glStencilFunc(GL_EQUAL, 0, 255)", "glStencilFunc(GL_EQUAL, 0, 1)")),
+        Setting("volume-zfail"),
+        wrong_colors, COUNTED,
+    ),
+    Failure(
+        "decr-before-incr", "GL_DECR before GL_INCR", "stencil", "E11, RO1:231",
+        "GL_DECR stops at 0, so that what is counted down before it was counted up is lost.",
+        lambda: scene_of(STAGE, "two boxes"),
+        as_listed("volume-zpass-reversed", "E11", stage=STAGE),
+        as_listed("volume-zpass-reversed", stage=STAGE),
+        wrong_colors, COUNTED,
+    ),
+    Failure(
+        "stencil-test-forgotten", "The stencil test is never enabled", "stencil", "E1, RO1:199-250",
+        "With the test disabled nothing is written to the stencil buffer, and nothing is left out by it.",
+        lambda: Scene.named("torus"),
+        altered("volume-zpass", ("glEnable(GL_STENCIL_TEST)", None)),
+        Setting("volume-zpass"),
+        wrong_colors, COUNTED,
+    ),
+    Failure(
+        "culling-left-on", "The light pass keeps the culling of the count", "stencil", "E3, RO1:233-265",
+        "After the back faces of volumes were counted, front faces are still culled, those of the scene as well.",
+        lambda: Scene.named("torus"),
+        altered("volume-zpass", ("glDisable(GL_CULL_FACE)", None)),
+        Setting("volume-zpass"),
+        wrong_colors, COUNTED,
+    ),
+    Failure(
+        "less-in-lit-pass", "The light pass keeps GL_LESS", "stencil", "E2, RO1:265-277",
+        "The second drawing of a surface has the depth that is stored already, which is not less.",
+        lambda: Scene.named("torus"),
+        altered("volume-zpass", ("glDepthFunc(GL_LEQUAL)", "glDepthFunc(GL_LESS)")),
+        Setting("volume-zpass"),
+        wrong_colors, COUNTED,
+    ),
+    Failure(
+        "missing-clear", "The stencil buffer is not cleared for the second light", "stencil", "E17, E61, RO1:178",
+        "Only glClear sets a buffer back, so that the second light counts on from the shadows of the first.",
+        lambda: Scene.named("two-lights"),
+        altered("volume-zpass", ("glClear(GL_STENCIL_BUFFER_BIT)", None)),
+        Setting("volume-zpass"),
+        wrong_colors, COUNTED,
+    ),
+)  # fmt: skip
