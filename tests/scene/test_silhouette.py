@@ -35,6 +35,16 @@ def test_closed_mesh_casts_with_the_faces_towards_the_light_only() -> None:
     assert len(faces.reversed) == 0
 
 
+def test_closed_body_beside_an_open_one_casts_as_if_alone() -> None:
+    box, sheet = shapes.box(), [[5, 0, 0], [6, 0, 0], [5, 1, 0]]
+    light = np.array([3.0, 4, -5, 1])  # behind the sheet
+    both = Mesh([*box.positions, *sheet], [*box.triangles, [24, 25, 26]])
+    faces = casting_faces(both, light)
+    assert faces.kept.tolist() == casting_faces(box, light).kept.tolist()
+    assert faces.reversed.tolist() == [12]
+    assert len(silhouette(both, light).edges) == len(silhouette(box, light).edges) + 3
+
+
 def test_fold_of_an_open_mesh_has_multiplicity_two() -> None:
     # a roof lit from the side: both slopes are turned to the light and run along the ridge the same way
     roof = Mesh([[0, 1, 0], [0, 1, 1], [-1, 0, 0], [1, 0, 0]], [[0, 1, 3], [1, 0, 2]])

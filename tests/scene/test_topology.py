@@ -78,6 +78,25 @@ def test_bodies_are_counted_over_shared_positions() -> None:
     assert Mesh(corners, long_strip).topology.bodies == 1
 
 
+def test_an_open_body_does_not_open_the_closed_one_beside_it() -> None:
+    box = shapes.box()
+    sheet = np.add(TRIANGLE, 5)
+    both = Mesh([*sheet, *box.positions], [[0, 1, 2], *(box.triangles + 3)]).topology
+    assert not both.closed
+    assert both.closed_faces.tolist() == [False] + [True] * 12
+    touching = Mesh([*np.add(TRIANGLE, 0.5), *box.positions], [[0, 1, 2], *(box.triangles + 3)]).topology
+    assert not touching.closed_faces.any()  # at a corner: one body
+
+
+@given(open_meshes())
+def test_bodies_are_what_shared_positions_connect(mesh: Mesh) -> None:
+    topology = mesh.topology
+    together = (topology.triangles[:, None, :, None] == topology.triangles[None, :, None, :]).any(axis=(2, 3))
+    for _ in range(len(mesh.triangles)):
+        together = together @ together
+    assert (together == (topology.face_bodies[:, None] == topology.face_bodies)).all()
+
+
 @given(closed_meshes())
 def test_closed_mesh_stays_closed_however_its_vertices_move(mesh: Mesh) -> None:
     assert mesh.topology.closed

@@ -123,15 +123,15 @@ def cast_rays(scene: Scene, size: tuple[int, int] = SIZE) -> Truth:
 def seen_from_the_dark_side(
     scene: Scene, light: np.ndarray, casters: np.ndarray, triangles: np.ndarray, along: np.ndarray
 ) -> np.ndarray:
-    """Return whether the ray `along` ends at a face of an open caster whose other side looks to the light."""
+    """Return whether the ray `along` ends at a face of an open body whose other side looks to the light."""
     dark = np.zeros(len(along), bool)
     for number, caster in enumerate(scene.casters):
-        if not caster.mesh.topology.closed:
-            on_it = casters == number
-            a, b, c = caster.world_positions[caster.mesh.triangles[triangles[on_it]]].transpose(1, 0, 2)
-            normal = np.cross(b - a, c - a)
-            to_light = ((light[:3] - light[3] * a) * normal).sum(axis=1)
-            dark[on_it] = to_light * (along[on_it] * normal).sum(axis=1) > 0
+        on_it = casters == number
+        a, b, c = caster.world_positions[caster.mesh.triangles[triangles[on_it]]].transpose(1, 0, 2)
+        normal = np.cross(b - a, c - a)
+        to_light = ((light[:3] - light[3] * a) * normal).sum(axis=1)
+        is_open = ~caster.mesh.topology.closed_faces[triangles[on_it]]
+        dark[on_it] = is_open & (to_light * (along[on_it] * normal).sum(axis=1) > 0)
     return dark
 
 

@@ -9,7 +9,7 @@ from softshadow.scene import Scene
 from techniques.drawn_frames import Drawn, cast_rays, draw
 
 SIZE = (96, 72)
-MODELS = ["stanford-bunny.obj", "teapot.obj", "rocker-arm.obj", "Duck.glb"]
+MODELS = ["stanford-bunny.obj", "teapot.obj", "rocker-arm.obj", "Duck.glb", "multibody.stl", "wallhole.obj"]
 
 
 @pytest.fixture(scope="module", params=MODELS)

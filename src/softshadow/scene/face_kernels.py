@@ -26,3 +26,23 @@ def add_chain(face_edges, face_signs, faces, sign, sums):
         t = faces[n]
         for corner in range(3):
             sums[face_edges[t, corner]] += np.int32(sign * face_signs[t, corner])
+
+
+@kernel
+def join_corners(triangles, labels):
+    """Write into labels (P,), which begin as 0 to P - 1, the smallest position joined to each by triangles (T, 3)."""
+    for t in range(triangles.shape[0]):
+        for corner in range(3):
+            a, b = triangles[t, 0], triangles[t, corner]
+            while labels[a] != a:
+                labels[a] = labels[labels[a]]  # halves the path, so that the next walk is short
+                a = labels[a]
+            while labels[b] != b:
+                labels[b] = labels[labels[b]]
+                b = labels[b]
+            if a < b:
+                labels[b] = a
+            else:
+                labels[a] = b
+    for p in range(labels.shape[0]):  # in ascending order: the smaller label is final already
+        labels[p] = labels[labels[p]]

@@ -18,7 +18,7 @@ class CastingFaces:
     Attributes
     ----------
     kept : (C,) int32         faces that face the light as stored
-    reversed : (R,) int32     faces of an open mesh that face away and cast the other way round
+    reversed : (R,) int32     faces of open bodies that face away and cast the other way round
     """
 
     kept: np.ndarray
@@ -56,9 +56,9 @@ def light_distances(mesh: Mesh, light: np.ndarray) -> np.ndarray:
 
 
 def casting_faces(mesh: Mesh, light: np.ndarray) -> CastingFaces:
-    """Return the faces that cast: of a closed mesh those that face the light, of an open one all, turned towards it.
+    """Return the faces that cast: of closed bodies those that face the light, of open ones all, turned towards it.
 
-    A face edge-on to the light, or without area, does not cast.
+    A body is a connected piece of the mesh. A face edge-on to the light, or without area, does not cast.
 
     Parameters
     ----------
@@ -66,8 +66,10 @@ def casting_faces(mesh: Mesh, light: np.ndarray) -> CastingFaces:
     """
     distances = light_distances(mesh, light)
     kept = np.flatnonzero(distances > 0).astype(np.int32)
-    away = np.zeros(0, np.int32) if mesh.topology.closed else np.flatnonzero(distances < 0).astype(np.int32)
-    return CastingFaces(kept, away)
+    topology = mesh.topology
+    if topology.closed:
+        return CastingFaces(kept, np.zeros(0, np.int32))
+    return CastingFaces(kept, np.flatnonzero((distances < 0) & ~topology.closed_faces).astype(np.int32))
 
 
 def silhouette(mesh: Mesh, light: np.ndarray) -> Silhouette:

@@ -76,19 +76,21 @@ class Topology:
     @cached_property
     def face_bodies(self) -> np.ndarray:
         """(T,) int32: number of the connected piece (over shared positions) that each face belongs to."""
-        labels = np.arange(len(self.representatives))
-        pairs = self.triangles[:, [0, 1, 1, 2]].reshape(-1, 2)
-        while True:
-            low = labels[pairs].min(axis=1)
-            before = labels.copy()
-            # the smaller label goes to both ends and to their former representatives, then paths are halved
-            for end in range(2):
-                np.minimum.at(labels, before[pairs[:, end]], low)
-                np.minimum.at(labels, pairs[:, end], low)
-            labels = labels[labels]
-            if np.array_equal(labels, before):
-                break
+        from softshadow.scene.face_kernels import join_corners
+
+        labels = np.arange(len(self.representatives), dtype=np.int32)
+        join_corners(self.triangles, labels)
         return np.unique(labels[self.triangles[:, 0]], return_inverse=True)[1].astype(np.int32)
+
+    @cached_property
+    def closed_faces(self) -> np.ndarray:
+        """(T,) bool: whether the body that each face belongs to is closed; one open body does not open the others."""
+        if self.closed:
+            return np.ones(len(self.triangles), dtype=bool)
+        at_fault = ((self.edge_sums[self.face_edges] != 0) & (self.face_signs != 0)).any(axis=1)
+        is_open = np.zeros(self.bodies, dtype=bool)
+        is_open[self.face_bodies[at_fault]] = True
+        return ~is_open[self.face_bodies]
 
     @property
     def bodies(self) -> int:

@@ -37,9 +37,9 @@ def casting_faces_between(
     light : (4,) float64         homogeneous, world space; with w = 0 the segment is a ray towards the light
     exclude : (N,), (N,) int     caster and triangle that each point lies on, -1 for none: that face and every face in
                                  its plane do not count (by number: no distance from the point is compared)
-    viewer : (3,) float64        the point that all points are seen from. What it sees of an open caster may be the side
+    viewer : (3,) float64        the point that all points are seen from. What it sees of an open body may be the side
                                  that looks away from the light: then the point's own face does count
-    faces : str                  "casting": of closed casters the faces that look to the light, of open ones all;
+    faces : str                  "casting": of closed bodies the faces that look to the light, of open ones all;
                                  "all"; "front": of all casters the faces that look to the light
 
     Returns

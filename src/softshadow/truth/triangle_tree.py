@@ -29,7 +29,7 @@ class TriangleTree:
     ----------
     corners : (T, 3, 3) float64      world corners in tree order
     objects, triangles : (T,) int32  which object and which of its triangles each is
-    closed : (T,) bool               whether the object's mesh is closed: then only light-facing faces cast
+    closed : (T,) bool               whether the triangle's body is closed: then it casts only where it faces the light
     boxes : (2N, 2, 3) float64       low and high corner of node i; 1 is the root, N to 2N - 1 are triangles
     places : (sum T,) int32          tree place of triangle t of object o at starts[o] + t
     starts : (objects + 1,) int64
@@ -74,7 +74,7 @@ def build_tree(objects: Sequence[SceneObject]) -> TriangleTree:
         corners[order],
         np.repeat(np.arange(len(objects), dtype=np.int32), counts)[order],
         np.concatenate([np.arange(count, dtype=np.int32) for count in counts])[order],
-        np.repeat([item.mesh.topology.closed for item in objects], counts)[order],
+        np.concatenate([item.mesh.topology.closed_faces for item in objects])[order],
         boxes,
         places,
         starts,
