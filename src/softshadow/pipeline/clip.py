@@ -61,7 +61,7 @@ def clip_triangles(
     whole, cut = count_inside(triangles, codes)
     planes = frustum_and(user_planes, clip.dtype)
     room = len(planes) * ADDED_PER_PLANE
-    more_clip, more_values = clip, values
+    more_clip, more_values = clip, np.ascontiguousarray(values)  # one memory order, one compiled kernel
     if cut:
         more_clip = np.empty((len(clip) + cut * room, 4), clip.dtype)
         more_values = np.empty((len(clip) + cut * room, values.shape[1]), values.dtype)
@@ -161,13 +161,14 @@ def cut_triangles(
             pieces[count, 0], pieces[count, 1], pieces[count, 2] = a, b, c
             source[count] = t
             if with_edges:
-                piece_edges[count] = edges[t]
+                for i in range(3):  # one by one: an assignment of rows takes two seconds to compile
+                    piece_edges[count, i] = edges[t, i]
             count += 1
             continue
         polygons[0, 0], polygons[0, 1], polygons[0, 2] = a, b, c
         if with_edges:
             drawn[0, 0], drawn[0, 1], drawn[0, 2] = edges[t, 0], edges[t, 1], edges[t, 2]
-        corners, now = 3, 0
+        corners, now = np.int64(3), 0  # not a literal, for which the cut would be compiled once more
         for p in range(planes.shape[0]):
             if union >> p & 1:
                 corners, vertices = cut_polygon(
