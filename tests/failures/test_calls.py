@@ -70,8 +70,11 @@ def test_large_arrays_are_told_by_shape_and_compared_by_content() -> None:
     one, other = RecordedNames(gl, ()), RecordedNames(gl, ())
     for names, value in ((one, 0), (other, 1)):
         names.glVertexPointer(3, names.GL_FLOAT, 0, np.full((20, 3), value, np.float32))
+        names.glEnableClientState(names.GL_VERTEX_ARRAY)
+        names.glDrawArrays(names.GL_TRIANGLES, 0, 20)
         names.end_step("draw")
-    text = "glVertexPointer(3, GL_FLOAT, 0, float32 (20, 3))"
+    assert one.calls[0].text == "glVertexPointer(3, GL_FLOAT, 0, float32 (20, 3))"
+    text = "glDrawArrays(GL_TRIANGLES, 0, 20)"
     assert call_difference(one.calls, other.calls) == f"@@ draw\n- {text}\n+ {text}, other values"
     assert call_difference(one.calls, one.calls) == ""
 

@@ -27,8 +27,8 @@ def test_pixels_are_wrong_with_the_failure_and_right_with_the_cure(failure: Fail
 def test_pixel_to_click_has_two_colors(failure: Failure) -> None:
     x, y = failure.pixel
     assert differ(failure.wrong.image, failure.cured.image)[y, x]
-    assert failure.measure(failure.wrong)[y, x]
-    assert not failure.measure(failure.cured)[y, x]
+    assert failure.wrong_pixels(failure.wrong)[y, x]
+    assert not failure.wrong_pixels(failure.cured)[y, x]
     assert f"pixel x={x} y={y}" in failure.explain()
 
 

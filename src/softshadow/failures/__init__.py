@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from softshadow.errors import nearest
-from softshadow.failures import maps, planar, stencil, volumes
+from softshadow.failures import maps, meshes, planar, stencil, volumes
 from softshadow.failures.calls import Change
 from softshadow.failures.failure import Failure, Setting
 from softshadow.inspection.tables import html_table, text_table
@@ -59,4 +59,4 @@ class Gallery(Mapping[str, Failure]):
         return [[each.name, each.family, each.title] for each in self.values()]
 
 
-GALLERY = Gallery((*planar.FAILURES, *volumes.FAILURES, *stencil.FAILURES, *maps.FAILURES))
+GALLERY = Gallery((*planar.FAILURES, *volumes.FAILURES, *stencil.FAILURES, *meshes.FAILURES, *maps.FAILURES))

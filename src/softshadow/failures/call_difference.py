@@ -8,7 +8,8 @@ from itertools import groupby
 
 from softshadow.failures.calls import Call
 
-SWITCHES = ("glEnableClientState", "glDisableClientState")  # around every draw; told nowhere
+# what changes no pixel: the switches of vertex arrays around every draw, and questions
+UNTOLD = ("glEnableClientState", "glDisableClientState", "glGet", "glReadPixels")
 MOST_LINES = 6  # of one side in one place: what is more is a pass of its own, and its beginning tells it
 
 
@@ -36,24 +37,29 @@ def call_difference(wrong: Sequence[Call], cured: Sequence[Call]) -> str:
 
 
 def told(calls: Sequence[Call]) -> list[Call]:
-    """Return the calls that a difference tells of: without switches, glBegin to glEnd as one."""
+    """Return the calls that a difference tells of, none of `UNTOLD`.
+
+    glBegin to glEnd is one call, and so is a draw with the pointers to its arrays.
+    """
     kept: list[Call] = []
     inside: list[Call] = []
     for call in calls:
-        if inside or call.name == "glBegin":
+        if inside or call.name == "glBegin" or call.name.endswith("Pointer"):
             inside.append(call)
             if call.name == "glEnd":
-                kept.append(_as_one(inside))
+                vertices = sum(each.name.startswith("glVertex") for each in inside)
+                kept.append(_as_one(inside, f"{inside[0].text}, {vertices} vertices, glEnd()"))
                 inside = []
-        elif call.name not in SWITCHES:
+            elif call.name.startswith("glDraw"):
+                kept.append(_as_one(inside, call.text))
+                inside = []
+        elif not call.name.startswith(UNTOLD):
             kept.append(call)
     return kept
 
 
-def _as_one(calls: Sequence[Call]) -> Call:
-    vertices = sum(call.name.startswith("glVertex") for call in calls)
-    text = f"{calls[0].text}, {vertices} vertices, glEnd()"
-    return Call(calls[0].step, "glBegin", text, "".join(call.key for call in calls))
+def _as_one(calls: Sequence[Call], text: str) -> Call:
+    return Call(calls[0].step, calls[-1].name, text, "".join(call.key for call in calls))
 
 
 def _lines(sign: str, calls: Sequence[Call], others: Iterable[str] = ()) -> list[str]:

@@ -16,7 +16,7 @@ from softshadow.errors import StateError
 from softshadow.scene import Scene
 from softshadow.techniques import Steps, Technique
 
-LONGEST_SPELLED = 16  # numbers of an array: a matrix is spelled out, vertices are not
+LONGEST_SPELLED = 16  # numbers of an array: a matrix is spelled out, vertices and indices are not
 
 
 class Token(int):
@@ -148,7 +148,7 @@ def spelled(argument: Any) -> str:
     if isinstance(argument, tuple | list):
         return f"({', '.join(map(spelled, argument))})"
     if isinstance(argument, np.ndarray) and argument.ndim:
-        if argument.size > LONGEST_SPELLED:
+        if argument.size > LONGEST_SPELLED or argument.dtype.kind != "f":
             return f"{argument.dtype.name} {argument.shape}"
         return f"[{', '.join(map(spelled, argument.ravel().tolist()))}]"
     return f"{float(argument):.5g}" if isinstance(argument, float | np.floating) else str(argument)

@@ -27,7 +27,8 @@ KEPT = 8  # expectations: enough for one failure after the other
 class Expected(NamedTuple):
     """The truth about every pixel, row 0 on top.
 
-    image, lit : (H, W, 3) int16     with shadows, and without any, all lights in one drawing
+    image : (H, W, 3) int16          with shadows, all lights in one drawing
+    lit, dark : (H, W, 3) int16      without shadows, and without lights
     added : (H, W, 3) int16          with shadows, a drawing for each light: colours above 1 are cut off later
     shadow : (H, W) bool             a light is hidden
     seen, receiver : (H, W) bool     a surface is seen, and that of a receiver
@@ -38,6 +39,7 @@ class Expected(NamedTuple):
 
     image: np.ndarray
     lit: np.ndarray
+    dark: np.ndarray
     added: np.ndarray
     shadow: np.ndarray
     seen: np.ndarray
@@ -69,6 +71,7 @@ def expected(scene: Scene, size: tuple[int, int], flat: bool = False) -> Expecte
     return Expected(
         image=np.where(hidden[..., None], added, lit),
         lit=lit,
+        dark=dark,
         added=added,
         shadow=hidden,
         seen=seen,

@@ -15,7 +15,7 @@ from softshadow import techniques
 from softshadow.failures.call_difference import call_difference
 from softshadow.failures.calls import Call, Change, recorded
 from softshadow.failures.expected import without_warnings
-from softshadow.failures.measures import deepest, is_lit
+from softshadow.failures.measures import deepest, share_of_light
 from softshadow.inspection.explanation import explain
 from softshadow.run import Run, run
 from softshadow.scene import Scene
@@ -29,18 +29,20 @@ SIZE = (240, 180)
 
 @dataclass(frozen=True, eq=False)
 class Setting:
-    """A technique, its options, and the GL calls of it that are altered."""
+    """A technique, its options, the GL calls of it that are altered, and a scene that is not as it should be."""
 
     technique: Technique | str
     options: Mapping[str, Any] = field(default_factory=dict)
     changes: tuple[Change, ...] = ()
+    make_scene: Callable[[], Scene] | None = None
 
-    def draw(self, scene: Scene, size: tuple[int, int], **window: Any) -> tuple[Run, list[Call]]:
+    def draw(self, scene: Scene, size: tuple[int, int]) -> tuple[Run, list[Call]]:
         """Return the run and its calls; of what goes wrong it says nothing, that is the point."""
+        drawn = self.make_scene() if self.make_scene else scene
         calls: list[Call] = []
         technique = self.technique if isinstance(self.technique, Technique) else techniques.get(self.technique)
         with without_warnings():
-            return run(recorded(technique, self.changes, calls), scene, size, **window, **self.options), calls
+            return run(recorded(technique, self.changes, calls), drawn, size, **self.options), calls
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -52,12 +54,13 @@ class Failure:
     name, title, family : str
     reference : str              where the course tells of it, as in "E38, CA:470"; E-numbers are docs/corrections.md
     reason : str                 one sentence
-    make_scene : callable        what it is shown on
+    make_scene : callable        what it is shown on, and what is right is found on
     with_failure, with_cure : Setting
     measure : callable           the pixels of a run that are wrong, (H, W) bool
     counted : str                what the numbers are, in words
     floor : int                  what the cure leaves of the number at most
     why_floor : str              and why
+    flat : bool                  whether lit surfaces have their plain colour, as in the listings of shadow maps
     size : (width, height)
     """
 
@@ -73,6 +76,7 @@ class Failure:
     counted: str
     floor: int = 0
     why_floor: str = ""
+    flat: bool = False
     size: tuple[int, int] = SIZE
 
     def at(self, size: tuple[int, int]) -> Failure:
@@ -107,17 +111,21 @@ class Failure:
     @cached_property
     def number_wrong(self) -> int:
         """How many pixels are wrong with the failure."""
-        return int(self.measure(self.wrong).sum())
+        return int(self.wrong_pixels(self.wrong).sum())
 
     @cached_property
     def number_cured(self) -> int:
         """How many pixels are wrong with the cure."""
-        return int(self.measure(self.cured).sum())
+        return int(self.wrong_pixels(self.cured).sum())
 
     @cached_property
     def pixel(self) -> tuple[int, int]:
         """x, y of the pixel to click: deepest among those that are wrong with the failure and right with the cure."""
-        return deepest(self.measure(self.wrong) & ~self.measure(self.cured))
+        return deepest(self.wrong_pixels(self.wrong) & ~self.wrong_pixels(self.cured))
+
+    def wrong_pixels(self, run: Run) -> np.ndarray:
+        """Return the pixels (H, W) bool of either run that are wrong, row 0 on top."""
+        return self.measure(replace(run, scene=self.scene))
 
     # -- words and pictures --------------------------------------------------------------------------------------------
     @cached_property
@@ -140,10 +148,17 @@ class Failure:
                 "",
                 self.diff,
                 "",
-                f"with the failure: {told(self.wrong, *self.pixel)}",
-                f"with the cure:    {told(self.cured, *self.pixel)}",
+                f"with the failure: {self._told(self.wrong)}",
+                f"with the cure:    {self._told(self.cured)}",
             ]
         )
+
+    def _told(self, run: Run) -> str:
+        """Return one sentence about the pixel by its colour: what a failing program says of its light may be wrong."""
+        x, y = self.pixel
+        history = run.pixel(x, y)
+        colored = any(row.color_written for row in history)
+        return explain(history, share_of_light(replace(run, scene=self.scene), x, y, self.flat), colored)
 
     def picture(self) -> Picture:
         """Return both pictures side by side, a ring around the pixel to click."""
@@ -159,10 +174,3 @@ class Failure:
         png = BytesIO()
         self.picture().save(png, "PNG")
         return {"text/plain": self.explain(), "image/png": b64encode(png.getvalue()).decode()}
-
-
-def told(run: Run, x: int, y: int) -> str:
-    """Return one sentence about a pixel by its colour: what a failing program says of its light may be wrong."""
-    history = run.pixel(x, y)
-    colored = any(row.color_written for row in history)
-    return explain(history, float(is_lit(run, x, y)), colored)

@@ -4,12 +4,20 @@ from dataclasses import replace
 
 from softshadow.failures.course_stage import as_listed, scene_of
 from softshadow.failures.failure import Failure, Setting
-from softshadow.failures.measures import wrong_flat_colors, wrong_flat_light, wrong_inside_faces
-from softshadow.listings.stage import STAGE
+from softshadow.failures.measures import (
+    COUNTED,
+    grown_shadow,
+    wrong_flat_colors,
+    wrong_flat_light,
+    wrong_inside_faces,
+    wrong_on_receivers,
+)
+from softshadow.listings.stage import STAGE, Thing
 from softshadow.scene import Scene
+from softshadow.scene.shapes import floor
 
-COUNTED = "pixels whose colour is not that of the lights they see"
-
+# beyond the light's view on all sides
+WIDE = replace(STAGE, receiver=(Thing(floor(9), STAGE.receiver[0].color),), occluder=STAGE.occluder[:1])
 # its shadow stays within what the light of the listings sees
 ONE_BOX = replace(STAGE, occluder=STAGE.occluder[:1])
 
@@ -34,17 +42,26 @@ FAILURES = (
         "jagged-edges", "Edges have steps as large as a texel", "maps", "SK:382-383, CA:639",
         "All points of a texel get the same answer, and a texel of the map covers many pixels of the picture.",
         lambda: Scene.named("boxes"),
-        Setting("map", {"map_size": 64}),
+        Setting("map", {"map_size": 32}),
         Setting("map", {"map_size": 2048}),
-        wrong_inside_faces, COUNTED,
+        wrong_on_receivers, "pixels of the floor whose colour is not that of the lights they see",
+    ),
+    Failure(
+        "linear-filtered-depth", "Depths are filtered before they are compared", "maps", "E46, CA:518-519, SK:384",
+        "The mean of a near and a far depth is the depth of nothing that is there: what lies beyond the edge of a "
+        "caster's texel is compared with it, and the shadow grows.",
+        lambda: scene_of(ONE_BOX, "one box"),
+        as_listed("map", "E46", stage=ONE_BOX, map_size=32),
+        as_listed("map", stage=ONE_BOX, map_size=32),
+        grown_shadow, "pixels of the floor that are dark in light", flat=True,
     ),
     Failure(
         "edge-smear", "GL_CLAMP_TO_EDGE smears the map's edge over the scene", "maps", "E47, CA:516-517",
         "Beside the light's view the nearest texel of the edge answers, whatever it holds.",
-        lambda: scene_of(ONE_BOX, "one box"),
-        as_listed("map", "E47", stage=ONE_BOX),
-        as_listed("map", stage=ONE_BOX),
-        wrong_flat_light, "pixels that are dark in light, or bright in shadow",
+        lambda: scene_of(WIDE, "a box on a wide floor"),
+        as_listed("map", "E47", stage=WIDE),
+        as_listed("map", stage=WIDE),
+        wrong_flat_light, "pixels that are dark in light, or bright in shadow", flat=True,
     ),
     Failure(
         "factor-on-whole-color", "The factor dims the whole colour", "maps", "E53, RO2:85",
@@ -52,7 +69,7 @@ FAILURES = (
         lambda: scene_of(ONE_BOX, "one box"),
         as_listed("map-two-stages", "E53", stage=ONE_BOX),
         as_listed("map-two-stages", stage=ONE_BOX),
-        wrong_flat_colors, "pixels whose colour is neither that in light nor that in shadow",
+        wrong_flat_colors, "pixels whose colour is neither that in light nor that in shadow", flat=True,
     ),
     Failure(
         "map-larger-than-window", "A map drawn in a smaller window", "maps", "E62, CA:531-553",

@@ -11,6 +11,8 @@ from softshadow.failures.expected import expected
 from softshadow.run import Run
 from softshadow.techniques.planar import DARKNESS
 
+COUNTED = "pixels whose colour is not that of the lights they see"  # what `wrong_colors` and its kin count
+NEARLY = 8  # levels: two roundings in each channel, and highlights that are cut off at 255
 ROUNDING = 2  # levels of 255: a sum of lights is rounded once, or once for each light and for the ambient light
 
 
@@ -40,6 +42,12 @@ def wrong_flat_light(run: Run) -> np.ndarray:
     """Return where a surface is darker than its own colour in light, or as bright in shadow."""
     truth = expected(run.scene, run.size, flat=True)
     return (differ(run.image, truth.lit) != truth.shadow) & truth.sure & truth.inside_faces
+
+
+def grown_shadow(run: Run) -> np.ndarray:
+    """Return where receivers are darker than their own colour though they see the light."""
+    truth = expected(run.scene, run.size, flat=True)
+    return differ(run.image, truth.lit) & ~truth.shadow & truth.receiver & truth.on_receivers
 
 
 def wrong_paint(run: Run) -> np.ndarray:
@@ -79,9 +87,15 @@ def darkened_twice(run: Run) -> np.ndarray:
     return darker & truth.receiver & truth.on_receivers
 
 
-def is_lit(run: Run, x: int, y: int) -> bool:
-    """Return whether a pixel has the colour that all lights give it."""
-    return not differ(run.image, expected(run.scene, run.size).lit)[y, x]
+def share_of_light(run: Run, x: int, y: int, flat: bool) -> float:
+    """Return how much of the light a pixel shows, 0 to 1: where its colour stands between those without and with it."""
+    truth = expected(run.scene, run.size, flat)
+    light = (truth.lit - truth.dark)[y, x].astype(float)
+    shown = (run.image - truth.dark)[y, x].astype(float)
+    if not light.any():
+        return 1.0
+    share = float(np.clip(shown @ light / (light @ light), 0, 1))
+    return round(share, 1) if abs(share - round(share)) * np.linalg.norm(light) <= NEARLY else share
 
 
 def differ(image: np.ndarray, other: np.ndarray) -> np.ndarray:

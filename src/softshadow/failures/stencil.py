@@ -1,13 +1,23 @@
 """Failures of the state around the count: right volumes, and one call of the stencil, depth or culling state amiss."""
 
+from dataclasses import replace
+
+import numpy as np
+
 from softshadow.failures.calls import Change
 from softshadow.failures.course_stage import as_listed, scene_of
 from softshadow.failures.failure import Failure, Setting
-from softshadow.failures.measures import wrong_colors
+from softshadow.failures.measures import COUNTED, wrong_colors
 from softshadow.listings.stage import STAGE
-from softshadow.scene import Scene
+from softshadow.scene import Mesh, Scene, SceneObject
+from softshadow.scene.placement import placement
+from softshadow.scene.shapes import box
 
-COUNTED = "pixels whose colour is not that of the lights they see"
+PARITY = (
+    ("glStencilOp(GL_KEEP, GL_INCR_WRAP, GL_KEEP)", "glStencilOp(GL_KEEP, GL_INVERT, GL_KEEP)"),
+    ("glStencilOp(GL_KEEP, GL_DECR_WRAP, GL_KEEP)", "glStencilOp(GL_KEEP, GL_INVERT, GL_KEEP)"),
+)
+SHEETS = 256  # as many as make eight bits 0 again
 
 
 def altered(technique: str, *calls: tuple[str, str | None]) -> Setting:
@@ -15,16 +25,27 @@ def altered(technique: str, *calls: tuple[str, str | None]) -> Setting:
     return Setting(technique, {}, tuple(Change(call, instead) for call, instead in calls))
 
 
+def stack() -> Scene:
+    """Return a stack of sheets over a floor, as many as a counter of eight bits has values."""
+    sheet = box(1.2, 0.003, 0.8)
+    heights = np.repeat(np.linspace(0.5, 1.8, SHEETS), len(sheet.positions))
+    mesh = Mesh(
+        np.tile(sheet.positions, (SHEETS, 1)) + heights[:, None] * (0, 1, 0),
+        (sheet.triangles + len(sheet.positions) * np.arange(SHEETS)[:, None, None]).reshape(-1, 3),
+        np.tile(sheet.normals, (SHEETS, 1)),
+        name="stack",
+    )
+    scene = Scene.named("overlapping")
+    sheets = SceneObject(mesh, placement((0, 0, 0), (15, 0, 1, 0)), scene.casters[0].material)
+    return replace(scene, name="256 sheets", objects=(*scene.receivers, sheets))
+
+
 FAILURES = (
     Failure(
         "parity-overlap", "Parity instead of a count", "stencil", "E38, CA:470",
         "GL_INVERT knows odd and even: a point in two volumes has been inverted twice, and is lit.",
         lambda: Scene.named("overlapping"),
-        altered(
-            "volume-zfail",
-            ("glStencilOp(GL_KEEP, GL_INCR_WRAP, GL_KEEP)", "glStencilOp(GL_KEEP, GL_INVERT, GL_KEEP)"),
-            ("glStencilOp(GL_KEEP, GL_DECR_WRAP, GL_KEEP)", "glStencilOp(GL_KEEP, GL_INVERT, GL_KEEP)"),
-        ),
+        altered("volume-zfail", *PARITY),
         Setting("volume-zfail"),
         wrong_colors, COUNTED,
     ),
@@ -42,6 +63,14 @@ FAILURES = (
         lambda: scene_of(STAGE, "two boxes"),
         as_listed("volume-zpass-reversed", "E11", stage=STAGE),
         as_listed("volume-zpass-reversed", stage=STAGE),
+        wrong_colors, COUNTED,
+    ),
+    Failure(
+        "overflow-256", "256 volumes around a point are none", "stencil", "E11, RO1:144-150",
+        "Eight bits count modulo 256, and GL_INCR_WRAP goes on after 255 with 0.",
+        stack,
+        Setting("volume-zpass"),
+        Setting("volume-zpass", {"ops": "saturate"}),
         wrong_colors, COUNTED,
     ),
     Failure(

@@ -1,13 +1,10 @@
 """Failures of shadow volumes: where the count begins, where a volume ends, and what it is made of."""
 
-from softshadow.failures.calls import Change
 from softshadow.failures.course_stage import as_listed, scene_of
 from softshadow.failures.failure import Failure, Setting
-from softshadow.failures.measures import wrong_colors
-from softshadow.listings.stage import NEAR_SHADOW, OVER_THE_TABLE
+from softshadow.failures.measures import COUNTED, wrong_colors
+from softshadow.listings.stage import OVER_THE_TABLE
 from softshadow.scene import Scene
-
-COUNTED = "pixels whose colour is not that of the lights they see"
 
 FAILURES = (
     Failure(
@@ -15,15 +12,15 @@ FAILURES = (
         "Z-pass counts from the near plane on, and volumes that contain it are left without having been entered.",
         lambda: Scene.named("eye-in-shadow"),
         Setting("volume-zpass"),
-        Setting("volume-zfail"),
+        Setting("volume-zpass", {"start": "eye"}),
         wrong_colors, COUNTED,
     ),
     Failure(
         "constant-eye-count", "One start value for a near rectangle that a volume cuts", "volumes", "E10, RO1:281-289",
         "The number of volumes around the eye is right for the rays that begin in them, and these need not be all.",
-        lambda: scene_of(NEAR_SHADOW, "two boxes, eye beside them"),
-        as_listed("volume-zpass-general", "E10", stage=NEAR_SHADOW),
-        as_listed("volume-zpass-general", stage=NEAR_SHADOW),
+        lambda: Scene.named("near-cut"),
+        Setting("volume-zpass", {"start": "eye"}),
+        Setting("volume-zpass", {"start": "near-plane"}),
         wrong_colors, COUNTED,
     ),
     Failure(
@@ -49,15 +46,6 @@ FAILURES = (
         lambda: scene_of(OVER_THE_TABLE, "lamp over a table"),
         as_listed("volume-far-side", "E7", stage=OVER_THE_TABLE),
         as_listed("volume-far-side", stage=OVER_THE_TABLE),
-        wrong_colors, COUNTED,
-    ),
-    Failure(
-        "open-mesh-leak", "An open mesh taken for a solid", "volumes", "E12, E13, RO1:78",
-        "Of an open mesh faces that look away from the light cast, too; they are turned towards it, and must be "
-        "counted as turned.",
-        lambda: Scene.named("open-tube"),
-        Setting("volume-zfail", {}, (Change("glFrontFace(GL_CW)", None),)),
-        Setting("volume-zfail"),
         wrong_colors, COUNTED,
     ),
 )  # fmt: skip

@@ -19,21 +19,23 @@ ALMOST_NO_BIAS = 0.0005  # of the map's depth: what E52 asks for at the least, h
 
 
 # -- CA ----------------------------------------------------------------------------------------------------------------
-def shadow_map(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, *, offset: bool = True) -> list[np.ndarray]:
+def shadow_map(
+    gl: Any, corrected: frozenset[str], stage: Stage = STAGE, *, offset: bool = True, map_size: int = MAP_SIZE
+) -> list[np.ndarray]:
     """CA:498-637: one program of its four slides; returns the map that pass 1 leaves, (h, w) float32."""
     begin_frame(gl, stage)
     gl.glDisable(gl.GL_LIGHTING)
-    texture = set_up(gl, corrected)
+    texture = set_up(gl, corrected, map_size=map_size)
     # Pas 1. Actualització del shadow map
     if "E62" in corrected:
         framebuffer = begin_framebuffer(gl, texture)
-        draw_from_light(gl, stage, offset)
+        draw_from_light(gl, stage, offset, map_size)
         end_framebuffer(gl, framebuffer)
     else:
-        draw_from_light(gl, stage, offset)
+        draw_from_light(gl, stage, offset, map_size)
         # 3. Guardar el z-buffer en una textura; E62: the window has no more than its own pixels to give
         gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
-        gl.glCopyTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 0, 0, MAP_SIZE, MAP_SIZE)
+        gl.glCopyTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 0, 0, map_size, map_size)
     stored = gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT)
 
     # Restaurar càmera i viewport
@@ -55,7 +57,7 @@ def map_with_bias(gl: Any, corrected: frozenset[str]) -> list[np.ndarray]:
     return shadow_map(gl, frozenset({"E46", "E47", "E48", "E62"}), offset="E49" in corrected)
 
 
-def set_up(gl: Any, corrected: frozenset[str], start: float = 0.0) -> int:
+def set_up(gl: Any, corrected: frozenset[str], start: float = 0.0, map_size: int = MAP_SIZE) -> int:
     """CA:508-522, Shadow mapping - setup: return the bound texture.
 
     The slide hands over NULL; what no copy reaches then holds anything, here `start`.
@@ -71,15 +73,15 @@ def set_up(gl: Any, corrected: frozenset[str], start: float = 0.0) -> int:
     gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MAG_FILTER, filtering)
     gl.glTexParameterfv(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_BORDER_COLOR, (1.0, 1.0, 1.0, 1.0))
     gl.glTexImage2D(
-        gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH_COMPONENT32, MAP_SIZE, MAP_SIZE, 0, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT,
-        np.full((MAP_SIZE, MAP_SIZE), start, np.float32),
+        gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH_COMPONENT32, map_size, map_size, 0, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT,
+        np.full((map_size, map_size), start, np.float32),
     )  # fmt: skip
     return texture
 
 
-def draw_from_light(gl: Any, stage: Stage, offset: bool = True) -> None:
+def draw_from_light(gl: Any, stage: Stage, offset: bool = True, map_size: int = MAP_SIZE) -> None:
     """CA:528-546: the camera at the light, the scene with an offset of (1, 1)."""
-    gl.glViewport(0, 0, MAP_SIZE, MAP_SIZE)
+    gl.glViewport(0, 0, map_size, map_size)
     gl.glMatrixMode(gl.GL_PROJECTION)
     gl.glLoadIdentity()
     gl.gluPerspective(LIGHT_FOV, 1.0, LIGHT_NEAR, LIGHT_FAR)
