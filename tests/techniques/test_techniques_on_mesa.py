@@ -12,6 +12,7 @@ SIZE = (96, 72)
 
 VARIANTS: list[tuple[str, dict[str, Any]]] = [
     *[("planar", {"method": method}) for method in ("depth-off", "offset", "stencil", "stencil-blend", "texture")],
+    ("blob", {}),
     ("volume-zpass", {}),
     ("volume-zpass", {"two_sided": True, "far": "clamp"}),
     ("volume-zfail", {}),

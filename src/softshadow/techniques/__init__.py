@@ -6,7 +6,7 @@ the calls of OpenGL, which yields the title of every step it has finished, with 
 """
 
 from softshadow.errors import nearest
-from softshadow.techniques import map, planar, volume_parity, volume_zfail, volume_zpass, volume_zpass_plus
+from softshadow.techniques import blob, map, planar, volume_parity, volume_zfail, volume_zpass, volume_zpass_plus
 from softshadow.techniques.technique import Option, Steps, Technique
 
 __all__ = ["Option", "Steps", "Technique", "describe", "get", "names"]
@@ -21,6 +21,14 @@ REGISTER = {
             "Blinn 1988, Me and my (fake) shadow",
             planar.steps,
             planar.OPTIONS,
+        ),
+        Technique(
+            "blob",
+            "Blob shadows",
+            "planar",
+            "none: older than the papers about it",
+            blob.steps,
+            blob.OPTIONS,
         ),
         Technique(
             "volume-zpass",
@@ -72,7 +80,7 @@ def names() -> list[str]:
     Examples
     --------
     >>> names()
-    ['planar', 'volume-zpass', 'volume-zfail', 'volume-zpass-plus', 'volume-parity', 'map']
+    ['planar', 'blob', 'volume-zpass', 'volume-zfail', 'volume-zpass-plus', 'volume-parity', 'map']
     """
     return list(REGISTER)
 

@@ -222,12 +222,17 @@ def read_stencil(gl: Any, size: tuple[int, int]) -> np.ndarray:
     return gl.glReadPixels(0, 0, *size, gl.GL_STENCIL_INDEX, gl.GL_UNSIGNED_BYTE)
 
 
+def read_alpha(gl: Any, size: tuple[int, int]) -> np.ndarray:
+    """Return the alpha of the colour buffer, (h, w) float32 from 0 to 1, first row = bottom."""
+    return gl.glReadPixels(0, 0, *size, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)[:, :, 3].astype(np.float32) / np.float32(255)
+
+
 def visibility_maps(scene: Scene, lit: list[np.ndarray], valid: np.ndarray) -> dict[str, np.ndarray]:
     """Return the visibility of the lights done so far as maps, 1 lit and 0 in shadow.
 
     Parameters
     ----------
-    lit : one (h, w) bool per light done, in the scene's order
+    lit : one (h, w) bool per light done, in the scene's order; or float32, 1 lit to 0 in shadow
     valid : (h, w) bool          where visibility is defined; elsewhere the maps hold 1
 
     Returns
