@@ -6,7 +6,8 @@ light cap.
 
 The plane: z-pass changes no value where the surface lies before the volume, z-fail none where it lies behind. A plane
 inside the volume tells the two apart. Ours is the polar plane of the eye about the cone that the light throws behind
-the caster's bounding sphere: a line of sight that enters the cone and leaves it again crosses the plane in between.
+the caster's bounding sphere: a line of sight that enters the cone and leaves it again crosses the plane in between. The
+caster's own lit faces, where the volume begins, lie before it on both sides of the plane.
 
 Paper: Everitt & Kilgard 2002, sec. 4.3 (for each caster); Laine 2005, "Split-plane shadow volumes" (for tiles of
 pixels, by the hardware; here the plane itself is drawn, and the depth test compares it with every pixel).
@@ -117,14 +118,19 @@ def count_by_split_planes(
 
     Raises
     ------
-    ValueError                   counters that should stop: above them there is the mark
+    ValueError                   counters that should stop: above them there is the mark; a buffer of one bit
     """
     if counting.up != gl.GL_INCR_WRAP:
         raise ValueError(
             "choose='split-plane' with ops='saturate': the highest stencil bit holds a mark, so that counters below it "
             "cannot stop; expected ops='wrap'"
         )
-    mark = 2 ** (int(gl.glGetIntegerv(gl.GL_STENCIL_BITS)) - 1)
+    bits = int(gl.glGetIntegerv(gl.GL_STENCIL_BITS))
+    if bits < 2:
+        raise ValueError(
+            f"choose='split-plane' with {bits} stencil bit: expected one for the mark and one or more to count"
+        )
+    mark = 2 ** (bits - 1)
     width, height = size
     by_zfail = np.zeros((height, width), np.uint8)
     for item, reaches_near in volumes:
@@ -132,12 +138,7 @@ def count_by_split_planes(
         gl.glStencilMask(mark)
         gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
         if plane is not None and not reaches_near:
-            gl.glDisable(gl.GL_CULL_FACE)
-            gl.glStencilFunc(gl.GL_ALWAYS, mark, 0xFF)
-            gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
-            with named(gl, item.caster):
-                draw_polygons(gl, whole_plane(plane))  # passes where the surface lies behind it
-            gl.glEnable(gl.GL_CULL_FACE)
+            mark_behind(gl, item, plane, mark)
             by_zfail += read_stencil(gl, size) & mark != 0
             yield title_of(f"mark what lies behind the split plane of {item.caster.name}", scene, light)
         gl.glStencilMask(mark - 1)
@@ -155,6 +156,20 @@ def count_by_split_planes(
     gl.glStencilMask(mark)
     gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
     gl.glStencilMask(0xFF)
+
+
+def mark_behind(gl: Any, item: CasterVolume, plane: np.ndarray, mark: int) -> None:
+    """Set the mark where the visible surface lies behind a plane, but for the caster's own lit faces."""
+    gl.glDisable(gl.GL_CULL_FACE)
+    gl.glStencilFunc(gl.GL_ALWAYS, mark, 0xFF)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
+    with named(gl, item.caster):
+        draw_polygons(gl, whole_plane(plane))
+    gl.glStencilFunc(gl.GL_ALWAYS, 0, 0xFF)
+    gl.glDepthFunc(gl.GL_EQUAL)
+    draw_volumes(gl, [item], sides=False, dark_caps=False)
+    gl.glDepthFunc(gl.GL_LESS)
+    gl.glEnable(gl.GL_CULL_FACE)
 
 
 def split_plane(caster: SceneObject, light: Light, eye: np.ndarray) -> np.ndarray | None:

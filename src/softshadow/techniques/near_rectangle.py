@@ -40,9 +40,12 @@ def near_counts(
     A ray is cast from each of these points to the light.
     """
     width, height = size
+    reaching = [one for one in casters if shadows_near_rectangle(one, light, scene.camera, size, far)]
+    if not reaching:
+        return np.zeros((height, width), np.int32)
     x, y = np.meshgrid(np.arange(width) + 0.5, height - (np.arange(height) + 0.5))
     points = start_points(scene.camera, np.stack([x.ravel(), y.ravel()], axis=1), size, far)
-    return casting_faces_between(points, light.position, casters).reshape(height, width)
+    return casting_faces_between(points, light.position, reaching).reshape(height, width)
 
 
 def eye_count(scene: Scene, light: Light, casters: Sequence[SceneObject]) -> int:

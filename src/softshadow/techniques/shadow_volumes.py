@@ -88,13 +88,16 @@ def scene_reach(scene: Scene, light: Light) -> float:
     return BEYOND * float(np.linalg.norm(spread, axis=-1).max())
 
 
-def draw_volumes(gl: Any, volumes: Iterable[CasterVolume], light_caps: bool = True, dark_caps: bool = True) -> None:
+def draw_volumes(
+    gl: Any, volumes: Iterable[CasterVolume], light_caps: bool = True, dark_caps: bool = True, sides: bool = True
+) -> None:
     """Draw the sides and the caps of volumes, counter-clockwise seen from outside."""
     for item in volumes:
         volume = item.volume
         with object_space(gl, item.caster):
             gl.glFrontFace(gl.GL_CCW)
-            draw_polygons(gl, volume.sides)
+            if sides:
+                draw_polygons(gl, volume.sides)
             # the surface's own vertices in the surface's own order: what faces the other way turns the rule, not the
             # order
             for positions, is_drawn, kept, turned in (
