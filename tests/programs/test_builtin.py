@@ -30,9 +30,9 @@ def points(seed: int) -> VertexInputs:
 def shaded(name: str, given: VertexInputs, uniforms: dict[str, Any]) -> np.ndarray:
     program = programs.get(name)
     uniforms = {**program.uniforms, **uniforms}
-    out = np.empty((len(given.position), 4), np.float32)
+    out = np.empty((4, len(given.position)), np.float32).T  # by column, as the pipeline hands them over
     inputs = replace(given, uniforms=uniforms)
-    program.shade(program.vertex(inputs).values, uniforms, out)
+    program.shade(np.asfortranarray(program.vertex(inputs).values), uniforms, out)
     return out
 
 

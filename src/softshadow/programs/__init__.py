@@ -2,7 +2,8 @@
 
 A program is data: functions and sources, no class hierarchy. `shade` is called with thousands of a draw's fragments
 at a time, in several threads where there are several, so it may be plain NumPy; the programs of this package call one
-or a few cached kernels each.
+or a few cached kernels each. `inputs` and `out` lie in memory by column: ``inputs[:, 3]`` is one piece, and so are
+``inputs.T`` and ``out.T`` as kernels take them, whose loops over fragments are then vectorised.
 """
 
 from __future__ import annotations

@@ -68,7 +68,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
     names = ("lightPosition", "ambient", "diffuse", "specular")
     light, ambient, diffuse, specular = (np.array(uniforms[name], inputs.dtype) for name in names)
     facing, highlight = lit_by(inputs, light, inputs.dtype.type(uniforms["shininess"]))
-    light_pixels(inputs, facing, highlight, ambient, diffuse, specular, out)
+    light_pixels(np.ascontiguousarray(inputs.T), facing, highlight, ambient, diffuse, specular, out.T)
 
 
 @kernel
@@ -85,7 +85,7 @@ def normalize(v):
 
 def lit_by(inputs: np.ndarray, light: np.ndarray, shininess: Any) -> tuple[np.ndarray, np.ndarray]:
     """Return (facing, highlight) (N,) of pixels: the weights of the diffuse and of the specular light."""
-    eye_and_normal = np.ascontiguousarray(inputs[:, 4:10].T)
+    eye_and_normal = np.ascontiguousarray(inputs.T[4:10])
     facing, highlight = np.empty(len(inputs), inputs.dtype), np.empty(len(inputs), inputs.dtype)
     weigh(eye_and_normal, light, shininess, facing, highlight)
     return facing, highlight
@@ -109,11 +109,12 @@ def weigh(eye_and_normal, light, shininess, facings, highlights):
 
 @kernel
 def light_pixels(inputs, facings, highlights, ambient, diffuse, specular, out):
-    """Light pixels with inputs (N, 4 or more), of which the first are the color, by their weights (N,)."""
-    for n in range(len(inputs)):
-        for c in range(3):
-            out[n, c] = inputs[n, c] * (ambient[c] + facings[n] * diffuse[c]) + highlights[n] * specular[c]
-        out[n, 3] = inputs[n, 3]
+    """Light pixels with inputs (4 or more, N), of which the first are the color, by their weights (N,)."""
+    for c in range(3):
+        from_scene, from_light, shine = ambient[c], diffuse[c], specular[c]
+        for n in range(inputs.shape[1]):
+            out[c, n] = inputs[c, n] * (from_scene + facings[n] * from_light) + highlights[n] * shine
+    out[3, :] = inputs[3]
 
 
 BLINN_PHONG = Program(

@@ -100,7 +100,8 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], radius: int, out: np.
     names = ("lightPosition", "ambient", "diffuse", "specular")
     light, ambient, diffuse, specular = (np.array(uniforms[name], inputs.dtype) for name in names)
     facing, highlight = lit_by(inputs, light, real(uniforms["shininess"]))
-    light_pixels(inputs, lit * facing, lit * highlight, ambient, diffuse, specular, out)
+    columns = np.ascontiguousarray(inputs.T)
+    light_pixels(columns, lit * facing, lit * highlight, ambient, diffuse, specular, out.T)
 
 
 def share(radius: int) -> float:

@@ -52,9 +52,9 @@ class Neighbours(NamedTuple):
 
 
 def filter_cube(
-    texture: Texture, levels: np.ndarray, faces: np.ndarray, places: np.ndarray, kinds: np.ndarray, out: np.ndarray
-) -> None:
-    """Fill `out` (N, 4) from one level for each pixel.
+    texture: Texture, levels: np.ndarray, faces: np.ndarray, places: np.ndarray, kinds: np.ndarray
+) -> np.ndarray:
+    """Return the colours (N, 4) from one level for each pixel.
 
     Parameters
     ----------
@@ -70,11 +70,12 @@ def filter_cube(
     found = Neighbours(np.empty((count, 4, 3), np.int32), np.empty((count, 2), real), np.empty(count, np.int8))
     find_neighbours(faces, places, sides, kinds, bool(sampler.seamless), found)
     texels = gathered(texture, levels, found.texels, real)
-    sources = sources_of(image, sampler)
+    sources, out = sources_of(image, sampler), np.empty((count, 4), real)
     if image.format.kind == "depth" and sampler.compare_mode != GL_NONE:
         mix_compared(texels, places[:, 2], found, sampler.compare_func, image.format.largest > 0, sources, out)
     else:
         mix_texels(texels, found, sources, out)
+    return out
 
 
 def gathered(texture: Texture, levels: np.ndarray, texels: np.ndarray, real: np.dtype) -> np.ndarray:

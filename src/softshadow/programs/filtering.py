@@ -1,8 +1,8 @@
 """One image under one filter, for a batch of coordinates, bit for bit as llvmpipe samples.
 
-`sample_image` picks the kernel: `filter_texels` (nearest, or linear in float), `filter_fixed_point` (linear, 8-bit
-formats under GL_REPEAT and GL_CLAMP_TO_EDGE, which llvmpipe filters in 8-bit integers) or `compare_depth` (shadow
-maps).
+`sample_image` picks the kernel: `gather_texels` (nearest), `filter_texels` (linear in float), `filter_fixed_point`
+(linear, 8-bit formats under GL_REPEAT and GL_CLAMP_TO_EDGE, which llvmpipe filters in 8-bit integers) or
+`compare_depth` (shadow maps). They take coordinates (3, N) and leave colours (k, N): by column, as programs have them.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from softshadow.programs.wrapping import (
     fixed_point_texels,
     linear_texels,
     nearest_texel,
+    nearest_texels,
     wrap_code,
 )
 from softshadow.texture import Sampler
@@ -60,16 +61,28 @@ def sample_image(
 ) -> None:
     """Fill `out` (N, k) from one image, with a linear or the nearest filter; coordinates (N, 3): s, t, reference."""
     sources = sources_of(image, sampler)
+    places, channels = np.ascontiguousarray(coordinates.T), out.T
     if linear and in_8_bits(image, wraps):
         cells = image.cells if image.cells.ndim == 3 else image.cells[:, :, np.newaxis]
-        filter_fixed_point(coordinates, cells, image.width, wraps, sources, out)
+        filter_fixed_point(places, cells, image.width, wraps, sources, channels)
         return
     cells, border, unit = texels_of(image, sampler, coordinates.dtype)
-    where = coordinates, cells, image.width, wraps, border, unit, linear
+    where = places, cells, image.width, wraps, border, unit
     if image.format.kind == "depth" and sampler.compare_mode != gl.GL_NONE:
-        compare_depth(*where, sampler.compare_func, image.format.largest > 0, sources, out)
+        compare_depth(*where, linear, sampler.compare_func, image.format.largest > 0, sources, channels)
+    elif linear:
+        filter_texels(*where, sources, channels)
     else:
-        filter_texels(*where, sources, out)
+        columns, rows = nearest_places(places, image, wraps)
+        gather_texels(columns, rows, cells, image.width, border, unit, sources, channels)
+
+
+def nearest_places(places: np.ndarray, image: Image, wraps: tuple[int, int]) -> np.ndarray:
+    """Return column and row (2, N) int32 of the nearest texels to places (2 or more, N)."""
+    found = np.empty((2, places.shape[1]), np.int32)
+    nearest_texels(places[0], image.width, wraps[0], found[0])
+    nearest_texels(places[1], image.height, wraps[1], found[1])
+    return found
 
 
 def texels_of(image: Image, sampler: Sampler, real: np.dtype) -> tuple[np.ndarray, np.ndarray, Any]:
@@ -128,51 +141,57 @@ def mix_fixed_point(weight, a, b):
 
 
 @kernel
-def filter_texels(coordinates, cells, width, wraps, border, unit, linear, sources, out):
-    """Sample with GL_NEAREST or, in float, GL_LINEAR; `unit` is the value of one cell unit."""
+def gather_texels(columns, rows, cells, width, border, unit, sources, out):
+    """Sample with GL_NEAREST: the texels in columns and rows (N,); `unit` is the value of one cell unit."""
+    for c in range(out.shape[0]):
+        source = sources[c]
+        if source >= CONSTANT_ZERO:
+            out[c, :] = ZERO if source == CONSTANT_ZERO else ONE
+            continue
+        for n in range(len(columns)):
+            out[c, n] = fetch(cells, width, border, unit, columns[n], rows[n], source)
+
+
+@kernel
+def filter_texels(coordinates, cells, width, wraps, border, unit, sources, out):
+    """Sample with GL_LINEAR in float; `unit` is the value of one cell unit."""
     height = cells.shape[0]
-    for n in range(len(coordinates)):
-        if linear:
-            i0, i1, x_weight = linear_texels(coordinates[n, 0], width, wraps[0])
-            j0, j1, y_weight = linear_texels(coordinates[n, 1], height, wraps[1])
-        else:
-            i0 = nearest_texel(coordinates[n, 0], width, wraps[0])
-            j0 = nearest_texel(coordinates[n, 1], height, wraps[1])
-        for c in range(out.shape[1]):
+    for n in range(coordinates.shape[1]):
+        i0, i1, x_weight = linear_texels(coordinates[0, n], width, wraps[0])
+        j0, j1, y_weight = linear_texels(coordinates[1, n], height, wraps[1])
+        for c in range(out.shape[0]):
             source = sources[c]
             if source >= CONSTANT_ZERO:
-                out[n, c] = ZERO if source == CONSTANT_ZERO else ONE
-            elif linear:
-                lower = mix(
-                    x_weight,
-                    fetch(cells, width, border, unit, i0, j0, source),
-                    fetch(cells, width, border, unit, i1, j0, source),
-                )
-                upper = mix(
-                    x_weight,
-                    fetch(cells, width, border, unit, i0, j1, source),
-                    fetch(cells, width, border, unit, i1, j1, source),
-                )
-                out[n, c] = mix(y_weight, lower, upper)
-            else:
-                out[n, c] = fetch(cells, width, border, unit, i0, j0, source)
+                out[c, n] = ZERO if source == CONSTANT_ZERO else ONE
+                continue
+            lower = mix(
+                x_weight,
+                fetch(cells, width, border, unit, i0, j0, source),
+                fetch(cells, width, border, unit, i1, j0, source),
+            )
+            upper = mix(
+                x_weight,
+                fetch(cells, width, border, unit, i0, j1, source),
+                fetch(cells, width, border, unit, i1, j1, source),
+            )
+            out[c, n] = mix(y_weight, lower, upper)
 
 
 @kernel
 def filter_fixed_point(coordinates, cells, width, wraps, sources, out):
     """Sample with GL_LINEAR in 8-bit integers: x first, then y."""
     height = cells.shape[0]
-    for n in range(len(coordinates)):
-        i0, i1, x_weight = fixed_point_texels(coordinates[n, 0], width, wraps[0])
-        j0, j1, y_weight = fixed_point_texels(coordinates[n, 1], height, wraps[1])
-        for c in range(out.shape[1]):
+    for n in range(coordinates.shape[1]):
+        i0, i1, x_weight = fixed_point_texels(coordinates[0, n], width, wraps[0])
+        j0, j1, y_weight = fixed_point_texels(coordinates[1, n], height, wraps[1])
+        for c in range(out.shape[0]):
             source = sources[c]
             if source >= CONSTANT_ZERO:
-                out[n, c] = ZERO if source == CONSTANT_ZERO else ONE
+                out[c, n] = ZERO if source == CONSTANT_ZERO else ONE
             else:
                 lower = mix_fixed_point(x_weight, int(cells[j0, i0, source]), int(cells[j0, i1, source]))
                 upper = mix_fixed_point(x_weight, int(cells[j1, i0, source]), int(cells[j1, i1, source]))
-                out[n, c] = np.float32(mix_fixed_point(y_weight, lower, upper)) * UNORM8_STEP
+                out[c, n] = np.float32(mix_fixed_point(y_weight, lower, upper)) * UNORM8_STEP
 
 
 @kernel
@@ -204,12 +223,12 @@ def in_unit_range(r):
 def compare_depth(coordinates, cells, width, wraps, border, unit, linear, func, clamped, sources, out):
     """Compare r with the depths: 0 or 1, or with GL_LINEAR the share of the 2x2 texels that pass (float weights)."""
     height = cells.shape[0]
-    for n in range(len(coordinates)):
-        r = coordinates[n, 2]
+    for n in range(coordinates.shape[1]):
+        r = coordinates[2, n]
         r = in_unit_range(r) if clamped else r
         if linear:
-            i0, i1, x_weight = linear_texels(coordinates[n, 0], width, wraps[0])
-            j0, j1, y_weight = linear_texels(coordinates[n, 1], height, wraps[1])
+            i0, i1, x_weight = linear_texels(coordinates[0, n], width, wraps[0])
+            j0, j1, y_weight = linear_texels(coordinates[1, n], height, wraps[1])
             rest = ONE - x_weight
             lower = rest if passes(func, r, fetch(cells, width, border, unit, i0, j0, 0)) else ZERO
             lower = (x_weight if passes(func, r, fetch(cells, width, border, unit, i1, j0, 0)) else ZERO) + lower
@@ -217,9 +236,9 @@ def compare_depth(coordinates, cells, width, wraps, border, unit, linear, func, 
             upper = (x_weight if passes(func, r, fetch(cells, width, border, unit, i1, j1, 0)) else ZERO) + upper
             lit = mix(y_weight, lower, upper)
         else:
-            i0 = nearest_texel(coordinates[n, 0], width, wraps[0])
-            j0 = nearest_texel(coordinates[n, 1], height, wraps[1])
+            i0 = nearest_texel(coordinates[0, n], width, wraps[0])
+            j0 = nearest_texel(coordinates[1, n], height, wraps[1])
             lit = ONE if passes(func, r, fetch(cells, width, border, unit, i0, j0, 0)) else ZERO
-        for c in range(out.shape[1]):
+        for c in range(out.shape[0]):
             source = sources[c]
-            out[n, c] = lit if source < CONSTANT_ZERO else (ZERO if source == CONSTANT_ZERO else ONE)
+            out[c, n] = lit if source < CONSTANT_ZERO else (ZERO if source == CONSTANT_ZERO else ONE)

@@ -2,7 +2,7 @@
 
 Under GL_NEAREST the column of a texel depends on one of the two offsets only, and the row on the other: (2 r + 1)²
 lookups take 2 (2 r + 1) texel coordinates. Each is computed as a lookup of its own would compute it, so these are its
-bits.
+bits. Nearly always the texels lie side by side: then they are a base and offsets.
 
 References: Reeves, Salesin & Cook 1987, "Rendering antialiased shadows with depth maps".
 """
@@ -15,11 +15,14 @@ import numpy as np
 
 from softshadow.jit import kernel
 from softshadow.programs import needs_blocks
-from softshadow.programs.filtering import CONSTANT_ZERO, fetch, sources_of, texels_of, wraps_of
+from softshadow.programs.filtering import CONSTANT_ZERO, STEP_OF_23_BITS, fetch, sources_of, texels_of, wraps_of
 from softshadow.programs.sampling import is_complete, sample
-from softshadow.programs.wrapping import nearest_texel
+from softshadow.programs.wrapping import nearest_texels
 from softshadow.texture import Texture
 from softshadow.tokens import GL_NEAREST, GL_NONE
+
+# how the texels of a pixel lie: side by side inside the image, all outside where the border colour is, or otherwise
+SIDE_BY_SIDE, OUTSIDE, MIXED = (np.int8(kind) for kind in range(3))
 
 
 def count_lit(texture: Texture, projected: np.ndarray, depths: np.ndarray, radius: int, texel: Any) -> np.ndarray:
@@ -33,14 +36,22 @@ def count_lit(texture: Texture, projected: np.ndarray, depths: np.ndarray, radiu
     """
     lit = np.zeros(len(projected), projected.dtype)
     offsets = np.arange(-radius, radius + 1).astype(projected.dtype) * texel
-    if is_plain(texture):
+    if radius and is_plain(texture):
         image, sampler = texture.base(), texture.sampler
         assert image is not None
         cells, border, unit = texels_of(image, sampler, projected.dtype)
         wraps = wraps_of(sampler, texture.images.get((0, 0)) or image)
-        count_nearest(projected, depths, offsets, cells, image.width, wraps, border, unit, lit)
+        texels = np.empty((2, len(offsets), len(projected)), np.int32)
+        for axis, size in enumerate((image.width, image.height)):
+            for texel_of, offset in zip(texels[axis], offsets, strict=True):
+                nearest_texels(projected[:, axis] + offset, size, wraps[axis], texel_of)
+        kinds = np.empty(len(projected), np.int8)
+        classify(texels, image.width, image.height, kinds)
+        if unit == STEP_OF_23_BITS:
+            kinds[kinds == SIDE_BY_SIDE] = MIXED
+        count_nearest(texels, kinds, depths, cells, image.width, border, unit, lit)
         return lit
-    place, stored = projected.copy(), np.empty((len(projected), 1), projected.dtype)
+    place, stored = projected.copy(order="F"), np.empty((len(projected), 1), projected.dtype)
     for t_offset in offsets:
         place[:, 1] = projected[:, 1] + t_offset
         for s_offset in offsets:
@@ -60,20 +71,45 @@ def is_plain(texture: Texture) -> bool:
 
 
 @kernel
-def count_nearest(projected, depths, offsets, cells, width, wraps, border, unit, lit):
-    """Add to `lit` (N,) how many texels round each place are at least as far as its depth; all texels' first channel.
+def classify(texels, width, height, kinds):
+    """Write what is known of each pixel's texels (2, k, N), columns and rows, to `kinds` (N,)."""
+    columns, rows = texels[0], texels[1]
+    last, inside = texels.shape[1] - 1, np.empty(len(kinds), np.bool_)
+    for n in range(len(kinds)):
+        inside[n] = (columns[0, n] >= 0) & (columns[last, n] < width) & (rows[0, n] >= 0) & (rows[last, n] < height)
+    for i in range(last):
+        for n in range(len(kinds)):
+            inside[n] &= (columns[i + 1, n] - columns[i, n] == 1) & (rows[i + 1, n] - rows[i, n] == 1)
+    beside, above = np.ones(len(kinds), np.bool_), np.ones(len(kinds), np.bool_)
+    for i in range(last + 1):
+        for n in range(len(kinds)):
+            beside[n] &= (columns[i, n] < 0) | (columns[i, n] >= width)
+            above[n] &= (rows[i, n] < 0) | (rows[i, n] >= height)
+    for n in range(len(kinds)):
+        kinds[n] = OUTSIDE if beside[n] | above[n] else (SIDE_BY_SIDE if inside[n] else MIXED)
 
-    The columns of one row are looked up before the next row, so that neighbours in memory are read together.
+
+@kernel
+def count_nearest(texels, kinds, depths, cells, width, border, unit, lit):
+    """Write to `lit` (N,) how many of each pixel's texels are at least as far as its depth; all texels' first channel.
+
+    `texels` (2, k, N) are k columns and k rows of each pixel, of which `kinds` (N,) says how they lie. Those of one row
+    are read before the next row.
     """
-    height, side = cells.shape[0], offsets.shape[0]
-    columns = np.empty(side, np.int64)
-    for n in range(projected.shape[0]):
-        s, t, depth = projected[n, 0], projected[n, 1], depths[n]
-        for i in range(side):
-            columns[i] = nearest_texel(s + offsets[i], width, wraps[0])
-        count = 0
-        for j in range(side):
-            row = nearest_texel(t + offsets[j], height, wraps[1])
-            for i in range(side):
-                count += 1 if depth <= fetch(cells, width, border, unit, columns[i], row, 0) else 0
-        lit[n] += count
+    columns, rows, side = texels[0], texels[1], texels.shape[1]
+    for n in range(len(lit)):
+        depth, count = depths[n], 0
+        if kinds[n] == OUTSIDE:
+            count = side * side if depth <= border[0] else 0
+        elif kinds[n] == SIDE_BY_SIDE:
+            left, top = np.uint64(columns[0, n]), np.uint64(rows[0, n])  # unsigned: no index counts from the end
+            for j in range(side):
+                row = cells[top + np.uint64(j)]
+                for i in range(side):
+                    count += 1 if depth <= border.dtype.type(row[left + np.uint64(i), 0]) * unit else 0
+        else:
+            for j in range(side):
+                for i in range(side):
+                    texel = fetch(cells, width, border, unit, columns[i, n], rows[j, n], 0)
+                    count += 1 if depth <= texel else 0
+        lit[n] = count

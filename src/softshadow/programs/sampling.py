@@ -92,18 +92,17 @@ def divide(coordinates: np.ndarray) -> np.ndarray:
     It decides which texel a coordinate on the edge of two finds: `project` is what texture2DProj and the fixed function
     do, and differs from this in the last bit of a quarter of all quotients.
     """
-    quotients = np.empty((len(coordinates), 3), coordinates.dtype)
-    divide_all(coordinates, quotients)
-    return quotients
+    quotients = np.empty((3, len(coordinates)), coordinates.dtype)
+    divide_all(np.ascontiguousarray(coordinates.T), quotients)
+    return quotients.T
 
 
 @kernel
 def divide_all(coordinates, quotients):
-    """Write (s, t, r) / q of coordinates (N, 4) to `quotients` (N, 3); q = 0 gives infinities, as in GL."""
-    for n in range(len(coordinates)):
-        q = coordinates[n, 3]
-        for c in range(3):
-            quotients[n, c] = coordinates[n, c] / q
+    """Write (s, t, r) / q of coordinates (4, N) to `quotients` (3, N); q = 0 gives infinities, as in GL."""
+    for c in range(3):
+        for n in range(coordinates.shape[1]):
+            quotients[c, n] = coordinates[c, n] / coordinates[3, n]
 
 
 def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
@@ -146,7 +145,7 @@ def levels_of(texture: Texture, coordinates: np.ndarray) -> Levels:
     if texture.target != GL_TEXTURE_CUBE_MAP:
         squared = squared_texels_per_pixel(coordinates, image.width, image.height)
     else:
-        squared = cube_maps.squared_texels_per_pixel(coordinates, image.width)
+        squared = cube_maps.squared_texels_per_pixel(np.ascontiguousarray(coordinates), image.width)
         squared = squared if is_mipmapped(texture) else squared[::PIXELS_OF_A_BLOCK]
     levels = select_levels(squared, sampler, texture.last_level() - sampler.base_level)
     return Levels(*(np.repeat(a, len(coordinates) // len(squared)) for a in levels)) if len(squared) else levels
@@ -158,7 +157,7 @@ def look_up(texture: Texture, coordinates: np.ndarray) -> Lookup:
         first = texture.images.get((0, 0)) or texture.base()
         assert first is not None
         return Lookup(texture, wraps_of(texture.sampler, first), coordinates, None)
-    faces, places = cube_maps.on_faces(coordinates, decides_by_derivatives(texture))
+    faces, places = cube_maps.on_faces(np.ascontiguousarray(coordinates), decides_by_derivatives(texture))
     return Lookup(texture, (GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE), places, faces)
 
 
@@ -195,11 +194,10 @@ def sample_cube_in_float(lookup: Lookup, levels: Levels, out: np.ndarray) -> Non
     lower = np.zeros_like(levels.lower) if between == GL_NONE else levels.lower
     if within != sampler.mag_filter:
         lower = np.where(levels.minified, lower, 0)
-    filter_cube(texture, lower + sampler.base_level, faces, lookup.coordinates, kinds, out)
+    out[:] = filter_cube(texture, lower + sampler.base_level, faces, lookup.coordinates, kinds)
     mixed = levels.weight > 0
     if between == GL_LINEAR and mixed.any():
-        upper = np.empty_like(out)
-        filter_cube(texture, levels.upper + sampler.base_level, faces, lookup.coordinates, kinds, upper)
+        upper = filter_cube(texture, levels.upper + sampler.base_level, faces, lookup.coordinates, kinds)
         out[mixed] = mix_in_float(out[mixed], upper[mixed], levels.weight[mixed, np.newaxis])
 
 
@@ -212,7 +210,7 @@ def sample_level(lookup: Lookup, level: int, filter_name: int, out: np.ndarray) 
     else:
         for face in np.unique(lookup.faces):
             pixels = np.nonzero(lookup.faces == face)[0]
-            part = np.empty((len(pixels), out.shape[1]), out.dtype)
+            part = np.empty((out.shape[1], len(pixels)), out.dtype).T
             coordinates = lookup.coordinates[pixels]
             sample_image(images[int(face), level], texture.sampler, lookup.wraps, linear, coordinates, part)
             out[pixels] = part
@@ -228,7 +226,7 @@ def sample_levels(lookup: Lookup, levels: Levels, out: np.ndarray) -> None:
     def fill(chosen: np.ndarray, which: np.ndarray, filter_name: int, into: np.ndarray) -> None:
         for level in np.unique(which[chosen]):
             pixels = np.nonzero(chosen & (which == level))[0]
-            part = np.empty((len(pixels), out.shape[1]), out.dtype)
+            part = np.empty((out.shape[1], len(pixels)), out.dtype).T
             faces = None if lookup.faces is None else lookup.faces[pixels]
             chosen_lookup = lookup._replace(coordinates=lookup.coordinates[pixels], faces=faces)
             sample_level(chosen_lookup, int(level), filter_name, part)

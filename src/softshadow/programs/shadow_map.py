@@ -64,19 +64,22 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
     projected = divide(inputs[:, 4:])
     stored = np.empty((len(out), 1), out.dtype)
     sample(uniforms["shadowMap"], projected, stored)
-    ambient = np.array(uniforms["ambient"], inputs.dtype)
-    compare(inputs, projected, stored, ambient, inputs.dtype.type(uniforms["bias"]), out)
+    ambient, bias = np.array(uniforms["ambient"], inputs.dtype), inputs.dtype.type(uniforms["bias"])
+    compare(np.ascontiguousarray(inputs.T), projected.T, stored[:, 0], ambient, bias, out.T)
 
 
 @kernel
 def compare(inputs, projected, stored, ambient, bias, out):
-    """Choose the colours of pixels with inputs (N, 8), projected coordinates (N, 3) and stored depths (N, 1)."""
-    for n in range(len(inputs)):
-        s, t, true_depth = projected[n, 0], projected[n, 1], projected[n, 2]
-        outside = inputs[n, 7] <= ZERO or s < ZERO or s > ONE or t < ZERO or t > ONE
-        lit = outside or true_depth - bias <= stored[n, 0]
-        for c in range(4):
-            out[n, c] = inputs[n, c] if lit else inputs[n, c] * ambient[c]
+    """Choose the colours of pixels with inputs (8, N), projected coordinates (3, N) and stored depths (N,)."""
+    lit = np.empty(len(stored), np.bool_)
+    for n in range(len(stored)):
+        s, t, true_depth = projected[0, n], projected[1, n], projected[2, n]
+        outside = (inputs[7, n] <= ZERO) | (s < ZERO) | (s > ONE) | (t < ZERO) | (t > ONE)
+        lit[n] = outside | (true_depth - bias <= stored[n])
+    for c in range(4):
+        in_shadow = ambient[c]
+        for n in range(len(stored)):
+            out[c, n] = inputs[c, n] if lit[n] else inputs[c, n] * in_shadow
 
 
 SHADOW_MAP = Program(
