@@ -7,11 +7,13 @@ import pytest
 
 from softshadow import tokens as gl
 from softshadow.image import FORMATS, Image
-from softshadow.pipeline.blend import blend_ops, compared_alpha, write_colors
-from softshadow.pipeline.fragments import Fragments
+from softshadow.pipeline.blend import blend_ops, compared_alpha
+from softshadow.pipeline.color_writes import color_writer
+from softshadow.pipeline.runs import Runs
 from softshadow.state import Blend, State
 
 F32 = np.float32
+FIRST_PIXEL = Runs(*np.zeros((3, 1), np.int32), np.arange(2))
 SOURCE, TARGET = (0.25, 2.0, -1.5, 0.5), (1.0, -3.0, 0.75, 4.0)
 
 
@@ -20,8 +22,7 @@ def blended(internal, source=SOURCE, target=TARGET, **blend):
     image = Image.new(FORMATS[internal], 1, 1, internal)
     image.cells[0, 0] = target
     state = replace(State(), blend=Blend(enabled=True, **blend))
-    first = np.zeros(1, np.int32)
-    write_colors(state, image, Fragments(first, first, first), np.array([source], F32))
+    color_writer(state, image)(FIRST_PIXEL, np.array([source], F32))
     return image.cells[0, 0].tolist()
 
 
@@ -91,8 +92,7 @@ def test_alphas_are_compared_in_the_precision_of_the_buffer():
 def test_a_color_that_does_not_fit_an_integer_is_written_as_0():
     large = (np.inf, 8421505.0, 8421504.0, np.inf)  # times 255: on both sides of 2**31
     image = Image.new(FORMATS[gl.GL_RGBA8], 1, 1)
-    first = np.zeros(1, np.int32)
-    write_colors(State(), image, Fragments(first, first, first), np.array([large], F32))
+    color_writer(State(), image)(FIRST_PIXEL, np.array([large], F32))
     assert image.cells[0, 0].tolist() == [0, 0, 255, 0]
 
 

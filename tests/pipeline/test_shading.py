@@ -11,7 +11,7 @@ from draws import draw, random_state, random_triangles, same_window, vertices
 from softshadow import pipeline
 from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.pipeline import blend, set_threads, shading, threads
+from softshadow.pipeline import blend, color_writes, set_threads, shading, threads
 from softshadow.state import Blend
 
 ADDING = Blend(enabled=True, src_rgb=gl.GL_ONE, dst_rgb=gl.GL_ONE, src_alpha=gl.GL_ONE, dst_alpha=gl.GL_ONE)
@@ -62,13 +62,13 @@ def test_results_do_not_depend_on_batches(seed, func, thread_count):
 @pytest.mark.interpreted
 def test_bytes_are_added_as_the_blend_equation_adds_them():
     source, target = (a.astype(np.uint8).repeat(4, axis=1) for a in (np.arange(256)[:, None], np.arange(256)[:, None]))
-    rows, columns, mask = np.zeros(256, np.int32), np.arange(256, dtype=np.int32), np.array([True, True, False, True])
+    run = np.zeros(1, np.int32), np.zeros(1, np.int32), np.array([0, 256])
     state = blend.blend_ops(ADDING, Context(1, 1).storage.window.color.format)
-    assert blend.adds(state)
+    assert color_writes.adds(state)
     for shift in (0, 1, 2, 128, 255):
         expected, found = np.roll(target, shift, axis=0)[None].copy(), np.roll(target, shift, axis=0)[None].copy()
-        blend.blend_fragments(state, rows, columns, source, mask, expected)
-        blend.add_fragments(rows, columns, source, mask, found)
+        color_writes.blend_bytes(state, *run, source, np.ones(4, bool), expected)
+        color_writes.add_bytes(*run, source.reshape(-1), found.reshape(1, -1))
         assert np.array_equal(found, expected)
 
 

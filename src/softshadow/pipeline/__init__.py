@@ -5,7 +5,7 @@
     Draw --> geometry ---------------------------------------------> triangles
              vertex > clip > window > setup                              |
                                                                          v
-             opaque:   fill (coverage, depth, process_fragment) ----> triangle per pixel --> shade --> write
+             opaque:   fill (coverage, depth, process_fragment) ----> triangle per pixel --> runs --> shade --> write
              ordered:  list fragments --> process_fragment --> those that passed --> shade --> blend, write
 
 Opaque draws shade each visible pixel once, after the fill; draws whose colours depend on the order of their fragments
@@ -23,15 +23,17 @@ from softshadow.errors import StateError
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.bands import set_threads, threads
 from softshadow.pipeline.binding import VERDICT_COUNTS, fill, use_binding
-from softshadow.pipeline.blend import compared_alpha, needs_order, tests_alpha, write_colors
+from softshadow.pipeline.blend import compared_alpha, needs_order, tests_alpha
 from softshadow.pipeline.clear import clear
+from softshadow.pipeline.color_writes import color_writer
 from softshadow.pipeline.coverage import extent
 from softshadow.pipeline.fill import Region
 from softshadow.pipeline.fragment_ops import PASSED, VERDICTS, fragment_ops
 from softshadow.pipeline.fragments import Fragments, list_fragments, test_fragments
 from softshadow.pipeline.geometry import Geometry, depth_range_of, process_geometry, region_of
+from softshadow.pipeline.runs import runs_of, visible_runs
 from softshadow.pipeline.setup import Setup
-from softshadow.pipeline.shading import list_visible, shade, shade_and_write
+from softshadow.pipeline.shading import shade, shade_and_write
 from softshadow.pipeline.sole_fragments import sole_fragments
 
 if TYPE_CHECKING:
@@ -80,7 +82,7 @@ def _draw_opaque(
     depth_range = depth_range_of(state, geometry.window.dtype.type)
     fill(front, back, triangles, fragments, region, depth_range, depth, stencil, ids, verdicts)
     if ids is not None:
-        shade_and_write(state, target, geometry, list_visible(ids, region.first_row), ordered=False)
+        shade_and_write(state, target, geometry, visible_runs(ids, region.first_row), ordered=False)
 
 
 def _draw_in_order(
@@ -95,10 +97,10 @@ def _draw_in_order(
         planes = _planes(target, geometry.window.dtype)
         ids = sole_fragments(front, back, triangles, count, used, depth_range, *planes)
         if ids is not None:
-            shade_and_write(state, target, geometry, list_visible(ids, used.first_row), ordered=False)
+            shade_and_write(state, target, geometry, visible_runs(ids, used.first_row), ordered=False)
             return
     fragments = list_fragments(triangles, region)
-    colors = shade(geometry, fragments) if tests_alpha(state) else None
+    colors = shade(geometry, runs_of(fragments)) if tests_alpha(state) else None
     depth, stencil = _planes(target, geometry.window.dtype)
     alpha, alpha_ref = np.zeros(len(fragments.row), np.uint8), 0
     if colors is not None:
@@ -115,12 +117,12 @@ def _draw_in_order(
         verdicts[-1] += changed
     if writes_color:
         passed = np.flatnonzero(verdict == PASSED)
-        written = Fragments(*(part[passed] for part in fragments))
+        written = runs_of(Fragments(*(part[passed] for part in fragments)))
         if colors is None:
             shade_and_write(state, target, geometry, written, ordered=True)
         else:
             for image in target.colors:
-                write_colors(state, image, written, colors[passed])
+                color_writer(state, image)(written, colors[passed])
 
 
 def _covered(triangles: Setup, region: Region) -> tuple[Region, int]:

@@ -1,4 +1,4 @@
-"""Writing colours: rounding to 8 bits, blending, logic operations and the colour mask.
+"""Blending and logic operations of single colours, and the bytes that the alpha test compares.
 
 Bytes are blended as bytes, floats as floats and never clamped, both in the order of operations of llvmpipe
 (lp_bld_blend.c), which takes short cuts where equal or complementary factors allow them.
@@ -12,11 +12,9 @@ from softshadow import tokens as gl
 from softshadow.image import Format, Image
 from softshadow.jit import kernel
 from softshadow.pipeline.constants import ONE
-from softshadow.pipeline.fragments import Fragments
 from softshadow.state import Blend, State
 
 ALPHA = 3
-ZERO, LARGEST_BYTE, INT32_END = np.float32(0), np.float32(255), np.float32(2.0**31)
 FOUR_BYTES = (gl.GL_RGB, gl.GL_RGBA)  # the formats of 8-bit buffers that have room for an alpha
 OF_ALPHA_ONE = {gl.GL_DST_ALPHA: gl.GL_ONE, gl.GL_ONE_MINUS_DST_ALPHA: gl.GL_ZERO}
 # a factor and its complement in pairs, the plain one first
@@ -56,29 +54,6 @@ def to_unorm8(values: np.ndarray) -> np.ndarray:
     """
     real = values.dtype.type
     return np.rint(np.minimum(np.fmax(values, real(0)), real(1)) * real(255)).astype(np.uint8)
-
-
-def written_unorm8(values: np.ndarray, format: Format) -> np.ndarray:
-    """Return colours (n, 4) of fragments as the bytes that are written: `to_unorm8`, but 0 from 2**31 / 255 on.
-
-    llvmpipe makes them int32 before it clamps them, and what does not fit, infinity too, becomes the lowest integer
-    (cvtps2dq; lp_bld_conv.c). A colour is infinite where its triangle's 1/w is 0. An alpha that has no room in the
-    buffer, and only blends, is clamped first.
-    """
-    written = np.empty(values.shape, np.uint8)
-    round_to_bytes(np.ascontiguousarray(values).reshape(-1), written.reshape(-1))
-    if format.base not in FOUR_BYTES:
-        written[:, ALPHA] = to_unorm8(values[:, ALPHA])
-    return written
-
-
-@kernel
-def round_to_bytes(values, written):
-    """Write values (n,) as `written_unorm8` says; a kernel of its own, so that the loop is vectorised."""
-    for n in range(values.shape[0]):
-        v = values[n]
-        v = v if v > ZERO and v * LARGEST_BYTE < INT32_END else ZERO
-        written[n] = np.uint8(np.rint((v if v < ONE else ONE) * LARGEST_BYTE))
 
 
 def compared_alpha(state: State, color: Image | None, alpha: np.ndarray) -> tuple[np.ndarray, int]:
@@ -273,76 +248,3 @@ def blend_float_fragment(ops, source, target, blended):
         a, b = factors_of(ops, c, s, d, source[ALPHA], target[ALPHA], ONE)
         name = ops.equation_rgb if c < ALPHA else ops.equation_alpha
         blended[c] = float_equation(name, s, d, a, b, ops.shared, complement)
-
-
-@kernel
-def write_fragments(rows, columns, colors, mask, cells):
-    """Write fragments into `cells` (H, pitch, 4) one after the other, under the colour mask (4,)."""
-    for n in range(rows.shape[0]):
-        target = cells[rows[n], columns[n]]
-        for c in range(4):
-            if mask[c]:
-                target[c] = colors[n, c]
-
-
-def adds(ops: BlendOps) -> bool:
-    """Return whether blending is the clamped sum of bytes: light upon light."""
-    factors = (ops.src_rgb, ops.dst_rgb, ops.src_alpha, ops.dst_alpha)
-    equations = (ops.equation_rgb, ops.equation_alpha)
-    return factors == (gl.GL_ONE,) * 4 and equations == (gl.GL_FUNC_ADD,) * 2 and not ops.logic_op
-
-
-@kernel
-def add_fragments(rows, columns, colors, mask, cells):
-    """`blend_fragments` of a state that `adds`: no state is looked at per channel, 11 times as fast."""
-    for n in range(rows.shape[0]):
-        target = cells[rows[n], columns[n]]
-        for c in range(4):
-            if mask[c]:
-                target[c] = min(np.int64(target[c]) + np.int64(colors[n, c]), 255)
-
-
-@kernel
-def blend_fragments(ops, rows, columns, colors, mask, cells):
-    """Blend fragments into `cells` (H, pitch, 4) of bytes one after the other, under the colour mask (4,)."""
-    blended = np.zeros(4, np.uint8)
-    for n in range(rows.shape[0]):
-        target = cells[rows[n], columns[n]]
-        blend_fragment(ops, colors[n], target, blended)
-        for c in range(4):
-            if mask[c]:
-                target[c] = blended[c]
-
-
-@kernel
-def blend_float_fragments(ops, rows, columns, colors, mask, cells):
-    """Blend fragments into `cells` (H, pitch, 4) of float32 one after the other, under the colour mask (4,)."""
-    blended = np.zeros(4, np.float32)
-    for n in range(rows.shape[0]):
-        target = cells[rows[n], columns[n]]
-        blend_float_fragment(ops, colors[n], target, blended)
-        for c in range(4):
-            if mask[c]:
-                target[c] = blended[c]
-
-
-def write_colors(state: State, color: Image, fragments: Fragments, values: np.ndarray) -> None:
-    """Write shaded colours (n, 4) in order, blended where the state says so.
-
-    Without blending the last fragment of a pixel wins. Floats have no logic operations: where one is on they are
-    written as they are.
-    """
-    where = fragments.row, fragments.column
-    mask = np.array(state.color.mask) & np.array(color.format.written)
-    floats = color.format.kind == "float"
-    stored = values.astype(np.float32) if floats else written_unorm8(values, color.format)
-    ops = blend_ops(state.blend, color.format)
-    if floats and state.blend.enabled and not state.blend.logic_enabled:
-        blend_float_fragments(ops, *where, stored, mask, color.cells)
-    elif not floats and (state.blend.enabled or state.blend.logic_enabled):
-        if adds(ops):
-            add_fragments(*where, stored, mask, color.cells)
-        else:
-            blend_fragments(ops, *where, stored, mask, color.cells)
-    else:
-        write_fragments(*where, stored, mask, color.cells)

@@ -1,0 +1,103 @@
+"""Runs of fragments: how they are found, cut into batches, interpolated and written."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softshadow import tokens as gl
+from softshadow.image import FORMATS, Image
+from softshadow.pipeline.color_writes import color_writer
+from softshadow.pipeline.interpolate import LONG, interpolate
+from softshadow.pipeline.runs import Runs, fragments_of, runs_of, visible_runs
+from softshadow.state import Blend, State
+
+pytestmark = pytest.mark.interpreted
+SIZE = 24
+
+
+def some_ids(seed):
+    """Triangles 0 to 2, and -1 for none, in pieces of a few pixels."""
+    rng = np.random.default_rng(seed)
+    return np.repeat(rng.integers(-1, 3, (5, SIZE // 2), dtype=np.int32), rng.integers(1, 4, SIZE // 2), axis=1)
+
+
+def two_runs(long):
+    """Runs of one row and triangle: one long run, or the same pixels one by one."""
+    count = LONG + 5
+    if long:
+        row, left, start = np.array([3]), np.array([2]), np.array([0, count])
+    else:
+        row, left, start = np.full(count, 3), np.arange(2, 2 + count), np.arange(count + 1)
+    return Runs(row.astype(np.int32), left.astype(np.int32), np.zeros(len(row), np.int32), start)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_runs_are_the_visible_pixels(seed):
+    ids = some_ids(seed)
+    runs = visible_runs(ids, 7)
+    row, column, triangle = fragments_of(runs)
+    assert np.array_equal(np.stack([row - 7, column]), np.nonzero(ids >= 0))
+    assert np.array_equal(triangle, ids[row - 7, column])
+    again = runs_of(fragments_of(runs))
+    assert all(np.array_equal(a, b) for a, b in zip(runs, again, strict=True))
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 30))
+def test_batches_are_all_runs_one_after_the_other(seed, size):
+    runs = visible_runs(some_ids(seed), 0)
+    parts = [runs.part(first, end) for first, end in pairwise(runs.batches(size))]
+    together = [np.concatenate(fields) for fields in zip(*map(fragments_of, parts), strict=True)] if parts else []
+    assert all(np.array_equal(a, b) for a, b in zip(together, fragments_of(runs), strict=bool(parts)))
+    assert sum(part.fragments for part in parts) == runs.fragments
+    assert all(part.fragments <= size + 3 * SIZE for part in parts)
+
+
+def test_no_fragments_have_no_runs():
+    nothing = visible_runs(np.full((2, 3), -1, np.int32), 0)
+    assert nothing.fragments == 0
+    assert len(nothing.batches(10)) == 1
+    assert runs_of(fragments_of(nothing)).fragments == 0
+
+
+@pytest.mark.parametrize("real", [np.float32, np.float64])
+def test_a_long_run_is_interpolated_like_its_pixels(real):
+    rng = np.random.default_rng(1)
+    planes, flat = rng.normal(size=(1, 5, 3)).astype(real), np.array([False, True, False, False])
+    found = []
+    for long in (True, False):
+        out = np.zeros((5, LONG + 5), real)
+        columns = np.arange(64, dtype=real)
+        interpolate(planes, np.zeros(1, np.int32), *two_runs(long), columns, flat, out)
+        found.append(out[:4])
+    assert np.array_equal(*found)
+    assert (found[0][1] == planes[0, 1, 0]).all()
+    assert len(np.unique(found[0][0])) == LONG + 5
+
+
+@pytest.mark.parametrize("internal", [gl.GL_RGBA8, gl.GL_RGB8, gl.GL_RGBA32F])
+@pytest.mark.parametrize("adding", [False, True])
+@pytest.mark.parametrize("mask", [(True,) * 4, (True, False, True, False), (False,) * 4])
+def test_a_run_is_written_under_the_color_mask(mask, adding, internal):
+    rng = np.random.default_rng(2)
+    image = Image.new(FORMATS[internal], 32, 4, internal)
+    image.cells[..., :3] = rng.integers(0, 256, image.cells[..., :3].shape)
+    before, runs = image.cells.copy(), two_runs(long=True)
+    ones = Blend(adding, gl.GL_ONE, gl.GL_ONE, gl.GL_ONE, gl.GL_ONE)
+    state = replace(State(), blend=ones, color=replace(State().color, mask=mask))
+    colors = rng.uniform(-1, 2, (runs.fragments, 4)).astype(np.float32)
+    color_writer(state, image)(runs, colors)
+    drawn = colors
+    if image.format.kind == "unorm8":
+        drawn = np.rint(colors.clip(0, 1) * np.float32(255))
+    expected, place = before.copy(), np.s_[3, 2 : 2 + runs.fragments]
+    blended = drawn + before[place] if adding else drawn
+    if image.format.kind == "unorm8":
+        blended = blended.clip(0, 255)
+    taken = np.array(mask) & np.array(image.format.written)
+    expected[place] = np.where(taken, blended, before[place])
+    assert np.array_equal(image.cells, expected)
+    assert np.array_equal(before, expected) != any(mask)
