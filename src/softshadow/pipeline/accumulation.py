@@ -7,15 +7,20 @@ References: GL 2.1, sec. 4.2.4; Mesa 22.3, main/accum.c.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.jit import kernel
 from softshadow.pipeline.bands import in_batches
-from softshadow.pipeline.blend import to_unorm8
+from softshadow.pipeline.color_writes import LARGEST_BYTE
+from softshadow.pipeline.constants import ONE, ZERO
+from softshadow.pipeline.fill import Region
 from softshadow.pipeline.geometry import region_of
+from softshadow.programs.wrapping import to_int32
 
 if TYPE_CHECKING:
     from softshadow.pipeline.commands import Accumulate
@@ -23,7 +28,7 @@ if TYPE_CHECKING:
 LARGEST = np.float32(32767)
 BYTE_STEP = np.float32(1) / np.float32(255)
 CHANNELS = 4
-ROWS = 16  # at a time; 640 columns of their intermediate floats stay in the cache
+ROWS = 64  # at a time
 
 
 def accumulate(command: Accumulate, storage: Storage) -> None:
@@ -32,30 +37,55 @@ def accumulate(command: Accumulate, storage: Storage) -> None:
     target = storage.framebuffers[state.draw_framebuffer]
     region = region_of(state, target)
     where = np.s_[region.first_row : region.end_row, region.left : region.right]
-    sums = buffer_of(target)[where]
+    sums = buffer_of(target)
     if command.operation == gl.GL_ADD:
-        sums += cut(value * LARGEST)
+        sums[where] += cut(value * LARGEST)
     elif command.operation == gl.GL_MULT:
-        sums[:] = cut(sums.astype(np.float32) * value)
+        sums[where] = cut(sums[where].astype(np.float32) * value)
     elif command.operation == gl.GL_RETURN:
-        colors = to_unorm8(sums.astype(np.float32) * (value / LARGEST))
+        colors, mask = np.empty_like(sums, np.uint8), np.array(state.color.mask)
+        by_rows(write_bytes, region, sums, value / LARGEST, colors)
         for image in target.colors:
-            for channel in np.flatnonzero(state.color.mask):
-                image.cells[where][..., channel] = colors[..., channel]
+            image.cells[where] = colors[where] if mask.all() else np.where(mask, colors[where], image.cells[where])
     elif target.read_color is not None:
         if command.operation == gl.GL_LOAD:
-            sums[:] = 0
-        add_products(target.read_color.cells[where], value, sums)
+            sums[where] = 0
+        by_rows(add_products, region, target.read_color.cells, value * LARGEST, sums)
 
 
-def add_products(colors: np.ndarray, value: np.float32, sums: np.ndarray) -> None:
-    """Add bytes (rows, columns, 4) times a value to the sums, a few rows at a time, which stay in the cache."""
+def by_rows(work: Callable[..., None], region: Region, source: np.ndarray, factor: np.float32, out: np.ndarray) -> None:
+    """Call ``work(source, factor, left, right, out)`` for bands of rows of a region, on whichever threads are free.
 
-    def rows(first: int, end: int) -> None:
+    `source` and `out` (rows, columns, 4) become rows of channels, of which those from left to right count.
+    """
+    first, columns = region.first_row, (CHANNELS * region.left, CHANNELS * region.right)
+    from_rows, to_rows = (cells.reshape(len(cells), -1)[first : region.end_row] for cells in (source, out))
+
+    def rows(begin: int, end: int) -> None:
         with np.errstate(all="ignore"):  # set per thread
-            sums[first:end] += cut(colors[first:end].astype(np.float32) * BYTE_STEP * (value * LARGEST))
+            work(from_rows[begin:end], factor, *columns, to_rows[begin:end])
 
-    in_batches(rows, len(colors), ROWS)
+    in_batches(rows, len(from_rows), ROWS)
+
+
+@kernel
+def add_products(colors, factor, left, right, sums):
+    """Add bytes that stand for 0 to 1 times a factor to the sums, cut towards zero and wrapped around."""
+    for row in range(colors.shape[0]):
+        source, target = colors[row, left:right], sums[row, left:right]
+        for i in range(source.shape[0]):
+            target[i] += np.int16(to_int32(np.float32(source[i]) * BYTE_STEP * factor))
+
+
+@kernel
+def write_bytes(sums, factor, left, right, colors):
+    """Write sums times a factor as bytes, clamped to 0 to 1; NaN becomes 0."""
+    for row in range(sums.shape[0]):
+        source, target = sums[row, left:right], colors[row, left:right]
+        for i in range(source.shape[0]):
+            value = np.float32(source[i]) * factor
+            value = value if value > ZERO else ZERO
+            target[i] = np.uint8(np.rint((value if value < ONE else ONE) * LARGEST_BYTE))
 
 
 def buffer_of(target: Framebuffer) -> np.ndarray:

@@ -14,6 +14,7 @@ from softshadow.framebuffer import DEFAULT, Framebuffer, Storage
 from softshadow.image import EXACT_DEPTH, Image
 from softshadow.pipeline import accumulation
 from softshadow.pipeline.blend import to_unorm8
+from softshadow.pipeline.color_writes import as_pixels
 from softshadow.pipeline.geometry import region_of
 from softshadow.pixels import largest_stood_for, quantized_depth
 from softshadow.state import State
@@ -31,8 +32,11 @@ def clear(command: Clear, storage: Storage) -> None:
     for image in target.colors if command.mask & gl.GL_COLOR_BUFFER_BIT else ():
         color = np.array(state.color.clear, np.float32)
         value = to_unorm8(color) if image.format.kind == "unorm8" else color
-        for channel, (masked, stored) in enumerate(zip(state.color.mask, image.format.written, strict=True)):
-            if masked and stored:
+        written = np.array(state.color.mask) & np.array(image.format.written)
+        if written.all() and image.format.kind == "unorm8":
+            as_pixels(image.cells)[where] = as_pixels(value)
+        else:
+            for channel in np.flatnonzero(written):
                 image.cells[where][..., channel] = value[channel]
     if command.mask & gl.GL_DEPTH_BUFFER_BIT and target.depth is not None and state.depth.write:
         drawn = is_drawn(state, target, command.mask) and target.depth.format != EXACT_DEPTH
