@@ -12,9 +12,11 @@ if TYPE_CHECKING:
     from softshadow import gl, testing
     from softshadow.errors import (
         CounterSaturated,
+        DegenerateFaces,
         InsideOutMesh,
         LightInsideCaster,
         MeshError,
+        MisorientedMesh,
         NearClipZPass,
         NonManifoldMesh,
         OpenMesh,
@@ -23,6 +25,8 @@ if TYPE_CHECKING:
         SceneError,
         SoftShadowError,
         StateError,
+        TJunction,
+        UnweldedMesh,
         Warning,
     )
     from softshadow.failures import GALLERY as failures
@@ -38,12 +42,14 @@ __version__ = "0.1.0"
 __all__ = [
     "Camera",
     "CounterSaturated",
+    "DegenerateFaces",
     "InsideOutMesh",
     "Light",
     "LightInsideCaster",
     "Material",
     "Mesh",
     "MeshError",
+    "MisorientedMesh",
     "NearClipZPass",
     "NonManifoldMesh",
     "OpenMesh",
@@ -55,6 +61,8 @@ __all__ = [
     "SceneObject",
     "SoftShadowError",
     "StateError",
+    "TJunction",
+    "UnweldedMesh",
     "Warning",
     "describe",
     "failures",
@@ -72,8 +80,9 @@ _MODULES = ("gl", "testing")
 _RENAMED = {"failures": ("softshadow.failures", "GALLERY"), "technique_names": ("softshadow.techniques", "names")}
 _HOMES = {
     "softshadow.errors": (
-        "CounterSaturated", "InsideOutMesh", "LightInsideCaster", "MeshError", "NearClipZPass", "NonManifoldMesh",
-        "OpenMesh", "OutsideLightFrustum", "PartlyReadFile", "SceneError", "SoftShadowError", "StateError", "Warning",
+        "CounterSaturated", "DegenerateFaces", "InsideOutMesh", "LightInsideCaster", "MeshError", "MisorientedMesh",
+        "NearClipZPass", "NonManifoldMesh", "OpenMesh", "OutsideLightFrustum", "PartlyReadFile", "SceneError",
+        "SoftShadowError", "StateError", "TJunction", "UnweldedMesh", "Warning",
     ),
     "softshadow.inspection.pictures": ("stencil_palette",),
     "softshadow.pipeline": ("set_threads",),

@@ -29,8 +29,24 @@ class OpenMesh(Warning):
     """A caster has boundary edges: every face casts, re-oriented towards the light."""
 
 
+class TJunction(Warning):
+    """Vertices of a caster lie within boundary edges: single pixels along such an edge may leak light or shadow."""
+
+
+class UnweldedMesh(Warning):
+    """Boundary vertices of a caster lie next to others, not at equal positions: the mesh is open by a hair."""
+
+
 class NonManifoldMesh(Warning):
-    """More than two faces meet in an edge, or neighbours disagree about the outside."""
+    """More than two faces meet in an edge."""
+
+
+class MisorientedMesh(Warning):
+    """Neighbouring faces disagree about the outside: every face casts, re-oriented towards the light."""
+
+
+class DegenerateFaces(Warning):
+    """Triangles without area: they are not seen and cast nothing."""
 
 
 class LightInsideCaster(Warning):

@@ -55,7 +55,7 @@ def test_positions_one_float_apart_are_not_welded() -> None:
 
 def test_two_neighbours_that_disagree_about_the_outside_are_named() -> None:
     topology = Mesh([*TRIANGLE, [1, 1, 0]], [[0, 1, 2], [1, 2, 3]]).topology  # both run from 1 to 2
-    assert topology.nonmanifold_edges == 1
+    assert (topology.misoriented_edges, topology.nonmanifold_edges) == (1, 0)
     assert topology.boundary_edges == 4
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -9,6 +10,9 @@ from numpy.typing import ArrayLike
 from softshadow.errors import MeshError
 from softshadow.scene.checked import keep
 from softshadow.scene.topology import Topology
+
+if TYPE_CHECKING:
+    from softshadow.scene.boundary import Boundary
 
 # squared lengths of coordinates and their reciprocals must stay finite float32 (largest 3.4e38)
 LARGEST_COORDINATE = 1e18
@@ -69,6 +73,13 @@ class Mesh:
     def topology(self) -> Topology:
         """How the triangles hang together by exact position; computed at the first use and kept."""
         return Topology(self.positions, self.triangles)
+
+    @cached_property
+    def boundary(self) -> "Boundary":
+        """What there is about boundary edges: loops, T-junctions, positions that are nearly equal."""
+        from softshadow.scene.boundary import boundary_of
+
+        return boundary_of(self)
 
     @cached_property
     def face_normals(self) -> np.ndarray:

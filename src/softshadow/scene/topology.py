@@ -29,7 +29,8 @@ class Topology:
     edge_faces : (E,) int32           number of faces at the edge
     edge_sums : (E,) int32            sum of the face signs: 0 on every edge of a closed, consistently oriented mesh
     boundary_edges : int              edges with one face
-    nonmanifold_edges : int           edges with more than two faces, or with two that disagree about the outside
+    nonmanifold_edges : int           edges with more than two faces
+    misoriented_edges : int           edges with two faces that disagree about the outside
     degenerate_faces : int            faces with two corners at the same position; they belong to no edge
     closed : bool                     no edge has a sum other than 0
     """
@@ -53,7 +54,8 @@ class Topology:
         self.edge_faces = np.bincount(inverse.ravel(), minlength=len(self.edges)).astype(np.int32)
         self.edge_sums = self.chain_sum(np.arange(len(start)))
         self.boundary_edges = int((self.edge_faces == 1).sum())
-        self.nonmanifold_edges = int(((self.edge_faces > 2) | ((self.edge_faces == 2) & (self.edge_sums != 0))).sum())
+        self.nonmanifold_edges = int((self.edge_faces > 2).sum())
+        self.misoriented_edges = int(((self.edge_faces == 2) & (self.edge_sums != 0)).sum())
         self.degenerate_faces = int(degenerate.sum())
         self.closed = not self.edge_sums.any()
 
@@ -105,6 +107,7 @@ class Topology:
             for number, what in (
                 (self.boundary_edges, "boundary edge"),
                 (self.nonmanifold_edges, "non-manifold edge"),
+                (self.misoriented_edges, "misoriented edge"),
                 (self.degenerate_faces, "degenerate face"),
             )
             if number
