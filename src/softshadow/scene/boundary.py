@@ -92,8 +92,8 @@ def _close_together(points: np.ndarray, distance: float) -> np.ndarray:
 def _within_edges(points: np.ndarray, corners: np.ndarray, lengths: np.ndarray, distance: float) -> np.ndarray:
     """Return (V,) bool: the points within `distance` of the inside of an edge (E, 2, 3).
 
-    The points are sorted into cubes as wide as the mean edge; each edge is walked in steps of a cube, and meets what lies
-    in the cubes around each step.
+    The points are sorted into cubes as wide as the mean edge; each edge is walked in steps of a cube, and meets what
+    lies in the cubes around each step.
     """
     low = points.min(axis=0)
     width = float(lengths.mean()) + 2 * distance

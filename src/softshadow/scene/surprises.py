@@ -40,8 +40,8 @@ def leaks(caster: "SceneObject") -> Iterator[errors.Warning]:
         yield errors.OpenMesh(
             f"{caster.name}: the mesh is {topology.describe()} in {boundary.loops} "
             f"{'loop' if boundary.loops == 1 else 'loops'}, the first at {place(*boundary.first_edge)}. Every face of "
-            f"an open body casts, turned towards the light, and counts go up by one per layer: volumes that count cope, "
-            f"volume-parity and a map of the far faces (cull=front) do not"
+            f"an open body casts, turned towards the light, and counts go up by one per layer. Volumes count right, "
+            f"volume-parity and a map of the far faces (cull=front) do not cope"
         )
         if len(boundary.unwelded):
             yield errors.UnweldedMesh(
