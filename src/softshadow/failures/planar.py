@@ -8,10 +8,12 @@ from softshadow.failures.calls import Change
 from softshadow.failures.course_stage import as_listed, scene_of
 from softshadow.failures.failure import Failure, Setting
 from softshadow.failures.measures import (
+    COUNTED,
     darkened_twice,
     painted_background,
     painted_casters,
     painted_lit,
+    wrong_colors,
     wrong_on_receivers,
     wrong_paint,
     wrong_paint_on_receivers,
@@ -66,6 +68,14 @@ FAILURES = (
         Setting("planar", {"method": "offset", "factor": 0.0, "units": 0.0}),
         Setting("planar", {"method": "offset"}),
         wrong_paint, "pixels of the shadow that are not painted, or painted without shadow",
+    ),
+    Failure(
+        "offset-too-large", "The offset lifts the shadow before what stands there", "planar", "SK:116",
+        "An offset moves the shadow towards the eye by a part of the depth range, past all that is nearer than that.",
+        lambda: scene_of(IN_THE_AIR, "boxes in the air"),
+        Setting("planar", {"method": "offset", "units": -400000.0}),
+        Setting("planar", {"method": "offset"}),
+        painted_casters, "pixels of casters that are painted with the shadow behind them",
     ),
     Failure(
         "double-blending", "Overlapping layers darken twice", "planar", "SK:199",
@@ -134,6 +144,23 @@ FAILURES = (
         as_listed("planar-polygons", "E15", stage=IN_THE_AIR),
         as_listed("planar-polygons", stage=IN_THE_AIR),
         painted_casters, "pixels of casters that are painted with the shadow behind them",
+    ),
+    Failure(
+        "casters-before-shadow", "The scene is drawn before its shadows", "planar", "E60, SK:163-171",
+        "Shadow and floor have equal depths but for rounding; what casts must be drawn after its shadow, so that the "
+        "shadow needs no depth test.",
+        lambda: scene_of(IN_THE_AIR, "boxes in the air"),
+        as_listed("planar-darken", "E60", stage=IN_THE_AIR),
+        as_listed("planar-darken", stage=IN_THE_AIR),
+        wrong_paint_on_receivers, "pixels of the floor with shadow that have none, or without that have one",
+    ),
+    Failure(
+        "no-self-shadow", "Nothing but receivers has shadows", "planar", "SK:182-183, RO1:71",
+        "A matrix flattens casters onto one plane: on each other and on themselves they have no shadow.",
+        lambda: Scene.named("torus"),
+        Setting("planar"),
+        Setting("volume-zfail"),
+        wrong_colors, COUNTED,
     ),
     Failure(
         "modulative-lights", "Shadows darken the picture instead of leaving a light out", "planar", "E53, RO1:361",

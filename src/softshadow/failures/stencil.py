@@ -58,6 +58,14 @@ FAILURES = (
         wrong_colors, COUNTED,
     ),
     Failure(
+        "counter-at-least-0", "Dark where the counter is at least 0", "stencil", "E20, SK:267-268",
+        "A counter is at least 0 everywhere; a point is in shadow where it is more.",
+        lambda: scene_of(STAGE, "two boxes"),
+        as_listed("volume-counter", "E20", stage=STAGE),
+        as_listed("volume-counter", stage=STAGE),
+        wrong_colors, COUNTED,
+    ),
+    Failure(
         "decr-before-incr", "GL_DECR before GL_INCR", "stencil", "E11, RO1:231",
         "GL_DECR stops at 0, so that what is counted down before it was counted up is lost.",
         lambda: scene_of(STAGE, "two boxes"),
