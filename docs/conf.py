@@ -15,7 +15,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx_click",
 ]
-exclude_patterns = ["_build"]
+exclude_patterns = ["_build", "conf.py"]
 html_theme = "furo"
 html_title = f"softshadow {version}"
 html_static_path = ["_static"]
@@ -24,6 +24,7 @@ html_css_files = ["softshadow.css"]
 myst_enable_extensions = ["colon_fence", "deflist"]
 myst_heading_anchors = 3
 
+nb_custom_formats = {".py": ["jupytext.reads", {"fmt": "py:percent"}]}  # the notebooks
 nb_execution_mode = "force"  # numbers and pictures on the pages are those of this version
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True

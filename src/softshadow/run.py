@@ -6,11 +6,9 @@ import operator
 import os
 import threading
 import warnings
-from base64 import b64encode
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -222,11 +220,9 @@ class Run:
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """Return what a notebook shows: the steps as a contact sheet."""
-        from softshadow.inspection.pictures import sheet_of
+        from softshadow.inspection.pictures import sheet_of, shown
 
-        png = BytesIO()
-        sheet_of(self.steps).save(png, "PNG")
-        return {"text/plain": f"{self!r}\n{self.steps!r}", "image/png": b64encode(png.getvalue()).decode()}
+        return shown(f"{self!r}\n{self.steps!r}", sheet_of(self.steps))
 
 
 # -- running -----------------------------------------------------------------------------------------------------------

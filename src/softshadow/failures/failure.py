@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from base64 import b64encode
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -171,6 +169,6 @@ class Failure:
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """Return what a notebook shows: the pictures."""
-        png = BytesIO()
-        self.picture().save(png, "PNG")
-        return {"text/plain": self.explain(), "image/png": b64encode(png.getvalue()).decode()}
+        from softshadow.inspection.pictures import shown
+
+        return shown(self.explain(), self.picture())

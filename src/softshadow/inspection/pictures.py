@@ -5,7 +5,9 @@ Pillow is imported where it is needed. Every picture carries the mark of this pa
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Mapping, Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -150,3 +152,10 @@ def sheet_of(steps: Sequence[Step]) -> Picture:
         for step in steps
     ]
     return contact_sheet(rows)
+
+
+def shown(text: str, picture: Picture) -> dict[str, str]:
+    """Return what a notebook shows: a picture, and a text for where there are none."""
+    png = BytesIO()
+    picture.save(png, "PNG")
+    return {"text/plain": text, "image/png": b64encode(png.getvalue()).decode()}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import overload
+from typing import Any, overload
 
 import numpy as np
 
@@ -102,6 +102,12 @@ class Step:
 
     def __repr__(self) -> str:
         return f"Step({self.index}, {self.title!r}, {len(self.draws)} draws)"
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        """Return what a notebook shows: colour, depth and stencil after the step."""
+        from softshadow.inspection.pictures import sheet_of, shown
+
+        return shown(repr(self), sheet_of([self]))
 
 
 def object_of(command: Draw) -> str:

@@ -1,0 +1,115 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # 3. Shadow maps
+#
+# Seen from the light there are no shadows. So draw the scene from the light, keep nothing but the depth buffer, and
+# ask for every pixel of the camera's picture: is it farther from the light than what is stored there? (Williams 1978)
+
+# %%
+import numpy as np
+from IPython.display import display
+
+import softshadow as ss
+
+scene = ss.Scene.named("torus")
+run = ss.run("map", scene, size=(320, 240), map_size=256)
+
+# %% [markdown]
+# ## Step by step
+#
+# The first step draws into a texture, so the window stays empty: what it makes is the map, under the name *ZS*. It is
+# a picture in its own right, and the first thing to look at when a shadow is wrong.
+
+# %%
+import matplotlib.pyplot as plt
+
+for step in run:
+    display(step)
+    print("maps:", ", ".join(step.maps) or "none")
+
+ZS = run.maps["ZS"]
+plt.imshow(ZS, cmap="gray", vmin=ZS.min(), vmax=1)
+plt.title(
+    f"ZS: {ZS.shape[1]} x {ZS.shape[0]} texels, depths {ZS.min():.3f} to {ZS[ZS < 1].max():.3f}, 1 where nothing is"
+)
+plt.colorbar()
+
+# %% [markdown]
+# While the map is drawn, `glPolygonOffset` pushes everything a little away from the light: without it surfaces would
+# shadow themselves, as we shall see.
+
+# %%
+print(run[0].state)
+
+# %% [markdown]
+# ## Why is this pixel dark?
+
+# %%
+rows, columns = np.nonzero(run.shadow_mask)
+middle = len(rows) // 2
+x, y = int(columns[middle]), int(rows[middle])
+print(run.explain(x, y))
+run.pixel(x, y)
+
+# %% [markdown]
+# ## Two failures
+#
+# A texel stores one depth for a patch of a slanted surface; half of that patch is farther away than what is stored.
+# Without a bias it shadows itself.
+
+# %%
+acne = ss.failures["acne"]
+display(acne)
+print(acne.explain())
+
+# %% [markdown]
+# With too much of a bias the shadow comes off the foot of its caster.
+
+# %%
+panning = ss.failures["peter-panning"]
+display(panning)
+print(panning.diff)
+
+# %% [markdown]
+# ## A property
+#
+# How much bias is enough? On a plane the stored depth is off by at most half a texel in each direction, so an offset
+# by the larger slope is enough: that is the first argument of `glPolygonOffset`, and 1 is its right value. Seen here
+# on a floor that the light strikes at an angle, with nothing that could cast a shadow on it but itself:
+
+# %%
+import warnings
+
+warnings.simplefilter("ignore", ss.OpenMesh)  # a floor is one, and means to be
+floor = ss.Scene(
+    "floor alone",
+    ss.Camera((2.6, 3.0, 4.8), (0, 0, 0)),
+    [ss.Light((1, 0.35, 0.2, 0))],
+    [ss.SceneObject(scene.objects[0].mesh, name="floor")],
+)
+for factor in (0.0, 1.0):
+    dark = ss.run("map", floor, size=(320, 240), map_size=64, factor=factor, units=0.0).shadow_mask.sum()
+    print(f"factor {factor:g}: {dark} pixels in shadow")
+assert dark == 0
+
+# %% [markdown]
+# Unlike the stencil count the map does not depend on the camera: it is computed once for any number of views.
+
+# %%
+elsewhere = ss.Scene("from above", ss.Camera((0.5, 7, 1), (0, 0, 0)), scene.lights, scene.objects)
+assert (ss.run("map", elsewhere, size=(320, 240), map_size=256).maps["ZS"] == ZS).all()
+
+# %% [markdown]
+# Go on: `map_size`, `bias`, `cull` and the other options of `ss.describe("map")`; a light inside the scene
+# (`"room"`); and `run.compare(truth="hard")`, which tells how far the picture is from the truth, and where.

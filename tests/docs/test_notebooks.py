@@ -1,0 +1,31 @@
+"""The notebooks run from their first cell to their last, in the order of the course."""
+
+from pathlib import Path
+
+import jupytext
+import nbclient
+import pytest
+
+NOTEBOOKS = sorted((Path(__file__).parents[2] / "docs" / "notebooks").glob("*.py"))
+
+
+def shown(cell: dict) -> list[dict]:
+    """Return what a cell shows: a dictionary by media type for each output that has one."""
+    return [output["data"] for output in cell.get("outputs", []) if "data" in output]
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_a_notebook_runs_and_shows_every_step_a_pixel_and_two_failures(path: Path) -> None:
+    notebook = jupytext.read(path)
+    nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3").execute()
+    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    pictures = [data for cell in cells for data in shown(cell) if "image/png" in data]
+    steps = [data for data in pictures if data["text/plain"].startswith("Step(")]
+    assert len(steps) >= 3
+    assert len([data for data in pictures if "with the cure" in data["text/plain"]]) == 2
+    assert any("text/html" in data and "PixelHistory" in data["text/plain"] for cell in cells for data in shown(cell))
+    assert any(line.startswith("assert ") for cell in cells for line in cell.source.splitlines())
+
+
+def test_there_are_three_in_the_order_of_the_course() -> None:
+    assert [path.stem for path in NOTEBOOKS] == ["1_planar_shadows", "2_shadow_volumes", "3_shadow_maps"]
