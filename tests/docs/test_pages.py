@@ -53,11 +53,12 @@ def test_every_cited_paper_has_an_entry() -> None:
     assert [f"{author} {year}" for author, year in cited if (author, year) not in entries] == []
 
 
-def test_every_correction_that_a_technique_points_at_is_told() -> None:
+def test_every_correction_that_a_technique_or_a_failure_points_at_is_told() -> None:
     told = set(re.findall(r"^\| (E\d+) \|", page("corrections.md"), re.MULTILINE))
     cited = {
         number
-        for file in (PACKAGE / "techniques").glob("*.py")
+        for block in ("techniques", "failures")
+        for file in (PACKAGE / block).glob("*.py")
         for number in re.findall(r"\bE\d+\b", file.read_text(encoding="utf-8"))
     }
     assert sorted(cited - told) == []
