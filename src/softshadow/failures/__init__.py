@@ -24,7 +24,7 @@ class Gallery(Mapping[str, Failure]):
     Examples
     --------
     >>> list(GALLERY)[:2]
-    ['z-fighting', 'double-blending']
+    ['z-fighting', 'offset-too-large']
     >>> GALLERY["acne"].title
     'Surfaces shadow themselves'
     """
