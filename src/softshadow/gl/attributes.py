@@ -61,7 +61,7 @@ def glPushAttrib(mask: int) -> None:
         return
     touched = _touched(context)
     if mask & (gl.GL_CURRENT_BIT | gl.GL_LIGHTING_BIT):
-        context.read_given()
+        context.given.read(context)
     framebuffers, state = context.storage.framebuffers, context.state
     context.attribute_stack.append(
         Saved(
@@ -110,7 +110,7 @@ def glPopAttrib() -> None:
     context.settle()
     saved: Saved = context.attribute_stack.pop()
     if saved.mask & gl.GL_CURRENT_BIT:
-        context.read_given()
+        context.given.read(context)
     mask = saved.mask & _touched(context)
     for bit in GROUPS:
         if mask & bit:

@@ -49,7 +49,7 @@ def glEnd() -> None:
     follow_color(context)
     context.given.stored |= bool(primitive.positions)
     if not primitive.positions:
-        context.end_pair(primitive.mode, 0)
+        context.vertex_buffer.end_pair(primitive.mode, 0)
         return
     if primitive.continued and primitive.mode == gl.GL_LINE_LOOP:
         end_continued_loop(context, primitive)
@@ -64,7 +64,7 @@ def glEnd() -> None:
     else:
         context.draw_primitive(mode, vertices)
     one_line = mode == gl.GL_LINE_STRIP and len(vertices.position) == 2
-    context.end_pair(gl.GL_LINES if one_line else mode, len(vertices.position))
+    context.vertex_buffer.end_pair(gl.GL_LINES if one_line else mode, len(vertices.position))
 
 
 def in_order(count: int) -> np.ndarray:

@@ -95,7 +95,7 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
     for side in SIDES[face]:
         free = {field: value for field, value in fields.items() if field not in followed(lighting, side)}
         for field in free:
-            context.about_to_give(f"{side}.{field}")
+            context.given.about_to_give(f"{side}.{field}", context)
         if context.primitive is not None:
             for field, value in free.items():
                 give(context, f"{side}.{field}", np.size(value))
@@ -145,7 +145,7 @@ def start_to_follow(context: Context) -> None:
     Mesa hands it on a second time when the vertices are sent off (vbo_exec_copy_to_current).
     """
     if context.state.lighting.color_material:
-        context.read_given()
+        context.given.read(context)
         for name in context.given.names:
             if "." in name:
                 context.given.waiting.setdefault(name, context.attribute(name))
@@ -169,7 +169,7 @@ def _material(operation: str, face: int, pname: int) -> Any:
     if context is None or not is_one_of(operation, "face", face, faces, "GL_FRONT or GL_BACK"):
         return None
     context.settle()
-    context.read_given()
+    context.given.read(context)
     readable = [name for name, fields in PARAMETERS.items() if len(fields) == 1]
     if not is_one_of(operation, "pname", pname, readable, "a material parameter (GL 2.1, table 2.11)"):
         return None

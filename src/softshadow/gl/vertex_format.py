@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import VERTEX_BUFFER_BYTES, Context, Primitive
+from softshadow.context import Context, Primitive
 from softshadow.pipeline.batches import SEPARATE
 from softshadow.pipeline.commands import Vertices
 from softshadow.state import TEXTURE_UNITS
@@ -36,11 +36,11 @@ class Cut(NamedTuple):
 
 def begin(context: Context, mode: int) -> None:
     """Start to collect a primitive. Attributes that were given before any vertex are constants of it."""
-    if "position" not in context.vertex_sizes:
-        context.vertex_sizes.clear()
+    if "position" not in context.vertex_buffer.sizes:
+        context.vertex_buffer.sizes.clear()
         if context.given.names:
-            context.forget_given()
-    materials: dict[str, list[Any]] = {name: [] for name in context.vertex_sizes if "." in name}
+            context.given.forget(context)
+    materials: dict[str, list[Any]] = {name: [] for name in context.vertex_buffer.sizes if "." in name}
     context.primitive = Primitive(mode, from_list=context.list_depth > 0, materials=materials)
 
 
@@ -56,24 +56,24 @@ def give(context: Context, name: str, size: int) -> int:
         keep count.
     """
     if name != "position":
-        context.about_to_give(name)
-    sizes, primitive = context.vertex_sizes, context.primitive
-    carried, given_before = sizes.get(name, 0), context.given_sizes.get(name, 0)
+        context.given.about_to_give(name, context)
+    sizes, primitive = context.vertex_buffer.sizes, context.primitive
+    carried, given_before = sizes.get(name, 0), context.vertex_buffer.given_sizes.get(name, 0)
     if carried >= size:
         in_list = context.list_depth > 0 or (primitive is not None and context.executes_list)
         if size < given_before or in_list:
-            context.given_sizes[name] = size
+            context.vertex_buffer.given_sizes[name] = size
             return size
         return carried
-    context.given_sizes[name] = size
+    context.vertex_buffer.given_sizes[name] = size
     if primitive is not None:
         if not primitive.from_list:
             _wrap(context, primitive)
             if name not in sizes:
                 _shorten(primitive, name, size)
     else:
-        many = context.stored_vertices > FEW_VERTICES
-        context.send_off_vertices()
+        many = context.vertex_buffer.stored > FEW_VERTICES
+        context.vertex_buffer.send_off()
         if name not in sizes and many:
             sizes.clear()
     sizes[name] = size
@@ -95,23 +95,22 @@ def store_vertex(context: Context, primitive: Primitive) -> None:
     """Count a vertex that has been collected; the one that fills the buffer sends off all of them."""
     if primitive.from_list:
         return
-    context.stored_vertices += 1
-    room = (VERTEX_BUFFER_BYTES - context.buffer_used) // context.vertex_bytes
-    if context.stored_vertices >= room - 1:  # one is kept free, for the end of a line loop
+    context.vertex_buffer.stored += 1
+    if context.vertex_buffer.stored >= context.vertex_buffer.room - 1:  # one is kept free, for the end of a line loop
         _wrap(context, primitive)
 
 
 def _wrap(context: Context, primitive: Primitive) -> None:
     """Draw what has been collected, and keep the vertices that the rest of the primitive needs."""
-    count, alone = len(primitive.positions), context.stored_vertices == len(primitive.positions)
+    count, alone = len(primitive.positions), context.vertex_buffer.stored == len(primitive.positions)
     cut = _cut(primitive, count)
     if cut.end > cut.start and not (alone and len(cut.kept) == count):
         context.draw_primitive(cut.mode, vertices_of(context, primitive, cut.start, cut.end))
-    context.send_off_vertices()
+    context.vertex_buffer.send_off()
     for rows in primitive.rows:
         rows[:] = [rows[i] for i in cut.kept]
     primitive.continued = primitive.continued or len(cut.kept) != count
-    context.stored_vertices = len(cut.kept)
+    context.vertex_buffer.stored = len(cut.kept)
 
 
 def _cut(primitive: Primitive, count: int) -> Cut:
@@ -138,14 +137,14 @@ def end_continued_loop(context: Context, primitive: Primitive) -> None:
     for rows in primitive.rows:
         rows.append(rows.pop(0))
     primitive.mode = gl.GL_LINE_STRIP
-    context.stored_vertices += 1  # the first one stays in the buffer
+    context.vertex_buffer.stored += 1  # the first one stays in the buffer
 
 
 def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int | None = None) -> Vertices:
     """Return the vertices [start, end) of a primitive; an attribute that they do not carry is spread from one row."""
 
     def rows(name: str, values: Sequence[Any]) -> np.ndarray:
-        if name in context.vertex_sizes:
+        if name in context.vertex_buffer.sizes:
             return context.frozen(values[start:end])
         constant = context.frozen(values[start])
         return np.broadcast_to(constant, (len(values[start:end]), *constant.shape))

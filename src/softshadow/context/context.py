@@ -13,17 +13,17 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.context.arrays import BufferObject, ClientArrays
+from softshadow.context.given_attributes import GivenAttributes
+from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
-from softshadow.pipeline.batches import SEPARATE, Batch, Pairs, Run
 from softshadow.pipeline.commands import Command, Draw, Vertices
 from softshadow.pixel_store import PixelStore
 from softshadow.programs import Program
 from softshadow.programs.inverse import known_kind
 from softshadow.state import TEXTURE_UNITS, State
 
-VERTEX_BUFFER_BYTES = 512 * 1024  # that Mesa collects the vertices of immediate mode in (vbo_exec_draw.c)
-LEAST_BYTES = 1024  # with no more than these left, it takes a new buffer
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
 
 
@@ -56,87 +56,6 @@ class CurrentVertex:
     texcoords: list[tuple[float, float, float, float]] = field(
         default_factory=lambda: [(0.0, 0.0, 0.0, 1.0)] * TEXTURE_UNITS
     )
-
-
-@dataclass
-class GivenAttributes:
-    """Attributes that were given and not yet handed on to the current values, which Mesa keeps elsewhere.
-
-    That decides what glPopAttrib brings back: it takes the current values along, and sees as changed what was handed on
-    (vbo_exec_api.c; NeedFlush in mtypes.h).
-
-    Attributes
-    ----------
-    names : set of str       "color", "normal", "texcoord0", "front.diffuse" ...: given since they were last forgotten
-    before : dict            name: the current value, of those given and not handed on
-    waiting : dict           name: what was given, where glPopAttrib has brought another current value back since
-    stored : bool            whether the next change of state hands them on and forgets them
-    """
-
-    names: set[str] = field(default_factory=set)
-    before: dict[str, Any] = field(default_factory=dict)
-    waiting: dict[str, Any] = field(default_factory=dict)
-    stored: bool = False
-
-
-@dataclass
-class Primitive:
-    """What glBegin ... glEnd has collected: a row per vertex.
-
-    `from_list` says that a display list has begun it, `continued` that a part of it has been sent off.
-    """
-
-    mode: int
-    from_list: bool = False
-    continued: bool = False
-    positions: list[tuple[float, float, float, float]] = field(default_factory=list)
-    colors: list[tuple[float, float, float, float]] = field(default_factory=list)
-    normals: list[tuple[float, float, float]] = field(default_factory=list)
-    texcoords: list[tuple[tuple[float, float, float, float], ...]] = field(default_factory=list)
-    materials: dict[str, list[Any]] = field(default_factory=dict)  # "front.diffuse": what glMaterial changed in between
-
-    @property
-    def rows(self) -> list[list[Any]]:
-        """All that there is a row per vertex of."""
-        return [self.positions, self.colors, self.normals, self.texcoords, *self.materials.values()]
-
-
-@dataclass(frozen=True)
-class ArrayLayout:
-    """What a pointer call said besides the array: numbers per vertex, GL's type, bytes from vertex to vertex."""
-
-    size: int = 4
-    type: int = gl.GL_FLOAT
-    stride: int = 0
-
-
-@dataclass
-class BufferObject:
-    """The bytes of a buffer object, and the usage it was given."""
-
-    content: np.ndarray = field(default_factory=lambda: np.zeros(0, np.uint8))
-    usage: int = gl.GL_STATIC_DRAW
-
-
-@dataclass
-class ClientArrays:
-    """Vertex arrays: which are enabled, the array each pointer call gave, and what drawn arrays were converted to.
-
-    Names are "position", "color", "normal", "texcoord0" ...
-    """
-
-    enabled: set[str] = field(default_factory=set)
-    pointers: dict[str, np.ndarray] = field(default_factory=dict)
-    offsets: dict[str, tuple[int, int]] = field(default_factory=dict)  # (buffer object, byte) instead of an array
-    array_buffer: int = 0
-    element_buffer: int = 0
-    layouts: dict[str, ArrayLayout] = field(default_factory=dict)
-    converted: dict[Any, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
-    active_unit: int = 0
-
-    def layout(self, name: str) -> ArrayLayout:
-        """Return the layout of an array, GL's initial one where there was no pointer call."""
-        return self.layouts.get(name, ArrayLayout())
 
 
 @dataclass
@@ -206,12 +125,7 @@ class Context:
         self.uniforms: dict[int, dict[str, Any]] = {}
         self.labels: list[str] = []
         self.primitive: Primitive | None = None  # between glBegin and glEnd
-        self.batch: Batch | None = None  # triangles or quads that wait for more of them
-        self.pairs, self.run = Pairs(), Run()  # of glBegin and glEnd, since vertices were sent off
-        self.vertex_sizes: dict[str, int] = {}  # what the vertices collected last carry: numbers per attribute
-        self.given_sizes: dict[str, int] = {}  # how many of those the last call gave, as far as Mesa remembers
-        self.stored_vertices = 0  # how many were collected since the last time they were sent off
-        self.buffer_used = 0  # bytes of the vertex buffer before them
+        self.vertex_buffer = VertexBuffer(self._carry_out, self.storage)  # of immediate mode
         self.arrays = ClientArrays()
         self.client_stack: list[Any] = []
         self.buffers: dict[int, BufferObject] = {}
@@ -251,7 +165,7 @@ class Context:
 
     def change_state(self, state: State) -> None:
         """Replace the state; where that makes a difference to draws, it ends the batch of quads."""
-        waits = self.vertex_sizes or self.given.stored
+        waits = self.vertex_buffer.sizes or self.given.stored
         if waits and self.primitive is None and _drawn_under(state) != _drawn_under(self.state):
             before = self.state
             self.settle()
@@ -295,6 +209,13 @@ class Context:
         self.settle()
         self._carry_out(command)
 
+    def settle(self) -> None:
+        """Draw what waits; what is drawn next begins a batch of its own. Not between glBegin and glEnd."""
+        if self.primitive is None:
+            self.vertex_buffer.settle()
+            if self.given.stored:
+                self.given.forget(self)
+
     def _carry_out(self, command: Command) -> None:
         command.apply(self.storage)
         self._frame.commands.append(command)
@@ -302,66 +223,19 @@ class Context:
     def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:
         """Draw primitives under the present state. The arrays must be read-only and the caller's own no more."""
         self.settle()
-        self.read_given()
+        self.given.read(self)
         self._carry_out(self._draw_command(mode, vertices, indices))
 
     def draw_primitive(self, mode: int, vertices: Vertices) -> None:
         """Draw a primitive of immediate mode: vertices that follow may still carry the same attributes."""
-        self.draw_waiting()
-        self._draw_in_run(self._draw_command(mode, vertices, None))
-
-    def _draw_in_run(self, command: Draw) -> None:
-        if command.mode != self.run.mode:
-            self.run = Run(command.mode)
-        if not self.run.is_lost:
-            self._carry_out(self.run.part(command, self.storage))
-
-    def end_pair(self, mode: int, vertices: int) -> None:
-        """Count a pair of glBegin and glEnd; what waits is drawn if an empty one has another mode, or at the 64th."""
-        if not vertices and self.pairs.mode != mode:
-            self.draw_waiting()
-            self.run = Run(mode, is_lost=mode not in SEPARATE)
-        self.pairs.add(mode, vertices)
-        if self.pairs.too_many:
-            self.send_off_vertices()
+        self.vertex_buffer.draw_waiting()
+        self.vertex_buffer.draw(self._draw_command(mode, vertices))
 
     def collect(self, mode: int, vertices: Vertices) -> None:
         """Draw triangles or quads of immediate mode, later: the ones that follow may belong to the same batch."""
-        if self.batch is None or self.batch.first.mode != mode or not self.batch.takes_more:
-            self.draw_waiting()
-            self.batch = Batch(self._draw_command(mode, vertices, None))
-        self.batch.parts.append(("/".join(self.labels), vertices))
-
-    def draw_waiting(self) -> None:
-        """Draw what waits."""
-        batch, self.batch = self.batch, None
-        if batch is not None:
-            for command in batch.commands():
-                self._draw_in_run(command)
-
-    def settle(self) -> None:
-        """Draw what waits; what is drawn next begins a batch of its own. Not between glBegin and glEnd."""
-        if self.primitive is None:
-            if self.stored_vertices or self.batch is not None:  # pairs without vertices are still counted after this
-                self.send_off_vertices()
-            self.vertex_sizes.clear()
-            if self.given.stored:
-                self.forget_given()
-
-    @property
-    def vertex_bytes(self) -> int:
-        """The size of a vertex of immediate mode in Mesa's buffer."""
-        return 4 * sum(self.vertex_sizes.values())
-
-    def send_off_vertices(self) -> None:
-        """Draw what waits; the vertices of immediate mode that follow come after them in Mesa's buffer."""
-        self.draw_waiting()
-        self.run = Run()
-        self.pairs = Pairs()
-        self.buffer_used += self.stored_vertices * self.vertex_bytes
-        self.stored_vertices = 0
-        if self.buffer_used + LEAST_BYTES >= VERTEX_BUFFER_BYTES:
-            self.buffer_used = 0
+        if not self.vertex_buffer.takes(mode):
+            self.vertex_buffer.begin_batch(self._draw_command(mode, vertices))
+        self.vertex_buffer.add_to_batch("/".join(self.labels), vertices)
 
     # -- current values ------------------------------------------------------------------------------------------------
     def attribute(self, name: str) -> Any:
@@ -383,39 +257,7 @@ class Context:
         else:
             setattr(self.current, name, value)
 
-    def about_to_give(self, name: str) -> None:
-        """Remember that an attribute is given, and over which current value."""
-        given = self.given
-        if name not in given.before:
-            given.names.add(name)
-            given.before[name] = self.attribute(name)
-            given.waiting.pop(name, None)
-
-    def hand_on_given(self) -> None:
-        """Make current what was given, and mark the groups of attributes that this changes."""
-        given = self.given
-        for name, value in given.waiting.items():
-            given.before.setdefault(name, self.attribute(name))
-            self.set_attribute(name, value)
-        for name, before in given.before.items():
-            if before != self.attribute(name):
-                self.touched |= gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT
-        given.waiting.clear()
-        given.before.clear()
-
-    def read_given(self) -> None:
-        """Hand on what was given since the last time, as queries of current values do."""
-        if self.given.before:
-            self.hand_on_given()
-            self.given.stored = True
-
-    def forget_given(self) -> None:
-        """Hand on what was given; the vertices to come do not carry it by themselves any more."""
-        self.hand_on_given()
-        self.given.names.clear()
-        self.given.stored = False
-
-    def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None) -> Draw:
+    def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
         self.settle_kinds()
         return Draw(
             state=self.state,

@@ -1,0 +1,28 @@
+"""The current context; in files of their own what it keeps as Mesa does: given attributes, vertex buffer, arrays."""
+
+from softshadow.context.arrays import ArrayLayout, BufferObject, ClientArrays
+from softshadow.context.context import (
+    MATRIX_STACK_DEPTHS,
+    Context,
+    CurrentVertex,
+    DisplayList,
+    Frame,
+    current,
+    make_current,
+)
+from softshadow.context.vertex_buffer import Primitive, VertexBuffer
+
+__all__ = [
+    "MATRIX_STACK_DEPTHS",
+    "ArrayLayout",
+    "BufferObject",
+    "ClientArrays",
+    "Context",
+    "CurrentVertex",
+    "DisplayList",
+    "Frame",
+    "Primitive",
+    "VertexBuffer",
+    "current",
+    "make_current",
+]
