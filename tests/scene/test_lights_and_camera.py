@@ -28,6 +28,33 @@ def test_light_carried_into_object_space_comes_back(light: np.ndarray, angle: fl
     assert object_to_world @ carried == pytest.approx(Light(light).position, abs=1e-12)
 
 
+def test_spot_shines_within_its_cone_and_other_lights_everywhere() -> None:
+    spot = Light((0, 2, 0), axis=(0, -3, 0), cutoff=45)
+    assert spot.is_spot
+    assert spot.axis is not None
+    assert spot.axis.tolist() == [0, -1, 0]
+    points = np.array([[0, 0, 0], [1.9, 0, 0], [2.1, 0, 0], [0, 4, 0]])
+    assert spot.shines_on(points).tolist() == [True, True, False, False]
+    for light in (Light((0, 2, 0)), Light((0, 1, 0, 0))):
+        assert not light.is_spot
+        assert light.shines_on(points).all()
+
+
+@pytest.mark.parametrize(
+    ("cone", "said"),
+    [
+        ({"axis": (0, -1, 0)}, "an axis and a cutoff of more than 0 and at most 90"),
+        ({"cutoff": 30}, "an axis and a cutoff"),
+        ({"axis": (0, -1, 0), "cutoff": 91}, "at most 90 degrees, got"),
+        ({"axis": (0, 0, 0), "cutoff": 30}, "axis: expected a direction"),
+        ({"axis": (0, -1, 0), "cutoff": 30, "position": (0, 1, 0, 0)}, "a light at infinity has no cone"),
+    ],
+)
+def test_cone_that_is_none_is_refused(cone: dict[str, object], said: str) -> None:
+    with pytest.raises(SceneError, match=f"lamp: .*{said}"):
+        Light(**{"position": (0, 2, 0), **cone}, name="lamp")
+
+
 @pytest.mark.parametrize("position", [(1, 2), (0, 0, 0, 0), (1, 2, 3, -1), (1, np.nan, 3), "above", (1, "b", 2)])
 def test_malformed_position_is_named(position: object) -> None:
     with pytest.raises(SceneError, match="lamp: position: expected"):

@@ -81,6 +81,16 @@ def test_unnamed_objects_get_names_of_their_own(tmp_path: Path) -> None:
     assert [light.name for light in scene.lights] == ["light", "light 2"]
 
 
+def test_spot_light_has_an_axis_and_a_cutoff(tmp_path: Path) -> None:
+    place = "position = [2, 5, 3]"
+    scene = Scene.load(write(tmp_path, MINIMAL.replace(place, f"{place}\naxis = [0, -2, 0]\ncutoff = 25")))
+    (light,) = scene.lights
+    assert (light.is_spot, light.cutoff) == (True, 25)
+    wrong = mistakes_of(tmp_path, MINIMAL.replace(place, "direction = [0, 1, 0]\naxis = [0, -2, 0]\ncutoff = 25"))
+    assert len(wrong) == 1
+    assert "a light at infinity has no cone" in wrong[0]
+
+
 def test_all_mistakes_are_named_in_one_message(tmp_path: Path) -> None:
     found = mistakes_of(
         tmp_path,
@@ -127,7 +137,8 @@ shininess = inf
             "ambient, background)",
             "ambient[1]: expected [red, green, blue], each 0 to 1, got 2",
             "camera: eye and target are both [0.0, 0.0, 0.0]; expected two different points",
-            "light[0].postion: unknown key; did you mean 'position'? (there are: name, position, direction, color)",
+            "light[0].postion: unknown key; did you mean 'position'? "
+            "(there are: name, position, direction, axis, cutoff, color)",
             "light[1].position: expected [x, y, z], got [1, 2]",
             "object[0].shape: no shape is called 'tours'; did you mean 'torus'? (there are: " + ", ".join(SHAPES) + ")",
             "object[1].parameters.major_radios: torus has no such parameter; did you mean 'major_radius'? "

@@ -25,7 +25,8 @@ VARIANTS: list[tuple[str, dict[str, Any]]] = [
     ("map", {}),
     ("map", {"filter": "linear", "map_size": 64}),
     ("map", {"storage": "copy", "map_size": 48}),
-    ("map", {"cull": "front", "bias": 0.003}),
+    ("map", {"surface": "back", "bias": 0.003, "outside": "shadow"}),
+    ("map", {"surface": "midpoint", "map_size": 64, "factor": 0.0, "normal_bias": 0.02}),
 ]
 
 

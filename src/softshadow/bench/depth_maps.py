@@ -8,8 +8,8 @@ import numpy as np
 
 from softshadow import matrices
 from softshadow.scene import Light, Scene
+from softshadow.techniques.depth_maps import depth_texture, draw_casters_from
 from softshadow.techniques.light_camera import light_camera
-from softshadow.techniques.map import depth_texture, draw_casters_from
 
 FACTOR, UNITS = 1.5, 4.0  # of the polygon offset
 
@@ -26,8 +26,6 @@ class DepthMap:
     def __init__(self, gl: Any, map_size: int) -> None:
         self.size = map_size
         self.texture = depth_texture(gl, map_size, gl.GL_NEAREST)
-        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_COMPARE_MODE, gl.GL_NONE)
-        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_DEPTH_TEXTURE_MODE, gl.GL_LUMINANCE)
         self.framebuffer = gl.glGenFramebuffers(1)
         gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, self.framebuffer)
         gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_DEPTH_ATTACHMENT, gl.GL_TEXTURE_2D, self.texture, 0)
@@ -42,7 +40,7 @@ class DepthMap:
         gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, self.framebuffer)
         gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
         gl.glPolygonOffset(FACTOR, UNITS)
-        draw_casters_from(gl, scene, camera, self.size)
+        draw_casters_from(gl, scene.casters, camera, self.size)
         gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
         to_texture = matrices.scale(matrices.translate(np.eye(4), 0.5, 0.5, 0.5), 0.5, 0.5, 0.5)
         projection = (

@@ -12,7 +12,7 @@ def hard_visibility(scene: Scene, size: tuple[int, int]) -> tuple[list[np.ndarra
     """Return the visibility of every light at every pixel centre, and where a surface is seen at all.
 
     The point that a pixel shows is found by its ray, with the face it lies on known by number: that face and those in
-    its plane cast nothing on it.
+    its plane cast nothing on it. A spot light sees nothing outside its cone.
 
     Returns
     -------
@@ -30,7 +30,7 @@ def hard_visibility(scene: Scene, size: tuple[int, int]) -> tuple[list[np.ndarra
     for light in scene.lights:
         lit = np.ones(width * height, np.float32)
         counts = casting_faces_between(points[seen], light.position, scene.casters, exclude=exclude, viewer=eye)
-        lit[seen] = counts == 0
+        lit[seen] = (counts == 0) & light.shines_on(points[seen])
         visible.append(lit.reshape(height, width))
     return visible, seen.reshape(height, width)
 

@@ -182,6 +182,17 @@ def sunlight() -> Scene:
     )
 
 
+def spotlight() -> Scene:
+    """A spot light: outside its cone there is no light, and one shadow map along its axis holds all of it."""
+    # the floor has cells, so that the cone shows where GL lights vertices
+    return Scene(
+        "spotlight",
+        Camera((2.6, 3.0, 4.8), (0.1, 0.35, 0.1), fov_y=40, near=1, far=30),
+        (Light((-2.2, 4.2, 2.2), name="spot", axis=(2.3, -4.0, -2.3), cutoff=20),),
+        (_receiver(shapes.floor(12, cells=40), SAND, "floor"), *boxes().objects[1:]),
+    )
+
+
 def two_lights() -> Scene:
     """A warm and a cool light: each has a shadow of its own, and where they overlap only ambient light is left."""
     return Scene(
@@ -222,6 +233,7 @@ _SCENES: dict[str, Callable[[], Scene]] = {
         staircase,
         near_cut,
         sunlight,
+        spotlight,
         two_lights,
         open_tube,
     )

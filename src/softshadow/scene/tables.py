@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError,
 from softshadow.errors import SceneError, Warning, nearest
 from softshadow.scene import shapes
 from softshadow.scene.camera import Camera
-from softshadow.scene.lights import Light
+from softshadow.scene.lights import NO_CONE, Light
 from softshadow.scene.loading import load_mesh
 from softshadow.scene.mesh import Mesh
 from softshadow.scene.mistakes import EXPECTED, Complaints, mistakes
@@ -84,6 +84,8 @@ class LightTable(_Table):
     name: str = ""
     position: Triple | None = None
     direction: Triple | None = None
+    axis: Triple | None = None
+    cutoff: float = NO_CONE
     color: Color = [1, 1, 1]
     _built: Light = PrivateAttr()
 
@@ -100,7 +102,8 @@ class LightTable(_Table):
                 complaints.add("expected either position (a point) or direction (towards a light at infinity)")
             else:
                 with complaints.about(name):
-                    self._built = Light(self.position or [*(self.direction or ()), 0], self.color, name)
+                    place = self.position or [*(self.direction or ()), 0]
+                    self._built = Light(place, self.color, name, axis=self.axis, cutoff=self.cutoff)
         return self
 
 

@@ -72,10 +72,11 @@ def light_ambient_only(gl: Any, scene: Scene) -> None:
         gl.glDisable(gl.GL_LIGHT0 + index)
 
 
-def light_by(gl: Any, scene: Scene, lights: Iterable[Light], ambient: bool) -> None:
+def light_by(gl: Any, scene: Scene, lights: Iterable[Light], ambient: bool, cones: bool = True) -> None:
     """Light what follows by some of the scene's lights; call it while the modelview matrix is the view.
 
-    A pass that is added to an earlier one must not bring the ambient light again.
+    A pass that is added to an earlier one must not bring the ambient light again. The cone of a spot light is decided
+    at the vertices, as GL lights, and only a finely cut surface shows it; without `cones` it is left to the caller.
     """
     light_ambient_only(gl, scene)
     if not ambient:
@@ -86,6 +87,9 @@ def light_by(gl: Any, scene: Scene, lights: Iterable[Light], ambient: bool) -> N
             gl.glLightfv(gl.GL_LIGHT0 + index, gl.GL_POSITION, tuple(float(v) for v in light.position))
             for term in (gl.GL_DIFFUSE, gl.GL_SPECULAR):
                 gl.glLightfv(gl.GL_LIGHT0 + index, term, (*light.color, 1.0))
+            if light.axis is not None and cones:
+                gl.glLightfv(gl.GL_LIGHT0 + index, gl.GL_SPOT_DIRECTION, tuple(float(v) for v in light.axis))
+                gl.glLightf(gl.GL_LIGHT0 + index, gl.GL_SPOT_CUTOFF, light.cutoff)
 
 
 @contextmanager
@@ -150,11 +154,10 @@ def set_material(gl: Any, thing: SceneObject) -> None:
     gl.glMaterialf(gl.GL_FRONT_AND_BACK, gl.GL_SHININESS, material.shininess)
 
 
-def draw_mesh(gl: Any, thing: SceneObject, shaded: bool, texture_coordinates: bool = False) -> None:
+def draw_mesh(gl: Any, thing: SceneObject, shaded: bool, texture_coordinates: np.ndarray | None = None) -> None:
     """Draw an object's mesh: always the same positions in the same order, so that every pass has the same depths.
 
-    With `texture_coordinates` the positions are handed over as texture coordinates, too: the texture matrix takes
-    them on.
+    `texture_coordinates` (V, 3) float32 are handed over for the texture matrix to take on.
     """
     mesh = thing.mesh
     if shaded:
@@ -164,9 +167,9 @@ def draw_mesh(gl: Any, thing: SceneObject, shaded: bool, texture_coordinates: bo
         gl.glEnable(gl.GL_COLOR_MATERIAL)
         gl.glEnableClientState(gl.GL_COLOR_ARRAY)
         gl.glColorPointer(4, gl.GL_FLOAT, 0, mesh.colors)
-    if texture_coordinates:
+    if texture_coordinates is not None:
         gl.glEnableClientState(gl.GL_TEXTURE_COORD_ARRAY)
-        gl.glTexCoordPointer(3, gl.GL_FLOAT, 0, mesh.positions)
+        gl.glTexCoordPointer(3, gl.GL_FLOAT, 0, texture_coordinates)
     draw_triangles(gl, mesh.positions, mesh.triangles)
     gl.glDisableClientState(gl.GL_TEXTURE_COORD_ARRAY)
     gl.glDisableClientState(gl.GL_COLOR_ARRAY)
@@ -225,6 +228,37 @@ def read_stencil(gl: Any, size: tuple[int, int]) -> np.ndarray:
 def read_alpha(gl: Any, size: tuple[int, int]) -> np.ndarray:
     """Return the alpha of the colour buffer, (h, w) float32 from 0 to 1, first row = bottom."""
     return gl.glReadPixels(0, 0, *size, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)[:, :, 3].astype(np.float32) / np.float32(255)
+
+
+def world_points(scene: Scene, depth: np.ndarray, size: tuple[int, int], far: str = "finite") -> np.ndarray:
+    """Return the world points that the camera sees, from their window depths; first row = bottom.
+
+    Parameters
+    ----------
+    depth : (h, w) float32
+    far : str                    as given to `set_camera`
+
+    Returns
+    -------
+    (h, w, 3) float64            infinite where an infinite projection has drawn nothing
+    """
+    width, height = size
+    camera = scene.camera
+    x, y = np.meshgrid(np.arange(width) + 0.5, height - (np.arange(height) + 0.5))  # near_points counts from the top
+    near_points = camera.near_points(np.stack([x.ravel(), y.ravel()], axis=1), size)
+    # window depth d belongs to the distance n·f / (f - d·(f - n)) along the view, the near rectangle to n
+    nearness = 1 - depth.astype(np.float64) * (1 if far == "infinite" else 1 - camera.near / camera.far)
+    with np.errstate(divide="ignore"):
+        points: np.ndarray = camera.eye + (near_points - camera.eye).reshape(height, width, 3) / nearness[..., None]
+    return points
+
+
+def within_cone(scene: Scene, light: Light, depth: np.ndarray, size: tuple[int, int], far: str = "finite") -> Any:
+    """Return (h, w) bool: where a spot light shines at all, of other lights True; the arguments of `world_points`."""
+    if not light.is_spot:
+        return True
+    with np.errstate(invalid="ignore"):  # infinitely far away: in no cone
+        return light.shines_on(world_points(scene, depth, size, far))
 
 
 def visibility_maps(scene: Scene, lit: list[np.ndarray], valid: np.ndarray) -> dict[str, np.ndarray]:

@@ -20,6 +20,7 @@ from softshadow.techniques.drawing import (
     object_space,
     read_depth,
     visibility_maps,
+    within_cone,
 )
 from softshadow.techniques.technique import Steps
 
@@ -90,7 +91,8 @@ def draw_the_casters(
     draw_objects(gl, others(scene))
     # a nearer caster has changed the depth of its pixels
     valid = on_receiver & (read_depth(gl, size) == before)
-    yield "draw the casters", visibility_maps(scene, lit, valid)
+    reached = [one * within_cone(scene, light, before, size) for light, one in zip(scene.lights, lit, strict=True)]
+    yield "draw the casters", visibility_maps(scene, reached, valid)
 
 
 def others(scene: Scene) -> list[SceneObject]:

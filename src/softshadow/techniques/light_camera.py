@@ -1,7 +1,7 @@
 """The camera in the light: a view that sees every caster, tightly.
 
 Only what stands behind a caster can be in its shadow, so a frustum round the casters is enough: whatever lies outside
-it is lit.
+it is lit. A spot light's camera looks along its axis and holds its cone instead.
 """
 
 from dataclasses import dataclass
@@ -78,17 +78,24 @@ def light_camera(scene: Scene, light: Light) -> LightCamera:
     """
     vertices = np.concatenate([thing.world_positions for thing in scene.casters or scene.objects])
     middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
+    if light.axis is not None:
+        return spot_camera(light, vertices)
     forward = -light.position[:3] if light.is_directional else middle - light.position[:3]
     if not forward.any():
         forward = np.array([0.0, -1.0, 0.0])  # a light in the very middle looks down
-    # any up will do that is not the view itself: the world axis that is farthest from it
-    up = np.eye(3)[np.abs(forward).argmin()]
+    up = any_up(forward)
     seen = (vertices - (middle if light.is_directional else light.position[:3])) @ view_frame(forward, up).T
     return (
         parallel_camera(middle, forward, up, seen)
         if light.is_directional
         else point_camera(light, middle, forward, up, seen)
     )
+
+
+def any_up(forward: np.ndarray) -> np.ndarray:
+    """Return the world axis that is farthest from a view: any up will do that is not the view itself."""
+    up: np.ndarray = np.eye(3)[np.abs(forward).argmin()]
+    return up
 
 
 def parallel_camera(middle: np.ndarray, forward: np.ndarray, up: np.ndarray, seen: np.ndarray) -> LightCamera:
@@ -103,11 +110,25 @@ def point_camera(
     light: Light, middle: np.ndarray, forward: np.ndarray, up: np.ndarray, seen: np.ndarray
 ) -> LightCamera:
     """Return the camera of a point light; `seen` are the casters' vertices from the light."""
-    far = MARGIN * float(np.linalg.norm(seen, axis=1).max())
     depth = seen[:, 2]
-    near = min(max(float(depth.min()) / MARGIN, NEAREST * far), far / ROOMY)
+    near, far = near_and_far(seen)
     with np.errstate(divide="ignore", invalid="ignore"):
         tangents = np.where(depth[:, None] > 0, np.abs(seen[:, :2]) / depth[:, None], np.inf)
     half = min(MARGIN * float(tangents.max()), WIDEST)
     eye = light.position[:3]
     return LightCamera(eye, eye + forward, up, half, near, far, parallel=False)
+
+
+def spot_camera(light: Light, vertices: np.ndarray) -> LightCamera:
+    """Return the camera of a spot light: its map is the square round its cone, up to 60 degrees to each side."""
+    assert light.axis is not None
+    eye, up = light.position[:3], any_up(light.axis)
+    near, far = near_and_far((vertices - eye) @ view_frame(light.axis, up).T)
+    half = min(float(np.tan(np.radians(light.cutoff))), WIDEST)
+    return LightCamera(eye, eye + light.axis, up, half, near, far, parallel=False)
+
+
+def near_and_far(seen: np.ndarray) -> tuple[float, float]:
+    """Return the planes between which a point light sees the casters' vertices (N, 3), as it sees them."""
+    far = MARGIN * float(np.linalg.norm(seen, axis=1).max())
+    return min(max(float(seen[:, 2].min()) / MARGIN, NEAREST * far), far / ROOMY), far

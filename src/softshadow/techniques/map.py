@@ -15,49 +15,65 @@ are unknown and count as lit.
 
 Known failures: acne (surfaces shadow themselves) without bias, and single specks of it at creases even with the slope
 offset, peter panning (shadows come off their casters) with too much of it; edges have steps as large as a texel; a
-point light among the casters needs more than one map; `storage` = copy leaves texels beyond the window empty (E62).
+point light among the casters needs more than one map (map-cube); `outside` = edge smears the map's edge (E47);
+`storage` = copy leaves texels beyond the window empty (E62).
+
+What the map stores is the nearest surface; the nearest that looks away from the light (`surface` = back; Wang & Molnar
+1994, "Second-depth shadow mapping"); or the middle between the first and the second surface (midpoint; Woo 1992, "The
+shadow depth map revisited"). The latter two need no bias where casters are thick enough, and let light through where
+their surfaces meet.
 """
 
-import warnings
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from softshadow.errors import OutsideLightFrustum
 from softshadow.scene import Light, Scene
+from softshadow.scene.lights import WIDEST_CONE
+from softshadow.techniques import depth_maps
+from softshadow.techniques.depth_layers import second_layer, store_midpoint
+from softshadow.techniques.depth_maps import (
+    compare_in_alpha,
+    depth_texture,
+    draw_and_copy,
+    draw_into,
+    offset_and_culled,
+    read_depths,
+    unknown,
+    warn_of_casters_outside,
+)
 from softshadow.techniques.drawing import (
     added,
     begin_frame,
     column_major,
-    draw_mesh,
     draw_objects,
-    draw_shapes,
     light_ambient_only,
     light_by,
-    object_space,
     read_depth,
     read_stencil,
     set_camera,
-    set_material,
-    texture_attached,
     title_of,
     visibility_maps,
+    world_points,
 )
 from softshadow.techniques.light_camera import LightCamera, light_camera
+from softshadow.techniques.map_lookups import clear_coordinates, draw_looked_up, set_map_coordinates
 from softshadow.techniques.technique import Option, Steps
 
-OPTIONS = {
-    "map_size": Option(512, int, "texels on a side of the map", minimum=1, maximum=8192),
+OPTIONS = depth_maps.OPTIONS | {
     "factor": Option(1.0, float, "slope offset: first argument of glPolygonOffset while the map is drawn"),
-    "units": Option(1.0, float, "slope offset: second argument of glPolygonOffset while the map is drawn"),
-    "bias": Option(
-        0.0, float, "constant subtracted from a point's depth before it is compared, of the map's range 0 to 1"
-    ),
     "cull": Option(
         "none",
         str,
         "faces left out of the map: those towards the light (front) or away from it (back)",
         choices=("none", "front", "back"),
+    ),
+    "surface": Option(
+        "front",
+        str,
+        "what is stored: the nearest surface, the nearest that looks away (back), or the middle of first and second",
+        choices=("front", "back", "midpoint"),
     ),
     "filter": Option(
         "nearest", str, "one comparison, or four weighted ones that a half decides", choices=("nearest", "linear")
@@ -69,6 +85,9 @@ OPTIONS = {
 
 # lit from half of the comparisons on; 127.5 would sit between two of the 8-bit values that the alpha test compares
 HALF = 127 / 255
+LIT, DARK, DECIDED = 1, 3, 1  # in the stencil buffer; the bit that both have
+# the disc of a spot light: texels on a side, how much wider than the cone it is, and how soft its rim, in texels
+DISC, WIDER, RIM = 256, 1.1, 4
 
 
 def steps(
@@ -80,7 +99,10 @@ def steps(
     factor: float = 1.0,
     units: float = 1.0,
     bias: float = 0.0,
+    normal_bias: float = 0.0,
+    outside: str = "lit",
     cull: str = "none",
+    surface: str = "front",
     filter: str = "nearest",
     storage: str = "framebuffer",
 ) -> Steps:
@@ -91,22 +113,23 @@ def steps(
 
     # pass 1: the depth of the casters, seen from the light
     shadow_maps = []
+    draw_map = draw_into if storage == "framebuffer" else draw_and_copy
     for light, camera in zip(scene.lights, cameras, strict=True):
-        shadow_map = depth_texture(gl, map_size, gl.GL_LINEAR if filter == "linear" else gl.GL_NEAREST)
-        gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
-        gl.glPolygonOffset(factor, units)
-        if cull != "none":
-            gl.glEnable(gl.GL_CULL_FACE)
-            gl.glCullFace(gl.GL_FRONT if cull == "front" else gl.GL_BACK)
-        if storage == "framebuffer":
-            draw_into(gl, scene, camera, shadow_map, map_size)
-        else:
-            draw_and_copy(gl, scene, camera, shadow_map, map_size)
-        gl.glDisable(gl.GL_CULL_FACE)
-        gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
+        shadow_map = depth_texture(gl, map_size, gl.GL_LINEAR if filter == "linear" else gl.GL_NEAREST, outside)
+        with offset_and_culled(gl, factor, units, "front" if surface == "back" else cull):
+            draw_map(gl, scene, camera, shadow_map, map_size)
+            stored = read_depths(gl, shadow_map)
+            name = "ZS first" if surface == "midpoint" else "ZS"
+            yield title_of("draw the depth map from the light", scene, light), {title_of(name, scene, light): stored}
+            if surface == "midpoint":
+                second = second_layer(gl, scene, camera, shadow_map, map_size)
+                stored = read_depths(gl, second)
+                yield title_of("draw what is behind it", scene, light), {title_of("ZS second", scene, light): stored}
+        if surface == "midpoint":
+            stored = store_midpoint(gl, shadow_map, second)
+            gl.glDeleteTextures([second])
+            yield title_of("take the middle", scene, light), {title_of("ZS midpoint", scene, light): stored}
         shadow_maps.append(shadow_map)
-        stored = gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT)
-        yield title_of("draw the depth map from the light", scene, light), {title_of("ZS", scene, light): stored}
 
     # pass 2: the camera's picture, first as if all were in shadow
     begin_frame(gl, scene)
@@ -122,10 +145,15 @@ def steps(
     points = world_points(scene, depth, size)
     for light, camera, shadow_map in zip(scene.lights, cameras, shadow_maps, strict=True):
         gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
-        add_light_through_map(gl, scene, light, camera, shadow_map, bias)
-        lit.append(read_stencil(gl, size) != 0)
-        unknown = valid & ~camera.sees(points)
-        maps = {title_of("unknown", scene, light): unknown}
+        begin_decisions(gl)
+        if light.is_spot:
+            decide_outside_cone(gl, scene, light, camera)
+        elif outside != "edge":
+            decide_behind(gl, scene, light, camera, outside)
+        add_light_through_map(gl, scene, light, camera, shadow_map, bias, normal_bias)
+        end_decisions(gl)
+        lit.append(read_stencil(gl, size) == LIT)
+        maps = {title_of("unknown", scene, light): valid & unknown(scene, light, camera, points)}
         yield (
             title_of("add the light where the map is not nearer", scene, light),
             maps | visibility_maps(scene, lit, valid),
@@ -133,130 +161,84 @@ def steps(
     gl.glDeleteTextures(shadow_maps)
 
 
-def warn_of_casters_outside(scene: Scene, cameras: list[LightCamera]) -> None:
-    """Warn of casters that a light's one camera does not see."""
-    for light, camera in zip(scene.lights, cameras, strict=True):
-        names = [caster.name for caster in scene.casters if not camera.sees(caster.world_positions).all()]
-        if names:
-            warnings.warn(
-                f"light {light.name!r} stands among its casters: its map does not see all of {', '.join(names)}; "
-                "their shadows are missing outside the map (a cube of six maps would see them)",
-                OutsideLightFrustum,
-                stacklevel=3,
-            )
-
-
-# -- pass 1 ------------------------------------------------------------------------------------------------------------
-
-
-def depth_texture(gl: Any, map_size: int, filtering: int) -> int:
-    """Return a bound depth texture that compares r with what it stores and answers in alpha; outside it all is lit."""
-    name = gl.glGenTextures(1)
-    gl.glBindTexture(gl.GL_TEXTURE_2D, name)
-    for parameter, value in (
-        (gl.GL_TEXTURE_MIN_FILTER, filtering),
-        (gl.GL_TEXTURE_MAG_FILTER, filtering),
-        (gl.GL_TEXTURE_WRAP_S, gl.GL_CLAMP_TO_BORDER),  # E47: the edge texel must not smear over the scene
-        (gl.GL_TEXTURE_WRAP_T, gl.GL_CLAMP_TO_BORDER),
-        (gl.GL_TEXTURE_COMPARE_MODE, gl.GL_COMPARE_R_TO_TEXTURE),
-        (gl.GL_TEXTURE_COMPARE_FUNC, gl.GL_LEQUAL),
-        (gl.GL_DEPTH_TEXTURE_MODE, gl.GL_ALPHA),
-    ):
-        gl.glTexParameteri(gl.GL_TEXTURE_2D, parameter, value)
-    gl.glTexParameterfv(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_BORDER_COLOR, (1.0, 1.0, 1.0, 1.0))
-    empty = np.ones((map_size, map_size), np.float32)  # what a copy does not reach stays far (E51)
-    gl.glTexImage2D(
-        gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH_COMPONENT24, map_size, map_size, 0, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT, empty
-    )
-    return name
-
-
-def set_light_camera(gl: Any, camera: LightCamera) -> None:
-    """Multiply the current matrix by the light's projection and view."""
-    if camera.parallel:
-        gl.glOrtho(-camera.half, camera.half, -camera.half, camera.half, camera.near, camera.far)
-    else:
-        gl.gluPerspective(camera.fov, 1.0, camera.near, camera.far)
-    gl.gluLookAt(*camera.eye, *camera.target, *camera.up)
-
-
-def draw_casters_from(gl: Any, scene: Scene, camera: LightCamera, map_size: int) -> None:
-    """Draw the casters from the light, depth only."""
-    gl.glViewport(0, 0, map_size, map_size)
-    gl.glClear(gl.GL_DEPTH_BUFFER_BIT)
-    gl.glMatrixMode(gl.GL_PROJECTION)
-    gl.glLoadIdentity()
-    set_light_camera(gl, camera)
-    gl.glMatrixMode(gl.GL_MODELVIEW)
-    gl.glLoadIdentity()
-    gl.glDisable(gl.GL_LIGHTING)
-    gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
-    draw_shapes(gl, scene.casters)
-    gl.glColorMask(gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE)
-
-
-def draw_into(gl: Any, scene: Scene, camera: LightCamera, shadow_map: int, map_size: int) -> None:
-    """Draw the map with the texture itself as the depth buffer."""
-    with texture_attached(gl, gl.GL_DEPTH_ATTACHMENT, shadow_map):
-        draw_casters_from(gl, scene, camera, map_size)
-
-
-def draw_and_copy(gl: Any, scene: Scene, camera: LightCamera, shadow_map: int, map_size: int) -> None:
-    """Draw the map in the window and copy its depth buffer into the texture, as on the slide."""
-    draw_casters_from(gl, scene, camera, map_size)
-    gl.glBindTexture(gl.GL_TEXTURE_2D, shadow_map)
-    gl.glCopyTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 0, 0, map_size, map_size)
-
-
 # -- pass 2 ------------------------------------------------------------------------------------------------------------
 
 
-def add_light_through_map(
-    gl: Any, scene: Scene, light: Light, camera: LightCamera, shadow_map: int, bias: float
-) -> None:
-    """Add a light where the map does not say shadow, and leave 1 in the stencil buffer there."""
+def begin_decisions(gl: Any) -> None:
+    """Let the following draws decide pixels, each once, where a texture's alpha is more than a half."""
     gl.glEnable(gl.GL_STENCIL_TEST)
-    gl.glStencilFunc(gl.GL_NOTEQUAL, 1, 0xFF)  # no pixel gets the light twice
+    gl.glStencilFunc(gl.GL_NOTEQUAL, LIT, DECIDED)  # no pixel gets the light twice
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
     gl.glEnable(gl.GL_ALPHA_TEST)
     gl.glAlphaFunc(gl.GL_GREATER, HALF)
     gl.glEnable(gl.GL_TEXTURE_2D)
     gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, gl.GL_MODULATE)
-    light_by(gl, scene, [light], ambient=False)
-    with added(gl):
-        vertices = np.concatenate([thing.world_positions for thing in scene.objects])
-        if camera.has_behind(vertices):
-            sides = side_texture(gl)
-            set_side_coordinates(gl, camera)
-            draw_textured(gl, scene)
-            gl.glDeleteTextures([sides])
-        gl.glBindTexture(gl.GL_TEXTURE_2D, shadow_map)
-        set_map_coordinates(gl, camera, bias)
-        draw_textured(gl, scene)
-    gl.glMatrixMode(gl.GL_TEXTURE)
-    gl.glLoadIdentity()
-    gl.glMatrixMode(gl.GL_MODELVIEW)
+
+
+def end_decisions(gl: Any) -> None:
+    """Set the state back."""
+    clear_coordinates(gl)
     gl.glDisable(gl.GL_TEXTURE_2D)
     gl.glDisable(gl.GL_ALPHA_TEST)
     gl.glDisable(gl.GL_STENCIL_TEST)
 
 
-def set_map_coordinates(gl: Any, camera: LightCamera, bias: float) -> None:
-    """Set the texture matrix: the world to the map's s, t and depth r, the bias taken from r."""
-    gl.glMatrixMode(gl.GL_TEXTURE)
-    gl.glLoadIdentity()
-    gl.glTranslated(0.5, 0.5, 0.5 - bias)
-    gl.glScaled(0.5, 0.5, 0.5)
-    set_light_camera(gl, camera)
-    gl.glMatrixMode(gl.GL_MODELVIEW)
+def add_light_through_map(
+    gl: Any, scene: Scene, light: Light, camera: LightCamera, shadow_map: int, bias: float, normal_bias: float
+) -> None:
+    """Add a light where the map does not say shadow, and leave 1 in the stencil buffer there."""
+    light_by(gl, scene, [light], ambient=False, cones=False)
+    gl.glBindTexture(gl.GL_TEXTURE_2D, shadow_map)
+    compare_in_alpha(gl, gl.GL_LEQUAL)
+    set_map_coordinates(gl, camera, bias)
+    with added(gl):
+        draw_looked_up(gl, scene.objects, normal_bias, shaded=True)
+
+
+def decide_behind(gl: Any, scene: Scene, light: Light, camera: LightCamera, outside: str) -> None:
+    """Decide what is beside or behind the light, where q ≤ 0.
+
+    It would be divided through to the mirrored place of the map, and might find a shadow there.
+    """
+    vertices = np.concatenate([thing.world_positions for thing in scene.objects])
+    if camera.has_behind(vertices):
+        sides = side_texture(gl)
+        set_side_coordinates(gl, camera)
+        if outside == "lit":
+            light_by(gl, scene, [light], ambient=False, cones=False)
+            with added(gl):
+                draw_looked_up(gl, scene.objects, shaded=True)
+        else:
+            darken(gl, scene)
+        gl.glDeleteTextures([sides])
+
+
+def decide_outside_cone(gl: Any, scene: Scene, light: Light, camera: LightCamera) -> None:
+    """Leave a spot light's light away behind it and outside the disc that its cone is in its map."""
+    sides = side_texture(gl)
+    set_side_coordinates(gl, camera)
+    darken(gl, scene)
+    gl.glDeleteTextures([sides])
+    if light.cutoff < WIDEST_CONE:
+        disc = disc_texture(gl)
+        set_map_coordinates(gl, replace(camera, half=WIDER * float(np.tan(np.radians(light.cutoff)))), 0.0)
+        darken(gl, scene)
+        gl.glDeleteTextures([disc])
+
+
+def darken(gl: Any, scene: Scene) -> None:
+    """Decide pixels to be dark: no colour is added, and their stencil is no longer undecided."""
+    gl.glDisable(gl.GL_LIGHTING)
+    gl.glStencilFunc(gl.GL_NOTEQUAL, DARK, DECIDED)
+    gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
+    with added(gl):
+        draw_looked_up(gl, scene.objects)
+    gl.glColorMask(gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE)
+    gl.glStencilFunc(gl.GL_NOTEQUAL, LIT, DECIDED)
 
 
 def set_side_coordinates(gl: Any, camera: LightCamera) -> None:
-    """Set the texture matrix: s below a half for what is beside or behind the light, above for what is before it.
-
-    Without it such points, where q ≤ 0, are divided through to the mirrored place of the map, and may find a shadow
-    there.
-    """
+    """Set the texture matrix: s below a half for what is beside or behind the light, above for what is before it."""
     forward = camera.frame[2]
     matrix = np.zeros((4, 4))
     matrix[0] = [*forward, 0.5 - forward @ camera.eye]
@@ -270,7 +252,7 @@ def set_side_coordinates(gl: Any, camera: LightCamera) -> None:
 
 def side_texture(gl: Any) -> int:
     """Return a bound texture of two texels: alpha 1 on the left, behind the light, and 0 on the right, before it."""
-    name = gl.glGenTextures(1)
+    name: int = gl.glGenTextures(1)
     gl.glBindTexture(gl.GL_TEXTURE_2D, name)
     for parameter, value in (
         (gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST),
@@ -284,27 +266,23 @@ def side_texture(gl: Any) -> int:
     return name
 
 
-def draw_textured(gl: Any, scene: Scene) -> None:
-    """Draw the scene lit, world positions as texture coordinates."""
-    for thing in scene.objects:
-        gl.glMatrixMode(gl.GL_TEXTURE)
-        gl.glPushMatrix()
-        gl.glMultMatrixd(column_major(thing.object_to_world))
-        gl.glMatrixMode(gl.GL_MODELVIEW)
-        with object_space(gl, thing):
-            set_material(gl, thing)
-            draw_mesh(gl, thing, shaded=True, texture_coordinates=True)
-        gl.glMatrixMode(gl.GL_TEXTURE)
-        gl.glPopMatrix()
-        gl.glMatrixMode(gl.GL_MODELVIEW)
+def disc_texture(gl: Any) -> int:
+    """Return a bound texture with alpha less than a half in the disc of a cone, and more outside it.
 
-
-def world_points(scene: Scene, depth: np.ndarray, size: tuple[int, int]) -> np.ndarray:
-    """Return the world points (h, w, 3) float64 that the camera sees, from their window depths (first row = bottom)."""
-    width, height = size
-    camera = scene.camera
-    x, y = np.meshgrid(np.arange(width) + 0.5, height - (np.arange(height) + 0.5))  # near_points counts from the top
-    near_points = camera.near_points(np.stack([x.ravel(), y.ravel()], axis=1), size)
-    # window depth d belongs to the distance n·f / (f - d·(f - n)) along the view, the near rectangle to n
-    scale = camera.far / (camera.far - depth.astype(np.float64) * (camera.far - camera.near))
-    return camera.eye + scale[..., None] * (near_points - camera.eye).reshape(height, width, 3)
+    Alpha grows with the distance from the rim, so that linear filtering finds the rim to a fraction of a texel.
+    """
+    name: int = gl.glGenTextures(1)
+    gl.glBindTexture(gl.GL_TEXTURE_2D, name)
+    for parameter, value in (
+        (gl.GL_TEXTURE_MIN_FILTER, gl.GL_LINEAR),
+        (gl.GL_TEXTURE_MAG_FILTER, gl.GL_LINEAR),
+        (gl.GL_TEXTURE_WRAP_S, gl.GL_CLAMP_TO_EDGE),
+        (gl.GL_TEXTURE_WRAP_T, gl.GL_CLAMP_TO_EDGE),
+    ):
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, parameter, value)
+    centres = np.arange(DISC) + 0.5 - DISC / 2
+    beyond_rim = np.hypot(centres[:, None], centres) - DISC / 2 / WIDER
+    texels = np.full((DISC, DISC, 4), 255, np.uint8)
+    texels[..., 3] = np.rint(255 * np.clip(0.5 + beyond_rim / RIM, 0, 1))
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA8, DISC, DISC, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
+    return name

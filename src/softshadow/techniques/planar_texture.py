@@ -139,7 +139,7 @@ def add_light_through_textures(gl: Any, scene: Scene, light: Light, shadows: dic
             gl.glMatrixMode(gl.GL_MODELVIEW)
             with object_space(gl, receiver):
                 set_material(gl, receiver)
-                draw_mesh(gl, receiver, shaded=True, texture_coordinates=True)
+                draw_mesh(gl, receiver, shaded=True, texture_coordinates=receiver.mesh.positions)
     gl.glDisable(gl.GL_TEXTURE_2D)
     gl.glDisable(gl.GL_ALPHA_TEST)
     gl.glDisable(gl.GL_STENCIL_TEST)

@@ -24,6 +24,7 @@ from softshadow.techniques.drawing import (
     set_camera,
     title_of,
     visibility_maps,
+    within_cone,
 )
 from softshadow.techniques.shadow_volumes import (
     OPTIONS as SHARED_OPTIONS,
@@ -57,7 +58,8 @@ def steps(
     set_camera(gl, scene.camera, size, far)
     light_ambient_only(gl, scene)
     draw_objects(gl, scene.objects)
-    valid = read_depth(gl, size) < 1
+    depth = read_depth(gl, size)
+    valid = depth < 1
     yield "draw the scene without the light"
 
     lit = []
@@ -77,6 +79,6 @@ def steps(
         end_count(gl)
 
         # step 3: the lit part of the scene
-        lit.append(read_stencil(gl, size) == 0)
+        lit.append((read_stencil(gl, size) == 0) & within_cone(scene, light, depth, size, far))
         add_light(gl, scene, light)
         yield title_of("add the light where the parity is even", scene, light), visibility_maps(scene, lit, valid)

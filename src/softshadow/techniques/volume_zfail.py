@@ -26,6 +26,7 @@ from softshadow.techniques.drawing import (
     set_camera,
     title_of,
     visibility_maps,
+    within_cone,
 )
 from softshadow.techniques.shadow_volumes import (
     OPTIONS as SHARED_OPTIONS,
@@ -68,7 +69,8 @@ def steps(
     set_camera(gl, scene.camera, size, far)
     light_ambient_only(gl, scene)
     draw_objects(gl, scene.objects)
-    valid = read_depth(gl, size) < 1
+    depth = read_depth(gl, size)
+    valid = depth < 1
     yield "draw the scene without the light"
 
     lit = []
@@ -105,6 +107,6 @@ def steps(
         # step 4 (Pasul 4): the lit part of the scene
         stencil = read_stencil(gl, size)
         warn_when_saturated(gl, stencil, ops, light)
-        lit.append(stencil == 0)
+        lit.append((stencil == 0) & within_cone(scene, light, depth, size, far))
         add_light(gl, scene, light)
         yield title_of("add the light where the count is 0", scene, light), visibility_maps(scene, lit, valid)

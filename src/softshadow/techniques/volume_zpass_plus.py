@@ -27,6 +27,7 @@ from softshadow.techniques.drawing import (
     set_camera,
     title_of,
     visibility_maps,
+    within_cone,
 )
 from softshadow.techniques.near_rectangle import near_cap, near_counts, seen_edge_on
 from softshadow.techniques.shadow_volumes import (
@@ -73,7 +74,8 @@ def steps(
     set_camera(gl, scene.camera, size, far)
     light_ambient_only(gl, scene)
     draw_objects(gl, scene.objects)
-    valid = read_depth(gl, size) < 1
+    depth = read_depth(gl, size)
+    valid = depth < 1
     yield "draw the scene without the light"
 
     lit = []
@@ -99,7 +101,7 @@ def steps(
         # step 5: the lit part of the scene
         stencil = read_stencil(gl, size)
         warn_when_saturated(gl, stencil, ops, light)
-        lit.append(stencil == 0)
+        lit.append((stencil == 0) & within_cone(scene, light, depth, size, far))
         add_light(gl, scene, light)
         yield title_of("add the light where the count is 0", scene, light), visibility_maps(scene, lit, valid)
 
