@@ -5,7 +5,7 @@ import pytest
 
 from softshadow import gl
 from softshadow.errors import StateError
-from softshadow.failures.call_difference import call_difference
+from softshadow.failures.call_difference import MOST_PLACES, call_difference
 from softshadow.failures.calls import Change, RecordedNames, Token, spelled
 
 
@@ -77,6 +77,19 @@ def test_large_arrays_are_told_by_shape_and_compared_by_content() -> None:
     text = "glDrawArrays(GL_TRIANGLES, 0, 20)"
     assert call_difference(one.calls, other.calls) == f"@@ draw\n- {text}\n+ {text}, other values"
     assert call_difference(one.calls, one.calls) == ""
+
+
+def test_difference_in_many_places_is_told_of_the_first() -> None:
+    one, other = RecordedNames(gl, ()), RecordedNames(gl, ())
+    for names, step in ((one, 1), (other, 2)):
+        for width in range(1, MOST_PLACES + 4):
+            names.glDepthFunc(names.GL_LESS)
+            names.glLineWidth(width + 100 * step)
+            names.glDepthFunc(names.GL_LEQUAL)
+        names.end_step("draw")
+    lines = call_difference(one.calls, other.calls).splitlines()
+    assert len(lines) == 1 + 2 * MOST_PLACES + 1
+    assert lines[-1] == "@@ and in 3 more places"
 
 
 def test_difference_that_repeats_is_told_once() -> None:

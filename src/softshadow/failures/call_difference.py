@@ -10,6 +10,7 @@ from softshadow.failures.calls import Call
 
 # what changes no pixel: the switches of vertex arrays around every draw, and questions
 UNTOLD = ("glEnableClientState", "glDisableClientState", "glGet", "glReadPixels")
+MOST_PLACES = 6  # where the cure is another technique, there is no end of them
 MOST_LINES = 6  # of one side in one place: what is more is a pass of its own, and its beginning tells it
 
 
@@ -29,10 +30,12 @@ def call_difference(wrong: Sequence[Call], cured: Sequence[Call]) -> str:
             hunk = (come or gone)[0].step, lines
             places[hunk] = places.get(hunk, 0) + 1
     text: list[str] = []
-    for step, hunks in groupby(places.items(), key=lambda item: item[0][0]):
+    for step, hunks in groupby(list(places.items())[:MOST_PLACES], key=lambda item: item[0][0]):
         text.append(f"@@ {step}")
         for (_, lines), count in hunks:
             text += lines if count == 1 else (*lines, f"  ({count} times)")
+    if len(places) > MOST_PLACES:
+        text.append(f"@@ and in {len(places) - MOST_PLACES} more places")
     return "\n".join(text)
 
 

@@ -97,6 +97,14 @@ FAILURES = (
         wrong_flat_light, "pixels that are dark in light, or bright in shadow", flat=True,
     ),
     Failure(
+        "omni-light", "One map for a light among its casters", "maps", "E55, RO1:24, CA:803",
+        "A frustum looks one way: what stands beside or behind the light is not in its map, and casts no shadow.",
+        lambda: Scene.named("light-between"),
+        Setting("map"),
+        Setting("volume-zfail"),
+        wrong_inside_faces, COUNTED,
+    ),
+    Failure(
         "factor-on-whole-color", "The factor dims the whole colour", "maps", "E53, RO2:85",
         "Ambient light reaches a shadow undiminished; the factor belongs to the direct light of one source alone.",
         lambda: scene_of(ONE_BOX, "one box"),
