@@ -35,17 +35,22 @@ def near_rectangle(camera: Camera, size: tuple[int, int], far: str) -> np.ndarra
 def near_counts(
     scene: Scene, light: Light, casters: Sequence[SceneObject], size: tuple[int, int], far: str
 ) -> np.ndarray:
-    """Return (h, w) int32, first row = bottom: how many volumes contain the point where each pixel's count begins.
-
-    A ray is cast from each of these points to the light.
-    """
+    """Return (h, w) int32, first row = bottom: how many volumes contain the point where each pixel's count begins."""
     width, height = size
     reaching = [one for one in casters if shadows_near_rectangle(one, light, scene.camera, size, far)]
     if not reaching:
         return np.zeros((height, width), np.int32)
+    return counts_by_rays(scene.camera, light, reaching, size, far)
+
+
+def counts_by_rays(
+    camera: Camera, light: Light, casters: Sequence[SceneObject], size: tuple[int, int], far: str
+) -> np.ndarray:
+    """Return the counts of `near_counts`: a ray is cast to the light from where each pixel's line of sight begins."""
+    width, height = size
     x, y = np.meshgrid(np.arange(width) + 0.5, height - (np.arange(height) + 0.5))
-    points = start_points(scene.camera, np.stack([x.ravel(), y.ravel()], axis=1), size, far)
-    return casting_faces_between(points, light.position, reaching).reshape(height, width)
+    points = start_points(camera, np.stack([x.ravel(), y.ravel()], axis=1), size, far)
+    return casting_faces_between(points, light.position, casters).reshape(height, width)
 
 
 def eye_count(scene: Scene, light: Light, casters: Sequence[SceneObject]) -> int:
@@ -60,20 +65,22 @@ def faces_before(caster: SceneObject, light: Light, rectangle: np.ndarray) -> np
     return clip_to_planes(triangles, pyramid_between(light.position, rectangle))
 
 
+def seen_edge_on(light: Light, rectangle: np.ndarray) -> bool:
+    """Return whether a rectangle (4, 3) is (nearly) a line as the light sees it: no pyramid stands on it."""
+    normal = np.cross(rectangle[1] - rectangle[0], rectangle[2] - rectangle[1])
+    toward = light.position[:3] - light.position[3] * rectangle.mean(axis=0)
+    return bool(abs(normal @ toward) <= EDGE_ON * np.linalg.norm(normal) * np.linalg.norm(toward))
+
+
 def shadows_near_rectangle(caster: SceneObject, light: Light, camera: Camera, size: tuple[int, int], far: str) -> bool:
     """Return whether a casting face stands between the light and a point of the near rectangle.
 
     That is the case exactly when the volume contains or cuts the rectangle: the count somewhere on it is not 0.
     """
-    return len(faces_before(caster, light, near_rectangle(camera, size, far))) > 0
-
-
-def seen_edge_on(light: Light, camera: Camera) -> bool:
-    """Return whether the near rectangle is (nearly) a line as the light sees it: nothing can be flattened onto it."""
-    position, w = light.position[:3], light.position[3]
-    middle = camera.eye - camera.near * camera.frame[2]
-    toward = position - w * middle
-    return bool(abs(camera.frame[2] @ toward) <= EDGE_ON * np.linalg.norm(toward))
+    rectangle = near_rectangle(camera, size, far)
+    if seen_edge_on(light, rectangle):
+        return bool(counts_by_rays(camera, light, [caster], size, far).any())
+    return len(faces_before(caster, light, rectangle)) > 0
 
 
 def near_cap(caster: SceneObject, light: Light, camera: Camera, size: tuple[int, int]) -> np.ndarray:

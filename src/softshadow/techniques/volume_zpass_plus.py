@@ -29,7 +29,7 @@ from softshadow.techniques.drawing import (
     visibility_maps,
     within_cone,
 )
-from softshadow.techniques.near_rectangle import near_cap, near_counts, seen_edge_on
+from softshadow.techniques.near_rectangle import near_cap, near_counts, near_rectangle, seen_edge_on
 from softshadow.techniques.shadow_volumes import (
     OPTIONS as SHARED_OPTIONS,
 )
@@ -87,7 +87,7 @@ def steps(
 
         # step 2: one more for every casting face between the near rectangle and the light
         gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, up)
-        if seen_edge_on(light, scene.camera):
+        if seen_edge_on(light, near_rectangle(scene.camera, size, far)):
             write_stencil(gl, limited(gl, near_counts(scene, light, scene.casters, size, far), (up, down)), size)
         else:
             draw_near_caps(gl, scene, light, size)
