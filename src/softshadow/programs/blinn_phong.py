@@ -65,10 +65,15 @@ def vertex(vertices: VertexInputs) -> Varyings:
 
 def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
     """Fill `out` (N, 4) with the lit colours."""
+    shade_visible(inputs, uniforms, np.ones(len(inputs), inputs.dtype), out)
+
+
+def shade_visible(inputs: np.ndarray, uniforms: Mapping[str, Any], visible: np.ndarray, out: np.ndarray) -> None:
+    """Fill `out` (N, 4) with the colours of pixels that see a share (N,) of the light."""
     names = ("lightPosition", "ambient", "diffuse", "specular")
-    light, ambient, diffuse, specular = (np.array(uniforms[name], inputs.dtype) for name in names)
-    facing, highlight = lit_by(inputs, light, inputs.dtype.type(uniforms["shininess"]))
-    light_pixels(np.ascontiguousarray(inputs.T), facing, highlight, ambient, diffuse, specular, out.T)
+    light, ambient, diffuse, specular = (tuple(map(inputs.dtype.type, uniforms[name])) for name in names)
+    shininess = inputs.dtype.type(uniforms["shininess"])
+    light_pixels(np.ascontiguousarray(inputs.T), visible, light, ambient, diffuse, specular, shininess, out.T)
 
 
 @kernel
@@ -83,38 +88,33 @@ def normalize(v):
     return v[0] * scale, v[1] * scale, v[2] * scale
 
 
-def lit_by(inputs: np.ndarray, light: np.ndarray, shininess: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Return (facing, highlight) (N,) of pixels: the weights of the diffuse and of the specular light."""
-    eye_and_normal = np.ascontiguousarray(inputs.T[4:10])
-    facing, highlight = np.empty(len(inputs), inputs.dtype), np.empty(len(inputs), inputs.dtype)
-    weigh(eye_and_normal, light, shininess, facing, highlight)
-    return facing, highlight
+@kernel
+def mix_light(color, ambient, diffuse, specular, facing, highlight):
+    """Return one channel of a pixel."""
+    return color * (ambient + facing * diffuse) + highlight * specular
 
 
 @kernel
-def weigh(eye_and_normal, light, shininess, facings, highlights):
-    """Write both weights (N,) of pixels; `eye_and_normal` (6, N): each component by itself, so that it vectorises."""
+def light_pixels(inputs, visible, light, ambient, diffuse, specular, shininess, out):
+    """Light pixels with inputs (10 or more, N): color, eye position, normal; `visible` (N,) is their share of light.
+
+    Each component lies by itself, so that the loop is vectorised.
+    """
     w = light[3]
-    for n in range(eye_and_normal.shape[1]):
-        eye = (eye_and_normal[0, n], eye_and_normal[1, n], eye_and_normal[2, n])
-        normal = normalize((eye_and_normal[3, n], eye_and_normal[4, n], eye_and_normal[5, n]))
+    for n in range(inputs.shape[1]):
+        eye = (inputs[4, n], inputs[5, n], inputs[6, n])
+        normal = normalize((inputs[7, n], inputs[8, n], inputs[9, n]))
         towards_light = normalize((light[0] - w * eye[0], light[1] - w * eye[1], light[2] - w * eye[2]))
         view = normalize(eye)
         halfway = normalize((towards_light[0] - view[0], towards_light[1] - view[1], towards_light[2] - view[2]))
         facing = max(dot(normal, towards_light), ZERO)
-        highlight = power(max(dot(normal, halfway), ZERO), shininess)
-        facings[n] = facing
-        highlights[n] = highlight if facing > ZERO else ZERO
-
-
-@kernel
-def light_pixels(inputs, facings, highlights, ambient, diffuse, specular, out):
-    """Light pixels with inputs (4 or more, N), of which the first are the color, by their weights (N,)."""
-    for c in range(3):
-        from_scene, from_light, shine = ambient[c], diffuse[c], specular[c]
-        for n in range(inputs.shape[1]):
-            out[c, n] = inputs[c, n] * (from_scene + facings[n] * from_light) + highlights[n] * shine
-    out[3, :] = inputs[3]
+        shine = power(max(dot(normal, halfway), ZERO), shininess)
+        highlight = visible[n] * (shine if facing > ZERO else ZERO)
+        facing = visible[n] * facing
+        out[0, n] = mix_light(inputs[0, n], ambient[0], diffuse[0], specular[0], facing, highlight)
+        out[1, n] = mix_light(inputs[1, n], ambient[1], diffuse[1], specular[1], facing, highlight)
+        out[2, n] = mix_light(inputs[2, n], ambient[2], diffuse[2], specular[2], facing, highlight)
+        out[3, n] = inputs[3, n]
 
 
 BLINN_PHONG = Program(

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.programs import Program, Varyings, VertexInputs
-from softshadow.programs.blinn_phong import BLINN_PHONG, light_pixels, lit_by
+from softshadow.programs.blinn_phong import BLINN_PHONG, shade_visible
 from softshadow.programs.blinn_phong import vertex as blinn_phong_vertex
 from softshadow.programs.percentage_closer import count_lit
 from softshadow.programs.sampling import divide
@@ -97,11 +97,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], radius: int, out: np.
     true_depth = projected[:, 2] - real(uniforms["bias"])
     lit = count_lit(uniforms["shadowMap"], projected, true_depth, radius, real(uniforms["texel"]))
     lit *= real(share(radius))
-    names = ("lightPosition", "ambient", "diffuse", "specular")
-    light, ambient, diffuse, specular = (np.array(uniforms[name], inputs.dtype) for name in names)
-    facing, highlight = lit_by(inputs, light, real(uniforms["shininess"]))
-    columns = np.ascontiguousarray(inputs.T)
-    light_pixels(columns, lit * facing, lit * highlight, ambient, diffuse, specular, out.T)
+    shade_visible(inputs, uniforms, lit, out)
 
 
 def share(radius: int) -> float:

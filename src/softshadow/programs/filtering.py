@@ -31,6 +31,8 @@ from softshadow.tokens import GL_ALWAYS, GL_EQUAL, GL_GEQUAL, GL_GREATER, GL_LEQ
 UNORM8_STEP = ONE / np.float32(255.0)
 STEP_OF_23_BITS = ONE / np.float32(LARGEST_SAMPLED)  # of the 32 bits of a depth llvmpipe reads the upper 23
 
+FIRST_TEXEL = np.uint32(0)
+
 # where R, G, B, A of the result come from: a channel of the cells, or a constant
 CONSTANT_ZERO, CONSTANT_ONE = 4, 5
 SOURCES = {
@@ -148,8 +150,17 @@ def gather_texels(columns, rows, cells, width, border, unit, sources, out):
         if source >= CONSTANT_ZERO:
             out[c, :] = ZERO if source == CONSTANT_ZERO else ONE
             continue
-        for n in range(len(columns)):
-            out[c, n] = fetch(cells, width, border, unit, columns[n], rows[n], source)
+        if unit == STEP_OF_23_BITS:
+            for n in range(len(columns)):
+                out[c, n] = fetch(cells, width, border, unit, columns[n], rows[n], source)
+            continue
+        outside = border[source]
+        for n in range(len(columns)):  # as `fetch`, but without branches: a texel is read in any case
+            i, j = np.uint32(columns[n]), np.uint32(rows[n])
+            inside = (i < np.uint32(width)) & (j < np.uint32(cells.shape[0]))
+            i, j = (i, j) if inside else (FIRST_TEXEL, FIRST_TEXEL)
+            texel = border.dtype.type(cells[np.uint64(j), np.uint64(i), source]) * unit
+            out[c, n] = texel if inside else outside
 
 
 @kernel

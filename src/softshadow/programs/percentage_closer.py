@@ -34,9 +34,13 @@ def count_lit(texture: Texture, projected: np.ndarray, depths: np.ndarray, radiu
     depths : (N,)                what is compared
     radius, texel                the places are `texel` times -radius ... radius apart from the middle, on both axes
     """
+    stored = np.empty((len(projected), 1), projected.dtype)
+    if radius == 0:
+        sample(texture, projected, stored)
+        return (depths <= stored[:, 0]).astype(projected.dtype)
     lit = np.zeros(len(projected), projected.dtype)
     offsets = np.arange(-radius, radius + 1).astype(projected.dtype) * texel
-    if radius and is_plain(texture):
+    if is_plain(texture):
         image, sampler = texture.base(), texture.sampler
         assert image is not None
         cells, border, unit = texels_of(image, sampler, projected.dtype)
@@ -51,7 +55,7 @@ def count_lit(texture: Texture, projected: np.ndarray, depths: np.ndarray, radiu
             kinds[kinds == SIDE_BY_SIDE] = MIXED
         count_nearest(texels, kinds, depths, cells, image.width, border, unit, lit)
         return lit
-    place, stored = projected.copy(order="F"), np.empty((len(projected), 1), projected.dtype)
+    place = projected.copy(order="F")
     for t_offset in offsets:
         place[:, 1] = projected[:, 1] + t_offset
         for s_offset in offsets:

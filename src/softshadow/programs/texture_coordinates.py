@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.jit import kernel, read_only
 from softshadow.programs import VertexInputs
 from softshadow.state import TexGen, TextureUnit
 
@@ -23,11 +24,21 @@ IN_EYE_SPACE = (gl.GL_EYE_LINEAR, *WITH_NORMALS)
 
 def transform(matrix: np.ndarray, vectors: np.ndarray) -> np.ndarray:
     """Return ``matrix @ vector`` of each row (V, 4): ((c0 x + c1 y) + c2 z) + c3 w, every step rounded."""
-    columns = np.asarray(matrix, vectors.dtype).T
-    result = vectors[:, 0:1] * columns[0]
-    for i in range(1, len(columns)):
-        result += vectors[:, i : i + 1] * columns[i]
+    columns = np.ascontiguousarray(np.asarray(matrix, vectors.dtype).T)
+    result = np.empty((len(vectors), columns.shape[1]), vectors.dtype)
+    transform_rows(columns, read_only(np.ascontiguousarray(vectors)), result)
     return result
+
+
+@kernel
+def transform_rows(columns, vectors, result):
+    """Write what columns (k, n) make of vectors (V, k), `result` (V, n)."""
+    for v in range(len(vectors)):
+        for i in range(columns.shape[1]):
+            total = vectors[v, 0] * columns[0, i]
+            for c in range(1, columns.shape[0]):
+                total += vectors[v, c] * columns[c, i]
+            result[v, i] = total
 
 
 def dot(vectors: np.ndarray, other: np.ndarray) -> np.ndarray:
