@@ -13,6 +13,8 @@ SIZE = (96, 72)
 VARIANTS: list[tuple[str, dict[str, Any]]] = [
     *[("planar", {"method": method}) for method in ("depth-off", "offset", "stencil", "stencil-blend", "texture")],
     ("blob", {}),
+    ("shadow-polygons", {"combine": "modulate"}),
+    ("shadow-polygons", {"form": "silhouettes", "method": "decal"}),
     ("volume-zpass", {}),
     ("volume-zpass", {"two_sided": True, "far": "clamp"}),
     ("volume-zfail", {}),

@@ -6,7 +6,16 @@ the calls of OpenGL, which yields the title of every step it has finished, with 
 """
 
 from softshadow.errors import nearest
-from softshadow.techniques import blob, map, planar, volume_parity, volume_zfail, volume_zpass, volume_zpass_plus
+from softshadow.techniques import (
+    blob,
+    map,
+    planar,
+    shadow_polygons,
+    volume_parity,
+    volume_zfail,
+    volume_zpass,
+    volume_zpass_plus,
+)
 from softshadow.techniques.technique import Option, Steps, Technique
 
 __all__ = ["Option", "Steps", "Technique", "describe", "get", "names"]
@@ -14,6 +23,14 @@ __all__ = ["Option", "Steps", "Technique", "describe", "get", "names"]
 REGISTER = {
     technique.name: technique
     for technique in (
+        Technique(
+            "shadow-polygons",
+            "Own- and cast-shadow polygons",
+            "planar",
+            "Atherton, Weiler & Greenberg 1978, Polygon shadow generation",
+            shadow_polygons.steps,
+            shadow_polygons.OPTIONS,
+        ),
         Technique(
             "planar",
             "Projected planar shadows",
@@ -80,7 +97,7 @@ def names() -> list[str]:
     Examples
     --------
     >>> names()
-    ['planar', 'blob', 'volume-zpass', 'volume-zfail', 'volume-zpass-plus', 'volume-parity', 'map']
+    ['shadow-polygons', 'planar', 'blob', 'volume-zpass', 'volume-zfail', 'volume-zpass-plus', 'volume-parity', 'map']
     """
     return list(REGISTER)
 

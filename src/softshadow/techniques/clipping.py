@@ -59,27 +59,56 @@ def clip_to_planes(triangles: np.ndarray, planes: np.ndarray) -> np.ndarray:
     return triangles
 
 
-def pyramid_between(light: np.ndarray, rectangle: np.ndarray) -> np.ndarray:
-    """Return the planes that bound all segments from a light to the points of a rectangle.
+def clip_segments(segments: np.ndarray, plane: np.ndarray) -> np.ndarray:
+    """Return the parts of directed segments (S, 2, 3) on the positive side of a plane (4,)."""
+    distance = segments @ plane[:3] + plane[3]
+    inside = distance >= 0
+    start, end = segments[:, 0], segments[:, 1]
+    leaves, enters = inside[:, 0] & ~inside[:, 1], ~inside[:, 0] & inside[:, 1]
+    clipped = segments.copy()
+    clipped[leaves, 1] = _crossing(start[leaves], distance[leaves, 0], end[leaves], distance[leaves, 1])
+    clipped[enters, 0] = _crossing(end[enters], distance[enters, 1], start[enters], distance[enters, 0])
+    return clipped[inside.any(axis=1)]
+
+
+def cuts(triangles: np.ndarray, plane: np.ndarray) -> np.ndarray:
+    """Return where a plane cuts triangles (T, 3, 3), as segments (S, 2, 3) that close the edges of what is kept.
+
+    Each runs from the point where the triangle's outline leaves the positive side to the one where it comes back.
+    """
+    distance = triangles @ plane[:3] + plane[3]
+    inside = distance >= 0
+    cut = np.flatnonzero(inside.any(axis=1) & ~inside.all(axis=1))
+    following = np.roll(inside[cut], -1, axis=1)
+    leaves, comes_back = np.argmax(inside[cut] & ~following, axis=1), np.argmax(~inside[cut] & following, axis=1)
+
+    def crossing(inner: np.ndarray, outer: np.ndarray) -> np.ndarray:
+        return _crossing(triangles[cut, inner], distance[cut, inner], triangles[cut, outer], distance[cut, outer])
+
+    return np.stack([crossing(leaves, (leaves + 1) % 3), crossing((comes_back + 1) % 3, comes_back)], axis=1)
+
+
+def pyramid_between(light: np.ndarray, polygon: np.ndarray) -> np.ndarray:
+    """Return the planes that bound all segments from a light to the points of a convex polygon.
 
     Parameters
     ----------
     light : (4,)                 homogeneous; w = 0 gives the prism of the rays towards the light
-    rectangle : (4, 3)           corners in order
+    polygon : (N, 3)             corners in order, the first three not in line
 
     Returns
     -------
-    (5, 4) float64               four sides and the rectangle's own plane, positive inside
+    (N + 1, 4) float64           the sides and the polygon's own plane, positive inside
     """
-    centre = rectangle.mean(axis=0)
+    centre = polygon.mean(axis=0)
     position, w = light[:3], light[3]
     planes = []
-    for a, b in zip(rectangle, np.roll(rectangle, -1, axis=0), strict=True):
+    for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
         # the plane through a, b and the light: direction to the light is position - w·a, also for w = 0
         normal = np.cross(b - a, position - w * a)
         normal *= 1.0 if normal @ (centre - a) >= 0 else -1.0
         planes.append([*normal, -normal @ a])
-    normal = np.cross(rectangle[1] - rectangle[0], rectangle[2] - rectangle[1])
+    normal = np.cross(polygon[1] - polygon[0], polygon[2] - polygon[1])
     normal *= 1.0 if normal @ (position - w * centre) >= 0 else -1.0
     planes.append([*normal, -normal @ centre])
     return np.array(planes)

@@ -105,6 +105,25 @@ def added(gl: Any) -> Iterator[None]:
     gl.glDisable(gl.GL_BLEND)
 
 
+def darken_picture(gl: Any, share: float) -> None:
+    """Take a share of every colour away, by a rectangle over the picture, where the stencil test lets it."""
+    for mode in (gl.GL_PROJECTION, gl.GL_MODELVIEW):
+        gl.glMatrixMode(mode)
+        gl.glPushMatrix()
+        gl.glLoadIdentity()
+    gl.glDisable(gl.GL_LIGHTING)
+    gl.glDisable(gl.GL_DEPTH_TEST)
+    gl.glEnable(gl.GL_BLEND)
+    gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
+    gl.glColor4f(0.0, 0.0, 0.0, share)
+    gl.glRectf(-1.0, -1.0, 1.0, 1.0)
+    gl.glDisable(gl.GL_BLEND)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    for mode in (gl.GL_PROJECTION, gl.GL_MODELVIEW):
+        gl.glMatrixMode(mode)
+        gl.glPopMatrix()
+
+
 def title_of(title: str, scene: Scene, light: Light) -> str:
     """Return a step's title, with the light's name where there are several."""
     return title if len(scene.lights) == 1 else f"{title}: {light.name}"

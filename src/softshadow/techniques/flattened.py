@@ -34,6 +34,13 @@ def shadow_matrix(receiver: SceneObject, light: Light) -> np.ndarray | None:
     return matrices.planar_shadow(receiver.plane, light.position)
 
 
+def flattened_points(points: np.ndarray, plane: np.ndarray, light: np.ndarray) -> np.ndarray:
+    """Return where the rays of a light (4,) through points (..., 3) that cast properly meet a plane (4,)."""
+    matrix = matrices.planar_shadow(plane, light)
+    homogeneous = points @ matrix[:, :3].T + matrix[:, 3]
+    return homogeneous[..., :3] / homogeneous[..., 3:]
+
+
 def proper_planes(receiver_plane: np.ndarray, light: np.ndarray) -> np.ndarray:
     """Return the planes between which a point casts properly on a receiver: 0 ≤ π·P and, for a point light, π·P ≤ π·Λ.
 

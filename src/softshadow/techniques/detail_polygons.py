@@ -1,0 +1,131 @@
+"""Own and cast shadows as polygons on the faces of a scene, computed once for every camera.
+
+A face that looks away from the light is in shadow as a whole (its *own* shadow). On a face that the light reaches, the
+others *cast*: what stands between it and the light is cut off at the pyramid which the two span, and flattened onto the
+face. Only faces that the light reaches cast or receive.
+
+References
+----------
+Atherton, Weiler & Greenberg 1978, "Polygon shadow generation", for shadows as detail polygons.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from softshadow.errors import SceneError
+from softshadow.scene import CastingFaces, Light, Scene, SceneObject
+from softshadow.scene.plane import FLAT
+from softshadow.scene.silhouette import light_distances
+from softshadow.techniques.clipping import clip_to_planes, pyramid_between
+from softshadow.techniques.flattened import flattened_points
+from softshadow.techniques.lit_faces import LitFaces, lit_faces, reached_faces, turned_triangles
+from softshadow.techniques.silhouette_polygons import inside_of_silhouettes
+
+Form = Literal["faces", "silhouettes"]
+FORMS: tuple[Form, ...] = ("faces", "silhouettes")
+
+# every casting face is held against every receiving one: 4096 of each take some seconds
+MOST_PAIRS = 1 << 24
+# a polygon of this share of its face's area comes from rounding at a common edge, and covers no sample
+SLIVER = 1e-12
+
+
+@dataclass(frozen=True, eq=False)
+class DetailPolygons:
+    """The shadows that one light leaves on one object; no camera has a part in them.
+
+    Attributes
+    ----------
+    own : (O,) int32              faces in shadow as a whole, seen as the mesh stores them
+    own_reversed : (R,) int32     faces of open bodies whose back, as the mesh stores them, is in shadow as a whole
+    cast : (N, 3, 3) float64      world space; triangles in shadow on faces that the light reaches, counter-clockwise
+                                  seen from the light; those of different casters overlap in the form "faces"
+    faces : (N,) int32            the face that each of them lies on, ascending
+    """
+
+    own: np.ndarray
+    own_reversed: np.ndarray
+    cast: np.ndarray
+    faces: np.ndarray
+
+
+def shadow_polygons(scene: Scene, light: Light, form: Form = "faces") -> tuple[DetailPolygons, ...]:
+    """Return the shadow polygons of a light, one entry for each object of the scene.
+
+    Parameters
+    ----------
+    form : "faces"                every casting face is flattened onto every face that it meets
+           "silhouettes"          the outlines of the casters are flattened, and their inside is cut into triangles that
+                                  do not overlap
+
+    Raises
+    ------
+    SceneError                    more pairs of casting and receiving faces than `MOST_PAIRS`
+
+    Examples
+    --------
+    >>> from softshadow import Scene
+    >>> scene = Scene.named("boxes")
+    >>> floor, cube, *_ = shadow_polygons(scene, scene.lights[0])
+    >>> len(floor.own), len(cube.own)  # three sides of the cube are in its own shadow
+    (0, 6)
+    """
+    if form not in FORMS:
+        raise ValueError(f"form={form!r}: expected one of {', '.join(FORMS)}")
+    casters = [lit_faces(thing, light) for thing in scene.casters]
+    reached = [reached_faces(thing, light) for thing in scene.objects]
+    pairs = sum(len(faces.kept) + len(faces.reversed) for faces in reached) * sum(len(c.triangles) for c in casters)
+    if pairs > MOST_PAIRS:
+        raise SceneError(
+            f"scene {scene.name}: {pairs} pairs of a casting and a receiving face; expected at most {MOST_PAIRS} "
+            "(softshadow.techniques.detail_polygons.MOST_PAIRS), since each is looked at. Volumes and maps take more"
+        )
+    return tuple(
+        polygons_on(thing, faces, light, casters, form) for thing, faces in zip(scene.objects, reached, strict=True)
+    )
+
+
+def polygons_on(
+    thing: SceneObject, reached: CastingFaces, light: Light, casters: Sequence[LitFaces], form: Form
+) -> DetailPolygons:
+    """Return the shadow polygons on one object."""
+    away = light_distances(thing.mesh, light.in_object_space(thing.object_to_world)) <= 0
+    own = np.flatnonzero(away & thing.casts).astype(np.int32)
+    own_reversed = reached.kept[~thing.mesh.topology.closed_faces[reached.kept] & thing.casts]
+    flat = FLAT * float(np.ptp(thing.world_positions, axis=0).max())
+    numbers = np.concatenate([reached.kept, reached.reversed])
+    found = [cast_on(face, light, casters, form, flat) for face in turned_triangles(thing, reached)]
+    counts = [len(polygons) for polygons in found]
+    order = np.argsort(np.repeat(numbers, counts), kind="stable")
+    cast = np.concatenate([np.zeros((0, 3, 3)), *found])[order]
+    return DetailPolygons(own, own_reversed, cast, np.repeat(numbers, counts)[order])
+
+
+def cast_on(face: np.ndarray, light: Light, casters: Sequence[LitFaces], form: Form, flat: float) -> np.ndarray:
+    """Return what the casters cast on a face (3, 3) that is turned towards the light, as (N, 3, 3).
+
+    What lies within `flat` of the face's plane casts nothing on it: the face itself, and its neighbours there.
+    """
+    pyramid = pyramid_between(light.position, face)
+    normal = np.cross(face[1] - face[0], face[2] - face[0])
+    doubled_area = float(np.linalg.norm(normal))
+    plane = pyramid[-1] / doubled_area
+    met = [caster.triangles[faces_between(caster.triangles, pyramid, flat * doubled_area)] for caster in casters]
+    if form == "silhouettes":
+        shading = [caster for caster, triangles in zip(casters, met, strict=True) if len(triangles)]
+        polygons = clip_to_planes(inside_of_silhouettes(shading, face, plane, light, flat), pyramid[:-1])
+    else:
+        # the pyramid lies before the face and before the light: c1 >= 0 and c2 > 0 hold in it
+        clipped = clip_to_planes(np.concatenate([np.zeros((0, 3, 3)), *met]), pyramid)
+        polygons = flattened_points(clipped, plane, light.position)
+    areas = np.linalg.norm(np.cross(polygons[:, 1] - polygons[:, 0], polygons[:, 2] - polygons[:, 0]), axis=1)
+    return polygons[areas > SLIVER * doubled_area]
+
+
+def faces_between(triangles: np.ndarray, pyramid: np.ndarray, flat: float) -> np.ndarray:
+    """Return (C,) bool: which triangles may have a part inside the pyramid, and are not in its base."""
+    heights = triangles @ pyramid[:, :3].T + pyramid[:, 3]
+    return ~(heights <= 0).all(axis=1).any(axis=1) & (np.abs(heights[:, :, -1]) > flat).any(axis=1)
