@@ -19,7 +19,7 @@ from softshadow.pipeline.bins import AT_A_TIME, ROWS, Bins, bands_of, sort_into_
 from softshadow.pipeline.fill import Planes, Region, fill_triangles
 from softshadow.pipeline.fragment_ops import FragmentOps
 from softshadow.pipeline.setup import Setup
-from softshadow.pipeline.spans import DepthRange
+from softshadow.pipeline.spans import LAST, DepthRange
 
 PAYS_AFTER = (
     40_000_000  # fragments of one state; measured: about 0.4 s of compilation at the speed of the generic binding
@@ -98,14 +98,15 @@ def fill(
     stencil: np.ndarray,
     ids: np.ndarray | None = None,
     verdicts: np.ndarray | None = None,
+    writes: int = LAST,
 ) -> None:
     """Process all fragments of the triangles inside the region, on the binding that pays and in bands where they pay.
 
-    `fragments` is about how many there are (`coverage.extent`), `ids` and `verdicts` are those of `Planes`; verdicts
-    are counted by the generic binding in one band.
+    `fragments` is about how many there are (`coverage.extent`), `ids` and `verdicts` are those of `Planes`, `writes`
+    is LAST or SOLE; verdicts are counted by the generic binding in one band.
     """
     columns = np.arange(max(*depth.shape, region.right, region.end_row), dtype=triangles.depth.dtype)
-    two_sided, writes_ids, counts = int(front != back), int(ids is not None), int(verdicts is not None)
+    two_sided, writes_ids, counts = int(front != back), writes * (ids is not None), int(verdicts is not None)
     planes = Planes(
         columns,
         depth,

@@ -11,7 +11,7 @@ import numpy as np
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.coverage import edge
 from softshadow.pipeline.fragment_ops import PASSED, process_fragment
-from softshadow.pipeline.spans import depth_units
+from softshadow.pipeline.spans import depth_units, id_after
 
 WIDEST = 16  # columns; measured, boxes are the faster up to some 12 to 24
 
@@ -53,7 +53,7 @@ def fill_box(
                 depth[j, i] = stored_z
             if writes_ids:
                 k = np.uint64(row - first_of_ids)
-                ids[k, i] = t if verdict == PASSED else ids[k, i]
+                ids[k, i] = id_after(writes_ids, verdict == PASSED, t, ids[k, i])
             inside0 -= across0 << 8
             inside1 -= across1 << 8
             inside2 -= across2 << 8

@@ -43,7 +43,7 @@ def fill_triangles(front, back, two_sided, writes_ids, counts, triangles, number
     """Process all fragments of the triangles with these numbers inside the region, in this order.
 
     The state is `front`, and for back-facing triangles `back` where `two_sided` is 1. Depth and stencil change, the ids
-    where `writes_ids` is 1, the verdicts where `counts` is 1.
+    where `writes_ids` is LAST or SOLE, the verdicts where `counts` is 1.
     """
     columns, depth_plane, stencil_plane = planes.columns, planes.depth, planes.stencil
     for n in range(numbers.shape[0]):

@@ -13,6 +13,9 @@ from softshadow.pipeline.constants import HALF_RANGE, TWO
 from softshadow.pipeline.fragment_ops import PASSED, process_fragment
 from softshadow.pixels import LARGEST_UINT
 
+LAST, SOLE = 1, 2  # what is written of the triangles that pass at a pixel: the last one's number, or the only one's
+NONE, SEVERAL = np.int32(-1), np.int32(-2)  # instead of a number
+
 
 class DepthRange(NamedTuple):
     """What z is clamped to after the offset."""
@@ -35,6 +38,14 @@ def depth_units(z, depth_range, largest):
     return np.rint(z * np.float32(largest)) if largest else z
 
 
+@kernel
+def id_after(writes_ids, passed, number, before):
+    """Return the triangle that a pixel is left with: the last that passed, or SEVERAL where only one may."""
+    if writes_ids == SOLE:
+        number = number if before == NONE else SEVERAL
+    return number if passed else before
+
+
 @inlined
 def fill_span(ops, writes_ids, plane, row_z, depth_range, columns, left, right, number, depth, stencil, ids):
     """Process the fragments of one row of one triangle; `plane` is (z at pixel 0, dz/di, dz/dj, offset)."""
@@ -48,7 +59,7 @@ def fill_span(ops, writes_ids, plane, row_z, depth_range, columns, left, right, 
         if ops.depth_write:
             depth[i] = stored_z
         if writes_ids:
-            ids[i] = number if verdict == PASSED else ids[i]
+            ids[i] = id_after(writes_ids, verdict == PASSED, number, ids[i])
 
 
 @kernel
