@@ -35,7 +35,7 @@ def failure(request: pytest.FixtureRequest) -> Failure:
 def test_pixels_are_wrong_with_the_failure_and_right_with_the_cure(failure: Failure) -> None:
     assert failure.number_wrong > max(0, failure.floor)
     assert failure.number_cured <= failure.floor
-    assert bool(failure.floor) == bool(failure.why_floor)
+    assert failure.why_floor or not failure.floor
 
 
 def test_pixel_to_click_has_two_colors(failure: Failure) -> None:
@@ -87,6 +87,13 @@ def test_failure_in_another_size_is_measured_anew() -> None:
     small = ss.failures["mask-1"].at((80, 60))
     assert small.wrong.size == (80, 60)
     assert 0 < small.number_wrong < ss.failures["mask-1"].number_wrong
+
+
+def test_failure_that_does_not_show_has_no_pixel_to_click() -> None:
+    sharp = ss.failures["jagged-edges"].at((12, 9))  # a texel is smaller than a pixel
+    assert sharp.number_wrong == 0
+    with pytest.raises(ValueError, match="'jagged-edges' does not show at 12 x 9; expected another size"):
+        sharp.explain()
 
 
 def test_picture_holds_both_runs_and_rings_the_pixel() -> None:

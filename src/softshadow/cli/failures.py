@@ -93,7 +93,7 @@ def _measured(failure: Failure) -> dict[str, Any]:
         "number_cured": failure.number_cured,
         "floor": failure.floor,
         "why_floor": failure.why_floor,
-        "pixel": failure.pixel,
+        "pixel": failure.pixel if failure.number_wrong > failure.number_cured else None,
         "diff": failure.diff,
     }
 

@@ -56,8 +56,8 @@ class Failure:
     with_failure, with_cure : Setting
     measure : callable           the pixels of a run that are wrong, (H, W) bool
     counted : str                what the numbers are, in words
-    floor : int                  what the cure leaves of the number at most
-    why_floor : str              and why
+    floor : int                  what the cure leaves of the number at most, in pictures of the default size
+    why_floor : str              why it leaves some there, or in larger pictures
     flat : bool                  whether lit surfaces have their plain colour, as in the listings of shadow maps
     size : (width, height)
     """
@@ -118,8 +118,19 @@ class Failure:
 
     @cached_property
     def pixel(self) -> tuple[int, int]:
-        """x, y of the pixel to click: deepest among those that are wrong with the failure and right with the cure."""
-        return deepest(self.wrong_pixels(self.wrong) & ~self.wrong_pixels(self.cured))
+        """x, y of the pixel to click: deepest among those that are wrong with the failure and right with the cure.
+
+        Raises
+        ------
+        ValueError                   there is none: in pictures of this size the failure does not show
+        """
+        found = self.wrong_pixels(self.wrong) & ~self.wrong_pixels(self.cured)
+        if not found.any():
+            raise ValueError(
+                f"failure {self.name!r} does not show at {self.size[0]} x {self.size[1]}; expected another size, "
+                f"as {SIZE[0]} x {SIZE[1]}"
+            )
+        return deepest(found)
 
     def wrong_pixels(self, run: Run) -> np.ndarray:
         """Return the pixels (H, W) bool of either run that are wrong, row 0 on top."""
