@@ -1,62 +1,21 @@
-"""What Hypothesis draws: every strategy of the tests, one section for each block of the package."""
+"""What Hypothesis draws: strategies of the tests alone, one section for each block of the package.
 
-from dataclasses import replace
+Meshes, lights and scenes are drawn by `softshadow.testing.strategies`, which is for users, too.
+"""
 
 import numpy as np
 from hypothesis import reject
 from hypothesis import strategies as st
-from hypothesis.extra.numpy import arrays
 
-from softshadow.errors import MeshError
-from softshadow.scene import Camera, Light, Mesh, Scene, SceneObject, placement, shapes
+from softshadow.testing.strategies import closed_meshes as closed_meshes
+from softshadow.testing.strategies import coordinates as coordinates
+from softshadow.testing.strategies import floor_scenes as floor_scenes
+from softshadow.testing.strategies import lights as lights
+from softshadow.testing.strategies import scenes_from_within as scenes_from_within
+from softshadow.testing.strategies import sheets as sheets
+from softshadow.testing.strategies import soups as open_meshes  # noqa: F401
 
 # -- techniques --------------------------------------------------------------------------------------------------------
-
-SOLIDS = {
-    "box": shapes.box(0.8, 0.5, 0.6),
-    "tetrahedron": shapes.tetrahedron(0.8),
-    "ball": shapes.sphere(0.4, 8, 4),
-    "ring": shapes.torus(0.4, 0.15, 8, 5),
-}
-
-
-def coordinates(low: float, high: float) -> st.SearchStrategy[float]:
-    """Numbers on a grid of 1/64, so that a failing example is readable."""
-    return st.integers(round(low * 64), round(high * 64)).map(lambda k: k / 64)
-
-
-@st.composite
-def floor_scenes(draw: st.DrawFn, lights: int = 1) -> Scene:
-    """Return a floor with one to three closed casters over it, lit from above; the camera stands aside."""
-    objects = [SceneObject(shapes.floor(16), casts=False, receives=True, name="floor")]
-    for index in range(draw(st.integers(1, 3))):
-        solid = draw(st.sampled_from(sorted(SOLIDS)))
-        move = draw(st.tuples(coordinates(-1.5, 1.5), coordinates(0.7, 2), coordinates(-1.5, 1.5)))
-        turn = (draw(st.integers(0, 359)), *draw(st.sampled_from([(0, 1, 0), (1, 0, 0), (1, 2, 3)])))
-        scale = draw(st.sampled_from([0.7, 1.0, 1.3]))
-        objects.append(SceneObject(SOLIDS[solid], placement(move, turn, scale), name=f"{solid} {index}"))
-    return Scene("drawn", Camera((4, 5, 7), (0, 0.7, 0), near=1, far=40), draw(_lights_above(lights)), tuple(objects))
-
-
-@st.composite
-def scenes_from_within(draw: st.DrawFn, lights: int = 1) -> Scene:
-    """Return a scene as above whose camera stands in or beside the shadow of a caster, often with a volume's side
-    through the near rectangle.
-    """
-    scene = draw(floor_scenes(lights))
-    caster, light = draw(st.sampled_from(scene.casters)), scene.lights[0].position
-    middle = caster.object_to_world[:3, 3]
-    away = middle - light[:3] if light[3] else -light[:3]
-    beside = np.array([draw(coordinates(-1, 1)), 0, draw(coordinates(-1, 1))])
-    eye = middle + draw(st.sampled_from([0.8, 1.2])) * away / np.linalg.norm(away) + beside
-    target = eye + np.array([draw(coordinates(-1, 1)), draw(coordinates(-1, 0.5)), -1])
-    near = draw(st.sampled_from([0.02, 0.25, 0.8]))
-    return replace(scene, camera=Camera(eye, target, fov_y=60, near=near, far=40))
-
-
-def _lights_above(count: int) -> st.SearchStrategy[tuple[Light, ...]]:
-    place = st.tuples(coordinates(-3, 3), coordinates(4, 7), coordinates(-3, 1), st.sampled_from([0.0, 1.0]))
-    return st.tuples(*[place.map(lambda p, i=i: Light(p, np.full(3, 0.4), f"light {i}")) for i in range(count)])
 
 
 @st.composite
@@ -107,42 +66,6 @@ def window_fans(draw: st.DrawFn, size: int = 24) -> tuple[np.ndarray, np.ndarray
     positions = np.concatenate([middle[None], middle + rim]) / step
     fan = [(0, 1 + i, 1 + (i + 1) % corners) for i in range(corners)]
     return positions.astype(np.float32), np.array(fan, np.int32)
-
-
-# -- scene -------------------------------------------------------------------------------------------------------------
-
-
-@st.composite
-def closed_meshes(draw: st.DrawFn) -> Mesh:
-    """Return a closed mesh, its vertices moved about on a grid: it may cross itself and have flat faces."""
-    solid = SOLIDS[draw(st.sampled_from(sorted(SOLIDS)))]
-    topology = solid.topology
-    grid = draw(st.sampled_from([1, 4, 1024]))
-    moves = draw(arrays(np.int8, (len(topology.representatives), 3), elements=st.integers(-3, 3)))
-    moved = np.rint(solid.positions[topology.representatives] * 4 * grid) / grid + moves / grid
-    return _with_area(moved[topology.vertex_ids], solid.triangles)
-
-
-@st.composite
-def open_meshes(draw: st.DrawFn) -> Mesh:
-    """Return a soup of triangles over few grid points: boundaries, edges of many faces, faces back to back."""
-    points = draw(st.lists(st.tuples(*[st.integers(-3, 3)] * 3), min_size=4, max_size=9, unique=True))
-    corner = st.integers(0, len(points) - 1)
-    triangles = draw(st.lists(st.tuples(corner, corner, corner), min_size=1, max_size=14))
-    return _with_area(np.array(points, dtype=np.float64), np.array(triangles))
-
-
-def _with_area(positions: np.ndarray, triangles: np.ndarray) -> Mesh:
-    try:
-        return Mesh(positions, triangles)
-    except MeshError:  # nothing but flat faces
-        reject()
-
-
-def lights() -> st.SearchStrategy[np.ndarray]:
-    """Homogeneous lights (4,), points and directions, often in the plane of a face or at a vertex."""
-    place = st.tuples(*[st.integers(-12, 12).map(lambda k: k / 2)] * 3, st.sampled_from([0.0, 1.0]))
-    return place.filter(lambda light: any(light)).map(np.array)
 
 
 # -- gl ----------------------------------------------------------------------------------------------------------------

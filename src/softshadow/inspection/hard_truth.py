@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from softshadow.scene import Scene
+from softshadow.scene import Light, Scene
 from softshadow.truth import casting_faces_between, first_faces
 
 
@@ -20,19 +20,33 @@ def hard_visibility(scene: Scene, size: tuple[int, int]) -> tuple[list[np.ndarra
     (H, W) bool                  where a surface is seen between the near and the far plane
     """
     width, height = size
-    objects, triangles, points = seen_faces(scene, size)
-    seen, eye = objects >= 0, scene.camera.eye
+    found = seen_faces(scene, size)
+    visible = []
+    for light in scene.lights:
+        is_lit = (hard_counts(scene, light, *found) == 0) & ((found[0] < 0) | light.shines_on(found[2]))
+        visible.append(is_lit.astype(np.float32).reshape(height, width))
+    return visible, (found[0] >= 0).reshape(height, width)
+
+
+def hard_counts(
+    scene: Scene, light: Light, objects: np.ndarray, triangles: np.ndarray, points: np.ndarray
+) -> np.ndarray:
+    """Return (N,) int32: how many casting faces lie between points and a light, 0 where there is no point.
+
+    Parameters
+    ----------
+    objects, triangles, points : (N,), (N,), (N, 3)      as `seen_faces` returns them
+    """
+    seen = objects >= 0
     as_caster = np.full(len(scene.objects) + 1, -1)
     casters = [index for index, thing in enumerate(scene.objects) if thing.casts]
     as_caster[casters] = np.arange(len(casters))
     exclude = as_caster[objects[seen]], triangles[seen]
-    visible = []
-    for light in scene.lights:
-        lit = np.ones(width * height, np.float32)
-        counts = casting_faces_between(points[seen], light.position, scene.casters, exclude=exclude, viewer=eye)
-        lit[seen] = (counts == 0) & light.shines_on(points[seen])
-        visible.append(lit.reshape(height, width))
-    return visible, seen.reshape(height, width)
+    counts = np.zeros(len(objects), np.int32)
+    counts[seen] = casting_faces_between(
+        points[seen], light.position, scene.casters, exclude=exclude, viewer=scene.camera.eye
+    )
+    return counts
 
 
 def seen_faces(scene: Scene, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

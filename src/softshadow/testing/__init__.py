@@ -1,5 +1,9 @@
-"""Run one GL program on softshadow and on Mesa, and say where they differ."""
+"""Run one GL program on softshadow and on Mesa, and say where they differ; compare runs with ray casting.
 
+`softshadow.testing.strategies` draws scenes for Hypothesis; it is a module of its own because it needs that package.
+"""
+
+from softshadow.testing.agreement import Agreement, Truth, agreement, cast_truth
 from softshadow.testing.comparison import (
     Comparison,
     Difference,
@@ -25,11 +29,15 @@ from softshadow.testing.tracing import Divergence, diff_programs
 
 __all__ = [
     "EXPECTED_VERSION",
+    "Agreement",
     "Comparison",
     "Difference",
     "Divergence",
     "MesaError",
     "ProgramResult",
+    "Truth",
+    "agreement",
+    "cast_truth",
     "compare",
     "diff_programs",
     "difference",

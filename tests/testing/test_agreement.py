@@ -1,0 +1,87 @@
+"""Agreement with ray casting: exact off the band where the theory says so, and found where it is not."""
+
+import re
+
+import numpy as np
+import pytest
+
+import softshadow as ss
+from softshadow.testing import agreement, cast_truth
+from softshadow.testing.agreement import changes_nearby
+
+SIZE = (96, 72)
+pytestmark = pytest.mark.filterwarnings("ignore::softshadow.Warning")
+
+
+def quietly(technique: str, scene: ss.Scene, **options: object) -> ss.Run:
+    return ss.run(technique, scene, size=SIZE, **options)
+
+
+@pytest.mark.parametrize("name", ss.scene_names())
+@pytest.mark.parametrize("technique", ["planar", "volume-zfail", "volume-zpass-plus"])
+def test_planar_shadows_and_counting_volumes_are_right_off_the_band(technique: str, name: str) -> None:
+    for found in agreement(quietly(technique, ss.Scene.named(name))):
+        assert (found.compared & ~found.band).sum() > 1000
+        assert found.off_band == 0
+        # an edge runs through each of these: few samples lie on its other side when it is snapped
+        assert found.on_band <= 0.02 * found.band.sum()
+
+
+@pytest.mark.parametrize("name", ss.scene_names())
+def test_a_shadow_map_is_right_off_its_texels_and_pixels_band_on_what_does_not_cast(name: str) -> None:
+    scene = ss.Scene.named(name)
+    truth = cast_truth(scene, SIZE)
+    casts = np.array([*(thing.casts for thing in scene.objects), False])[truth.objects]
+    for found in agreement(quietly("map", scene), truth):
+        # casters touch themselves: there the offset, which is as deep as a texel is steep, moves edges further
+        assert not (found.wrong & ~found.band & ~casts).any()
+        assert found.off_band <= 0.02 * found.compared.sum()
+
+
+def test_a_coarser_map_has_a_wider_band_and_stays_right_off_it() -> None:
+    scene = ss.Scene.named("overlapping")
+    truth = cast_truth(scene, SIZE)
+    floor = truth.objects == 0
+    bands = []
+    for map_size in (64, 32, 16):
+        (found,) = agreement(quietly("map", scene, map_size=map_size), truth)
+        assert not (found.wrong & ~found.band & floor).any()
+        bands.append((found.band & floor & found.compared).sum())
+    assert bands[0] < bands[1] < bands[2]
+
+
+def test_parity_is_wrong_off_the_band_where_volumes_overlap() -> None:
+    scene = ss.Scene.named("overlapping")
+    truth = cast_truth(scene, SIZE)
+    (found,) = agreement(quietly("volume-parity", scene), truth)
+    even = (truth.counts[0] > 0) & (truth.counts[0] % 2 == 0)
+    assert found.off_band > 50
+    assert (found.wrong == even)[~found.band].all()
+    assert str(found).startswith(f"light: {found.off_band} of ")
+
+
+def test_every_light_has_its_own_agreement() -> None:
+    found = agreement(quietly("volume-zfail", ss.Scene.named("two-lights")))
+    assert [each.light for each in found] == ["warm", "cool"]
+    assert (found[0].band != found[1].band).any()
+
+
+def test_counts_of_the_truth_are_those_of_the_stencil_buffer() -> None:
+    scene = ss.Scene.named("overlapping")
+    truth, run = cast_truth(scene, SIZE), quietly("volume-zfail", scene)
+    assert set(np.unique(truth.counts[0])) >= {0, 1, 2}
+    assert (run.stencil == truth.counts[0])[~truth.band() & (truth.objects >= 0)].all()
+
+
+def test_band_is_as_wide_as_asked() -> None:
+    values = np.zeros((7, 9), int)
+    values[3, 4] = 1
+    assert changes_nearby(values, 1).sum() == 9
+    assert changes_nearby(values, 2).sum() == 25
+
+
+def test_the_truth_of_another_scene_or_size_is_refused() -> None:
+    run = quietly("volume-zfail", ss.Scene.named("boxes"))
+    for truth in (cast_truth(ss.Scene.named("boxes"), SIZE), cast_truth(run.scene, (8, 6))):
+        with pytest.raises(ValueError, match=re.escape("truth: expected that of the run's own scene and size")):
+            agreement(run, truth)
