@@ -1,11 +1,12 @@
 """Planar shadows kept in a texture on each receiver, the fifth method of `planar`.
 
 The casters are flattened not onto the screen but into the receiver's own (u, v); the texture is then laid over the
-receiver. It is drawn once and stays right for as long as light, casters and receiver stand still (E56); the camera
-may move.
+receiver. It is drawn once and stays right for as long as light, casters and receiver stand still (E56): the camera
+may move, `shadow_textures` draws the textures and `draw` draws the scene with them from any camera.
 Slides: Zimányi & Valient, Projekčné tiene, "Možné renderovanie do textúry".
 """
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ import numpy as np
 from softshadow.scene import Light, Scene, SceneObject
 from softshadow.techniques.drawing import (
     added,
+    begin_frame,
     column_major,
     draw_mesh,
     draw_objects,
@@ -33,20 +35,59 @@ from softshadow.techniques.technique import Steps
 HALF = 127 / 255
 
 
+@dataclass(frozen=True)
+class ShadowTextures:
+    """Shadows kept in textures of the current context, right while lights, casters and receivers stand still.
+
+    Attributes
+    ----------
+    names : dict                 texture by (light, receiver), both by name: alpha 1 where lit, 0 in shadow
+    images : dict                the same as (n, n) float32 by title, first row = v 0
+    """
+
+    names: dict[tuple[str, str], int]
+    images: dict[str, np.ndarray]
+
+
 def texture(gl: Any, scene: Scene, size: tuple[int, int], clip: bool, texture_size: int) -> Steps:
     """Shadow into each receiver's texture, receiver without light, light where the texture says so, caster."""
     # 1. flatten the casters into a texture for each receiver and light
-    shadows = {}
-    maps = {}
+    shadows = shadow_textures(gl, scene, clip, texture_size)
+    set_camera(gl, scene.camera, size)
+    yield "draw the flattened casters into the receivers' textures", shadows.images
+
+    # 2. to 4.
+    yield from draw_with_textures(gl, scene, size, shadows)
+    delete_textures(gl, shadows)
+
+
+def shadow_textures(gl: Any, scene: Scene, clip: bool = True, texture_size: int = 256) -> ShadowTextures:
+    """Draw the flattened casters into a texture for each receiver and light, and return the textures."""
+    shadows = ShadowTextures({}, {})
     for light in scene.lights:
         for receiver in scene.receivers:
             name, image = shadow_texture(gl, scene, receiver, light, clip, texture_size)
-            shadows[light.name, receiver.name] = name
-            maps[title_of(f"texture of {receiver.name}", scene, light)] = image
-    set_camera(gl, scene.camera, size)
-    yield "draw the flattened casters into the receivers' textures", maps
+            shadows.names[light.name, receiver.name] = name
+            shadows.images[title_of(f"texture of {receiver.name}", scene, light)] = image
+    return shadows
 
-    # 2. draw the receivers and the casters without light
+
+def delete_textures(gl: Any, shadows: ShadowTextures) -> None:
+    """Delete the textures."""
+    for name in shadows.names.values():
+        gl.glDeleteTextures([name])
+
+
+def draw(gl: Any, scene: Scene, size: tuple[int, int], shadows: ShadowTextures) -> Steps:
+    """Draw the scene from its camera with shadows from `shadow_textures`: no caster is flattened again (E56)."""
+    begin_frame(gl, scene)
+    set_camera(gl, scene.camera, size)
+    yield from draw_with_textures(gl, scene, size, shadows)
+
+
+def draw_with_textures(gl: Any, scene: Scene, size: tuple[int, int], shadows: ShadowTextures) -> Steps:
+    """Receiver without light, light where the texture has no shadow, caster."""
+    # 2. draw the receivers without light
     light_ambient_only(gl, scene)
     draw_objects(gl, scene.receivers)
     yield "draw the receivers without the light"
@@ -58,8 +99,6 @@ def texture(gl: Any, scene: Scene, size: tuple[int, int], clip: bool, texture_si
         add_light_through_textures(gl, scene, light, shadows)
         lit.append(read_stencil(gl, size) != 0)
         yield title_of("add the light where the texture has no shadow", scene, light)
-    for name in shadows.values():
-        gl.glDeleteTextures([name])
 
     # 4. draw the casters
     yield from draw_the_casters(gl, scene, size, receivers < 1, lit)
@@ -119,7 +158,7 @@ def shadow_texture(
     return name, image[:, :, 3].astype(np.float32) / 255
 
 
-def add_light_through_textures(gl: Any, scene: Scene, light: Light, shadows: dict[tuple[str, str], int]) -> None:
+def add_light_through_textures(gl: Any, scene: Scene, light: Light, shadows: ShadowTextures) -> None:
     """Add a light to the receivers where their textures have no shadow, and leave 1 in the stencil buffer there."""
     gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
     gl.glEnable(gl.GL_STENCIL_TEST)
@@ -132,7 +171,7 @@ def add_light_through_textures(gl: Any, scene: Scene, light: Light, shadows: dic
     light_by(gl, scene, [light], ambient=False)
     with added(gl):
         for receiver in scene.receivers:
-            gl.glBindTexture(gl.GL_TEXTURE_2D, shadows[light.name, receiver.name])
+            gl.glBindTexture(gl.GL_TEXTURE_2D, shadows.names[light.name, receiver.name])
             gl.glMatrixMode(gl.GL_TEXTURE)
             gl.glLoadIdentity()
             gl.glMultMatrixd(column_major(world_to_receiver(receiver) @ receiver.object_to_world))
