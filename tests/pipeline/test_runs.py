@@ -66,7 +66,7 @@ def test_no_fragments_have_no_runs():
 @pytest.mark.parametrize("real", [np.float32, np.float64])
 def test_a_long_run_is_interpolated_like_its_pixels(real):
     rng = np.random.default_rng(1)
-    planes, flat = rng.normal(size=(1, 5, 3)).astype(real), np.array([False, True, False, False])
+    planes, flat = rng.normal(size=(1, 3, 5)).astype(real), np.array([False, True, False, False])
     found = []
     for long in (True, False):
         out = np.zeros((5, LONG + 5), real)
@@ -74,7 +74,7 @@ def test_a_long_run_is_interpolated_like_its_pixels(real):
         interpolate(planes, np.zeros(1, np.int32), *two_runs(long), columns, flat, out)
         found.append(out[:4])
     assert np.array_equal(*found)
-    assert (found[0][1] == planes[0, 1, 0]).all()
+    assert (found[0][1] == planes[0, 0, 1]).all()
     assert len(np.unique(found[0][0])) == LONG + 5
 
 

@@ -14,66 +14,63 @@ from softshadow.pipeline.runs import Runs
 from softshadow.pipeline.setup import Setup, edge_differences, line_gradient, line_plane, plane
 
 LONG = 8  # fragments; a run of so many is worth a loop per column
+BLOCK = 2  # rows and columns of a block of pixels, which may reach over the edge
 
 
 class Planes(NamedTuple):
-    """Planes of the triangles that are seen: values (P, k + 1, 3), and where among them each triangle's are (T,)."""
+    """Planes of the triangles that are seen: values (P, 3, k + 1), and where among them each triangle's are (T,).
+
+    `coordinates` holds 0, 1, 2 ... in the precision of the values, as far as rows and columns go.
+    """
 
     values: np.ndarray
     place: np.ndarray
+    coordinates: np.ndarray
 
 
 @kernel
 def attribute_planes(window, values, back, vertices, front, seen, flat, provoking, planes):
-    """Fill planes (P, k + 1, 3): of value / w for each column, last of 1 / w; flat columns hold the value itself.
+    """Fill planes (P, 3, k + 1): of value / w for each column, last of 1 / w; flat columns hold the value itself.
 
-    `vertices` (T, 3) are vertex numbers in the order of positive area, as for depth, `front` (T,) facing, `seen` (P,)
-    the triangles that are needed, `provoking` (T,) the vertex that flat columns take.
+    The three numbers of a plane are its value at pixel (0, 0) and its steps to the next column and row. `vertices`
+    (T, 3) are vertex numbers in the order of positive area, as for depth, `front` (T,) facing, `seen` (P,) the
+    triangles that are needed, `provoking` (T,) the vertex that flat columns take.
     """
     k = values.shape[1]
     for n in range(seen.shape[0]):
-        t = seen[n]
+        t, base, step, across = seen[n], planes[n, 0], planes[n, 1], planes[n, 2]
         v0, v1, v2 = vertices[t, 0], vertices[t, 1], vertices[t, 2]
         source = values if front[t] else back
         if v2 < 0:
-            line_or_point_planes(window, source, v0, v1, flat, provoking[t], planes[n])
-            continue
-        dx01, dy01, dx20, dy20, over_area = edge_differences(window, v0, v1, v2)
-        dx01, dy01, dx20, dy20 = dx01 * over_area, dy01 * over_area, dx20 * over_area, dy20 * over_area
-        w0, w1, w2 = window[v0, 3], window[v1, 3], window[v2, 3]
+            line_or_point_planes(window, source, v0, v1, base, step, across)
+        else:
+            x, y, w0, w1, w2 = window[v0, 0], window[v0, 1], window[v0, 3], window[v1, 3], window[v2, 3]
+            dx01, dy01, dx20, dy20, over_area = edge_differences(window, v0, v1, v2)
+            dx01, dy01, dx20, dy20 = dx01 * over_area, dy01 * over_area, dx20 * over_area, dy20 * over_area
+            a0, a1, a2 = source[v0], source[v1], source[v2]
+            for c in range(k):
+                base[c], step[c], across[c] = plane(x, y, dx01, dy01, dx20, dy20, a0[c] * w0, a1[c] * w1, a2[c] * w2)
+            base[k], step[k], across[k] = plane(x, y, dx01, dy01, dx20, dy20, w0, w1, w2)
         for c in range(k):
             if flat[c]:
-                planes[n, c, 0] = source[provoking[t], c]
-            else:
-                planes[n, c, 0], planes[n, c, 1], planes[n, c, 2] = plane(
-                    window[v0, 0], window[v0, 1], dx01, dy01, dx20, dy20,
-                    source[v0, c] * w0, source[v1, c] * w1, source[v2, c] * w2,
-                )  # fmt: skip
-        planes[n, k, 0], planes[n, k, 1], planes[n, k, 2] = plane(
-            window[v0, 0], window[v0, 1], dx01, dy01, dx20, dy20, w0, w1, w2
-        )
+                base[c] = source[provoking[t], c]
 
 
 @kernel
-def line_or_point_planes(window, values, a, b, flat, provoking, planes):
-    """Fill planes (k + 1, 3) of a line from vertex `a` to `b`, or of a point (`b` is -1): there all is constant."""
+def line_or_point_planes(window, values, a, b, base, step, across):
+    """Fill the planes (k + 1,) of a line from vertex `a` to `b`, or of a point (`b` is -1): there all is constant."""
     k = values.shape[1]
     is_point = b < 0
     b = a if is_point else b
     w0, w1 = window[a, 3], window[b, 3]
     dx, dy, over_area = line_gradient(window, a, b)
     for c in range(k + 1):
-        if c < k and flat[c]:
-            planes[c, 0] = values[provoking, c]
-            continue
         value0 = values[a, c] * w0 if c < k else w0
         value1 = values[b, c] * w1 if c < k else w1
         if is_point:
-            planes[c, 0], planes[c, 1], planes[c, 2] = value0, ZERO, ZERO
+            base[c], step[c], across[c] = value0, ZERO, ZERO
         else:
-            planes[c, 0], planes[c, 1], planes[c, 2] = line_plane(
-                window[a, 0], window[a, 1], dx, dy, over_area, value0, value1
-            )
+            base[c], step[c], across[c] = line_plane(window[a, 0], window[a, 1], dx, dy, over_area, value0, value1)
 
 
 @kernel
@@ -86,33 +83,29 @@ def interpolate(planes, places, rows, lefts, triangles, starts, coordinates, fla
     for r in range(rows.shape[0]):
         first, end = starts[r], starts[r + 1]
         of_triangle, j = planes[places[triangles[r]]], coordinates[rows[r]]
+        base, step, across = of_triangle[0], of_triangle[1], of_triangle[2]
         columns = coordinates[lefts[r] : lefts[r] + end - first]
         if end - first < LONG:
             for n in range(end - first):
                 i, values = columns[n], out[:, first + n]
-                w_here = ONE / ((of_triangle[k, 1] * i + of_triangle[k, 0]) + of_triangle[k, 2] * j)
+                w_here = ONE / ((step[k] * i + base[k]) + across[k] * j)
                 for c in range(k):
-                    if flat[c]:
-                        values[c] = of_triangle[c, 0]
-                    else:
-                        values[c] = ((of_triangle[c, 1] * i + of_triangle[c, 0]) + of_triangle[c, 2] * j) * w_here
+                    values[c] = base[c] if flat[c] else ((step[c] * i + base[c]) + across[c] * j) * w_here
             continue
-        w = out[k, first:end]
-        base, step, across = of_triangle[k, 0], of_triangle[k, 1], of_triangle[k, 2] * j
+        w, at_0, per_column, of_row = out[k, first:end], base[k], step[k], across[k] * j
         for n in range(end - first):
-            w[n] = ONE / ((step * columns[n] + base) + across)
+            w[n] = ONE / ((per_column * columns[n] + at_0) + of_row)
         for c in range(k):
-            values = out[c, first:end]
+            values, at_0, per_column, of_row = out[c, first:end], base[c], step[c], across[c] * j
             if flat[c]:
-                values[:] = of_triangle[c, 0]
+                values[:] = at_0
                 continue
-            base, step, across = of_triangle[c, 0], of_triangle[c, 1], of_triangle[c, 2] * j
             for n in range(end - first):
-                values[n] = ((step * columns[n] + base) + across) * w[n]
+                values[n] = ((per_column * columns[n] + at_0) + of_row) * w[n]
 
 
 def planes_of(
-    triangles_seen: np.ndarray,
+    runs: Runs,
     triangles: Setup,
     window: np.ndarray,
     values: np.ndarray,
@@ -120,11 +113,10 @@ def planes_of(
     flat: np.ndarray,
     provoking: np.ndarray,
 ) -> Planes:
-    """Return the planes of the triangles that are seen; see `attribute_planes`.
+    """Return the planes of the triangles that runs belong to; see `attribute_planes`.
 
     Parameters
     ----------
-    triangles_seen : (N,) int32, rows of `triangles`, each any number of times
     window : (V, 4) window x, y, z, 1/w
     values, back : (V, k) from the vertex stage, for front- and back-facing triangles
     flat : (k,) bool
@@ -132,13 +124,14 @@ def planes_of(
     """
     place = np.full(len(triangles.ids), -1, np.int32)
     seen = np.empty(len(triangles.ids), np.int32)
-    seen = seen[: number_in_order(triangles_seen, place, seen)]
-    planes = np.empty((len(seen), values.shape[1] + 1, 3), window.dtype)
+    seen = seen[: number_in_order(runs.triangle, place, seen)]
+    planes = np.empty((len(seen), 3, values.shape[1] + 1), window.dtype)
     attribute_planes(
         window, values, values if back is None else back, triangles.vertices, triangles.front, seen, flat,
         provoking[triangles.ids], planes,
     )  # fmt: skip
-    return Planes(planes, place)
+    furthest = max(runs.row.max(initial=0), (runs.left + np.diff(runs.start)).max(initial=0))
+    return Planes(planes, place, np.arange(furthest + BLOCK, dtype=window.dtype))
 
 
 @kernel
@@ -157,8 +150,6 @@ def number_in_order(triangles, place, seen):
 
 def inputs_at(runs: Runs, planes: Planes, flat: np.ndarray) -> np.ndarray:
     """Return what the fragment stage of a program gets: (n, k), one row per fragment, each column in one piece."""
-    furthest = runs.left + np.diff(runs.start)
-    size = int(max(runs.row.max(initial=0) + 1, furthest.max(initial=0)))
     out = np.empty((len(flat) + 1, runs.fragments), planes.values.dtype)
-    interpolate(planes.values, planes.place, *runs, np.arange(size, dtype=out.dtype), flat, out)
+    interpolate(planes.values, planes.place, *runs, planes.coordinates, flat, out)
     return out[:-1].T

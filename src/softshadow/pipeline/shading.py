@@ -15,7 +15,7 @@ from softshadow.pipeline.interpolate import Planes, inputs_at, planes_of
 from softshadow.pipeline.runs import Runs, fragments_of, runs_of
 from softshadow.state import State
 
-BATCH = 16 * 1045  # fragments: columns of an odd number of cache lines, which do not fall on each other in the cache
+BATCH = 16 * 2091  # fragments: columns of an odd number of cache lines, which do not fall on each other in the cache
 
 
 def shade(geometry: Geometry, runs: Runs) -> np.ndarray:
@@ -60,7 +60,7 @@ def shade_and_write(state: State, target: Framebuffer, geometry: Geometry, runs:
 
 def _planes_of(geometry: Geometry, runs: Runs) -> Planes:
     values = (geometry.values, geometry.back, geometry.flat, geometry.provoking)
-    return planes_of(runs.triangle, geometry.triangles, geometry.window, *values)
+    return planes_of(runs, geometry.triangles, geometry.window, *values)
 
 
 def _shade_batch(geometry: Geometry, planes: Planes, runs: Runs) -> np.ndarray:
