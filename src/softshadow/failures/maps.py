@@ -7,6 +7,7 @@ from softshadow.failures.failure import Failure, Setting
 from softshadow.failures.measures import (
     COUNTED,
     grown_shadow,
+    wrong_colors,
     wrong_flat_colors,
     wrong_flat_light,
     wrong_inside_faces,
@@ -48,6 +49,15 @@ FAILURES = (
         Setting("map", {"map_size": 1024, "factor": 0.0, "units": 0.0, "bias": 0.1}),
         Setting("map", {"map_size": 1024}),
         wrong_inside_faces, COUNTED,
+    ),
+    Failure(
+        "offset-of-far-faces", "An offset on the far faces of casters", "maps", "E27, SK:374-377",
+        "Faces that look away from the light need no offset: it pushes them into the floor that they stand on, and "
+        "light comes in at the foot.",
+        lambda: Scene.named("thin-wall"),
+        Setting("map", {"surface": "back", "map_size": 256, "factor": 4.0}),
+        Setting("map", {"surface": "back", "map_size": 256, "factor": 0.0, "units": 0.0}),
+        wrong_colors, COUNTED,
     ),
     Failure(
         "offset-and-bias", "An offset in the map, and a bias besides", "maps", "E48, CA:544, CA:620",

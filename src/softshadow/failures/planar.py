@@ -14,7 +14,6 @@ from softshadow.failures.measures import (
     painted_casters,
     painted_lit,
     wrong_colors,
-    wrong_on_receivers,
     wrong_paint,
     wrong_paint_on_receivers,
 )
@@ -166,8 +165,8 @@ FAILURES = (
         "modulative-lights", "Shadows darken the picture instead of leaving a light out", "planar", "E53, RO1:361",
         "Where one light is hidden the other still shines, but a shadow that is blended takes its share of both.",
         lambda: Scene.named("two-lights"),
-        Setting("planar", BLENDED),
-        Setting("planar"),
-        wrong_on_receivers, "pixels whose colour is not that of the lights they see",
+        Setting("shadow-polygons", {"method": "decal", "combine": "modulate"}),
+        Setting("shadow-polygons", {"method": "decal"}),
+        wrong_colors, "pixels whose colour is not that of the lights they see",
     ),
 )  # fmt: skip
