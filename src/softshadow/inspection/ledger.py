@@ -8,6 +8,7 @@ import numpy as np
 
 from softshadow import pipeline
 from softshadow.context import Frame
+from softshadow.inspection.step import object_of
 from softshadow.pipeline import VERDICTS
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fragment_ops import SCISSORED
@@ -23,7 +24,8 @@ class Counts:
 
     `triangles` are those handed in, before clipping and culling, lines and points among them; `fragments` has one count
     per verdict but the scissor's, outside whose box none are made; a stencil update is a stencil value that changed.
-    Draws into framebuffer objects count, too.
+    Draws into framebuffer objects count, too. `passes` has the names of the objects drawn, pass by pass: a pass ends
+    with the step, with the framebuffer, and where an object comes again after another.
     """
 
     title: str
@@ -31,6 +33,7 @@ class Counts:
     triangles: int = 0
     fragments: dict[str, int] = field(default_factory=lambda: dict.fromkeys(COUNTED, 0))
     stencil_updates: int = 0
+    passes: list[tuple[str, ...]] = field(default_factory=list)
 
     @property
     def all_fragments(self) -> int:
@@ -51,6 +54,7 @@ class Ledger:
             total.draws += step.draws
             total.triangles += step.triangles
             total.stencil_updates += step.stencil_updates
+            total.passes += step.passes
             for verdict, count in step.fragments.items():
                 total.fragments[verdict] += count
         return total
@@ -97,6 +101,21 @@ def ledger_of(frame: Frame) -> Ledger:
         by_verdict = dict(zip(VERDICTS, verdicts.tolist(), strict=False))  # the last number counts updates
         counts.fragments = {verdict: by_verdict[verdict] for verdict in COUNTED}
         counts.stencil_updates = int(verdicts[-1])
+        counts.passes = passes_of([command for command in frame.commands[first:end] if isinstance(command, Draw)])
         counted.append(counts)
         first = end
     return Ledger(tuple(counted))
+
+
+def passes_of(draws: list[Draw]) -> list[tuple[str, ...]]:
+    """Return the passes of a step, each as the names of its objects; draws of one object in a row are one."""
+    passes: list[list[str]] = []
+    target = None
+    for command in draws:
+        name = object_of(command)
+        if not passes or command.state.draw_framebuffer != target or name in passes[-1][:-1]:
+            passes.append([name])
+        elif passes[-1][-1] != name:
+            passes[-1].append(name)
+        target = command.state.draw_framebuffer
+    return [tuple(names) for names in passes]
