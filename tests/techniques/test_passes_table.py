@@ -38,6 +38,9 @@ def counted(technique: str, scene: Scene, **options: Any) -> tuple[dict[str, int
         ("volume-parity", {}, 2, 2 + 1, 3),
         # the light's depth pass; the camera's pass is two here, as it is for volumes: ambient, and what the light adds
         ("map", {}, 2, 2 + 1, 3),
+        # and one that writes the visibility; a cube of six maps is drawn face by face
+        ("map-pcf", {}, 3, 3 + 1, 4),
+        ("map-cube", {}, 3, 3 + 6, 9),
     ],
 )
 def test_one_light_takes_the_passes_of_the_table(
@@ -63,6 +66,7 @@ def test_the_near_plane_count_takes_one_pass_more_of_what_is_before_it() -> None
         ("volume-zfail", {}, 2 + 1),
         ("volume-zfail", {"two_sided": True}, 1 + 1),
         ("map", {}, 1 + 1),
+        ("map-pcf", {}, 1 + 2),
     ],
 )
 @pytest.mark.parametrize("number", [2, 3])

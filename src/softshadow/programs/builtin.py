@@ -9,7 +9,11 @@ def load() -> None:
     from softshadow.programs import register
     from softshadow.programs.blinn_phong import BLINN_PHONG
     from softshadow.programs.blinn_phong_shadowed import BLINN_PHONG_SHADOWED, BLINN_PHONG_SHADOWED_5X5
+    from softshadow.programs.cube_visibility import CUBE_VISIBILITY
+    from softshadow.programs.map_visibility import MAP_VISIBILITY, MAP_VISIBILITY_BILINEAR
     from softshadow.programs.shadow_map import SHADOW_MAP
 
-    for program in (BLINN_PHONG, SHADOW_MAP, BLINN_PHONG_SHADOWED, BLINN_PHONG_SHADOWED_5X5):
+    shadowed = BLINN_PHONG_SHADOWED, BLINN_PHONG_SHADOWED_5X5
+    visibility = MAP_VISIBILITY, MAP_VISIBILITY_BILINEAR, CUBE_VISIBILITY
+    for program in (BLINN_PHONG, SHADOW_MAP, *shadowed, *visibility):
         register(program)

@@ -120,6 +120,22 @@ STOPS = (
         "The scene's depths from the light, compared for each pixel: blocky edges, no geometry to extrude.",
     ),
     Stop(
+        "Shadow map, second depth",
+        "map",
+        "The far sides of the casters are stored: lit faces need no bias, and errors are where it is dark anyway.",
+        {"surface": "back", "factor": 0.0, "units": 0.0},
+    ),
+    Stop(
+        "Shadow map, percentage-closer filtering",
+        "map-pcf",
+        "The share of 3 x 3 comparisons that are lit: a ramp as wide as the texels, near the caster and far from it.",
+    ),
+    Stop(
+        "Shadow maps to all six sides",
+        "map-cube",
+        "One map for each direction, for lights that stand among their casters; here five of the six stay empty.",
+    ),
+    Stop(
         "Shadow map without bias",
         "map",
         "Surfaces shadow themselves: the map's texel is as deep as the surface, give or take half its slope.",

@@ -9,6 +9,8 @@ from softshadow.errors import nearest
 from softshadow.techniques import (
     blob,
     map,
+    map_cube,
+    map_pcf,
     planar,
     shadow_polygons,
     volume_parity,
@@ -87,6 +89,22 @@ REGISTER = {
             map.steps,
             map.OPTIONS,
         ),
+        Technique(
+            "map-pcf",
+            "Shadow map, percentage-closer filtering",
+            "map",
+            "Reeves, Salesin & Cook 1987, Rendering antialiased shadows with depth maps",
+            map_pcf.steps,
+            map_pcf.OPTIONS,
+        ),
+        Technique(
+            "map-cube",
+            "Shadow maps to all six sides",
+            "map",
+            "Gerasimov 2004, Omnidirectional shadow mapping",
+            map_cube.steps,
+            map_cube.OPTIONS,
+        ),
     )
 }
 
@@ -96,8 +114,8 @@ def names() -> list[str]:
 
     Examples
     --------
-    >>> names()
-    ['shadow-polygons', 'planar', 'blob', 'volume-zpass', 'volume-zfail', 'volume-zpass-plus', 'volume-parity', 'map']
+    >>> print(*names())
+    shadow-polygons planar blob volume-zpass volume-zfail volume-zpass-plus volume-parity map map-pcf map-cube
     """
     return list(REGISTER)
 
@@ -125,6 +143,6 @@ def describe(name: str) -> str:
     module = technique.steps.__globals__
     lines = [f"{technique.name}: {technique.title}", "", module["__doc__"].strip(), "", "Options:"]
     for key, option in technique.options.items():
-        default = "from the scene" if option.default is None else option.default
+        default = "chosen to fit" if option.default is None else option.default
         lines += [f"  {key} = {default}", f"      {option.help} ({option.expected})"]
     return "\n".join(lines)

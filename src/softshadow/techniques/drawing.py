@@ -218,11 +218,14 @@ def draw_polygons(gl: Any, polygons: np.ndarray) -> None:
 
 
 @contextmanager
-def texture_attached(gl: Any, attachment: int, texture: int) -> Iterator[None]:
-    """Inside, draw into a texture: it is this attachment of a framebuffer object that has no other."""
+def texture_attached(gl: Any, attachment: int, texture: int, target: int | None = None) -> Iterator[None]:
+    """Inside, draw into a texture: it is this attachment of a framebuffer object that has no other.
+
+    `target` names a face where the texture is a cube map.
+    """
     framebuffer = gl.glGenFramebuffers(1)
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
-    gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, attachment, gl.GL_TEXTURE_2D, texture, 0)
+    gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, attachment, target or gl.GL_TEXTURE_2D, texture, 0)
     if attachment == gl.GL_DEPTH_ATTACHMENT:
         gl.glDrawBuffer(gl.GL_NONE)
         gl.glReadBuffer(gl.GL_NONE)

@@ -38,6 +38,7 @@ from softshadow.techniques.drawing import (
     set_camera,
     title_of,
     visibility_maps,
+    within_cone,
 )
 from softshadow.techniques.planar import DARKNESS
 from softshadow.techniques.technique import Option, Steps
@@ -99,7 +100,8 @@ def draw(
     else:
         light_by(gl, scene, scene.lights, ambient=True)
     draw_objects(gl, scene.objects)
-    valid = read_depth(gl, size) < 1
+    depth = read_depth(gl, size)
+    valid = depth < 1
     yield "draw the scene without the light" if combine == "add" else "draw the scene with all lights"
 
     lit = []
@@ -114,7 +116,7 @@ def draw(
             else:
                 without_depth(gl, thing, details)
         end_marks(gl)
-        lit.append(read_stencil(gl, size) & SHADOW == 0)
+        lit.append((read_stencil(gl, size) & SHADOW == 0) & within_cone(scene, light, depth, size))
         yield title_of("mark the shadow polygons", scene, light)
 
         # 3. draw the lit part of the scene, or darken the rest

@@ -13,7 +13,7 @@ class Option:
     """One option of a technique: its default, what it may be, and one sentence of help.
 
     `kind` is bool, int, float or str; `choices` lists what a str may be; `minimum` and `maximum` bound a number. With
-    a default of None the value is chosen from the scene.
+    a default of None the value is chosen to fit the scene or the other options.
     """
 
     default: Any
