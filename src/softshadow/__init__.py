@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from softshadow.errors import (
         CounterSaturated,
         DegenerateFaces,
+        FarFromOrigin,
         InsideOutMesh,
         LightInsideCaster,
         MeshError,
@@ -43,6 +44,7 @@ __all__ = [
     "Camera",
     "CounterSaturated",
     "DegenerateFaces",
+    "FarFromOrigin",
     "InsideOutMesh",
     "Light",
     "LightInsideCaster",
@@ -80,9 +82,9 @@ _MODULES = ("gl", "testing")
 _RENAMED = {"failures": ("softshadow.failures", "GALLERY"), "technique_names": ("softshadow.techniques", "names")}
 _HOMES = {
     "softshadow.errors": (
-        "CounterSaturated", "DegenerateFaces", "InsideOutMesh", "LightInsideCaster", "MeshError", "MisorientedMesh",
-        "NearClipZPass", "NonManifoldMesh", "OpenMesh", "OutsideLightFrustum", "PartlyReadFile", "SceneError",
-        "SoftShadowError", "StateError", "TJunction", "UnweldedMesh", "Warning",
+        "CounterSaturated", "DegenerateFaces", "FarFromOrigin", "InsideOutMesh", "LightInsideCaster", "MeshError",
+        "MisorientedMesh", "NearClipZPass", "NonManifoldMesh", "OpenMesh", "OutsideLightFrustum", "PartlyReadFile",
+        "SceneError", "SoftShadowError", "StateError", "TJunction", "UnweldedMesh", "Warning",
     ),
     "softshadow.inspection.pictures": ("stencil_palette",),
     "softshadow.pipeline": ("set_threads",),

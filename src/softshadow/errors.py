@@ -49,6 +49,10 @@ class DegenerateFaces(Warning):
     """Triangles without area: they are not seen and cast nothing."""
 
 
+class FarFromOrigin(Warning):
+    """The coordinates of a caster are much larger than the caster: float32 has few digits left for its shape."""
+
+
 class LightInsideCaster(Warning):
     """A light lies inside a closed caster: volumes let its light out, maps and rays keep it in."""
 

@@ -5,6 +5,7 @@ import pytest
 
 from softshadow.errors import (
     DegenerateFaces,
+    FarFromOrigin,
     LightInsideCaster,
     MisorientedMesh,
     NonManifoldMesh,
@@ -113,3 +114,12 @@ def test_a_light_in_a_closed_body_is_found_beside_an_open_one() -> None:
     assert LightInsideCaster in warnings_of(both, (0.2, 0.1, 0))
     assert LightInsideCaster not in warnings_of(both, (5.2, 0.1, 0.1))
     assert LightInsideCaster in warnings_of(both, (1.2, 0.1, 0), placement((1, 0, 0)))
+
+
+@pytest.mark.parametrize(("away", "named"), [(900, False), (1100, True), (-2000, True)])
+def test_a_mesh_far_from_the_origin_is_named_with_what_float32_keeps(away: float, named: bool) -> None:
+    box = shapes.box()
+    said = warnings_of(Mesh(box.positions + np.float32([0, away, 0]), box.triangles))
+    assert (FarFromOrigin in said) == named
+    if named:
+        assert "keeps its shape to 0.00012 only" in said[FarFromOrigin]

@@ -49,8 +49,14 @@ def hard_counts(
     return counts
 
 
-def seen_faces(scene: Scene, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def seen_faces(
+    scene: Scene, size: tuple[int, int], aside: tuple[float, float] = (0, 0)
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return what every pixel centre shows, row by row from the top.
+
+    Parameters
+    ----------
+    aside : (x, y)               pixels to the right and down from the centres
 
     Returns
     -------
@@ -60,7 +66,7 @@ def seen_faces(scene: Scene, size: tuple[int, int]) -> tuple[np.ndarray, np.ndar
     """
     width, height = size
     camera = scene.camera
-    x, y = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
+    x, y = np.meshgrid(np.arange(width) + 0.5 + aside[0], np.arange(height) + 0.5 + aside[1])
     near_points = camera.near_points(np.stack([x.ravel(), y.ravel()], axis=1), size)
     directions = near_points - camera.eye
     objects, triangles, distances = first_faces(near_points, directions, scene.objects)

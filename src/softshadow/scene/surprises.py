@@ -11,6 +11,9 @@ from softshadow.scene.mesh import Mesh
 if TYPE_CHECKING:
     from softshadow.scene.scene import Scene, SceneObject
 
+# at a thousand times its size a mesh has 14 of float32's 24 bits left: a tenth of a pixel in a large picture
+FAR = 1000
+
 
 def surprises(scene: "Scene") -> Iterator[errors.Warning]:
     """Yield a named warning for whatever makes a caster leak or count oddly, and for each light inside a caster."""
@@ -67,6 +70,13 @@ def leaks(caster: "SceneObject") -> Iterator[errors.Warning]:
             f"{_edge_place(mesh, (topology.edge_faces == 2) & (topology.edge_sums != 0))}. Every face of such a body "
             f"casts, turned towards the light: volumes that count cope, volume-parity does not, and triangles are "
             f"drawn inside out, culled or unlit; make normals consistent in the program that made the file"
+        )
+    size, reach = float(np.ptp(mesh.bounds, axis=0).max()), float(np.abs(mesh.bounds).max())
+    if reach > FAR * size:
+        yield errors.FarFromOrigin(
+            f"{caster.name}: coordinates up to {reach:g} for a mesh of size {size:g}: float32 keeps its shape to "
+            f"{np.spacing(np.float32(reach)):.2g} only, and pixels near edges are wrong; move it to the origin in the "
+            f"program that made the file"
         )
     flat = mesh.doubled_areas == 0
     if flat.any():

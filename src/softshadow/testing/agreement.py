@@ -13,6 +13,8 @@ from softshadow.run import Run
 from softshadow.scene import Scene
 from softshadow.techniques.light_camera import light_camera
 
+SNAPPED = 1 / 128  # pixels: more than what snapping to 1/256 moves an edge by
+
 
 @dataclass(frozen=True, eq=False)
 class Truth:
@@ -27,6 +29,8 @@ class Truth:
     counts : tuple of (H, W) int32   per light: how many casting faces lie between it and the point. This is what a
                                      stencil buffer holds after shadow volumes. The point's own face and those in its
                                      plane are left out by number
+    unsure : tuple of (H, W) bool    per light: where the object or the count changes within 1/128 of a pixel. Of a face
+                                     smaller than a pixel no neighbour need tell; window positions are snapped to 1/256
     """
 
     scene: Scene
@@ -34,6 +38,7 @@ class Truth:
     triangles: np.ndarray
     points: np.ndarray
     counts: tuple[np.ndarray, ...]
+    unsure: tuple[np.ndarray, ...]
 
     def lit(self, light: int = 0) -> np.ndarray:
         """Return (H, W) bool: where the count of a light is 0, within its cone if it is a spot light."""
@@ -42,7 +47,7 @@ class Truth:
     def band(self, light: int = 0, width: int = 1) -> np.ndarray:
         """Return (H, W) bool: where the object, the count of a light or its cone changes within `width` pixels."""
         values = (self.objects, self.counts[light], self.lit(light))
-        return np.any([changes_nearby(value, width) for value in values], axis=0)
+        return np.any([self.unsure[light], *(changes_nearby(value, width) for value in values)], axis=0)
 
     def texel_band(self, light: int, map_size: int, width: int = 1) -> np.ndarray:
         """Return (H, W) bool: where the count of a light changes within `width` texels of its shadow map.
@@ -86,13 +91,18 @@ def cast_truth(scene: Scene, size: tuple[int, int]) -> Truth:
     """Return what rays find at the pixel centres of a picture of (width, height)."""
     width, height = size
     objects, triangles, points = seen_faces(scene, size)
-    counts = tuple(hard_counts(scene, light, objects, triangles, points) for light in scene.lights)
+    counts = [hard_counts(scene, light, objects, triangles, points) for light in scene.lights]
+    unsure = [np.zeros(len(objects), bool) for _ in scene.lights]
+    for aside in ((SNAPPED, SNAPPED), (-SNAPPED, SNAPPED), (SNAPPED, -SNAPPED), (-SNAPPED, -SNAPPED)):
+        beside = seen_faces(scene, size, aside)
+        for light, count, changes in zip(scene.lights, counts, unsure, strict=True):
+            changes |= (beside[0] != objects) | (hard_counts(scene, light, *beside) != count)
     shape = height, width
     arrays = [objects.reshape(shape), triangles.reshape(shape), points.reshape(*shape, 3)]
-    arrays += [count.reshape(shape) for count in counts]
-    for array in arrays:
+    by_light = [tuple(array.reshape(shape) for array in each) for each in (counts, unsure)]
+    for array in (*arrays, *by_light[0], *by_light[1]):
         array.setflags(write=False)
-    return Truth(scene, arrays[0], arrays[1], arrays[2], tuple(arrays[3:]))
+    return Truth(scene, arrays[0], arrays[1], arrays[2], by_light[0], by_light[1])
 
 
 def changes_nearby(values: np.ndarray, width: int) -> np.ndarray:
