@@ -33,8 +33,10 @@ class Token(int):
         return Token(int(self) | int(other), f"{self.name} | {spelled(other)}")
 
     def __add__(self, other: int) -> Token:
-        stem, digits = self.name.rstrip("0123456789"), self.name[len(self.name.rstrip("0123456789")) :]
-        return Token(int(self) + int(other), f"{stem}{int(digits) + other}" if digits else f"{self.name} + {other}")
+        stem = self.name.rstrip("0123456789")
+        if stem != self.name:  # GL_LIGHT0 and the like are numbered
+            return Token(int(self) + int(other), f"{stem}{int(self.name[len(stem) :]) + other}")
+        return Token(int(self) + int(other), f"{self.name} + {other}") if other else self
 
     def __repr__(self) -> str:
         return self.name

@@ -19,6 +19,8 @@ from softshadow.scene.shapes import floor
 
 # what the pictures have no pixels for by default
 AT_CREASES = "single pixels within a texel of a crease or an edge"
+# texels so small that the filter stays within the boundary band
+FILTERED = {"kernel": 5, "map_size": 2048}
 # beyond the light's view on all sides
 WIDE = replace(STAGE, receiver=(Thing(floor(9), STAGE.receiver[0].color),), occluder=STAGE.occluder[:1])
 # its shadow stays within what the light of the listings sees
@@ -92,6 +94,15 @@ FAILURES = (
         wrong_on_receivers, "pixels of the floor whose colour is not that of the lights they see",
     ),
     Failure(
+        "pcf-bias", "An offset for one texel under a filter of many", "maps", "SK:385-401, CA:620",
+        "The farther a texel of the filter lies from the point, the farther off is its depth on a slope: the offset's "
+        "factor has to grow with the filter, to 2 r + 1.",
+        lambda: Scene.named("boxes"),
+        Setting("map-pcf", FILTERED | {"factor": 1.0}),
+        Setting("map-pcf", FILTERED),
+        wrong_inside_faces, COUNTED, why_floor=AT_CREASES,
+    ),
+    Failure(
         "linear-filtered-depth", "Depths are filtered before they are compared", "maps", "E46, CA:518-519, SK:384",
         "The mean of a near and a far depth is the depth of nothing that is there: what lies beyond the edge of a "
         "caster's texel is compared with it, and the shadow grows.",
@@ -113,7 +124,7 @@ FAILURES = (
         "A frustum looks one way: what stands beside or behind the light is not in its map, and casts no shadow.",
         lambda: Scene.named("light-between"),
         Setting("map"),
-        Setting("volume-zfail"),
+        Setting("map-cube"),
         wrong_inside_faces, COUNTED,
     ),
     Failure(
