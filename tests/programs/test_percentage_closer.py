@@ -8,6 +8,7 @@ from softshadow.programs import percentage_closer, sampling
 
 pytestmark = pytest.mark.interpreted
 
+SQUARE = (16, 16)  # texels one step of 1/16 apart on both axes: side by side
 FORMATS = ("GL_DEPTH_COMPONENT16", "GL_DEPTH_COMPONENT24", "GL_DEPTH_COMPONENT32", "GL_DEPTH_COMPONENT32F", "GL_RGBA8")
 LARGEST = {"GL_DEPTH_COMPONENT16": 2**16 - 1, "GL_DEPTH_COMPONENT24": 2**24 - 1, "GL_DEPTH_COMPONENT32": 2**32 - 1}
 
@@ -33,17 +34,32 @@ def places():
     return made
 
 
-@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("radius", [1, 2])
+@pytest.mark.parametrize("shape", [*SHAPES, SQUARE])
 @pytest.mark.parametrize("wrap", WRAPS)
 @pytest.mark.parametrize("internal", FORMATS)
-def test_texels_round_a_place_are_those_of_separate_lookups(internal, wrap, shape, monkeypatch):
+def test_texels_round_a_place_are_those_of_separate_lookups(internal, wrap, shape, radius, monkeypatch):
     made = texture(internal, cells_of(internal, shape), wrap_s=wrap, wrap_t=wrap)
-    arguments = made, places(), places()[:, 2].copy(), 2, np.float32(1 / 16)
+    arguments = made, places(), places()[:, 2].copy(), radius, np.float32(1 / 16)
     assert percentage_closer.is_plain(made)
     together = percentage_closer.count_lit(*arguments)
     monkeypatch.setattr(percentage_closer, "is_plain", lambda _: False)
     assert np.array_equal(together, percentage_closer.count_lit(*arguments))
-    assert 0 < together.sum() < 25 * len(together)
+    assert 0 < together.sum() < (2 * radius + 1) ** 2 * len(together)
+
+
+def test_texels_of_some_places_lie_side_by_side_and_of_some_outside(monkeypatch):
+    found, classify = [], percentage_closer.classify
+
+    def listening(*arguments):
+        classify(*arguments)
+        found.extend(arguments[-1])
+
+    monkeypatch.setattr(percentage_closer, "classify", listening)
+    made = texture("GL_DEPTH_COMPONENT24", cells_of("GL_DEPTH_COMPONENT24", SQUARE), wrap_s="GL_CLAMP_TO_BORDER")
+    percentage_closer.count_lit(made, places(), places()[:, 2].copy(), 2, np.float32(1 / 16))
+    kinds = percentage_closer.SIDE_BY_SIDE, percentage_closer.OUTSIDE, percentage_closer.MIXED
+    assert set(found) == set(kinds)
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,8 @@ import numpy as np
 from softshadow.jit import kernel
 from softshadow.pipeline.fragments import Fragments
 
+STRIDE = 16  # pixels of a long run that are looked at together
+
 
 class Runs(NamedTuple):
     """Runs of fragments, one after the other:
@@ -100,7 +102,12 @@ def collect_visible(ids, first_row, rows, lefts, triangles, starts):
         line, column = ids[row], 0
         while column < line.shape[0]:
             triangle, left = line[column], column
-            while column < line.shape[0] and line[column] == triangle:
+            others = np.int32(0)
+            while column + STRIDE <= line.shape[0] and others == 0:
+                for i in range(STRIDE):  # no branches between them: a vector or two
+                    others |= line[np.uint64(column + i)] ^ triangle
+                column += STRIDE if others == 0 else 0
+            while column < line.shape[0] and line[np.uint64(column)] == triangle:
                 column += 1
             if triangle >= 0:
                 rows[count], lefts[count], triangles[count], starts[count] = row + first_row, left, triangle, at

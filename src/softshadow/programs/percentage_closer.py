@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import inlined, kernel
 from softshadow.programs import needs_blocks
 from softshadow.programs.filtering import CONSTANT_ZERO, STEP_OF_23_BITS, fetch, sources_of, texels_of, wraps_of
 from softshadow.programs.sampling import is_complete, sample
@@ -23,6 +23,7 @@ from softshadow.tokens import GL_NEAREST, GL_NONE
 
 # how the texels of a pixel lie: side by side inside the image, all outside where the border colour is, or otherwise
 SIDE_BY_SIDE, OUTSIDE, MIXED = (np.int8(kind) for kind in range(3))
+USUAL_SIDE = 5  # of the square of texels
 
 
 def count_lit(texture: Texture, projected: np.ndarray, depths: np.ndarray, radius: int, texel: Any) -> np.ndarray:
@@ -93,6 +94,17 @@ def classify(texels, width, height, kinds):
         kinds[n] = OUTSIDE if beside[n] | above[n] else (SIDE_BY_SIDE if inside[n] else MIXED)
 
 
+@inlined
+def count_square(cells, column, row, side, depth, border, unit):
+    """Return how many of side² texels from a column and row on are at least as far as a depth."""
+    count, left, top = np.int32(0), np.uint64(column), np.uint64(row)  # unsigned: no index counts from the end
+    for j in range(side):
+        texels = cells[top + np.uint64(j)]
+        for i in range(side):
+            count += np.int32(depth <= border.dtype.type(texels[left + np.uint64(i), 0]) * unit)
+    return count
+
+
 @kernel
 def count_nearest(texels, kinds, depths, cells, width, border, unit, lit):
     """Write to `lit` (N,) how many of each pixel's texels are at least as far as its depth; all texels' first channel.
@@ -102,18 +114,15 @@ def count_nearest(texels, kinds, depths, cells, width, border, unit, lit):
     """
     columns, rows, side = texels[0], texels[1], texels.shape[1]
     for n in range(len(lit)):
-        depth, count = depths[n], 0
+        depth, count = depths[n], np.int32(0)
         if kinds[n] == OUTSIDE:
-            count = side * side if depth <= border[0] else 0
+            count = np.int32(side * side if depth <= border[0] else 0)
+        elif kinds[n] == SIDE_BY_SIDE and side == USUAL_SIDE:  # known to the compiler, the loops are unrolled
+            count = count_square(cells, columns[0, n], rows[0, n], USUAL_SIDE, depth, border, unit)
         elif kinds[n] == SIDE_BY_SIDE:
-            left, top = np.uint64(columns[0, n]), np.uint64(rows[0, n])  # unsigned: no index counts from the end
-            for j in range(side):
-                row = cells[top + np.uint64(j)]
-                for i in range(side):
-                    count += 1 if depth <= border.dtype.type(row[left + np.uint64(i), 0]) * unit else 0
+            count = count_square(cells, columns[0, n], rows[0, n], side, depth, border, unit)
         else:
             for j in range(side):
                 for i in range(side):
-                    texel = fetch(cells, width, border, unit, columns[i, n], rows[j, n], 0)
-                    count += 1 if depth <= texel else 0
+                    count += np.int32(depth <= fetch(cells, width, border, unit, columns[i, n], rows[j, n], 0))
         lit[n] = count
