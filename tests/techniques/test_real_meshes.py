@@ -1,4 +1,4 @@
-"""Shadow volumes of real models: thousands of faces, boundary edges, several bodies."""
+"""Shadows of real models: thousands of faces, boundary edges, several bodies."""
 
 from dataclasses import replace
 from typing import Any
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from paths import shared_file
-from softshadow.errors import NearClipZPass
+from softshadow.errors import NearClipZPass, SceneError
 from softshadow.scene import Camera, Light, Scene
 from softshadow.techniques.near_rectangle import near_counts
 from techniques.drawn_frames import Drawn, cast_rays, draw, off_the_edges
@@ -77,3 +77,19 @@ def test_ways_that_look_behind_the_surface_are_right_in_the_shadow_of_a_model(
     scene, zfail = from_the_shadow
     drawn = draw("volume-zpass", scene, SIZE, **options)
     np.testing.assert_array_equal(drawn.stencil[drawn.titles[-1]], zfail)
+
+
+@pytest.mark.parametrize("model", ["fuze.obj", "multibody.stl"])
+def test_shadow_polygons_of_a_model_are_where_rays_are_blocked(model: str) -> None:
+    scene = Scene.from_mesh(shared_file(f"meshes/{model}"))
+    polygons, truth = draw("shadow-polygons", scene, SIZE, method="decal"), cast_rays(scene, SIZE)
+    sure = truth.sure() & polygons.maps["valid"]
+    assert (truth.counts[0][sure] > 0).any()
+    # where polygons of neighbouring faces meet, corners rounded to float32 may leave a sample to neither
+    assert ((polygons.shadow != (truth.counts[0] > 0)) & sure).sum() <= 1
+
+
+def test_a_model_of_too_many_faces_for_shadow_polygons_is_refused_at_once() -> None:
+    scene = Scene.from_mesh(shared_file("meshes/stanford-bunny.obj"))
+    with pytest.raises(SceneError, match="pairs of a casting and a receiving face; expected at most"):
+        draw("shadow-polygons", scene, SIZE)

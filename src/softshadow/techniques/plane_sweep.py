@@ -47,17 +47,37 @@ def cover(chain: np.ndarray, low: float, high: float) -> np.ndarray:
     """
     edges = upwards(chain, low, high)
     levels = levels_of(edges, low, high)
-    slabs = [spans_between(edges, a, b) for a, b in pairwise(levels)]
-    triangles: list[np.ndarray] = []
-    for index, (bottom, top) in enumerate(slabs):
-        below = slabs[index - 1][1] if index else bottom
-        above = slabs[index + 1][0] if index + 1 < len(slabs) else top
-        on_bottom, on_top = np.union1d(bottom, below), np.union1d(top, above)
-        for (left_b, right_b), (left_t, right_t) in zip(bottom, top, strict=True):
-            lower = on_bottom[(on_bottom >= left_b) & (on_bottom <= right_b)]
-            upper = on_top[(on_top >= left_t) & (on_top <= right_t)]
-            triangles += strip(lower, levels[index], upper, levels[index + 1])
-    return np.array(triangles).reshape(-1, 3, 2)
+    found = trapezoids(edges, levels)
+    bottom, top = levels[found[:, 2]], levels[found[:, 3]]
+    # left and right end at the bottom, then at the top; at a crossing the two edges round apart
+    sides = [Edges(*(part[side] for part in edges)) for side in found[:, :2].T]
+    ends = np.array([[side.x_at(level) for side in sides] for level in (bottom, top)])
+    ends.sort(axis=1)
+    corners: dict[int, list[float]] = {}  # by level: of what ends there and of what begins there
+    for at_level, (left, right) in zip(found[:, 2:].T, ends, strict=True):
+        for level, one, other in zip(at_level.tolist(), left.tolist(), right.tolist(), strict=True):
+            corners.setdefault(level, []).extend((one, other))
+    points = {level: np.unique(given) for level, given in corners.items()}
+    triangles: list[list[list[float]]] = []
+    for (_, _, i, j), ((lower_left, upper_left), (lower_right, upper_right)) in zip(
+        found.tolist(), ends.transpose(2, 1, 0), strict=True
+    ):
+        lower = points[i][np.searchsorted(points[i], lower_left) : np.searchsorted(points[i], lower_right, "right")]
+        upper = points[j][np.searchsorted(points[j], upper_left) : np.searchsorted(points[j], upper_right, "right")]
+        triangles += strip(lower.tolist(), float(levels[i]), upper.tolist(), float(levels[j]))
+    return np.array(triangles, np.float64).reshape(-1, 3, 2)
+
+
+def trapezoids(edges: Edges, levels: np.ndarray) -> np.ndarray:
+    """Return (N, 4) int: left and right edge, bottom and top level of what the chain winds around."""
+    found: list[tuple[int, int, int, int]] = []
+    begun: dict[tuple[int, int], int] = {}
+    for index, (bottom, top) in enumerate(pairwise(levels)):
+        spans = spans_between(edges, bottom, top)
+        found += [(*span, first, index) for span, first in begun.items() if span not in spans]
+        begun = {span: begun.get(span, index) for span in spans}
+    found += [(*span, first, len(levels) - 1) for span, first in begun.items()]
+    return np.array(found, np.int64).reshape(-1, 4)
 
 
 def upwards(chain: np.ndarray, low: float, high: float) -> Edges:
@@ -86,23 +106,18 @@ def levels_of(edges: Edges, low: float, high: float) -> np.ndarray:
     return levels[np.append(True, np.diff(levels) > THIN * (high - low))]
 
 
-def spans_between(edges: Edges, bottom: float, top: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return what the chain winds around between two levels: left and right (S, 2) at the bottom, and at the top."""
+def spans_between(edges: Edges, bottom: float, top: float) -> dict[tuple[int, int], None]:
+    """Return between which edges, left and right, the chain winds around something from level to level, in order."""
     middle = (bottom + top) / 2
     active = np.flatnonzero((edges.y0 < middle) & (edges.y1 > middle))
-    across = Edges(*(part[active] for part in edges))
-    order = np.argsort(across.x_at(middle), kind="stable")
-    winding = np.cumsum(across.sign[order])
-    before = np.concatenate([[0], winding[:-1]])
-    left, right = order[(before == 0) & (winding != 0)], order[(before != 0) & (winding == 0)]
-    count = min(len(left), len(right))  # where the chain is open by rounding, a left end has no right one
-    at_bottom, at_top = across.x_at(bottom), across.x_at(top)
-    spans = np.stack([left[:count], right[:count]], axis=1)
-    return np.sort(at_bottom[spans], axis=1), np.sort(at_top[spans], axis=1)  # at a crossing the two round apart
+    order = active[np.argsort(edges.x_at(middle)[active], kind="stable")]
+    inside = np.cumsum(edges.sign[order]) != 0
+    changes = order[np.flatnonzero(np.diff(inside, prepend=False))].tolist()
+    # where the chain is open by rounding, a left edge has no right one
+    return dict.fromkeys(zip(changes[::2], changes[1::2], strict=False))
 
 
-def strip(lower: np.ndarray, bottom: float, upper: np.ndarray, top: float) -> list[np.ndarray]:
+def strip(lower: list[float], bottom: float, upper: list[float], top: float) -> list[list[list[float]]]:
     """Return counter-clockwise triangles between ascending points on two levels; none without area."""
     fan = [[[a, bottom], [b, bottom], [upper[0], top]] for a, b in pairwise(lower)]
-    fan += [[[lower[-1], bottom], [b, top], [a, top]] for a, b in pairwise(upper)]
-    return [np.array(triangle) for triangle in fan]
+    return fan + [[[lower[-1], bottom], [b, top], [a, top]] for a, b in pairwise(upper)]
