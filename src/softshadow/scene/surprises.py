@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 # at a thousand times its size a mesh has 14 of float32's 24 bits left: a tenth of a pixel in a large picture
 FAR = 1000
+# float64 rounding of a volume of nothing, of a mesh of size 1: faces back to back have no inside to be turned out
+NO_VOLUME = 1e-12
 
 
 def surprises(scene: "Scene") -> Iterator[errors.Warning]:
@@ -20,7 +22,7 @@ def surprises(scene: "Scene") -> Iterator[errors.Warning]:
     for caster in scene.casters:
         yield from leaks(caster)
         mesh = caster.mesh
-        if mesh.topology.closed and mesh.signed_volume < 0:
+        if mesh.topology.closed and mesh.signed_volume < -NO_VOLUME * float(np.ptp(mesh.bounds, axis=0).max()) ** 3:
             yield errors.InsideOutMesh(
                 f"{caster.name}: the triangles run clockwise seen from outside. Culling and lighting show the inside, "
                 f"and the far side casts instead of the near one"

@@ -14,6 +14,7 @@ from softshadow.scene import Scene
 from softshadow.techniques.light_camera import light_camera
 
 SNAPPED = 1 / 128  # pixels: more than what snapping to 1/256 moves an edge by
+EDGE_ON = 1e-4  # cosine to the light: the side of a volume beside such a face is as deep as the face, to 24 bits
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,8 +30,9 @@ class Truth:
     counts : tuple of (H, W) int32   per light: how many casting faces lie between it and the point. This is what a
                                      stencil buffer holds after shadow volumes. The point's own face and those in its
                                      plane are left out by number
-    unsure : tuple of (H, W) bool    per light: where the object or the count changes within 1/128 of a pixel. Of a face
-                                     smaller than a pixel no neighbour need tell; window positions are snapped to 1/256
+    unsure : tuple of (H, W) bool    per light: where the object or the count changes within 1/128 of a pixel, which no
+                                     neighbour need tell of a face smaller than a pixel; and faces edge-on to the light,
+                                     on which the sides of volumes lie
     """
 
     scene: Scene
@@ -59,7 +61,7 @@ class Truth:
         camera = light_camera(self.scene, lamp)
         right, up, forward = camera.frame
         objects, triangles, points = self.objects.ravel(), self.triangles.ravel(), self.points.reshape(-1, 3)
-        normals = self._normals()
+        normals = world_normals(self.scene, objects, triangles)
         texel = 2 * camera.half / map_size * width
         along = np.broadcast_to(forward, points.shape) if camera.parallel else points - camera.eye
         # the distance along the view: at distance 1 a texel of a perspective map is as wide as `half` says
@@ -77,15 +79,6 @@ class Truth:
             band |= ~met | (there != self.counts[light].ravel())
         return (band & (objects >= 0)).reshape(self.objects.shape)
 
-    def _normals(self) -> np.ndarray:
-        """Return (N, 3): the world normal of the face at each pixel, zeros where there is none."""
-        normals = np.zeros((self.objects.size, 3))
-        for number, thing in enumerate(self.scene.objects):
-            here = self.objects.ravel() == number
-            a, b, c = thing.world_positions[thing.mesh.triangles[self.triangles.ravel()[here]]].transpose(1, 0, 2)
-            normals[here] = np.cross(b - a, c - a)
-        return normals
-
 
 def cast_truth(scene: Scene, size: tuple[int, int]) -> Truth:
     """Return what rays find at the pixel centres of a picture of (width, height)."""
@@ -97,12 +90,28 @@ def cast_truth(scene: Scene, size: tuple[int, int]) -> Truth:
         beside = seen_faces(scene, size, aside)
         for light, count, changes in zip(scene.lights, counts, unsure, strict=True):
             changes |= (beside[0] != objects) | (hard_counts(scene, light, *beside) != count)
+    normals = world_normals(scene, objects, triangles)
+    for light, changes in zip(scene.lights, unsure, strict=True):
+        towards = light.position[:3] - light.position[3] * points
+        cosine = np.abs((towards * normals).sum(axis=1)) / np.linalg.norm(towards, axis=1)
+        changes |= cosine < EDGE_ON
     shape = height, width
     arrays = [objects.reshape(shape), triangles.reshape(shape), points.reshape(*shape, 3)]
     by_light = [tuple(array.reshape(shape) for array in each) for each in (counts, unsure)]
     for array in (*arrays, *by_light[0], *by_light[1]):
         array.setflags(write=False)
     return Truth(scene, arrays[0], arrays[1], arrays[2], by_light[0], by_light[1])
+
+
+def world_normals(scene: Scene, objects: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Return (N, 3) float64: the unit normals of triangles of objects, by number; (0, 0, 1) for object -1."""
+    normals = np.tile([0.0, 0.0, 1.0], (len(objects), 1))
+    for number, thing in enumerate(scene.objects):
+        here = objects == number
+        a, b, c = thing.world_positions[thing.mesh.triangles[triangles[here]]].transpose(1, 0, 2)
+        across = np.cross(b - a, c - a)
+        normals[here] = across / np.linalg.norm(across, axis=1, keepdims=True)
+    return normals
 
 
 def changes_nearby(values: np.ndarray, width: int) -> np.ndarray:
