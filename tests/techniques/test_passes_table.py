@@ -40,6 +40,7 @@ def counted(technique: str, scene: Scene, **options: Any) -> tuple[dict[str, int
         ("map", {}, 2, 2 + 1, 3),
         # and one that writes the visibility; a cube of six maps is drawn face by face
         ("map-pcf", {}, 3, 3 + 1, 4),
+        ("map-silhouette", {}, 3, 3 + 1, 4),
         ("map-cube", {}, 3, 3 + 6, 9),
     ],
 )

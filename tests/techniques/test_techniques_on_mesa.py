@@ -31,6 +31,7 @@ VARIANTS: list[tuple[str, dict[str, Any]]] = [
     ("map-pcf", {}),
     ("map-pcf", {"kernel": 1, "bilinear": True, "outside": "shadow"}),
     ("map-cube", {"map_size": 64}),
+    ("map-silhouette", {"map_size": 64}),
     ("map", {"surface": "midpoint", "map_size": 64, "factor": 0.0, "normal_bias": 0.02}),
 ]
 

@@ -12,8 +12,9 @@ def load() -> None:
     from softshadow.programs.cube_visibility import CUBE_VISIBILITY
     from softshadow.programs.map_visibility import MAP_VISIBILITY, MAP_VISIBILITY_BILINEAR
     from softshadow.programs.shadow_map import SHADOW_MAP
+    from softshadow.programs.silhouette_visibility import SILHOUETTE_VISIBILITY
 
     shadowed = BLINN_PHONG_SHADOWED, BLINN_PHONG_SHADOWED_5X5
-    visibility = MAP_VISIBILITY, MAP_VISIBILITY_BILINEAR, CUBE_VISIBILITY
+    visibility = MAP_VISIBILITY, MAP_VISIBILITY_BILINEAR, CUBE_VISIBILITY, SILHOUETTE_VISIBILITY
     for program in (BLINN_PHONG, SHADOW_MAP, *shadowed, *visibility):
         register(program)

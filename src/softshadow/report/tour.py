@@ -136,6 +136,12 @@ STOPS = (
         "One map for each direction, for lights that stand among their casters; here five of the six stay empty.",
     ),
     Stop(
+        "Shadow silhouette map",
+        "map-silhouette",
+        "The silhouette's own points beside the depths: a map this coarse has straight edges all the same.",
+        {"map_size": 128},
+    ),
+    Stop(
         "Shadow map without bias",
         "map",
         "Surfaces shadow themselves: the map's texel is as deep as the surface, give or take half its slope.",

@@ -11,6 +11,7 @@ from softshadow.techniques import (
     map,
     map_cube,
     map_pcf,
+    map_silhouette,
     planar,
     shadow_polygons,
     volume_parity,
@@ -105,6 +106,14 @@ REGISTER = {
             map_cube.steps,
             map_cube.OPTIONS,
         ),
+        Technique(
+            "map-silhouette",
+            "Shadow silhouette map",
+            "map",
+            "Sen, Cammarano & Hanrahan 2003, Shadow silhouette maps",
+            map_silhouette.steps,
+            map_silhouette.OPTIONS,
+        ),
     )
 }
 
@@ -116,6 +125,7 @@ def names() -> list[str]:
     --------
     >>> print(*names())
     shadow-polygons planar blob volume-zpass volume-zfail volume-zpass-plus volume-parity map map-pcf map-cube
+    map-silhouette
     """
     return list(REGISTER)
 
