@@ -18,13 +18,14 @@ def quietly(technique: str, scene: ss.Scene, **options: object) -> ss.Run:
 
 
 @pytest.mark.parametrize("name", ss.scene_names())
-@pytest.mark.parametrize("technique", ["planar", "volume-zfail", "volume-zpass-plus"])
+@pytest.mark.parametrize("technique", ["planar", "shadow-polygons", "volume-zfail", "volume-zpass-plus"])
 def test_planar_shadows_and_counting_volumes_are_right_off_the_band(technique: str, name: str) -> None:
     for found in agreement(quietly(technique, ss.Scene.named(name))):
         assert (found.compared & ~found.band).sum() > 1000
         assert found.off_band == 0
-        # an edge runs through each of these: few samples lie on its other side when it is snapped
-        assert found.on_band <= 0.02 * found.band.sum()
+        # an edge runs through each of these: few samples lie on its other side when it is snapped; polygons computed
+        # for all cameras at once have edges of their own
+        assert found.on_band <= 0.05 * found.band.sum()
 
 
 @pytest.mark.parametrize("name", ss.scene_names())

@@ -158,7 +158,8 @@ def agreement(run: Run, truth: Truth | None = None, width: int = 1) -> list[Agre
     """Return for each light where a run agrees with ray casting.
 
     The band is where an edge of an object or of the shadow passes within `width` pixels; of a technique with option
-    `map_size` also where one passes within `width` texels of the light's map.
+    `map_size` also where one passes within `width` texels of a map of that size that looks at all casters, as that of
+    `map` does.
 
     Parameters
     ----------
