@@ -17,9 +17,11 @@ from softshadow.jit import cache_folder, inlined, kernel
 from softshadow.pipeline.bands import share, threads
 from softshadow.pipeline.bins import AT_A_TIME, ROWS, Bins, bands_of, sort_into_bands
 from softshadow.pipeline.fill import Planes, Region, fill_triangles
+from softshadow.pipeline.fill_tiles import BACK, EITHER, FRONT, fill_in_tiles
 from softshadow.pipeline.fragment_ops import FragmentOps
 from softshadow.pipeline.setup import Setup
 from softshadow.pipeline.spans import LAST, DepthRange
+from softshadow.pipeline.tiles import commutes
 
 PAYS_AFTER = (
     40_000_000  # fragments of one state; measured: about 0.4 s of compilation at the speed of the generic binding
@@ -52,6 +54,12 @@ def generic(front, back, two_sided, writes_ids, counts, triangles, numbers, regi
     fill_triangles(front, back, two_sided, writes_ids, counts, triangles, numbers, region, depth_range, planes)
 
 
+@kernel
+def generic_in_tiles(ops, facing, triangles, numbers, region, depth_range, planes):
+    """`fill_in_tiles` with the state as an argument."""
+    fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, planes)
+
+
 @inlined
 def with_numbers(code, numbers):
     """Return the operations of `code` with the reference values and masks of `numbers`."""
@@ -69,6 +77,16 @@ def specialise(front_code: FragmentOps, back_code: FragmentOps, two_sided: int, 
     def fill(front, back, triangles, numbers, region, depth_range, planes):
         now_front, now_back = with_numbers(front_code, front), with_numbers(back_code, back)
         fill_triangles(now_front, now_back, two_sided, writes_ids, 0, triangles, numbers, region, depth_range, planes)
+
+    return fill
+
+
+def specialise_in_tiles(code: FragmentOps) -> Callable[..., None]:
+    """Return `fill_in_tiles` compiled for the code of one state."""
+
+    @kernel
+    def fill(ops, facing, triangles, numbers, region, depth_range, planes):
+        fill_in_tiles(with_numbers(code, ops), facing, triangles, numbers, region, depth_range, planes)
 
     return fill
 
@@ -114,15 +132,22 @@ def fill(
         np.empty((1, 1), np.int32) if ids is None else ids,
         np.zeros(VERDICT_COUNTS, np.int64) if verdicts is None else verdicts,
     )
-    compiled = None if counts else _compiled_for(front.code(), back.code(), two_sided, writes_ids, fragments)
+    in_tiles = not counts and not writes_ids and commutes(front, back)
+    # updates that commute need not be in drawing order: first all front-facing triangles, then the others
+    facings = ((front, FRONT), (back, BACK)) if two_sided else ((front, EITHER),)
+    if in_tiles:
+        fills = [_bound_in_tiles(ops.code(), fragments) for ops, _ in facings]
+    else:
+        fills = [_bound(front.code(), back.code(), two_sided, writes_ids, counts, fragments)]
 
     def fill_rows(numbers: np.ndarray, first_row: int, end_row: int) -> None:
         part = region._replace(first_row=first_row, end_row=end_row)
         rows = planes._replace(ids=planes.ids[first_row - region.first_row :]) if writes_ids else planes
-        if compiled is None:
-            generic(front, back, two_sided, writes_ids, counts, triangles, numbers, part, depth_range, rows)
+        if in_tiles:
+            for fill_facing, (ops, facing) in zip(fills, facings, strict=True):
+                fill_facing(ops, facing, triangles, numbers, part, depth_range, rows)
         else:
-            compiled(front, back, triangles, numbers, part, depth_range, rows)
+            fills[0](front, back, triangles, numbers, part, depth_range, rows)
 
     if counts or not _bands_pay(region, fragments):
         fill_rows(np.arange(len(triangles.ids), dtype=np.int32), region.first_row, region.end_row)
@@ -151,16 +176,31 @@ def _bands_pay(region: Region, fragments: int) -> bool:
     return threads() > 1 or fragments > LAYERS * pixels
 
 
-def _compiled_for(
-    front_code: FragmentOps, back_code: FragmentOps, two_sided: int, writes_ids: int, fragments: int
-) -> Callable[..., None] | None:
-    """Return the specialised fill of a state, compiling it where that pays; None where the generic one is better."""
+def _bound(
+    front: FragmentOps, back: FragmentOps, two_sided: int, writes_ids: int, counts: int, fragments: int
+) -> Callable[..., None]:
+    """Return the fill of a state, both codes: specialised where that pays and nothing is counted, else generic."""
+    key = (*front, *back, two_sided, writes_ids)
+    if not counts and _is_specialised(key, fragments, lambda: specialise(front, back, two_sided, writes_ids)):
+        return _compiled[key]
+    return lambda front, back, *rest: generic(front, back, two_sided, writes_ids, counts, *rest)
+
+
+def _bound_in_tiles(code: FragmentOps, fragments: int) -> Callable[..., None]:
+    """Return the fill in tiles of the code of one facing: specialised where that pays, else generic."""
+    if _is_specialised(tuple(code), fragments, lambda: specialise_in_tiles(code)):
+        return _compiled[tuple(code)]
+    generic_fill: Callable[..., None] = generic_in_tiles
+    return generic_fill
+
+
+def _is_specialised(key: tuple[int, ...], fragments: int, make: Callable[[], Callable[..., None]]) -> bool:
+    """Return whether the code of a state is there, after making it where that pays."""
     if _policy.get() == "generic":
-        return None
-    key = (*front_code, *back_code, two_sided, writes_ids)
+        return False
     if key not in _compiled and _pays(key, fragments):
-        _compiled[key] = specialise(front_code, back_code, two_sided, writes_ids)
+        _compiled[key] = make()
         marker = _marker(key)
         if marker is not None:
             marker.touch()
-    return _compiled.get(key)
+    return key in _compiled

@@ -72,6 +72,52 @@ def row_span(corners, t, row, downwards):
 
 
 @kernel
+def narrow_rows(x0, y0, x1, y1, first, end, downwards, lefts, rights):
+    """Do what `narrow` does in those of the rows [first, end) that the edge from corner 0 to corner 1 reaches.
+
+    It divides only once: from row to row, quotient and remainder grow by the same amounts.
+    """
+    first, end = max(first, (min(y0, y1) + 255) >> 8), min(end, (max(y0, y1) >> 8) + 1)
+    if first >= end:
+        return
+    across, along, at = edge(x0, y0, x1, y1, downwards)
+    value, step = at + along * (first << 8), along << 8
+    if across == 0:  # along the row, the only one it can reach
+        if value < 0:
+            rights[first] = lefts[first]
+        return
+    divisor = abs(across) << 8
+    quotient, quotient_step = value // divisor, step // divisor
+    remainder, remainder_step = value - quotient * divisor, step - quotient_step * divisor
+    for row in range(first, end):
+        if across > 0:
+            rights[row] = min(rights[row], quotient + 1)
+        else:
+            lefts[row] = max(lefts[row], -quotient)
+        remainder += remainder_step
+        carry = remainder >= divisor
+        quotient += quotient_step + carry
+        remainder -= divisor if carry else 0
+
+
+@kernel
+def row_spans(corners, t, first, end, downwards, left, right, lefts, rights):
+    """Write first and end column (end exclusive) of triangle `t` in its rows [first, end), within [left, right).
+
+    The same columns as those of `row_span`, mostly without its divisions. An edge is asked only between its corners: in
+    the rows of the triangle beyond, what lies inside the other two edges lies strictly inside this one.
+    """
+    for row in range(first, end):
+        lefts[row], rights[row] = left, right
+    x0, y0 = int(corners[t, 0]), int(corners[t, 1])
+    x1, y1 = int(corners[t, 2]), int(corners[t, 3])
+    x2, y2 = int(corners[t, 4]), int(corners[t, 5])
+    narrow_rows(x0, y0, x1, y1, first, end, downwards, lefts, rights)
+    narrow_rows(x1, y1, x2, y2, first, end, downwards, lefts, rights)
+    narrow_rows(x2, y2, x0, y0, first, end, downwards, lefts, rights)
+
+
+@kernel
 def triangles_at(corners, column, row, downwards, found):
     """Write the numbers of the triangles that cover one pixel to `found`; returns how many there are."""
     count = 0

@@ -1,0 +1,218 @@
+"""Draws that only count, tile by tile: the bits of the fill that processes every fragment."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softshadow import tokens as gl
+from softshadow.pipeline import binding, set_threads, threads, use_binding
+from softshadow.pipeline.coverage import bounds, row_span, row_spans
+from softshadow.pipeline.fill import Region
+from softshadow.pipeline.fragment_ops import FragmentOps, compare, stencil_op
+from softshadow.pipeline.setup import MAX_SLOPE, Offset, Setup, set_up
+from softshadow.pipeline.spans import DepthRange
+from softshadow.pipeline.tiles import FAIL, MIXED, PASS, advance, commutes, decide, find_bounds
+from softshadow.state import Cull
+
+WIDTH, PITCH, HEIGHT = 150, 160, 70  # some whole tiles of 64 x 16, and some cut at the borders
+FUNCS = range(gl.GL_NEVER, gl.GL_ALWAYS + 1)
+OPS = (
+    gl.GL_KEEP, gl.GL_ZERO, gl.GL_REPLACE, gl.GL_INCR, gl.GL_DECR, gl.GL_INVERT, gl.GL_INCR_WRAP, gl.GL_DECR_WRAP,
+)  # fmt: skip
+LARGEST = {"d16": 2**16 - 1, "d24": 2**24 - 1, "d32": 2**32 - 1, "d32f": 0, "exact": 2**24 - 1}
+seeds = st.integers(0, 2**32 - 1)
+
+
+def counting_state(rng: np.random.Generator, depth_format: str) -> tuple[FragmentOps, FragmentOps]:
+    """Two facings that commute, more often than not with the classical pair of operations."""
+    bits = int(rng.integers(1, 9))
+    largest = 2**bits - 1
+    op = int(rng.choice(OPS))
+    choices = [gl.GL_KEEP, gl.GL_INCR_WRAP, gl.GL_DECR_WRAP] if rng.random() < 0.6 else [gl.GL_KEEP, op]
+    depth = (int(rng.random() < 0.9), int(rng.choice(FUNCS)), 0, LARGEST[depth_format])
+    ref = int(rng.integers(0, largest + 1))
+
+    def facing() -> FragmentOps:
+        fail, zfail, zpass = (int(rng.choice(choices)) for _ in range(3))
+        read_mask = int(rng.integers(0, largest + 1))
+        return FragmentOps(
+            0, gl.GL_ALWAYS, 1, gl.GL_ALWAYS, fail, zfail, zpass, largest, *depth, 0, ref, read_mask, largest
+        )
+
+    front = facing()
+    return front, facing() if rng.random() < 0.5 else front
+
+
+def large_and_small(rng: np.random.Generator, count: int, downwards: bool) -> tuple[Setup, np.ndarray]:
+    """Triangles from less than a pixel to more than the window, some slivers, some level, some with equal depth."""
+    size = rng.choice([2.0, 20.0, 200.0, 1000.0], (count, 1, 1))
+    window = np.ones((count, 3, 4), np.float32)
+    middle = rng.uniform(-20, [WIDTH + 20, HEIGHT + 20], (count, 2))[:, None]
+    window[:, :, :2] = middle + rng.uniform(-0.5, 0.5, (count, 3, 2)) * size
+    slivers = rng.random(count) < 0.2
+    window[slivers, 2, :2] = (window[slivers, 0, :2] + window[slivers, 1, :2]) / 2 + rng.uniform(-1, 1, 2)
+    on_samples = rng.random(count) < 0.3
+    window[on_samples, :, :2] = np.rint(window[on_samples, :, :2]) + 0.5
+    window[:, :, 2] = rng.uniform(0, 1, (count, 1)) + rng.uniform(-0.5, 0.5, (count, 3)) * rng.choice([0, 0.05, 1])
+    corners = np.arange(3 * count, dtype=np.int32).reshape(count, 3)
+    offset = Offset(MAX_SLOPE, np.float32(0), np.float32(0), 1)
+    return set_up(window.reshape(-1, 4), corners, Cull(), offset, downwards), window
+
+
+def buffers(rng: np.random.Generator, depth_format: str, stencil_largest: int) -> tuple[np.ndarray, np.ndarray]:
+    """A depth buffer of a few planes and steps, with some noise; any stencil values."""
+    row, column = np.mgrid[:HEIGHT, :PITCH]
+    z = rng.uniform(0, 1) + rng.uniform(-0.5, 0.5) * row / HEIGHT + rng.uniform(-0.5, 0.5) * column / PITCH
+    z[:, int(rng.integers(WIDTH)) :] = rng.choice([0.0, 0.5, 1.0])
+    z = np.clip(z + rng.uniform(0, 1, z.shape) * (rng.random(z.shape) < rng.choice([0, 0.001, 0.3])), 0, 1)
+    largest = LARGEST[depth_format]
+    z = np.rint(z * largest) if largest else z
+    depth = z.astype(np.float64 if depth_format == "exact" else np.float32)
+    if depth_format == "d32f":
+        depth[rng.random(depth.shape) < rng.choice([0, 0.0005])] = rng.choice([np.nan, np.inf, -1.0])
+    return depth, rng.integers(0, stencil_largest + 1, depth.shape, dtype=np.uint8)
+
+
+def filled(seed: int, depth_format: str) -> tuple[np.ndarray, np.ndarray]:
+    """The buffers after a draw that commutes."""
+    rng = np.random.default_rng(seed)
+    front, back = counting_state(rng, depth_format)
+    assert commutes(front, back)
+    downwards = int(rng.integers(2))
+    triangles, _ = large_and_small(rng, 24, bool(downwards))
+    if depth_format == "exact":
+        triangles = triangles._replace(depth=triangles.depth.astype(np.float64))
+    real = triangles.depth.dtype.type
+    depth, stencil = buffers(rng, depth_format, front.stencil_largest)
+    left, right = sorted(int(x) for x in rng.choice([0, 7, 64, 100, 128, WIDTH], 2, replace=False))
+    first, end = sorted(int(y) for y in rng.choice([0, 5, 16, 40, HEIGHT], 2, replace=False))
+    region = Region(left, right, first, end, downwards)
+    binding.fill(front, back, triangles, 10**6, region, DepthRange(real(0), real(1)), depth, stencil)
+    return depth, stencil
+
+
+def one_by_one(seed: int, depth_format: str) -> tuple[np.ndarray, np.ndarray]:
+    """The same, every fragment processed in drawing order."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(binding, "commutes", lambda front, back: False)
+        with use_binding("generic"):
+            return filled(seed, depth_format)
+
+
+def assert_same(found: tuple[np.ndarray, np.ndarray], expected: tuple[np.ndarray, np.ndarray]) -> None:
+    for a, b in zip(found, expected, strict=True):
+        np.testing.assert_array_equal(a, b)
+
+
+@given(seeds, st.sampled_from(sorted(LARGEST)))
+def test_tiles_leave_the_bits_of_fragments_one_by_one(seed, depth_format):
+    with use_binding("generic"):
+        assert_same(filled(seed, depth_format), one_by_one(seed, depth_format))
+
+
+@pytest.mark.parametrize("depth_format", ["d24", "d32f"])
+@pytest.mark.parametrize("seed", range(3))  # each compiles code of its own, kept on disk from the second run on
+def test_specialised_tiles_leave_the_same_bits(seed, depth_format):
+    with use_binding("specialised"):
+        found = filled(seed, depth_format)
+    assert_same(found, one_by_one(seed, depth_format))
+
+
+@given(seeds)
+def test_tiles_of_any_bands_leave_the_same_bits(seed):
+    before = threads()
+    with pytest.MonkeyPatch.context() as patch, use_binding("generic"):
+        patch.setattr(binding, "AT_A_TIME", 7)
+        try:
+            set_threads(3)
+            assert_same(filled(seed, "d24"), one_by_one(seed, "d24"))
+        finally:
+            set_threads(before)
+
+
+@pytest.mark.interpreted
+@pytest.mark.parametrize("seed", range(2))
+def test_interpreted_tiles_leave_the_same_bits(seed):
+    with use_binding("generic"):
+        assert_same(filled(seed, "d24"), one_by_one(seed, "d24"))
+
+
+def facing(**changes: int) -> FragmentOps:
+    """Count up what fails, in 8 bits."""
+    keep, up, always = gl.GL_KEEP, gl.GL_INCR_WRAP, gl.GL_ALWAYS
+    ops = FragmentOps(0, always, 1, always, keep, up, keep, 255, 1, gl.GL_LESS, 0, 2**24 - 1, 0, 0, 255, 255)
+    return ops._replace(**changes)
+
+
+def test_counting_up_and_down_commutes():
+    assert commutes(facing(), facing(zfail=gl.GL_DECR_WRAP))
+    assert commutes(facing(zfail=gl.GL_INCR), facing(zfail=gl.GL_INCR))
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"zfail": gl.GL_DECR},  # stops at 0: up and down is another value than down and up
+        {"zpass": gl.GL_INVERT},
+        {"stencil_func": gl.GL_EQUAL},  # the value decides about the next fragment
+        {"depth_write": 1},
+        {"write_mask": 0x0F},
+        {"alpha_test": 1},
+    ],
+)
+def test_what_depends_on_the_order_does_not_commute(changes):
+    assert not commutes(facing(), facing(**changes))
+
+
+def test_two_references_do_not_commute():
+    assert not commutes(facing(zfail=gl.GL_REPLACE, ref=1), facing(zfail=gl.GL_REPLACE, ref=2))
+
+
+@pytest.mark.interpreted
+@given(st.sampled_from(OPS), st.integers(1, 8), st.integers(0, 600), st.integers(0, 255), st.integers(0, 255))
+def test_n_updates_at_once_are_n_updates(op, bits, n, s, ref):
+    largest = np.uint8(2**bits - 1)
+    s, ref = np.uint8(s) & largest, np.uint8(ref) & largest
+    expected = s
+    for _ in range(n):
+        expected = np.uint8(stencil_op(op, expected, ref, largest))
+    counted = -n if op == gl.GL_DECR_WRAP else n
+    assert advance(op, s, counted, ref, largest) == expected
+
+
+@pytest.mark.interpreted
+@given(st.sampled_from(FUNCS), st.lists(st.integers(0, 3), min_size=4, max_size=4))
+def test_a_decision_is_true_of_every_pair_of_depths(func, values):
+    low, high, stored_low, stored_high = *sorted(values[:2]), *sorted(values[2:])
+    outcome = decide(func, low, high, stored_low, stored_high)
+    passed = {compare(func, z, stored) for z in range(low, high + 1) for stored in range(stored_low, stored_high + 1)}
+    assert outcome == (MIXED if len(passed) == 2 else PASS if True in passed else FAIL)
+
+
+@pytest.mark.interpreted
+def test_bounds_are_those_of_the_tile_and_nothing_is_known_of_nan():
+    depth = np.arange(100, dtype=np.float32).reshape(10, 10)
+    scratch = np.empty((3, 64), np.float32)
+    assert find_bounds(depth, 2, 5, 3, 7, scratch) == (23, 46)
+    depth[3, 4] = np.nan
+    assert find_bounds(depth, 2, 5, 3, 7, scratch) == (-np.inf, np.inf)
+
+
+@pytest.mark.interpreted
+@given(seeds, st.booleans())
+def test_rows_at_once_are_the_rows_one_by_one(seed, downwards):
+    rng = np.random.default_rng(seed)
+    corners = large_and_small(rng, 8, downwards)[0].corners
+    for t in range(len(corners)):
+        first, end = bounds(corners, t)
+        first, end = max(first, 3), min(end, HEIGHT)
+        lefts, rights = np.empty(HEIGHT, np.int64), np.empty(HEIGHT, np.int64)
+        row_spans(corners, t, first, end, int(downwards), 5, WIDTH, lefts, rights)
+        for row in range(first, end):
+            left, right = row_span(corners, t, row, int(downwards))
+            left, right = max(left, 5), min(right, WIDTH)
+            if left < right:
+                assert (lefts[row], rights[row]) == (left, right)
+            else:
+                assert lefts[row] >= rights[row]
