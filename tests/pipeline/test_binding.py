@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from draws import draw, random_state, random_triangles, same_window, small_triangles
+from draws import draw, random_state, random_triangles, same_window, small_triangles, vertices
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.framebuffer import Attachment
@@ -51,6 +51,24 @@ def test_specialised_draws_what_generic_draws(seed, depth_format):
         expected = drawn(seed, depth_format)
     with use_binding("specialised"):
         assert same_window(drawn(seed, depth_format), expected)
+
+
+@given(st.integers(0, 2**32 - 1), st.booleans(), st.sampled_from([0.5, 4.0, 15.0, 64.0, 300.0]))
+def test_rows_of_boxes_at_the_end_of_the_planes_draw_what_single_columns_draw(seed, scissored, pixels):
+    """In 128 columns, the planes have no padding that the last box could reach into."""
+
+    def window(policy: str) -> Context:
+        rng, context = np.random.default_rng(seed), Context(128, 70)
+        scissor = replace(context.state.scissor, enabled=scissored, x=5, y=3, width=120, height=60)
+        state = replace(context.state, scissor=scissor, depth=replace(context.state.depth, enabled=True))
+        positions = np.ones((30, 3, 4), np.float32)
+        positions[:, :, :3] = rng.uniform(-1, 1, (30, 1, 3))
+        positions[:, :, :2] += rng.normal(0, pixels / 64, (30, 3, 2)) * rng.choice([0.1, 1.0], (30, 1, 2))
+        with use_binding(policy):
+            draw(context, state, vertices(positions.reshape(-1, 4), rng.random((90, 4))))
+        return context
+
+    assert same_window(window("specialised"), window("generic"))
 
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from(["d24", "d32f", "d32"]))

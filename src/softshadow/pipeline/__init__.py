@@ -21,7 +21,7 @@ import numpy as np
 
 from softshadow.errors import StateError
 from softshadow.framebuffer import Framebuffer, Storage
-from softshadow.pipeline.bands import set_threads, threads
+from softshadow.pipeline.bands import parts_of, set_threads, share, threads
 from softshadow.pipeline.binding import VERDICT_COUNTS, fill, use_binding
 from softshadow.pipeline.blend import compared_alpha, needs_order, tests_alpha
 from softshadow.pipeline.clear import clear
@@ -127,9 +127,11 @@ def _draw_in_order(
 
 def _covered(triangles: Setup, region: Region) -> tuple[Region, int]:
     """Return the region cut to the rows that the triangles meet, and about how many fragments they have."""
-    first, end, fragments = extent(triangles.corners)
-    cut = region._replace(first_row=max(region.first_row, first), end_row=min(region.end_row, end))
-    return cut, int(fragments)
+    parts = parts_of(len(triangles.corners))
+    extents = share(lambda n: extent(triangles.corners, *parts[n]), len(parts))
+    firsts, ends, areas = zip(*extents, strict=True)
+    cut = region._replace(first_row=max(region.first_row, min(firsts)), end_row=min(region.end_row, max(ends)))
+    return cut, sum(areas) >> 8
 
 
 def _planes(target: Framebuffer, real: np.dtype) -> tuple[np.ndarray, np.ndarray]:

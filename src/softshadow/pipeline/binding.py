@@ -51,7 +51,7 @@ def use_binding(policy: str) -> Iterator[None]:
 @kernel
 def generic(front, back, two_sided, writes_ids, counts, triangles, numbers, region, depth_range, planes):
     """`fill_triangles` with the state as an argument."""
-    fill_triangles(front, back, two_sided, writes_ids, counts, triangles, numbers, region, depth_range, planes)
+    fill_triangles(front, back, two_sided, writes_ids, counts, 0, triangles, numbers, region, depth_range, planes)
 
 
 @kernel
@@ -76,7 +76,9 @@ def specialise(front_code: FragmentOps, back_code: FragmentOps, two_sided: int, 
     @kernel
     def fill(front, back, triangles, numbers, region, depth_range, planes):
         now_front, now_back = with_numbers(front_code, front), with_numbers(back_code, back)
-        fill_triangles(now_front, now_back, two_sided, writes_ids, 0, triangles, numbers, region, depth_range, planes)
+        fill_triangles(
+            now_front, now_back, two_sided, writes_ids, 0, 1, triangles, numbers, region, depth_range, planes
+        )
 
     return fill
 

@@ -117,7 +117,9 @@ def count_inside(triangles, codes):
     """Return how many triangles are inside of all planes, and how many have to be cut."""
     whole, cut = 0, 0
     for t in range(triangles.shape[0]):
-        a, b, c = codes[triangles[t, 0]], codes[triangles[t, 1]], codes[triangles[t, 2]]
+        # unsigned: no wrap-around of negative indices is compiled in
+        v0, v1, v2 = np.uint64(triangles[t, 0]), np.uint64(triangles[t, 1]), np.uint64(triangles[t, 2])
+        a, b, c = codes[v0], codes[v1], codes[v2]
         none_outside, one_inside = (a | b | c) == 0, (a & b & c) == 0
         whole += 1 if none_outside else 0
         cut += 1 if one_inside and not none_outside else 0
@@ -154,9 +156,10 @@ def cut_triangles(
     count, with_edges = 0, edges.shape[0] > 0
     for t in range(triangles.shape[0]):
         a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
-        if codes[a] & codes[b] & codes[c]:
+        code_a, code_b, code_c = codes[np.uint64(a)], codes[np.uint64(b)], codes[np.uint64(c)]
+        if code_a & code_b & code_c:
             continue
-        union = codes[a] | codes[b] | codes[c]
+        union = code_a | code_b | code_c
         if union == 0:
             pieces[count, 0], pieces[count, 1], pieces[count, 2] = a, b, c
             source[count] = t

@@ -4,6 +4,8 @@ An edge function of snapped corners is exact in int64, so every sample on an edg
 one of them: left and bottom edges are inside, right and top edges outside (docs/exactness.md, 4).
 """
 
+import numpy as np
+
 from softshadow.jit import kernel
 
 FARTHEST = 1 << 30
@@ -17,18 +19,19 @@ def bounds(corners, t):
 
 
 @kernel
-def extent(corners):
-    """Return first and end row of all triangles, and the sum of their areas in pixels: about how many fragments."""
-    first, end, area = FARTHEST, -FARTHEST, 0
-    for t in range(corners.shape[0]):
+def extent(corners, begin, end):
+    """Return first and end row of the triangles [begin, end), and the sum of their areas in 1/256 pixel."""
+    first_row, end_row, area = FARTHEST, -FARTHEST, 0
+    for number in range(begin, end):
+        t = np.uint64(number)  # unsigned: no wrap-around of negative indices is compiled in
         low, high = bounds(corners, t)
-        first, end = min(first, low), max(end, high)
+        first_row, end_row = min(first_row, low), max(end_row, high)
         x0, y0 = int(corners[t, 0]), int(corners[t, 1])
         x1, y1 = int(corners[t, 2]), int(corners[t, 3])
         x2, y2 = int(corners[t, 4]), int(corners[t, 5])
         # in 1/256 pixels, so that the sum of millions of the largest triangles stays within 64 bits
         area += abs((x0 - x1) * (y2 - y0) - (x2 - x0) * (y0 - y1)) >> 9
-    return first, end, area >> 8
+    return first_row, end_row, area
 
 
 @kernel

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.jit import inlined
-from softshadow.pipeline.boxes import WIDEST, columns_of, fill_box
+from softshadow.pipeline.boxes import TALLEST, WIDEST, columns_of, fill_box
 from softshadow.pipeline.coverage import bounds, row_span
 from softshadow.pipeline.spans import count_span, fill_span
 
@@ -39,34 +39,38 @@ class Planes(NamedTuple):
 
 
 @inlined
-def fill_triangles(front, back, two_sided, writes_ids, counts, triangles, numbers, region, depth_range, planes):
+def fill_triangles(
+    front, back, two_sided, writes_ids, counts, specialised, triangles, numbers, region, depth_range, planes
+):  # fmt: skip
     """Process all fragments of the triangles with these numbers inside the region, in this order.
 
     The state is `front`, and for back-facing triangles `back` where `two_sided` is 1. Depth and stencil change, the ids
-    where `writes_ids` is LAST or SOLE, the verdicts where `counts` is 1.
+    where `writes_ids` is LAST or SOLE, the verdicts where `counts` is 1. `specialised` says that the compiler knows the
+    state.
     """
     columns, depth_plane, stencil_plane = planes.columns, planes.depth, planes.stencil
     for n in range(numbers.shape[0]):
         t = int(numbers[n])
         first, end = bounds(triangles.corners, t)
-        first, end = max(first, region.first_row), min(end, region.end_row)
         box_left, box_right = columns_of(triangles.corners, t)
+        is_small = box_right - box_left <= WIDEST and end - first <= TALLEST
+        first, end = max(first, region.first_row), min(end, region.end_row)
         box_left, box_right = max(box_left, region.left), min(box_right, region.right)
         if first >= end or box_left >= box_right:
             continue
         plane = triangles.depth[t]
         is_back = two_sided and not triangles.front[t]
-        if box_right - box_left <= WIDEST and not counts:
+        if is_small and depth_plane.shape[1] >= WIDEST and not counts:
             # two calls: each is compiled for its own state
             if is_back:
                 fill_box(
-                    back, writes_ids, triangles.corners, plane, region.downwards, box_left, box_right, first, end,
-                    depth_range, columns, t, depth_plane, stencil_plane, planes.ids, region.first_row,
+                    back, writes_ids, specialised, triangles.corners, plane, region.downwards, box_left, box_right,
+                    first, end, depth_range, columns, t, depth_plane, stencil_plane, planes.ids, region.first_row,
                 )  # fmt: skip
             else:
                 fill_box(
-                    front, writes_ids, triangles.corners, plane, region.downwards, box_left, box_right, first, end,
-                    depth_range, columns, t, depth_plane, stencil_plane, planes.ids, region.first_row,
+                    front, writes_ids, specialised, triangles.corners, plane, region.downwards, box_left, box_right,
+                    first, end, depth_range, columns, t, depth_plane, stencil_plane, planes.ids, region.first_row,
                 )  # fmt: skip
             continue
         for row in range(first, end):
