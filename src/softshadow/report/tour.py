@@ -77,6 +77,16 @@ STOPS = (
         {"method": "texture"},
     ),
     Stop(
+        "Shadow polygons",
+        "shadow-polygons",
+        "What each object shadows is cut out as polygons once; they serve every camera.",
+    ),
+    Stop(
+        "Blob shadow",
+        "blob",
+        "A dark disc below each caster: no light is asked where it stands, and no shape what it is.",
+    ),
+    Stop(
         "Shadow volumes, z-pass",
         "volume-zpass",
         "The stencil counts volumes entered and left in front of each surface; what is left over is shadow.",
