@@ -221,10 +221,7 @@ def _full(rows: np.ndarray, width: int, context: Context, normalised: bool) -> n
     else:
         content = (id(root), rows.__array_interface__["data"][0], rows.strides)
     key = (content, rows.shape, rows.dtype, width, normalised)
-    if key not in context.arrays.converted:
-        # the root is kept beside the result, so that its id stays its own
-        context.arrays.converted[key] = (_converted(rows, width, context, normalised), root)
-    return context.arrays.converted[key][0]
+    return context.arrays.converted.get(key, root, lambda: _converted(rows, width, context, normalised))
 
 
 def _root(rows: np.ndarray) -> np.ndarray:
