@@ -6,7 +6,7 @@ What a tile's depth bounds do not decide goes row by row, in chunks of 32 column
 import numpy as np
 
 from softshadow.jit import inlined
-from softshadow.pipeline.boxes import WIDEST, columns_of, fill_box
+from softshadow.pipeline.boxes import WIDEST, columns_of, fill_columns
 from softshadow.pipeline.coverage import bounds, row_spans
 from softshadow.pipeline.fragment_ops import DECR_WRAP, process_fragment
 from softshadow.pipeline.spans import depth_units
@@ -102,7 +102,7 @@ def fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, planes):
                 if what == NOTHING:
                     continue
                 if is_small:
-                    fill_box(
+                    fill_columns(
                         ops, 0, triangles.corners, plane, region.downwards, left, right, first_here, end_here,
                         depth_range, columns, t, planes.depth, planes.stencil, planes.ids, 0,
                     )  # fmt: skip
