@@ -51,9 +51,10 @@ def tour(
             again = spelled(scene, mesh, light, size)
             index = write_tour(drawn, size, output, force=force, progress=show, again=again)
     seconds = time.perf_counter() - start
-    say(f"{len(STOPS)} runs in {seconds:.1f} s; open the page in a browser.")
+    runs = len(list(index.parent.glob("*/run.npz")))
+    say(f"{runs} runs in {seconds:.1f} s; open the page in a browser.")
     say(f"Why is a pixel dark? Ask:  softshadow pixel volume-zfail {size[0] // 2} {size[1] * 3 // 4} {again}")
     if as_json:
-        print_json("tour", index=index, runs=len(STOPS), seconds=seconds, scene=drawn.name, size=size)
+        print_json("tour", index=index, runs=runs, seconds=seconds, scene=drawn.name, size=size)
     else:
         click.echo(index)

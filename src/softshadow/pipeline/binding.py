@@ -9,23 +9,24 @@ import hashlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from softshadow.jit import cache_folder, inlined, kernel
 from softshadow.pipeline.bands import share, threads
 from softshadow.pipeline.bins import AT_A_TIME, ROWS, Bins, bands_of, sort_into_bands
-from softshadow.pipeline.fill import Planes, Region, fill_triangles
+from softshadow.pipeline.fill import Planes, Region, count_triangle, fill_rows, fill_triangle
 from softshadow.pipeline.fill_tiles import BACK, EITHER, FRONT, fill_in_tiles
 from softshadow.pipeline.fragment_ops import FragmentOps
 from softshadow.pipeline.setup import Setup
 from softshadow.pipeline.spans import LAST, DepthRange
 from softshadow.pipeline.tiles import commutes
 
-PAYS_AFTER = (
-    40_000_000  # fragments of one state; measured: about 0.4 s of compilation at the speed of the generic binding
-)
+PAYS_AFTER = 200_000_000  # fragments of one state; measured: the generic binding draws them in 1.5 s, what it takes
+# to compile the state
 WORTH = 200_000  # fragments from which sorting and the hand-over to other threads are small against the work
 LAYERS = 4  # of fragments over each other, from which bands pay on one thread, too
 VERDICT_COUNTS = 6  # one per verdict, and the number of stencil values that changed
@@ -50,14 +51,16 @@ def use_binding(policy: str) -> Iterator[None]:
 
 @kernel
 def generic(front, back, two_sided, writes_ids, counts, triangles, numbers, region, depth_range, planes):
-    """`fill_triangles` with the state as an argument."""
-    fill_triangles(front, back, two_sided, writes_ids, counts, 0, triangles, numbers, region, depth_range, planes)
+    """Process all fragments of the triangles with these numbers, in this order: the state is an argument.
 
-
-@kernel
-def generic_in_tiles(ops, facing, triangles, numbers, region, depth_range, planes):
-    """`fill_in_tiles` with the state as an argument."""
-    fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, planes)
+    It is `front`, and for back-facing triangles `back` where `two_sided` is 1. `counts` asks for the verdicts.
+    """
+    for n in range(numbers.shape[0]):
+        t = int(numbers[n])
+        ops = back if two_sided and not triangles.front[t] else front
+        if counts:
+            count_triangle(ops, triangles, t, region, depth_range, planes)
+        fill_rows(ops, writes_ids, triangles, t, region, depth_range, planes)
 
 
 @inlined
@@ -71,16 +74,28 @@ def with_numbers(code, numbers):
 
 
 def specialise(front_code: FragmentOps, back_code: FragmentOps, two_sided: int, writes_ids: int) -> Callable[..., None]:
-    """Return `fill_triangles` compiled for the code of one state; reference values and masks are still arguments."""
+    """Return `generic` compiled for the code of one state; reference values and masks are still arguments."""
+    if not two_sided:  # half the code
+
+        @kernel
+        def fill_one_sided(front, back, triangles, numbers, region, depth_range, planes):
+            ops = with_numbers(front_code, front)
+            for n in range(numbers.shape[0]):
+                fill_triangle(ops, writes_ids, triangles, int(numbers[n]), region, depth_range, planes)
+
+        return fill_one_sided
 
     @kernel
-    def fill(front, back, triangles, numbers, region, depth_range, planes):
-        now_front, now_back = with_numbers(front_code, front), with_numbers(back_code, back)
-        fill_triangles(
-            now_front, now_back, two_sided, writes_ids, 0, 1, triangles, numbers, region, depth_range, planes
-        )
+    def fill_two_sided(front, back, triangles, numbers, region, depth_range, planes):
+        front_ops, back_ops = with_numbers(front_code, front), with_numbers(back_code, back)
+        for n in range(numbers.shape[0]):
+            t = int(numbers[n])
+            if triangles.front[t]:
+                fill_triangle(front_ops, writes_ids, triangles, t, region, depth_range, planes)
+            else:
+                fill_triangle(back_ops, writes_ids, triangles, t, region, depth_range, planes)
 
-    return fill
+    return fill_two_sided
 
 
 def specialise_in_tiles(code: FragmentOps) -> Callable[..., None]:
@@ -134,25 +149,16 @@ def fill(
         np.empty((1, 1), np.int32) if ids is None else ids,
         np.zeros(VERDICT_COUNTS, np.int64) if verdicts is None else verdicts,
     )
-    in_tiles = not counts and not writes_ids and commutes(front, back)
-    # updates that commute need not be in drawing order: first all front-facing triangles, then the others
-    facings = ((front, FRONT), (back, BACK)) if two_sided else ((front, EITHER),)
-    if in_tiles:
-        fills = [_bound_in_tiles(ops.code(), fragments) for ops, _ in facings]
-    else:
-        fills = [_bound(front.code(), back.code(), two_sided, writes_ids, counts, fragments)]
+    counting = None if counts or writes_ids or not commutes(front, back) else _bound_in_tiles(front, back, fragments)
+    bound = counting or _bound(front.code(), back.code(), two_sided, writes_ids, counts, fragments)
 
-    def fill_rows(numbers: np.ndarray, first_row: int, end_row: int) -> None:
+    def fill_part(numbers: np.ndarray, first_row: int, end_row: int) -> None:
         part = region._replace(first_row=first_row, end_row=end_row)
         rows = planes._replace(ids=planes.ids[first_row - region.first_row :]) if writes_ids else planes
-        if in_tiles:
-            for fill_facing, (ops, facing) in zip(fills, facings, strict=True):
-                fill_facing(ops, facing, triangles, numbers, part, depth_range, rows)
-        else:
-            fills[0](front, back, triangles, numbers, part, depth_range, rows)
+        bound(front, back, triangles, numbers, part, depth_range, rows)
 
     if counts or not _bands_pay(region, fragments):
-        fill_rows(np.arange(len(triangles.ids), dtype=np.int32), region.first_row, region.end_row)
+        fill_part(np.arange(len(triangles.ids), dtype=np.int32), region.first_row, region.end_row)
         return
     for begin in range(0, len(triangles.ids), AT_A_TIME):
         bins = sort_into_bands(triangles.corners, begin, min(begin + AT_A_TIME, len(triangles.ids)), region)
@@ -161,7 +167,7 @@ def fill(
             first = region.first_row + band * ROWS
             numbers = bins.of(band)
             if len(numbers):
-                fill_rows(numbers, first, min(first + ROWS, region.end_row))
+                fill_part(numbers, first, min(first + ROWS, region.end_row))
 
         share(fill_band, bands_of(region))
 
@@ -188,12 +194,25 @@ def _bound(
     return lambda front, back, *rest: generic(front, back, two_sided, writes_ids, counts, *rest)
 
 
-def _bound_in_tiles(code: FragmentOps, fragments: int) -> Callable[..., None]:
-    """Return the fill in tiles of the code of one facing: specialised where that pays, else generic."""
-    if _is_specialised(tuple(code), fragments, lambda: specialise_in_tiles(code)):
-        return _compiled[tuple(code)]
-    generic_fill: Callable[..., None] = generic_in_tiles
-    return generic_fill
+def _bound_in_tiles(front: FragmentOps, back: FragmentOps, fragments: int) -> Callable[..., None] | None:
+    """Return the fill in tiles of a state that commutes, specialised; None where that does not pay.
+
+    What commutes need not be done in drawing order: first all front-facing triangles, then the others. So both facings
+    can use what was compiled for draws that cull the other one.
+    """
+    facings = ((front, FRONT), (back, BACK)) if front != back else ((front, EITHER),)
+    fills = []
+    for ops, facing in facings:
+        code = ops.code()
+        if not _is_specialised(tuple(code), fragments, partial(specialise_in_tiles, code)):
+            return None
+        fills.append((_compiled[tuple(code)], facing))
+
+    def fill_facings(front: FragmentOps, back: FragmentOps, *rest: Any) -> None:
+        for fill_facing, facing in fills:
+            fill_facing(back if facing == BACK else front, facing, *rest)
+
+    return fill_facings
 
 
 def _is_specialised(key: tuple[int, ...], fragments: int, make: Callable[[], Callable[..., None]]) -> bool:

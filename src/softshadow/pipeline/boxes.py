@@ -4,9 +4,9 @@ The divisions that find the ends of a row cost more than the few pixels between 
 side of the three edges it lies, and to `process_fragment` one outside is like one outside the scissor box: nothing is
 decided by a branch, and what is stored is what was there.
 
-Where the state is folded into the code (`binding.py`) a row is always the same number of pixels, which makes one vector
-instruction of each operation; with the state as an argument it is a loop over the box's own columns. Measured on a
-million triangles of 4 pixels, for depth alone and with the ids: columns 47 and 71 ms, rows of 16 pixels 39 and 50.
+A row is always the same number of pixels, which makes one vector instruction of each operation. Measured on a million
+triangles of 4 pixels, for depth alone and with the ids: a loop over the box's own columns takes 47 and 71 ms, rows of
+16 pixels 39 and 50.
 """
 
 import numpy as np
@@ -41,11 +41,14 @@ def edge_from(x0, y0, x1, y1, column, row, downwards):
 
 
 @inlined
-def fill_wide_rows(
+def fill_box(
     ops, writes_ids, corners, plane, downwards, left, right, first, end, depth_range, columns, t, depth, stencil, ids,
     first_of_ids,
 ):  # fmt: skip
-    """Do what `fill_box` does, `WIDEST` pixels of each row at a time."""
+    """Process the fragments of triangle `t` in the columns [left, right) and rows [first, end).
+
+    `ids` begins with row `first_of_ids`.
+    """
     z0, dz, dz_row, offset = plane[0], plane[1], plane[2], plane[3]
     x0, y0, x1, y1, x2, y2 = corners[t, 0], corners[t, 1], corners[t, 2], corners[t, 3], corners[t, 4], corners[t, 5]
     start = min(left, depth.shape[1] - WIDEST)
@@ -75,32 +78,11 @@ def fill_wide_rows(
 
 
 @inlined
-def fill_box(
-    ops, writes_ids, specialised, corners, plane, downwards, left, right, first, end, depth_range, columns, t, depth,
-    stencil, ids, first_of_ids,
-):  # fmt: skip
-    """Process the fragments of triangle `t` in the columns [left, right) and rows [first, end).
-
-    `ids` begins with row `first_of_ids`.
-    """
-    if specialised:
-        fill_wide_rows(
-            ops, writes_ids, corners, plane, downwards, left, right, first, end, depth_range, columns, t, depth,
-            stencil, ids, first_of_ids,
-        )  # fmt: skip
-    else:
-        fill_columns(
-            ops, writes_ids, corners, plane, downwards, left, right, first, end, depth_range, columns, t, depth,
-            stencil, ids, first_of_ids,
-        )  # fmt: skip
-
-
-@inlined
 def fill_columns(
     ops, writes_ids, corners, plane, downwards, left, right, first, end, depth_range, columns, t, depth, stencil, ids,
     first_of_ids,
 ):  # fmt: skip
-    """Do what `fill_box` does, pixel by pixel: little code, whatever the state."""
+    """Do what `fill_box` does, pixel by pixel: also for boxes that have been cut."""
     z0, dz, dz_row, offset = plane[0], plane[1], plane[2], plane[3]
     across0, along0, at0 = edge(corners[t, 0], corners[t, 1], corners[t, 2], corners[t, 3], downwards)
     across1, along1, at1 = edge(corners[t, 2], corners[t, 3], corners[t, 4], corners[t, 5], downwards)

@@ -1,13 +1,13 @@
 """The fill stage: for every covered pixel of every triangle, depth and `process_fragment`.
 
-`fill_triangles` is written once; `binding.py` binds it to a state.
+One triangle at a time; `binding.py` goes through those of a draw, and binds what is done here to a state.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from softshadow.jit import inlined
+from softshadow.jit import inlined, kernel
 from softshadow.pipeline.boxes import TALLEST, WIDEST, columns_of, fill_box
 from softshadow.pipeline.coverage import bounds, row_span
 from softshadow.pipeline.spans import count_span, fill_span
@@ -39,52 +39,49 @@ class Planes(NamedTuple):
 
 
 @inlined
-def fill_triangles(
-    front, back, two_sided, writes_ids, counts, specialised, triangles, numbers, region, depth_range, planes
-):  # fmt: skip
-    """Process all fragments of the triangles with these numbers inside the region, in this order.
+def fill_rows(ops, writes_ids, triangles, t, region, depth_range, planes):
+    """Process the fragments of triangle `t` inside the region, row by row: the plain form, for triangles of any size.
 
-    The state is `front`, and for back-facing triangles `back` where `two_sided` is 1. Depth and stencil change, the ids
-    where `writes_ids` is LAST or SOLE, the verdicts where `counts` is 1. `specialised` says that the compiler knows the
-    state.
+    Depth and stencil change, the ids where `writes_ids` is LAST or SOLE.
     """
-    columns, depth_plane, stencil_plane = planes.columns, planes.depth, planes.stencil
-    for n in range(numbers.shape[0]):
-        t = int(numbers[n])
-        first, end = bounds(triangles.corners, t)
-        box_left, box_right = columns_of(triangles.corners, t)
-        is_small = box_right - box_left <= WIDEST and end - first <= TALLEST
-        first, end = max(first, region.first_row), min(end, region.end_row)
-        box_left, box_right = max(box_left, region.left), min(box_right, region.right)
-        if first >= end or box_left >= box_right:
-            continue
-        plane = triangles.depth[t]
-        is_back = two_sided and not triangles.front[t]
-        if is_small and depth_plane.shape[1] >= WIDEST and not counts:
-            # two calls: each is compiled for its own state
-            if is_back:
-                fill_box(
-                    back, writes_ids, specialised, triangles.corners, plane, region.downwards, box_left, box_right,
-                    first, end, depth_range, columns, t, depth_plane, stencil_plane, planes.ids, region.first_row,
-                )  # fmt: skip
-            else:
-                fill_box(
-                    front, writes_ids, specialised, triangles.corners, plane, region.downwards, box_left, box_right,
-                    first, end, depth_range, columns, t, depth_plane, stencil_plane, planes.ids, region.first_row,
-                )  # fmt: skip
-            continue
-        for row in range(first, end):
-            left, right = row_span(triangles.corners, t, row, region.downwards)
-            left, right = max(left, region.left), min(right, region.right)
-            if left >= right:
-                continue
-            row_z = plane[2] * columns[row]
-            depth, stencil = depth_plane[row], stencil_plane[row]
+    first, end = bounds(triangles.corners, t)
+    plane = triangles.depth[t]
+    for row in range(max(first, region.first_row), min(end, region.end_row)):
+        left, right = row_span(triangles.corners, t, row, region.downwards)
+        left, right = max(left, region.left), min(right, region.right)
+        if left < right:
+            row_z = plane[2] * planes.columns[row]
+            depth, stencil = planes.depth[row], planes.stencil[row]
             ids = planes.ids[row - region.first_row] if writes_ids else planes.ids[0]
-            if counts:
-                ops = back if is_back else front
-                count_span(ops, plane, row_z, depth_range, columns, left, right, depth, stencil, planes.verdicts)
-            if is_back:
-                fill_span(back, writes_ids, plane, row_z, depth_range, columns, left, right, t, depth, stencil, ids)
-            else:
-                fill_span(front, writes_ids, plane, row_z, depth_range, columns, left, right, t, depth, stencil, ids)
+            fill_span(ops, writes_ids, plane, row_z, depth_range, planes.columns, left, right, t, depth, stencil, ids)
+
+
+@inlined
+def fill_triangle(ops, writes_ids, triangles, t, region, depth_range, planes):
+    """Do what `fill_rows` does, by boxes where the triangle is small."""
+    first, end = bounds(triangles.corners, t)
+    left, right = columns_of(triangles.corners, t)
+    if right - left > WIDEST or end - first > TALLEST or planes.depth.shape[1] < WIDEST:
+        fill_rows(ops, writes_ids, triangles, t, region, depth_range, planes)
+    else:
+        first, end = max(first, region.first_row), min(end, region.end_row)
+        left, right = max(left, region.left), min(right, region.right)
+        if first < end and left < right:
+            fill_box(
+                ops, writes_ids, triangles.corners, triangles.depth[t], region.downwards, left, right, first, end,
+                depth_range, planes.columns, t, planes.depth, planes.stencil, planes.ids, region.first_row,
+            )  # fmt: skip
+
+
+@kernel
+def count_triangle(ops, triangles, t, region, depth_range, planes):
+    """Count what will happen to the fragments of triangle `t`, before they are processed."""
+    first, end = bounds(triangles.corners, t)
+    plane = triangles.depth[t]
+    for row in range(max(first, region.first_row), min(end, region.end_row)):
+        left, right = row_span(triangles.corners, t, row, region.downwards)
+        row_z = plane[2] * planes.columns[row]
+        count_span(
+            ops, plane, row_z, depth_range, planes.columns, max(left, region.left), min(right, region.right),
+            planes.depth[row], planes.stencil[row], planes.verdicts,
+        )  # fmt: skip

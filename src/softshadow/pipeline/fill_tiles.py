@@ -57,7 +57,7 @@ def advance_chunk(op, step, ref, largest, columns, left, right, chunk, stencil):
 
 @inlined
 def fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, planes):
-    """Do what `fill_triangles` does for the triangles of one facing, FRONT, BACK or EITHER.
+    """Do what `binding.generic` does for the triangles of one facing, FRONT, BACK or EITHER.
 
     The state is one that `commutes`.
     """

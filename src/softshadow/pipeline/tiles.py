@@ -7,7 +7,7 @@ triangle is monotone along rows and columns, rounding included, so its bounds ar
 tile, from the same expression as every fragment's: exact, without a margin.
 
 Counters are applied when all triangles are through, which changes the order of the updates: only draws whose updates
-commute are filled in tiles (`commutes`). The slow, readable form of this file is `fill.fill_triangles`.
+commute are filled in tiles (`commutes`). The slow, readable form of this file is `fill.fill_rows`.
 """
 
 from typing import NamedTuple

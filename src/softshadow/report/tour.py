@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from softshadow import techniques
-from softshadow.errors import SoftShadowError
+from softshadow.errors import SceneError, SoftShadowError
 from softshadow.inspection.files import own
 from softshadow.inspection.pictures import color_picture
 from softshadow.report.commands import options_spelled, scene_spelled
@@ -184,6 +184,8 @@ def write_tour(
 ) -> Path:
     """Draw all stops, write the folder, and return its page. The folder is made whole or not at all.
 
+    Stops whose technique refuses the scene (`SceneError`) are left out, and the page says why.
+
     Parameters
     ----------
     scene, size                  as for `run`
@@ -208,12 +210,21 @@ def write_tour(
     except OSError as error:
         raise SoftShadowError(f"{target}: the folder cannot be made ({error.strerror})") from None
     try:
-        visited = []
+        visited, left_out = [], []
         for stop in STOPS:
             progress(stop.title)
-            visited.append(_visit(stop, run(stop.technique, scene, size, **stop.options), work, again))
-        page = environment().get_template("tour.html").render(scene=scene, size=size, visited=visited, again=again)
-        (work / INDEX).write_text(page, encoding="utf-8")
+            try:
+                made = run(stop.technique, scene, size, **stop.options)
+            except SceneError as error:  # a technique that is not for such a scene; the others are
+                progress(f"{stop.title}: left out. {error}")
+                left_out.append((stop, error))
+                continue
+            visited.append(_visit(stop, made, work, again))
+        if not visited:
+            raise left_out[0][1]
+        page = environment().get_template("tour.html")
+        html = page.render(scene=scene, size=size, visited=visited, left_out=left_out, again=again)
+        (work / INDEX).write_text(html, encoding="utf-8")
         _move(work, target)
     except OSError as error:
         raise SoftShadowError(f"{target}: cannot be written ({error.strerror or error})") from None
