@@ -60,7 +60,10 @@ def generic(front, back, two_sided, writes_ids, counts, triangles, numbers, regi
         ops = back if two_sided and not triangles.front[t] else front
         if counts:
             count_triangle(ops, triangles, t, region, depth_range, planes)
-        fill_rows(ops, writes_ids, triangles, t, region, depth_range, planes)
+        fill_rows(
+            ops, writes_ids, triangles.corners, triangles.depth, t, region, depth_range, planes.columns, planes.depth,
+            planes.stencil, planes.ids,
+        )  # fmt: skip
 
 
 @inlined
@@ -79,21 +82,33 @@ def specialise(front_code: FragmentOps, back_code: FragmentOps, two_sided: int, 
 
         @kernel
         def fill_one_sided(front, back, triangles, numbers, region, depth_range, planes):
+            # taken out of the tuples once: for every triangle, counting the references would take as long as drawing it
+            corners, z_planes = triangles.corners, triangles.depth
+            columns, depth, stencil, ids = planes.columns, planes.depth, planes.stencil, planes.ids
             ops = with_numbers(front_code, front)
             for n in range(numbers.shape[0]):
-                fill_triangle(ops, writes_ids, triangles, int(numbers[n]), region, depth_range, planes)
+                t = int(numbers[n])
+                fill_triangle(
+                    ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth, stencil, ids
+                )  # fmt: skip
 
         return fill_one_sided
 
     @kernel
     def fill_two_sided(front, back, triangles, numbers, region, depth_range, planes):
+        corners, z_planes, faces_front = triangles.corners, triangles.depth, triangles.front
+        columns, depth, stencil, ids = planes.columns, planes.depth, planes.stencil, planes.ids
         front_ops, back_ops = with_numbers(front_code, front), with_numbers(back_code, back)
         for n in range(numbers.shape[0]):
             t = int(numbers[n])
-            if triangles.front[t]:
-                fill_triangle(front_ops, writes_ids, triangles, t, region, depth_range, planes)
+            if faces_front[t]:
+                fill_triangle(
+                    front_ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth, stencil, ids
+                )  # fmt: skip
             else:
-                fill_triangle(back_ops, writes_ids, triangles, t, region, depth_range, planes)
+                fill_triangle(
+                    back_ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth, stencil, ids
+                )  # fmt: skip
 
     return fill_two_sided
 

@@ -42,14 +42,14 @@ def edge_from(x0, y0, x1, y1, column, row, downwards):
 
 @inlined
 def fill_box(
-    ops, writes_ids, corners, plane, downwards, left, right, first, end, depth_range, columns, t, depth, stencil, ids,
-    first_of_ids,
+    ops, writes_ids, corners, z_planes, downwards, left, right, first, end, depth_range, columns, t, depth, stencil,
+    ids, first_of_ids,
 ):  # fmt: skip
     """Process the fragments of triangle `t` in the columns [left, right) and rows [first, end).
 
     `ids` begins with row `first_of_ids`.
     """
-    z0, dz, dz_row, offset = plane[0], plane[1], plane[2], plane[3]
+    z0, dz, dz_row, offset = z_planes[t, 0], z_planes[t, 1], z_planes[t, 2], z_planes[t, 3]
     x0, y0, x1, y1, x2, y2 = corners[t, 0], corners[t, 1], corners[t, 2], corners[t, 3], corners[t, 4], corners[t, 5]
     start = min(left, depth.shape[1] - WIDEST)
     at0, across0, along0 = edge_from(x0, y0, x1, y1, start, first, downwards)

@@ -39,38 +39,41 @@ class Planes(NamedTuple):
 
 
 @inlined
-def fill_rows(ops, writes_ids, triangles, t, region, depth_range, planes):
+def fill_rows(
+    ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth_plane, stencil_plane, ids_plane
+):  # fmt: skip
     """Process the fragments of triangle `t` inside the region, row by row: the plain form, for triangles of any size.
 
     Depth and stencil change, the ids where `writes_ids` is LAST or SOLE.
     """
-    first, end = bounds(triangles.corners, t)
-    plane = triangles.depth[t]
+    first, end = bounds(corners, t)
+    plane = z_planes[t]
     for row in range(max(first, region.first_row), min(end, region.end_row)):
-        left, right = row_span(triangles.corners, t, row, region.downwards)
+        left, right = row_span(corners, t, row, region.downwards)
         left, right = max(left, region.left), min(right, region.right)
         if left < right:
-            row_z = plane[2] * planes.columns[row]
-            depth, stencil = planes.depth[row], planes.stencil[row]
-            ids = planes.ids[row - region.first_row] if writes_ids else planes.ids[0]
-            fill_span(ops, writes_ids, plane, row_z, depth_range, planes.columns, left, right, t, depth, stencil, ids)
+            row_z = plane[2] * columns[row]
+            depth, stencil = depth_plane[row], stencil_plane[row]
+            ids = ids_plane[row - region.first_row] if writes_ids else ids_plane[0]
+            fill_span(ops, writes_ids, plane, row_z, depth_range, columns, left, right, t, depth, stencil, ids)
 
 
 @inlined
-def fill_triangle(ops, writes_ids, triangles, t, region, depth_range, planes):
+def fill_triangle(ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth, stencil, ids):
     """Do what `fill_rows` does, by boxes where the triangle is small."""
-    first, end = bounds(triangles.corners, t)
-    left, right = columns_of(triangles.corners, t)
-    if right - left > WIDEST or end - first > TALLEST or planes.depth.shape[1] < WIDEST:
-        fill_rows(ops, writes_ids, triangles, t, region, depth_range, planes)
-    else:
-        first, end = max(first, region.first_row), min(end, region.end_row)
-        left, right = max(left, region.left), min(right, region.right)
-        if first < end and left < right:
+    first, end = bounds(corners, t)
+    left, right = columns_of(corners, t)
+    is_small = right - left <= WIDEST and end - first <= TALLEST
+    first, end = max(first, region.first_row), min(end, region.end_row)
+    left, right = max(left, region.left), min(right, region.right)
+    if first < end and left < right:
+        if is_small and depth.shape[1] >= WIDEST:
             fill_box(
-                ops, writes_ids, triangles.corners, triangles.depth[t], region.downwards, left, right, first, end,
-                depth_range, planes.columns, t, planes.depth, planes.stencil, planes.ids, region.first_row,
+                ops, writes_ids, corners, z_planes, region.downwards, left, right, first, end, depth_range, columns, t,
+                depth, stencil, ids, region.first_row,
             )  # fmt: skip
+        else:
+            fill_rows(ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth, stencil, ids)
 
 
 @kernel
