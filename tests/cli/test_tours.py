@@ -81,14 +81,18 @@ def test_tour_that_ends_early_leaves_what_was_there(
     "model",
     ["Duck.glb", pytest.param("stanford-bunny.obj", marks=pytest.mark.slow)],  # ten seconds, 70000 faces
 )
-def test_tour_of_a_real_model_has_every_stop(model: str) -> None:
+def test_tour_of_a_real_model_has_every_stop_that_is_for_it(model: str) -> None:
     file = shared_file(f"meshes/{model}")
     answer = done("tour", *SMALL, "--mesh", file, "-o", "t")
     assert ("warning: OpenMesh: " in answer.stderr) == ("bunny" in model)
     page = Path("t/index.html").read_text(encoding="utf-8")
     assert f"--mesh {file}" in page
+    # pairs of faces are too many for shadow polygons where there are tens of thousands of faces
+    left_out = {"shadow-polygons"} if "bunny" in model else set()
+    assert ("Not on this scene" in page) == bool(left_out)
     for stop in STOPS:
-        assert ss.load_run(f"t/{stop.name}/run.npz").shadow_mask.any()
+        if stop.name not in left_out:
+            assert ss.load_run(f"t/{stop.name}/run.npz").shadow_mask.any()
 
 
 def test_tour_that_is_ended_leaves_nothing_behind(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
