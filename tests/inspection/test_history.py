@@ -15,7 +15,7 @@ from softshadow import gl as facade
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.inspection import ledger_of, pixel_history
-from softshadow.inspection.replay import read_window
+from softshadow.inspection.replay import copy_window
 from softshadow.pipeline.commands import Clear
 from softshadow.state import StencilFace
 
@@ -33,7 +33,7 @@ def all_pixels(size=SIZE):
 @given(st.integers(0, 2**32 - 1), st.sampled_from(["d24", "d32f"]), st.integers(1, 8))
 def test_last_row_equals_the_buffers(seed, depth_format, bits):
     context = random_frame(seed, depth_format=depth_format, stencil_bits=bits)
-    window = read_window(context.storage.window)
+    window = copy_window(context.storage.window).buffers()
     for x, y in all_pixels()[:: 1 + seed % 7]:
         rows = pixel_history(context.frame, x, y).rows
         if rows:
@@ -133,7 +133,7 @@ def test_alpha_that_is_no_number_is_compared_as_one():
         facade.glRectf(-1, -1, 1, 1)
         context.end_step("last")
     assert pixel_history(context.frame, 5, 5)[-1].verdict == "passed"
-    assert read_window(context.storage.window).color[5, 5].tolist() == [255, 255, 255, 0]
+    assert copy_window(context.storage.window).buffers().color[5, 5].tolist() == [255, 255, 255, 0]
 
 
 def test_culled_triangles_and_pixels_outside_the_scissor_box_have_rows():

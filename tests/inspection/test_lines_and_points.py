@@ -13,7 +13,7 @@ from draws import random_state, random_triangles, vertices
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.inspection import ledger_of, pixel_history
-from softshadow.inspection.replay import read_window
+from softshadow.inspection.replay import copy_window
 from softshadow.pipeline.commands import Vertices
 
 pytestmark = pytest.mark.interpreted
@@ -49,7 +49,7 @@ def random_frame(seed: int) -> Context:
 @given(st.integers(0, 2**32 - 1))
 def test_last_row_equals_the_buffers(seed):
     context = random_frame(seed)
-    window = read_window(context.storage.window)
+    window = copy_window(context.storage.window).buffers()
     for x, y in PIXELS[:: 1 + seed % 5]:
         rows = pixel_history(context.frame, x, y).rows
         if rows:

@@ -128,7 +128,11 @@ def test_tiles_leave_the_bits_of_fragments_one_by_one(seed, depth_format):
         assert_same(filled(seed, depth_format), one_by_one(seed, depth_format))
 
 
-@pytest.mark.parametrize(("seed", "depth_format"), [(0, "d24"), (1, "d32f")])  # each compiles code of its own
+@pytest.mark.parametrize(
+    ("seed", "depth_format"),  # each compiles code of its own, some seconds
+    [(0, "d24"), (1, "d32f")]
+    + [pytest.param(*case, marks=pytest.mark.slow) for case in ((1, "d24"), (2, "d24"), (0, "d32f"), (2, "d32f"))],
+)
 def test_specialised_tiles_leave_the_same_bits(seed, depth_format):
     with use_binding("specialised"):
         found = filled(seed, depth_format)

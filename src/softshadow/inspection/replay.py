@@ -77,11 +77,6 @@ def shared_or_copied(now: np.ndarray, before: np.ndarray) -> np.ndarray:
     return before if np.array_equal(now, before) else now.copy()
 
 
-def read_window(window: Framebuffer) -> Buffers:
-    """Return copies of the window's buffers."""
-    return copy_window(window).buffers()
-
-
 class Replay:
     """A recorded frame that can be played to any command, on storage of its own.
 
