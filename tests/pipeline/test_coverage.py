@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softshadow.pipeline.boxes import columns_of
+from softshadow.pipeline.boxes import columns_of, edge_from
 from softshadow.pipeline.coverage import bounds, edge, row_span, triangles_at
 from softshadow.pipeline.fill import Region
 from softshadow.pipeline.fragments import list_fragments
@@ -132,6 +132,16 @@ def test_the_sides_of_a_pixel_say_what_the_spans_say(fan, downwards):
                 if all(at + along * (row << 8) - across * (column << 8) >= 0 for across, along, at in edges)
             ]
             assert inside == list(range(*row_span(corners, t, row, int(downwards))))
+
+
+@given(window_fans(SIZE), st.booleans(), st.integers(0, 2**16 - 1), st.integers(0, 2**16 - 1))
+def test_edges_of_boxes_are_the_edges_in_32_bits(fan, downwards, column, row):
+    corners = set_up_in_window(*fan).corners + np.tile([column << 8, row << 8], 3).astype(np.int32)
+    for x0, y0, x1, y1, *_ in corners:
+        across, along, at = edge(x0, y0, x1, y1, downwards)
+        expected = at + along * (row << 8) - across * (column << 8), across << 8, along << 8
+        first = np.int32(column << 8), np.int32(row << 8)
+        assert tuple(map(int, edge_from(x0, y0, x1, y1, *first, 0 if downwards else -1))) == expected
 
 
 def test_a_triangle_without_snapped_area_covers_nothing():

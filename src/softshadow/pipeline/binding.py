@@ -18,8 +18,9 @@ import numpy as np
 from softshadow.jit import cache_folder, inlined, kernel
 from softshadow.pipeline.bands import share, threads
 from softshadow.pipeline.bins import AT_A_TIME, ROWS, Bins, bands_of, sort_into_bands
-from softshadow.pipeline.fill import Planes, Region, count_triangle, fill_rows, fill_triangle
-from softshadow.pipeline.fill_tiles import BACK, EITHER, FRONT, fill_in_tiles
+from softshadow.pipeline.facing import BACK, EITHER, FRONT
+from softshadow.pipeline.fill import Planes, Region, count_triangle, fill_rows, fill_small, is_small
+from softshadow.pipeline.fill_tiles import fill_in_tiles
 from softshadow.pipeline.fragment_ops import FragmentOps
 from softshadow.pipeline.setup import Setup
 from softshadow.pipeline.spans import LAST, DepthRange
@@ -83,14 +84,20 @@ def specialise(front_code: FragmentOps, back_code: FragmentOps, two_sided: int, 
         @kernel
         def fill_one_sided(front, back, triangles, numbers, region, depth_range, planes):
             # taken out of the tuples once: for every triangle, counting the references would take as long as drawing it
-            corners, z_planes = triangles.corners, triangles.depth
+            corners, z_planes, faces_front = triangles.corners, triangles.depth, triangles.front
             columns, depth, stencil, ids = planes.columns, planes.depth, planes.stencil, planes.ids
-            ops = with_numbers(front_code, front)
-            for n in range(numbers.shape[0]):
-                t = int(numbers[n])
-                fill_triangle(
-                    ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth, stencil, ids
+            ops, n = with_numbers(front_code, front), 0
+            while n < numbers.shape[0]:
+                n = fill_small(
+                    ops, EITHER, writes_ids, corners, z_planes, faces_front, numbers, n, region, depth_range, depth,
+                    stencil, ids,
                 )  # fmt: skip
+                if n < numbers.shape[0]:
+                    t = int(numbers[n])
+                    fill_rows(
+                        ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth, stencil, ids
+                    )  # fmt: skip
+                    n += 1
 
         return fill_one_sided
 
@@ -98,17 +105,27 @@ def specialise(front_code: FragmentOps, back_code: FragmentOps, two_sided: int, 
     def fill_two_sided(front, back, triangles, numbers, region, depth_range, planes):
         corners, z_planes, faces_front = triangles.corners, triangles.depth, triangles.front
         columns, depth, stencil, ids = planes.columns, planes.depth, planes.stencil, planes.ids
-        front_ops, back_ops = with_numbers(front_code, front), with_numbers(back_code, back)
-        for n in range(numbers.shape[0]):
-            t = int(numbers[n])
-            if faces_front[t]:
-                fill_triangle(
-                    front_ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth, stencil, ids
-                )  # fmt: skip
-            else:
-                fill_triangle(
-                    back_ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth, stencil, ids
-                )  # fmt: skip
+        front_ops, back_ops, n = with_numbers(front_code, front), with_numbers(back_code, back), 0
+        while n < numbers.shape[0]:
+            n = fill_small(
+                front_ops, FRONT, writes_ids, corners, z_planes, faces_front, numbers, n, region, depth_range, depth,
+                stencil, ids,
+            )  # fmt: skip
+            n = fill_small(
+                back_ops, BACK, writes_ids, corners, z_planes, faces_front, numbers, n, region, depth_range, depth,
+                stencil, ids,
+            )  # fmt: skip
+            if n < numbers.shape[0] and not is_small(corners, np.uint64(numbers[n]), region, depth):
+                t = int(numbers[n])
+                if faces_front[t]:
+                    fill_rows(
+                        front_ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth, stencil, ids
+                    )  # fmt: skip
+                else:
+                    fill_rows(
+                        back_ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth, stencil, ids
+                    )  # fmt: skip
+                n += 1
 
     return fill_two_sided
 

@@ -10,6 +10,7 @@ import numpy as np
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.boxes import TALLEST, WIDEST, columns_of, fill_box
 from softshadow.pipeline.coverage import bounds, row_span
+from softshadow.pipeline.facing import EITHER
 from softshadow.pipeline.spans import count_span, fill_span
 
 
@@ -59,21 +60,37 @@ def fill_rows(
 
 
 @inlined
-def fill_triangle(ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth, stencil, ids):
-    """Do what `fill_rows` does, by boxes where the triangle is small."""
+def is_small(corners, t, region, depth):
+    """Return whether triangle `t` is one for `fill_box`: few columns and rows, none of the columns cut off."""
     first, end = bounds(corners, t)
     left, right = columns_of(corners, t)
-    is_small = right - left <= WIDEST and end - first <= TALLEST
-    first, end = max(first, region.first_row), min(end, region.end_row)
-    left, right = max(left, region.left), min(right, region.right)
-    if first < end and left < right:
-        if is_small and depth.shape[1] >= WIDEST:
+    fits = right - left <= WIDEST and end - first <= TALLEST and depth.shape[1] >= WIDEST
+    return fits and left >= region.left and right <= region.right
+
+
+@inlined
+def fill_small(
+    ops, facing, writes_ids, corners, z_planes, faces_front, numbers, n, region, depth_range, depth, stencil, ids
+):  # fmt: skip
+    """Do what `fill_rows` does, by boxes, for small triangles of one facing from ``numbers[n]`` on.
+
+    Returns the place of the first triangle that is not small or faces elsewhere. These loops are apart so that the
+    registers of the one do not have to hold what the other needs: it would take twice as long.
+    """
+    flip = 0 if region.downwards else -1
+    while n < numbers.shape[0]:
+        t = np.uint64(numbers[n])  # unsigned: no wrap-around of negative indices is compiled in
+        if not is_small(corners, t, region, depth) or (facing != EITHER and faces_front[t] != facing):
+            break
+        first, end = bounds(corners, t)
+        left, right = columns_of(corners, t)
+        if left < right:
             fill_box(
-                ops, writes_ids, corners, z_planes, region.downwards, left, right, first, end, depth_range, columns, t,
-                depth, stencil, ids, region.first_row,
+                ops, writes_ids, corners, z_planes, flip, left, max(first, region.first_row), min(end, region.end_row),
+                depth_range, t, depth, stencil, ids, region.first_row,
             )  # fmt: skip
-        else:
-            fill_rows(ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth, stencil, ids)
+        n += 1
+    return n
 
 
 @kernel

@@ -8,6 +8,7 @@ import numpy as np
 from softshadow.jit import inlined
 from softshadow.pipeline.boxes import WIDEST, columns_of, fill_columns
 from softshadow.pipeline.coverage import bounds, row_spans
+from softshadow.pipeline.facing import EITHER
 from softshadow.pipeline.fragment_ops import DECR_WRAP, process_fragment
 from softshadow.pipeline.spans import depth_units
 from softshadow.pipeline.tiles import (
@@ -28,7 +29,6 @@ from softshadow.pipeline.tiles import (
 
 CHUNK_LOG2 = 5  # columns processed in one go, 32: what rows are padded to (`image.PITCH`)
 CHUNK = 1 << CHUNK_LOG2
-BACK, FRONT, EITHER = 0, 1, 2  # facings
 
 
 @inlined
