@@ -4,6 +4,7 @@ Blended or not, fragments are written one after the other: without blending the 
 """
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -45,7 +46,7 @@ def color_writer(state: State, color: Image) -> Callable[[Runs, np.ndarray], Non
                 write_floats(*where, stored, mask, cells)
 
         return write_float
-    pixels, taken = as_pixels(cells), as_pixels(np.where(mask, np.uint8(255), np.uint8(0)))[()]
+    pixels, taken = as_pixels(cells), taken_bits(state, color)
 
     def write(runs: Runs, values: np.ndarray) -> None:
         where, stored = (runs.row, runs.left, runs.start), written_unorm8(values, color.format)
@@ -58,6 +59,12 @@ def color_writer(state: State, color: Image) -> Callable[[Runs, np.ndarray], Non
             blend_bytes(ops, *where, stored, mask, cells)
 
     return write
+
+
+def taken_bits(state: State, color: Image) -> Any:
+    """Return a pixel of 32 bits: those are set that the colour mask and the format of the buffer let through."""
+    mask = np.array(state.color.mask) & np.array(color.format.written)
+    return as_pixels(np.where(mask, np.uint8(255), np.uint8(0)))[()]
 
 
 def as_pixels(cells: np.ndarray) -> np.ndarray:

@@ -7,11 +7,12 @@ What a batch carries from interpolation to the write stays in the cache. In one 
 import numpy as np
 
 from softshadow.framebuffer import Framebuffer
-from softshadow.pipeline.bands import share
+from softshadow.pipeline.bands import share, threads
 from softshadow.pipeline.color_writes import color_writer
 from softshadow.pipeline.fragments import in_blocks
 from softshadow.pipeline.geometry import Geometry
 from softshadow.pipeline.interpolate import Planes, inputs_at, planes_of
+from softshadow.pipeline.map_shading import map_shader
 from softshadow.pipeline.runs import Runs, fragments_of, runs_of
 from softshadow.state import State
 
@@ -40,6 +41,11 @@ def shade_and_write(state: State, target: Framebuffer, geometry: Geometry, runs:
     ordered : several fragments may belong to one pixel, and are written one after the other. Otherwise batches may be
         written in any order, by several threads.
     """
+    shade_map = None if ordered else map_shader(state, target, geometry)
+    if shade_map is not None:
+        planes, parts = _planes_of(geometry, runs), runs.batches(BATCH if threads() > 1 else max(runs.fragments, 1))
+        share(lambda n: shade_map(runs.part(parts[n], parts[n + 1]), planes), len(parts) - 1)
+        return
     writers = [color_writer(state, image) for image in target.colors]
     if ordered:
         colors = shade(geometry, runs)
