@@ -227,7 +227,7 @@ def test_rows_at_once_are_the_rows_one_by_one(seed, downwards):
     for t in range(len(corners)):
         first, end = bounds(corners, t)
         first, end = max(first, 3), min(end, HEIGHT)
-        lefts, rights = np.empty(HEIGHT, np.int64), np.empty(HEIGHT, np.int64)
+        lefts, rights = np.empty(HEIGHT, np.int32), np.empty(HEIGHT, np.int32)
         row_spans(corners, t, first, end, int(downwards), 5, WIDTH, lefts, rights)
         for row in range(first, end):
             left, right = row_span(corners, t, row, int(downwards))

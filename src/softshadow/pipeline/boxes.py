@@ -11,7 +11,6 @@ triangles of 4 pixels: a loop over the box's own columns takes 47 ms, rows of 16
 import numpy as np
 
 from softshadow.jit import inlined, kernel
-from softshadow.pipeline.coverage import edge
 from softshadow.pipeline.fragment_ops import PASSED, process_fragment
 from softshadow.pipeline.spans import depth_units, id_after
 
@@ -77,36 +76,3 @@ def fill_box(
                 k = np.uint64(row - first_of_ids)
                 ids[k, i] = id_after(writes_ids, verdict == PASSED, np.int32(t), ids[k, i])
         at0, at1, at2 = np.int32(at0 + along0), np.int32(at1 + along1), np.int32(at2 + along2)
-
-
-@inlined
-def fill_columns(
-    ops, writes_ids, corners, plane, downwards, left, right, first, end, depth_range, columns, t, depth, stencil, ids,
-    first_of_ids,
-):  # fmt: skip
-    """Do what `fill_box` does, pixel by pixel: also for boxes that have been cut."""
-    z0, dz, dz_row, offset = plane[0], plane[1], plane[2], plane[3]
-    across0, along0, at0 = edge(corners[t, 0], corners[t, 1], corners[t, 2], corners[t, 3], downwards)
-    across1, along1, at1 = edge(corners[t, 2], corners[t, 3], corners[t, 4], corners[t, 5], downwards)
-    across2, along2, at2 = edge(corners[t, 4], corners[t, 5], corners[t, 0], corners[t, 1], downwards)
-    for row in range(first, end):
-        j = np.uint64(row)
-        row_z = dz_row * columns[j]
-        inside0 = at0 + along0 * (row << 8) - across0 * (left << 8)
-        inside1 = at1 + along1 * (row << 8) - across1 * (left << 8)
-        inside2 = at2 + along2 * (row << 8) - across2 * (left << 8)
-        for column in range(left, right):
-            i = np.uint64(column)
-            z = depth_units(((dz * columns[i] + z0) + row_z) + offset, depth_range, ops.depth_largest)
-            inside = (inside0 | inside1 | inside2) >= 0  # the sign of an or: whether one of them is negative
-            verdict, s, stored_z = process_fragment(ops, inside, 0, z, depth[j, i], stencil[j, i])
-            if ops.stencil_test:
-                stencil[j, i] = s
-            if ops.depth_write:
-                depth[j, i] = stored_z
-            if writes_ids:
-                k = np.uint64(row - first_of_ids)
-                ids[k, i] = id_after(writes_ids, verdict == PASSED, t, ids[k, i])
-            inside0 -= across0 << 8
-            inside1 -= across1 << 8
-            inside2 -= across2 << 8

@@ -93,10 +93,11 @@ def narrow_rows(x0, y0, x1, y1, first, end, downwards, lefts, rights):
     quotient, quotient_step = value // divisor, step // divisor
     remainder, remainder_step = value - quotient * divisor, step - quotient_step * divisor
     for row in range(first, end):
+        j = np.uint64(row)
         if across > 0:
-            rights[row] = min(rights[row], quotient + 1)
+            rights[j] = min(int(rights[j]), quotient + 1)
         else:
-            lefts[row] = max(lefts[row], -quotient)
+            lefts[j] = max(int(lefts[j]), -quotient)
         remainder += remainder_step
         carry = remainder >= divisor
         quotient += quotient_step + carry
@@ -111,7 +112,8 @@ def row_spans(corners, t, first, end, downwards, left, right, lefts, rights):
     the rows of the triangle beyond, what lies inside the other two edges lies strictly inside this one.
     """
     for row in range(first, end):
-        lefts[row], rights[row] = left, right
+        j = np.uint64(row)
+        lefts[j], rights[j] = left, right
     x0, y0 = int(corners[t, 0]), int(corners[t, 1])
     x1, y1 = int(corners[t, 2]), int(corners[t, 3])
     x2, y2 = int(corners[t, 4]), int(corners[t, 5])

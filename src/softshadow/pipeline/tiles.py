@@ -136,28 +136,23 @@ def find_bounds(depth, first, end, left, right, scratch):
 
 
 @kernel
-def outcome(ops, plane, depth_range, columns, left, right, first, end, depth, region, tiles, tile_row, tile, scratch):
-    """Return what becomes of a triangle's fragments in the columns [left, right) and rows [first, end) of a tile.
+def outcome(ops, depth_range, z0, dz, dz_row, offset, left, right, first, end, stored_low, stored_high):
+    """Return what becomes of a triangle's fragments from column `left` to `right` and from row `first` to `end`.
 
-    PASS or FAIL: all of them; MIXED: nobody knows; NOTHING: no stencil value will change.
+    PASS or FAIL: all of them; MIXED: nobody knows; NOTHING: no stencil value will change. The depth plane and all
+    bounds (both ends belong to them) are numbers in the precision of depth: an array would be counted at every call.
     """
     result = PASS
     if ops.depth_test:
-        if np.isnan(tiles.low[tile_row, tile]):
-            top, bottom = rows_of(tile_row, region)
-            tile_left, tile_right = columns_of_tile(tile, region)
-            bounds = find_bounds(depth, top, bottom, tile_left, tile_right, scratch)
-            tiles.low[tile_row, tile], tiles.high[tile_row, tile] = bounds
-        z0, dz, dz_row, offset = plane[0], plane[1], plane[2], plane[3]
-        column_low, column_high = (left, right - 1) if dz >= 0 else (right - 1, left)
-        row_low, row_high = (first, end - 1) if dz_row >= 0 else (end - 1, first)
-        low = ((dz * columns[column_low] + z0) + dz_row * columns[row_low]) + offset
-        high = ((dz * columns[column_high] + z0) + dz_row * columns[row_high]) + offset
+        column_low, column_high = (left, right) if dz >= 0 else (right, left)
+        row_low, row_high = (first, end) if dz_row >= 0 else (end, first)
+        low = ((dz * column_low + z0) + dz_row * row_low) + offset
+        high = ((dz * column_high + z0) + dz_row * row_high) + offset
         if not np.isfinite(low) or not np.isfinite(high):
             return MIXED  # planes that overflow, or are NaN, are not monotone
         low = depth_units(low, depth_range, ops.depth_largest)
         high = depth_units(high, depth_range, ops.depth_largest)
-        result = decide(ops.depth_func, low, high, tiles.low[tile_row, tile], tiles.high[tile_row, tile])
+        result = decide(ops.depth_func, low, high, stored_low, stored_high)
     if result == PASS:
         return NOTHING if ops.zpass == KEEP else PASS
     if result == FAIL:
