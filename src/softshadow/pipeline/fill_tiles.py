@@ -6,9 +6,10 @@ What a tile's depth bounds do not decide goes row by row, in chunks of 32 column
 import numpy as np
 
 from softshadow.jit import inlined
-from softshadow.pipeline.boxes import TALLEST, WIDEST, columns_of, fill_box
+from softshadow.pipeline.boxes import columns_of
 from softshadow.pipeline.coverage import bounds, row_spans
 from softshadow.pipeline.facing import EITHER
+from softshadow.pipeline.fill import fill_small
 from softshadow.pipeline.fragment_ops import DECR_WRAP, process_fragment
 from softshadow.pipeline.spans import depth_units
 from softshadow.pipeline.tiles import (
@@ -50,12 +51,11 @@ def fill_chunk(ops, z0, dz, row_z, offset, depth_range, columns, left, right, st
 @inlined
 def advance_chunk(op, step, ref, largest, left, right, start, row, stencil):
     """Do the same where it is known what the depth test says: in bytes, of which a chunk is one vector."""
-    first = min(max(left - start, 0), CHUNK)
-    before, width = np.uint8(first), np.uint8(min(max(right - start, first), CHUNK) - first)
+    first, end = np.uint8(min(max(left - start, 0), CHUNK)), np.uint8(min(max(right - start, 0), CHUNK))
     j = np.uint64(row)
     for k in range(CHUNK):
         i = np.uint64(start + k)
-        inside = np.uint8(np.uint8(k) - before) < width  # left of the first one wraps round to large numbers
+        inside = (np.uint8(k) >= first) & (np.uint8(k) < end)
         stencil[j, i] = advance(op, stencil[j, i], step, ref, largest) if inside else stencil[j, i]
 
 
@@ -74,20 +74,20 @@ def fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, planes):
     lows, highs, waiting = tiles.low, tiles.high, tiles.waiting
     scratch = np.empty((3, COLUMNS), columns.dtype)
     lefts, rights = np.empty(region.end_row, np.int32), np.empty(region.end_row, np.int32)
-    for n in range(numbers.shape[0]):
+    n = 0
+    while n < numbers.shape[0]:
+        n = fill_small(
+            ops, facing, 0, corners, z_planes, faces_front, numbers, n, region, depth_range, depth, stencil, ids
+        )  # fmt: skip
+        if n == numbers.shape[0]:
+            break
         t = int(numbers[n])
+        n += 1
         first, end = bounds(corners, t)
-        box_left, box_right = columns_of(corners, t)
-        is_small = box_right - box_left <= WIDEST and end - first <= TALLEST
         first, end = max(first, region.first_row), min(end, region.end_row)
+        box_left, box_right = columns_of(corners, t)
         box_left, box_right = max(box_left, region.left), min(box_right, region.right)
         if first >= end or box_left >= box_right or (facing != EITHER and faces_front[t] != facing):
-            continue
-        if is_small:
-            fill_box(
-                ops, 0, corners, z_planes, region.downwards, box_left, box_right, first, end, depth_range, columns, t,
-                depth, stencil, ids, 0,
-            )  # fmt: skip
             continue
         z0, dz, dz_row, offset = z_planes[t, 0], z_planes[t, 1], z_planes[t, 2], z_planes[t, 3]
         row_spans(corners, t, first, end, region.downwards, region.left, region.right, lefts, rights)
