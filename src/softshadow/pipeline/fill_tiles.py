@@ -51,11 +51,12 @@ def fill_chunk(ops, z0, dz, row_z, offset, depth_range, columns, left, right, st
 @inlined
 def advance_chunk(op, step, ref, largest, left, right, start, row, stencil):
     """Do the same where it is known what the depth test says: in bytes, of which a chunk is one vector."""
-    first, end = np.uint8(min(max(left - start, 0), CHUNK)), np.uint8(min(max(right - start, 0), CHUNK))
+    first = min(max(left - start, 0), CHUNK)
+    width = np.uint8(min(max(right - start, first), CHUNK) - first)
     j = np.uint64(row)
     for k in range(CHUNK):
         i = np.uint64(start + k)
-        inside = (np.uint8(k) >= first) & (np.uint8(k) < end)
+        inside = np.uint8((k - first) & 255) < width  # left of the first one wraps round to large numbers
         stencil[j, i] = advance(op, stencil[j, i], step, ref, largest) if inside else stencil[j, i]
 
 
