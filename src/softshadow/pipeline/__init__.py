@@ -27,7 +27,7 @@ from softshadow.pipeline.blend import compared_alpha, needs_order, tests_alpha
 from softshadow.pipeline.clear import clear
 from softshadow.pipeline.color_writes import color_writer
 from softshadow.pipeline.coverage import extent
-from softshadow.pipeline.fill import Region
+from softshadow.pipeline.fill import Region, no_ids
 from softshadow.pipeline.fragment_ops import PASSED, VERDICTS, fragment_ops
 from softshadow.pipeline.fragments import Fragments, list_fragments, test_fragments
 from softshadow.pipeline.geometry import Geometry, depth_range_of, process_geometry, region_of
@@ -77,7 +77,7 @@ def _draw_opaque(
     if region.first_row >= region.end_row:
         return
     depth, stencil = _planes(target, geometry.window.dtype)
-    ids = np.full((region.end_row - region.first_row, depth.shape[1]), -1, np.int32) if writes_color else None
+    ids = no_ids(region, depth.shape[1]) if writes_color else None
     front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
     depth_range = depth_range_of(state, geometry.window.dtype.type)
     fill(front, back, triangles, fragments, region, depth_range, depth, stencil, ids, verdicts)

@@ -11,7 +11,8 @@ from softshadow.jit import inlined, kernel
 from softshadow.pipeline.boxes import TALLEST, WIDEST, columns_of, fill_box
 from softshadow.pipeline.coverage import bounds, row_span
 from softshadow.pipeline.facing import EITHER
-from softshadow.pipeline.spans import count_span, fill_span
+from softshadow.pipeline.lent import lent
+from softshadow.pipeline.spans import NONE, count_span, fill_span
 
 
 class Region(NamedTuple):
@@ -37,6 +38,13 @@ class Planes(NamedTuple):
     stencil: np.ndarray
     ids: np.ndarray
     verdicts: np.ndarray
+
+
+def no_ids(region: Region, pitch: int) -> np.ndarray:
+    """Return the ids (rows of the region, pitch) of pixels that no triangle has got."""
+    ids = lent((region.end_row - region.first_row, pitch), np.int32)
+    ids[:] = NONE
+    return ids
 
 
 @inlined

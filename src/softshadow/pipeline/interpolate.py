@@ -10,6 +10,7 @@ import numpy as np
 
 from softshadow.jit import kernel
 from softshadow.pipeline.constants import ONE, ZERO
+from softshadow.pipeline.lent import lent
 from softshadow.pipeline.runs import Runs
 from softshadow.pipeline.setup import Setup, edge_differences, line_gradient, line_plane, plane
 
@@ -122,10 +123,10 @@ def planes_of(
     flat : (k,) bool
     provoking : (T,) int32, by the triangles that ``triangles.ids`` numbers
     """
-    place = np.full(len(triangles.ids), -1, np.int32)
-    seen = np.empty(len(triangles.ids), np.int32)
+    place, seen = lent(len(triangles.ids), np.int32), lent(len(triangles.ids), np.int32)
+    place[:] = -1
     seen = seen[: number_in_order(runs.triangle, place, seen)]
-    planes = np.empty((len(seen), 3, values.shape[1] + 1), window.dtype)
+    planes = lent((len(seen), 3, values.shape[1] + 1), window.dtype)
     attribute_planes(
         window, values, values if back is None else back, triangles.vertices, triangles.front, seen, flat,
         provoking[triangles.ids], planes,
@@ -150,6 +151,6 @@ def number_in_order(triangles, place, seen):
 
 def inputs_at(runs: Runs, planes: Planes, flat: np.ndarray) -> np.ndarray:
     """Return what the fragment stage of a program gets: (n, k), one row per fragment, each column in one piece."""
-    out = np.empty((len(flat) + 1, runs.fragments), planes.values.dtype)
+    out = lent((len(flat) + 1, runs.fragments), planes.values.dtype)
     interpolate(planes.values, planes.place, *runs, planes.coordinates, flat, out)
     return out[:-1].T

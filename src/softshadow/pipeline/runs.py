@@ -11,6 +11,7 @@ import numpy as np
 
 from softshadow.jit import kernel
 from softshadow.pipeline.fragments import Fragments
+from softshadow.pipeline.lent import lent
 
 STRIDE = 16  # pixels of a long run that are looked at together
 
@@ -44,8 +45,10 @@ class Runs(NamedTuple):
 
 
 def _empty(count: int) -> Runs:
-    row, left, triangle = np.empty((3, count), np.int32)
-    return Runs(row, left, triangle, np.zeros(count + 1, np.int64))
+    row, left, triangle = lent((3, count), np.int32)
+    start = lent(count + 1, np.int64)
+    start[0] = 0
+    return Runs(row, left, triangle, start)
 
 
 def visible_runs(ids: np.ndarray, first_row: int) -> Runs:

@@ -12,6 +12,7 @@ from softshadow.pipeline.color_writes import color_writer
 from softshadow.pipeline.fragments import in_blocks
 from softshadow.pipeline.geometry import Geometry
 from softshadow.pipeline.interpolate import Planes, inputs_at, planes_of
+from softshadow.pipeline.lent import lent
 from softshadow.pipeline.map_shading import map_shader
 from softshadow.pipeline.runs import Runs, fragments_of, runs_of
 from softshadow.state import State
@@ -23,7 +24,7 @@ def shade(geometry: Geometry, runs: Runs) -> np.ndarray:
     """Return the colours (n, 4) of fragments, unclamped."""
     planes = _planes_of(geometry, runs)
     cuts = runs.batches(BATCH)
-    colors = np.empty((4, runs.fragments), geometry.window.dtype).T
+    colors = lent((4, runs.fragments), geometry.window.dtype).T
 
     def batch(n: int) -> None:
         first, end = runs.start[cuts[n]], runs.start[cuts[n + 1]]
@@ -76,7 +77,7 @@ def _shade_batch(geometry: Geometry, planes: Planes, runs: Runs) -> np.ndarray:
         complete, own = in_blocks(fragments_of(runs))
         runs = runs_of(complete)
     inputs = inputs_at(runs, planes, geometry.flat)
-    out = np.empty((4, len(inputs)), inputs.dtype).T
+    out = lent((4, len(inputs)), inputs.dtype).T
     with np.errstate(all="ignore"):  # set per thread
         geometry.program.shade(inputs, geometry.uniforms, out)
     return out if own is None else out[own]

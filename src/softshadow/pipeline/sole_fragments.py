@@ -8,10 +8,10 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.pipeline.binding import fill
-from softshadow.pipeline.fill import Region
+from softshadow.pipeline.fill import Region, no_ids
 from softshadow.pipeline.fragment_ops import FragmentOps
 from softshadow.pipeline.setup import Setup
-from softshadow.pipeline.spans import NONE, SEVERAL, SOLE, DepthRange
+from softshadow.pipeline.spans import SEVERAL, SOLE, DepthRange
 
 
 def sole_fragments(
@@ -32,7 +32,7 @@ def sole_fragments(
     """
     if region.first_row >= region.end_row or not (picks_surface(front) and picks_surface(back)):
         return None
-    ids = np.full((region.end_row - region.first_row, depth.shape[1]), NONE)
+    ids = no_ids(region, depth.shape[1])
     fill(front, back, triangles, fragments, region, depth_range, depth, stencil, ids, writes=SOLE)
     return None if ids.min() == SEVERAL else ids
 
