@@ -1,12 +1,7 @@
-"""Drawing from vertex arrays and buffer objects.
-
-A user's array is copied once per content, so that many draws of a recording share it; a read-only array that owns its
-memory is taken as it is.
-"""
+"""Drawing from vertex arrays and buffer objects; `kept_arrays` has what a recording keeps of them."""
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable
 from ctypes import c_uint
 from typing import Any
@@ -15,7 +10,6 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, current
-from softshadow.gl.buffers import content_from, offset_of
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import (
     from_byte,
@@ -27,6 +21,7 @@ from softshadow.gl.conversions import (
 )
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
 from softshadow.gl.immediate import A_MODE, MODES, add_vertex, can_draw, in_order
+from softshadow.gl.kept_arrays import extremes, full_rows, owned_indices
 from softshadow.gl.texture_coordinates import set_coordinate
 from softshadow.gl.vertex_arrays import TYPES, rows_of
 from softshadow.gl.vertex_attributes import set_color, set_normal
@@ -36,7 +31,6 @@ from softshadow.state import TEXTURE_UNITS
 
 INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
 AN_INDEX_TYPE = "GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT or GL_UNSIGNED_INT"
-LARGEST_FRACTION = (1 << 23) - 1  # llvmpipe fetches as many bits of an unsigned int as float32 has
 NORMALISED = ("color", "normal")  # integers of these stand for 0 to 1 or -1 to 1
 CONVERSIONS: dict[type[np.generic], Callable[[Any], float]] = {  # of glArrayElement: those of glColor and glNormal
     np.int8: from_byte, np.uint8: from_unsigned_byte, np.int16: from_short, np.uint16: from_unsigned_short,
@@ -95,8 +89,11 @@ def _draw_elements(operation: str, mode: int, count: int, type: int, indices: An
         return
     if not is_one_of(operation, "type", type, INDEX_TYPES, AN_INDEX_TYPE) or not can_draw(context, operation):
         return
-    owned = _owned_indices(context, operation, int(count), np.dtype(TYPES[type]), indices)
-    vertices = _vertices(context, operation, 0, int(owned.max()) + 1 if count else 0)
+    owned = owned_indices(context, operation, int(count), np.dtype(TYPES[type]), indices)
+    lowest, highest = extremes(owned, context)
+    if lowest < 0:
+        raise ValueError(f"{operation}: index {lowest} is negative")
+    vertices = _vertices(context, operation, 0, highest + 1)
     _draw(context, int(mode), vertices, owned)
 
 
@@ -109,28 +106,6 @@ def _refused(operation: str, mode: int, count: int) -> bool:
     else:
         return False
     return True
-
-
-def _owned_indices(context: Context, operation: str, count: int, dtype: np.dtype, indices: Any) -> np.ndarray:
-    """Return indices that the caller cannot change, read-only int32.
-
-    Raises
-    ------
-    ValueError
-        There are fewer than `count`, or one is negative.
-    """
-    if context.arrays.element_buffer:
-        indices = content_from(context, context.arrays.element_buffer, offset_of(indices), dtype)
-    elif isinstance(indices, bytes | bytearray | memoryview):
-        indices = np.frombuffer(indices, dtype)
-    numbers = np.ravel(indices)[:count]
-    if len(numbers) < count:
-        raise ValueError(f"{operation}(count={count}): only {len(numbers)} indices are there")
-    owned = np.array(numbers, np.int32)
-    if count and owned.min() < 0:
-        raise ValueError(f"{operation}: index {owned.min()} is negative")
-    owned.setflags(write=False)
-    return owned
 
 
 def glArrayElement(i: int) -> None:
@@ -190,7 +165,7 @@ def _vertices(context: Context, operation: str, first: int, end: int) -> Vertice
             return np.broadcast_to(np.array(constant, context.real), (end - first, len(constant)))
         if len(rows) < end:
             raise ValueError(f"{operation}: vertex {end - 1} is asked for, the array of {key}s has {len(rows)}")
-        return _full(rows, len(constant), context, key in NORMALISED)[first:end]
+        return full_rows(rows, len(constant), context, key in NORMALISED)[first:end]
 
     texcoords = tuple(attribute(f"texcoord{unit}", standing.texcoords[unit]) for unit in range(TEXTURE_UNITS))
     return Vertices(
@@ -210,46 +185,6 @@ def _rows_of_array(context: Context, key: str) -> np.ndarray | None:
     return rows_of(
         content.tobytes()[: len(content) // dtype.itemsize * dtype.itemsize], dtype, layout.size, layout.stride
     )
-
-
-# -- what a recording keeps --------------------------------------------------------------------------------------------
-def _full(rows: np.ndarray, width: int, context: Context, normalised: bool) -> np.ndarray:
-    """Return rows as read-only (V, width) of the context's precision; the same content is converted once."""
-    root = _root(rows)
-    if root.flags.writeable:
-        content: Any = hashlib.blake2b(np.ascontiguousarray(rows).data, digest_size=16).digest()
-    else:
-        content = (id(root), rows.__array_interface__["data"][0], rows.strides)
-    key = (content, rows.shape, rows.dtype, width, normalised)
-    return context.arrays.converted.get(key, root, lambda: _converted(rows, width, context, normalised))
-
-
-def _root(rows: np.ndarray) -> np.ndarray:
-    """Return the array that owns the memory, as far as NumPy tells."""
-    while isinstance(rows.base, np.ndarray):
-        rows = rows.base
-    return rows
-
-
-def _converted(rows: np.ndarray, width: int, context: Context, normalised: bool) -> np.ndarray:
-    """Return rows with all their components: a missing fourth is 1, others 0."""
-    fits = rows.shape[1] == width and rows.dtype == context.real and rows.flags.c_contiguous
-    if fits and not _root(rows).flags.writeable:
-        return rows
-    full = np.empty((len(rows), width), context.real)
-    full[:] = REST[:width]
-    with np.errstate(over="ignore"):
-        fractions = rows.dtype.kind in "iu" and normalised
-        full[:, : rows.shape[1]] = _fractions(rows, context.real) if fractions else rows
-    full.setflags(write=False)
-    return full
-
-
-def _fractions(rows: np.ndarray, real: type[np.floating]) -> np.ndarray:
-    """Return integers as the fractions they stand for: times the rounded step; of unsigned ints the upper 23 bits."""
-    if rows.dtype == np.uint32:
-        return (rows >> np.uint32(9)).astype(real) * real(1 / LARGEST_FRACTION)
-    return rows.astype(real) * real(1 / np.iinfo(rows.dtype).max)
 
 
 __all__ = spelled_like_gl(globals())

@@ -34,7 +34,7 @@ FARTHEST = 1e25
 
 @dataclass(frozen=True, eq=False)
 class ShadowVolume:
-    """Polygons whose directed edges cancel: every edge is run along as often as against.
+    """Polygons whose directed edges cancel: every edge is run along as often as against. All arrays are read-only.
 
     Attributes
     ----------
@@ -51,6 +51,10 @@ class ShadowVolume:
     light_cap_reversed: np.ndarray
     sides: np.ndarray
     far_vertices: np.ndarray
+
+    def __post_init__(self) -> None:
+        for array in (self.light_cap, self.light_cap_reversed, self.sides, self.far_vertices):
+            array.setflags(write=False)
 
     @property
     def dark_cap(self) -> np.ndarray:
