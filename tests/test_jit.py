@@ -11,6 +11,36 @@ import softshadow
 from softshadow.jit import KERNEL_SOURCES
 
 PACKAGE = Path(softshadow.__file__).parent
+WATCH = """
+import gc
+import softshadow.pipeline
+from numba.core import event
+from softshadow.jit import kernel
+
+meanwhile = []
+
+class Watch(event.Listener):
+    def on_start(self, event):
+        meanwhile.append(gc.isenabled())
+
+    def on_end(self, event):
+        pass
+
+@kernel
+def inner(x):
+    return x + 1
+
+@kernel
+def outer(x):
+    return inner(x)
+
+with event.install_listener("numba:compile", Watch()):
+    outer(1)
+print(meanwhile, gc.isenabled())
+gc.disable()
+outer(1.5)
+print(gc.isenabled())
+"""
 COUNT_UP = """
 import numpy as np
 from softshadow.pipeline.fragment_ops import FragmentOps, process_fragment
@@ -56,6 +86,13 @@ def test_a_cache_folder_that_cannot_be_written_is_no_error(tmp_path):
     blocked = tmp_path / "a file where the folder should be"
     blocked.write_text("")
     assert run_with(PACKAGE.parent, blocked) == "8"
+
+
+def test_garbage_is_collected_after_kernels_are_compiled_where_it_was_before(tmp_path):
+    script = tmp_path / "watch.py"  # of a file: Numba's cache asks for one
+    script.write_text(WATCH)
+    code = f"import runpy; runpy.run_path({str(script)!r})"
+    assert run_with(PACKAGE.parent, tmp_path, code).splitlines() == ["[False, False] True", "False"]
 
 
 def test_a_users_own_numba_cache_folder_is_left_as_it_was(tmp_path):

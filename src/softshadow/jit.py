@@ -4,6 +4,7 @@ Numba's own cache does not see that a function in another file has changed. The 
 of all sources that can take part in a kernel: an edit is answered by new code, never by a stale result.
 """
 
+import gc
 import hashlib
 import os
 import shutil
@@ -16,6 +17,7 @@ from typing import Any
 
 import numba
 import numpy as np
+from numba.core import event
 
 # all that kernels are in, and all that these import: its constants are part of the compiled code
 KERNEL_SOURCES = (
@@ -23,6 +25,8 @@ KERNEL_SOURCES = (
     "pixels.py", "state.py", "texture.py", "tokens.py", "pipeline", "programs", "scene", "truth",
 )  # fmt: skip
 KEPT_VERSIONS = 8
+# no kernel is called from C: its wrapper for that would take a twentieth of the time of compilation
+OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 
 
 @cache
@@ -79,14 +83,36 @@ def kernel(function: Callable[..., Any]) -> Any:
     # the folder is read when the decorator runs, so a user's own setting is back before anybody else can see ours
     config.CACHE_DIR = str(folder) if folder else ""
     try:
-        return numba.njit(cache=folder is not None, nogil=True, error_model="numpy")(function)
+        return numba.njit(cache=folder is not None, **OPTIONS)(function)
     finally:
         config.CACHE_DIR = kept
 
 
 def inlined(function: Callable[..., Any]) -> Any:
     """Compile a function into each kernel that calls it (decorator): what it is called with there is folded away."""
-    return numba.njit(inline="always", nogil=True, error_model="numpy")(function)
+    return numba.njit(inline="always", **OPTIONS)(function)
+
+
+class _CollectAfterwards(event.Listener):
+    """Lets garbage collection wait while Numba compiles, where looking for garbage took a tenth of the time."""
+
+    def __init__(self) -> None:
+        self.depth = 0  # kernels are compiled inside the compilation of others, under one lock
+        self.collected = True
+
+    def on_start(self, event: event.Event) -> None:
+        if self.depth == 0:
+            self.collected = gc.isenabled()
+            gc.disable()
+        self.depth += 1
+
+    def on_end(self, event: event.Event) -> None:
+        self.depth -= 1
+        if self.depth == 0 and self.collected:
+            gc.enable()
+
+
+event.register("numba:compile", _CollectAfterwards())
 
 
 def read_only(array: np.ndarray) -> np.ndarray:

@@ -51,7 +51,7 @@ def sort_into_bands(corners: np.ndarray, begin: int, end: int, region: Region) -
 @kernel
 def bands_met(corners, t, region):
     """Return first and end band of a triangle (end exclusive); an empty range where it meets none."""
-    first, end = bounds(corners, t)
+    first, end = bounds(corners, np.uint64(t))
     first, end = max(first, region.first_row), min(end, region.end_row)
     if first >= end:
         return 0, 0

@@ -198,21 +198,23 @@ def mixed(weight, a, b):
 
 
 @kernel
-def blend_fragment(ops, source, target, blended):
-    """Write the bytes that replace `target` (4,) when a fragment of colour `source` (4,) is blended with it."""
+def blend_fragment(ops, source, mask, target):
+    """Blend a fragment of colour `source` (4,) with the bytes `target` (4,) under the colour mask (4,)."""
     # int() of a byte is unsigned once compiled, and unsigned and signed branches together become float64
     source_alpha, target_alpha = np.int64(source[ALPHA]), np.int64(target[ALPHA])
     mixes = complement_of(ops.src_rgb, ops.dst_rgb) if ops.alone and ops.equation_rgb == gl.GL_FUNC_ADD else 0
     for c in range(4):
+        if not mask[c]:
+            continue
         s, d = np.int64(source[c]), np.int64(target[c])
         if ops.logic_op:
-            blended[c] = logic(ops.logic_op, s, d)
+            target[c] = logic(ops.logic_op, s, d)
             continue
         a, b = factors_of(ops, c, s, d, source_alpha, target_alpha, 255)
         if mixes:
-            blended[c] = mixed(a, d, s) if mixes > 0 else mixed(b, s, d)
+            target[c] = mixed(a, d, s) if mixes > 0 else mixed(b, s, d)
         else:
-            blended[c] = equation(ops.equation_rgb if c < ALPHA else ops.equation_alpha, s, d, a, b)
+            target[c] = equation(ops.equation_rgb if c < ALPHA else ops.equation_alpha, s, d, a, b)
 
 
 @kernel
@@ -240,11 +242,14 @@ def float_equation(name, s, d, a, b, shared, complement):
 
 
 @kernel
-def blend_float_fragment(ops, source, target, blended):
-    """Write the floats that replace `target` (4,) when a fragment of colour `source` (4,) is blended with it."""
+def blend_float_fragment(ops, source, mask, target):
+    """Blend a fragment of colour `source` (4,) with the floats `target` (4,) under the colour mask (4,)."""
+    target_alpha = target[ALPHA]
     complement = complement_of(ops.src_rgb, ops.dst_rgb) if ops.alone else 0
     for c in range(4):
+        if not mask[c]:
+            continue
         s, d = source[c], target[c]
-        a, b = factors_of(ops, c, s, d, source[ALPHA], target[ALPHA], ONE)
+        a, b = factors_of(ops, c, s, d, source[ALPHA], target_alpha, ONE)
         name = ops.equation_rgb if c < ALPHA else ops.equation_alpha
-        blended[c] = float_equation(name, s, d, a, b, ops.shared, complement)
+        target[c] = float_equation(name, s, d, a, b, ops.shared, complement)

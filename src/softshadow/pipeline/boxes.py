@@ -11,7 +11,7 @@ triangles of 4 pixels: a loop over the box's own columns takes 47 ms, rows of 16
 import numpy as np
 
 from softshadow.jit import inlined, kernel
-from softshadow.pipeline.fragment_ops import PASSED, process_fragment
+from softshadow.pipeline.fragment_ops import NO_ALPHA, PASSED, process_fragment
 from softshadow.pipeline.spans import depth_units, id_after
 
 WIDEST = 16  # columns; measured, boxes are the faster up to some 12 to 24
@@ -67,7 +67,7 @@ def fill_box(
             inside2 = np.int32(at2 - np.int32(across2 * n))
             inside = np.int32(inside0 | inside1 | inside2) >= 0  # the sign of an or: whether one of them is negative
             s = stencil[j, i] if ops.stencil_test else np.uint8(0)
-            verdict, s, stored_z = process_fragment(ops, inside, 0, z, depth[j, i], s)
+            verdict, s, stored_z = process_fragment(ops, inside, NO_ALPHA, z, depth[j, i], s)
             if ops.stencil_test:
                 stencil[j, i] = s
             if ops.depth_write:

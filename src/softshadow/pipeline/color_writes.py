@@ -148,24 +148,14 @@ def add_bytes(rows, lefts, starts, stored, cells):
 @kernel
 def blend_bytes(ops, rows, lefts, starts, stored, mask, cells):
     """Blend colours (n, 4) with `cells` (H, pitch, 4) of bytes under the colour mask (4,)."""
-    blended = np.zeros(4, np.uint8)
     for r in range(rows.shape[0]):
         for n in range(starts[r], starts[r + 1]):
-            target = cells[rows[r], lefts[r] + n - starts[r]]
-            blend_fragment(ops, stored[n], target, blended)
-            for c in range(4):
-                if mask[c]:
-                    target[c] = blended[c]
+            blend_fragment(ops, stored[n], mask, cells[rows[r], lefts[r] + n - starts[r]])
 
 
 @kernel
 def blend_floats(ops, rows, lefts, starts, stored, mask, cells):
     """Blend colours (n, 4) with `cells` (H, pitch, 4) of float32 under the colour mask (4,)."""
-    blended = np.zeros(4, np.float32)
     for r in range(rows.shape[0]):
         for n in range(starts[r], starts[r + 1]):
-            target = cells[rows[r], lefts[r] + n - starts[r]]
-            blend_float_fragment(ops, stored[n], target, blended)
-            for c in range(4):
-                if mask[c]:
-                    target[c] = blended[c]
+            blend_float_fragment(ops, stored[n], mask, cells[rows[r], lefts[r] + n - starts[r]])

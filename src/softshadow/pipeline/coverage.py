@@ -8,7 +8,7 @@ import numpy as np
 
 from softshadow.jit import kernel
 
-FARTHEST = 1 << 30
+FARTHEST = np.int64(1 << 30)  # not a literal, for which `narrow` would be compiled once more
 
 
 @kernel
@@ -127,9 +127,9 @@ def triangles_at(corners, column, row, downwards, found):
     """Write the numbers of the triangles that cover one pixel to `found`; returns how many there are."""
     count = 0
     for t in range(corners.shape[0]):
-        first, end = bounds(corners, t)
+        first, end = bounds(corners, np.uint64(t))
         if first <= row < end:
-            left, right = row_span(corners, t, row, downwards)
+            left, right = row_span(corners, np.uint64(t), row, downwards)
             if left <= column < right:
                 found[count] = t
                 count += 1

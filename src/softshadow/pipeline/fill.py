@@ -55,10 +55,10 @@ def fill_rows(
 
     Depth and stencil change, the ids where `writes_ids` is LAST or SOLE.
     """
-    first, end = bounds(corners, t)
+    first, end = bounds(corners, np.uint64(t))
     plane = z_planes[t]
     for row in range(max(first, region.first_row), min(end, region.end_row)):
-        left, right = row_span(corners, t, row, region.downwards)
+        left, right = row_span(corners, np.uint64(t), row, region.downwards)
         left, right = max(left, region.left), min(right, region.right)
         if left < right:
             row_z = plane[2] * columns[row]
@@ -104,10 +104,10 @@ def fill_small(
 @kernel
 def count_triangle(ops, triangles, t, region, depth_range, planes):
     """Count what will happen to the fragments of triangle `t`, before they are processed."""
-    first, end = bounds(triangles.corners, t)
+    first, end = bounds(triangles.corners, np.uint64(t))
     plane = triangles.depth[t]
     for row in range(max(first, region.first_row), min(end, region.end_row)):
-        left, right = row_span(triangles.corners, t, row, region.downwards)
+        left, right = row_span(triangles.corners, np.uint64(t), row, region.downwards)
         row_z = plane[2] * planes.columns[row]
         count_span(
             ops, plane, row_z, depth_range, planes.columns, max(left, region.left), min(right, region.right),

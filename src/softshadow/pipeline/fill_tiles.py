@@ -10,7 +10,7 @@ from softshadow.pipeline.boxes import columns_of
 from softshadow.pipeline.coverage import bounds, row_spans
 from softshadow.pipeline.facing import EITHER
 from softshadow.pipeline.fill import fill_small
-from softshadow.pipeline.fragment_ops import DECR_WRAP, process_fragment
+from softshadow.pipeline.fragment_ops import DECR_WRAP, NO_ALPHA, process_fragment
 from softshadow.pipeline.spans import depth_units
 from softshadow.pipeline.tiles import (
     COLUMNS,
@@ -45,7 +45,7 @@ def fill_chunk(ops, z0, dz, row_z, offset, depth_range, columns, left, right, st
         i = np.uint64(start + k)
         inside = (columns[i] >= left) & (columns[i] < right)
         z = depth_units(((dz * columns[i] + z0) + row_z) + offset, depth_range, ops.depth_largest)
-        _, stencil[j, i], _ = process_fragment(ops, inside, 0, z, depth[j, i], stencil[j, i])
+        _, stencil[j, i], _ = process_fragment(ops, inside, NO_ALPHA, z, depth[j, i], stencil[j, i])
 
 
 @inlined

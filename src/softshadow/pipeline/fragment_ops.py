@@ -13,6 +13,7 @@ from softshadow.image import Image
 from softshadow.jit import kernel
 from softshadow.state import State
 
+NO_ALPHA = np.int64(0)  # where none is tested; a literal would make the compiler take `process_fragment` once more
 PASSED, SCISSORED, ALPHA_FAILED, STENCIL_FAILED, DEPTH_FAILED = range(5)
 VERDICTS = ("passed", "scissor", "alpha failed", "stencil failed", "depth failed")
 

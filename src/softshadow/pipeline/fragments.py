@@ -58,9 +58,9 @@ def collect(corners, region, rows, columns, numbers):
     """Write the fragments, as far as there is room; returns how many there are."""
     count, room = 0, rows.shape[0]
     for t in range(corners.shape[0]):
-        first, end = bounds(corners, t)
+        first, end = bounds(corners, np.uint64(t))
         for row in range(max(first, region.first_row), min(end, region.end_row)):
-            left, right = row_span(corners, t, row, region.downwards)
+            left, right = row_span(corners, np.uint64(t), row, region.downwards)
             left, right = max(left, region.left), min(right, region.right)
             if room:
                 for column in range(left, right):
@@ -89,9 +89,10 @@ def test_fragments(front, back, fragments, alpha, triangles, depth_range, column
         row, column, t = fragments.row[n], fragments.column[n], fragments.triangle[n]
         ops = front if triangles.front[t] else back
         z = fragment_depth(triangles.depth, t, columns[row], columns[column], depth_range, ops.depth_largest)
-        verdict, s, stored_z = process_fragment(ops, True, int(alpha[n]), z, depth[row, column], stencil[row, column])
+        before = stencil[row, column]
+        verdict, s, stored_z = process_fragment(ops, True, np.int64(alpha[n]), z, depth[row, column], before)
         verdicts[n] = verdict
-        changed += 1 if s != stencil[row, column] else 0
+        changed += 1 if s != before else 0
         stencil[row, column] = s
         if ops.depth_write:
             depth[row, column] = stored_z

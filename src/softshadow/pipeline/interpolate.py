@@ -46,7 +46,7 @@ def attribute_planes(window, values, back, vertices, front, seen, flat, provokin
             line_or_point_planes(window, source, v0, v1, base, step, across)
         else:
             x, y, w0, w1, w2 = window[v0, 0], window[v0, 1], window[v0, 3], window[v1, 3], window[v2, 3]
-            dx01, dy01, dx20, dy20, over_area = edge_differences(window, v0, v1, v2)
+            dx01, dy01, dx20, dy20, over_area = edge_differences(window, np.uint64(v0), np.uint64(v1), np.uint64(v2))
             dx01, dy01, dx20, dy20 = dx01 * over_area, dy01 * over_area, dx20 * over_area, dy20 * over_area
             a0, a1, a2 = source[v0], source[v1], source[v2]
             for c in range(k):

@@ -10,7 +10,7 @@ import numpy as np
 
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import HALF_RANGE, TWO
-from softshadow.pipeline.fragment_ops import PASSED, process_fragment
+from softshadow.pipeline.fragment_ops import NO_ALPHA, PASSED, process_fragment
 from softshadow.pixels import LARGEST_UINT
 
 LAST, SOLE = 1, 2  # what is written of the triangles that pass at a pixel: the last one's number, or the only one's
@@ -53,7 +53,7 @@ def fill_span(ops, writes_ids, plane, row_z, depth_range, columns, left, right, 
     for column in range(left, right):
         i = np.uint64(column)  # unsigned: no wrap-around of negative indices is compiled in
         z = depth_units(((dz * columns[i] + z0) + row_z) + offset, depth_range, ops.depth_largest)
-        verdict, s, stored_z = process_fragment(ops, True, 0, z, depth[i], stencil[i])
+        verdict, s, stored_z = process_fragment(ops, True, NO_ALPHA, z, depth[i], stencil[i])
         if ops.stencil_test:
             stencil[i] = s
         if ops.depth_write:
@@ -67,6 +67,6 @@ def count_span(ops, plane, row_z, depth_range, columns, left, right, depth, sten
     """Count what will happen to the fragments of one row, before they are processed."""
     for i in range(left, right):
         z = depth_units(((plane[1] * columns[i] + plane[0]) + row_z) + plane[3], depth_range, ops.depth_largest)
-        verdict, s, _ = process_fragment(ops, True, 0, z, depth[i], stencil[i])
+        verdict, s, _ = process_fragment(ops, True, NO_ALPHA, z, depth[i], stencil[i])
         verdicts[verdict] += 1
         verdicts[verdicts.shape[0] - 1] += 1 if s != stencil[i] else 0

@@ -32,6 +32,7 @@ UNORM8_STEP = ONE / np.float32(255.0)
 STEP_OF_23_BITS = ONE / np.float32(LARGEST_SAMPLED)  # of the 32 bits of a depth llvmpipe reads the upper 23
 
 FIRST_TEXEL = np.uint32(0)
+RED = np.int64(0)  # the first channel; a literal would make the compiler take `fetch` once more
 
 # where R, G, B, A of the result come from: a channel of the cells, or a constant
 CONSTANT_ZERO, CONSTANT_ONE = 4, 5
@@ -152,7 +153,7 @@ def gather_texels(columns, rows, cells, width, border, unit, sources, out):
             continue
         if unit == STEP_OF_23_BITS:
             for n in range(len(columns)):
-                out[c, n] = fetch(cells, width, border, unit, columns[n], rows[n], source)
+                out[c, n] = fetch(cells, width, border, unit, np.int64(columns[n]), np.int64(rows[n]), source)
             continue
         outside = border[source]
         for n in range(len(columns)):  # as `fetch`, but without branches: a texel is read in any case
@@ -200,8 +201,8 @@ def filter_fixed_point(coordinates, cells, width, wraps, sources, out):
             if source >= CONSTANT_ZERO:
                 out[c, n] = ZERO if source == CONSTANT_ZERO else ONE
             else:
-                lower = mix_fixed_point(x_weight, int(cells[j0, i0, source]), int(cells[j0, i1, source]))
-                upper = mix_fixed_point(x_weight, int(cells[j1, i0, source]), int(cells[j1, i1, source]))
+                lower = mix_fixed_point(x_weight, np.int64(cells[j0, i0, source]), np.int64(cells[j0, i1, source]))
+                upper = mix_fixed_point(x_weight, np.int64(cells[j1, i0, source]), np.int64(cells[j1, i1, source]))
                 out[c, n] = np.float32(mix_fixed_point(y_weight, lower, upper)) * UNORM8_STEP
 
 
@@ -241,15 +242,15 @@ def compare_depth(coordinates, cells, width, wraps, border, unit, linear, func, 
             i0, i1, x_weight = linear_texels(coordinates[0, n], width, wraps[0])
             j0, j1, y_weight = linear_texels(coordinates[1, n], height, wraps[1])
             rest = ONE - x_weight
-            lower = rest if passes(func, r, fetch(cells, width, border, unit, i0, j0, 0)) else ZERO
-            lower = (x_weight if passes(func, r, fetch(cells, width, border, unit, i1, j0, 0)) else ZERO) + lower
-            upper = rest if passes(func, r, fetch(cells, width, border, unit, i0, j1, 0)) else ZERO
-            upper = (x_weight if passes(func, r, fetch(cells, width, border, unit, i1, j1, 0)) else ZERO) + upper
+            lower = rest if passes(func, r, fetch(cells, width, border, unit, i0, j0, RED)) else ZERO
+            lower = (x_weight if passes(func, r, fetch(cells, width, border, unit, i1, j0, RED)) else ZERO) + lower
+            upper = rest if passes(func, r, fetch(cells, width, border, unit, i0, j1, RED)) else ZERO
+            upper = (x_weight if passes(func, r, fetch(cells, width, border, unit, i1, j1, RED)) else ZERO) + upper
             lit = mix(y_weight, lower, upper)
         else:
             i0 = nearest_texel(coordinates[0, n], width, wraps[0])
             j0 = nearest_texel(coordinates[1, n], height, wraps[1])
-            lit = ONE if passes(func, r, fetch(cells, width, border, unit, i0, j0, 0)) else ZERO
+            lit = ONE if passes(func, r, fetch(cells, width, border, unit, i0, j0, RED)) else ZERO
         for c in range(out.shape[0]):
             source = sources[c]
             out[c, n] = lit if source < CONSTANT_ZERO else (ZERO if source == CONSTANT_ZERO else ONE)

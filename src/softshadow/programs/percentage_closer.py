@@ -15,7 +15,7 @@ import numpy as np
 
 from softshadow.jit import inlined, kernel
 from softshadow.programs import needs_blocks
-from softshadow.programs.filtering import CONSTANT_ZERO, STEP_OF_23_BITS, fetch, sources_of, texels_of, wraps_of
+from softshadow.programs.filtering import CONSTANT_ZERO, RED, STEP_OF_23_BITS, fetch, sources_of, texels_of, wraps_of
 from softshadow.programs.sampling import is_complete, sample
 from softshadow.programs.wrapping import nearest_texels
 from softshadow.texture import Texture
@@ -51,7 +51,7 @@ def count_lit(texture: Texture, projected: np.ndarray, depths: np.ndarray, radiu
             for texel_of, offset in zip(texels[axis], offsets, strict=True):
                 nearest_texels(projected[:, axis] + offset, size, wraps[axis], texel_of)
         kinds = np.empty(len(projected), np.int8)
-        classify(texels, image.width, image.height, kinds)
+        classify(texels, image.width, image.height, *np.ones((3, len(projected)), bool), kinds)
         if unit == STEP_OF_23_BITS:
             kinds[kinds == SIDE_BY_SIDE] = MIXED
         count_nearest(texels, kinds, depths, cells, image.width, border, unit, lit)
@@ -76,16 +76,17 @@ def is_plain(texture: Texture) -> bool:
 
 
 @kernel
-def classify(texels, width, height, kinds):
-    """Write what is known of each pixel's texels (2, k, N), columns and rows, to `kinds` (N,)."""
-    columns, rows = texels[0], texels[1]
-    last, inside = texels.shape[1] - 1, np.empty(len(kinds), np.bool_)
+def classify(texels, width, height, inside, beside, above, kinds):
+    """Write what is known of each pixel's texels (2, k, N), columns and rows, to `kinds` (N,).
+
+    `inside`, `beside`, `above` (N,) bool are scratch, all True.
+    """
+    columns, rows, last = texels[0], texels[1], texels.shape[1] - 1
     for n in range(len(kinds)):
         inside[n] = (columns[0, n] >= 0) & (columns[last, n] < width) & (rows[0, n] >= 0) & (rows[last, n] < height)
     for i in range(last):
         for n in range(len(kinds)):
             inside[n] &= (columns[i + 1, n] - columns[i, n] == 1) & (rows[i + 1, n] - rows[i, n] == 1)
-    beside, above = np.ones(len(kinds), np.bool_), np.ones(len(kinds), np.bool_)
     for i in range(last + 1):
         for n in range(len(kinds)):
             beside[n] &= (columns[i, n] < 0) | (columns[i, n] >= width)
@@ -124,5 +125,6 @@ def count_nearest(texels, kinds, depths, cells, width, border, unit, lit):
         else:
             for j in range(side):
                 for i in range(side):
-                    count += np.int32(depth <= fetch(cells, width, border, unit, columns[i, n], rows[j, n], 0))
+                    column, row = np.int64(columns[i, n]), np.int64(rows[j, n])
+                    count += np.int32(depth <= fetch(cells, width, border, unit, column, row, RED))
         lit[n] = count

@@ -118,7 +118,7 @@ def looked_up(texture: Texture, cell: np.ndarray, side: Any, i: int, j: int) -> 
     real = cell.dtype.type
     coordinates = np.zeros((len(cell), 3), cell.dtype)
     coordinates[:, :2] = (cell + np.array([i + 0.5, j + 0.5], cell.dtype)) * (real(1) / side)
-    found = np.empty((len(cell), 4), cell.dtype)
+    found = np.empty((4, len(cell)), cell.dtype).T  # by column, as all that is sampled
     sample(texture, coordinates, found)
     return found[:, :3]
 

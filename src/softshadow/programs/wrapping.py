@@ -21,6 +21,10 @@ LOWEST_INT32, NO_TEXELS = np.int32(OUT_OF_RANGE), np.int32(0)
 # by the first: the 4 texels below 9 repeat as 9 would.
 REPEAT_BY_MASK = 1
 FIXED_POINT_WRAPS = (GL_REPEAT, REPEAT_BY_MASK, GL_CLAMP_TO_EDGE)
+# modes as numbers of one type: of literals, each would have a `nearest_texel` compiled for itself
+BY_MASK, REPEAT, TO_BORDER, MIRRORED, TO_EDGE = (
+    np.int64(wrap) for wrap in (REPEAT_BY_MASK, GL_REPEAT, GL_CLAMP_TO_BORDER, GL_MIRRORED_REPEAT, GL_CLAMP_TO_EDGE)
+)
 WRAPS = (GL_REPEAT, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_BORDER, GL_CLAMP, GL_MIRRORED_REPEAT)
 
 
@@ -78,19 +82,19 @@ def nearest_texels(coordinates, size, wrap, texels):
     """
     if wrap == REPEAT_BY_MASK:
         for n in range(len(coordinates)):
-            texels[n] = nearest_texel(coordinates[n], size, REPEAT_BY_MASK)
+            texels[n] = nearest_texel(coordinates[n], size, BY_MASK)
     elif wrap == GL_REPEAT:
         for n in range(len(coordinates)):
-            texels[n] = nearest_texel(coordinates[n], size, GL_REPEAT)
+            texels[n] = nearest_texel(coordinates[n], size, REPEAT)
     elif wrap == GL_CLAMP_TO_BORDER:
         for n in range(len(coordinates)):
-            texels[n] = nearest_texel(coordinates[n], size, GL_CLAMP_TO_BORDER)
+            texels[n] = nearest_texel(coordinates[n], size, TO_BORDER)
     elif wrap == GL_MIRRORED_REPEAT:
         for n in range(len(coordinates)):
-            texels[n] = nearest_texel(coordinates[n], size, GL_MIRRORED_REPEAT)
+            texels[n] = nearest_texel(coordinates[n], size, MIRRORED)
     else:
         for n in range(len(coordinates)):
-            texels[n] = nearest_texel(coordinates[n], size, GL_CLAMP_TO_EDGE)
+            texels[n] = nearest_texel(coordinates[n], size, TO_EDGE)
 
 
 @kernel
