@@ -65,11 +65,11 @@ def random_state(rng: np.random.Generator, state: State) -> State:
     )
 
 
-def draw(context: Context, state: State, triangles: Vertices) -> None:
-    """Draw triangles under a state, in the precision of the context."""
+def draw(context: Context, state: State, triangles: Vertices, mode: int = gl.GL_TRIANGLES) -> None:
+    """Draw triangles, or what else the mode makes of the vertices, under a state, in the precision of the context."""
     context.state = state
     position, color, normal = (context.frozen(rows) for rows in (triangles.position, triangles.color, triangles.normal))
-    context.draw(gl.GL_TRIANGLES, Vertices(position, color, normal, ()))
+    context.draw(mode, Vertices(position, color, normal, ()))
 
 
 def same_window(a: Context, b: Context) -> bool:

@@ -25,13 +25,13 @@ def random_corners(seed: int, count: int) -> np.ndarray:
 def test_a_band_has_the_triangles_that_meet_it_in_drawing_order(seed, count, first_row, rows):
     corners = random_corners(seed, count)
     region = Region(0, 100, first_row, first_row + rows, 1)
-    begin, end = count // 4, count - count // 5
-    bins = sort_into_bands(corners, begin, end, region)
+    parts = [(count // 4, count // 3), (count // 2, count - count // 5)]
+    bins = sort_into_bands(corners, parts, region)
     assert bands_of(region) == len(bins.starts) - 1
     for band in range(bands_of(region)):
         low = first_row + band * ROWS
         high = min(low + ROWS, region.end_row)
-        spans = [(t, *bounds(corners, t)) for t in range(begin, end)]
+        spans = [(t, *bounds(corners, t)) for part in parts for t in range(*part)]
         assert bins.of(band).tolist() == [t for t, first, last in spans if max(first, low) < min(last, high)]
 
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from softshadow.pipeline import bands, set_threads, threads
 from softshadow.pipeline.clip import FRUSTUM, outcodes
-from softshadow.pipeline.vertex import process_vertices, to_clip, to_window
+from softshadow.pipeline.vertex import SPARE, process_vertices, to_clip, to_window, with_rows
 from softshadow.state import Viewport
 
 pytestmark = pytest.mark.interpreted
@@ -66,3 +66,15 @@ def test_window_positions_are_quotients_scaled_and_shifted_with_tiny_reciprocals
         scale = np.array([18.5, 11.5, 0.25], np.float32)
         shift = np.array([21.5, 16.5, 0.5], np.float32)
         np.testing.assert_array_equal(window, np.hstack([(clip[:, :3] * over_w) * scale + shift, over_w]))
+
+
+@pytest.mark.parametrize("more", [0, 1, 2, 3])
+def test_rows_are_appended_whether_or_not_there_is_room(more):
+    positions = np.random.default_rng(0).normal(0, 1, (17, 4)).astype(np.float32)
+    matrix = np.eye(4, dtype=np.float32)
+    window = process_vertices(matrix, positions, np.empty((0, 4), np.float32), False, VIEWPORT, 40, False)[2]
+    rows = np.arange(4 * more, dtype=np.float32).reshape(more, 4)
+    expected = np.concatenate([window, rows])
+    whole = with_rows(window, rows)
+    np.testing.assert_array_equal(whole, expected)
+    assert np.shares_memory(whole, window) == (more <= 17 // SPARE)

@@ -8,6 +8,7 @@
              opaque:   fill (coverage, depth, process_fragment) ----> triangle per pixel --> runs --> shade --> write
              ordered:  list fragments --> process_fragment --> those that passed --> shade --> blend, write
 
+Draws that leave no colours are set up and filled a portion at a time (`portions.py`): nobody shades their triangles.
 Opaque draws shade each visible pixel once, after the fill; draws whose colours depend on the order of their fragments
 (alpha test, blending, logic op) take the ordered path, and with an alpha test are shaded before `process_fragment`.
 Blended draws whose fragments do not overlap go the first way after all (`sole_fragments`). All leave the same buffers.
@@ -15,6 +16,7 @@ Blended draws whose fragments do not overlap go the first way after all (`sole_f
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,6 +33,7 @@ from softshadow.pipeline.fill import Region, no_ids
 from softshadow.pipeline.fragment_ops import PASSED, VERDICTS, fragment_ops
 from softshadow.pipeline.fragments import Fragments, list_fragments, test_fragments
 from softshadow.pipeline.geometry import Geometry, depth_range_of, process_geometry, region_of
+from softshadow.pipeline.portions import leaves_no_colors, portions_of
 from softshadow.pipeline.runs import runs_of, visible_runs
 from softshadow.pipeline.setup import Setup
 from softshadow.pipeline.shading import shade, shade_and_write
@@ -59,6 +62,9 @@ def draw(command: Draw, storage: Storage, verdicts: np.ndarray | None = None) ->
     if not target.attachments:
         raise StateError(f"framebuffer {target.name} has nothing attached to draw to")
     with np.errstate(all="ignore"):  # infinities of vertices that clipping removes; interpreted kernels would warn
+        if verdicts is None and not needs_order(command.state) and leaves_no_colors(command, target):
+            _draw_in_portions(command, target)
+            return
         geometry = process_geometry(command, target, storage)
         if not len(geometry.triangles.ids):
             return
@@ -83,6 +89,17 @@ def _draw_opaque(
     fill(front, back, triangles, fragments, region, depth_range, depth, stencil, ids, verdicts)
     if ids is not None:
         shade_and_write(state, target, geometry, visible_runs(ids, region.first_row), ordered=False)
+
+
+def _draw_in_portions(command: Draw, target: Framebuffer) -> None:
+    state, real = command.state, command.vertices.position.dtype
+    depth, stencil = _planes(target, real)
+    front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
+    depth_range = depth_range_of(state, real.type)
+    for triangles, runs in portions_of(command, target):
+        region, fragments = _covered(triangles, region_of(state, target), runs)
+        if region.first_row < region.end_row:
+            fill(front, back, triangles, fragments, region, depth_range, depth, stencil, runs=runs)
 
 
 def _draw_in_order(
@@ -125,9 +142,12 @@ def _draw_in_order(
                 color_writer(state, image)(written, colors[passed])
 
 
-def _covered(triangles: Setup, region: Region) -> tuple[Region, int]:
-    """Return the region cut to the rows that the triangles meet, and about how many fragments they have."""
-    parts = parts_of(len(triangles.corners))
+def _covered(triangles: Setup, region: Region, runs: Sequence[tuple[int, int]] | None = None) -> tuple[Region, int]:
+    """Return the region cut to the rows that the triangles meet, and about how many fragments they have.
+
+    `runs` are those of `fill`.
+    """
+    parts = parts_of(len(triangles.corners)) if runs is None else runs
     extents = share(lambda n: extent(triangles.corners, *parts[n]), len(parts))
     firsts, ends, areas = zip(*extents, strict=True)
     cut = region._replace(first_row=max(region.first_row, min(firsts)), end_row=min(region.end_row, max(ends)))

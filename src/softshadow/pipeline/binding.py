@@ -6,7 +6,7 @@ specialised once it has drawn enough fragments to pay for the compilation, at on
 """
 
 import hashlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import partial
@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 
 from softshadow.jit import cache_folder, inlined, kernel
-from softshadow.pipeline.bands import share, threads
-from softshadow.pipeline.bins import AT_A_TIME, ROWS, Bins, bands_of, sort_into_bands
+from softshadow.pipeline.bands import parts_of, share, threads
+from softshadow.pipeline.bins import ROWS, Bins, bands_of, sort_into_bands
 from softshadow.pipeline.facing import BACK, EITHER, FRONT
 from softshadow.pipeline.fill import Planes, Region, count_triangle, fill_rows, fill_small, is_small
 from softshadow.pipeline.fill_tiles import fill_in_tiles
@@ -29,6 +29,7 @@ from softshadow.pipeline.tiles import commutes
 PAYS_AFTER = 200_000_000  # fragments of one state; measured: the generic binding draws them in 1.5 s, what it takes
 # to compile the state
 WORTH = 200_000  # fragments from which sorting and the hand-over to other threads are small against the work
+AT_A_TIME = 1 << 19  # triangles; bounds the memory of numbers where all of them meet all bands
 LAYERS = 4  # of fragments over each other, from which bands pay on one thread, too
 VERDICT_COUNTS = 6  # one per verdict, and the number of stencil values that changed
 
@@ -166,11 +167,13 @@ def fill(
     ids: np.ndarray | None = None,
     verdicts: np.ndarray | None = None,
     writes: int = LAST,
+    runs: Sequence[tuple[int, int]] | None = None,
 ) -> None:
     """Process all fragments of the triangles inside the region, on the binding that pays and in bands where they pay.
 
     `fragments` is about how many there are (`coverage.extent`), `ids` and `verdicts` are those of `Planes`, `writes`
-    is LAST or SOLE; verdicts are counted by the generic binding in one band.
+    is LAST or SOLE; verdicts are counted by the generic binding in one band. `runs` are the rows [first, end) of
+    `triangles` to be drawn, without it all.
     """
     columns = np.arange(max(*depth.shape, region.right, region.end_row), dtype=triangles.depth.dtype)
     two_sided, writes_ids, counts = int(front != back), writes * (ids is not None), int(verdicts is not None)
@@ -190,10 +193,11 @@ def fill(
         bound(front, back, triangles, numbers, part, depth_range, rows)
 
     if counts or not _bands_pay(region, fragments):
-        fill_part(np.arange(len(triangles.ids), dtype=np.int32), region.first_row, region.end_row)
+        for first, end in [(0, len(triangles.ids))] if runs is None else runs:
+            fill_part(np.arange(first, end, dtype=np.int32), region.first_row, region.end_row)
         return
-    for begin in range(0, len(triangles.ids), AT_A_TIME):
-        bins = sort_into_bands(triangles.corners, begin, min(begin + AT_A_TIME, len(triangles.ids)), region)
+    for parts in _portions(len(triangles.ids)) if runs is None else [runs]:
+        bins = sort_into_bands(triangles.corners, parts, region)
 
         def fill_band(band: int, bins: Bins = bins) -> None:
             first = region.first_row + band * ROWS
@@ -202,6 +206,12 @@ def fill(
                 fill_part(numbers, first, min(first + ROWS, region.end_row))
 
         share(fill_band, bands_of(region))
+
+
+def _portions(count: int) -> Iterator[list[tuple[int, int]]]:
+    """Yield the parts of so many triangles that are sorted into bands at a time."""
+    for begin in range(0, count, AT_A_TIME):
+        yield [(begin + first, begin + end) for first, end in parts_of(min(AT_A_TIME, count - begin))]
 
 
 def _bands_pay(region: Region, fragments: int) -> bool:

@@ -4,18 +4,18 @@ A counting sort: count per band, add up, write. Within a band the numbers keep t
 results the same for any number of threads.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from softshadow.jit import kernel
-from softshadow.pipeline.bands import parts_of, share
+from softshadow.pipeline.bands import share
 from softshadow.pipeline.coverage import bounds
 from softshadow.pipeline.fill import Region
 
 ROWS_LOG2 = 5  # rows of a band, 32
 ROWS = 1 << ROWS_LOG2
-AT_A_TIME = 1 << 19  # triangles; bounds the memory of triangles that all meet all bands
 
 
 class Bins(NamedTuple):
@@ -34,9 +34,8 @@ def bands_of(region: Region) -> int:
     return -(-(region.end_row - region.first_row) // ROWS)
 
 
-def sort_into_bands(corners: np.ndarray, begin: int, end: int, region: Region) -> Bins:
-    """Return the bins of the triangles [begin, end) for the bands of a region."""
-    parts = [(begin + first, begin + last) for first, last in parts_of(end - begin)]
+def sort_into_bands(corners: np.ndarray, parts: Sequence[tuple[int, int]], region: Region) -> Bins:
+    """Return the bins of triangles for the bands of a region; `parts` are their first and end numbers, in order."""
     counts = np.zeros((len(parts), bands_of(region)), np.int64)
     share(lambda n: count_per_band(corners, *parts[n], region, counts[n]), len(parts))
     # band after band, and in a band part after part: so the drawing order is kept
@@ -62,16 +61,17 @@ def bands_met(corners, t, region):
 def count_per_band(corners, begin, end, region, counts):
     """Add to `counts` (bands,) how many triangles meet each band."""
     for t in range(begin, end):
-        first_band, end_band = bands_met(corners, t, region)
+        first_band, end_band = bands_met(corners, np.uint64(t), region)
         for band in range(first_band, end_band):
-            counts[band] += 1
+            counts[np.uint64(band)] += 1  # unsigned: no wrap-around of negative indices is compiled in
 
 
 @kernel
 def write_numbers(corners, begin, end, region, places, numbers):
     """Write the number of each triangle where its bands go on; `places` (bands,) moves along."""
     for t in range(begin, end):
-        first_band, end_band = bands_met(corners, t, region)
+        first_band, end_band = bands_met(corners, np.uint64(t), region)
         for band in range(first_band, end_band):
-            numbers[places[band]] = t
-            places[band] += 1
+            b = np.uint64(band)
+            numbers[np.uint64(places[b])] = t
+            places[b] += 1

@@ -10,11 +10,13 @@ import numpy as np
 
 from softshadow.jit import kernel, read_only
 from softshadow.pipeline.constants import SMALLEST_NORMAL, ZERO
+from softshadow.pipeline.facing import vertices_of
 
 # plane k keeps a x + b y + c z + d w >= 0; the order is the order of clipping
 FRUSTUM = np.array([[-1, 0, 0, 1], [1, 0, 0, 1], [0, -1, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [0, 0, -1, 1]], np.float32)
 NEAR_FAR = 0b110000
 FRUSTUM_PLANES = len(FRUSTUM)
+INSIDE, CUT, OUTSIDE = 0, 1, 2  # sides of triangles
 NO_EDGES = np.empty((0, 3), np.uint8)
 ADDED_PER_PLANE = 2  # a plane cuts a convex polygon in two new vertices
 
@@ -58,7 +60,9 @@ def clip_triangles(
     triangles = read_only(triangles)
     if not codes.any():
         return Clipped(clip, values, triangles, np.arange(len(triangles), dtype=np.int32), edges)
-    whole, cut = count_inside(triangles, codes)
+    sides = np.empty(len(triangles), np.uint8)
+    write_sides(triangles, codes, 0, len(triangles), sides)
+    whole, cut = np.count_nonzero(sides == INSIDE), np.count_nonzero(sides == CUT)
     planes = frustum_and(user_planes, clip.dtype)
     room = len(planes) * ADDED_PER_PLANE
     more_clip, more_values = clip, np.ascontiguousarray(values)  # one memory order, one compiled kernel
@@ -113,17 +117,12 @@ def write_outcodes(clip, user_planes, ignored, codes):
 
 
 @kernel
-def count_inside(triangles, codes):
-    """Return how many triangles are inside of all planes, and how many have to be cut."""
-    whole, cut = 0, 0
-    for t in range(triangles.shape[0]):
-        # unsigned: no wrap-around of negative indices is compiled in
-        v0, v1, v2 = np.uint64(triangles[t, 0]), np.uint64(triangles[t, 1]), np.uint64(triangles[t, 2])
+def write_sides(triangles, codes, first, end, sides):
+    """Write which of the triangles [first, end) are inside of all planes, outside of one, or have to be cut."""
+    for t in range(first, end):
+        v0, v1, v2 = vertices_of(triangles, t)
         a, b, c = codes[v0], codes[v1], codes[v2]
-        none_outside, one_inside = (a | b | c) == 0, (a & b & c) == 0
-        whole += 1 if none_outside else 0
-        cut += 1 if one_inside and not none_outside else 0
-    return whole, cut
+        sides[t] = INSIDE if (a | b | c) == 0 else OUTSIDE if a & b & c else CUT
 
 
 @kernel

@@ -42,9 +42,8 @@ def snap_vertices(window, first, end, snapped):
 
 
 @kernel
-def facing_and_area(snapped, triangles, t, culled, positive_is_front):
+def facing_and_area(snapped, v0, v1, v2, culled, positive_is_front):
     """Return 1 for a front and 0 for a back face, or -1 where nothing is drawn; and twice the area, with its sign."""
-    v0, v1, v2 = triangles[t, 0], triangles[t, 1], triangles[t, 2]
     x0, y0 = int(snapped[v0, 0]), int(snapped[v0, 1])
     x1, y1 = int(snapped[v1, 0]), int(snapped[v1, 1])
     x2, y2 = int(snapped[v2, 0]), int(snapped[v2, 1])
@@ -58,10 +57,17 @@ def facing_and_area(snapped, triangles, t, culled, positive_is_front):
 
 
 @kernel
+def vertices_of(triangles, t):
+    """Return the numbers of a triangle's vertices, unsigned: no wrap-around of negative indices is compiled in."""
+    n = np.uint64(t)
+    return np.uint64(triangles[n, 0]), np.uint64(triangles[n, 1]), np.uint64(triangles[n, 2])
+
+
+@kernel
 def count_kept(snapped, triangles, first, end, culled, positive_is_front):
     """Return how many of the triangles [first, end) are drawn."""
     count = 0
     for t in range(first, end):
-        facing, _ = facing_and_area(snapped, triangles, t, culled, positive_is_front)
+        facing, _ = facing_and_area(snapped, *vertices_of(triangles, t), culled, positive_is_front)
         count += 1 if facing >= 0 else 0
     return count

@@ -25,13 +25,13 @@ from softshadow.pipeline.primitives import (
     separate,
     through_indices,
 )
-from softshadow.pipeline.setup import Setup, add_float_units, in_order, offset_is_on, offset_of, set_up
+from softshadow.pipeline.setup import Offset, Setup, add_float_units, in_order, offset_is_on, offset_of, set_up
 from softshadow.pipeline.spans import DepthRange
 from softshadow.pipeline.unfilled import drawn_modes, outline
-from softshadow.pipeline.vertex import process_vertices, to_clip, to_window
+from softshadow.pipeline.vertex import process_vertices, to_clip, to_window, with_rows
 from softshadow.programs import Program, VertexInputs
 from softshadow.programs.inverse import inverse
-from softshadow.state import Cull, Polygon, State
+from softshadow.state import Cull, Polygon, State, Viewport
 from softshadow.texture import Texture, stored_name
 
 if TYPE_CHECKING:
@@ -44,6 +44,15 @@ NOTHING = Setup(
     np.empty(0, np.uint8),
     np.empty(0, np.int32),
 )
+
+
+class Positions(NamedTuple):
+    """The vertices of a draw: clip (V, 4), codes (V,) `outcodes`, window (V, 4); and planes (P, 4): `user_planes`."""
+
+    clip: np.ndarray
+    codes: np.ndarray
+    window: np.ndarray
+    planes: np.ndarray
 
 
 class Geometry(NamedTuple):
@@ -85,11 +94,7 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull:
     arrays = (vertices.position, vertices.color, vertices.normal, vertices.texcoords)
     transforms = (command.modelview, command.projection, command.texture_matrices)
     varyings = program.vertex(VertexInputs(*arrays, *transforms, uniforms, command.modelview_kind, vertices.materials))
-    planes, to_stored_rows = user_planes(command), (state.viewport, target.size[1], target.flipped)
-    clip, codes, window = process_vertices(
-        matrices.multiply(command.projection, command.modelview), vertices.position, planes, state.depth.clamp,
-        *to_stored_rows,
-    )  # fmt: skip
+    clip, codes, window, planes = positions = positions_of(command, target)
     columns = varyings.values if varyings.back is None else np.hstack([varyings.values, varyings.back])
     if command.mode in (gl.GL_POINTS, *LINES):
         make, primitives = _points_and_lines, _indexed_lines_or_points(command)
@@ -97,17 +102,14 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull:
         clip_primitives = clip_points if command.mode == gl.GL_POINTS else clip_lines
         clipped = clip_primitives(clip, columns, primitives, codes, planes)
     else:
-        modes = drawn_modes(state)
-        make = _filled if modes == (gl.GL_FILL, gl.GL_FILL) else _outlined
+        make = _filled if is_filled(state) else _outlined
         across = varyings.flat_input and (bool(target.colors) or state.alpha.enabled)  # else Mesa shades nothing
-        assembled = assembled_triangles(command, codes != 0, batch_needs_clipping(command, planes), across)
-        if make is _filled and not across and three_are_left_out(command, target, planes):
-            assembled = without_last_three(command, assembled)
+        assembled = triangles_of(command, target, positions, across)
         provoking = assembled.provoking
         edges = edge_flags(command.mode, len(provoking)) if make is _outlined else NO_EDGES
         clipped = clip_triangles(clip, columns, assembled.corners, codes, planes, edges, command.linear)
     if len(clipped.clip) > len(clip):  # the cuts' own vertices come after all others
-        window = np.concatenate([window, to_window(clipped.clip[len(clip) :], *to_stored_rows)])
+        window = with_rows(window, to_window(clipped.clip[len(clip) :], *stored_rows(command, target)))
     k = varyings.values.shape[1]
     made = Geometry(
         NOTHING,
@@ -123,15 +125,54 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull:
     return make(made, clipped, command, target, cull)
 
 
+def positions_of(command: Draw, target: Framebuffer) -> Positions:
+    """Return where the vertices of a draw are."""
+    matrix, planes = matrices.multiply(command.projection, command.modelview), user_planes(command)
+    clamp = command.state.depth.clamp
+    moved = process_vertices(matrix, command.vertices.position, planes, clamp, *stored_rows(command, target))
+    return Positions(*moved, planes)
+
+
+def stored_rows(command: Draw, target: Framebuffer) -> tuple[Viewport, int, bool]:
+    """Return what `to_window` asks for: viewport, height of the framebuffer, whether its rows are stored top first."""
+    return command.state.viewport, target.size[1], target.flipped
+
+
+def is_filled(state: State) -> bool:
+    return drawn_modes(state) == (gl.GL_FILL, gl.GL_FILL)
+
+
+def triangles_of(command: Draw, target: Framebuffer, positions: Positions, across: bool) -> Triangles:
+    """Return the assembled triangles of a draw without those that llvmpipe leaves out.
+
+    `across` as in `assembled_triangles`.
+    """
+    planes = positions.planes
+    assembled = assembled_triangles(command, positions.codes != 0, batch_needs_clipping(command, planes), across)
+    if is_filled(command.state) and not across and three_are_left_out(command, target, planes):
+        return without_last_three(command, assembled)
+    return assembled
+
+
+def offset_in(command: Draw, target: Framebuffer) -> Offset:
+    """Return the polygon offset of a draw's filled triangles."""
+    real = command.vertices.position.dtype.type
+    polygon, slope, unit = command.state.polygon, command.offset_slope, command.offset_unit
+    return offset_of(polygon, target.depth, real, slope, unit, target.flipped)
+
+
+def has_float_units(command: Draw, target: Framebuffer) -> bool:
+    """Return whether the unit of the offset depends on the triangle: `add_float_units`."""
+    has_floats = target.depth is not None and not target.depth.format.largest
+    return has_floats and offset_is_on(command.state.polygon)
+
+
 def _filled(made: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull) -> Geometry:
     """Return the geometry with its triangles set up."""
-    polygon, window = command.state.polygon, made.window
-    offset = offset_of(
-        polygon, target.depth, window.dtype.type, command.offset_slope, command.offset_unit, target.flipped
-    )
-    triangles = set_up(window, clipped.triangles, cull, offset, target.flipped)
-    if offset_is_on(polygon) and target.depth is not None and not target.depth.format.largest:
-        add_float_units(triangles.depth[:, 3], window[triangles.vertices, 2], polygon.units)
+    window = made.window
+    triangles = set_up(window, clipped.triangles, cull, offset_in(command, target), target.flipped)
+    if has_float_units(command, target):
+        add_float_units(triangles.depth[:, 3], window[triangles.vertices, 2], command.state.polygon.units)
     return made._replace(triangles=triangles)
 
 
@@ -220,7 +261,7 @@ def assembled_triangles(
         clipped = in_clipped_batch(command.mode, whole, indices) if whole.any() else None
         if clipped is not None and in_batch is not None:
             clipped = clipped[command.batch_start // 4 :][: count // 4]
-        if drawn_modes(command.state) != (gl.GL_FILL, gl.GL_FILL):
+        if not is_filled(command.state):
             clipped = np.ones(quads_of(command.mode, count)[0], bool)  # cut where clipped ones are
         assembled = assemble(command.mode, count, clipped, across=across or indices is not None)
     return assembled if indices is None else through_indices(assembled, indices)

@@ -8,7 +8,7 @@ from softshadow.image import Image
 from softshadow.jit import kernel, read_only
 from softshadow.pipeline.bands import parts_of, share
 from softshadow.pipeline.constants import HALF, ONE, ZERO
-from softshadow.pipeline.facing import count_kept, culling, facing_and_area, snap_vertices
+from softshadow.pipeline.facing import count_kept, culling, facing_and_area, snap_vertices, vertices_of
 from softshadow.state import Cull, Polygon
 
 SLOPES = {"max": 0, "length": 1, "slide": 2}
@@ -90,30 +90,45 @@ def set_up(window: np.ndarray, triangles: np.ndarray, cull: Cull, offset: Offset
     window : (V, 4) window x, y (stored rows), z, 1/w
     triangles : (T, 3) int32
     """
-    culled, ccw_is_front = culling(cull)
-    # stored rows that grow downwards mirror the picture: there, a positive area is counter-clockwise
-    facing = culled, int(ccw_is_front == flipped)
-    triangles, snapped = read_only(triangles), np.empty((len(window), 2), np.int32)
-    vertex_parts, parts = parts_of(len(window)), parts_of(len(triangles))
-    share(lambda n: snap_vertices(window, *vertex_parts[n], snapped), len(vertex_parts))
+    facing, snapped = drawn_facing(cull, flipped), snapped_vertices(window)
+    triangles, parts = read_only(triangles), parts_of(len(triangles))
     if len(parts) > 1:
         counts = share(lambda n: count_kept(snapped, triangles, *parts[n], *facing), len(parts))
         places = np.cumsum([0, *counts])  # where the triangles of each part begin
     else:
         places = np.array([0, len(triangles)])  # there may be fewer
-    n = places[-1]
-    made = Setup(
-        np.empty((n, 6), np.int32),
-        np.empty((n, 3), np.int32),
-        np.empty((n, 4), window.dtype),
-        np.empty(n, np.uint8),
-        np.empty(n, np.int32),
-    )
-
+    made = room_for(places[-1], window.dtype)
     ends = share(
         lambda n: set_up_triangles(window, snapped, triangles, *parts[n], *facing, offset, places[n], *made), len(parts)
     )
     return Setup(*(array[: ends[-1]] for array in made))
+
+
+def drawn_facing(cull: Cull, flipped: bool) -> tuple[int, int]:
+    """Return what is culled, see `culling`, and whether triangles of positive area face the front.
+
+    Stored rows that grow downwards mirror the picture: there, a positive area is counter-clockwise.
+    """
+    culled, ccw_is_front = culling(cull)
+    return culled, int(ccw_is_front == flipped)
+
+
+def snapped_vertices(window: np.ndarray) -> np.ndarray:
+    """Return `snap_vertices` of all vertices, (V, 2) int32."""
+    snapped, parts = np.empty((len(window), 2), np.int32), parts_of(len(window))
+    share(lambda n: snap_vertices(window, *parts[n], snapped), len(parts))
+    return snapped
+
+
+def room_for(count: int, real: np.dtype) -> Setup:
+    """Return arrays for so many triangles."""
+    return Setup(
+        np.empty((count, 6), np.int32),
+        np.empty((count, 3), np.int32),
+        np.empty((count, 4), real),
+        np.empty(count, np.uint8),
+        np.empty(count, np.int32),
+    )
 
 
 @kernel
@@ -192,12 +207,12 @@ def set_up_triangles(
 
     Returns the row after the last.
     """
-    row = np.uint64(kept)  # unsigned, as the vertices are: no wrap-around of negative indices is compiled in
+    row = np.uint64(kept)
     for t in range(first, end):
-        facing, area = facing_and_area(snapped, triangles, t, culled, positive_is_front)
+        v0, v1, v2 = vertices_of(triangles, t)
+        facing, area = facing_and_area(snapped, v0, v1, v2, culled, positive_is_front)
         if facing < 0:
             continue
-        v0, v1, v2 = np.uint64(triangles[t, 0]), np.uint64(triangles[t, 1]), np.uint64(triangles[t, 2])
         if area < 0:
             v0, v1 = v1, v0
         corners[row, 0], corners[row, 1] = snapped[v0, 0], snapped[v0, 1]

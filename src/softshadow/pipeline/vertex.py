@@ -8,6 +8,8 @@ from softshadow.pipeline.clip import NEAR_FAR, outcode
 from softshadow.pipeline.constants import ONE, SMALLEST_NORMAL, ZERO
 from softshadow.state import Viewport
 
+SPARE = 8  # there is room for one vertex more, made by clipping, for each so many; it costs nothing until it is used
+
 
 def to_clip(model_view_projection: np.ndarray, positions: np.ndarray) -> np.ndarray:
     """Return the clip positions (V, 4) of object positions (V, 4)."""
@@ -42,7 +44,8 @@ def process_vertices(
     flipped: bool,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return `to_clip`, `outcodes` and `to_window` of object positions (V, 4), in one walk over them."""
-    clip, window = np.empty_like(positions), np.empty_like(positions)
+    clip = np.empty_like(positions)
+    window = np.empty((len(positions) + len(positions) // SPARE, 4), positions.dtype)[: len(positions)]
     codes = np.empty(len(positions), np.int32)
     scale, shift = scale_and_shift(viewport, framebuffer_height, flipped, positions.dtype)
     planes, ignored = user_planes.astype(positions.dtype), NEAR_FAR if depth_clamp else 0
@@ -57,6 +60,16 @@ def process_vertices(
 
     share(process, len(parts))
     return clip, codes, window
+
+
+def with_rows(window: np.ndarray, more: np.ndarray) -> np.ndarray:
+    """Return the rows of `window` and `more`: without a copy of a million, where `process_vertices` has left room."""
+    count, room = len(window), window.base
+    if room is None or room.ndim != 2 or len(room) < count + len(more):
+        return np.concatenate([window, more])
+    room[count : count + len(more)] = more
+    whole: np.ndarray = room[: count + len(more)]
+    return whole
 
 
 def scale_and_shift(

@@ -1,0 +1,144 @@
+"""Draws that leave no colours, some ten thousand triangles at a time.
+
+Nothing asks for their triangles afterwards: no fragment is shaded. So those of a portion are set up, filled and
+forgotten before the next portion. Their arrays lie in the cache, and in memory that the portion before has had: handing
+out fresh pages for the million triangles of a mesh takes the system as long as setting them up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.framebuffer import Framebuffer
+from softshadow.jit import kernel, read_only
+from softshadow.pipeline.bands import PART, parts_of, share, threads
+from softshadow.pipeline.clip import CUT, INSIDE, OUTSIDE, clip_triangles, write_sides
+from softshadow.pipeline.geometry import (
+    Positions,
+    has_float_units,
+    is_filled,
+    offset_in,
+    positions_of,
+    stored_rows,
+    triangles_of,
+)  # fmt: skip
+from softshadow.pipeline.lines import LINES
+from softshadow.pipeline.setup import (
+    Setup,
+    add_float_units,
+    drawn_facing,
+    room_for,
+    set_up_triangles,
+    snapped_vertices,
+)  # fmt: skip
+from softshadow.pipeline.vertex import to_window, with_rows
+
+if TYPE_CHECKING:
+    from softshadow.pipeline.commands import Draw
+
+PORTION = 1 << 17  # triangles; of one thread, 8 MB
+PARTS = 8  # of a portion, where several threads share it
+
+
+class Sides(NamedTuple):
+    """The triangles of a draw, and what clipping makes of them: the whole ones are not copied.
+
+    triangles (T, 3) int32; of each (T,) uint8: whether it is INSIDE, OUTSIDE or CUT, none where all are inside; cut
+    (K,): the numbers of those that are cut; pieces (P, 3) int32: what is left of these, that of the k-th in
+    ``pieces[starts[k] : starts[k + 1]]``.
+    """
+
+    triangles: np.ndarray
+    of: np.ndarray
+    cut: np.ndarray
+    pieces: np.ndarray
+    starts: np.ndarray
+
+    def most(self, first: int, end: int) -> int:
+        """Return how many triangles of [first, end) may be left."""
+        return int(end - first + np.diff(self.starts[np.searchsorted(self.cut, [first, end])])[0])
+
+    def left(self, first: int, end: int) -> np.ndarray:
+        """Return those of the triangles [first, end) that are inside and the pieces of the others, in drawing order."""
+        if not self.of[first:end].any():
+            return self.triangles[first:end]
+        left = np.empty((self.most(first, end), 3), np.int32)
+        count = write_left(*self, first, end, np.searchsorted(self.cut, first), left)
+        return read_only(left[:count])
+
+
+def leaves_no_colors(command: Draw, target: Framebuffer) -> bool:
+    """Return whether a draw is of filled triangles, changes depth and stencil alone, and no colour decides about it."""
+    state = command.state
+    if command.mode in (gl.GL_POINTS, *LINES) or not is_filled(state) or (target.colors and any(state.color.mask)):
+        return False
+    # where Mesa shades all the same, with flat colours it may cut quads in another way, see `Varyings.flat_input`
+    is_shaded, is_flat = target.colors or state.alpha.enabled, state.lighting.shade_model == gl.GL_FLAT
+    return not is_shaded or not (command.program_name or is_flat)
+
+
+def portions_of(command: Draw, target: Framebuffer) -> Iterator[tuple[Setup, list[tuple[int, int]]]]:
+    """Yield the triangles of a draw that `leaves_no_colors`, in drawing order, and in which rows [first, end) they are.
+
+    Rows between these are not set.
+    """
+    positions = positions_of(command, target)
+    window, sides = _clipped(command, target, positions)
+    snapped, offset = snapped_vertices(window), offset_in(command, target)
+    facing, units = drawn_facing(command.state.cull, target.flipped), command.state.polygon.units
+    size = PORTION if threads() == 1 else PARTS * PART
+    for begin in range(0, len(sides.triangles), size):
+        parts = [(begin + a, begin + b) for a, b in parts_of(min(size, len(sides.triangles) - begin))]
+        places = np.cumsum([0, *(sides.most(*part) for part in parts)]).tolist()
+        made = room_for(places[-1], window.dtype)
+
+        def set_up_part(n: int, made: Setup = made, parts: list = parts, places: list = places) -> tuple[int, int]:
+            left = sides.left(*parts[n])
+            end = set_up_triangles(window, snapped, left, 0, len(left), *facing, offset, places[n], *made)
+            rows = slice(places[n], int(end))
+            if has_float_units(command, target):
+                add_float_units(made.depth[rows, 3], window[made.vertices[rows], 2], units)
+            return places[n], int(end)
+
+        yield made, share(set_up_part, len(parts))
+
+
+def _clipped(command: Draw, target: Framebuffer, positions: Positions) -> tuple[np.ndarray, Sides]:
+    """Return the vertices in the window, those that clipping makes last, and what is left of the triangles."""
+    clip, codes, window, planes = positions
+    triangles = read_only(triangles_of(command, target, positions, across=False).corners)
+    none = np.empty(0, np.int64)
+    if not codes.any():
+        return window, Sides(triangles, np.empty(0, np.uint8), none, triangles[:0], np.zeros(1, np.int64))
+    of, parts = np.empty(len(triangles), np.uint8), parts_of(len(triangles))
+    share(lambda n: write_sides(triangles, codes, *parts[n], of), len(parts))
+    cut = np.flatnonzero(of == CUT)
+    corners = triangles[cut].ravel()
+    own = np.arange(len(corners), dtype=np.int32).reshape(-1, 3)
+    clipped = clip_triangles(clip[corners], np.empty((len(corners), 0), clip.dtype), own, codes[corners], planes)
+    starts = np.searchsorted(clipped.source, np.arange(len(cut) + 1))
+    pieces = clipped.triangles + np.int32(len(window))
+    window = with_rows(window, to_window(clipped.clip, *stored_rows(command, target)))
+    return window, Sides(triangles, of, cut, pieces, starts)
+
+
+@kernel
+def write_left(triangles, of, cut, pieces, starts, first, end, k, left):
+    """Write `Sides.left`; `k` is the place in `cut` of the first that is cut. Returns how many are left."""
+    count = 0
+    for t in range(first, end):
+        if of[t] == INSIDE:
+            for i in range(3):
+                left[count, i] = triangles[t, i]
+            count += 1
+        elif of[t] != OUTSIDE:
+            for p in range(starts[k], starts[k + 1]):
+                for i in range(3):
+                    left[count, i] = pieces[p, i]
+                count += 1
+            k += 1
+    return count

@@ -1,0 +1,62 @@
+"""Draws without colours, a few triangles at a time: the bits of the draw with all of them at once."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from draws import draw, random_state, random_triangles, same_window, small_triangles
+from softshadow import pipeline
+from softshadow import tokens as gl
+from softshadow.context import Context
+from softshadow.pipeline import bands, binding, portions, set_threads, threads
+from softshadow.state import ClipPlanes
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+def colorless(seed: int, depth_format: str) -> Context:
+    """A window after draws that change depth and stencil alone, of triangles in and around the frustum."""
+    rng = np.random.default_rng(seed)
+    context = Context(48, 40, depth_format)
+    plane = ClipPlanes((True,) + (False,) * 5, ((1.0, 0.3, 0.1, 0.2),) + ((0.0,) * 4,) * 5)
+    plain = replace(context.state, depth=replace(context.state.depth, enabled=True, func=gl.GL_ALWAYS))
+    for _ in range(3):
+        state = plain if rng.random() < 0.5 else random_state(rng, plain)
+        lighting = replace(state.lighting, shade_model=int(rng.choice([gl.GL_FLAT, gl.GL_SMOOTH])))
+        planes = plane if rng.random() < 0.3 else plain.clip_planes
+        color = replace(state.color, mask=(False,) * 4)
+        state = replace(state, lighting=lighting, clip_planes=planes, color=color)
+        mode = int(rng.choice([gl.GL_TRIANGLES, gl.GL_TRIANGLE_STRIP, gl.GL_QUADS, gl.GL_QUAD_STRIP]))
+        draw(context, state, random_triangles(rng, 12), mode)
+        draw(context, state, small_triangles(rng, 25), mode)
+        inside = small_triangles(rng, 25)
+        inside.position[:, :3] *= np.float32(0.4)
+        draw(context, state, inside, mode)
+    return context
+
+
+def all_at_once(seed: int, depth_format: str) -> Context:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pipeline, "leaves_no_colors", lambda command, target: False)
+        return colorless(seed, depth_format)
+
+
+@pytest.mark.interpreted
+@given(seeds, st.sampled_from(["d24", "d32f"]), st.sampled_from([1, 3]), st.sampled_from([1, 7, 16]))
+def test_portions_leave_what_all_triangles_at_once_leave(seed, depth_format, count, size):
+    before = threads()
+    expected = all_at_once(seed, depth_format)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(portions, "PORTION", size)
+        patch.setattr(portions, "PARTS", 2)
+        for module in (bands, portions):
+            patch.setattr(module, "PART", size)
+        patch.setattr(binding, "WORTH", 0)  # so small a window would not be divided
+        set_threads(count)
+        try:
+            assert same_window(colorless(seed, depth_format), expected)
+        finally:
+            set_threads(before)
