@@ -17,10 +17,10 @@ UNUSED = sys.getrefcount(_nobodys[0])  # references to a block that nobody uses:
 
 
 class _Blocks(threading.local):
-    """The blocks of memory of this thread, those used last at the end."""
+    """The blocks of memory of this thread, by their size, a power of two."""
 
     def __init__(self) -> None:
-        self.blocks: list[np.ndarray] = []
+        self.of_size: dict[int, list[np.ndarray]] = {}
 
 
 _own = _Blocks()
@@ -35,25 +35,19 @@ def lent(shape: int | tuple[int, ...], dtype: np.typing.DTypeLike) -> np.ndarray
     size = math.prod(shape) * kind.itemsize if isinstance(shape, tuple) else shape * kind.itemsize
     if not SMALLEST <= size <= KEPT // 2:
         return np.empty(shape, kind)
-    blocks = _own.blocks
-    found = -1
+    whole = 1 << (size - 1).bit_length()  # pages that nobody writes to are not there
+    blocks = _own.of_size.setdefault(whole, [])
     for n in range(len(blocks)):  # without a name for the block, which would be one more reference
-        fits = len(blocks[n]) >= size and (found < 0 or len(blocks[n]) <= len(blocks[found]))
-        if fits and sys.getrefcount(blocks[n]) == UNUSED:
-            found = n
-    if found < 0:
-        _make_room(size)
-        blocks.append(np.empty(size, np.uint8))
-    else:
-        blocks.append(blocks.pop(found))
+        if sys.getrefcount(blocks[n]) == UNUSED:
+            return blocks[n][:size].view(kind).reshape(shape)
+    _make_room(whole)
+    blocks.append(np.empty(whole, np.uint8))
     return blocks[-1][:size].view(kind).reshape(shape)
 
 
 def _make_room(size: int) -> None:
-    """Forget blocks until there is room for one more among those that are kept, first what was used longest ago.
-
-    A block that is still in use lives on until its last user is done with it.
-    """
-    blocks = _own.blocks
-    while blocks and sum(map(len, blocks)) + size > KEPT:
-        del blocks[0]
+    """Forget all blocks if one more would be too many: those that are in use live on until they are not."""
+    of_size = _own.of_size
+    if size + sum(each * len(blocks) for each, blocks in of_size.items()) > KEPT:
+        for blocks in of_size.values():
+            blocks.clear()
