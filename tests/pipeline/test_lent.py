@@ -27,7 +27,7 @@ def test_memory_is_lent_again_when_nothing_refers_to_it():
 
 
 def test_it_has_the_shape_and_type_that_were_asked_for():
-    for shape in (0, 3, (4, 5), LARGE, (3, LARGE), (LARGE, 0)):
+    for shape in (0, 3, (4, 5), LARGE, np.int64(LARGE), (3, np.int64(LARGE)), (LARGE, 0)):
         for kind in (np.uint8, np.int32, np.float64):
             made = lent(shape, kind)
             assert made.dtype == kind

@@ -10,9 +10,13 @@ from hypothesis import strategies as st
 
 from softshadow import tokens as gl
 from softshadow.image import FORMATS, Image
+from softshadow.pipeline import interpolate as interpolation
+from softshadow.pipeline import runs as runs_module
+from softshadow.pipeline import set_threads, threads
 from softshadow.pipeline.color_writes import color_writer
-from softshadow.pipeline.interpolate import LONG, interpolate
+from softshadow.pipeline.interpolate import LONG, interpolate, planes_of
 from softshadow.pipeline.runs import Runs, fragments_of, runs_of, visible_runs
+from softshadow.pipeline.setup import Setup
 from softshadow.state import Blend, State
 
 pytestmark = pytest.mark.interpreted
@@ -44,6 +48,43 @@ def test_runs_are_the_visible_pixels(seed):
     assert np.array_equal(triangle, ids[row - 7, column])
     again = runs_of(fragments_of(runs))
     assert all(np.array_equal(a, b) for a, b in zip(runs, again, strict=True))
+
+
+def on_threads(count, function, *arguments):
+    before = threads()
+    set_threads(count)
+    try:
+        return function(*arguments)
+    finally:
+        set_threads(before)
+
+
+@pytest.mark.parametrize("rows", [1, 3, SIZE])
+def test_parts_of_the_rows_together_have_the_runs_of_all(monkeypatch, rows):
+    monkeypatch.setattr(runs_module, "ROWS", rows)
+    for seed in range(20):
+        whole, parts = (on_threads(count, visible_runs, some_ids(seed), 7) for count in (1, 3))
+        assert all(np.array_equal(a, b) for a, b in zip(parts, whole, strict=True))
+
+
+@pytest.mark.parametrize("at_a_time", [1, 2])
+def test_planes_are_the_same_in_parts(monkeypatch, at_a_time):
+    monkeypatch.setattr(interpolation, "AT_A_TIME", at_a_time)
+    rng, triangles = np.random.default_rng(1), 3
+    window, values = rng.normal(size=(9, 4)).astype(np.float32), rng.normal(size=(9, 5)).astype(np.float32)
+    vertices, flat = rng.permutation(9).reshape(triangles, 3).astype(np.int32), np.arange(5) == 2
+    setup = Setup(
+        np.zeros((triangles, 6), np.int32),
+        vertices,
+        np.zeros((triangles, 4), np.float32),
+        np.array([1, 0, 1], np.uint8),
+        np.array([2, 0, 1], np.int32),
+    )
+    provoking, runs = np.array([4, 8, 1], np.int32), visible_runs(some_ids(5), 0)
+    arguments = runs, setup, window, values, -values, flat, provoking
+    whole, parts = (on_threads(count, planes_of, *arguments) for count in (1, 3))
+    assert len(whole.values) == triangles
+    assert all(np.array_equal(a, b) for a, b in zip(parts, whole, strict=True))
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 30))

@@ -77,13 +77,14 @@ def share(work: Callable[[int], Result], count: int) -> list[Result]:
     return results
 
 
-def parts_of(count: int) -> list[tuple[int, int]]:
-    """Return first and end of the parts of ``range(count)`` to share: one for one thread, else each worth the
-    hand-over.
+def parts_of(count: int, size: int = PART) -> list[tuple[int, int]]:
+    """Return first and end of the parts of ``range(count)`` to share: one for one thread, else of `size` each.
+
+    A part should be worth the hand-over to another thread.
     """
     if threads() == 1:
         return [(0, count)]
-    return [(first, min(first + PART, count)) for first in range(0, max(count, 1), PART)]
+    return [(first, min(first + size, count)) for first in range(0, max(count, 1), size)]
 
 
 def in_batches(work: Callable[[int, int], None], count: int, size: int) -> None:

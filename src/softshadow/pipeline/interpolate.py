@@ -9,12 +9,14 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.jit import kernel
+from softshadow.pipeline.bands import parts_of, share
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.lent import lent
 from softshadow.pipeline.runs import Runs
 from softshadow.pipeline.setup import Setup, edge_differences, line_gradient, line_plane, plane
 
 LONG = 8  # fragments; a run of so many is worth a loop per column
+AT_A_TIME = 1 << 12  # triangles whose planes a thread makes in one go
 BLOCK = 2  # rows and columns of a block of pixels, which may reach over the edge
 
 
@@ -30,12 +32,12 @@ class Planes(NamedTuple):
 
 
 @kernel
-def attribute_planes(window, values, back, vertices, front, seen, flat, provoking, planes):
+def attribute_planes(window, values, back, vertices, front, seen, flat, provoking, ids, planes):
     """Fill planes (P, 3, k + 1): of value / w for each column, last of 1 / w; flat columns hold the value itself.
 
     The three numbers of a plane are its value at pixel (0, 0) and its steps to the next column and row. `vertices`
     (T, 3) are vertex numbers in the order of positive area, as for depth, `front` (T,) facing, `seen` (P,) the
-    triangles that are needed, `provoking` (T,) the vertex that flat columns take.
+    triangles that are needed, ``provoking[ids[t]]`` the vertex that flat columns take.
     """
     k = values.shape[1]
     for n in range(seen.shape[0]):
@@ -54,7 +56,7 @@ def attribute_planes(window, values, back, vertices, front, seen, flat, provokin
             base[k], step[k], across[k] = plane(x, y, dx01, dy01, dx20, dy20, w0, w1, w2)
         for c in range(k):
             if flat[c]:
-                base[c] = source[provoking[t], c]
+                base[c] = source[provoking[ids[t]], c]
 
 
 @kernel
@@ -127,10 +129,16 @@ def planes_of(
     place[:] = -1
     seen = seen[: number_in_order(runs.triangle, place, seen)]
     planes = lent((len(seen), 3, values.shape[1] + 1), window.dtype)
-    attribute_planes(
-        window, values, values if back is None else back, triangles.vertices, triangles.front, seen, flat,
-        provoking[triangles.ids], planes,
-    )  # fmt: skip
+    parts = parts_of(len(seen), AT_A_TIME)
+
+    def fill_part(n: int) -> None:
+        own = slice(*parts[n])
+        attribute_planes(
+            window, values, values if back is None else back, triangles.vertices, triangles.front, seen[own], flat,
+            provoking, triangles.ids, planes[own],
+        )  # fmt: skip
+
+    share(fill_part, len(parts))
     furthest = max(runs.row.max(initial=0), (runs.left + np.diff(runs.start)).max(initial=0))
     return Planes(planes, place, np.arange(furthest + BLOCK, dtype=window.dtype))
 

@@ -32,7 +32,7 @@ def lent(shape: int | tuple[int, ...], dtype: np.typing.DTypeLike) -> np.ndarray
     Nobody has to give it back: an array refers to its memory, which is lent again when nothing refers to it any more.
     """
     kind = np.dtype(dtype)
-    size = math.prod(shape) * kind.itemsize if isinstance(shape, tuple) else shape * kind.itemsize
+    size = int(math.prod(shape) if isinstance(shape, tuple) else shape) * kind.itemsize
     if not SMALLEST <= size <= KEPT // 2:
         return np.empty(shape, kind)
     whole = 1 << (size - 1).bit_length()  # pages that nobody writes to are not there

@@ -10,10 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.jit import kernel
+from softshadow.pipeline.bands import parts_of, share
 from softshadow.pipeline.fragments import Fragments
 from softshadow.pipeline.lent import lent
 
 STRIDE = 16  # pixels of a long run that are looked at together
+ROWS = 128  # of a part that a thread takes
 
 
 class Runs(NamedTuple):
@@ -59,8 +61,18 @@ def visible_runs(ids: np.ndarray, first_row: int) -> Runs:
     ids : (rows, pitch) int32, the triangle of each pixel or -1
     first_row : of the stored planes, which row 0 of `ids` is
     """
-    made = _empty(count_visible(ids))
-    collect_visible(ids, first_row, *made)
+    parts = parts_of(len(ids), ROWS)
+    counts = share(lambda n: count_visible(ids[slice(*parts[n])]), len(parts))
+    places = np.cumsum([(0, 0), *counts], axis=0)  # the first run and the first fragment of each part
+    made = _empty(places[-1, 0])
+
+    def collect(n: int) -> None:
+        (first, end), (run, at) = parts[n], places[n]
+        own = slice(run, places[n + 1, 0])
+        collect_visible(ids[first:end], first_row + first, at, *(array[own] for array in made))
+
+    share(collect, len(parts))
+    made.start[-1] = places[-1, 1]
     return made
 
 
@@ -86,21 +98,22 @@ def fragments_of(runs: Runs) -> Fragments:
 
 @kernel
 def count_visible(ids):
-    """Return how many runs there are: pixels with a triangle that the pixel left of them does not have."""
-    total = np.int64(0)
+    """Return how many runs there are, pixels with a triangle that the pixel left of them does not have, and pixels."""
+    runs = pixels = np.int64(0)
     for row in range(ids.shape[0]):
         line = ids[row]
-        count = np.int32(line[0] >= 0)
+        begun = seen = np.int32(line[0] >= 0)
         for column in range(1, line.shape[0]):
-            count += np.int32((line[column] >= 0) & (line[column] != line[column - 1]))
-        total += count
-    return total
+            begun += np.int32((line[column] >= 0) & (line[column] != line[column - 1]))
+            seen += np.int32(line[column] >= 0)
+        runs, pixels = runs + begun, pixels + seen
+    return runs, pixels
 
 
 @kernel
-def collect_visible(ids, first_row, rows, lefts, triangles, starts):
-    """Write row, first column, triangle and first fragment of all runs."""
-    count = at = 0
+def collect_visible(ids, first_row, at, rows, lefts, triangles, starts):
+    """Write row, first column, triangle and first fragment of all runs; `at` is the number of the first one's."""
+    count = 0
     for row in range(ids.shape[0]):
         line, column = ids[row], 0
         while column < line.shape[0]:
@@ -115,4 +128,3 @@ def collect_visible(ids, first_row, rows, lefts, triangles, starts):
             if triangle >= 0:
                 rows[count], lefts[count], triangles[count], starts[count] = row + first_row, left, triangle, at
                 count, at = count + 1, at + column - left
-    starts[count] = at
