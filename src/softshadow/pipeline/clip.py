@@ -11,6 +11,7 @@ import numpy as np
 from softshadow.jit import kernel, read_only
 from softshadow.pipeline.constants import SMALLEST_NORMAL, ZERO
 from softshadow.pipeline.facing import vertices_of
+from softshadow.pipeline.lent import lent
 
 # plane k keeps a x + b y + c z + d w >= 0; the order is the order of clipping
 FRUSTUM = np.array([[-1, 0, 0, 1], [1, 0, 0, 1], [0, -1, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [0, 0, -1, 1]], np.float32)
@@ -60,19 +61,19 @@ def clip_triangles(
     triangles = read_only(triangles)
     if not codes.any():
         return Clipped(clip, values, triangles, np.arange(len(triangles), dtype=np.int32), edges)
-    sides = np.empty(len(triangles), np.uint8)
+    sides = lent(len(triangles), np.uint8)
     write_sides(triangles, codes, 0, len(triangles), sides)
     whole, cut = np.count_nonzero(sides == INSIDE), np.count_nonzero(sides == CUT)
     planes = frustum_and(user_planes, clip.dtype)
     room = len(planes) * ADDED_PER_PLANE
     more_clip, more_values = clip, np.ascontiguousarray(values)  # one memory order, one compiled kernel
     if cut:
-        more_clip = np.empty((len(clip) + cut * room, 4), clip.dtype)
-        more_values = np.empty((len(clip) + cut * room, values.shape[1]), values.dtype)
+        more_clip = lent((len(clip) + cut * room, 4), clip.dtype)
+        more_values = lent((len(clip) + cut * room, values.shape[1]), values.dtype)
         more_clip[: len(clip)], more_values[: len(clip)] = clip, values
-    pieces = np.empty((whole + cut * (room + 1), 3), np.int32)
-    source = np.empty(len(pieces), np.int32)
-    piece_edges = np.empty((len(pieces) if len(edges) else 0, 3), np.uint8)
+    pieces = lent((whole + cut * (room + 1), 3), np.int32)
+    source = lent(len(pieces), np.int32)
+    piece_edges = lent((len(pieces) if len(edges) else 0, 3), np.uint8)
     count, vertices = cut_triangles(
         triangles, edges, codes, planes, more_clip, more_values, len(clip), pieces, source, piece_edges,
         np.zeros((2, room + 3), np.int32), np.zeros((2, room + 3), np.uint8), int(linear),

@@ -9,6 +9,7 @@ from softshadow.jit import kernel, read_only
 from softshadow.pipeline.bands import parts_of, share
 from softshadow.pipeline.constants import HALF, ONE, ZERO
 from softshadow.pipeline.facing import count_kept, culling, facing_and_area, snap_vertices, vertices_of
+from softshadow.pipeline.lent import lent
 from softshadow.state import Cull, Polygon
 
 SLOPES = {"max": 0, "length": 1, "slide": 2}
@@ -115,7 +116,7 @@ def drawn_facing(cull: Cull, flipped: bool) -> tuple[int, int]:
 
 def snapped_vertices(window: np.ndarray) -> np.ndarray:
     """Return `snap_vertices` of all vertices, (V, 2) int32."""
-    snapped, parts = np.empty((len(window), 2), np.int32), parts_of(len(window))
+    snapped, parts = lent((len(window), 2), np.int32), parts_of(len(window))
     share(lambda n: snap_vertices(window, *parts[n], snapped), len(parts))
     return snapped
 
@@ -123,11 +124,11 @@ def snapped_vertices(window: np.ndarray) -> np.ndarray:
 def room_for(count: int, real: np.dtype) -> Setup:
     """Return arrays for so many triangles."""
     return Setup(
-        np.empty((count, 6), np.int32),
-        np.empty((count, 3), np.int32),
-        np.empty((count, 4), real),
-        np.empty(count, np.uint8),
-        np.empty(count, np.int32),
+        lent((count, 6), np.int32),
+        lent((count, 3), np.int32),
+        lent((count, 4), real),
+        lent(count, np.uint8),
+        lent(count, np.int32),
     )
 
 

@@ -6,6 +6,7 @@ from softshadow.jit import kernel
 from softshadow.pipeline.bands import parts_of, share
 from softshadow.pipeline.clip import NEAR_FAR, outcode
 from softshadow.pipeline.constants import ONE, SMALLEST_NORMAL, ZERO
+from softshadow.pipeline.lent import lent
 from softshadow.state import Viewport
 
 SPARE = 8  # there is room for one vertex more, made by clipping, for each so many; it costs nothing until it is used
@@ -44,9 +45,9 @@ def process_vertices(
     flipped: bool,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return `to_clip`, `outcodes` and `to_window` of object positions (V, 4), in one walk over them."""
-    clip = np.empty_like(positions)
+    clip = lent(positions.shape, positions.dtype)
     window = np.empty((len(positions) + len(positions) // SPARE, 4), positions.dtype)[: len(positions)]
-    codes = np.empty(len(positions), np.int32)
+    codes = lent(len(positions), np.int32)
     scale, shift = scale_and_shift(viewport, framebuffer_height, flipped, positions.dtype)
     planes, ignored = user_planes.astype(positions.dtype), NEAR_FAR if depth_clamp else 0
 
