@@ -7,6 +7,7 @@ The pages of a large new array come from the operating system one by one, when t
 import math
 import sys
 import threading
+from typing import SupportsIndex
 
 import numpy as np
 
@@ -26,13 +27,13 @@ class _Blocks(threading.local):
 _own = _Blocks()
 
 
-def lent(shape: int | tuple[int, ...], dtype: np.typing.DTypeLike) -> np.ndarray:
+def lent(shape: SupportsIndex | tuple[SupportsIndex, ...], dtype: np.typing.DTypeLike) -> np.ndarray:
     """Return an array like that of ``np.empty``, if possible of memory that the process has used before.
 
     Nobody has to give it back: an array refers to its memory, which is lent again when nothing refers to it any more.
     """
     kind = np.dtype(dtype)
-    size = int(math.prod(shape) if isinstance(shape, tuple) else shape) * kind.itemsize
+    size = math.prod(map(int, shape if isinstance(shape, tuple) else (shape,))) * kind.itemsize
     if not SMALLEST <= size <= KEPT // 2:
         return np.empty(shape, kind)
     whole = 1 << (size - 1).bit_length()  # pages that nobody writes to are not there
