@@ -12,6 +12,10 @@ from softshadow import pipeline
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.pipeline import bands, binding, portions, set_threads, threads
+from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.coverage import extent
+from softshadow.pipeline.geometry import region_of
+from softshadow.pipeline.portions import portions_of
 from softshadow.state import ClipPlanes
 
 seeds = st.integers(0, 2**32 - 1)
@@ -23,7 +27,7 @@ def colorless(seed: int, depth_format: str) -> Context:
     context = Context(48, 40, depth_format)
     plane = ClipPlanes((True,) + (False,) * 5, ((1.0, 0.3, 0.1, 0.2),) + ((0.0,) * 4,) * 5)
     plain = replace(context.state, depth=replace(context.state.depth, enabled=True, func=gl.GL_ALWAYS))
-    for _ in range(3):
+    for _ in range(2):
         state = plain if rng.random() < 0.5 else random_state(rng, plain)
         lighting = replace(state.lighting, shade_model=int(rng.choice([gl.GL_FLAT, gl.GL_SMOOTH])))
         planes = plane if rng.random() < 0.3 else plain.clip_planes
@@ -51,12 +55,25 @@ def test_portions_leave_what_all_triangles_at_once_leave(seed, depth_format, cou
     expected = all_at_once(seed, depth_format)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(portions, "PORTION", size)
-        patch.setattr(portions, "PARTS", 2)
-        for module in (bands, portions):
-            patch.setattr(module, "PART", size)
+        patch.setattr(bands, "PART", 1 + size // 3)
         patch.setattr(binding, "WORTH", 0)  # so small a window would not be divided
         set_threads(count)
         try:
             assert same_window(colorless(seed, depth_format), expected)
         finally:
             set_threads(before)
+
+
+@given(seeds)
+def test_a_portion_has_the_rows_and_the_area_of_its_triangles(seed):
+    context = colorless(seed, "d24")
+    for command in context.frame.commands:
+        if not isinstance(command, Draw):
+            continue
+        whole = region_of(command.state, context.storage.window)
+        for triangles, runs, region, fragments in portions_of(command, context.storage.window):
+            extents = [extent(triangles.corners, first, end) for first, end in runs]
+            assert fragments == sum(area for *_, area in extents) >> 8
+            for first_row, end_row, _ in extents:
+                first_row, end_row = max(first_row, whole.first_row), min(end_row, whole.end_row)
+                assert first_row >= end_row or region.first_row <= first_row < end_row <= region.end_row

@@ -16,7 +16,6 @@ Blended draws whose fragments do not overlap go the first way after all (`sole_f
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -96,10 +95,8 @@ def _draw_in_portions(command: Draw, target: Framebuffer) -> None:
     depth, stencil = _planes(target, real)
     front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
     depth_range = depth_range_of(state, real.type)
-    for triangles, runs in portions_of(command, target):
-        region, fragments = _covered(triangles, region_of(state, target), runs)
-        if region.first_row < region.end_row:
-            fill(front, back, triangles, fragments, region, depth_range, depth, stencil, runs=runs)
+    for triangles, runs, region, fragments in portions_of(command, target):
+        fill(front, back, triangles, fragments, region, depth_range, depth, stencil, runs=runs)
 
 
 def _draw_in_order(
@@ -142,12 +139,9 @@ def _draw_in_order(
                 color_writer(state, image)(written, colors[passed])
 
 
-def _covered(triangles: Setup, region: Region, runs: Sequence[tuple[int, int]] | None = None) -> tuple[Region, int]:
-    """Return the region cut to the rows that the triangles meet, and about how many fragments they have.
-
-    `runs` are those of `fill`.
-    """
-    parts = parts_of(len(triangles.corners)) if runs is None else runs
+def _covered(triangles: Setup, region: Region) -> tuple[Region, int]:
+    """Return the region cut to the rows that the triangles meet, and about how many fragments they have."""
+    parts = parts_of(len(triangles.corners))
     extents = share(lambda n: extent(triangles.corners, *parts[n]), len(parts))
     firsts, ends, areas = zip(*extents, strict=True)
     cut = region._replace(first_row=max(region.first_row, min(firsts)), end_row=min(region.end_row, max(ends)))

@@ -36,21 +36,23 @@ def bands_of(region: Region) -> int:
 
 def sort_into_bands(corners: np.ndarray, parts: Sequence[tuple[int, int]], region: Region) -> Bins:
     """Return the bins of triangles for the bands of a region; `parts` are their first and end numbers, in order."""
-    counts = np.zeros((len(parts), bands_of(region)), np.int64)
-    share(lambda n: count_per_band(corners, *parts[n], region, counts[n]), len(parts))
+    base, end = parts[0][0], parts[-1][1]
+    met, marks = np.empty((end - base, 2), np.uint16), np.zeros((len(parts), 2, bands_of(region) + 1), np.int64)
+    share(lambda n: find_bands(corners, *parts[n], region, base, met, marks[n]), len(parts))
+    counts = np.cumsum(marks[:, 0] - marks[:, 1], axis=1)[:, :-1]
     # band after band, and in a band part after part: so the drawing order is kept
     ends = np.cumsum(counts.T).reshape(counts.T.shape).T
     places = np.ascontiguousarray(ends - counts)
     starts = np.append(places[0], ends[-1, -1])
     numbers = np.empty(starts[-1], np.int32)
-    share(lambda n: write_numbers(corners, *parts[n], region, places[n], numbers), len(parts))
+    share(lambda n: write_numbers(*parts[n], base, met, places[n], numbers), len(parts))
     return Bins(starts, numbers)
 
 
 @kernel
 def bands_met(corners, t, region):
     """Return first and end band of a triangle (end exclusive); an empty range where it meets none."""
-    first, end = bounds(corners, np.uint64(t))
+    first, end = bounds(corners, t)
     first, end = max(first, region.first_row), min(end, region.end_row)
     if first >= end:
         return 0, 0
@@ -58,20 +60,27 @@ def bands_met(corners, t, region):
 
 
 @kernel
-def count_per_band(corners, begin, end, region, counts):
-    """Add to `counts` (bands,) how many triangles meet each band."""
-    for t in range(begin, end):
-        first_band, end_band = bands_met(corners, np.uint64(t), region)
-        for band in range(first_band, end_band):
-            counts[np.uint64(band)] += 1  # unsigned: no wrap-around of negative indices is compiled in
+def find_bands(corners, begin, end, region, base, met, marks):
+    """Write first and end band of each triangle to `met`, beginning with triangle `base`; count both in `marks`.
+
+    marks (2, bands + 1): how many triangles begin with a band, and how many end before it. That takes no loop over the
+    bands of a triangle, of which most have one.
+    """
+    for number in range(begin, end):
+        t = np.uint64(number)  # unsigned: no wrap-around of negative indices is compiled in
+        first_band, end_band = bands_met(corners, t, region)
+        row = np.uint64(number - base)
+        met[row, 0], met[row, 1] = first_band, end_band
+        marks[0, np.uint64(first_band)] += 1
+        marks[1, np.uint64(end_band)] += 1
 
 
 @kernel
-def write_numbers(corners, begin, end, region, places, numbers):
+def write_numbers(begin, end, base, met, places, numbers):
     """Write the number of each triangle where its bands go on; `places` (bands,) moves along."""
-    for t in range(begin, end):
-        first_band, end_band = bands_met(corners, np.uint64(t), region)
-        for band in range(first_band, end_band):
-            b = np.uint64(band)
-            numbers[np.uint64(places[b])] = t
-            places[b] += 1
+    for number in range(begin, end):
+        row = np.uint64(number - base)
+        for band in range(int(met[row, 0]), int(met[row, 1])):
+            place = places[np.uint64(band)]
+            numbers[np.uint64(place)] = number
+            places[np.uint64(band)] = place + 1

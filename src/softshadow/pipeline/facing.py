@@ -32,13 +32,18 @@ def snap(coordinate):
 def snap_vertices(window, first, end, snapped):
     """Write snapped x and y of each vertex; x is `NOWHERE` where a coordinate is not finite, or farther off than any
     that clipping leaves.
+
+    Returns the smallest and the largest y of the others.
     """
+    low, high = -NOWHERE, NOWHERE
     for v in range(first, end):
         x, y = window[v, 0], window[v, 1]
         if abs(x) < REACH and abs(y) < REACH and np.isfinite(window[v, 2]):
             snapped[v, 0], snapped[v, 1] = snap(x), snap(y)
+            low, high = min(low, snapped[v, 1]), max(high, snapped[v, 1])
         else:
             snapped[v, 0], snapped[v, 1] = NOWHERE, NOWHERE
+    return low, high
 
 
 @kernel

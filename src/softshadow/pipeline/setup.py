@@ -91,7 +91,7 @@ def set_up(window: np.ndarray, triangles: np.ndarray, cull: Cull, offset: Offset
     window : (V, 4) window x, y (stored rows), z, 1/w
     triangles : (T, 3) int32
     """
-    facing, snapped = drawn_facing(cull, flipped), snapped_vertices(window)
+    facing, (snapped, _) = drawn_facing(cull, flipped), snapped_vertices(window)
     triangles, parts = read_only(triangles), parts_of(len(triangles))
     if len(parts) > 1:
         counts = share(lambda n: count_kept(snapped, triangles, *parts[n], *facing), len(parts))
@@ -102,7 +102,7 @@ def set_up(window: np.ndarray, triangles: np.ndarray, cull: Cull, offset: Offset
     ends = share(
         lambda n: set_up_triangles(window, snapped, triangles, *parts[n], *facing, offset, places[n], *made), len(parts)
     )
-    return Setup(*(array[: ends[-1]] for array in made))
+    return Setup(*(array[: ends[-1][0]] for array in made))
 
 
 def drawn_facing(cull: Cull, flipped: bool) -> tuple[int, int]:
@@ -114,11 +114,11 @@ def drawn_facing(cull: Cull, flipped: bool) -> tuple[int, int]:
     return culled, int(ccw_is_front == flipped)
 
 
-def snapped_vertices(window: np.ndarray) -> np.ndarray:
-    """Return `snap_vertices` of all vertices, (V, 2) int32."""
+def snapped_vertices(window: np.ndarray) -> tuple[np.ndarray, tuple[int, int]]:
+    """Return x and y (V, 2) int32 of all vertices, see `snap_vertices`, and first and end row of samples among them."""
     snapped, parts = lent((len(window), 2), np.int32), parts_of(len(window))
-    share(lambda n: snap_vertices(window, *parts[n], snapped), len(parts))
-    return snapped
+    lows, highs = zip(*share(lambda n: snap_vertices(window, *parts[n], snapped), len(parts)), strict=True)
+    return snapped, ((min(lows) + 255) >> 8, (max(highs) >> 8) + 1)
 
 
 def room_for(count: int, real: np.dtype) -> Setup:
@@ -206,9 +206,9 @@ def set_up_triangles(
 ):  # fmt: skip
     """Fill the arrays of `Setup` with those of the triangles [first, end) that are drawn, from row `kept` on.
 
-    Returns the row after the last.
+    Returns the row after the last, and the sum of their areas in 1/256 pixel.
     """
-    row = np.uint64(kept)
+    row, covered = np.uint64(kept), 0
     for t in range(first, end):
         v0, v1, v2 = vertices_of(triangles, t)
         facing, area = facing_and_area(snapped, v0, v1, v2, culled, positive_is_front)
@@ -231,4 +231,5 @@ def set_up_triangles(
         front[row] = facing
         ids[row] = t
         row += np.uint64(1)
-    return row
+        covered += abs(area) >> 9
+    return row, covered
