@@ -56,3 +56,14 @@ def test_the_largest_index_decides_how_many_vertices_there_have_to_be(context, m
             gl.glDrawElements(gl.GL_TRIANGLES, 3, gl.GL_UNSIGNED_INT, indices)
         with pytest.raises(ValueError, match="index -1 is negative"):
             gl.glDrawElements(gl.GL_TRIANGLES, 3, gl.GL_UNSIGNED_INT, frozen(np.array([0, 1, -1], np.int32)))
+
+
+@pytest.mark.parametrize("count", [0, 1, 5])
+def test_a_row_that_is_spread_is_there_once(count):
+    row = np.array([1, -0.0, np.nan], np.float32)
+    made = kept_arrays.spread(row, count)
+    expected = np.broadcast_to(row, (count, 3))
+    assert made.shape == expected.shape
+    assert made.tobytes() == expected.tobytes()
+    assert made.strides[0] == 0
+    assert not made.flags.writeable

@@ -21,7 +21,7 @@ from softshadow.gl.conversions import (
 )
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
 from softshadow.gl.immediate import A_MODE, MODES, add_vertex, can_draw, in_order
-from softshadow.gl.kept_arrays import extremes, full_rows, owned_indices
+from softshadow.gl.kept_arrays import extremes, full_rows, owned_indices, spread
 from softshadow.gl.texture_coordinates import set_coordinate
 from softshadow.gl.vertex_arrays import TYPES, rows_of
 from softshadow.gl.vertex_attributes import set_color, set_normal
@@ -162,7 +162,7 @@ def _vertices(context: Context, operation: str, first: int, end: int) -> Vertice
     def attribute(key: str, constant: tuple[float, ...]) -> np.ndarray:
         rows = _rows_of_array(context, key) if key in arrays.enabled else None
         if rows is None:
-            return np.broadcast_to(np.array(constant, context.real), (end - first, len(constant)))
+            return spread(np.array(constant, context.real), end - first)
         if len(rows) < end:
             raise ValueError(f"{operation}: vertex {end - 1} is asked for, the array of {key}s has {len(rows)}")
         return full_rows(rows, len(constant), context, key in NORMALISED)[first:end]

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from typing import Any
 
 from softshadow import tokens as gl
+from softshadow.frozen import replace
 from softshadow.gl.capabilities import CAPABILITIES, CLIP_PLANES, GENERATED, LIGHTS, UNIT_CAPABILITIES, is_on, switched
 from softshadow.gl.fragment_state import extension_back
 from softshadow.state import State

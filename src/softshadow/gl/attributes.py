@@ -12,11 +12,12 @@ Mesa is less thorough than GL 2.1, sec. 6.1.14 (main/attrib.c):
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from softshadow import tokens as gl
 from softshadow.context import Context, CurrentVertex
 from softshadow.framebuffer import Framebuffer
+from softshadow.frozen import replace
 from softshadow.gl.attribute_groups import GROUPS, calls_made, changed_groups, with_group
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 from softshadow import tokens as gl
 from softshadow.context import Context
+from softshadow.frozen import replace
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.materials import start_to_follow
@@ -115,7 +115,7 @@ def switched(state: State, cap: int, unit: int, on: bool) -> State:
     standing = state.units[unit]
     if cap in UNIT_CAPABILITIES:
         field = UNIT_CAPABILITIES[cap]
-        made = replace(standing, **{field: on})  # type: ignore[arg-type]
+        made = replace(standing, **{field: on})
     else:
         index = GENERATED.index(cap)
         made = replace(standing, gen=with_item(standing.gen, index, replace(standing.gen[index], enabled=on)))

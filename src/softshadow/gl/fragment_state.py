@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from ctypes import c_float, c_int
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
+from softshadow.frozen import replace
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import is_one_of, outside_begin
 from softshadow.state import STENCIL_OPS, Stencil

@@ -67,6 +67,13 @@ def full_rows(rows: np.ndarray, width: int, context: Context, normalised: bool) 
     return context.arrays.converted.get(key, root, lambda: _converted(rows, width, context, normalised))
 
 
+def spread(row: np.ndarray, count: int) -> np.ndarray:
+    """Return `count` times the same row, read-only, without its copies: `np.broadcast_to`, of which draws need ten."""
+    made = np.ndarray((count, len(row)), row.dtype, row, strides=(0, row.itemsize))
+    made.flags.writeable = False
+    return made
+
+
 def _identity(array: np.ndarray) -> tuple[Any, ...]:
     """Return what tells read-only arrays apart while the memory they lie in is kept."""
     return (id(_root(array)), array.__array_interface__["data"][0], array.strides)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
+from softshadow.frozen import replace
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.capabilities import LIGHTS, with_item
 from softshadow.gl.conversions import as_floats, as_ints, first, from_int, to_int, vector

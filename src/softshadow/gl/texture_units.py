@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
+from softshadow.frozen import replace
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import first, from_int, numbers, vector
 from softshadow.gl.errors import fail, outside_begin
