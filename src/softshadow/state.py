@@ -1,6 +1,6 @@
 """The state of a GL context as frozen values: defaults are GL's initial values, numbers are GL's own tokens.
 
-A change is `dataclasses.replace`, a snapshot is a reference. Every group prints as the GL calls that make it.
+A change is `frozen.replace`, a snapshot is a reference. Every group prints as the GL calls that make it.
 """
 
 from __future__ import annotations
