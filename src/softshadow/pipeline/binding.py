@@ -17,7 +17,7 @@ import numpy as np
 
 from softshadow.jit import cache_folder, inlined, kernel
 from softshadow.pipeline.bands import parts_of, share, threads
-from softshadow.pipeline.bins import ROWS, Bins, bands_of, sort_into_bands
+from softshadow.pipeline.bins import ROWS, Bins, sort_into_bands
 from softshadow.pipeline.facing import BACK, EITHER, FRONT
 from softshadow.pipeline.fill import Planes, Region, count_triangle, fill_rows, fill_small, is_small
 from softshadow.pipeline.fill_tiles import fill_in_tiles
@@ -199,13 +199,13 @@ def fill(
     for parts in _portions(len(triangles.ids)) if runs is None else [runs]:
         bins = sort_into_bands(triangles.corners, parts, region)
 
-        def fill_band(band: int, bins: Bins = bins) -> None:
-            first = region.first_row + band * ROWS
-            numbers = bins.of(band)
-            if len(numbers):
-                fill_part(numbers, first, min(first + ROWS, region.end_row))
+        met = np.flatnonzero(np.diff(bins.starts)).tolist()
 
-        share(fill_band, bands_of(region))
+        def fill_band(n: int, bins: Bins = bins, met: list[int] = met) -> None:
+            first = region.first_row + met[n] * ROWS
+            fill_part(bins.of(met[n]), first, min(first + ROWS, region.end_row))
+
+        share(fill_band, len(met))
 
 
 def _portions(count: int) -> Iterator[list[tuple[int, int]]]:
