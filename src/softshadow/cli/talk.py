@@ -52,15 +52,18 @@ def named_warnings() -> Iterator[None]:
         yield
 
 
-def say_if_compiling() -> None:
-    """Say that the kernels have to be compiled, when nothing is in the cache yet."""
+def say_if_compiling() -> bool:
+    """Say that the kernels have to be compiled, when nothing is in the cache yet; return whether they will be kept."""
     from softshadow.jit import cache_folder
 
     folder = cache_folder()
     if folder is None:
         say("compiling kernels, each time (no cache folder can be written; NUMBA_CACHE_DIR names another) ...")
-    elif not any(folder.rglob("*.nbi")):
-        say("compiling kernels, once ...")
+        return False
+    if any(folder.rglob("*.nbi")):
+        return False
+    say("compiling kernels, once ...")
+    return True
 
 
 def table(title: str, columns: list[str], rows: list[list[str]]) -> None:

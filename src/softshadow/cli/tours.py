@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 
 import click
 
@@ -41,13 +41,14 @@ def tour(
     force: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Draw a scene with every technique: pictures and buffers of every step, and a page to read them by."""
+    from softshadow.report.compilation import compiling_ahead
     from softshadow.report.tour import STOPS, write_tour
 
     start = time.perf_counter()
     with named_warnings():
         drawn = chosen_scene(scene, mesh, light)
-        say_if_compiling()
-        with _progress(len(STOPS)) as show:
+        ahead = compiling_ahead() if say_if_compiling() else nullcontext()
+        with ahead, _progress(len(STOPS)) as show:
             again = spelled(scene, mesh, light, size)
             index = write_tour(drawn, size, output, force=force, progress=show, again=again)
     seconds = time.perf_counter() - start
