@@ -7,6 +7,7 @@ The default framebuffer is rasterised and stored top row first, framebuffer obje
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -155,17 +156,27 @@ def default_framebuffer(
 
 @dataclass(eq=False)
 class Storage:
-    """The objects of one context by name: framebuffers (0 is the window), textures, renderbuffers and query results."""
+    """The objects of one context by name: framebuffers (0 is the window), textures, renderbuffers and query results.
+
+    `visibility` is what draws remember of earlier ones (`softshadow.pipeline.reuse`); nothing depends on it but time.
+    """
 
     framebuffers: dict[int, Framebuffer]
     textures: dict[int, Texture] = field(default_factory=dict)
     renderbuffers: dict[int, Image] = field(default_factory=dict)
     queries: dict[int, int] = field(default_factory=dict)
     active_query: int = 0
+    visibility: Any = None
 
     @property
     def window(self) -> Framebuffer:
         return self.framebuffers[DEFAULT]
+
+    def settle(self) -> None:
+        """Write what is still to be written to buffers (`Image.write_later`)."""
+        for target in self.framebuffers.values():
+            for attachment in target.attachments.values():
+                attachment.image.settle()
 
     def reattach(self, texture: int, face: int, level: int, image: Image) -> None:
         """Let framebuffer objects follow a level of a texture to its new image."""

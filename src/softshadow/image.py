@@ -7,13 +7,16 @@ where 2**32 stands for the largest, as drawing in float32 has it), z itself for 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Hashable
+from dataclasses import dataclass, field
+from threading import Lock
 from typing import Any
 
 import numpy as np
 
 from softshadow import tokens as gl
 
+_writing = Lock()
 PITCH = 32  # a row is padded to whole chunks of 32 pixels: kernels may run over its end, never into the next row
 
 
@@ -124,15 +127,46 @@ class Image:
     """One plane: `cells` is (height, pitch[, channels]), of which the first `width` columns count.
 
     `internal_format` is the token it was made with, for queries. Packed depth-stencil formats are two planes: the
-    stencil values are the image `stencil` of the depth image.
+    stencil values are the image `stencil` of the depth image. `contents` is a name for what the cells hold: of two
+    moments at which it is the same name, and not None, the cells are the same. It is lost when the cells are taken,
+    which are then the taker's to write to, until the next command.
     """
 
     format: Format
     width: int
     height: int
-    cells: np.ndarray
+    _cells: np.ndarray
     internal_format: int = 0
     stencil: Image | None = None
+    contents: Hashable | None = None
+    _later: list[tuple[int, np.ndarray]] = field(
+        default_factory=list
+    )  # first row and rows that are still to be written
+
+    @property
+    def cells(self) -> np.ndarray:
+        """The cells, for reading and writing."""
+        self.settle()
+        self.contents = None
+        return self._cells
+
+    def settle(self) -> None:
+        """Write what is still to be written."""
+        if self._later:
+            with _writing:  # several threads may sample one texture
+                for first, rows in self._later:
+                    self._cells[first : first + len(rows)] = rows
+                self._later = []
+
+    def write_later(self, first_row: int, rows: np.ndarray, contents: Hashable) -> None:
+        """Write whole rows, when somebody asks for the cells; `contents` is the name for all cells with them.
+
+        `rows` (n, pitch), or what spreads to it, must not change any more.
+        """
+        if len(rows) == self.height:
+            self._later = []  # of what these would write, nothing would be left
+        self._later.append((first_row, rows))
+        self.contents = contents
 
     @classmethod
     def new(cls, format: Format, width: int, height: int, internal_format: int = 0) -> Image:
@@ -142,6 +176,12 @@ class Image:
         if format.base in (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_LUMINANCE):
             cells[..., 3] = format.largest or 1  # the alpha that such a format is read with
         return cls(format, width, height, cells, internal_format, stencil)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of the cells, with the padding."""
+        rows, columns = self._cells.shape[:2]
+        return rows, columns
 
     @property
     def view(self) -> np.ndarray:

@@ -67,10 +67,11 @@ def glFlush() -> None:
 
 
 def glFinish() -> None:
-    """Draw triangles and quads that wait for more; everything else has been carried out when its call returned."""
+    """Draw triangles and quads that wait for more, and write what is known of buffers but not written."""
     context = outside_begin("glFinish")
     if context is not None:
         context.settle()
+        context.storage.settle()
 
 
 __all__ = spelled_like_gl(globals())

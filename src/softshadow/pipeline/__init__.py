@@ -11,7 +11,8 @@
 Draws that leave no colours are set up and filled a portion at a time (`portions.py`): nobody shades their triangles.
 Opaque draws shade each visible pixel once, after the fill; draws whose colours depend on the order of their fragments
 (alpha test, blending, logic op) take the ordered path, and with an alpha test are shaded before `process_fragment`.
-Blended draws whose fragments do not overlap go the first way after all (`sole_fragments`). All leave the same buffers.
+Blended draws whose fragments do not overlap go the first way after all (`sole_fragments`). A draw that was filled
+before, over the same depths, is only shaded (`reuse`). All leave the same buffers.
 """
 
 from __future__ import annotations
@@ -33,7 +34,8 @@ from softshadow.pipeline.fragment_ops import PASSED, VERDICTS, fragment_ops
 from softshadow.pipeline.fragments import Fragments, list_fragments, test_fragments
 from softshadow.pipeline.geometry import Geometry, depth_range_of, process_geometry, region_of
 from softshadow.pipeline.portions import leaves_no_colors, portions_of
-from softshadow.pipeline.runs import runs_of, visible_runs
+from softshadow.pipeline.reuse import FillInputs, filled, forget_visibility
+from softshadow.pipeline.runs import Runs, runs_of, visible_runs
 from softshadow.pipeline.setup import Setup
 from softshadow.pipeline.shading import shade, shade_and_write
 from softshadow.pipeline.sole_fragments import sole_fragments
@@ -41,7 +43,7 @@ from softshadow.pipeline.sole_fragments import sole_fragments
 if TYPE_CHECKING:
     from softshadow.pipeline.commands import Draw
 
-__all__ = ["VERDICTS", "clear", "draw", "set_threads", "shade", "threads", "use_binding"]
+__all__ = ["VERDICTS", "clear", "draw", "forget_visibility", "set_threads", "shade", "threads", "use_binding"]
 
 
 def draw(command: Draw, storage: Storage, verdicts: np.ndarray | None = None) -> None:
@@ -71,23 +73,41 @@ def draw(command: Draw, storage: Storage, verdicts: np.ndarray | None = None) ->
         if needs_order(command.state):
             _draw_in_order(command, target, geometry, writes_color, verdicts)
         else:
-            _draw_opaque(command, target, geometry, writes_color, verdicts)
+            _draw_opaque(command, target, storage, geometry, writes_color, verdicts)
 
 
 def _draw_opaque(
-    command: Draw, target: Framebuffer, geometry: Geometry, writes_color: bool, verdicts: np.ndarray | None
+    command: Draw,
+    target: Framebuffer,
+    storage: Storage,
+    geometry: Geometry,
+    writes_color: bool,
+    verdicts: np.ndarray | None,
 ) -> None:
     state, triangles = command.state, geometry.triangles
     region, fragments = _covered(triangles, region_of(state, target))
     if region.first_row >= region.end_row:
         return
-    depth, stencil = _planes(target, geometry.window.dtype)
-    ids = no_ids(region, depth.shape[1]) if writes_color else None
     front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
     depth_range = depth_range_of(state, geometry.window.dtype.type)
-    fill(front, back, triangles, fragments, region, depth_range, depth, stencil, ids, verdicts)
-    if ids is not None:
-        shade_and_write(state, target, geometry, visible_runs(ids, region.first_row), ordered=False)
+
+    def fill_planes(ids: np.ndarray | None) -> None:
+        planes = _planes(target, geometry.window.dtype)
+        fill(front, back, triangles, fragments, region, depth_range, *planes, ids, verdicts)
+
+    def fill_and_find() -> Runs:
+        ids = no_ids(region, _shape(target)[1])
+        fill_planes(ids)
+        return visible_runs(ids, region.first_row)
+
+    if not writes_color:
+        fill_planes(None)
+        return
+    if verdicts is None:
+        runs = filled(FillInputs(front, back, triangles, region, depth_range), target, storage, fill_and_find)
+    else:
+        runs = fill_and_find()
+    shade_and_write(state, target, geometry, runs, ordered=False)
 
 
 def _draw_in_portions(command: Draw, target: Framebuffer) -> None:
@@ -150,7 +170,12 @@ def _covered(triangles: Setup, region: Region) -> tuple[Region, int]:
 
 def _planes(target: Framebuffer, real: np.dtype) -> tuple[np.ndarray, np.ndarray]:
     """Return depth and stencil cells; a buffer that is missing is stood in for by scratch, its test is off."""
-    shape = next(iter(target.attachments.values())).image.cells.shape[:2]
+    shape = _shape(target)
     depth = target.depth.cells if target.depth is not None else np.zeros(shape, real)
     stencil = target.stencil.cells if target.stencil is not None else np.zeros(shape, np.uint8)
     return depth, stencil
+
+
+def _shape(target: Framebuffer) -> tuple[int, int]:
+    """Return how many rows and columns the planes have, with their padding."""
+    return next(iter(target.attachments.values())).image.shape

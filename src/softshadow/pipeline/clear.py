@@ -15,6 +15,7 @@ from softshadow.image import EXACT_DEPTH, Image
 from softshadow.pipeline import accumulation
 from softshadow.pipeline.blend import to_unorm8
 from softshadow.pipeline.color_writes import as_pixels
+from softshadow.pipeline.fill import Region
 from softshadow.pipeline.geometry import region_of
 from softshadow.pixels import largest_stood_for, quantized_depth
 from softshadow.state import State
@@ -41,13 +42,26 @@ def clear(command: Clear, storage: Storage) -> None:
     if command.mask & gl.GL_DEPTH_BUFFER_BIT and target.depth is not None and state.depth.write:
         drawn = is_drawn(state, target, command.mask) and target.depth.format != EXACT_DEPTH
         value_of = drawn_clear_depth if drawn else clear_depth
-        target.depth.cells[where] = value_of(state.depth.clear, target.depth)
+        write_everywhere(target.depth, region, value_of(state.depth.clear, target.depth))
     if command.mask & gl.GL_STENCIL_BUFFER_BIT and target.stencil is not None:
-        cells, largest = target.stencil.cells[where], target.stencil.format.largest
+        largest = target.stencil.format.largest
         mask = state.stencil.front.write_mask & largest
-        cells[:] = (cells & (largest ^ mask)) | (state.stencil.clear & mask)
+        if mask == largest:
+            write_everywhere(target.stencil, region, state.stencil.clear & mask)
+        else:
+            cells = target.stencil.cells[where]
+            cells[:] = (cells & (largest ^ mask)) | (state.stencil.clear & mask)
     if command.mask & gl.GL_ACCUM_BUFFER_BIT and target.name == DEFAULT:
         accumulation.buffer_of(target)[where] = accumulation.clear_value(state.color.clear_accum)
+
+
+def write_everywhere(image: Image, region: Region, value: float) -> None:
+    """Write a value to a region of depth or stencil cells; where that is all of them, the image knows what it holds."""
+    if (region.left, region.right, region.first_row, region.end_row) == (0, image.width, 0, image.height):
+        cell = np.array(value, image.format.dtype)
+        image.write_later(0, np.broadcast_to(cell, image.shape), (cell.tobytes(), image.format, image.shape))
+    else:
+        image.cells[region.first_row : region.end_row, region.left : region.right] = value
 
 
 def clear_depth(value: float, depth: Image) -> float:

@@ -12,7 +12,7 @@ import numpy as np
 
 from softshadow import gl
 from softshadow.context import make_current
-from softshadow.pipeline import set_threads, threads, use_binding
+from softshadow.pipeline import forget_visibility, set_threads, threads, use_binding
 from softshadow.testing.mesa import DRIVERS, MesaError, Worker, mesa_available, mesa_reason, program_request
 from softshadow.testing.timing import FrameProgram, Timing, read_buffers, timed
 
@@ -84,6 +84,7 @@ class OwnSession:
         finally:
             set_threads(threads_before)
             self._context.frame.commands.clear()
+            forget_visibility(self._context.storage)
             make_current(context)
 
 

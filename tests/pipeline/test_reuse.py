@@ -1,0 +1,265 @@
+"""Visibility that is used again: every buffer is what it is without, whatever happened between equal draws."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from draws import random_triangles
+from softshadow import gl, pipeline
+from softshadow.context import Context
+from softshadow.pipeline import reuse
+from softshadow.pipeline.commands import Vertices
+
+SIZE = 24  # of window and framebuffer object
+DEPTH_TEXTURE, FRAMEBUFFER = 1, 1
+
+
+def without_memory(inputs, target, storage, fill):
+    return fill()
+
+
+def frame(seed: int, kinds: list[str], meshes: int = 2) -> tuple[Context, int]:
+    """A context after calls of these kinds, and how many of its draws were only shaded.
+
+    Draws are of few meshes under few states, so that many of them are equal.
+    """
+    rng = np.random.default_rng(seed)
+    context = gl.create_context(SIZE, SIZE)
+    drawn = [meshed(context, rng) for _ in range(meshes)]
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
+    new_depths(context, rng, drawn)
+    make_framebuffer()
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
+    hits = [0]
+    with pytest.MonkeyPatch.context() as patch:
+        inner = pipeline.filled
+
+        def counted(inputs, target, storage, fill):
+            filled = []
+            runs = inner(inputs, target, storage, lambda: filled.append(1) or fill())
+            hits[0] += not filled
+            return runs
+
+        patch.setattr(pipeline, "filled", counted)
+        for kind in kinds:
+            CALLS[kind](context, rng, drawn)
+    return context, hits[0]
+
+
+def make_framebuffer() -> None:
+    """A framebuffer object of the bound texture and colours of its own."""
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, gl.glGenFramebuffers(1))
+    for point in (gl.GL_DEPTH_ATTACHMENT, gl.GL_STENCIL_ATTACHMENT):
+        gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, point, gl.GL_TEXTURE_2D, DEPTH_TEXTURE, 0)
+    gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, gl.glGenRenderbuffers(1))
+    gl.glRenderbufferStorage(gl.GL_RENDERBUFFER, gl.GL_RGBA8, SIZE, SIZE)
+    gl.glFramebufferRenderbuffer(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_RENDERBUFFER, 1)
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+
+
+def depths(rng) -> np.ndarray:
+    """Depths and stencil values of the texture, packed."""
+    return rng.integers(0, 1 << 32, (SIZE, SIZE), np.uint32)
+
+
+def meshed(context: Context, rng) -> Vertices:
+    made = random_triangles(rng, 4)
+    return Vertices(*(context.frozen(rows) for rows in (made.position, made.color, made.normal)), ())
+
+
+def draw(context, rng, meshes) -> None:
+    mesh = meshes[rng.integers(len(meshes))]
+    colors = context.frozen(rng.random(mesh.color.shape))  # what is seen is the same, but not its colour
+    context.draw(gl.GL_TRIANGLES, replace(mesh, color=colors))
+
+
+def clear(context, rng, meshes) -> None:
+    gl.glClearDepth(float(rng.choice([1.0, 1.0, 0.5])))
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
+
+
+def clear_stencil(context, rng, meshes) -> None:
+    gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
+
+
+def clear_a_box(context, rng, meshes) -> None:
+    gl.glEnable(gl.GL_SCISSOR_TEST)
+    gl.glScissor(3, 4, 9, int(rng.choice([8, 100])))
+    gl.glClearDepth(float(rng.random()))
+    gl.glClear(gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
+    gl.glDisable(gl.GL_SCISSOR_TEST)
+
+
+def draw_in_a_box(context, rng, meshes) -> None:
+    gl.glEnable(gl.GL_SCISSOR_TEST)
+    gl.glScissor(3, 4, int(rng.choice([9, 10])), 8)
+    draw(context, rng, meshes)
+    gl.glDisable(gl.GL_SCISSOR_TEST)
+
+
+def draw_depths_alone(context, rng, meshes) -> None:
+    gl.glColorMask(False, False, False, False)
+    gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
+    gl.glPolygonOffset(float(rng.normal()), 0.0)
+    draw(context, rng, meshes)
+    gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
+    gl.glColorMask(True, True, True, True)
+
+
+def draw_without_writing_depth(context, rng, meshes) -> None:
+    gl.glDepthMask(False)
+    draw(context, rng, meshes)
+    gl.glDepthMask(True)
+
+
+def draw_with_offset(context, rng, meshes) -> None:
+    gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
+    gl.glPolygonOffset(float(rng.choice([0.0, 1.0])), 2.0)
+    draw(context, rng, meshes)
+    gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
+
+
+def draw_counting(context, rng, meshes) -> None:
+    gl.glEnable(gl.GL_STENCIL_TEST)
+    gl.glStencilFunc(gl.GL_GEQUAL, int(rng.integers(3)), 255)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_INCR, gl.GL_INCR_WRAP)
+    draw(context, rng, meshes)
+    gl.glDisable(gl.GL_STENCIL_TEST)
+
+
+def draw_without_depth_test(context, rng, meshes) -> None:
+    gl.glDisable(gl.GL_DEPTH_TEST)
+    draw(context, rng, meshes)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+
+
+def draw_and_count(context, rng, meshes) -> None:
+    query = gl.glGenQueries(1)
+    gl.glBeginQuery(gl.GL_SAMPLES_PASSED, query)
+    draw(context, rng, meshes)
+    gl.glEndQuery(gl.GL_SAMPLES_PASSED)
+
+
+def upload_depths(context, rng, meshes) -> None:
+    gl.glTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, SIZE, SIZE, gl.GL_DEPTH_STENCIL, gl.GL_UNSIGNED_INT_24_8, depths(rng))
+
+
+def new_depths(context, rng, meshes) -> None:
+    size, packed = (SIZE, SIZE), (gl.GL_DEPTH_STENCIL, gl.GL_UNSIGNED_INT_24_8)
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH24_STENCIL8, *size, 0, *packed, depths(rng))
+
+
+def copy_depths(context, rng, meshes) -> None:
+    gl.glCopyTexSubImage2D(gl.GL_TEXTURE_2D, 0, 2, 3, 1, 1, 12, 13)
+
+
+def blit_depths(context, rng, meshes) -> None:
+    gl.glBindFramebuffer(gl.GL_READ_FRAMEBUFFER, FRAMEBUFFER - context.state.draw_framebuffer)
+    box = (0, 0, SIZE, SIZE)
+    gl.glBlitFramebuffer(*box, *box, gl.GL_DEPTH_BUFFER_BIT, gl.GL_NEAREST)
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, context.state.draw_framebuffer)
+
+
+def other_framebuffer(context, rng, meshes) -> None:
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, FRAMEBUFFER - context.state.draw_framebuffer)
+
+
+def read(context, rng, meshes) -> None:
+    gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT)
+
+
+def forget(context, rng, meshes) -> None:
+    pipeline.forget_visibility(context.storage)
+
+
+CALLS = {
+    call.__name__: call
+    for call in (
+        draw, clear, clear_stencil, clear_a_box, draw_in_a_box, draw_depths_alone, draw_without_writing_depth,
+        draw_with_offset, draw_counting, draw_without_depth_test, draw_and_count, upload_depths, new_depths,
+        copy_depths, blit_depths, other_framebuffer, read, forget,
+    )
+}  # fmt: skip
+SAMPLES = ["clear", "draw", "draw"] * 8
+KINDS = st.lists(st.sampled_from(["clear", "draw", "draw", "other_framebuffer", *CALLS]), min_size=6, max_size=40)
+
+
+def buffers(context: Context) -> list:
+    """All buffers of a context, as bytes."""
+    return [
+        attachment.image.cells.tobytes()
+        for target in context.storage.framebuffers.values()
+        for attachment in target.attachments.values()
+    ]
+
+
+def assert_memory_makes_no_difference(seed: int, kinds: list[str], meshes: int = 2) -> None:
+    made, _ = frame(seed, kinds, meshes)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pipeline, "filled", without_memory)
+        expected, _ = frame(seed, kinds, meshes)
+    for ours, theirs in zip(buffers(made), buffers(expected), strict=True):
+        assert ours == theirs
+    assert made.storage.queries == expected.storage.queries
+
+
+@given(st.integers(0, 2**32 - 1), KINDS)
+def test_buffers_are_those_without_memory(seed, kinds):
+    assert_memory_makes_no_difference(seed, kinds)
+
+
+@pytest.mark.parametrize("other", [False, True])
+@pytest.mark.parametrize("between", CALLS)
+def test_whatever_happens_between_equal_draws_buffers_are_those_without_memory(between, other):
+    changes = ["upload_depths"] * (not other)  # of the texture: what is copied from it is never the same
+    kinds = [*["clear", "draw"] * 2, *["clear", "draw", *changes, between, "draw"] * 3]
+    assert_memory_makes_no_difference(3, ["other_framebuffer"] * other + kinds, meshes=1)
+
+
+def test_equal_draws_over_cleared_depths_are_only_shaded():
+    # of 8 pairs one is seen first, and one is kept over each of two depths that `clear` chooses from
+    assert frame(3, SAMPLES, meshes=1)[1] == 10
+
+
+@pytest.mark.parametrize("between", ["clear_a_box", "blit_depths", "draw_depths_alone", "draw_counting", "read"])
+@pytest.mark.parametrize("other", [False, True])
+def test_a_draw_over_depths_that_something_else_has_touched_is_filled(between, other):
+    kinds = ["other_framebuffer"] * other + ["clear", "draw"] * 3
+    hits = frame(3, [*kinds, "clear"], meshes=1)[1]
+    assert hits == 1
+    assert frame(3, [*kinds, "clear", "draw"], meshes=1)[1] == hits + 1
+    assert frame(3, [*kinds, "clear", between, "draw"], meshes=1)[1] == hits
+
+
+@pytest.mark.parametrize("between", ["upload_depths", "new_depths", "copy_depths"])
+def test_a_draw_over_depths_that_a_texture_was_given_is_filled(between):
+    kinds = ["other_framebuffer", *["clear", "draw"] * 3]
+    assert frame(3, [*kinds, "clear", between, "draw"], meshes=1)[1] == 1
+
+
+def test_what_was_kept_in_vain_is_not_kept_again():
+    gl.create_context(SIZE, SIZE)
+    context, _ = frame(1, ["clear", "draw", "draw", "draw", "draw"] * 2)
+    visibility = context.storage.visibility
+    visibility.kept.clear()
+    rng = np.random.default_rng(5)
+    mesh = meshed(context, rng)
+    for _ in range(2):
+        clear(context, rng, [])
+        draw(context, rng, [mesh, mesh])
+    assert len(visibility.kept) == 1
+    pipeline.forget_visibility(context.storage)
+    clear(context, rng, [])
+    draw(context, rng, [mesh, mesh])
+    assert not visibility.kept
+
+
+def test_no_more_is_kept_than_there_is_room_for(monkeypatch):
+    monkeypatch.setattr(reuse, "KEPT_BYTES", 5000)
+    context, _ = frame(4, ["clear", "draw", "draw", "draw_in_a_box", "draw_with_offset"] * 6)
+    assert sum(kept.bytes for kept in context.storage.visibility.kept.values()) <= 5000
