@@ -72,7 +72,10 @@ class Texture:
 
         `seamless` is GL_TEXTURE_CUBE_MAP_SEAMLESS of the context.
         """
-        sampler = replace(self.sampler, unit_lod_bias=lod_bias, seamless=int(seamless or self.sampler.seamless))
+        is_seamless = int(seamless or self.sampler.seamless)
+        if (self.sampler.unit_lod_bias, self.sampler.seamless) == (lod_bias, is_seamless):
+            return self
+        sampler = replace(self.sampler, unit_lod_bias=lod_bias, seamless=is_seamless)
         return Texture(self.name, self.target, sampler, self.images)
 
     def copy(self) -> Texture:

@@ -57,6 +57,8 @@ def share(work: Callable[[int], Result], count: int) -> list[Result]:
     """Return ``[work(0), ..., work(count - 1)]``, each called on whichever thread is free next."""
     most = threads()
     n = min(most, count)
+    if n <= 1:
+        return [work(number) for number in range(count)]
     numbers, results = iter(range(count)), [cast(Result, None)] * count
 
     def until_none_is_left() -> None:
@@ -88,5 +90,6 @@ def parts_of(count: int, size: int = PART) -> list[tuple[int, int]]:
 
 
 def in_batches(work: Callable[[int, int], None], count: int, size: int) -> None:
-    """Call ``work(first, end)`` for 0 to `count` in batches of `size`, on whichever threads are free."""
+    """Call ``work(first, end)`` for 0 to `count` in batches of `size`, on whichever threads are free; all for one."""
+    size = size if threads() > 1 else max(count, 1)
     share(lambda n: work(n * size, min(n * size + size, count)), -(-count // size))

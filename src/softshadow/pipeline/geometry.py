@@ -308,7 +308,8 @@ def program_of(command: Draw, storage: Storage) -> tuple[Program, Mapping[str, A
         if name in program.samplers
     }
     blocks = any(texture is not None and programs.needs_blocks(texture) for texture in textures.values())
-    return replace(program, blocks=program.blocks or blocks), {**command.uniforms, **textures}
+    program = replace(program, blocks=True) if blocks else program
+    return program, {**command.uniforms, **textures}
 
 
 def bound_textures(state: State, storage: Storage) -> dict[tuple[int, int], Texture]:

@@ -44,8 +44,12 @@ def shade_and_write(state: State, target: Framebuffer, geometry: Geometry, runs:
     """
     shade_map = None if ordered else map_shader(state, target, geometry)
     if shade_map is not None:
-        planes, parts = _planes_of(geometry, runs), runs.batches(BATCH if threads() > 1 else max(runs.fragments, 1))
-        share(lambda n: shade_map(runs.part(parts[n], parts[n + 1]), planes), len(parts) - 1)
+        planes = _planes_of(geometry, runs)
+        if threads() == 1:
+            shade_map(runs, planes)
+        else:
+            parts = runs.batches(BATCH)
+            share(lambda n: shade_map(runs.part(parts[n], parts[n + 1]), planes), len(parts) - 1)
         return
     writers = [color_writer(state, image) for image in target.colors]
     if ordered:

@@ -9,6 +9,8 @@ References: m_matrix.c of Mesa 22.3 (analyse_from_scratch, analyse_from_flags an
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 TOLERANCE = np.float32(1e-6) * np.float32(1e-6)  # on squares: what still counts as a rotation
@@ -83,7 +85,13 @@ def known_kind(matrix: np.ndarray, kind: int = UNKNOWN) -> int:
     """Return the kind of a (4, 4) matrix: the given one, or where that says UNKNOWN, the one read off the elements."""
     if not kind & UNKNOWN:
         return kind
-    m = np.asarray(matrix, np.float32)
+    return _kind_of(np.asarray(matrix, np.float32).tobytes())
+
+
+@lru_cache(maxsize=256)
+def _kind_of(elements: bytes) -> int:
+    """Return the kind that is read off the elements of a (4, 4) float32 matrix."""
+    m = np.frombuffer(elements, np.float32).reshape(4, 4)
     with np.errstate(all="ignore"):
         if not is_affine(m):
             return GENERAL
