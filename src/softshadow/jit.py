@@ -22,7 +22,7 @@ from numba.core import event
 # all that kernels are in, and all that these import: its constants are part of the compiled code
 KERNEL_SOURCES = (
     "bench/plain_loops.py", "errors.py", "framebuffer.py", "image.py", "jit.py", "matrices.py", "pixel_store.py",
-    "pixels.py", "state.py", "texture.py", "tokens.py", "pipeline", "programs", "scene", "truth",
+    "pixels.py", "state", "texture.py", "tokens.py", "pipeline", "programs", "scene", "truth",
 )  # fmt: skip
 KEPT_VERSIONS = 8
 # no kernel is called from C: its wrapper for that would take a twentieth of the time of compilation

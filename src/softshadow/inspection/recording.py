@@ -20,9 +20,9 @@ DTYPES = {name: getattr(np, name) for name in ("uint8", "float32", "float64")}
 
 
 def _of(module: Any, base: type = object) -> dict[str, type]:
-    """Return the classes that a module defines itself, by name."""
+    """Return the classes that a module or the modules of a package define, by name."""
     found = {name: kind for name, kind in vars(module).items() if isinstance(kind, type) and issubclass(kind, base)}
-    return {name: kind for name, kind in found.items() if kind.__module__ == module.__name__}
+    return {name: kind for name, kind in found.items() if f"{kind.__module__}.".startswith(f"{module.__name__}.")}
 
 
 WARNINGS = _of(errors, errors.Warning)

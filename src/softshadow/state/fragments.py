@@ -1,0 +1,142 @@
+"""What happens to a fragment: alpha, stencil and depth test, blending, the colour buffer's masks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from softshadow import tokens as gl
+from softshadow.state.common import Color, numbers, switch
+from softshadow.tokens import token_name
+
+ALL_BITS = 0xFF  # masks start with every bit that a stencil buffer can have
+
+STENCIL_OPS = ("GL_KEEP", "GL_ZERO", "GL_REPLACE", "GL_INCR", "GL_DECR", "GL_INVERT", "GL_INCR_WRAP", "GL_DECR_WRAP")
+BLEND_FACTORS = ("GL_ZERO", "GL_ONE")
+
+
+@dataclass(frozen=True)
+class AlphaTest:
+    enabled: bool = False
+    func: int = gl.GL_ALWAYS
+    ref: float = 0.0
+
+    def calls(self) -> list[str]:
+        return [switch("GL_ALPHA_TEST", self.enabled), f"glAlphaFunc({token_name(self.func)}, {self.ref:g})"]
+
+
+@dataclass(frozen=True)
+class StencilFace:
+    """What glStencilFunc, glStencilOp and glStencilMask set for one facing."""
+
+    func: int = gl.GL_ALWAYS
+    ref: int = 0
+    read_mask: int = ALL_BITS
+    sfail: int = gl.GL_KEEP
+    zfail: int = gl.GL_KEEP
+    zpass: int = gl.GL_KEEP
+    write_mask: int = ALL_BITS
+
+    def calls(self, face: str = "") -> list[str]:
+        suffix, first = ("Separate", f"{face}, ") if face else ("", "")
+        ops = ", ".join(token_name(op, STENCIL_OPS) for op in (self.sfail, self.zfail, self.zpass))
+        return [
+            f"glStencilFunc{suffix}({first}{token_name(self.func)}, {self.ref}, 0x{self.read_mask & 0xFF:02X})",
+            f"glStencilOp{suffix}({first}{ops})",
+            f"glStencilMask{suffix}({first}0x{self.write_mask & 0xFF:02X})",
+        ]
+
+
+@dataclass(frozen=True)
+class Stencil:
+    """Stencil test of both facings, and the clear value.
+
+    There are two back states: GL 2.0's, and that of GL_EXT_stencil_two_side. `back` is the one in use, that of the
+    extension where `two_side`; `other_back` is the other one. `active_back` is what glActiveStencilFaceEXT sets.
+    """
+
+    enabled: bool = False
+    front: StencilFace = StencilFace()
+    back: StencilFace = StencilFace()
+    clear: int = 0
+    two_side: bool = False
+    active_back: bool = False
+    other_back: StencilFace = StencilFace()
+
+    def calls(self) -> list[str]:
+        if self.two_side:
+            both = ["glActiveStencilFaceEXT(GL_FRONT)", *self.front.calls()]
+            both += ["glActiveStencilFaceEXT(GL_BACK)", *self.back.calls()]
+            faces = ["glEnable(GL_STENCIL_TEST_TWO_SIDE_EXT)", *both]
+        elif self.front == self.back:
+            faces = self.front.calls()
+        else:
+            faces = self.front.calls("GL_FRONT") + self.back.calls("GL_BACK")
+        return [switch("GL_STENCIL_TEST", self.enabled), *faces, f"glClearStencil({self.clear})"]
+
+
+@dataclass(frozen=True)
+class Depth:
+    """Depth test, write mask, clear value and GL_DEPTH_CLAMP."""
+
+    enabled: bool = False
+    func: int = gl.GL_LESS
+    write: bool = True
+    clear: float = 1.0
+    clamp: bool = False
+
+    def calls(self) -> list[str]:
+        return [
+            switch("GL_DEPTH_TEST", self.enabled),
+            f"glDepthFunc({token_name(self.func)})",
+            f"glDepthMask({'GL_TRUE' if self.write else 'GL_FALSE'})",
+            switch("GL_DEPTH_CLAMP", self.clamp),
+            f"glClearDepth({self.clear:g})",
+        ]
+
+
+@dataclass(frozen=True)
+class Blend:
+    enabled: bool = False
+    src_rgb: int = gl.GL_ONE
+    dst_rgb: int = gl.GL_ZERO
+    src_alpha: int = gl.GL_ONE
+    dst_alpha: int = gl.GL_ZERO
+    equation_rgb: int = gl.GL_FUNC_ADD
+    equation_alpha: int = gl.GL_FUNC_ADD
+    color: Color = (0.0, 0.0, 0.0, 0.0)
+    logic_enabled: bool = False
+    logic_op: int = gl.GL_COPY
+
+    def calls(self) -> list[str]:
+        factors = (self.src_rgb, self.dst_rgb, self.src_alpha, self.dst_alpha)
+        return [
+            switch("GL_BLEND", self.enabled),
+            f"glBlendFuncSeparate({', '.join(token_name(f, BLEND_FACTORS) for f in factors)})",
+            f"glBlendEquationSeparate({token_name(self.equation_rgb)}, {token_name(self.equation_alpha)})",
+            f"glBlendColor({numbers(*self.color)})",
+            switch("GL_COLOR_LOGIC_OP", self.logic_enabled),
+            f"glLogicOp({token_name(self.logic_op)})",
+        ]
+
+
+@dataclass(frozen=True)
+class ColorBuffer:
+    """Colour mask and clear colours.
+
+    GL_DITHER and GL_MULTISAMPLE are on in GL; at 8 bits, and with one sample a pixel, they are without effect.
+    """
+
+    mask: tuple[bool, bool, bool, bool] = (True, True, True, True)
+    clear: Color = (0.0, 0.0, 0.0, 0.0)
+    clear_accum: Color = (0.0, 0.0, 0.0, 0.0)
+    dither: bool = True
+    multisample: bool = True
+
+    def calls(self) -> list[str]:
+        return [
+            f"glColorMask({', '.join('GL_TRUE' if on else 'GL_FALSE' for on in self.mask)})",
+            f"glClearColor({numbers(*self.clear)})",
+            f"glClearAccum({numbers(*self.clear_accum)})",
+            switch("GL_DITHER", self.dither),
+            switch("GL_MULTISAMPLE", self.multisample),
+        ]

@@ -1,0 +1,97 @@
+"""Texture units: what is bound, generated coordinates, combiners; and how cube maps are sampled."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from softshadow import tokens as gl
+from softshadow.state.common import Color, numbers, switch
+from softshadow.tokens import token_name
+
+
+@dataclass(frozen=True)
+class TexGen:
+    """Generation of one texture coordinate; the eye plane is kept as GL keeps it, times the inverse modelview."""
+
+    enabled: bool = False
+    mode: int = gl.GL_EYE_LINEAR
+    object_plane: Color = (0.0, 0.0, 0.0, 0.0)
+    eye_plane: Color = (0.0, 0.0, 0.0, 0.0)
+
+
+def _initial_gen() -> tuple[TexGen, TexGen, TexGen, TexGen]:
+    planes = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0))
+    s, t, r, q = (TexGen(object_plane=p, eye_plane=p) for p in planes)
+    return s, t, r, q
+
+
+@dataclass(frozen=True)
+class Combine:
+    """What GL_COMBINE does: functions, sources and operands of up to three arguments, scales; for RGB and alpha."""
+
+    mode_rgb: int = gl.GL_MODULATE
+    mode_alpha: int = gl.GL_MODULATE
+    sources_rgb: tuple[int, int, int] = (gl.GL_TEXTURE, gl.GL_PREVIOUS, gl.GL_CONSTANT)
+    sources_alpha: tuple[int, int, int] = (gl.GL_TEXTURE, gl.GL_PREVIOUS, gl.GL_CONSTANT)
+    operands_rgb: tuple[int, int, int] = (gl.GL_SRC_COLOR, gl.GL_SRC_COLOR, gl.GL_SRC_ALPHA)
+    operands_alpha: tuple[int, int, int] = (gl.GL_SRC_ALPHA, gl.GL_SRC_ALPHA, gl.GL_SRC_ALPHA)
+    rgb_scale: float = 1.0
+    alpha_scale: float = 1.0
+
+    def calls(self) -> list[str]:
+        made = [f"GL_COMBINE_RGB, {token_name(self.mode_rgb)}", f"GL_COMBINE_ALPHA, {token_name(self.mode_alpha)}"]
+        for part in ("rgb", "alpha"):
+            for kind in ("source", "operand"):
+                values = getattr(self, f"{kind}s_{part}")
+                made += [f"GL_{kind.upper()}{i}_{part.upper()}, {token_name(v)}" for i, v in enumerate(values)]
+        made += [f"GL_RGB_SCALE, {self.rgb_scale:g}", f"GL_ALPHA_SCALE, {self.alpha_scale:g}"]
+        return [f"glTexEnvf(GL_TEXTURE_ENV, {setting})" for setting in made]
+
+
+@dataclass(frozen=True)
+class TextureUnit:
+    """What one texture unit does: enabled targets, bound names, environment, coordinate generation."""
+
+    enabled_2d: bool = False
+    enabled_cube: bool = False
+    bound_2d: int = 0
+    bound_cube: int = 0
+    env_mode: int = gl.GL_MODULATE
+    env_color: Color = (0.0, 0.0, 0.0, 0.0)
+    combine: Combine = Combine()
+    lod_bias: float = 0.0
+    gen: tuple[TexGen, TexGen, TexGen, TexGen] = field(default_factory=_initial_gen)
+
+    def calls(self, index: int) -> list[str]:
+        made = [
+            f"glActiveTexture(GL_TEXTURE{index})",
+            switch("GL_TEXTURE_2D", self.enabled_2d),
+            f"glBindTexture(GL_TEXTURE_2D, {self.bound_2d})",
+            switch("GL_TEXTURE_CUBE_MAP", self.enabled_cube),
+            f"glBindTexture(GL_TEXTURE_CUBE_MAP, {self.bound_cube})",
+            f"glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, {token_name(self.env_mode)})",
+            f"glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, ({numbers(*self.env_color)}))",
+        ]
+        if self.env_mode == gl.GL_COMBINE:
+            made += self.combine.calls()
+        if self.lod_bias:
+            made.append(f"glTexEnvf(GL_TEXTURE_FILTER_CONTROL, GL_TEXTURE_LOD_BIAS, {self.lod_bias:g})")
+        for name, gen in zip("STRQ", self.gen, strict=True):
+            if gen.enabled:
+                made.append(f"glTexGeni(GL_{name}, GL_TEXTURE_GEN_MODE, {token_name(gen.mode)})")
+                if gen.mode == gl.GL_OBJECT_LINEAR:
+                    made.append(f"glTexGenfv(GL_{name}, GL_OBJECT_PLANE, ({numbers(*gen.object_plane)}))")
+                elif gen.mode == gl.GL_EYE_LINEAR:
+                    made.append(f"glTexGenfv(GL_{name}, GL_EYE_PLANE, ({numbers(*gen.eye_plane)}))")
+                made.append(switch(f"GL_TEXTURE_GEN_{name}", True))
+        return made
+
+
+@dataclass(frozen=True)
+class CubeMaps:
+    """Whether linear filters of all cube maps go on over the edges of the faces."""
+
+    seamless: bool = False
+
+    def calls(self) -> list[str]:
+        return [switch("GL_TEXTURE_CUBE_MAP_SEAMLESS", self.seamless)]
