@@ -237,29 +237,29 @@ def shade_side(
 ) -> Colors:
     """Return the colours of one side: emission and ambient, then each light's ambient, diffuse and specular part."""
     count, shininess = len(vertices.position), reflectance.shininess
-    scene = vector(lighting.model_ambient)[:3] * reflectance("ambient")[:, :3] + reflectance("emission")[:, :3]
-    rgb = np.broadcast_to(scene, (count, 3))
+    # red, green and blue of all vertices, (3, V): loops over vertices, not over three numbers
+    scene = (vector(lighting.model_ambient)[:3] * reflectance("ambient")[:, :3] + reflectance("emission")[:, :3]).T
+    rgb = np.broadcast_to(scene, (3, count))
     separate = lighting.color_control == gl.GL_SEPARATE_SPECULAR_COLOR
-    highlight = np.zeros((count, 3), np.float32)
+    highlight = np.zeros((3, count), np.float32)
     for number, source in enumerate(lights):
         found = stray[number] if stray else {}
         diffuse, specular = lit_factors(lighting, shininess, normal, source)
         factor = source.attenuation
-        ambient_part = reflectance.product("ambient", source.light, found)
+        ambient_part = reflectance.product("ambient", source.light, found).T
         if factor is not None:
             diffuse, specular = diffuse * factor, specular * factor
-            ambient_part = factor[:, np.newaxis] * ambient_part
+            ambient_part = factor * ambient_part
         rgb = ambient_part + rgb
-        rgb = diffuse[:, np.newaxis] * reflectance.product("diffuse", source.light, found) + rgb
-        shine = specular[:, np.newaxis] * reflectance.product("specular", source.light, found)
+        rgb = diffuse * reflectance.product("diffuse", source.light, found).T + rgb
+        shine = specular * reflectance.product("specular", source.light, found).T
         if separate:
             highlight = shine + highlight
         else:
             rgb = shine + rgb
-    primary = np.empty((count, 4), np.float32)
-    primary[:, :3] = rgb
-    primary[:, 3] = reflectance("diffuse")[:, 3]
-    return Colors(clamped(primary), clamped(highlight) if separate else None)
+    primary = np.empty((4, count), np.float32)
+    primary[:3], primary[3] = rgb, reflectance("diffuse")[:, 3]
+    return Colors(clamped(primary).T, clamped(highlight).T if separate else None)
 
 
 def lit_factors(
