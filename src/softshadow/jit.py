@@ -89,7 +89,11 @@ def kernel(function: Callable[..., Any]) -> Any:
 
 
 def inlined(function: Callable[..., Any]) -> Any:
-    """Compile a function into each kernel that calls it (decorator): what it is called with there is folded away."""
+    """Compile a function into each kernel that calls it (decorator): what it is called with there is folded away.
+
+    For one that kernels call in a place or two this is also the faster way to compile it: as a kernel of its own it
+    gets a wrapper, a cache entry and machine code that nothing uses.
+    """
     return numba.njit(inline="always", **OPTIONS)(function)
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import inlined, kernel
 from softshadow.pipeline.bands import share
 from softshadow.pipeline.coverage import bounds
 from softshadow.pipeline.fill import Region
@@ -49,7 +49,7 @@ def sort_into_bands(corners: np.ndarray, parts: Sequence[tuple[int, int]], regio
     return Bins(starts, numbers)
 
 
-@kernel
+@inlined
 def bands_met(corners, t, region):
     """Return first and end band of a triangle (end exclusive); an empty range where it meets none."""
     first, end = bounds(corners, t)

@@ -10,7 +10,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.image import Format, Image
-from softshadow.jit import kernel
+from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ONE
 from softshadow.state import Blend, State
 
@@ -103,7 +103,7 @@ def tests_alpha(state: State) -> bool:
     return state.alpha.enabled and state.alpha.func != gl.GL_ALWAYS
 
 
-@kernel
+@inlined
 def multiply(a, b):
     """Return a * b of two bytes that stand for 0..1, as llvmpipe rounds it."""
     product = a * b
@@ -144,7 +144,7 @@ def factor(name, channel, source, target, source_alpha, target_alpha, constant, 
     return min(source_alpha, one - target_alpha) if channel < ALPHA else one  # GL_SRC_ALPHA_SATURATE
 
 
-@kernel
+@inlined
 def factors_of(ops, channel, source, target, source_alpha, target_alpha, one):
     """Return the factors of source and target for one channel."""
     constant = ops.red if channel == 0 else ops.green if channel == 1 else ops.blue if channel == 2 else ops.alpha
@@ -155,7 +155,7 @@ def factors_of(ops, channel, source, target, source_alpha, target_alpha, one):
     )
 
 
-@kernel
+@inlined
 def complement_of(source_name, target_name):
     """Return 1 where the target's factor is 1 minus the source's, -1 where it is the other way round, else 0."""
     for plain, inverse in COMPLEMENTS:
@@ -166,7 +166,7 @@ def complement_of(source_name, target_name):
     return 0
 
 
-@kernel
+@inlined
 def equation(name, source, target, source_factor, target_factor):
     """Return the blended byte of one channel (GL 2.1, table 4.1)."""
     if name == gl.GL_MIN:
@@ -179,7 +179,7 @@ def equation(name, source, target, source_factor, target_factor):
     return max(a - b, 0) if name == gl.GL_FUNC_SUBTRACT else max(b - a, 0)
 
 
-@kernel
+@inlined
 def logic(op, s, d):
     """Return the bitwise operation of two bytes; its truth table is the low four bits of the token."""
     ones = 255
@@ -190,14 +190,14 @@ def logic(op, s, d):
     return out
 
 
-@kernel
+@inlined
 def mixed(weight, a, b):
     """Return the byte between `a` and `b`, the third of three: what one channel alone is blended by."""
     scaled = weight + (weight >> 7)
     return (a + ((scaled * (b - a) * 128 + 16384) >> 15)) & 255
 
 
-@kernel
+@inlined
 def blend_fragment(ops, source, mask, target):
     """Blend a fragment of colour `source` (4,) with the bytes `target` (4,) under the colour mask (4,)."""
     # int() of a byte is unsigned once compiled, and unsigned and signed branches together become float64
@@ -217,7 +217,7 @@ def blend_fragment(ops, source, mask, target):
             target[c] = equation(ops.equation_rgb if c < ALPHA else ops.equation_alpha, s, d, a, b)
 
 
-@kernel
+@inlined
 def float_equation(name, s, d, a, b, shared, complement):
     """Return the blended float32 of one channel, never clamped.
 
@@ -241,7 +241,7 @@ def float_equation(name, s, d, a, b, shared, complement):
     return s * a - d * b if name == gl.GL_FUNC_SUBTRACT else d * b - s * a
 
 
-@kernel
+@inlined
 def blend_float_fragment(ops, source, mask, target):
     """Blend a fragment of colour `source` (4,) with the floats `target` (4,) under the colour mask (4,)."""
     target_alpha = target[ALPHA]

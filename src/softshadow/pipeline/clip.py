@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from softshadow.jit import kernel, read_only
+from softshadow.jit import inlined, kernel, read_only
 from softshadow.pipeline.constants import SMALLEST_NORMAL, ZERO
 from softshadow.pipeline.facing import vertices_of
 from softshadow.pipeline.lent import lent
@@ -96,7 +96,7 @@ def outcodes(clip: np.ndarray, depth_clamp: bool, user_planes: np.ndarray) -> np
     return codes
 
 
-@kernel
+@inlined
 def outcode(x, y, z, w, user_planes):
     """Return the bits of one vertex. Each test is one that NaN fails."""
     code = 0 if x <= w else 1
@@ -131,7 +131,7 @@ def distance(plane, position):
     return ((position[0] * plane[0] + position[1] * plane[1]) + position[2] * plane[2]) + position[3] * plane[3]
 
 
-@kernel
+@inlined
 def part_in_window(clip, first, second, between, t):
     """Return how far a vertex lies between two others in the window, by its x if they differ in that; `t` is in space.
 
@@ -192,7 +192,7 @@ def cut_triangles(
     return count, vertices
 
 
-@kernel
+@inlined
 def cut_polygon(plane, draws_cut, polygon, drawn, corners, out, out_drawn, clip, values, vertices, linear):
     """Keep the part of a convex polygon on the positive side of a plane; returns its corners and the vertex count.
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.image import Format, Image
-from softshadow.jit import kernel
+from softshadow.jit import inlined, kernel
 from softshadow.pipeline.blend import (
     ALPHA,
     FOUR_BYTES,
@@ -88,7 +88,7 @@ def written_unorm8(values: np.ndarray, format: Format) -> np.ndarray:
     return written
 
 
-@kernel
+@inlined
 def byte_of(value):
     """Return what `written_unorm8` makes of one number."""
     v = value if value > ZERO and value * LARGEST_BYTE < INT32_END else ZERO

@@ -6,7 +6,7 @@ A vertex is snapped once, though in a mesh six triangles share it.
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.jit import kernel
+from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import HALF, SUBPIXELS
 from softshadow.state import Cull
 
@@ -22,7 +22,7 @@ def culling(cull: Cull) -> tuple[int, bool]:
     return (faces[cull.face] if cull.enabled else CULL_NONE), cull.front_face == gl.GL_CCW
 
 
-@kernel
+@inlined
 def snap(coordinate):
     """Return a window coordinate in 1/256 pixel, samples on multiples of 256 (rounded half to even)."""
     return int(np.rint((coordinate - HALF) * SUBPIXELS))

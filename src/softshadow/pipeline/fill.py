@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from softshadow.jit import inlined, kernel
+from softshadow.jit import inlined
 from softshadow.pipeline.boxes import TALLEST, WIDEST, columns_of, fill_box
 from softshadow.pipeline.coverage import bounds, row_span
 from softshadow.pipeline.facing import EITHER
@@ -108,7 +108,7 @@ def fill_small(
     return n
 
 
-@kernel
+@inlined
 def count_triangle(ops, triangles, t, region, depth_range, planes):
     """Count what will happen to the fragments of triangle `t`, before they are processed."""
     first, end = bounds(triangles.corners, np.uint64(t))

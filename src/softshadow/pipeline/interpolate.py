@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import inlined, kernel
 from softshadow.pipeline.bands import parts_of, share
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.lent import lent
@@ -59,7 +59,7 @@ def attribute_planes(window, values, back, vertices, front, seen, flat, provokin
                 base[c] = source[provoking[ids[t]], c]
 
 
-@kernel
+@inlined
 def line_or_point_planes(window, values, a, b, base, step, across):
     """Fill the planes (k + 1,) of a line from vertex `a` to `b`, or of a point (`b` is -1): there all is constant."""
     k = values.shape[1]

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.image import Image
-from softshadow.jit import kernel, read_only
+from softshadow.jit import inlined, kernel, read_only
 from softshadow.pipeline.bands import parts_of, share
 from softshadow.pipeline.constants import HALF, ONE, ZERO
 from softshadow.pipeline.facing import count_kept, culling, facing_and_area, snap_vertices, vertices_of
@@ -155,7 +155,7 @@ def plane(x0, y0, dx01, dy01, dx20, dy20, a0, a1, a2):
     return a0 - (di * (x0 - HALF) + dj * (y0 - HALF)), di, dj
 
 
-@kernel
+@inlined
 def line_gradient(window, a, b):
     """Return what the difference of a value along a line is multiplied by for d/di and d/dj, and 1 / length**2.
 
@@ -170,7 +170,7 @@ def line_gradient(window, a, b):
     return ZERO * dx, dy * (ONE + slope * slope), over_area
 
 
-@kernel
+@inlined
 def line_plane(x, y, dx, dy, over_area, a0, a1):
     """Return (value at pixel (0, 0), d/di, d/dj) of values at the two ends of a line, the first of which is (x, y)."""
     di, dj = (a0 - a1) * dx * over_area, (a0 - a1) * dy * over_area
@@ -185,7 +185,7 @@ def edge_differences(window, v0, v1, v2):
     return dx01, dy01, dx20, dy20, ONE / (dx01 * dy20 - dy01 * dx20)
 
 
-@kernel
+@inlined
 def polygon_offset(offset, dx01, dy01, dz01, dx20, dy20, dz20, over_area):
     """Return what is added to z: GL 2.1, eq. (3.12), with the slope form and the unit that the context asks for."""
     di = -((dz20 * dy01 - dy20 * dz01) * over_area)

@@ -62,7 +62,7 @@ def fill_span(ops, writes_ids, plane, row_z, depth_range, columns, left, right, 
             ids[i] = id_after(writes_ids, verdict == PASSED, number, ids[i])
 
 
-@kernel
+@inlined
 def count_span(ops, plane, row_z, depth_range, columns, left, right, depth, stencil, verdicts):
     """Count what will happen to the fragments of one row, before they are processed."""
     for i in range(left, right):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import inlined, kernel
 from softshadow.pipeline.bands import parts_of, share
 from softshadow.pipeline.clip import NEAR_FAR, outcode
 from softshadow.pipeline.constants import ONE, SMALLEST_NORMAL, ZERO
@@ -89,7 +89,7 @@ def scale_and_shift(
     return scale, shift
 
 
-@kernel
+@inlined
 def clip_position(matrix, positions, v, out):
     """Write ``matrix @ position`` of vertex `v` to its row of `out` (V, 4), in GL's order of operations.
 
@@ -100,7 +100,7 @@ def clip_position(matrix, positions, v, out):
         out[v, i] = ((matrix[i, 0] * x + matrix[i, 1] * y) + matrix[i, 2] * z) + matrix[i, 3] * w
 
 
-@kernel
+@inlined
 def window_position(clip, v, scale, shift, window):
     """Write the window position of vertex `v` to its row of `window` (V, 4)."""
     over_w = ONE / clip[v, 3]

@@ -11,7 +11,7 @@ References: lp_bld_arit.c of Mesa 22.3 (polynomial, exp2, log2_safe, pow).
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import inlined, kernel
 
 ZERO, ONE = np.float32(0.0), np.float32(1.0)
 INFINITY, NOT_A_NUMBER = np.float32(np.inf), np.float32(np.nan)
@@ -41,7 +41,7 @@ LARGEST_EXPONENT, SMALLEST_EXPONENT = np.float32(128.0), np.float32(-126.99999)
 EXPONENT_BIAS, MANTISSA_BITS, MANTISSA, ONE_BITS = (np.int32(bits) for bits in (127, 23, 0x7FFFFF, 0x3F800000))
 
 
-@kernel
+@inlined
 def exp2(x):
     """Return 2^x, 0 below -126 and infinity from 128 on; NaN stays NaN."""
     limited = x if x > SMALLEST_EXPONENT else SMALLEST_EXPONENT
@@ -55,7 +55,7 @@ def exp2(x):
     return power_of_two * (odd * part + even) if x == x else x
 
 
-@kernel
+@inlined
 def log2(x):
     """Return log2(x); -infinity at 0, NaN below."""
     bits = np.float32(x).view(np.int32)
@@ -71,7 +71,7 @@ def log2(x):
     return positive if x > ZERO else (-INFINITY if x == ZERO else NOT_A_NUMBER)
 
 
-@kernel
+@inlined
 def power(x, exponent):
     """Return x^exponent as 2^(log2(x) exponent); 0 wherever x is 0, even for the exponent 0."""
     raised = exp2(log2(x if x != ZERO else ONE) * exponent)

@@ -13,7 +13,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.image import Format, Image
-from softshadow.jit import kernel
+from softshadow.jit import inlined, kernel
 from softshadow.pixels import LARGEST_SAMPLED, LARGEST_UINT, sampled_depth
 from softshadow.programs.wrapping import (
     FIXED_POINT_WRAPS,
@@ -131,7 +131,7 @@ def fetch(cells, width, border, unit, i, j, channel):
     return border[channel]
 
 
-@kernel
+@inlined
 def mix(weight, a, b):
     """Return a + weight * (b - a), rounded at each step."""
     return weight * (b - a) + a
@@ -224,7 +224,7 @@ def passes(func, reference, texel):
     return func == GL_ALWAYS
 
 
-@kernel
+@inlined
 def in_unit_range(r):
     """Return a reference clamped to [0, 1]; NaN becomes 0."""
     r = r if r > ZERO else ZERO

@@ -7,7 +7,7 @@ References: GL 2.1 sec. 3.8.7, 3.8.8; GL_TEXTURE_2D of llvmpipe 22.3 (wrap funct
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import inlined, kernel
 from softshadow.tokens import GL_CLAMP, GL_CLAMP_TO_BORDER, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT, GL_REPEAT
 
 ZERO, ONE, HALF = np.float32(0.0), np.float32(1.0), np.float32(0.5)
@@ -41,7 +41,7 @@ def wrap_code(wrap: int, size: int) -> int:
     return REPEAT_BY_MASK if wrap == GL_REPEAT and size & (size - 1) == 0 else wrap
 
 
-@kernel
+@inlined
 def mirrored(coordinate):
     """Return the distance in [0, 1] to the nearest even integer."""
     half = coordinate * HALF
