@@ -220,10 +220,14 @@ def test_bounds_are_those_of_the_tile_and_nothing_is_known_of_nan():
 
 
 @pytest.mark.interpreted
-@given(seeds, st.booleans())
-def test_rows_at_once_are_the_rows_one_by_one(seed, downwards):
+@given(seeds, st.booleans(), st.sampled_from([8, 12, 20, 28]))
+def test_rows_at_once_are_the_rows_one_by_one(seed, downwards, bits):
     rng = np.random.default_rng(seed)
     corners = large_and_small(rng, 8, downwards)[0].corners
+    corners[::2] += rng.integers(-(1 << bits), 1 << bits, corners[::2].shape, dtype=np.int32)
+    x, y = corners[:, 0::2].astype(np.int64), corners[:, 1::2].astype(np.int64)
+    area = (x[:, 0] - x[:, 1]) * (y[:, 2] - y[:, 0]) - (x[:, 2] - x[:, 0]) * (y[:, 0] - y[:, 1])
+    corners[area < 0] = corners[area < 0][:, [0, 1, 4, 5, 2, 3]]
     for t in range(len(corners)):
         first, end = bounds(corners, t)
         first, end = max(first, 3), min(end, HEIGHT)

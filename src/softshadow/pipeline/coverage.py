@@ -9,6 +9,7 @@ import numpy as np
 from softshadow.jit import kernel
 
 FARTHEST = np.int64(1 << 30)  # not a literal, for which `narrow` would be compiled once more
+EXACT = 1 << 52  # whole numbers below twice this are floats, and so are their products and sums here
 
 
 @kernel
@@ -78,38 +79,39 @@ def row_span(corners, t, row, downwards):
 def narrow_rows(x0, y0, x1, y1, first, end, downwards, lefts, rights):
     """Do what `narrow` does in those of the rows [first, end) that the edge from corner 0 to corner 1 reaches.
 
-    It divides only once: from row to row, quotient and remainder grow by the same amounts.
+    The quotients are those of whole numbers below 2^53, in float64: a quotient that is no whole number is further from
+    the next one than rounding can take it, so that its floor is the right one. Eight rows are one vector. What is
+    larger, which no viewport makes, goes row by row.
     """
     first, end = max(first, (min(y0, y1) + 255) >> 8), min(end, (max(y0, y1) >> 8) + 1)
     if first >= end:
         return
     across, along, at = edge(x0, y0, x1, y1, downwards)
-    value, step = at + along * (first << 8), along << 8
-    if across == 0:  # along the row, the only one it can reach
-        if value < 0:
-            rights[first] = lefts[first]
+    value, step, divisor = at + along * (first << 8), along << 8, abs(across) << 8
+    if max(abs(value), abs(value + step * (end - first))) >= EXACT:
+        for row in range(first, end):
+            left, right = narrow(x0, y0, x1, y1, row, downwards, int(lefts[row]), int(rights[row]))
+            lefts[row], rights[row] = left, right
         return
-    divisor = abs(across) << 8
-    quotient, quotient_step = value // divisor, step // divisor
-    remainder, remainder_step = value - quotient * divisor, step - quotient_step * divisor
-    for row in range(first, end):
-        j = np.uint64(row)
-        if across > 0:
-            rights[j] = min(int(rights[j]), quotient + 1)
-        else:
-            lefts[j] = max(int(lefts[j]), -quotient)
-        remainder += remainder_step
-        carry = remainder >= divisor
-        quotient += quotient_step + carry
-        remainder -= divisor if carry else 0
+    start, slope, over = float(value), float(step), float(divisor)
+    if across > 0:
+        for k in range(end - first):
+            j = np.uint64(first + k)
+            rights[j] = min(rights[j], np.int32(np.floor((start + slope * k) / over)) + np.int32(1))
+    elif across < 0:
+        for k in range(end - first):
+            j = np.uint64(first + k)
+            lefts[j] = max(lefts[j], -np.int32(np.floor((start + slope * k) / over)))
+    elif value < 0:  # along the row, the only one it can reach
+        rights[first] = lefts[first]
 
 
 @kernel
 def row_spans(corners, t, first, end, downwards, left, right, lefts, rights):
     """Write first and end column (end exclusive) of triangle `t` in its rows [first, end), within [left, right).
 
-    The same columns as those of `row_span`, mostly without its divisions. An edge is asked only between its corners: in
-    the rows of the triangle beyond, what lies inside the other two edges lies strictly inside this one.
+    The same columns as those of `row_span`. An edge is asked only between its corners: in the rows of the triangle
+    beyond, what lies inside the other two edges lies strictly inside this one.
     """
     for row in range(first, end):
         j = np.uint64(row)
