@@ -1,4 +1,4 @@
-"""The vertex stage: one walk gives what three give, and what NumPy gives."""
+"""The vertex stage: parts give what the whole gives, and what NumPy gives."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ def random_positions(rng: np.random.Generator, count: int, real: type) -> np.nda
 
 @pytest.mark.parametrize("real", [np.float32, np.float64])
 @given(seed=st.integers(0, 2**32 - 1), flipped=st.booleans(), clamp=st.booleans(), planes=st.integers(0, 3))
-def test_one_walk_over_the_vertices_gives_what_three_give(real, seed, flipped, clamp, planes):
+def test_parts_of_the_vertices_give_what_all_at_once_give(real, seed, flipped, clamp, planes):
     rng = np.random.default_rng(seed)
     matrix, positions = rng.normal(0, 1, (4, 4)).astype(real), random_positions(rng, 20, real)
     user_planes = rng.normal(0, 1, (planes, 4)).astype(np.float32)

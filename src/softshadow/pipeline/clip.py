@@ -97,24 +97,27 @@ def outcodes(clip: np.ndarray, depth_clamp: bool, user_planes: np.ndarray) -> np
 
 
 @inlined
-def outcode(x, y, z, w, user_planes):
-    """Return the bits of one vertex. Each test is one that NaN fails."""
+def outcode(x, y, z, w):
+    """Return the bits of the frustum's planes for one vertex. Each test is one that NaN fails."""
     code = 0 if x <= w else 1
     code |= 0 if x + w >= ZERO else 2
     code |= 0 if y <= w else 4
     code |= 0 if y + w >= ZERO else 8
     code |= 0 if z + w >= ZERO else 16
     code |= 0 if z <= w else 32
-    for p in range(user_planes.shape[0]):
-        kept = (x * user_planes[p, 0] + y * user_planes[p, 1]) + z * user_planes[p, 2] + w * user_planes[p, 3] >= ZERO
-        code |= 0 if kept else 1 << (FRUSTUM_PLANES + p)
     return code
 
 
 @kernel
 def write_outcodes(clip, user_planes, ignored, codes):
+    """Write `outcodes`, without the bits that are ignored: plane after plane of the user's, for loops of vectors."""
     for v in range(clip.shape[0]):
-        codes[v] = outcode(clip[v, 0], clip[v, 1], clip[v, 2], clip[v, 3], user_planes) & ~ignored
+        codes[v] = outcode(clip[v, 0], clip[v, 1], clip[v, 2], clip[v, 3]) & ~ignored
+    for p in range(user_planes.shape[0]):
+        a, b, c, d = user_planes[p, 0], user_planes[p, 1], user_planes[p, 2], user_planes[p, 3]
+        for v in range(clip.shape[0]):
+            kept = (clip[v, 0] * a + clip[v, 1] * b) + clip[v, 2] * c + clip[v, 3] * d >= ZERO
+            codes[v] |= 0 if kept else 1 << (FRUSTUM_PLANES + p)
 
 
 @kernel

@@ -4,7 +4,7 @@ import numpy as np
 
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.bands import parts_of, share
-from softshadow.pipeline.clip import NEAR_FAR, outcode
+from softshadow.pipeline.clip import NEAR_FAR, write_outcodes
 from softshadow.pipeline.constants import ONE, SMALLEST_NORMAL, ZERO
 from softshadow.pipeline.lent import lent
 from softshadow.state import Viewport
@@ -44,7 +44,7 @@ def process_vertices(
     framebuffer_height: int,
     flipped: bool,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return `to_clip`, `outcodes` and `to_window` of object positions (V, 4), in one walk over them."""
+    """Return `to_clip`, `outcodes` and `to_window` of object positions (V, 4)."""
     clip = lent(positions.shape, positions.dtype)
     window = np.empty((len(positions) + len(positions) // SPARE, 4), positions.dtype)[: len(positions)]
     codes = lent(len(positions), np.int32)
@@ -55,9 +55,9 @@ def process_vertices(
 
     def process(part: int) -> None:
         own = slice(*parts[part])
-        write_vertices(
-            model_view_projection, positions[own], planes, ignored, scale, shift, clip[own], codes[own], window[own]
-        )
+        transform(model_view_projection, positions[own], clip[own])
+        write_outcodes(clip[own], planes, ignored, codes[own])
+        write_window(clip[own], scale, shift, window[own])
 
     share(process, len(parts))
     return clip, codes, window
@@ -120,12 +120,4 @@ def transform(matrix, positions, out):
 @kernel
 def write_window(clip, scale, shift, window):
     for v in range(clip.shape[0]):
-        window_position(clip, v, scale, shift, window)
-
-
-@kernel
-def write_vertices(matrix, positions, user_planes, ignored, scale, shift, clip, codes, window):
-    for v in range(positions.shape[0]):
-        clip_position(matrix, positions, v, clip)
-        codes[v] = outcode(clip[v, 0], clip[v, 1], clip[v, 2], clip[v, 3], user_planes) & ~ignored
         window_position(clip, v, scale, shift, window)
