@@ -146,6 +146,8 @@ def mix_fixed_point(weight, a, b):
 @kernel
 def gather_texels(columns, rows, cells, width, border, unit, sources, out):
     """Sample with GL_NEAREST: the texels in columns and rows (N,); `unit` is the value of one cell unit."""
+    places, texels = np.empty(len(columns), np.uint32), cells.reshape(-1)
+    pitch, channels = np.uint32(cells.shape[1]), np.uint64(cells.shape[2])
     for c in range(out.shape[0]):
         source = sources[c]
         if source >= CONSTANT_ZERO:
@@ -156,12 +158,16 @@ def gather_texels(columns, rows, cells, width, border, unit, sources, out):
                 out[c, n] = fetch(cells, width, border, unit, np.int64(columns[n]), np.int64(rows[n]), source)
             continue
         outside = border[source]
-        for n in range(len(columns)):  # as `fetch`, but without branches: a texel is read in any case
+        # as `fetch`, but without branches: a texel is read in any case. What is around the reading is vectorised
+        for n in range(len(columns)):
             i, j = np.uint32(columns[n]), np.uint32(rows[n])
             inside = (i < np.uint32(width)) & (j < np.uint32(cells.shape[0]))
-            i, j = (i, j) if inside else (FIRST_TEXEL, FIRST_TEXEL)
-            texel = border.dtype.type(cells[np.uint64(j), np.uint64(i), source]) * unit
-            out[c, n] = texel if inside else outside
+            places[n] = np.uint32(j * pitch + i) if inside else FIRST_TEXEL
+        for n in range(len(columns)):
+            out[c, n] = border.dtype.type(texels[np.uint64(places[n]) * channels + np.uint64(source)]) * unit
+        for n in range(len(columns)):
+            inside = (np.uint32(columns[n]) < np.uint32(width)) & (np.uint32(rows[n]) < np.uint32(cells.shape[0]))
+            out[c, n] = out[c, n] if inside else outside
 
 
 @kernel
