@@ -171,6 +171,7 @@ class Image:
     @classmethod
     def new(cls, format: Format, width: int, height: int, internal_format: int = 0) -> Image:
         """Return an image of zeros, with a stencil plane where the internal format has one."""
+        width, height = int(width), int(height)  # callers may have NumPy's
         stencil = cls.new(STENCIL8, width, height, internal_format) if _has_stencil(format, internal_format) else None
         cells = padded(height, width, format)
         if format.base in (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_LUMINANCE):

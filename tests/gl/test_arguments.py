@@ -147,3 +147,17 @@ def test_alpha_of_three_numbers_is_that_of_mesa():
 def test_too_few_numbers_are_refused():
     with gl.create_context(*SIZE), pytest.raises(ValueError, match="expected 3 numbers"):
         gl.glColor3fv([1, 2])
+
+
+def test_sizes_may_be_numpy_integers():
+    size = np.int64(4)
+    texels = np.arange(64, dtype=np.uint8).reshape(4, 4, 4)
+    with gl.create_context(8, 8):
+        gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, size, size, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
+        gl.glGenerateMipmap(gl.GL_TEXTURE_2D)
+        assert (gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE).ravel() == texels.ravel()).all()
+        assert gl.glGetTexLevelParameteriv(gl.GL_TEXTURE_2D, 1, gl.GL_TEXTURE_WIDTH) == 2
+        gl.glCopyTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, np.int32(0), 0, size, size, 0)
+        gl.glGenerateMipmap(gl.GL_TEXTURE_2D)
+        assert gl.glGetTexLevelParameteriv(gl.GL_TEXTURE_2D, 2, gl.GL_TEXTURE_WIDTH) == 1
