@@ -86,7 +86,8 @@ def test_results_do_not_depend_on_the_number_of_threads_or_the_bands(seed, at_a_
     with pytest.MonkeyPatch.context() as patch:
         set_threads(1)
         expected = drawn(seed)
-        patch.setattr(binding, "WORTH", 0)  # so small a window would not be divided
+        for name in ("WORTH", "WORTH_COUNTING"):  # so small a window would not be divided
+            patch.setattr(binding, name, 0)
         patch.setattr(binding, "AT_A_TIME", at_a_time)
         try:
             set_threads(3)

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softshadow.pipeline.bins import ROWS, bands_of, sort_into_bands
+from softshadow.pipeline.bins import bands_of, sort_into_bands
 from softshadow.pipeline.coverage import bounds, extent
 from softshadow.pipeline.fill import Region
 
@@ -21,16 +21,17 @@ def random_corners(seed: int, count: int) -> np.ndarray:
     return np.ascontiguousarray(corners.reshape(-1, 6), np.int32)
 
 
-@given(st.integers(0, 2**32 - 1), st.integers(0, 40), st.integers(0, 50), st.integers(1, 90))
-def test_a_band_has_the_triangles_that_meet_it_in_drawing_order(seed, count, first_row, rows):
+@given(st.integers(0, 2**32 - 1), st.integers(0, 40), st.integers(0, 50), st.integers(1, 90), st.integers(3, 7))
+def test_a_band_has_the_triangles_that_meet_it_in_drawing_order(seed, count, first_row, rows, rows_log2):
     corners = random_corners(seed, count)
     region = Region(0, 100, first_row, first_row + rows, 1)
     parts = [(count // 4, count // 3), (count // 2, count - count // 5)]
-    bins = sort_into_bands(corners, parts, region)
-    assert bands_of(region) == len(bins.starts) - 1
-    for band in range(bands_of(region)):
-        low = first_row + band * ROWS
-        high = min(low + ROWS, region.end_row)
+    bins = sort_into_bands(corners, parts, region, rows_log2)
+    assert bands_of(region, rows_log2) == len(bins.starts) - 1
+    for band in range(bands_of(region, rows_log2)):
+        low, high = bins.rows_of(band, region)
+        assert low == first_row + (band << rows_log2)
+        assert high == min(low + (1 << rows_log2), region.end_row)
         spans = [(t, *bounds(corners, t)) for part in parts for t in range(*part)]
         assert bins.of(band).tolist() == [t for t, first, last in spans if max(first, low) < min(last, high)]
 

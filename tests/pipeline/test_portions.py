@@ -56,7 +56,8 @@ def test_portions_leave_what_all_triangles_at_once_leave(seed, depth_format, cou
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(portions, "PORTION", size)
         patch.setattr(bands, "PART", 1 + size // 3)
-        patch.setattr(binding, "WORTH", 0)  # so small a window would not be divided
+        for name in ("WORTH", "WORTH_COUNTING"):  # so small a window would not be divided
+            patch.setattr(binding, name, 0)
         set_threads(count)
         try:
             assert same_window(colorless(seed, depth_format), expected)

@@ -17,7 +17,7 @@ import numpy as np
 
 from softshadow.jit import cache_folder, inlined, kernel
 from softshadow.pipeline.bands import parts_of, share, threads
-from softshadow.pipeline.bins import ROWS, Bins, sort_into_bands
+from softshadow.pipeline.bins import ROWS_LOG2, Bins, sort_into_bands
 from softshadow.pipeline.facing import BACK, EITHER, FRONT
 from softshadow.pipeline.fill import Planes, Region, count_triangle, fill_rows, fill_small, is_small
 from softshadow.pipeline.fill_tiles import fill_in_tiles
@@ -28,8 +28,11 @@ from softshadow.pipeline.tiles import commutes
 
 PAYS_AFTER = 200_000_000  # fragments of one state; measured: the generic binding draws them in 1.5 s, what it takes
 # to compile the state
-WORTH = 200_000  # fragments from which sorting and the hand-over to other threads are small against the work
+WORTH = 1_000_000  # fragments from which sorting and the hand-over to other threads are small against the work
+SMALL = 100  # fragments that take as long as a small triangle
+WORTH_COUNTING = 200_000  # the same for draws that only count: the sides of volumes are long and thin
 AT_A_TIME = 1 << 19  # triangles; bounds the memory of numbers where all of them meet all bands
+SHARES = 4  # bands for each thread: what one is longer at than another, the others make up for
 LAYERS = 4  # of fragments over each other, from which bands pay on one thread, too
 VERDICT_COUNTS = 6  # one per verdict, and the number of stencil values that changed
 
@@ -192,18 +195,18 @@ def fill(
         rows = planes._replace(ids=planes.ids[first_row - region.first_row :]) if writes_ids else planes
         bound(front, back, triangles, numbers, part, depth_range, rows)
 
-    if counts or not _bands_pay(region, fragments):
+    drawn = len(triangles.ids) if runs is None else sum(end - first for first, end in runs)
+    worth = fragments >= WORTH_COUNTING if counting else fragments + SMALL * drawn >= WORTH
+    if counts or not worth or not _bands_pay(region, fragments):
         for first, end in [(0, len(triangles.ids))] if runs is None else runs:
             fill_part(np.arange(first, end, dtype=np.int32), region.first_row, region.end_row)
         return
     for parts in _portions(len(triangles.ids)) if runs is None else [runs]:
-        bins = sort_into_bands(triangles.corners, parts, region)
-
+        bins = sort_into_bands(triangles.corners, parts, region, _rows_log2(region, fragments))
         met = np.flatnonzero(np.diff(bins.starts)).tolist()
 
         def fill_band(n: int, bins: Bins = bins, met: list[int] = met) -> None:
-            first = region.first_row + met[n] * ROWS
-            fill_part(bins.of(met[n]), first, min(first + ROWS, region.end_row))
+            fill_part(bins.of(met[n]), *bins.rows_of(met[n], region))
 
         share(fill_band, len(met))
 
@@ -217,13 +220,23 @@ def _portions(count: int) -> Iterator[list[tuple[int, int]]]:
 def _bands_pay(region: Region, fragments: int) -> bool:
     """Return whether to sort the triangles into bands.
 
-    For several threads where there is enough to do, and for one where many layers lie on each other: the planes of a
-    band stay in the cache while all of them are drawn.
+    For several threads, and for one where many layers lie on each other: the planes of a band stay in the cache while
+    all of them are drawn.
     """
-    if region.end_row - region.first_row <= ROWS or fragments < WORTH:
-        return False
+    return region.end_row - region.first_row > 1 << ROWS_LOG2 and (threads() > 1 or _has_layers(region, fragments))
+
+
+def _has_layers(region: Region, fragments: int) -> bool:
     pixels = (region.right - region.left) * (region.end_row - region.first_row)
-    return threads() > 1 or fragments > LAYERS * pixels
+    return fragments > LAYERS * pixels
+
+
+def _rows_log2(region: Region, fragments: int) -> int:
+    """Return the binary logarithm of how many rows a band has: few bands where there is little to do in each."""
+    if _has_layers(region, fragments):
+        return ROWS_LOG2
+    rows = (region.end_row - region.first_row) // (SHARES * threads())
+    return max(ROWS_LOG2, rows.bit_length() - 1)
 
 
 def _bound(

@@ -17,7 +17,8 @@ from softshadow.pipeline.map_shading import map_shader
 from softshadow.pipeline.runs import Runs, fragments_of, runs_of
 from softshadow.state import State
 
-BATCH = 16 * 2091  # fragments: columns of an odd number of cache lines, which do not fall on each other in the cache
+PART = 1 << 14  # fragments that a thread takes of a draw that one thread does in one go
+BATCH = 32 * 2091  # fragments: columns of an odd number of cache lines, which do not fall on each other in the cache
 
 
 def shade(geometry: Geometry, runs: Runs) -> np.ndarray:
@@ -48,7 +49,7 @@ def shade_and_write(state: State, target: Framebuffer, geometry: Geometry, runs:
         if threads() == 1:
             shade_map(runs, planes)
         else:
-            parts = runs.batches(BATCH)
+            parts = runs.batches(PART)
             share(lambda n: shade_map(runs.part(parts[n], parts[n + 1]), planes), len(parts) - 1)
         return
     writers = [color_writer(state, image) for image in target.colors]
