@@ -139,9 +139,7 @@ class Image:
     internal_format: int = 0
     stencil: Image | None = None
     contents: Hashable | None = None
-    _later: list[tuple[int, np.ndarray]] = field(
-        default_factory=list
-    )  # first row and rows that are still to be written
+    _later: list[tuple[int, np.ndarray]] = field(default_factory=list)  # first row, rows: still to be written
 
     @property
     def cells(self) -> np.ndarray:
