@@ -106,7 +106,10 @@ def light_vertices(
     with np.errstate(all="ignore"):
         to_object = inverse(modelview, vertices.modelview_kind)
         normal = transformed_normals(lighting, vertices.normal, to_object, object_space, length_preserving)
-        eye = transform(modelview, vertices.position)[:, :3] if needs_eye_position(lighting) else None
+        # x, y and z apart in memory, here and in the normals: loops over vertices, not over three numbers
+        eye = (
+            np.asfortranarray(transform(modelview, vertices.position)[:, :3]) if needs_eye_position(lighting) else None
+        )
         lights = [
             at_vertices(light, lighting, eye, modelview, to_object, object_space) for light in enabled_lights(lighting)
         ]
@@ -132,7 +135,7 @@ def transformed_normals(
 ) -> np.ndarray:
     """Return the normals (V, 3) in the space of lighting, normalised or rescaled."""
     if not object_space:
-        normal = np.stack([dot(normal, to_object[:3, i]) for i in range(3)], axis=1)
+        normal = np.stack([dot(normal, to_object[:3, i]) for i in range(3)]).T
     if lighting.normalize:
         return normalized_rows(normal)
     if lighting.rescale_normal and not object_space and not length_preserving:
