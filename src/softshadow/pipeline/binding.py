@@ -235,7 +235,7 @@ def _rows_log2(region: Region, fragments: int) -> int:
     """Return the binary logarithm of how many rows a band has: few bands where there is little to do in each."""
     if _has_layers(region, fragments):
         return ROWS_LOG2
-    rows = (region.end_row - region.first_row) // (SHARES * threads())
+    rows = int(region.end_row - region.first_row) // (SHARES * threads())
     return max(ROWS_LOG2, rows.bit_length() - 1)
 
 
