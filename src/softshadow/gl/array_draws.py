@@ -90,7 +90,7 @@ def _draw_elements(operation: str, mode: int, count: int, type: int, indices: An
     if not is_one_of(operation, "type", type, INDEX_TYPES, AN_INDEX_TYPE) or not can_draw(context, operation):
         return
     owned = owned_indices(context, operation, int(count), np.dtype(TYPES[type]), indices)
-    lowest, highest = extremes(owned, context)
+    lowest, highest = extremes(owned)
     if lowest < 0:
         raise ValueError(f"{operation}: index {lowest} is negative")
     vertices = _vertices(context, operation, 0, highest + 1)

@@ -14,7 +14,6 @@ from softshadow.context import Context
 from softshadow.gl.buffers import content_from, offset_of
 from softshadow.gl.vertex_format import REST
 
-LARGE = 1 << 17  # indices; finding the largest of fewer takes less than 50 us
 LARGEST_FRACTION = (1 << 23) - 1  # llvmpipe fetches as many bits of an unsigned int as float32 has
 
 
@@ -33,38 +32,31 @@ def owned_indices(context: Context, operation: str, count: int, dtype: np.dtype,
     numbers = np.ravel(indices)[:count]
     if len(numbers) < count:
         raise ValueError(f"{operation}(count={count}): only {len(numbers)} indices are there")
-    if numbers.dtype in (np.int32, np.uint32) and not _root(numbers).flags.writeable:
+    if numbers.dtype in (np.int32, np.uint32) and _is_frozen(numbers):
         return numbers.view(np.int32)
     owned = np.array(numbers, np.int32)
     owned.setflags(write=False)
     return owned
 
 
-def extremes(indices: np.ndarray, context: Context) -> tuple[int, int]:
-    """Return the smallest and the largest index, 0 and -1 where there are none; of large arrays they are kept."""
+def extremes(indices: np.ndarray) -> tuple[int, int]:
+    """Return the smallest and the largest index, 0 and -1 where there are none.
 
-    def find() -> np.ndarray:
-        return np.array([indices.min(), indices.max()]) if len(indices) else np.array([0, -1])
-
-    root = _root(indices)
-    if len(indices) < LARGE:
-        lowest, highest = find()
-    else:
-        lowest, highest = context.arrays.converted.get((_identity(indices), len(indices)), root, find)
-    return int(lowest), int(highest)
+    Found for each draw: kernels do not check bounds, and an array's owner could make it writable in between.
+    """
+    return (int(indices.min()), int(indices.max())) if len(indices) else (0, -1)
 
 
 def full_rows(rows: np.ndarray, width: int, context: Context, normalised: bool) -> np.ndarray:
     """Return rows as read-only (V, width) of the context's precision; the same content is converted once."""
-    root = _root(rows)
-    if root.flags.writeable:
+    if not _is_frozen(rows):
         content: Any = hashlib.blake2b(np.ascontiguousarray(rows).data, digest_size=16).digest()
     elif rows.shape[1] == width and rows.dtype == context.real and rows.flags.c_contiguous:
         return rows
     else:
         content = _identity(rows)
     key = (content, rows.shape, rows.dtype, width, normalised)
-    return context.arrays.converted.get(key, root, lambda: _converted(rows, width, context, normalised))
+    return context.arrays.converted.get(key, _root(rows), lambda: _converted(rows, width, context, normalised))
 
 
 def spread(row: np.ndarray, count: int) -> np.ndarray:
@@ -77,6 +69,12 @@ def spread(row: np.ndarray, count: int) -> np.ndarray:
 def _identity(array: np.ndarray) -> tuple[Any, ...]:
     """Return what tells read-only arrays apart while the memory they lie in is kept."""
     return (id(_root(array)), array.__array_interface__["data"][0], array.strides)
+
+
+def _is_frozen(array: np.ndarray) -> bool:
+    """Return whether the memory of an array is read-only, as far as it is known whose it is."""
+    root = _root(array)
+    return not root.flags.writeable and (root.base is None or isinstance(root.base, bytes))
 
 
 def _root(rows: np.ndarray) -> np.ndarray:
