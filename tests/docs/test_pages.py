@@ -10,7 +10,7 @@ from softshadow import errors, techniques
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
-PACKAGE = ROOT / "src" / "softshadow"
+PACKAGE = ROOT / "softshadow"
 
 
 def page(name: str) -> str:

@@ -63,7 +63,7 @@ def test_version_stands_in_changelog_and_citation() -> None:
 def test_pages_that_the_sources_point_at_exist() -> None:
     missing = [
         f"{file.relative_to(ROOT)}: {name}"
-        for top in ("src", "tests", "docs")
+        for top in ("softshadow", "tests", "docs")
         for file in sorted((ROOT / top).rglob("*.py"))
         for name in re.findall(r"[\w/]+\.md\b", file.read_text(encoding="utf-8"))
         if not (ROOT / name).exists() and not (ROOT / "docs" / name).exists()
