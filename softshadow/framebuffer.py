@@ -158,7 +158,8 @@ def default_framebuffer(
 class Storage:
     """The objects of one context by name: framebuffers (0 is the window), textures, renderbuffers and query results.
 
-    `visibility` is what draws remember of earlier ones (`softshadow.pipeline.reuse`); nothing depends on it but time.
+    `visibility_cache` speeds up draws that repeat earlier ones (`softshadow.pipeline.fast.visibility_cache`); it changes
+    no result.
     """
 
     framebuffers: dict[int, Framebuffer]
@@ -166,7 +167,7 @@ class Storage:
     renderbuffers: dict[int, Image] = field(default_factory=dict)
     queries: dict[int, int] = field(default_factory=dict)
     active_query: int = 0
-    visibility: Any = None
+    visibility_cache: Any = None
 
     @property
     def window(self) -> Framebuffer:

@@ -144,14 +144,14 @@ def perspective(fov_y: float, aspect: float, near: float, far: float, real: Real
 def look_at(base: np.ndarray, eye: Sequence[float], center: Sequence[float], up: Sequence[float]) -> np.ndarray:
     """Return `base` times gluLookAt's matrix: a rotation in the precision of `base`, then a translation by -eye."""
     real = base.dtype.type
-    forward = _normalised((np.asarray(center, np.float64) - np.asarray(eye, np.float64)).astype(real))
-    side = _normalised(_cross(forward, np.asarray(up, np.float64).astype(real)))
+    forward = _normalized((np.asarray(center, np.float64) - np.asarray(eye, np.float64)).astype(real))
+    side = _normalized(_cross(forward, np.asarray(up, np.float64).astype(real)))
     made = np.eye(4, dtype=real)
     made[0, :3], made[1, :3], made[2, :3] = side, _cross(side, forward), -forward
     return translate(multiply(base, made), *(-float(v) for v in eye))
 
 
-def _normalised(v: np.ndarray) -> np.ndarray:
+def _normalized(v: np.ndarray) -> np.ndarray:
     length = np.sqrt((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2])
     return v / length if length else v
 

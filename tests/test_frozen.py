@@ -11,7 +11,7 @@ from softshadow.state import Depth, State
 def test_a_copy_is_that_of_the_standard_library():
     for values in ({}, {"depth": Depth(enabled=True)}, {"program": 3, "depth": Depth(clear=0.5)}):
         before = State()
-        made = frozen.replace(before, **values)
+        made = frozen.evolve(before, **values)
         assert made == dataclasses.replace(before, **values)
         assert hash(made) == hash(dataclasses.replace(before, **values))
         assert before == State()
@@ -19,9 +19,9 @@ def test_a_copy_is_that_of_the_standard_library():
 
 def test_a_copy_cannot_be_changed_either():
     with pytest.raises(dataclasses.FrozenInstanceError):
-        frozen.replace(State(), program=1).program = 2
+        frozen.evolve(State(), program=1).program = 2
 
 
 def test_an_unknown_field_is_told():
     with pytest.raises(TypeError, match="Depth has no field bias"):
-        frozen.replace(Depth(), func=3, bias=1)
+        frozen.evolve(Depth(), func=3, bias=1)

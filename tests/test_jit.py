@@ -43,7 +43,7 @@ print(gc.isenabled())
 """
 COUNT_UP = """
 import numpy as np
-from softshadow.pipeline.fragment_ops import FragmentOps, process_fragment
+from softshadow.pipeline.raster.fragment_ops import FragmentOps, process_fragment
 from softshadow.tokens import GL_ALWAYS, GL_INCR, GL_KEEP
 ops = FragmentOps(0, GL_ALWAYS, 1, GL_ALWAYS, GL_KEEP, GL_KEEP, GL_INCR, 255, 0, GL_ALWAYS, 0, 0, 0, 0, 255, 255)
 print(process_fragment(ops, True, 0, np.float32(0), np.float32(0), np.uint8(7))[1])

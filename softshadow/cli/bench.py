@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from softshadow.cli.arguments import Size, as_json
-from softshadow.cli.talk import named_warnings, print_json, say, table
+from softshadow.cli.console import named_warnings, print_json, say, table
 
 if TYPE_CHECKING:
     from softshadow.bench.growth import Growth

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from softshadow.cli.arguments import Size, as_json, force
-from softshadow.cli.talk import print_json, say, say_if_compiling, table
+from softshadow.cli.console import print_json, say, say_if_compiling, table
 
 if TYPE_CHECKING:
     from softshadow.failures import Failure

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from softshadow.cli.arguments import as_json
-from softshadow.cli.talk import print_json, table
+from softshadow.cli.console import print_json, table
 
 
 @click.command(epilog="Examples:  softshadow techniques  |  softshadow techniques map")

@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from softshadow.cli.arguments import as_json
-from softshadow.cli.talk import print_json, say, table
+from softshadow.cli.console import print_json, say, table
 
 PACKAGES = ("numpy", "numba", "llvmlite", "trimesh", "pillow", "imageio", "click", "rich", "pydantic", "jinja2")
 EXTRAS = {
@@ -41,7 +41,7 @@ def warmup(as_json: bool) -> None:
             for options in _option_sets(name):
                 text = ", ".join(f"{key}={value}" for key, value in options.items())
                 say(f"compiling {name}{f' ({text})' if text else ''} ...")
-                for binding in ("generic", "specialised"):
+                for binding in ("generic", "specialized"):
                     with use_binding(binding):
                         run(name, "boxes", WARM_SIZE, **options)
     seconds = time.perf_counter() - start

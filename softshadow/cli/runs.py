@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from softshadow.cli.arguments import as_json, chosen_scene, force, parsed_options, scene_arguments, technique_options
-from softshadow.cli.talk import named_warnings, print_json, say, say_if_compiling, table
+from softshadow.cli.console import named_warnings, print_json, say, say_if_compiling, table
 
 if TYPE_CHECKING:
     from softshadow.run import Run

@@ -10,7 +10,7 @@ from contextlib import contextmanager, nullcontext
 import click
 
 from softshadow.cli.arguments import as_json, chosen_scene, force, scene_arguments, spelled
-from softshadow.cli.talk import named_warnings, print_json, say, say_if_compiling
+from softshadow.cli.console import named_warnings, print_json, say, say_if_compiling
 
 
 @contextmanager

@@ -14,11 +14,11 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context.arrays import BufferObject, ClientArrays
-from softshadow.context.given_attributes import GivenAttributes
+from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
-from softshadow.frozen import replace
+from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Command, Draw, Vertices
 from softshadow.pixel_store import PixelStore
 from softshadow.programs import Program
@@ -108,9 +108,9 @@ class Context:
         self.raise_errors = raise_errors
         self.before: Context | None = None  # what a with statement brings back
         self.error = gl.GL_NO_ERROR
-        viewport = replace(State().viewport, width=width, height=height)
-        scissor = replace(State().scissor, width=width, height=height)
-        self.state = replace(State(), viewport=viewport, scissor=scissor)
+        viewport = evolve(State().viewport, width=width, height=height)
+        scissor = evolve(State().scissor, width=width, height=height)
+        self.state = evolve(State(), viewport=viewport, scissor=scissor)
         self.real: type[np.floating] = np.float64 if precision == "exact" else np.float32
         self.current = CurrentVertex()
         self.matrix_mode = gl.GL_MODELVIEW
@@ -133,7 +133,7 @@ class Context:
         self.attribute_stack: list[Any] = []
         # since the last glPushAttrib or glPopAttrib: the state as it was, groups of attributes changed beside it
         self.seen, self.touched = self.state, 0
-        self.given = GivenAttributes()
+        self.pending = PendingAttributes()
         self.lists: dict[int, DisplayList] = {}
         self.compiled_list: DisplayList | None = None  # between glNewList and glEndList
         self.executes_list = False  # in a call that is carried out while its list is made
@@ -162,17 +162,17 @@ class Context:
     # -- state ---------------------------------------------------------------------------------------------------------
     def set(self, **groups: Any) -> None:
         """Replace whole groups of the state, by their names."""
-        self.change_state(replace(self.state, **groups))
+        self.change_state(evolve(self.state, **groups))
 
     def change_state(self, state: State) -> None:
         """Replace the state; where that makes a difference to draws, it ends the batch of quads."""
-        waits = self.vertex_buffer.sizes or self.given.stored
+        waits = self.vertex_buffer.sizes or self.pending.stored
         if waits and self.primitive is None and _drawn_under(state) != _drawn_under(self.state):
             before = self.state
             self.settle()
             if self.state is not before:  # materials were handed on
                 handed_on: Any = {"front": self.state.lighting.front, "back": self.state.lighting.back}
-                state = replace(state, lighting=replace(state.lighting, **handed_on))
+                state = evolve(state, lighting=evolve(state.lighting, **handed_on))
         self.state = state
 
     def frozen(self, values: Any) -> np.ndarray:
@@ -214,8 +214,8 @@ class Context:
         """Draw what waits; what is drawn next begins a batch of its own. Not between glBegin and glEnd."""
         if self.primitive is None:
             self.vertex_buffer.settle()
-            if self.given.stored:
-                self.given.forget(self)
+            if self.pending.stored:
+                self.pending.forget(self)
 
     def _carry_out(self, command: Command) -> None:
         command.apply(self.storage)
@@ -224,12 +224,12 @@ class Context:
     def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:
         """Draw primitives under the present state. The arrays must be read-only and the caller's own no more."""
         self.settle()
-        self.given.read(self)
+        self.pending.read(self)
         self._carry_out(self._draw_command(mode, vertices, indices))
 
     def draw_primitive(self, mode: int, vertices: Vertices) -> None:
         """Draw a primitive of immediate mode: vertices that follow may still carry the same attributes."""
-        self.vertex_buffer.draw_waiting()
+        self.vertex_buffer.draw_pending()
         self.vertex_buffer.draw(self._draw_command(mode, vertices))
 
     def collect(self, mode: int, vertices: Vertices) -> None:
@@ -253,8 +253,8 @@ class Context:
             self.current.texcoords[int(name.removeprefix("texcoord"))] = value
         elif material:
             lighting = self.state.lighting
-            made: Any = {side: replace(getattr(lighting, side), **{material: value})}
-            self.state = replace(self.state, lighting=replace(lighting, **made))
+            made: Any = {side: evolve(getattr(lighting, side), **{material: value})}
+            self.state = evolve(self.state, lighting=evolve(lighting, **made))
         else:
             setattr(self.current, name, value)
 
@@ -288,11 +288,11 @@ class Context:
 
 def _drawn_under(state: State) -> State:
     """Return the state without what draws do not depend on: the values that glClear writes."""
-    return replace(
+    return evolve(
         state,
-        color=replace(state.color, clear=State().color.clear, clear_accum=State().color.clear_accum),
-        depth=replace(state.depth, clear=State().depth.clear),
-        stencil=replace(state.stencil, clear=State().stencil.clear, active_back=False),
+        color=evolve(state.color, clear=State().color.clear, clear_accum=State().color.clear_accum),
+        depth=evolve(state.depth, clear=State().depth.clear),
+        stencil=evolve(state.stencil, clear=State().stencil.clear, active_back=False),
     )
 
 

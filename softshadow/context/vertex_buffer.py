@@ -1,7 +1,7 @@
 """Mesa's vertex buffer of immediate mode: which glBegin ... glEnd pairs are drawn together, and when.
 
 Pairs are collected until the buffer is full or something separates them; that decides which vertices are one draw of
-the driver (`softshadow.pipeline.batches`), and with it some bits of the picture.
+the driver (`softshadow.pipeline.mesa.driver_draws`), and with it some bits of the picture.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from softshadow.framebuffer import Storage
-from softshadow.pipeline.batches import SEPARATE, Batch, Pairs, Run
 from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.pipeline.mesa.driver_draws import SEPARATE, CollectedPairs, DriverDraw, JoinedPairs
 
 BYTES = 512 * 1024  # that the vertices are collected in (vbo_exec_draw.c)
 LEAST_BYTES = 1024  # with no more than these left, Mesa takes a new buffer
@@ -49,7 +49,7 @@ class VertexBuffer:
     given_sizes : dict       how many of those the last call gave, as far as Mesa remembers
     stored : int             vertices collected since the last time they were sent off
     used : int               bytes of the buffer before them
-    batch : Batch or None    triangles or quads that wait for more of them
+    batch : JoinedPairs or None    triangles or quads that wait for more of them
     pairs, run               glBegin ... glEnd pairs and draws since vertices were sent off
 
     Parameters
@@ -63,8 +63,8 @@ class VertexBuffer:
         self.sizes: dict[str, int] = {}
         self.given_sizes: dict[str, int] = {}
         self.stored, self.used = 0, 0
-        self.batch: Batch | None = None
-        self.pairs, self.run = Pairs(), Run()
+        self.batch: JoinedPairs | None = None
+        self.pairs, self.run = CollectedPairs(), DriverDraw()
 
     @property
     def room(self) -> int:
@@ -78,7 +78,7 @@ class VertexBuffer:
     def draw(self, command: Draw) -> None:
         """Draw at once, in the run of draws of the same mode."""
         if command.mode != self.run.mode:
-            self.run = Run(command.mode)
+            self.run = DriverDraw(command.mode)
         if not self.run.is_lost:
             self._carry_out(self.run.part(command, self._storage))
 
@@ -88,8 +88,8 @@ class VertexBuffer:
 
     def begin_batch(self, first: Draw) -> None:
         """Draw what waits, and begin a batch under the state of `first`."""
-        self.draw_waiting()
-        self.batch = Batch(first)
+        self.draw_pending()
+        self.batch = JoinedPairs(first)
 
     def add_to_batch(self, label: str, vertices: Vertices) -> None:
         """Let vertices wait in the batch; `label` names the debug groups they stand in."""
@@ -99,13 +99,13 @@ class VertexBuffer:
     def end_pair(self, mode: int, vertices: int) -> None:
         """Count a pair of glBegin and glEnd; what waits is drawn if an empty one has another mode, or at the 64th."""
         if not vertices and self.pairs.mode != mode:
-            self.draw_waiting()
-            self.run = Run(mode, is_lost=mode not in SEPARATE)
+            self.draw_pending()
+            self.run = DriverDraw(mode, is_lost=mode not in SEPARATE)
         self.pairs.add(mode, vertices)
         if self.pairs.too_many:
             self.send_off()
 
-    def draw_waiting(self) -> None:
+    def draw_pending(self) -> None:
         """Draw what waits."""
         batch, self.batch = self.batch, None
         if batch is not None:
@@ -114,9 +114,9 @@ class VertexBuffer:
 
     def send_off(self) -> None:
         """Draw what waits; the vertices that follow come after them in Mesa's buffer."""
-        self.draw_waiting()
-        self.run = Run()
-        self.pairs = Pairs()
+        self.draw_pending()
+        self.run = DriverDraw()
+        self.pairs = CollectedPairs()
         self.used += self.stored * self._vertex_bytes
         self.stored = 0
         if self.used + LEAST_BYTES >= BYTES:

@@ -10,6 +10,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, current
+from softshadow.gl.array_snapshots import extremes, full_rows, owned_indices, spread
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import (
     from_byte,
@@ -21,7 +22,6 @@ from softshadow.gl.conversions import (
 )
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
 from softshadow.gl.immediate import A_MODE, MODES, add_vertex, can_draw, in_order
-from softshadow.gl.kept_arrays import extremes, full_rows, owned_indices, spread
 from softshadow.gl.texture_coordinates import set_coordinate
 from softshadow.gl.vertex_arrays import TYPES, rows_of
 from softshadow.gl.vertex_attributes import set_color, set_normal

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from softshadow import tokens as gl
-from softshadow.frozen import replace
+from softshadow.frozen import evolve
 from softshadow.gl.capabilities import CAPABILITIES, CLIP_PLANES, GENERATED, LIGHTS, UNIT_CAPABILITIES, is_on, switched
 from softshadow.gl.fragment_state import extension_back
 from softshadow.state import State
@@ -100,11 +100,11 @@ def with_group(bit: int, now: State, before: State) -> State:
     made: dict[str, Any] = {}
     for group, fields in GROUPS[bit].items():
         old = getattr(before, group)
-        made[group] = replace(getattr(now, group), **{f: getattr(old, f) for f in fields}) if fields else old
+        made[group] = evolve(getattr(now, group), **{f: getattr(old, f) for f in fields}) if fields else old
     if bit == gl.GL_STENCIL_BUFFER_BIT:  # Mesa does not bring the extension's back state back
         old = made["stencil"]
-        made["stencil"] = replace(old, **{extension_back(old): getattr(now.stencil, extension_back(now.stencil))})
-    return replace(now, **made) if made else now
+        made["stencil"] = evolve(old, **{extension_back(old): getattr(now.stencil, extension_back(now.stencil))})
+    return evolve(now, **made) if made else now
 
 
 def _with_capabilities(state: State, before: State) -> State:

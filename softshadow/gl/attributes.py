@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from softshadow import tokens as gl
 from softshadow.context import Context, CurrentVertex
 from softshadow.framebuffer import Framebuffer
-from softshadow.frozen import replace
+from softshadow.frozen import evolve
 from softshadow.gl.attribute_groups import GROUPS, calls_made, changed_groups, with_group
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
@@ -62,14 +62,14 @@ def glPushAttrib(mask: int) -> None:
         return
     touched = _touched(context)
     if mask & (gl.GL_CURRENT_BIT | gl.GL_LIGHTING_BIT):
-        context.given.read(context)
+        context.pending.read(context)
     framebuffers, state = context.storage.framebuffers, context.state
     context.attribute_stack.append(
         Saved(
             mask=int(mask),
             touched=touched,
             state=state,
-            current=replace(context.current, texcoords=list(context.current.texcoords)),
+            current=evolve(context.current, texcoords=list(context.current.texcoords)),
             hints=copy(context.hints),
             matrix_mode=context.matrix_mode,
             active_unit=context.active_unit,
@@ -111,7 +111,7 @@ def glPopAttrib() -> None:
     context.settle()
     saved: Saved = context.attribute_stack.pop()
     if saved.mask & gl.GL_CURRENT_BIT:
-        context.given.read(context)
+        context.pending.read(context)
     mask = saved.mask & _touched(context)
     for bit in GROUPS:
         if mask & bit:
@@ -156,22 +156,20 @@ def _sets_more(context: Context, bit: int, saved: Saved) -> bool:
 
 
 def _bring_back_current(context: Context, saved: Saved) -> None:
-    for name in context.given.names:
+    for name in context.pending.names:
         if "." not in name:
-            context.given.waiting.setdefault(name, context.attribute(name))
-    context.current = replace(saved.current, texcoords=list(saved.current.texcoords))
+            context.pending.waiting.setdefault(name, context.attribute(name))
+    context.current = evolve(saved.current, texcoords=list(saved.current.texcoords))
 
 
 def _bring_back_materials(context: Context, saved: Saved) -> None:
-    given = context.given
+    given = context.pending
     for name in given.names:
         if "." in name and name not in given.before:
             given.waiting.setdefault(name, context.attribute(name))
     standing = {name: context.attribute(name) for name in given.before if "." in name}
     before = saved.state.lighting
-    context.state = replace(
-        context.state, lighting=replace(context.state.lighting, front=before.front, back=before.back)
-    )
+    context.state = evolve(context.state, lighting=evolve(context.state.lighting, front=before.front, back=before.back))
     for name, value in standing.items():  # given and never handed on: the one that is popped stands below it
         given.before[name] = context.attribute(name)
         context.set_attribute(name, value)

@@ -6,7 +6,7 @@ from typing import Any
 
 from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.frozen import replace
+from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.materials import start_to_follow
@@ -101,25 +101,25 @@ def switched(state: State, cap: int, unit: int, on: bool) -> State:
     """Return the state with a known capability switched."""
     if cap in CAPABILITIES:
         group, field = CAPABILITIES[cap]
-        changed: Any = replace(getattr(state, group), **{field: on})
+        changed: Any = evolve(getattr(state, group), **{field: on})
         if cap == gl.GL_STENCIL_TEST_TWO_SIDE_EXT:
-            changed = replace(changed, back=changed.other_back, other_back=changed.back)
-        return replace(state, **{group: changed})
+            changed = evolve(changed, back=changed.other_back, other_back=changed.back)
+        return evolve(state, **{group: changed})
     if cap in LIGHTS:
         index = cap - gl.GL_LIGHT0
-        lights = with_item(state.lighting.lights, index, replace(state.lighting.lights[index], enabled=on))
-        return replace(state, lighting=replace(state.lighting, lights=lights))
+        lights = with_item(state.lighting.lights, index, evolve(state.lighting.lights[index], enabled=on))
+        return evolve(state, lighting=evolve(state.lighting, lights=lights))
     if cap in CLIP_PLANES:
         enabled = with_item(state.clip_planes.enabled, cap - gl.GL_CLIP_PLANE0, on)
-        return replace(state, clip_planes=replace(state.clip_planes, enabled=enabled))
+        return evolve(state, clip_planes=evolve(state.clip_planes, enabled=enabled))
     standing = state.units[unit]
     if cap in UNIT_CAPABILITIES:
         field = UNIT_CAPABILITIES[cap]
-        made = replace(standing, **{field: on})
+        made = evolve(standing, **{field: on})
     else:
         index = GENERATED.index(cap)
-        made = replace(standing, gen=with_item(standing.gen, index, replace(standing.gen[index], enabled=on)))
-    return replace(state, units=with_item(state.units, unit, made))
+        made = evolve(standing, gen=with_item(standing.gen, index, evolve(standing.gen[index], enabled=on)))
+    return evolve(state, units=with_item(state.units, unit, made))
 
 
 def with_item(items: tuple[Any, ...], index: int, item: Any) -> Any:

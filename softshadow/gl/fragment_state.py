@@ -9,7 +9,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.frozen import replace
+from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import is_one_of, outside_begin
 from softshadow.state import STENCIL_OPS, Stencil
@@ -33,7 +33,7 @@ LOGIC_OPS = range(gl.GL_CLEAR, gl.GL_SET + 1)
 
 def change(context: Context, group: str, **fields: Any) -> None:
     """Replace fields of one group of the state."""
-    context.set(**{group: replace(getattr(context.state, group), **fields)})
+    context.set(**{group: evolve(getattr(context.state, group), **fields)})
 
 
 def clamp01(value: float) -> float:
@@ -138,13 +138,13 @@ def _set_faces(context: Context, operation: str, face: int | None, **fields: int
     stencil = context.state.stencil
     if face is None and stencil.active_back:
         name = extension_back(stencil)
-        context.set(stencil=replace(stencil, **{name: replace(getattr(stencil, name), **fields)}))
+        context.set(stencil=evolve(stencil, **{name: evolve(getattr(stencil, name), **fields)}))
         return
     if face != gl.GL_BACK:
-        stencil = replace(stencil, front=replace(stencil.front, **fields))
+        stencil = evolve(stencil, front=evolve(stencil.front, **fields))
     if face != gl.GL_FRONT:
         name = core_back(stencil)
-        stencil = replace(stencil, **{name: replace(getattr(stencil, name), **fields)})
+        stencil = evolve(stencil, **{name: evolve(getattr(stencil, name), **fields)})
     context.set(stencil=stencil)
 
 

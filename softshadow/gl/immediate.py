@@ -14,7 +14,7 @@ from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.materials import follow_color, material_field
 from softshadow.gl.vertex_format import REST, begin, end_continued_loop, give, store_vertex, vertices_of
-from softshadow.pipeline.batches import CORNERS
+from softshadow.pipeline.mesa.driver_draws import CORNERS
 
 MODES = range(gl.GL_POINTS, gl.GL_POLYGON + 1)
 A_MODE = "GL_POINTS … GL_POLYGON"
@@ -47,7 +47,7 @@ def glEnd() -> None:
         return
     context.primitive = None
     follow_color(context)
-    context.given.stored |= bool(primitive.positions)
+    context.pending.stored |= bool(primitive.positions)
     if not primitive.positions:
         context.vertex_buffer.end_pair(primitive.mode, 0)
         return

@@ -9,7 +9,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.frozen import replace
+from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.capabilities import LIGHTS, with_item
 from softshadow.gl.conversions import as_floats, as_ints, first, from_int, to_int, vector
@@ -101,7 +101,7 @@ def _set_number(operation: str, context: Context, light: int, pname: int, value:
 
 def _replace(context: Context, light: int, **fields: Any) -> None:
     lights, index = context.state.lighting.lights, light - gl.GL_LIGHT0
-    change(context, "lighting", lights=with_item(lights, index, replace(lights[index], **fields)))
+    change(context, "lighting", lights=with_item(lights, index, evolve(lights[index], **fields)))
 
 
 def glGetLightfv(light: int, pname: int) -> Any:

@@ -47,7 +47,7 @@ def glNewList(list: int, mode: int) -> None:
     if context is None:
         return
     context.settle()
-    context.given.read(context)
+    context.pending.read(context)
     name = c_uint(int(list)).value
     if context.compiled_list is not None:
         fail(gl.GL_INVALID_OPERATION, "glNewList", f"list {context.compiled_list.name} has not been ended")

@@ -9,7 +9,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, current
-from softshadow.frozen import replace
+from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import as_floats, as_ints, first, from_int, nearest_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
@@ -95,13 +95,13 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
     for side in SIDES[face]:
         free = {field: value for field, value in fields.items() if field not in followed(lighting, side)}
         for field in free:
-            context.given.about_to_give(f"{side}.{field}", context)
+            context.pending.about_to_give(f"{side}.{field}", context)
         if context.primitive is not None:
             for field, value in free.items():
                 give(context, f"{side}.{field}", np.size(value))
                 before = [getattr(getattr(lighting, side), field)] * len(context.primitive.positions)
                 context.primitive.materials.setdefault(f"{side}.{field}", before)
-        made[side] = replace(getattr(lighting, side), **free)
+        made[side] = evolve(getattr(lighting, side), **free)
     change(context, "lighting", **made)
 
 
@@ -135,8 +135,8 @@ def follow_color(context: Context) -> None:
     if lighting.color_material:
         fields: Any = dict.fromkeys(FIELDS[lighting.color_material_mode], rounded(context, *context.current.color))
         sides = SIDES[lighting.color_material_face]
-        made = {side: replace(getattr(lighting, side), **fields) for side in sides}
-        context.state = replace(context.state, lighting=replace(lighting, **made))  # which ends no batch
+        made = {side: evolve(getattr(lighting, side), **fields) for side in sides}
+        context.state = evolve(context.state, lighting=evolve(lighting, **made))  # which ends no batch
 
 
 def start_to_follow(context: Context) -> None:
@@ -145,10 +145,10 @@ def start_to_follow(context: Context) -> None:
     Mesa hands it on a second time when the vertices are sent off (vbo_exec_copy_to_current).
     """
     if context.state.lighting.color_material:
-        context.given.read(context)
-        for name in context.given.names:
+        context.pending.read(context)
+        for name in context.pending.names:
             if "." in name:
-                context.given.waiting.setdefault(name, context.attribute(name))
+                context.pending.waiting.setdefault(name, context.attribute(name))
         follow_color(context)
 
 
@@ -169,7 +169,7 @@ def _material(operation: str, face: int, pname: int) -> Any:
     if context is None or not is_one_of(operation, "face", face, faces, "GL_FRONT or GL_BACK"):
         return None
     context.settle()
-    context.given.read(context)
+    context.pending.read(context)
     readable = [name for name, fields in PARAMETERS.items() if len(fields) == 1]
     if not is_one_of(operation, "pname", pname, readable, "a material parameter (GL 2.1, table 2.11)"):
         return None

@@ -8,13 +8,13 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
-from softshadow.frozen import replace
+from softshadow.frozen import evolve
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import format_problem, kind_of
 from softshadow.image import Image
-from softshadow.pipeline.transfer import bottom_up, clipped
+from softshadow.pipeline.buffers.copy import bottom_up, clipped
 from softshadow.pixel_store import TYPES, answer_array
 from softshadow.pixels import pack_color, pack_depth, pack_depth_stencil, pack_stencil
 from softshadow.tokens import token_name
@@ -47,7 +47,7 @@ def glPixelStorei(pname: int, param: int) -> None:
         return fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param}: expected 1, 2, 4 or 8")
     if param < 0:
         return fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param}: expected 0 or more")
-    setattr(context, direction, replace(getattr(context, direction), **{field: int(param)}))
+    setattr(context, direction, evolve(getattr(context, direction), **{field: int(param)}))
     return None
 
 

@@ -65,7 +65,7 @@ def _get(operation: str, pname: int, params: Any, dtype: type[np.generic], conve
     if context is None:
         return None
     if pname in GIVEN:
-        context.given.read(context)
+        context.pending.read(context)
     if pname in BY_TOKEN:
         value = BY_TOKEN[pname](context)
     elif pname in KNOWN:

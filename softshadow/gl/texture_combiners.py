@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from softshadow import tokens as gl
-from softshadow.frozen import replace
+from softshadow.frozen import evolve
 from softshadow.state import TEXTURE_UNITS, Combine
 from softshadow.tokens import token_name
 
@@ -41,18 +41,18 @@ def with_parameter(combine: Combine, pname: int, value: Any) -> tuple[Combine | 
     """Return the setting with one parameter changed, or (None, why not)."""
     if pname in SCALES:
         if float(value) in SCALE_VALUES:
-            return replace(combine, **{SCALES[pname]: float(value)}), ""
+            return evolve(combine, **{SCALES[pname]: float(value)}), ""
         return None, f"{token_name(pname)}={value}: expected 1, 2 or 4"
     values = MODES[pname][1] if pname in MODES else ARGUMENTS[pname][2]
     if int(value) not in values:
         expected = ", ".join(token_name(v) for v in values)
         return None, f"{token_name(pname)}={token_name(int(value))}: expected one of {expected}"
     if pname in MODES:
-        return replace(combine, **{MODES[pname][0]: int(value)}), ""
+        return evolve(combine, **{MODES[pname][0]: int(value)}), ""
     field, index, _ = ARGUMENTS[pname]
     standing = getattr(combine, field)
     changed: Any = (*standing[:index], int(value), *standing[index + 1 :])
-    return replace(combine, **{field: changed}), ""
+    return evolve(combine, **{field: changed}), ""
 
 
 def parameter_of(combine: Combine, pname: int) -> float:

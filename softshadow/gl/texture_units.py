@@ -9,7 +9,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.frozen import replace
+from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import first, from_int, numbers, vector
 from softshadow.gl.errors import fail, outside_begin
@@ -248,7 +248,7 @@ def _generation_problem(coord: int, pname: int, is_vector: bool) -> str | None:
 def _replace_generation(context: Context, coord: int, **fields: Any) -> None:
     gen: list[TexGen] = list(context.state.units[context.active_unit].gen)
     index = COORDINATES.index(coord)
-    gen[index] = replace(gen[index], **fields)
+    gen[index] = evolve(gen[index], **fields)
     set_unit(context, context.active_unit, gen=tuple(gen))
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.frozen import replace
+from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import first, from_int, nearest_int, vector
 from softshadow.gl.errors import fail, outside_begin
@@ -104,7 +104,7 @@ def glIsTexture(texture: int) -> bool:
 def set_unit(context: Context, index: int, **fields: Any) -> None:
     """Replace fields of one texture unit's state."""
     units: list[TextureUnit] = list(context.state.units)
-    units[index] = replace(units[index], **fields)
+    units[index] = evolve(units[index], **fields)
     context.set(units=tuple(units))
 
 
@@ -211,7 +211,7 @@ def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
 
 def _set_sampler(context: Context, target: int, **fields: Any) -> None:
     texture = bound_texture(context, target)
-    changed = replace(texture.sampler, **fields)
+    changed = evolve(texture.sampler, **fields)
     if changed != texture.sampler:
         context.touched |= gl.GL_TEXTURE_BIT
         context.execute(SetSampler(texture.name, changed))

@@ -8,7 +8,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import ArrayLayout, current
-from softshadow.frozen import replace
+from softshadow.frozen import evolve
 from softshadow.gl.buffers import offset_of
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
@@ -163,7 +163,7 @@ def glPushClientAttrib(mask: int) -> None:
     if len(context.client_stack) == DEEPEST_CLIENT_ATTRIBUTES:
         fail(gl.GL_STACK_OVERFLOW, "glPushClientAttrib", f"this stack holds {DEEPEST_CLIENT_ATTRIBUTES} entries")
         return
-    arrays = replace(
+    arrays = evolve(
         context.arrays,
         enabled=set(context.arrays.enabled),
         pointers=dict(context.arrays.pointers),
@@ -183,7 +183,7 @@ def glPopClientAttrib() -> None:
         return
     mask, arrays, pack_store, unpack_store = context.client_stack.pop()
     if mask & gl.GL_CLIENT_VERTEX_ARRAY_BIT:
-        context.arrays = replace(arrays, converted=context.arrays.converted)
+        context.arrays = evolve(arrays, converted=context.arrays.converted)
     if mask & gl.GL_CLIENT_PIXEL_STORE_BIT:
         context.pack_store, context.unpack_store = pack_store, unpack_store
 

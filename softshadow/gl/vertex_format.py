@@ -14,8 +14,8 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, Primitive
-from softshadow.pipeline.batches import SEPARATE
 from softshadow.pipeline.commands import Vertices
+from softshadow.pipeline.mesa.driver_draws import SEPARATE
 from softshadow.state import TEXTURE_UNITS
 
 REST = (0.0, 0.0, 0.0, 1.0)  # what a vector gets where the call gives fewer than four numbers
@@ -38,8 +38,8 @@ def begin(context: Context, mode: int) -> None:
     """Start to collect a primitive. Attributes that were given before any vertex are constants of it."""
     if "position" not in context.vertex_buffer.sizes:
         context.vertex_buffer.sizes.clear()
-        if context.given.names:
-            context.given.forget(context)
+        if context.pending.names:
+            context.pending.forget(context)
     materials: dict[str, list[Any]] = {name: [] for name in context.vertex_buffer.sizes if "." in name}
     context.primitive = Primitive(mode, from_list=context.list_depth > 0, materials=materials)
 
@@ -56,7 +56,7 @@ def give(context: Context, name: str, size: int) -> int:
         keep count.
     """
     if name != "position":
-        context.given.about_to_give(name, context)
+        context.pending.about_to_give(name, context)
     sizes, primitive = context.vertex_buffer.sizes, context.primitive
     carried, given_before = sizes.get(name, 0), context.vertex_buffer.given_sizes.get(name, 0)
     if carried >= size:

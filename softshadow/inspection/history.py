@@ -22,15 +22,15 @@ from softshadow.inspection.reasons import clear_reason, culled_reason, fragment_
 from softshadow.inspection.step import object_of
 from softshadow.inspection.tables import html_table, text_table
 from softshadow.pipeline import commands
-from softshadow.pipeline.blend import compared_alpha
-from softshadow.pipeline.color_writes import color_writer
 from softshadow.pipeline.commands import Clear, Command, Draw
-from softshadow.pipeline.coverage import triangles_at
-from softshadow.pipeline.facing import CULL_BACK, CULL_FRONT, culling
-from softshadow.pipeline.fragment_ops import PASSED, SCISSORED, VERDICTS, fragment_ops, process_fragment
-from softshadow.pipeline.fragments import Fragments, fragment_depth
-from softshadow.pipeline.geometry import Geometry, depth_range_of, process_geometry, region_of
-from softshadow.pipeline.runs import runs_of
+from softshadow.pipeline.geometry.facing import CULL_BACK, CULL_FRONT, culling
+from softshadow.pipeline.geometry.geometry import Geometry, depth_range_of, process_geometry, region_of
+from softshadow.pipeline.raster.coverage import triangles_at
+from softshadow.pipeline.raster.fragment_ops import PASSED, SCISSORED, VERDICTS, fragment_ops, process_fragment
+from softshadow.pipeline.raster.ordered import Fragments, fragment_depth
+from softshadow.pipeline.shade.blend import compared_alpha
+from softshadow.pipeline.shade.color_writes import color_writer
+from softshadow.pipeline.shade.visible_spans import spans_of
 from softshadow.pixels import depth_as_float
 
 CULLED, CLEARED, WRITTEN = "culled", "clear", "written"
@@ -255,7 +255,7 @@ def _draw_rows(
         fragments = _fragments_at(geometry, pixel)
         if not len(fragments.row):
             return
-        colors = pipeline.shade(geometry, runs_of(fragments))
+        colors = pipeline.shade(geometry, spans_of(fragments))
     state, window, triangles = command.state, pixel.window, geometry.triangles
     real = pixel.depth.cells.dtype.type
     depth_range = depth_range_of(state, real)
@@ -285,7 +285,7 @@ def _draw_rows(
             pixel.depth.cells[pixel.place] = depth_after
         written = verdict == PASSED and colored
         for image in window.colors if written else ():
-            color_writer(state, image)(runs_of(Fragments(*(part[n : n + 1] for part in fragments))), colors[n : n + 1])
+            color_writer(state, image)(spans_of(Fragments(*(part[n : n + 1] for part in fragments))), colors[n : n + 1])
         z_pair, s_pair = (about["z"], before[1]), (before[2], int(s_after))
         reason = fragment_reason(state, ops, verdict, z_pair, s_pair, alpha, colored)
         yield pixel.row(where, before, VERDICTS[verdict], reason, color_written=written, **about)

@@ -11,8 +11,8 @@ from softshadow.context import Frame
 from softshadow.inspection.step import object_of
 from softshadow.pipeline import VERDICTS
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.fragment_ops import SCISSORED
-from softshadow.pipeline.geometry import primitive_count
+from softshadow.pipeline.geometry.geometry import primitive_count
+from softshadow.pipeline.raster.fragment_ops import SCISSORED
 
 # rasterization ends at the scissor box: outside it there is no fragment to count
 COUNTED = tuple(verdict for verdict in VERDICTS if verdict != VERDICTS[SCISSORED])

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
-from softshadow.pipeline.clear import clear_depth
+from softshadow.pipeline.buffers.clear import clear_depth
 from softshadow.pipeline.commands import Clear
-from softshadow.pipeline.fragment_ops import ALPHA_FAILED, DEPTH_FAILED, SCISSORED, STENCIL_FAILED, FragmentOps
+from softshadow.pipeline.raster.fragment_ops import ALPHA_FAILED, DEPTH_FAILED, SCISSORED, STENCIL_FAILED, FragmentOps
 from softshadow.state import STENCIL_OPS, Scissor, State
 from softshadow.tokens import token_name
 

@@ -10,7 +10,8 @@ Politècnica de Catalunya, 2021).
 """
 
 from softshadow.errors import nearest
-from softshadow.listings import maps, planar, tools, volumes
+from softshadow.listings import depth_and_stencil as tools
+from softshadow.listings import maps, planar, volumes
 from softshadow.listings.listing import Listing
 from softshadow.listings.stage import SIZE
 

@@ -5,7 +5,7 @@
     Draw --> geometry ---------------------------------------------> triangles
              vertex > clip > window > setup                              |
                                                                          v
-             opaque:   fill (coverage, depth, process_fragment) ----> triangle per pixel --> runs --> shade --> write
+             opaque:   fill (coverage, depth, process_fragment) ----> triangle per pixel --> spans --> shade --> write
              ordered:  list fragments --> process_fragment --> those that passed --> shade --> blend, write
 
 Draws that leave no colours are set up and filled a portion at a time (`portions.py`): nobody shades their triangles.
@@ -23,27 +23,27 @@ import numpy as np
 
 from softshadow.errors import StateError
 from softshadow.framebuffer import Framebuffer, Storage
-from softshadow.pipeline.bands import parts_of, set_threads, share, threads
-from softshadow.pipeline.binding import VERDICT_COUNTS, fill, use_binding
-from softshadow.pipeline.blend import compared_alpha, needs_order, tests_alpha
-from softshadow.pipeline.clear import clear
-from softshadow.pipeline.color_writes import color_writer
-from softshadow.pipeline.coverage import extent
-from softshadow.pipeline.fill import Region, no_ids
-from softshadow.pipeline.fragment_ops import PASSED, VERDICTS, fragment_ops
-from softshadow.pipeline.fragments import Fragments, list_fragments, test_fragments
-from softshadow.pipeline.geometry import Geometry, depth_range_of, process_geometry, region_of
-from softshadow.pipeline.portions import leaves_no_colors, portions_of
-from softshadow.pipeline.reuse import FillInputs, filled, forget_visibility
-from softshadow.pipeline.runs import Runs, runs_of, visible_runs
-from softshadow.pipeline.setup import Setup
-from softshadow.pipeline.shading import shade, shade_and_write
-from softshadow.pipeline.sole_fragments import sole_fragments
+from softshadow.pipeline.buffers.clear import clear
+from softshadow.pipeline.fast.depth_only import chunks_of, writes_no_colors
+from softshadow.pipeline.fast.specialize import VERDICT_COUNTS, fill, use_binding
+from softshadow.pipeline.fast.unordered_blend import sole_fragments
+from softshadow.pipeline.fast.visibility_cache import FillInputs, cached_fill, clear_visibility_cache
+from softshadow.pipeline.geometry.geometry import Geometry, depth_range_of, process_geometry, region_of
+from softshadow.pipeline.geometry.triangle_setup import Setup
+from softshadow.pipeline.memory.threads import parts_of, set_threads, share, threads
+from softshadow.pipeline.raster.coverage import extent
+from softshadow.pipeline.raster.fill import Region, no_ids
+from softshadow.pipeline.raster.fragment_ops import PASSED, VERDICTS, fragment_ops
+from softshadow.pipeline.raster.ordered import Fragments, list_fragments, process_fragments
+from softshadow.pipeline.shade.blend import compared_alpha, needs_order, tests_alpha
+from softshadow.pipeline.shade.color_writes import color_writer
+from softshadow.pipeline.shade.shading import shade, shade_and_write
+from softshadow.pipeline.shade.visible_spans import Spans, spans_of, visible_spans
 
 if TYPE_CHECKING:
     from softshadow.pipeline.commands import Draw
 
-__all__ = ["VERDICTS", "clear", "draw", "forget_visibility", "set_threads", "shade", "threads", "use_binding"]
+__all__ = ["VERDICTS", "clear", "clear_visibility_cache", "draw", "set_threads", "shade", "threads", "use_binding"]
 
 
 def draw(command: Draw, storage: Storage, verdicts: np.ndarray | None = None) -> None:
@@ -63,7 +63,7 @@ def draw(command: Draw, storage: Storage, verdicts: np.ndarray | None = None) ->
     if not target.attachments:
         raise StateError(f"framebuffer {target.name} has nothing attached to draw to")
     with np.errstate(all="ignore"):  # infinities of vertices that clipping removes; interpreted kernels would warn
-        if verdicts is None and not needs_order(command.state) and leaves_no_colors(command, target):
+        if verdicts is None and not needs_order(command.state) and writes_no_colors(command, target):
             _draw_in_portions(command, target)
             return
         geometry = process_geometry(command, target, storage)
@@ -95,19 +95,19 @@ def _draw_opaque(
         planes = _planes(target, geometry.window.dtype)
         fill(front, back, triangles, fragments, region, depth_range, *planes, ids, verdicts)
 
-    def fill_and_find() -> Runs:
+    def fill_and_find() -> Spans:
         ids = no_ids(region, _shape(target)[1])
         fill_planes(ids)
-        return visible_runs(ids, region.first_row)
+        return visible_spans(ids, region.first_row)
 
     if not writes_color:
         fill_planes(None)
         return
     if verdicts is None:
-        runs = filled(FillInputs(front, back, triangles, region, depth_range), target, storage, fill_and_find)
+        spans = cached_fill(FillInputs(front, back, triangles, region, depth_range), target, storage, fill_and_find)
     else:
-        runs = fill_and_find()
-    shade_and_write(state, target, geometry, runs, ordered=False)
+        spans = fill_and_find()
+    shade_and_write(state, target, geometry, spans, ordered=False)
 
 
 def _draw_in_portions(command: Draw, target: Framebuffer) -> None:
@@ -115,8 +115,8 @@ def _draw_in_portions(command: Draw, target: Framebuffer) -> None:
     depth, stencil = _planes(target, real)
     front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
     depth_range = depth_range_of(state, real.type)
-    for triangles, runs, region, fragments in portions_of(command, target):
-        fill(front, back, triangles, fragments, region, depth_range, depth, stencil, runs=runs)
+    for triangles, spans, region, fragments in chunks_of(command, target):
+        fill(front, back, triangles, fragments, region, depth_range, depth, stencil, spans=spans)
 
 
 def _draw_in_order(
@@ -131,10 +131,10 @@ def _draw_in_order(
         planes = _planes(target, geometry.window.dtype)
         ids = sole_fragments(front, back, triangles, count, used, depth_range, *planes)
         if ids is not None:
-            shade_and_write(state, target, geometry, visible_runs(ids, used.first_row), ordered=False)
+            shade_and_write(state, target, geometry, visible_spans(ids, used.first_row), ordered=False)
             return
     fragments = list_fragments(triangles, region)
-    colors = shade(geometry, runs_of(fragments)) if tests_alpha(state) else None
+    colors = shade(geometry, spans_of(fragments)) if tests_alpha(state) else None
     depth, stencil = _planes(target, geometry.window.dtype)
     alpha, alpha_ref = np.zeros(len(fragments.row), np.uint8), 0
     if colors is not None:
@@ -145,13 +145,13 @@ def _draw_in_order(
     )
     verdict = np.empty(len(fragments.row), np.uint8)
     columns = np.arange(max(depth.shape), dtype=geometry.window.dtype)
-    changed = test_fragments(front, back, fragments, alpha, triangles, depth_range, columns, depth, stencil, verdict)
+    changed = process_fragments(front, back, fragments, alpha, triangles, depth_range, columns, depth, stencil, verdict)
     if verdicts is not None:
         verdicts[:-1] += np.bincount(verdict, minlength=VERDICT_COUNTS - 1)
         verdicts[-1] += changed
     if writes_color:
         passed = np.flatnonzero(verdict == PASSED)
-        written = runs_of(Fragments(*(part[passed] for part in fragments)))
+        written = spans_of(Fragments(*(part[passed] for part in fragments)))
         if colors is None:
             shade_and_write(state, target, geometry, written, ordered=True)
         else:

@@ -15,9 +15,10 @@ import numpy as np
 from softshadow import pipeline
 from softshadow.framebuffer import DEFAULT, NOTHING, Attachment, Framebuffer, Storage, plane_for
 from softshadow.image import Format, Image
-from softshadow.pipeline import accumulation, blit, mipmaps, transfer
-from softshadow.pipeline.binding import VERDICT_COUNTS
-from softshadow.pipeline.fragment_ops import PASSED
+from softshadow.pipeline.buffers import accumulation, blit, mipmaps
+from softshadow.pipeline.buffers import copy as transfer
+from softshadow.pipeline.fast.specialize import VERDICT_COUNTS
+from softshadow.pipeline.raster.fragment_ops import PASSED
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.state import Scissor, State
 from softshadow.texture import Sampler, Texture

@@ -13,8 +13,8 @@ import numpy as np
 
 from softshadow.jit import kernel
 from softshadow.programs import Program, Varyings, VertexInputs
-from softshadow.programs.approximations import power
 from softshadow.programs.inverse import inverse
+from softshadow.programs.llvmpipe_math import power
 from softshadow.programs.texture_coordinates import transform
 
 ZERO, ONE = np.float32(0.0), np.float32(1.0)

@@ -107,8 +107,8 @@ def takes_color(state: State, units: list[Unit]) -> bool:
     """Return whether the colours of fragments depend on those of the vertices."""
     if not units or is_separate(state):
         return True
-    from softshadow.programs.color_use import uses_color
     from softshadow.programs.sampling import base_format
+    from softshadow.programs.vertex_color_use import uses_color
 
     return uses_color([(state.units[unit.index], base_format(unit.texture)) for unit in units])
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.errors import StateError
-from softshadow.programs.approximations import exp2_of_all
+from softshadow.programs.llvmpipe_math import exp2_of_all
 from softshadow.state import Fog
 
 ZERO, ONE = np.float32(0.0), np.float32(1.0)

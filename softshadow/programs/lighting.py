@@ -15,10 +15,10 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.programs import VertexInputs
-from softshadow.programs.approximations import powers
-from softshadow.programs.back_products import NAMES, Scratch, leftovers
 from softshadow.programs.inverse import inverse, is_length_preserving
+from softshadow.programs.llvmpipe_math import powers
 from softshadow.programs.reflectances import Reflectances, vector
+from softshadow.programs.stale_registers import NAMES, Scratch, leftovers
 from softshadow.programs.texture_coordinates import dot, normalized_rows, reciprocal_root, transform
 from softshadow.state import Light, Lighting
 
@@ -122,7 +122,7 @@ def light_vertices(
 
 
 def eye_normals(lighting: Lighting, vertices: VertexInputs) -> np.ndarray:
-    """Return the normals (V, 3) of the vertices in eye space, normalised or rescaled."""
+    """Return the normals (V, 3) of the vertices in eye space, normalized or rescaled."""
     modelview = np.asarray(vertices.modelview, np.float32)
     with np.errstate(all="ignore"):
         to_object = inverse(modelview, vertices.modelview_kind)
@@ -133,7 +133,7 @@ def eye_normals(lighting: Lighting, vertices: VertexInputs) -> np.ndarray:
 def transformed_normals(
     lighting: Lighting, normal: np.ndarray, to_object: np.ndarray, object_space: bool, length_preserving: bool
 ) -> np.ndarray:
-    """Return the normals (V, 3) in the space of lighting, normalised or rescaled."""
+    """Return the normals (V, 3) in the space of lighting, normalized or rescaled."""
     if not object_space:
         normal = np.stack([dot(normal, to_object[:3, i]) for i in range(3)]).T
     if lighting.normalize:

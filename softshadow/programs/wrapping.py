@@ -58,7 +58,7 @@ def to_int32(value):
 
 @kernel
 def nearest_texel(coordinate, size, wrap):
-    """Return the index of the texel that contains a normalised coordinate."""
+    """Return the index of the texel that contains a normalized coordinate."""
     length, last = np.float32(size), np.int32(size - 1)
     if wrap == REPEAT_BY_MASK:
         return to_int32(np.floor(coordinate * length)) & last

@@ -19,14 +19,14 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.image import FORMATS, Format, Image
 from softshadow.pipeline import threads
-from softshadow.pipeline.bins import sort_into_bands
-from softshadow.pipeline.color_writes import color_writer
-from softshadow.pipeline.fill import Region
-from softshadow.pipeline.interpolate import inputs_at, planes_of
-from softshadow.pipeline.runs import Runs, visible_runs
-from softshadow.pipeline.setup import Setup
-from softshadow.programs.approximations import powers
+from softshadow.pipeline.geometry.triangle_setup import Setup
+from softshadow.pipeline.raster.bins import sort_into_bands
+from softshadow.pipeline.raster.fill import Region
+from softshadow.pipeline.shade.color_writes import color_writer
+from softshadow.pipeline.shade.interpolate import inputs_at, planes_of
+from softshadow.pipeline.shade.visible_spans import Spans, visible_spans
 from softshadow.programs.cube_maps import on_faces
+from softshadow.programs.llvmpipe_math import powers
 from softshadow.programs.percentage_closer import count_lit
 from softshadow.programs.sampling import divide, sample
 from softshadow.scene.shapes import box
@@ -62,14 +62,14 @@ def compiling_ahead() -> Iterator[None]:
 
 def compile_shading_and_maps() -> None:
     """Call what the tour will call, with the types that its draws have."""
-    runs = visible_runs(np.zeros((1, SIDE), np.int32), 0)
-    interpolate_one_triangle(runs)
-    write_colors(runs, FORMATS[gl.GL_RGBA8], Blend())
+    spans = visible_spans(np.zeros((1, SIDE), np.int32), 0)
+    interpolate_one_triangle(spans)
+    write_colors(spans, FORMATS[gl.GL_RGBA8], Blend())
     numbers = np.ones(SIDE, np.float32)
     powers(numbers, numbers, np.empty_like(numbers))
-    write_colors(runs, FORMATS[gl.GL_RGBA8], Blend(True, gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA))
+    write_colors(spans, FORMATS[gl.GL_RGBA8], Blend(True, gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA))
     look_up(FORMATS[gl.GL_RGBA8], min_filter=gl.GL_LINEAR, mag_filter=gl.GL_LINEAR)
-    write_colors(runs, FORMATS[gl.GL_RGBA8], Blend(True, dst_rgb=gl.GL_ONE, dst_alpha=gl.GL_ONE))
+    write_colors(spans, FORMATS[gl.GL_RGBA8], Blend(True, dst_rgb=gl.GL_ONE, dst_alpha=gl.GL_ONE))
     mesh = box()
     light_distances(mesh, np.array([0.0, 5.0, 0.0, 1.0]))
     mesh.topology.face_bodies  # noqa: B018 - computed when asked for
@@ -79,23 +79,23 @@ def compile_shading_and_maps() -> None:
     place = divide(np.ones((SIDE, 4), np.float32))
     map_ = look_up(depth, **nearest)
     count_lit(map_, place, place[:, 2], 1, np.float32(1 / SIDE))
-    write_colors(runs, FORMATS[gl.GL_RGBA32F], Blend())
+    write_colors(spans, FORMATS[gl.GL_RGBA32F], Blend())
     on_faces(np.ones((SIDE, 3), np.float32), by_reciprocal=False)
 
 
-def interpolate_one_triangle(runs: Runs) -> None:
+def interpolate_one_triangle(spans: Spans) -> None:
     """Interpolate four values of one triangle."""
     corners, depth = np.zeros((1, 6), np.int32), np.zeros((1, 4), np.float32)
     one, front = np.zeros(1, np.int32), np.ones(1, np.uint8)
     values, flat = np.ones((3, 4), np.float32), np.zeros(4, bool)
     triangle = Setup(corners, np.array([[0, 1, 2]], np.int32), depth, front, one)
-    inputs_at(runs, planes_of(runs, triangle, values, values, None, flat, one), flat)
+    inputs_at(spans, planes_of(spans, triangle, values, values, None, flat, one), flat)
 
 
-def write_colors(runs: Runs, format: Format, blend: Blend) -> None:
-    """Write the runs into a buffer of a format."""
+def write_colors(spans: Spans, format: Format, blend: Blend) -> None:
+    """Write the spans into a buffer of a format."""
     writer = color_writer(replace(State(), blend=blend), Image.new(format, SIDE, 1))
-    writer(runs, np.zeros((4, runs.fragments), np.float32).T)
+    writer(spans, np.zeros((4, spans.fragments), np.float32).T)
 
 
 def look_up(format: Format, **parameters: Any) -> Texture:

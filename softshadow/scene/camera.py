@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softshadow.errors import SceneError
-from softshadow.scene.checked import keep, number, numbers
+from softshadow.scene.validate import keep, number, numbers
 
 
 @dataclass(frozen=True, eq=False, init=False)

@@ -11,9 +11,8 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from softshadow.errors import SceneError
-from softshadow.scene.mistakes import mistakes
 from softshadow.scene.scene import Scene
-from softshadow.scene.tables import (
+from softshadow.scene.scene_schema import (
     CameraTable,
     Context,
     LightTable,
@@ -22,6 +21,7 @@ from softshadow.scene.tables import (
     ReceiverTable,
     SceneTable,
 )
+from softshadow.scene.validation_errors import mistakes
 
 TABLES: dict[str, type[BaseModel]] = {
     "": SceneTable,

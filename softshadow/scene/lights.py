@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softshadow.errors import SceneError
-from softshadow.scene.checked import keep, number, numbers
+from softshadow.scene.validate import keep, number, numbers
 
 # degrees: of a light that is no spot, as in GL; and GL's largest for one that is
 NO_CONE, WIDEST_CONE = 180.0, 90.0

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softshadow.errors import MeshError
-from softshadow.scene.checked import keep
 from softshadow.scene.topology import Topology
+from softshadow.scene.validate import keep
 
 if TYPE_CHECKING:
     from softshadow.scene.boundary import Boundary

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from softshadow.errors import SceneError
-from softshadow.scene.checked import numbers
+from softshadow.scene.validate import numbers
 
 
 def placement(

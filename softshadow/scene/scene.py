@@ -12,11 +12,11 @@ from numpy.typing import ArrayLike
 from softshadow import errors
 from softshadow.errors import SceneError
 from softshadow.scene.camera import Camera
-from softshadow.scene.checked import keep, number, numbers
 from softshadow.scene.lights import Light
 from softshadow.scene.mesh import Mesh
 from softshadow.scene.placement import carried
 from softshadow.scene.plane import flat_plane
+from softshadow.scene.validate import keep, number, numbers
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -200,6 +200,6 @@ class Scene:
 
     def warnings(self) -> list[errors.Warning]:
         """Return what is legal but surprising about the scene, as warnings that nobody has issued yet."""
-        from softshadow.scene.surprises import surprises
+        from softshadow.scene.scene_warnings import surprises
 
         return [*self.notes, *surprises(self)]

@@ -16,7 +16,6 @@ volumes open where they leave the view; saturating counters as in z-pass; edges 
 from typing import Any
 
 from softshadow.scene import Scene
-from softshadow.techniques.choice import Counting, choose_option, count_by_choice
 from softshadow.techniques.drawing import (
     begin_frame,
     draw_objects,
@@ -41,6 +40,7 @@ from softshadow.techniques.shadow_volumes import (
     warn_when_saturated,
 )
 from softshadow.techniques.technique import Option, Steps
+from softshadow.techniques.zpass_or_zfail import Counting, choose_option, count_by_choice
 
 OPTIONS = {
     **SHARED_OPTIONS,

@@ -16,7 +16,6 @@ finite cap is dark up to its reach only.
 from typing import Any
 
 from softshadow.scene import Light, Scene
-from softshadow.techniques.choice import Counting, choose_option, count_by_choice
 from softshadow.techniques.drawing import (
     begin_frame,
     draw_objects,
@@ -43,6 +42,7 @@ from softshadow.techniques.shadow_volumes import (
 )
 from softshadow.techniques.start_value import START, set_start_value, warn_of_a_wrong_start
 from softshadow.techniques.technique import Steps
+from softshadow.techniques.zpass_or_zfail import Counting, choose_option, count_by_choice
 
 OPTIONS = {**SHARED_OPTIONS, "start": START, "choose": choose_option("zpass")}
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from softshadow import gl
 from softshadow.context import make_current
-from softshadow.pipeline import forget_visibility, set_threads, threads, use_binding
+from softshadow.pipeline import clear_visibility_cache, set_threads, threads, use_binding
 from softshadow.testing.mesa import DRIVERS, MesaError, Worker, mesa_available, mesa_reason, program_request
 from softshadow.testing.timing import FrameProgram, Timing, read_buffers, timed
 
@@ -62,8 +62,8 @@ class OwnSession:
         return [self._inside(lambda: timed(gl, self._frame))[1] for _ in range(repeats)]
 
     def warm_up(self) -> None:
-        """Draw a frame with every state specialised, as it will be once it has drawn enough."""
-        with use_binding("specialised"):
+        """Draw a frame with every state specialized, as it will be once it has drawn enough."""
+        with use_binding("specialized"):
             self.time()
 
     def buffers(self) -> dict[str, np.ndarray]:
@@ -84,7 +84,7 @@ class OwnSession:
         finally:
             set_threads(threads_before)
             self._context.frame.commands.clear()
-            forget_visibility(self._context.storage)
+            clear_visibility_cache(self._context.storage)
             make_current(context)
 
 

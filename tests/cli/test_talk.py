@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from softshadow.cli import talk
+from softshadow.cli import console as talk
 from softshadow.errors import OpenMesh, PartlyReadFile
 
 ROWS = [["7", "[bold]duck[/bold].obj", ":smile:"], ["1234", "b", ""]]

@@ -6,9 +6,9 @@ import pytest
 from softshadow import gl, matrices
 from softshadow.inspection.history import pixel_history
 from softshadow.inspection.replay import Replay
-from softshadow.pipeline.clip import outcodes
-from softshadow.pipeline.geometry import assembled_triangles, batch_needs_clipping, user_planes
-from softshadow.pipeline.vertex import to_clip
+from softshadow.pipeline.geometry.clip import outcodes
+from softshadow.pipeline.geometry.geometry import assembled_triangles, batch_needs_clipping, user_planes
+from softshadow.pipeline.geometry.vertex import to_clip
 
 SIDE = 8
 

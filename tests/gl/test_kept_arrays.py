@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from softshadow import gl
-from softshadow.gl import kept_arrays
+from softshadow.gl import array_snapshots as kept_arrays
 
 CORNERS = np.array([(-1, -1, 0, 1), (3, -1, 0, 1), (-1, 3, 0, 1)], np.float32)
 

@@ -2,8 +2,9 @@
 
 import pytest
 
-from softshadow.pipeline import bands, set_threads, threads
-from softshadow.pipeline.bands import PART, VARIABLE, parts_of, share
+from softshadow.pipeline import set_threads, threads
+from softshadow.pipeline.memory import threads as bands
+from softshadow.pipeline.memory.threads import PART, VARIABLE, parts_of, share
 
 
 @pytest.fixture(params=[1, 3], ids="{} threads".format)

@@ -1,4 +1,4 @@
-"""One function, several bindings: generic, specialised, interpreted, in bands and in order leave the same bits."""
+"""One function, several bindings: generic, specialized, interpreted, in bands and in order leave the same bits."""
 
 import os
 import subprocess
@@ -15,7 +15,8 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.framebuffer import Attachment
 from softshadow.image import FORMATS, Image
-from softshadow.pipeline import binding, set_threads, threads, use_binding
+from softshadow.pipeline import set_threads, threads, use_binding
+from softshadow.pipeline.fast import specialize as binding
 
 WIDTH, HEIGHT = 48, 40
 # each of these compiles code of its own: a fixed sample, so that the cache on disk has them from the second run on
@@ -46,10 +47,10 @@ def drawn(seed: int, depth_format: str = "d24", precision: str = "mesa", ordered
 
 @pytest.mark.parametrize("seed", SPECIALISED_SEEDS)
 @pytest.mark.parametrize("depth_format", ["d24", "d32f", "d32"])
-def test_specialised_draws_what_generic_draws(seed, depth_format):
+def test_specialized_draws_what_generic_draws(seed, depth_format):
     with use_binding("generic"):
         expected = drawn(seed, depth_format)
-    with use_binding("specialised"):
+    with use_binding("specialized"):
         assert same_window(drawn(seed, depth_format), expected)
 
 
@@ -71,7 +72,7 @@ def test_rows_of_boxes_at_the_end_of_the_planes_draw_what_single_columns_draw(se
             draw(context, state, vertices(positions.reshape(-1, 4), rng.random((90, 4))))
         return context
 
-    assert same_window(window("specialised"), window("generic"))
+    assert same_window(window("specialized"), window("generic"))
 
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from(["d24", "d32f", "d32"]))

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softshadow.pipeline.bins import bands_of, sort_into_bands
-from softshadow.pipeline.coverage import bounds, extent
-from softshadow.pipeline.fill import Region
+from softshadow.pipeline.raster.bins import bands_of, sort_into_bands
+from softshadow.pipeline.raster.coverage import bounds, extent
+from softshadow.pipeline.raster.fill import Region
 
 pytestmark = pytest.mark.interpreted
 

@@ -7,13 +7,13 @@ import pytest
 
 from softshadow import tokens as gl
 from softshadow.image import FORMATS, Image
-from softshadow.pipeline.blend import blend_ops, compared_alpha
-from softshadow.pipeline.color_writes import color_writer
-from softshadow.pipeline.runs import Runs
+from softshadow.pipeline.shade.blend import blend_ops, compared_alpha
+from softshadow.pipeline.shade.color_writes import color_writer
+from softshadow.pipeline.shade.visible_spans import Spans
 from softshadow.state import Blend, State
 
 F32 = np.float32
-FIRST_PIXEL = Runs(*np.zeros((3, 1), np.int32), np.arange(2))
+FIRST_PIXEL = Spans(*np.zeros((3, 1), np.int32), np.arange(2))
 SOURCE, TARGET = (0.25, 2.0, -1.5, 0.5), (1.0, -3.0, 0.75, 4.0)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from softshadow.image import D24, Image
-from softshadow.pipeline.clear import clear_depth, drawn_clear_depth
+from softshadow.pipeline.buffers.clear import clear_depth, drawn_clear_depth
 from softshadow.testing import compare
 
 DEPTHS = (0.0, 0.1, 0.3, 0.5, 0.7, 1 / 3, 0.123456789, 0.999999, 1e-5, 0.25000001, 1.0)

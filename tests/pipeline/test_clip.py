@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softshadow.pipeline.clip import FRUSTUM, Clipped, clip_triangles, outcodes
+from softshadow.pipeline.geometry.clip import FRUSTUM, Clipped, clip_triangles, outcodes
 
 pytestmark = pytest.mark.interpreted
 

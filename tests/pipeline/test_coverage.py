@@ -5,11 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softshadow.pipeline.boxes import columns_of, edge_from
-from softshadow.pipeline.coverage import bounds, edge, row_span, triangles_at
-from softshadow.pipeline.fill import Region
-from softshadow.pipeline.fragments import list_fragments
-from softshadow.pipeline.setup import MAX_SLOPE, Offset, Setup, set_up
+from softshadow.pipeline.fast.small_triangles import columns_of, edge_from
+from softshadow.pipeline.geometry.triangle_setup import MAX_SLOPE, Offset, Setup, set_up
+from softshadow.pipeline.raster.coverage import bounds, edge, row_span, triangles_at
+from softshadow.pipeline.raster.fill import Region
+from softshadow.pipeline.raster.ordered import list_fragments
 from softshadow.state import Cull
 from strategies import window_fans
 

@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softshadow.pipeline.lent import KEPT, SMALLEST, lent
+from softshadow.pipeline.memory.scratch import KEPT, SMALLEST, scratch
 
 LARGE = SMALLEST // 4
 
@@ -16,20 +16,20 @@ def address(array):
 
 
 def test_memory_is_lent_again_when_nothing_refers_to_it():
-    first = lent((2, LARGE), np.float32)
+    first = scratch((2, LARGE), np.float32)
     where = address(first)
     part = first[1, 5:]
     del first
-    other = lent((2, LARGE), np.int32)
+    other = scratch((2, LARGE), np.int32)
     assert not np.shares_memory(other, part)  # a view is enough to keep it
     del part
-    assert address(lent((2, LARGE), np.int32)) == where
+    assert address(scratch((2, LARGE), np.int32)) == where
 
 
 def test_it_has_the_shape_and_type_that_were_asked_for():
     for shape in (0, 3, (4, 5), LARGE, np.int64(LARGE), (3, np.int64(LARGE)), (LARGE, 0)):
         for kind in (np.uint8, np.int32, np.float64):
-            made = lent(shape, kind)
+            made = scratch(shape, kind)
             assert made.dtype == kind
             assert made.shape == np.empty(shape, kind).shape
             assert made.flags.c_contiguous
@@ -41,7 +41,7 @@ def test_it_has_the_shape_and_type_that_were_asked_for():
 def test_arrays_in_use_never_share_memory(requests):
     kept = []
     for number, (size, keep) in enumerate(requests):
-        made = lent(size, np.int32)
+        made = scratch(size, np.int32)
         made[:] = number
         if keep:
             kept.append((number, made))
@@ -51,15 +51,15 @@ def test_arrays_in_use_never_share_memory(requests):
 
 def test_what_is_kept_is_bounded_and_what_is_in_use_survives():
     half = KEPT // 8
-    arrays = [lent(half // 4, np.int32) for _ in range(9)]  # more than is kept
+    arrays = [scratch(half // 4, np.int32) for _ in range(9)]  # more than is kept
     for n, array in enumerate(arrays):
         array[:100] = n
     assert [int(array[0]) for array in arrays] == list(range(9))
 
 
 def test_threads_have_memory_of_their_own():
-    mine, theirs = lent(LARGE, np.int32), []
-    thread = threading.Thread(target=lambda: theirs.append(lent(LARGE, np.int32)))
+    mine, theirs = scratch(LARGE, np.int32), []
+    thread = threading.Thread(target=lambda: theirs.append(scratch(LARGE, np.int32)))
     thread.start()
     thread.join()
     assert not np.shares_memory(mine, theirs[0])

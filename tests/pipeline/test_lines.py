@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from softshadow import gl
-from softshadow.pipeline.clip import outcodes
-from softshadow.pipeline.fill import Region
-from softshadow.pipeline.fragments import list_fragments
-from softshadow.pipeline.lines import assemble_lines, clip_lines, set_up_lines
+from softshadow.pipeline.geometry.clip import outcodes
+from softshadow.pipeline.geometry.lines import assemble_lines, clip_lines, set_up_lines
+from softshadow.pipeline.raster.fill import Region
+from softshadow.pipeline.raster.ordered import list_fragments
 
 pytestmark = pytest.mark.interpreted
 

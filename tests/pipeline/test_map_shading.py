@@ -7,8 +7,10 @@ from hypothesis import strategies as st
 
 from draws import random_triangles, same_window
 from softshadow import gl
-from softshadow.pipeline import map_shading, set_threads, shading, threads
+from softshadow.pipeline import set_threads, threads
 from softshadow.pipeline.commands import Vertices
+from softshadow.pipeline.fast import shadow_map_kernel as map_shading
+from softshadow.pipeline.shade import shading
 
 WRAPS = (gl.GL_CLAMP_TO_BORDER, gl.GL_CLAMP_TO_EDGE, gl.GL_REPEAT, gl.GL_MIRRORED_REPEAT, gl.GL_CLAMP)
 
@@ -48,7 +50,7 @@ def test_one_kernel_leaves_what_batches_leave(seed, thread_count):
         set_threads(thread_count)
         made = drawn_under_a_map(seed)
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(shading, "map_shader", lambda *_: None)
+            patch.setattr(shading, "shadow_map_shader", lambda *_: None)
             assert same_window(made, drawn_under_a_map(seed))
     finally:
         set_threads(before)
@@ -57,7 +59,7 @@ def test_one_kernel_leaves_what_batches_leave(seed, thread_count):
 def test_runs_longer_than_what_is_shaded_at_a_time_go_on():
     with pytest.MonkeyPatch.context() as patch:
         made = drawn_under_a_map(1, (2 * map_shading.AT_A_TIME + 50, 5), 20)
-        patch.setattr(shading, "map_shader", lambda *_: None)
+        patch.setattr(shading, "shadow_map_shader", lambda *_: None)
         assert same_window(made, drawn_under_a_map(1, (2 * map_shading.AT_A_TIME + 50, 5), 20))
     assert len(np.unique(made.storage.window.color.view.reshape(-1, 4), axis=0)) > 100
 
@@ -65,7 +67,9 @@ def test_runs_longer_than_what_is_shaded_at_a_time_go_on():
 @pytest.mark.parametrize(("option", "is_taken"), [({}, True), ({"precision": "exact"}, False)])
 def test_only_float32_is_shaded_in_one_kernel(monkeypatch, option, is_taken):
     chosen = []
-    monkeypatch.setattr(shading, "map_shader", lambda *args: chosen.append(map_shading.map_shader(*args)) or chosen[-1])
+    monkeypatch.setattr(
+        shading, "shadow_map_shader", lambda *args: chosen.append(map_shading.shadow_map_shader(*args)) or chosen[-1]
+    )
     for seed in range(8):
         drawn_under_a_map(seed, **option)
     assert any(shade is not None for shade in chosen) == is_taken
@@ -75,5 +79,5 @@ def test_only_float32_is_shaded_in_one_kernel(monkeypatch, option, is_taken):
 @pytest.mark.interpreted
 def test_interpreted_the_kernel_leaves_what_batches_leave(monkeypatch):
     made = drawn_under_a_map(5, (12, 9), 3)
-    monkeypatch.setattr(shading, "map_shader", lambda *_: None)
+    monkeypatch.setattr(shading, "shadow_map_shader", lambda *_: None)
     assert same_window(made, drawn_under_a_map(5, (12, 9), 3))

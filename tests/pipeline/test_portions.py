@@ -11,11 +11,14 @@ from draws import draw, random_state, random_triangles, same_window, small_trian
 from softshadow import pipeline
 from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.pipeline import bands, binding, portions, set_threads, threads
+from softshadow.pipeline import set_threads, threads
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.coverage import extent
-from softshadow.pipeline.geometry import region_of
-from softshadow.pipeline.portions import portions_of
+from softshadow.pipeline.fast import depth_only as portions
+from softshadow.pipeline.fast import specialize as binding
+from softshadow.pipeline.fast.depth_only import chunks_of
+from softshadow.pipeline.geometry.geometry import region_of
+from softshadow.pipeline.memory import threads as bands
+from softshadow.pipeline.raster.coverage import extent
 from softshadow.state import ClipPlanes
 
 seeds = st.integers(0, 2**32 - 1)
@@ -44,7 +47,7 @@ def colorless(seed: int, depth_format: str) -> Context:
 
 def all_at_once(seed: int, depth_format: str) -> Context:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(pipeline, "leaves_no_colors", lambda command, target: False)
+        patch.setattr(pipeline, "writes_no_colors", lambda command, target: False)
         return colorless(seed, depth_format)
 
 
@@ -54,7 +57,7 @@ def test_portions_leave_what_all_triangles_at_once_leave(seed, depth_format, cou
     before = threads()
     expected = all_at_once(seed, depth_format)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(portions, "PORTION", size)
+        patch.setattr(portions, "CHUNK_TRIANGLES", size)
         patch.setattr(bands, "PART", 1 + size // 3)
         for name in ("WORTH", "WORTH_COUNTING"):  # so small a window would not be divided
             patch.setattr(binding, name, 0)
@@ -72,7 +75,7 @@ def test_a_portion_has_the_rows_and_the_area_of_its_triangles(seed):
         if not isinstance(command, Draw):
             continue
         whole = region_of(command.state, context.storage.window)
-        for triangles, runs, region, fragments in portions_of(command, context.storage.window):
+        for triangles, runs, region, fragments in chunks_of(command, context.storage.window):
             extents = [extent(triangles.corners, first, end) for first, end in runs]
             assert fragments == sum(area for *_, area in extents) >> 8
             for first_row, end_row, _ in extents:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from softshadow import tokens as gl
-from softshadow.pipeline.primitives import assemble, in_clipped_batch
+from softshadow.pipeline.geometry.assembly import assemble, in_clipped_batch
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from draws import random_triangles
 from softshadow import gl, pipeline
 from softshadow.context import Context
-from softshadow.pipeline import reuse
 from softshadow.pipeline.commands import Vertices
+from softshadow.pipeline.fast import visibility_cache as reuse
 
 SIZE = 24  # of window and framebuffer object
 DEPTH_TEXTURE, FRAMEBUFFER = 1, 1
@@ -174,7 +174,7 @@ def read(context, rng, meshes) -> None:
 
 
 def forget(context, rng, meshes) -> None:
-    pipeline.forget_visibility(context.storage)
+    pipeline.clear_visibility_cache(context.storage)
 
 
 CALLS = {
@@ -245,7 +245,7 @@ def test_a_draw_over_depths_that_a_texture_was_given_is_filled(between):
 def test_what_was_kept_in_vain_is_not_kept_again():
     gl.create_context(SIZE, SIZE)
     context, _ = frame(1, ["clear", "draw", "draw", "draw", "draw"] * 2)
-    visibility = context.storage.visibility
+    visibility = context.storage.visibility_cache
     visibility.kept.clear()
     rng = np.random.default_rng(5)
     mesh = meshed(context, rng)
@@ -253,13 +253,13 @@ def test_what_was_kept_in_vain_is_not_kept_again():
         clear(context, rng, [])
         draw(context, rng, [mesh, mesh])
     assert len(visibility.kept) == 1
-    pipeline.forget_visibility(context.storage)
+    pipeline.clear_visibility_cache(context.storage)
     clear(context, rng, [])
     draw(context, rng, [mesh, mesh])
     assert not visibility.kept
 
 
 def test_no_more_is_kept_than_there_is_room_for(monkeypatch):
-    monkeypatch.setattr(reuse, "KEPT_BYTES", 5000)
+    monkeypatch.setattr(reuse, "CACHE_BYTES", 5000)
     context, _ = frame(4, ["clear", "draw", "draw", "draw_in_a_box", "draw_with_offset"] * 6)
-    assert sum(kept.bytes for kept in context.storage.visibility.kept.values()) <= 5000
+    assert sum(kept.bytes for kept in context.storage.visibility_cache.kept.values()) <= 5000

@@ -1,4 +1,4 @@
-"""Runs of fragments: how they are found, cut into batches, interpolated and written."""
+"""Spans of fragments: how they are found, cut into batches, interpolated and written."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 
 from softshadow import tokens as gl
 from softshadow.image import FORMATS, Image
-from softshadow.pipeline import interpolate as interpolation
-from softshadow.pipeline import runs as runs_module
 from softshadow.pipeline import set_threads, threads
-from softshadow.pipeline.color_writes import color_writer
-from softshadow.pipeline.interpolate import LONG, interpolate, planes_of
-from softshadow.pipeline.runs import Runs, fragments_of, runs_of, visible_runs
-from softshadow.pipeline.setup import Setup
+from softshadow.pipeline.geometry.triangle_setup import Setup
+from softshadow.pipeline.shade import interpolate as interpolation
+from softshadow.pipeline.shade import visible_spans as spans_module
+from softshadow.pipeline.shade.color_writes import color_writer
+from softshadow.pipeline.shade.interpolate import LONG, interpolate, planes_of
+from softshadow.pipeline.shade.visible_spans import Spans, fragments_of, spans_of, visible_spans
 from softshadow.state import Blend, State
 
 pytestmark = pytest.mark.interpreted
@@ -30,24 +30,24 @@ def some_ids(seed):
 
 
 def two_runs(long):
-    """Runs of one row and triangle: one long run, or the same pixels one by one."""
+    """Spans of one row and triangle: one long run, or the same pixels one by one."""
     count = LONG + 5
     if long:
         row, left, start = np.array([3]), np.array([2]), np.array([0, count])
     else:
         row, left, start = np.full(count, 3), np.arange(2, 2 + count), np.arange(count + 1)
-    return Runs(row.astype(np.int32), left.astype(np.int32), np.zeros(len(row), np.int32), start)
+    return Spans(row.astype(np.int32), left.astype(np.int32), np.zeros(len(row), np.int32), start)
 
 
 @given(st.integers(0, 2**32 - 1))
 def test_runs_are_the_visible_pixels(seed):
     ids = some_ids(seed)
-    runs = visible_runs(ids, 7)
-    row, column, triangle = fragments_of(runs)
+    spans = visible_spans(ids, 7)
+    row, column, triangle = fragments_of(spans)
     assert np.array_equal(np.stack([row - 7, column]), np.nonzero(ids >= 0))
     assert np.array_equal(triangle, ids[row - 7, column])
-    again = runs_of(fragments_of(runs))
-    assert all(np.array_equal(a, b) for a, b in zip(runs, again, strict=True))
+    again = spans_of(fragments_of(spans))
+    assert all(np.array_equal(a, b) for a, b in zip(spans, again, strict=True))
 
 
 def on_threads(count, function, *arguments):
@@ -61,9 +61,9 @@ def on_threads(count, function, *arguments):
 
 @pytest.mark.parametrize("rows", [1, 3, SIZE])
 def test_parts_of_the_rows_together_have_the_runs_of_all(monkeypatch, rows):
-    monkeypatch.setattr(runs_module, "ROWS", rows)
+    monkeypatch.setattr(spans_module, "ROWS", rows)
     for seed in range(20):
-        whole, parts = (on_threads(count, visible_runs, some_ids(seed), 7) for count in (1, 3))
+        whole, parts = (on_threads(count, visible_spans, some_ids(seed), 7) for count in (1, 3))
         assert all(np.array_equal(a, b) for a, b in zip(parts, whole, strict=True))
 
 
@@ -80,8 +80,8 @@ def test_planes_are_the_same_in_parts(monkeypatch, at_a_time):
         np.array([1, 0, 1], np.uint8),
         np.array([2, 0, 1], np.int32),
     )
-    provoking, runs = np.array([4, 8, 1], np.int32), visible_runs(some_ids(5), 0)
-    arguments = runs, setup, window, values, -values, flat, provoking
+    provoking, spans = np.array([4, 8, 1], np.int32), visible_spans(some_ids(5), 0)
+    arguments = spans, setup, window, values, -values, flat, provoking
     whole, parts = (on_threads(count, planes_of, *arguments) for count in (1, 3))
     assert len(whole.values) == triangles
     assert all(np.array_equal(a, b) for a, b in zip(parts, whole, strict=True))
@@ -89,19 +89,19 @@ def test_planes_are_the_same_in_parts(monkeypatch, at_a_time):
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 30))
 def test_batches_are_all_runs_one_after_the_other(seed, size):
-    runs = visible_runs(some_ids(seed), 0)
-    parts = [runs.part(first, end) for first, end in pairwise(runs.batches(size))]
+    spans = visible_spans(some_ids(seed), 0)
+    parts = [spans.part(first, end) for first, end in pairwise(spans.chunks(size))]
     together = [np.concatenate(fields) for fields in zip(*map(fragments_of, parts), strict=True)] if parts else []
-    assert all(np.array_equal(a, b) for a, b in zip(together, fragments_of(runs), strict=bool(parts)))
-    assert sum(part.fragments for part in parts) == runs.fragments
+    assert all(np.array_equal(a, b) for a, b in zip(together, fragments_of(spans), strict=bool(parts)))
+    assert sum(part.fragments for part in parts) == spans.fragments
     assert all(part.fragments <= size + 3 * SIZE for part in parts)
 
 
 def test_no_fragments_have_no_runs():
-    nothing = visible_runs(np.full((2, 3), -1, np.int32), 0)
+    nothing = visible_spans(np.full((2, 3), -1, np.int32), 0)
     assert nothing.fragments == 0
-    assert len(nothing.batches(10)) == 1
-    assert runs_of(fragments_of(nothing)).fragments == 0
+    assert len(nothing.chunks(10)) == 1
+    assert spans_of(fragments_of(nothing)).fragments == 0
 
 
 @pytest.mark.parametrize("real", [np.float32, np.float64])
@@ -126,15 +126,15 @@ def test_a_run_is_written_under_the_color_mask(mask, adding, internal):
     rng = np.random.default_rng(2)
     image = Image.new(FORMATS[internal], 32, 4, internal)
     image.cells[..., :3] = rng.integers(0, 256, image.cells[..., :3].shape)
-    before, runs = image.cells.copy(), two_runs(long=True)
+    before, spans = image.cells.copy(), two_runs(long=True)
     ones = Blend(adding, gl.GL_ONE, gl.GL_ONE, gl.GL_ONE, gl.GL_ONE)
     state = replace(State(), blend=ones, color=replace(State().color, mask=mask))
-    colors = rng.uniform(-1, 2, (runs.fragments, 4)).astype(np.float32)
-    color_writer(state, image)(runs, colors)
+    colors = rng.uniform(-1, 2, (spans.fragments, 4)).astype(np.float32)
+    color_writer(state, image)(spans, colors)
     drawn = colors
     if image.format.kind == "unorm8":
         drawn = np.rint(colors.clip(0, 1) * np.float32(255))
-    expected, place = before.copy(), np.s_[3, 2 : 2 + runs.fragments]
+    expected, place = before.copy(), np.s_[3, 2 : 2 + spans.fragments]
     blended = drawn + before[place] if adding else drawn
     if image.format.kind == "unorm8":
         blended = blended.clip(0, 255)

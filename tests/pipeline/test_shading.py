@@ -11,7 +11,8 @@ from draws import draw, random_state, random_triangles, same_window, vertices
 from softshadow import pipeline
 from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.pipeline import blend, color_writes, set_threads, shading, threads
+from softshadow.pipeline import set_threads, threads
+from softshadow.pipeline.shade import blend, color_writes, shading
 from softshadow.state import Blend
 
 ADDING = Blend(enabled=True, src_rgb=gl.GL_ONE, dst_rgb=gl.GL_ONE, src_alpha=gl.GL_ONE, dst_alpha=gl.GL_ONE)
@@ -53,7 +54,7 @@ def test_results_do_not_depend_on_batches(seed, func, thread_count):
     try:
         set_threads(thread_count)
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(shading, "BATCH", 37)
+            patch.setattr(shading, "CHUNK", 37)
             assert same_window(whole, added(seed, func, MIXING, True))
     finally:
         set_threads(before)

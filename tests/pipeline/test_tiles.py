@@ -9,14 +9,15 @@ from hypothesis import strategies as st
 
 from softshadow import tokens as gl
 from softshadow.jit import kernel
-from softshadow.pipeline import binding, set_threads, threads, use_binding
-from softshadow.pipeline.coverage import bounds, row_span, row_spans
-from softshadow.pipeline.fill import Region
-from softshadow.pipeline.fill_tiles import fill_in_tiles
-from softshadow.pipeline.fragment_ops import FragmentOps, compare, stencil_op
-from softshadow.pipeline.setup import MAX_SLOPE, Offset, Setup, set_up
-from softshadow.pipeline.spans import DepthRange
-from softshadow.pipeline.tiles import FAIL, MIXED, PASS, advance, commutes, decide, find_bounds
+from softshadow.pipeline import set_threads, threads, use_binding
+from softshadow.pipeline.fast import specialize as binding
+from softshadow.pipeline.fast.hierarchical_z import FAIL, MIXED, PASS, advance, decide, find_bounds, order_independent
+from softshadow.pipeline.fast.stencil_tiles import fill_in_tiles
+from softshadow.pipeline.geometry.triangle_setup import MAX_SLOPE, Offset, Setup, set_up
+from softshadow.pipeline.raster.coverage import bounds, row_span, row_spans
+from softshadow.pipeline.raster.fill import Region
+from softshadow.pipeline.raster.fragment_ops import FragmentOps, compare, stencil_op
+from softshadow.pipeline.raster.spans import DepthRange
 from softshadow.state import Cull
 
 WIDTH, PITCH, HEIGHT = 150, 160, 70  # some whole tiles of 64 x 16, and some cut at the borders
@@ -79,10 +80,10 @@ def buffers(rng: np.random.Generator, depth_format: str, stencil_largest: int) -
 
 
 def filled(seed: int, depth_format: str) -> tuple[np.ndarray, np.ndarray]:
-    """The buffers after a draw that commutes."""
+    """The buffers after a draw that order_independent."""
     rng = np.random.default_rng(seed)
     front, back = counting_state(rng, depth_format)
-    assert commutes(front, back)
+    assert order_independent(front, back)
     downwards = int(rng.integers(2))
     triangles, _ = large_and_small(rng, 24, bool(downwards))
     if depth_format == "exact":
@@ -103,9 +104,9 @@ def any_state_in_tiles(ops, facing, triangles, numbers, region, depth_range, pla
 
 @contextmanager
 def in_tiles():
-    """Inside, what commutes is filled in tiles by code for any state: specialising each would take seconds."""
-    with pytest.MonkeyPatch.context() as patch, use_binding("specialised"):
-        patch.setattr(binding, "specialise_in_tiles", lambda code: any_state_in_tiles)
+    """Inside, what order_independent is filled in tiles by code for any state: specializing each would take seconds."""
+    with pytest.MonkeyPatch.context() as patch, use_binding("specialized"):
+        patch.setattr(binding, "specialize_in_tiles", lambda code: any_state_in_tiles)
         patch.setattr(binding, "_compiled", {})
         patch.setattr(binding, "_marker", lambda key: None)  # nothing is on disk
         yield patch
@@ -133,8 +134,8 @@ def test_tiles_leave_the_bits_of_fragments_one_by_one(seed, depth_format):
     [(0, "d24"), (1, "d32f")]
     + [pytest.param(*case, marks=pytest.mark.slow) for case in ((1, "d24"), (2, "d24"), (0, "d32f"), (2, "d32f"))],
 )
-def test_specialised_tiles_leave_the_same_bits(seed, depth_format):
-    with use_binding("specialised"):
+def test_specialized_tiles_leave_the_same_bits(seed, depth_format):
+    with use_binding("specialized"):
         found = filled(seed, depth_format)
     assert_same(found, one_by_one(seed, depth_format))
 
@@ -167,8 +168,8 @@ def facing(**changes: int) -> FragmentOps:
 
 
 def test_counting_up_and_down_commutes():
-    assert commutes(facing(), facing(zfail=gl.GL_DECR_WRAP))
-    assert commutes(facing(zfail=gl.GL_INCR), facing(zfail=gl.GL_INCR))
+    assert order_independent(facing(), facing(zfail=gl.GL_DECR_WRAP))
+    assert order_independent(facing(zfail=gl.GL_INCR), facing(zfail=gl.GL_INCR))
 
 
 @pytest.mark.parametrize(
@@ -183,11 +184,11 @@ def test_counting_up_and_down_commutes():
     ],
 )
 def test_what_depends_on_the_order_does_not_commute(changes):
-    assert not commutes(facing(), facing(**changes))
+    assert not order_independent(facing(), facing(**changes))
 
 
 def test_two_references_do_not_commute():
-    assert not commutes(facing(zfail=gl.GL_REPLACE, ref=1), facing(zfail=gl.GL_REPLACE, ref=2))
+    assert not order_independent(facing(zfail=gl.GL_REPLACE, ref=1), facing(zfail=gl.GL_REPLACE, ref=2))
 
 
 @pytest.mark.interpreted

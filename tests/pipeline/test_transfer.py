@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from softshadow import tokens as gl
 from softshadow.framebuffer import Attachment, Framebuffer, Storage, default_framebuffer
 from softshadow.image import FORMATS, Image, storage_format
+from softshadow.pipeline.buffers.copy import bottom_up, clipped, copy_to_texture
 from softshadow.pipeline.commands import CopyToTexture
-from softshadow.pipeline.transfer import bottom_up, clipped, copy_to_texture
 from softshadow.texture import Texture
 
 POINTS = {"depth": gl.GL_DEPTH_ATTACHMENT, "unorm8": gl.GL_COLOR_ATTACHMENT0, "float": gl.GL_COLOR_ATTACHMENT0}

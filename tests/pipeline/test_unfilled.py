@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from softshadow import gl
-from softshadow.pipeline.primitives import assemble, edge_flags
+from softshadow.pipeline.geometry.assembly import assemble, edge_flags
 
 pytestmark = pytest.mark.interpreted
 

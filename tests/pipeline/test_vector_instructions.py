@@ -1,4 +1,4 @@
-"""The specialised fill is vectorised: its compiled code tests many pixels by one instruction.
+"""The specialized fill is vectorised: its compiled code tests many pixels by one instruction.
 
 A branch in the wrong place, or an index that may be negative, makes the compiler fall back to one pixel at a time, and
 nothing but the time would tell. So we look into the machine code for what a vectorised loop over pixels cannot do
@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 
 from softshadow import gl
-from softshadow.pipeline import binding, use_binding
+from softshadow.pipeline import use_binding
+from softshadow.pipeline.fast import specialize as binding
 
 # of AVX and AVX-512 on registers of 32 or 64 bytes; plain SSE has the same names without the v
 PACKED_FLOATS_COMPARED = re.compile(r"\bv?cmp\w*ps\b[^\n]*%[xyz]mm|\bv?(?:min|max)ps\b[^\n]*%[xyz]mm")
@@ -28,10 +29,10 @@ pytestmark = [
 
 
 def machine_code_of_what_draws(monkeypatch: pytest.MonkeyPatch, draw) -> str:
-    """Return the assembly of all fills that a draw is specialised to, compiled anew: the cache has no text of it."""
+    """Return the assembly of all fills that a draw is specialized to, compiled anew: the cache has no text of it."""
     compiled: dict = {}
     monkeypatch.setattr(binding, "_compiled", compiled)
-    with gl.create_context(64, 48), use_binding("specialised"):
+    with gl.create_context(64, 48), use_binding("specialized"):
         draw()
         gl.glFinish()
     assert compiled

@@ -5,9 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softshadow.pipeline import bands, set_threads, threads
-from softshadow.pipeline.clip import FRUSTUM, outcodes
-from softshadow.pipeline.vertex import SPARE, process_vertices, to_clip, to_window, with_rows
+from softshadow.pipeline import set_threads, threads
+from softshadow.pipeline.geometry.clip import FRUSTUM, outcodes
+from softshadow.pipeline.geometry.vertex import SPARE, process_vertices, to_clip, to_window, with_rows
+from softshadow.pipeline.memory import threads as bands
 from softshadow.state import Viewport
 
 pytestmark = pytest.mark.interpreted

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softshadow.programs.approximations import exp2, log2, power
+from softshadow.programs.llvmpipe_math import exp2, log2, power
 
 # the largest relative error of llvmpipe's polynomials, measured over 10^6 arguments and rounded up
 EXP2_ERROR, LOG2_ERROR = 2e-6, 2e-6

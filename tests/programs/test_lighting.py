@@ -166,7 +166,7 @@ MODELVIEWS = {
 VARIANTS: dict[str, Callable[..., Lighting]] = {
     "plain": with_lights,
     "dull": lambda *lights: with_lights(*lights, front=replace(MATERIAL, shininess=0.0)),
-    "normalised, local viewer": lambda *lights: with_lights(*lights, normalize=True, local_viewer=True),
+    "normalized, local viewer": lambda *lights: with_lights(*lights, normalize=True, local_viewer=True),
     "rescaled": lambda *lights: with_lights(*lights, rescale_normal=True),
     "colour material": lambda *lights: with_lights(*lights, color_material=True),
     "emission tracked": lambda *lights: with_lights(

@@ -9,7 +9,7 @@ import pytest
 from paths import SCENES
 from softshadow.errors import OpenMesh, PartlyReadFile, SceneError
 from softshadow.scene import Scene
-from softshadow.scene.tables import SHAPES
+from softshadow.scene.scene_schema import SHAPES
 
 MINIMAL = """
 [camera]

@@ -12,9 +12,9 @@ import softshadow as ss
 from softshadow.errors import NearClipZPass
 from softshadow.scene import Camera, Light, Scene, SceneObject, placement, scene_names, shapes
 from softshadow.techniques import drawing
-from softshadow.techniques.choice import Counting, split_plane
 from softshadow.techniques.near_rectangle import shadows_near_rectangle
 from softshadow.techniques.shadow_volumes import begin_count, volumes_of
+from softshadow.techniques.zpass_or_zfail import Counting, split_plane
 from strategies import coordinates, scenes_from_within
 from techniques.drawn_frames import SIZE, draw, run
 

@@ -1,0 +1,89 @@
+"""glClear:
+
+Colour under its mask, depth under its mask, stencil under the front write mask, all inside the scissor box.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.framebuffer import DEFAULT, Framebuffer, Storage
+from softshadow.image import EXACT_DEPTH, Image
+from softshadow.pipeline.buffers import accumulation
+from softshadow.pipeline.geometry.geometry import region_of
+from softshadow.pipeline.raster.fill import Region
+from softshadow.pipeline.shade.blend import to_unorm8
+from softshadow.pipeline.shade.color_writes import as_pixels
+from softshadow.pixels import largest_stood_for, quantized_depth
+from softshadow.state import State
+
+if TYPE_CHECKING:
+    from softshadow.pipeline.commands import Clear
+
+
+def clear(command: Clear, storage: Storage) -> None:
+    """Clear the buffers that the command's mask names (GL 2.1, sec. 4.2.3)."""
+    state = command.state
+    target = storage.framebuffers[state.draw_framebuffer]
+    region = region_of(state, target)
+    where = np.s_[region.first_row : region.end_row, region.left : region.right]
+    for image in target.colors if command.mask & gl.GL_COLOR_BUFFER_BIT else ():
+        color = np.array(state.color.clear, np.float32)
+        value = to_unorm8(color) if image.format.kind == "unorm8" else color
+        written = np.array(state.color.mask) & np.array(image.format.written)
+        if written.all() and image.format.kind == "unorm8":
+            as_pixels(image.cells)[where] = as_pixels(value)
+        else:
+            for channel in np.flatnonzero(written):
+                image.cells[where][..., channel] = value[channel]
+    if command.mask & gl.GL_DEPTH_BUFFER_BIT and target.depth is not None and state.depth.write:
+        drawn = is_drawn(state, target, command.mask) and target.depth.format != EXACT_DEPTH
+        value_of = drawn_clear_depth if drawn else clear_depth
+        write_everywhere(target.depth, region, value_of(state.depth.clear, target.depth))
+    if command.mask & gl.GL_STENCIL_BUFFER_BIT and target.stencil is not None:
+        largest = target.stencil.format.largest
+        mask = state.stencil.front.write_mask & largest
+        if mask == largest:
+            write_everywhere(target.stencil, region, state.stencil.clear & mask)
+        else:
+            cells = target.stencil.cells[where]
+            cells[:] = (cells & (largest ^ mask)) | (state.stencil.clear & mask)
+    if command.mask & gl.GL_ACCUM_BUFFER_BIT and target.name == DEFAULT:
+        accumulation.buffer_of(target)[where] = accumulation.clear_value(state.color.clear_accum)
+
+
+def write_everywhere(image: Image, region: Region, value: float) -> None:
+    """Write a value to a region of depth or stencil cells; where that is all of them, the image knows what it holds."""
+    if (region.left, region.right, region.first_row, region.end_row) == (0, image.width, 0, image.height):
+        cell = np.array(value, image.format.dtype)
+        image.write_later(0, np.broadcast_to(cell, image.shape), (cell.tobytes(), image.format, image.shape))
+    else:
+        image.cells[region.first_row : region.end_row, region.left : region.right] = value
+
+
+def clear_depth(value: float, depth: Image) -> float:
+    """Return the clear depth in buffer units: rounded in double precision for fixed-point formats."""
+    clamped = min(max(value, 0.0), 1.0)
+    return float(largest_stood_for(np.rint(clamped * depth.format.largest))) if depth.format.largest else clamped
+
+
+def is_drawn(state: State, target: Framebuffer, mask: int) -> bool:
+    """Return whether llvmpipe clears depth by drawing a rectangle: a scissor box or a stencil mask cuts the clear."""
+    box, (width, height) = state.scissor, target.size
+    inside = box.x > 0 or box.y > 0 or box.x + box.width < width or box.y + box.height < height
+    if box.enabled and inside:
+        return True
+    if not mask & gl.GL_STENCIL_BUFFER_BIT or target.stencil is None:
+        return False
+    largest = target.stencil.format.largest
+    return 0 < state.stencil.front.write_mask & largest < largest
+
+
+def drawn_clear_depth(value: float, depth: Image) -> float:
+    """Return the depth of that rectangle in buffer units: clip space and back costs the last bits of float32."""
+    clip = np.float32(min(max(value, 0.0), 1.0) * 2 - 1)
+    z = clip * np.float32(0.5) + np.float32(0.5)
+    return float(quantized_depth(np.array([z], np.float32), depth.format)[0])

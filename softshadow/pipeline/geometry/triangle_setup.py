@@ -1,0 +1,235 @@
+"""Triangle setup: the corners of the triangles that are drawn, the depth plane and its polygon offset."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from softshadow.image import Image
+from softshadow.jit import inlined, kernel, read_only
+from softshadow.pipeline.constants import HALF, ONE, ZERO
+from softshadow.pipeline.geometry.facing import count_kept, culling, facing_and_area, snap_vertices, vertices_of
+from softshadow.pipeline.memory.scratch import scratch
+from softshadow.pipeline.memory.threads import parts_of, share
+from softshadow.state import Cull, Polygon
+
+SLOPES = {"max": 0, "length": 1, "slide": 2}
+MAX_SLOPE, LENGTH_SLOPE = 0, 1
+MANTISSA_BITS = 23
+
+
+class Setup(NamedTuple):
+    """The triangles that reach the pixels, in drawing order.
+
+    corners (n, 6) int32: snapped X0 Y0 X1 Y1 X2 Y2 in 1/256 pixel, sample (i, j) at (256 i, 256 j), turned so that the
+    area is positive (as in llvmpipe, 32 bits reach far beyond the largest viewport; their products need 64); vertices
+    (n, 3) int32 in the same order; depth (n, 4): z at pixel (0, 0), dz/di, dz/dj, offset; front (n,) uint8; ids (n,)
+    int32: which primitive each is, or is a half of. Lines and points are two triangles each: their vertices are
+    (a, b, -1) and (a, -1, -1).
+    """
+
+    corners: np.ndarray
+    vertices: np.ndarray
+    depth: np.ndarray
+    front: np.ndarray
+    ids: np.ndarray
+
+
+class Offset(NamedTuple):
+    """Polygon offset, slope * factor + constant.
+
+    `downwards`: stored rows grow downwards, GL's dz/dy is the negative.
+    """
+
+    slope: int
+    factor: np.floating
+    constant: np.floating
+    downwards: int
+
+
+def offset_of(polygon: Polygon, depth: Image | None, real: type, slope: str, unit: str, flipped: bool) -> Offset:
+    """Return the polygon offset of filled polygons for the depth format that is drawn to.
+
+    llvmpipe adds it where the offset of any mode is enabled, also that of lines or points (`offset_is_on`).
+    `unit` "mesa" makes one unit two steps of a fixed-point format, as llvmpipe does; "spec" one (GL 2.1, sec. 3.5.5).
+    The constant of float depth depends on the triangle: `add_float_units`.
+    """
+    factor, units = (polygon.factor, polygon.units) if offset_is_on(polygon) else (0.0, 0.0)
+    largest = depth.format.largest if depth else 0
+    constant = units * (1.0 / largest) * (2 if unit == "mesa" else 1) if largest else 0.0
+    return Offset(SLOPES[slope], real(factor), real(constant), int(flipped))
+
+
+def offset_is_on(polygon: Polygon) -> bool:
+    """Return whether llvmpipe offsets filled polygons; GL 2.1, sec. 3.5.5, asks for `offset_fill` alone."""
+    return polygon.offset_fill or polygon.offset_line or polygon.offset_point
+
+
+def add_float_units(offsets: np.ndarray, window_z: np.ndarray, units: float) -> None:
+    """Add `units` last places of each triangle's largest abs(z), window_z (n, 3), to its offset:
+
+    Float depth formats.
+    """
+    largest = np.abs(window_z).max(axis=1)
+    _, exponent = np.frexp(largest)
+    step = np.ldexp(offsets.dtype.type(1), exponent - 1 - MANTISSA_BITS)
+    tiny = (step < np.finfo(np.float32).tiny) | (largest == 0)  # frexp gives 0 the exponent of 1/2
+    offsets += offsets.dtype.type(units) * np.where(tiny, offsets.dtype.type(0), step)
+
+
+def in_order(setups: list[Setup]) -> Setup:
+    """Return triangles, lines and points together, ordered by their ids."""
+    joined = Setup(*(np.concatenate(arrays) for arrays in zip(*setups, strict=True)))
+    order = np.argsort(joined.ids, kind="stable")
+    return Setup(*(array[order] for array in joined))
+
+
+def set_up(window: np.ndarray, triangles: np.ndarray, cull: Cull, offset: Offset, flipped: bool) -> Setup:
+    """Return the triangles with an area that are not culled.
+
+    Parameters
+    ----------
+    window : (V, 4) window x, y (stored rows), z, 1/w
+    triangles : (T, 3) int32
+    """
+    facing, (snapped, _) = drawn_facing(cull, flipped), snapped_vertices(window)
+    triangles, parts = read_only(triangles), parts_of(len(triangles))
+    if len(parts) > 1:
+        counts = share(lambda n: count_kept(snapped, triangles, *parts[n], *facing), len(parts))
+        places = np.cumsum([0, *counts])  # where the triangles of each part begin
+    else:
+        places = np.array([0, len(triangles)])  # there may be fewer
+    made = room_for(places[-1], window.dtype)
+    ends = share(
+        lambda n: set_up_triangles(window, snapped, triangles, *parts[n], *facing, offset, places[n], *made), len(parts)
+    )
+    return Setup(*(array[: ends[-1][0]] for array in made))
+
+
+def drawn_facing(cull: Cull, flipped: bool) -> tuple[int, int]:
+    """Return what is culled, see `culling`, and whether triangles of positive area face the front.
+
+    Stored rows that grow downwards mirror the picture: there, a positive area is counter-clockwise.
+    """
+    culled, ccw_is_front = culling(cull)
+    return culled, int(ccw_is_front == flipped)
+
+
+def snapped_vertices(window: np.ndarray) -> tuple[np.ndarray, tuple[int, int]]:
+    """Return x and y (V, 2) int32 of all vertices, see `snap_vertices`, and first and end row of samples among them."""
+    snapped, parts = scratch((len(window), 2), np.int32), parts_of(len(window))
+    lows, highs = zip(*share(lambda n: snap_vertices(window, *parts[n], snapped), len(parts)), strict=True)
+    return snapped, ((min(lows) + 255) >> 8, (max(highs) >> 8) + 1)
+
+
+def room_for(count: int, real: np.dtype) -> Setup:
+    """Return arrays for so many triangles."""
+    return Setup(
+        scratch((count, 6), np.int32),
+        scratch((count, 3), np.int32),
+        scratch((count, 4), real),
+        scratch(count, np.uint8),
+        scratch(count, np.int32),
+    )
+
+
+@kernel
+def half_away(values):
+    """Return numbers rounded to whole ones, a half away from zero.
+
+    So Mesa 22.3 rounds what belongs to lines and points (util_iround: add a half, then cut off), where those of
+    triangles go through an instruction that rounds a half to even.
+    """
+    return np.trunc(values + np.copysign(HALF, values))
+
+
+@kernel
+def plane(x0, y0, dx01, dy01, dx20, dy20, a0, a1, a2):
+    """Return (value at pixel (0, 0), d/di, d/dj) of the plane through three vertices, in llvmpipe's order of
+    operations.
+
+    dx.. and dy.. are the differences of the unsnapped positions, the last two pairs already divided by twice the area.
+    """
+    da01, da20 = a0 - a1, a2 - a0
+    di = da01 * dy20 - da20 * dy01
+    dj = da20 * dx01 - da01 * dx20
+    return a0 - (di * (x0 - HALF) + dj * (y0 - HALF)), di, dj
+
+
+@inlined
+def line_gradient(window, a, b):
+    """Return what the difference of a value along a line is multiplied by for d/di and d/dj, and 1 / length**2.
+
+    Values change along the major direction only.
+    """
+    dx, dy = window[a, 0] - window[b, 0], window[a, 1] - window[b, 1]
+    over_area = ONE / (dx * dx + dy * dy)
+    if abs(dx) >= abs(dy):
+        slope = dy / dx
+        return dx * (ONE + slope * slope), ZERO * dy, over_area
+    slope = dx / dy
+    return ZERO * dx, dy * (ONE + slope * slope), over_area
+
+
+@inlined
+def line_plane(x, y, dx, dy, over_area, a0, a1):
+    """Return (value at pixel (0, 0), d/di, d/dj) of values at the two ends of a line, the first of which is (x, y)."""
+    di, dj = (a0 - a1) * dx * over_area, (a0 - a1) * dy * over_area
+    return a0 - (di * (x - HALF) + dj * (y - HALF)), di, dj
+
+
+@kernel
+def edge_differences(window, v0, v1, v2):
+    """Return dx01, dy01, dx20, dy20 of a triangle, and 1 / (twice its area)."""
+    dx01, dy01 = window[v0, 0] - window[v1, 0], window[v0, 1] - window[v1, 1]
+    dx20, dy20 = window[v2, 0] - window[v0, 0], window[v2, 1] - window[v0, 1]
+    return dx01, dy01, dx20, dy20, ONE / (dx01 * dy20 - dy01 * dx20)
+
+
+@inlined
+def polygon_offset(offset, dx01, dy01, dz01, dx20, dy20, dz20, over_area):
+    """Return what is added to z: GL 2.1, eq. (3.12), with the slope form and the unit that the context asks for."""
+    di = -((dz20 * dy01 - dy20 * dz01) * over_area)
+    dj = -((dx20 * dz01 - dz20 * dx01) * over_area)
+    if offset.slope == MAX_SLOPE:
+        slope = max(abs(di), abs(dj))
+    elif offset.slope == LENGTH_SLOPE:
+        slope = np.sqrt(di * di + dj * dj)
+    else:
+        slope = max(di, -dj if offset.downwards else dj)
+    return offset.constant + slope * offset.factor
+
+
+@kernel
+def set_up_triangles(
+    window, snapped, triangles, first, end, culled, positive_is_front, offset, kept, corners, vertices, depth, front,
+    ids,
+):  # fmt: skip
+    """Fill the arrays of `Setup` with those of the triangles [first, end) that are drawn, from row `kept` on.
+
+    Returns the row after the last, and the sum of their areas in 1/256 pixel.
+    """
+    row, covered = np.uint64(kept), 0
+    for t in range(first, end):
+        v0, v1, v2 = vertices_of(triangles, t)
+        facing, area = facing_and_area(snapped, v0, v1, v2, culled, positive_is_front)
+        if facing < 0:
+            continue
+        if area < 0:
+            v0, v1 = v1, v0
+        corners[row, 0], corners[row, 1] = snapped[v0, 0], snapped[v0, 1]
+        corners[row, 2], corners[row, 3] = snapped[v1, 0], snapped[v1, 1]
+        corners[row, 4], corners[row, 5] = snapped[v2, 0], snapped[v2, 1]
+        vertices[row, 0], vertices[row, 1], vertices[row, 2] = v0, v1, v2
+        dx01, dy01, dx20, dy20, over_area = edge_differences(window, v0, v1, v2)
+        z0, z1, z2 = window[v0, 2], window[v1, 2], window[v2, 2]
+        at_origin, di, dj = plane(
+            window[v0, 0], window[v0, 1], dx01 * over_area, dy01 * over_area, dx20 * over_area, dy20 * over_area,
+            z0, z1, z2,
+        )  # fmt: skip
+        depth[row, 0], depth[row, 1], depth[row, 2] = at_origin, di, dj
+        depth[row, 3] = polygon_offset(offset, dx01, dy01, z0 - z1, dx20, dy20, z2 - z0, over_area)
+        front[row] = facing
+        ids[row] = t
+        row += np.uint64(1)
+        covered += abs(area) >> 9
+    return row, covered

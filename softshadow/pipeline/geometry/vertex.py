@@ -1,0 +1,123 @@
+"""Vertex stage: object space to clip space, and clip space to the window."""
+
+import numpy as np
+
+from softshadow.jit import inlined, kernel
+from softshadow.pipeline.constants import ONE, SMALLEST_NORMAL, ZERO
+from softshadow.pipeline.geometry.clip import NEAR_FAR, write_outcodes
+from softshadow.pipeline.memory.scratch import scratch
+from softshadow.pipeline.memory.threads import parts_of, share
+from softshadow.state import Viewport
+
+SPARE = 8  # there is room for one vertex more, made by clipping, for each so many; it costs nothing until it is used
+
+
+def to_clip(model_view_projection: np.ndarray, positions: np.ndarray) -> np.ndarray:
+    """Return the clip positions (V, 4) of object positions (V, 4)."""
+    clip = np.empty_like(positions)
+    transform(model_view_projection, positions, clip)
+    return clip
+
+
+def to_window(clip: np.ndarray, viewport: Viewport, framebuffer_height: int, flipped: bool) -> np.ndarray:
+    """Return window x, y, z and 1/w (V, 4) of clip positions (V, 4).
+
+    x and y are in pixels of the stored rows: y grows downwards in a flipped framebuffer (the window), upwards in an
+    FBO. z is in the depth range. Vertices with w = 0 become infinite or NaN; no triangle that is left after clipping
+    has one.
+
+    References
+    ----------
+    GL 2.1, sec. 2.11 (coordinate transformations).
+    """
+    window = np.empty_like(clip)
+    write_window(clip, *scale_and_shift(viewport, framebuffer_height, flipped, clip.dtype), window)
+    return window
+
+
+def process_vertices(
+    model_view_projection: np.ndarray,
+    positions: np.ndarray,
+    user_planes: np.ndarray,
+    depth_clamp: bool,
+    viewport: Viewport,
+    framebuffer_height: int,
+    flipped: bool,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return `to_clip`, `outcodes` and `to_window` of object positions (V, 4)."""
+    clip = scratch(positions.shape, positions.dtype)
+    window = np.empty((len(positions) + len(positions) // SPARE, 4), positions.dtype)[: len(positions)]
+    codes = scratch(len(positions), np.int32)
+    scale, shift = scale_and_shift(viewport, framebuffer_height, flipped, positions.dtype)
+    planes, ignored = user_planes.astype(positions.dtype), NEAR_FAR if depth_clamp else 0
+
+    parts = parts_of(len(positions))
+
+    def process(part: int) -> None:
+        own = slice(*parts[part])
+        transform(model_view_projection, positions[own], clip[own])
+        write_outcodes(clip[own], planes, ignored, codes[own])
+        write_window(clip[own], scale, shift, window[own])
+
+    share(process, len(parts))
+    return clip, codes, window
+
+
+def with_rows(window: np.ndarray, more: np.ndarray) -> np.ndarray:
+    """Return the rows of `window` and `more`: without a copy of a million, where `process_vertices` has left room."""
+    count, room = len(window), window.base
+    if room is None or room.ndim != 2 or len(room) < count + len(more):
+        return np.concatenate([window, more])
+    room[count : count + len(more)] = more
+    whole: np.ndarray = room[: count + len(more)]
+    return whole
+
+
+def scale_and_shift(
+    viewport: Viewport, framebuffer_height: int, flipped: bool, dtype: np.dtype
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return what x/w, y/w and z/w are multiplied by for the window, and what is added then, (3,) each."""
+    real = dtype.type
+    near, far = real(viewport.near), real(viewport.far)
+    half_height = viewport.height / 2
+    if flipped:
+        y_scale, y_shift = -half_height, framebuffer_height - (viewport.y + half_height)
+    else:
+        y_scale, y_shift = half_height, viewport.y + half_height
+    scale = np.array([viewport.width / 2, y_scale, real(0.5) * (far - near)], dtype)
+    shift = np.array([viewport.x + viewport.width / 2, y_shift, real(0.5) * (far + near)], dtype)
+    return scale, shift
+
+
+@inlined
+def clip_position(matrix, positions, v, out):
+    """Write ``matrix @ position`` of vertex `v` to its row of `out` (V, 4), in GL's order of operations.
+
+    Each product and each sum is rounded on its own: ((c0 x + c1 y) + c2 z) + c3 w.
+    """
+    x, y, z, w = positions[v, 0], positions[v, 1], positions[v, 2], positions[v, 3]
+    for i in range(4):
+        out[v, i] = ((matrix[i, 0] * x + matrix[i, 1] * y) + matrix[i, 2] * z) + matrix[i, 3] * w
+
+
+@inlined
+def window_position(clip, v, scale, shift, window):
+    """Write the window position of vertex `v` to its row of `window` (V, 4)."""
+    over_w = ONE / clip[v, 3]
+    if abs(over_w) < SMALLEST_NORMAL:
+        over_w = ZERO  # llvmpipe flushes denormal results to 0
+    for k in range(3):
+        window[v, k] = (clip[v, k] * over_w) * scale[k] + shift[k]
+    window[v, 3] = over_w
+
+
+@kernel
+def transform(matrix, positions, out):
+    for v in range(positions.shape[0]):
+        clip_position(matrix, positions, v, out)
+
+
+@kernel
+def write_window(clip, scale, shift, window):
+    for v in range(clip.shape[0]):
+        window_position(clip, v, scale, shift, window)

@@ -1,0 +1,131 @@
+"""Batches: consecutive glBegin ... glEnd pairs of quads, or of triangles, that nothing separates are drawn as one.
+
+How llvmpipe cuts a quad into triangles depends on whether any vertex of its batch is clipped, so the pairs have to be
+known before the first of them is drawn (`softshadow.pipeline.geometry.assembly`). Of triangles it counts how many there are
+(`softshadow.pipeline.mesa.rectangles`).
+
+Pairs of other modes are not joined, but those of one mode in a row are still one draw of the driver, in which the first
+triangle decides about the polygon offset of all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from itertools import groupby
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.framebuffer import Storage
+from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.pipeline.geometry.geometry import process_geometry
+from softshadow.pipeline.geometry.polygon_mode import drawn_modes
+from softshadow.pipeline.geometry.triangle_setup import offset_is_on
+
+CORNERS = {gl.GL_TRIANGLES: 3, gl.GL_QUADS: 4}  # modes whose pairs are drawn as one
+SEPARATE = {gl.GL_POINTS: 1, gl.GL_LINES: 2, **CORNERS}  # vertices of primitives that share none
+MAX_PAIRS = 64  # that Mesa collects before it draws them (VBO_MAX_PRIM)
+
+
+@dataclass(eq=False)
+class JoinedPairs:
+    """CollectedPairs that wait to be drawn: `first` is the command of the first one, its state is that of all.
+
+    `parts` holds the debug groups and the vertices of each.
+    """
+
+    first: Draw
+    parts: list[tuple[str, Vertices]] = field(default_factory=list)
+
+    @property
+    def vertex_count(self) -> int:
+        return sum(len(vertices.position) for _, vertices in self.parts)
+
+    @property
+    def takes_more(self) -> bool:
+        """Whether another pair can join: only after whole primitives."""
+        return self.vertex_count % CORNERS[self.first.mode] == 0
+
+    def commands(self) -> list[Draw]:
+        """Return the draws: one where all pairs stand in the same debug groups, else one for each of these."""
+        groups = [(label, [part for _, part in parts]) for label, parts in groupby(self.parts, lambda part: part[0])]
+        if len(groups) == 1:
+            return [replace(self.first, vertices=joined(groups[0][1]))]
+        whole = joined([vertices for _, vertices in self.parts]).position
+        made, start = [], 0
+        for label, parts in groups:
+            vertices = joined(parts)
+            made.append(replace(self.first, vertices=vertices, label=label, batch=whole, batch_start=start))
+            start += len(vertices.position)
+        return made
+
+
+@dataclass
+class CollectedPairs:
+    """The glBegin ... glEnd pairs that Mesa has collected: how many it has not joined, mode and vertices of the last.
+
+    Where they become too many, they are drawn, and what follows is not joined to them (vbo_exec_api.c, _mesa_End).
+    """
+
+    count: int = 0
+    mode: int = -1
+    vertices: int = 0
+
+    def add(self, mode: int, vertices: int) -> None:
+        """Count a pair, or join it to the one before."""
+        if mode == self.mode and mode in SEPARATE and self.vertices % SEPARATE[mode] == 0:
+            self.vertices += vertices
+            return
+        self.count, self.mode, self.vertices = self.count + 1, mode, vertices
+
+    @property
+    def too_many(self) -> bool:
+        return self.count >= MAX_PAIRS
+
+
+@dataclass
+class DriverDraw:
+    """Draws of one mode that are one draw of the driver: a call of Mesa's st_draw_gallium_multimode is cut into such.
+
+    `is_lost` says that it begins with a pair without vertices, because of which Mesa takes all of it for empty.
+    `offset_mode` is the polygon mode whose offset the first triangle that is not culled has chosen, or 0 before that.
+    """
+
+    mode: int = -1
+    is_lost: bool = False
+    offset_mode: int = 0
+
+    def part(self, command: Draw, storage: Storage) -> Draw:
+        """Return a draw as it is in this run, after the ones before it."""
+        front, back = drawn_modes(command.state)
+        if front == back or not offset_is_on(command.state.polygon):
+            return command
+        made = replace(command, offset_mode=self.offset_mode)
+        if not self.offset_mode:
+            target = storage.framebuffers[command.state.draw_framebuffer]
+            with np.errstate(all="ignore"):  # as in pipeline.draw
+                self.offset_mode = process_geometry(command, target, storage).offset_mode
+        return made
+
+
+def joined(parts: Sequence[Vertices]) -> Vertices:
+    """Return the vertices of all parts, which have the same attributes; what is constant stays spread."""
+    if len(parts) == 1:
+        return parts[0]
+    units = range(len(parts[0].texcoords))
+    return Vertices(
+        _stacked([part.position for part in parts]),
+        _stacked([part.color for part in parts]),
+        _stacked([part.normal for part in parts]),
+        tuple(_stacked([part.texcoords[unit] for part in parts]) for unit in units),
+        {name: _stacked([part.materials[name] for part in parts]) for name in parts[0].materials},
+    )
+
+
+def _stacked(rows: Sequence[np.ndarray]) -> np.ndarray:
+    if all(each.strides[0] == 0 for each in rows) and len({each[:1].tobytes() for each in rows}) == 1:
+        return np.broadcast_to(rows[0][0], (sum(map(len, rows)), *rows[0].shape[1:]))
+    made = np.concatenate(rows)
+    made.setflags(write=False)
+    return made

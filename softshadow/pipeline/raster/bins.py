@@ -1,0 +1,93 @@
+"""Bins: which triangles meet which band of rows, so that a thread that has a band walks these and no others.
+
+A counting sort: count per band, add up, write. Within a band the numbers keep the drawing order, which is what makes
+results the same for any number of threads.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from softshadow.jit import inlined, kernel
+from softshadow.pipeline.memory.threads import share
+from softshadow.pipeline.raster.coverage import bounds
+from softshadow.pipeline.raster.fill import Region
+
+ROWS_LOG2 = 5  # rows of a band, 32: then what is drawn over each other there stays in the cache
+
+
+class Bins(NamedTuple):
+    """The numbers of the triangles in band b: ``numbers[starts[b] : starts[b + 1]]``; a band has 2**rows_log2 rows."""
+
+    starts: np.ndarray
+    numbers: np.ndarray
+    rows_log2: int
+
+    def of(self, band: int) -> np.ndarray:
+        """Return the numbers of the triangles of one band, in drawing order."""
+        return self.numbers[self.starts[band] : self.starts[band + 1]]
+
+    def rows_of(self, band: int, region: Region) -> tuple[int, int]:
+        """Return first and end row of a band."""
+        first = region.first_row + (band << self.rows_log2)
+        return first, min(first + (1 << self.rows_log2), region.end_row)
+
+
+def bands_of(region: Region, rows_log2: int = ROWS_LOG2) -> int:
+    """Return how many bands the rows of a region make."""
+    return ((region.end_row - region.first_row - 1) >> rows_log2) + 1
+
+
+def sort_into_bands(
+    corners: np.ndarray, parts: Sequence[tuple[int, int]], region: Region, rows_log2: int = ROWS_LOG2
+) -> Bins:
+    """Return the bins of triangles for the bands of a region; `parts` are their first and end numbers, in order."""
+    base, end, bands = parts[0][0], parts[-1][1], bands_of(region, rows_log2)
+    met, marks = np.empty((end - base, 2), np.uint16), np.zeros((len(parts), 2, bands + 1), np.int64)
+    share(lambda n: find_bands(corners, *parts[n], region, rows_log2, base, met, marks[n]), len(parts))
+    counts = np.cumsum(marks[:, 0] - marks[:, 1], axis=1)[:, :-1]
+    # band after band, and in a band part after part: so the drawing order is kept
+    ends = np.cumsum(counts.T).reshape(counts.T.shape).T
+    places = np.ascontiguousarray(ends - counts)
+    starts = np.append(places[0], ends[-1, -1])
+    numbers = np.empty(starts[-1], np.int32)
+    share(lambda n: write_numbers(*parts[n], base, met, places[n], numbers), len(parts))
+    return Bins(starts, numbers, rows_log2)
+
+
+@inlined
+def bands_met(corners, t, region, rows_log2):
+    """Return first and end band of a triangle (end exclusive); an empty range where it meets none."""
+    first, end = bounds(corners, t)
+    first, end = max(first, region.first_row), min(end, region.end_row)
+    if first >= end:
+        return 0, 0
+    return (first - region.first_row) >> rows_log2, ((end - 1 - region.first_row) >> rows_log2) + 1
+
+
+@kernel
+def find_bands(corners, begin, end, region, rows_log2, base, met, marks):
+    """Write first and end band of each triangle to `met`, beginning with triangle `base`; count both in `marks`.
+
+    marks (2, bands + 1): how many triangles begin with a band, and how many end before it. That takes no loop over the
+    bands of a triangle, of which most have one.
+    """
+    for number in range(begin, end):
+        t = np.uint64(number)  # unsigned: no wrap-around of negative indices is compiled in
+        first_band, end_band = bands_met(corners, t, region, rows_log2)
+        row = np.uint64(number - base)
+        met[row, 0], met[row, 1] = first_band, end_band
+        marks[0, np.uint64(first_band)] += 1
+        marks[1, np.uint64(end_band)] += 1
+
+
+@kernel
+def write_numbers(begin, end, base, met, places, numbers):
+    """Write the number of each triangle where its bands go on; `places` (bands,) moves along."""
+    for number in range(begin, end):
+        row = np.uint64(number - base)
+        for band in range(int(met[row, 0]), int(met[row, 1])):
+            place = places[np.uint64(band)]
+            numbers[np.uint64(place)] = number
+            places[np.uint64(band)] = place + 1
