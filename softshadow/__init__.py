@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     )
     from softshadow.failures import GALLERY as failures
     from softshadow.inspection.pictures import stencil_palette
-    from softshadow.pipeline import set_threads
+    from softshadow.pipeline import explain_paths, set_threads, use_short_cuts
     from softshadow.run import Run, load_run, run
     from softshadow.scene import Camera, Light, Material, Mesh, Scene, SceneObject, scene_names
     from softshadow.techniques import describe
@@ -67,6 +67,7 @@ __all__ = [
     "UnweldedMesh",
     "Warning",
     "describe",
+    "explain_paths",
     "failures",
     "gl",
     "load_run",
@@ -76,6 +77,7 @@ __all__ = [
     "stencil_palette",
     "technique_names",
     "testing",
+    "use_short_cuts",
 ]
 
 _MODULES = ("gl", "testing")
@@ -87,7 +89,7 @@ _HOMES = {
         "SceneError", "SoftShadowError", "StateError", "TJunction", "UnweldedMesh", "Warning",
     ),
     "softshadow.inspection.pictures": ("stencil_palette",),
-    "softshadow.pipeline": ("set_threads",),
+    "softshadow.pipeline": ("explain_paths", "set_threads", "use_short_cuts"),
     "softshadow.run": ("Run", "load_run", "run"),
     "softshadow.scene": ("Camera", "Light", "Material", "Mesh", "Scene", "SceneObject", "scene_names"),
     "softshadow.techniques": ("describe",),

@@ -158,8 +158,8 @@ def default_framebuffer(
 class Storage:
     """The objects of one context by name: framebuffers (0 is the window), textures, renderbuffers and query results.
 
-    `visibility_cache` speeds up draws that repeat earlier ones (`softshadow.pipeline.fast.visibility_cache`); it changes
-    no result.
+    `visibility_cache` speeds up draws that repeat earlier ones (`softshadow.pipeline.fast.visibility_cache`); it
+    changes no result.
     """
 
     framebuffers: dict[int, Framebuffer]

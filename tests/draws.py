@@ -8,7 +8,10 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.pipeline.commands import Vertices
-from softshadow.state import State
+from softshadow.state import Blend, State
+
+ADDING = Blend(enabled=True, src_rgb=gl.GL_ONE, dst_rgb=gl.GL_ONE, src_alpha=gl.GL_ONE, dst_alpha=gl.GL_ONE)
+MIXING = replace(ADDING, src_rgb=gl.GL_SRC_ALPHA, dst_rgb=gl.GL_ONE_MINUS_SRC_ALPHA)
 
 
 def vertices(positions: Any, colors: Any = None) -> Vertices:
@@ -76,3 +79,18 @@ def same_window(a: Context, b: Context) -> bool:
     """Whether colour, depth and stencil are equal to the last bit."""
     windows = a.storage.window, b.storage.window
     return all(windows[0].attachments[k].image.same_as(windows[1].attachments[k].image) for k in windows[0].attachments)
+
+
+def surface_blended_twice(seed, func, blending, overlapping, precision="mesa"):
+    """A window after a surface, and after the same surface blended with it; `overlapping`: and more triangles."""
+    rng = np.random.default_rng(seed)
+    context = Context(48, 40, "d24", precision=precision)
+    state = replace(random_state(rng, context.state), alpha=replace(context.state.alpha, enabled=False))
+    surface = replace(state, depth=replace(state.depth, enabled=True, func=gl.GL_LESS, write=True), blend=Blend())
+    again = replace(state, depth=replace(state.depth, enabled=True, func=func, write=False), blend=blending)
+    triangles = random_triangles(rng, 6)
+    draw(context, surface, triangles)
+    draw(context, again, triangles)
+    if overlapping:
+        draw(context, again, random_triangles(rng, 6))
+    return context

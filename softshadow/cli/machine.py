@@ -31,7 +31,7 @@ def warmup(as_json: bool) -> None:
     from softshadow import techniques
     from softshadow.errors import Warning as SoftShadowWarning
     from softshadow.jit import cache_folder
-    from softshadow.pipeline import use_binding
+    from softshadow.pipeline import use_short_cuts
     from softshadow.run import run
 
     start = time.perf_counter()
@@ -41,8 +41,8 @@ def warmup(as_json: bool) -> None:
             for options in _option_sets(name):
                 text = ", ".join(f"{key}={value}" for key, value in options.items())
                 say(f"compiling {name}{f' ({text})' if text else ''} ...")
-                for binding in ("generic", "specialized"):
-                    with use_binding(binding):
+                for policy in (False, "always"):
+                    with use_short_cuts(policy):
                         run(name, "boxes", WARM_SIZE, **options)
     seconds = time.perf_counter() - start
     if as_json:

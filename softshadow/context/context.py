@@ -20,6 +20,7 @@ from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Command, Draw, Vertices
+from softshadow.pipeline.execute import execute
 from softshadow.pixel_store import PixelStore
 from softshadow.programs import Program
 from softshadow.programs.inverse import known_kind
@@ -218,7 +219,7 @@ class Context:
                 self.pending.forget(self)
 
     def _carry_out(self, command: Command) -> None:
-        command.apply(self.storage)
+        execute(command, self.storage)
         self._frame.commands.append(command)
 
     def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:

@@ -12,6 +12,7 @@ from typing import Any
 
 from softshadow.framebuffer import Storage
 from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.pipeline.geometry.geometry import offset_mode_of
 from softshadow.pipeline.mesa.driver_draws import SEPARATE, CollectedPairs, DriverDraw, JoinedPairs
 
 BYTES = 512 * 1024  # that the vertices are collected in (vbo_exec_draw.c)
@@ -80,7 +81,7 @@ class VertexBuffer:
         if command.mode != self.run.mode:
             self.run = DriverDraw(command.mode)
         if not self.run.is_lost:
-            self._carry_out(self.run.part(command, self._storage))
+            self._carry_out(self.run.part(command, lambda draw: offset_mode_of(draw, self._storage)))
 
     def takes(self, mode: int) -> bool:
         """Return whether vertices of a mode belong to the batch that waits."""

@@ -23,11 +23,14 @@ from softshadow.inspection.step import object_of
 from softshadow.inspection.tables import html_table, text_table
 from softshadow.pipeline import commands
 from softshadow.pipeline.commands import Clear, Command, Draw
+from softshadow.pipeline.execute import execute
 from softshadow.pipeline.geometry.facing import CULL_BACK, CULL_FRONT, culling
-from softshadow.pipeline.geometry.geometry import Geometry, depth_range_of, process_geometry, region_of
+from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.raster.coverage import triangles_at
-from softshadow.pipeline.raster.fragment_ops import PASSED, SCISSORED, VERDICTS, fragment_ops, process_fragment
-from softshadow.pipeline.raster.ordered import Fragments, fragment_depth
+from softshadow.pipeline.raster.fragment_ops import fragment_ops, process_fragment
+from softshadow.pipeline.raster.ordered import fragment_depth
+from softshadow.pipeline.raster.region import depth_range_of, region_of
+from softshadow.pipeline.records import PASSED, SCISSORED, VERDICTS, Fragments, Geometry
 from softshadow.pipeline.shade.blend import compared_alpha
 from softshadow.pipeline.shade.color_writes import color_writer
 from softshadow.pipeline.shade.visible_spans import spans_of
@@ -166,10 +169,10 @@ def _play(frame: Frame, row: int, column: int) -> Iterator[HistoryRow]:
                 yield _clear_row(command, storage, pixel, where)
             if index < last_reader:
                 pixel.write(before)
-                command.apply(storage)
+                execute(command, storage)
         else:
             standing = pixel.moment()
-            command.apply(storage)
+            execute(command, storage)
             if pixel.moment() != standing:
                 yield pixel.row(where, standing, WRITTEN, type(command).__name__)
         draws += isinstance(command, Draw)
@@ -234,7 +237,7 @@ def _clear_row(command: Clear, storage: Storage, pixel: Pixel, where: tuple[int,
     before = pixel.moment()
     if not _inside(command.state, pixel):
         return pixel.row(where, before, VERDICTS[SCISSORED], f"glClear: {outside(command.state.scissor)}")
-    pipeline.clear(command, storage)
+    execute(command, storage)
     return pixel.row(where, before, CLEARED, clear_reason(command, pixel.window))
 
 

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from softshadow import pipeline
 from softshadow.context import Frame
 from softshadow.inspection.step import object_of
-from softshadow.pipeline import VERDICTS
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.geometry.geometry import primitive_count
-from softshadow.pipeline.raster.fragment_ops import SCISSORED
+from softshadow.pipeline.execute import execute
+from softshadow.pipeline.geometry.draw_primitives import primitive_count
+from softshadow.pipeline.records import SCISSORED, VERDICTS, FragmentCounts
 
 # rasterization ends at the scissor box: outside it there is no fragment to count
 COUNTED = tuple(verdict for verdict in VERDICTS if verdict != VERDICTS[SCISSORED])
@@ -87,20 +85,20 @@ class Ledger:
 
 
 def ledger_of(frame: Frame) -> Ledger:
-    """Return the counts of a recorded frame: it is played once more, counting, in the generic binding."""
+    """Return the counts of a recorded frame: it is played once more, counting, without short cuts."""
     storage, counted, first = frame.fresh_storage(), [], 0
     for title, end in frame.steps:
-        counts, verdicts = Counts(title), np.zeros(len(VERDICTS) + 1, np.int64)
+        counts, fragments = Counts(title), FragmentCounts.zero()
         for command in frame.commands[first:end]:
             if isinstance(command, Draw):
-                pipeline.draw(command, storage, verdicts)
+                pipeline.draw(command, storage, fragments)
                 counts.draws += 1
                 counts.triangles += primitive_count(command)
             else:
-                command.apply(storage)
-        by_verdict = dict(zip(VERDICTS, verdicts.tolist(), strict=False))  # the last number counts updates
+                execute(command, storage)
+        by_verdict = dict(zip(VERDICTS, fragments.verdicts.tolist(), strict=True))
         counts.fragments = {verdict: by_verdict[verdict] for verdict in COUNTED}
-        counts.stencil_updates = int(verdicts[-1])
+        counts.stencil_updates = int(fragments.stencil_updates[0])
         counts.passes = passes_of([command for command in frame.commands[first:end] if isinstance(command, Draw)])
         counted.append(counts)
         first = end

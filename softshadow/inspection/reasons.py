@@ -6,7 +6,8 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.buffers.clear import clear_depth
 from softshadow.pipeline.commands import Clear
-from softshadow.pipeline.raster.fragment_ops import ALPHA_FAILED, DEPTH_FAILED, SCISSORED, STENCIL_FAILED, FragmentOps
+from softshadow.pipeline.raster.fragment_ops import FragmentOps
+from softshadow.pipeline.records import ALPHA_FAILED, DEPTH_FAILED, SCISSORED, STENCIL_FAILED
 from softshadow.state import STENCIL_OPS, Scissor, State
 from softshadow.tokens import token_name
 

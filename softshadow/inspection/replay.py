@@ -12,6 +12,7 @@ from softshadow.context import Frame
 from softshadow.errors import StateError
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.image import Format
+from softshadow.pipeline.execute import execute
 from softshadow.pixels import depth_as_float
 
 BUDGET = 256 << 20  # bytes
@@ -106,7 +107,7 @@ class Replay:
         if self._storage is None or commands < self._played:
             self._storage, self._played = self.frame.fresh_storage(), 0
         for command in recorded[self._played : commands]:
-            command.apply(self._storage)
+            execute(command, self._storage)
         self._played = commands
         return self._storage
 

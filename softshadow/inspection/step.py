@@ -13,7 +13,7 @@ from softshadow.context import Frame
 from softshadow.errors import nearest
 from softshadow.inspection.replay import Buffers, Replay
 from softshadow.pipeline.commands import Clear, Command, Draw
-from softshadow.pipeline.geometry.geometry import primitive_count
+from softshadow.pipeline.geometry.draw_primitives import primitive_count
 from softshadow.state import State
 from softshadow.tokens import token_name
 

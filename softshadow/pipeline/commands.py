@@ -1,33 +1,21 @@
 """The commands that a context records: what changed a buffer, a texture or a framebuffer, with all it depends on.
 
-A command never changes after it was made, so the list of them is a recording: applied in order to fresh storage it
-gives every buffer again, bit for bit.
+Commands are data: `softshadow.pipeline.execute` carries them out. A command never changes after it was made, so the
+list of them is a recording: executed in order on fresh storage, it gives every buffer again, bit for bit.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from typing import Any, Protocol
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
-from softshadow import pipeline
-from softshadow.framebuffer import DEFAULT, NOTHING, Attachment, Framebuffer, Storage, plane_for
-from softshadow.image import Format, Image
-from softshadow.pipeline.buffers import accumulation, blit, mipmaps
-from softshadow.pipeline.buffers import copy as transfer
-from softshadow.pipeline.fast.specialize import VERDICT_COUNTS
-from softshadow.pipeline.raster.fragment_ops import PASSED
+from softshadow.image import Format
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.state import Scissor, State
-from softshadow.texture import Sampler, Texture
-
-
-class Command(Protocol):
-    """Anything that changes storage, and nothing else."""
-
-    def apply(self, storage: Storage) -> None: ...
+from softshadow.texture import Sampler
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,10 +38,10 @@ class Draw:
 
     `mode` is GL_POINTS ... GL_POLYGON, `indices` (N,) int32 into the vertices, or None for all in order; `label` names
     the debug groups the draw stands in ("step/torus"); `uniforms` are those of the program in use; the kinds of the
-    matrices decide how they are inverted. Quads that share a batch with draws of other debug groups have the positions
-    (N, 4) of the whole `batch` and the number of their first vertex in it. `linear` says that clipping interpolates
-    values without perspective. `offset_mode` is the polygon mode whose offset unfilled polygons get where an earlier
-    draw has decided it, else 0.
+    matrices decide how they are inverted. Where Mesa joins draws of several debug groups into one, `joined_positions`
+    (N, 4) are those of all of them and `joined_start` is the number of this draw's first vertex among them. `linear`
+    says that clipping interpolates values without perspective. `offset_mode` is the polygon mode whose offset unfilled
+    polygons get where an earlier draw has decided it, else 0.
     """
 
     state: State
@@ -70,18 +58,10 @@ class Draw:
     offset_unit: str = "mesa"
     modelview_kind: int = UNKNOWN
     projection_kind: int = UNKNOWN
-    batch: np.ndarray | None = None
-    batch_start: int = 0
+    joined_positions: np.ndarray | None = None
+    joined_start: int = 0
     linear: bool = False
     offset_mode: int = 0
-
-    def apply(self, storage: Storage) -> None:
-        if not storage.active_query:
-            pipeline.draw(self, storage)
-        else:
-            verdicts = np.zeros(VERDICT_COUNTS, np.int64)
-            pipeline.draw(self, storage, verdicts)
-            storage.queries[storage.active_query] += int(verdicts[PASSED])
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,9 +70,6 @@ class Clear:
 
     state: State
     mask: int
-
-    def apply(self, storage: Storage) -> None:
-        pipeline.clear(self, storage)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,20 +80,12 @@ class Accumulate:
     operation: int
     value: float
 
-    def apply(self, storage: Storage) -> None:
-        accumulation.accumulate(self, storage)
-
 
 @dataclass(frozen=True, eq=False)
 class BeginQuery:
     """Count the fragments that pass from here on; `query` 0 ends the counting."""
 
     query: int
-
-    def apply(self, storage: Storage) -> None:
-        storage.active_query = self.query
-        if self.query:
-            storage.queries[self.query] = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,15 +105,6 @@ class DefineImage:
     cells: np.ndarray | None = None
     stencil: np.ndarray | None = None
 
-    def apply(self, storage: Storage) -> None:
-        image = Image.new(self.format, self.width, self.height, self.internal_format)
-        if self.cells is not None:
-            image.view[:] = self.cells
-        if self.stencil is not None and image.stencil is not None:
-            image.stencil.view[:] = self.stencil
-        storage.textures[self.texture].images[self.face, self.level] = image
-        storage.reattach(self.texture, self.face, self.level, image)
-
 
 @dataclass(frozen=True, eq=False)
 class UpdateImage:
@@ -157,13 +117,6 @@ class UpdateImage:
     y: int
     cells: np.ndarray | None
     stencil: np.ndarray | None = None
-
-    def apply(self, storage: Storage) -> None:
-        image = storage.textures[self.texture].images[self.face, self.level]
-        for plane, cells in ((image, self.cells), (image.stencil, self.stencil)):
-            if plane is not None and cells is not None:
-                height, width = cells.shape[:2]
-                plane.view[self.y : self.y + height, self.x : self.x + width] = cells
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,9 +134,6 @@ class CopyToTexture:
     width: int
     height: int
 
-    def apply(self, storage: Storage) -> None:
-        transfer.copy_to_texture(self, storage)
-
 
 @dataclass(frozen=True, eq=False)
 class GenerateMipmaps:
@@ -196,19 +146,6 @@ class GenerateMipmaps:
     faces: tuple[int, ...]
     base: int
     last: int
-
-    def apply(self, storage: Storage) -> None:
-        texture = storage.textures[self.texture]
-        images = texture.images
-        for level in range(self.base + 1, self.last + 1):
-            for face in self.faces:
-                images[face, level] = mipmaps.next_level(images[face, level - 1])
-            model = images[self.faces[0], level]
-            for face in texture.faces:
-                standing = images.get((face, level))
-                if standing is None or not standing.is_laid_out_as(model):
-                    images[face, level] = Image.new(model.format, model.width, model.height, model.internal_format)
-                storage.reattach(self.texture, face, level, images[face, level])
 
 
 @dataclass(frozen=True, eq=False)
@@ -223,17 +160,13 @@ class BlitFramebuffer:
     filter: int
     scissor: Scissor
 
-    def apply(self, storage: Storage) -> None:
-        blit.blit(self, storage)
-
 
 @dataclass(frozen=True, eq=False)
 class CreateTexture:
+    """The first glBindTexture of a name, which makes the texture object."""
+
     texture: int
     target: int
-
-    def apply(self, storage: Storage) -> None:
-        storage.textures[self.texture] = Texture(self.texture, self.target)
 
 
 @dataclass(frozen=True, eq=False)
@@ -243,35 +176,26 @@ class SetSampler:
     texture: int
     sampler: Sampler
 
-    def apply(self, storage: Storage) -> None:
-        storage.textures[self.texture].sampler = self.sampler
-
 
 @dataclass(frozen=True, eq=False)
 class DeleteTextures:
-    textures: tuple[int, ...]
+    """glDeleteTextures."""
 
-    def apply(self, storage: Storage) -> None:
-        for name in self.textures:
-            storage.textures.pop(name, None)
+    textures: tuple[int, ...]
 
 
 @dataclass(frozen=True, eq=False)
 class CreateFramebuffer:
-    framebuffer: int
+    """The first glBindFramebuffer of a name, which makes the framebuffer object."""
 
-    def apply(self, storage: Storage) -> None:
-        storage.framebuffers[self.framebuffer] = Framebuffer(self.framebuffer)
+    framebuffer: int
 
 
 @dataclass(frozen=True, eq=False)
 class DeleteFramebuffers:
-    framebuffers: tuple[int, ...]
+    """glDeleteFramebuffers."""
 
-    def apply(self, storage: Storage) -> None:
-        for name in self.framebuffers:
-            if name != DEFAULT:
-                storage.framebuffers.pop(name, None)
+    framebuffers: tuple[int, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -284,22 +208,12 @@ class DefineRenderbuffer:
     width: int = 0
     height: int = 0
 
-    def apply(self, storage: Storage) -> None:
-        image = Image.new(self.format or NOTHING, self.width, self.height, self.internal_format)
-        storage.renderbuffers[self.renderbuffer] = image
-        for target in storage.framebuffers.values():
-            for point, attachment in target.attachments.items():
-                if attachment.renderbuffer == self.renderbuffer:
-                    target.attachments[point] = replace(attachment, image=plane_for(image, point))
-
 
 @dataclass(frozen=True, eq=False)
 class DeleteRenderbuffers:
-    renderbuffers: tuple[int, ...]
+    """glDeleteRenderbuffers."""
 
-    def apply(self, storage: Storage) -> None:
-        for name in self.renderbuffers:
-            storage.renderbuffers.pop(name, None)
+    renderbuffers: tuple[int, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -312,16 +226,6 @@ class AttachTexture:
     face: int = 0
     level: int = 0
 
-    def apply(self, storage: Storage) -> None:
-        attachments = storage.framebuffers[self.framebuffer].attachments
-        if self.texture == 0:
-            attachments.pop(self.attachment, None)
-        else:
-            images = storage.textures[self.texture].images
-            image = images.get((self.face, self.level)) or Image.new(NOTHING, 0, 0)
-            plane = plane_for(image, self.attachment)
-            attachments[self.attachment] = Attachment(plane, self.texture, self.face, self.level)
-
 
 @dataclass(frozen=True, eq=False)
 class AttachRenderbuffer:
@@ -330,14 +234,6 @@ class AttachRenderbuffer:
     framebuffer: int
     attachment: int
     renderbuffer: int
-
-    def apply(self, storage: Storage) -> None:
-        attachments = storage.framebuffers[self.framebuffer].attachments
-        if self.renderbuffer == 0:
-            attachments.pop(self.attachment, None)
-        else:
-            plane = plane_for(storage.renderbuffers[self.renderbuffer], self.attachment)
-            attachments[self.attachment] = Attachment(plane, renderbuffer=self.renderbuffer)
 
 
 @dataclass(frozen=True, eq=False)
@@ -348,9 +244,25 @@ class SelectBuffers:
     draw_buffers: tuple[int, ...] | None = None
     read_buffer: int | None = None
 
-    def apply(self, storage: Storage) -> None:
-        target = storage.framebuffers[self.framebuffer]
-        if self.draw_buffers is not None:
-            target.draw_buffers = self.draw_buffers
-        if self.read_buffer is not None:
-            target.read_buffer = self.read_buffer
+
+Command = (
+    Draw
+    | Clear
+    | Accumulate
+    | BeginQuery
+    | DefineImage
+    | UpdateImage
+    | CopyToTexture
+    | GenerateMipmaps
+    | BlitFramebuffer
+    | CreateTexture
+    | SetSampler
+    | DeleteTextures
+    | CreateFramebuffer
+    | DeleteFramebuffers
+    | DefineRenderbuffer
+    | DeleteRenderbuffers
+    | AttachTexture
+    | AttachRenderbuffer
+    | SelectBuffers
+)

@@ -7,12 +7,11 @@ In the order of the pipeline: triangles in the window (`Setup`, `Geometry`), whe
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from softshadow.programs import Program
+from softshadow.programs import Program
 
 BACK, FRONT, EITHER = 0, 1, 2  # facings of triangles to be drawn
 NO_VERTEX = -1  # in `Setup.vertices`, in place of the vertices that a line or a point does not have

@@ -19,12 +19,11 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.image import FORMATS, Format, Image
 from softshadow.pipeline import threads
-from softshadow.pipeline.geometry.triangle_setup import Setup
 from softshadow.pipeline.raster.bins import sort_into_bands
-from softshadow.pipeline.raster.fill import Region
+from softshadow.pipeline.records import Region, Setup, Spans
 from softshadow.pipeline.shade.color_writes import color_writer
 from softshadow.pipeline.shade.interpolate import inputs_at, planes_of
-from softshadow.pipeline.shade.visible_spans import Spans, visible_spans
+from softshadow.pipeline.shade.visible_spans import visible_spans
 from softshadow.programs.cube_maps import on_faces
 from softshadow.programs.llvmpipe_math import powers
 from softshadow.programs.percentage_closer import count_lit

@@ -12,7 +12,8 @@ import numpy as np
 
 from softshadow import gl
 from softshadow.context import make_current
-from softshadow.pipeline import clear_visibility_cache, set_threads, threads, use_binding
+from softshadow.pipeline import set_threads, threads, use_short_cuts
+from softshadow.pipeline.fast.visibility_cache import clear_visibility_cache
 from softshadow.testing.mesa import DRIVERS, MesaError, Worker, mesa_available, mesa_reason, program_request
 from softshadow.testing.timing import FrameProgram, Timing, read_buffers, timed
 
@@ -63,7 +64,7 @@ class OwnSession:
 
     def warm_up(self) -> None:
         """Draw a frame with every state specialized, as it will be once it has drawn enough."""
-        with use_binding("specialized"):
+        with use_short_cuts("always"):
             self.time()
 
     def buffers(self) -> dict[str, np.ndarray]:

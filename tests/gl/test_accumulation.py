@@ -7,6 +7,7 @@ import pytest
 
 from gl.gl_state import make
 from softshadow import gl
+from softshadow.pipeline.execute import execute
 from softshadow.testing import compare
 
 SIZE = (40, 30)
@@ -48,7 +49,7 @@ def test_recording_gives_the_same_sums_again():
         gl.glAccum(gl.GL_RETURN, 1)
         storage = context.frame.fresh_storage()
         for command in context.frame.commands:
-            command.apply(storage)
+            execute(command, storage)
         assert storage.window.color.same_as(context.storage.window.color)
 
 

@@ -7,7 +7,8 @@ from softshadow import gl, matrices
 from softshadow.inspection.history import pixel_history
 from softshadow.inspection.replay import Replay
 from softshadow.pipeline.geometry.clip import outcodes
-from softshadow.pipeline.geometry.geometry import assembled_triangles, batch_needs_clipping, user_planes
+from softshadow.pipeline.geometry.draw_primitives import assembled_triangles, joined_needs_clipping
+from softshadow.pipeline.geometry.geometry import user_planes
 from softshadow.pipeline.geometry.vertex import to_clip
 
 SIDE = 8
@@ -31,7 +32,7 @@ def assembled(command):
     planes = user_planes(command)
     clip = to_clip(matrices.multiply(command.projection, command.modelview), command.vertices.position)
     codes = outcodes(clip, False, planes)
-    return assembled_triangles(command, codes != 0, batch_needs_clipping(command, planes)).corners.tolist()
+    return assembled_triangles(command, codes != 0, joined_needs_clipping(command, planes)).corners.tolist()
 
 
 def test_pairs_in_a_row_are_one_draw(context):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from softshadow import gl
+from softshadow.pipeline.execute import execute
 from softshadow.testing import run_on_mesa
 
 CASES = [(16, 16, 0, 1000), (13, 16, 0, 1000), (7, 9, 0, 2), (64, 48, 1, 1000), (33, 1, 0, 1000), (50, 37, 1, 4)]
@@ -103,7 +104,7 @@ def test_replay_makes_the_levels_again(context):
     gl.glGenerateMipmap(gl.GL_TEXTURE_2D)
     storage = context.frame.fresh_storage()
     for command in context.frame.commands:
-        command.apply(storage)
+        execute(command, storage)
     images = context.storage.textures[0].images
     assert len(images) == 4
     assert all(storage.textures[0].images[key].same_as(image) for key, image in images.items())

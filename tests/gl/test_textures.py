@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from softshadow import gl
+from softshadow.pipeline.execute import execute
 from softshadow.pixels import sampled_depth
 
 RGBA = np.arange(48, dtype=np.uint8).reshape(3, 4, 4)
@@ -164,7 +165,7 @@ def test_replay_gives_every_texture_again(context):
     gl.glCopyTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH_COMPONENT24, 0, 0, 8, 6, 0)
     storage = context.frame.fresh_storage()
     for command in context.frame.commands:
-        command.apply(storage)
+        execute(command, storage)
     for name, texture in context.storage.textures.items():
         again = storage.textures[name]
         assert again.sampler == texture.sampler

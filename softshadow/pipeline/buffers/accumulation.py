@@ -8,22 +8,19 @@ References: GL 2.1, sec. 4.2.4; Mesa 22.3, main/accum.c.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.jit import kernel
+from softshadow.pipeline.commands import Accumulate
 from softshadow.pipeline.constants import ONE, ZERO
-from softshadow.pipeline.geometry.geometry import region_of
-from softshadow.pipeline.memory.threads import in_batches
-from softshadow.pipeline.raster.fill import Region
+from softshadow.pipeline.memory.threads import share_chunks
+from softshadow.pipeline.raster.region import region_of
+from softshadow.pipeline.records import Region
 from softshadow.pipeline.shade.color_writes import LARGEST_BYTE
 from softshadow.programs.wrapping import to_int32
-
-if TYPE_CHECKING:
-    from softshadow.pipeline.commands import Accumulate
 
 LARGEST = np.float32(32767)
 BYTE_STEP = np.float32(1) / np.float32(255)
@@ -54,7 +51,7 @@ def accumulate(command: Accumulate, storage: Storage) -> None:
 
 
 def by_rows(work: Callable[..., None], region: Region, source: np.ndarray, factor: np.float32, out: np.ndarray) -> None:
-    """Call ``work(source, factor, left, right, out)`` for bands of rows of a region, on whichever threads are free.
+    """Call ``work(source, factor, left, right, out)`` for bands of rows of a region, on all threads.
 
     `source` and `out` (rows, columns, 4) become rows of channels, of which those from left to right count.
     """
@@ -65,7 +62,7 @@ def by_rows(work: Callable[..., None], region: Region, source: np.ndarray, facto
         with np.errstate(all="ignore"):  # set per thread
             work(from_rows[begin:end], factor, *columns, to_rows[begin:end])
 
-    in_batches(rows, len(from_rows), ROWS)
+    share_chunks(rows, len(from_rows), ROWS)
 
 
 @kernel

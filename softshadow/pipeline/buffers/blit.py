@@ -9,22 +9,22 @@ References: GL 4.5 compatibility, sec. 18.3.1; Mesa, main/blit.c, main/image.c a
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from softshadow import pipeline
 from softshadow import tokens as gl
 from softshadow.framebuffer import DEFAULT, Attachment, Framebuffer, Storage
 from softshadow.image import FORMATS, Image
 from softshadow.pipeline.buffers.copy import convert_color
+from softshadow.pipeline.commands import BlitFramebuffer, Draw, Vertices
 from softshadow.pixels import LARGEST_UINT, quantized_depth, sampled_depth
 from softshadow.state import Scissor, State, TextureUnit, Viewport
 from softshadow.texture import Sampler, Texture
 
-if TYPE_CHECKING:
-    from softshadow.pipeline.commands import BlitFramebuffer
+DrawFunction = Callable[[Draw, Storage], None]
 
 F32 = np.float32
 HALF = F32(0.5)
@@ -56,34 +56,34 @@ class Rectangles(NamedTuple):
         return not self.cut and (c - a, d - b) == (g - e, h - f)
 
 
-def blit(command: BlitFramebuffer, storage: Storage) -> None:
-    """Carry out a glBlitFramebuffer that has been checked; buffers that one side has not are passed over."""
+def blit(command: BlitFramebuffer, storage: Storage, draw: DrawFunction) -> None:
+    """Copy the buffers that both framebuffers have; `draw` is `softshadow.pipeline.draw`."""
     read, drawn = storage.framebuffers[command.read], storage.framebuffers[command.draw]
     rectangles = rectangles_of(command, read, drawn)
     if rectangles is None:
         return
     if command.mask & gl.GL_COLOR_BUFFER_BIT and read.read_color is not None:
         for target in drawn.colors:
-            _blit_color(read.read_color.copy(), target, rectangles, command.filter)
+            _blit_color(read.read_color.copy(), target, rectangles, command.filter, draw)
     depth = command.mask & gl.GL_DEPTH_BUFFER_BIT and read.depth is not None and drawn.depth is not None
     stencil = command.mask & gl.GL_STENCIL_BUFFER_BIT and read.stencil is not None and drawn.stencil is not None
     if depth and read.depth is not None and drawn.depth is not None:
         whole = drawn.depth.format.largest == LARGEST_UINT  # llvmpipe copies 32 bits as integers (lp_surface.c)
         plain = whole or (rectangles.straight and _copies_depth(read, drawn, bool(stencil)))
-        where, texels = nearest_texels(read.depth, drawn.depth, rectangles)
+        where, texels = nearest_texels(read.depth, drawn.depth, rectangles, draw)
         cells = read.depth.view[texels]
         through = cells if plain else quantized_depth(sampled_depth(cells, read.depth.format), drawn.depth.format)
         drawn.depth.view[where] = through
     if stencil and read.stencil is not None and drawn.stencil is not None:
-        where, texels = nearest_texels(read.stencil, drawn.stencil, rectangles)
+        where, texels = nearest_texels(read.stencil, drawn.stencil, rectangles, draw)
         drawn.stencil.view[where] = read.stencil.view[texels]
 
 
-def _blit_color(source: Image, target: Image, rectangles: Rectangles, texture_filter: int) -> None:
+def _blit_color(source: Image, target: Image, rectangles: Rectangles, texture_filter: int, draw: DrawFunction) -> None:
     if texture_filter == gl.GL_LINEAR and rectangles.scaled:  # the blitter filters nothing else
-        draw_image(source, target, rectangles, gl.GL_LINEAR)
+        draw_image(source, target, rectangles, gl.GL_LINEAR, draw)
     else:
-        where, texels = nearest_texels(source, target, rectangles)
+        where, texels = nearest_texels(source, target, rectangles, draw)
         made = convert_color(source.view[texels], source, target)
         for channel in np.flatnonzero(target.format.written):
             target.view[..., channel][where] = made[..., channel]
@@ -176,22 +176,20 @@ def _part(cut: int, whole: int, length: int) -> int:
 
 
 # -- drawing -----------------------------------------------------------------------------------------------------------
-def nearest_texels(source: Image, target: Image, rectangles: Rectangles) -> tuple[tuple, tuple]:
+def nearest_texels(source: Image, target: Image, rectangles: Rectangles, draw: DrawFunction) -> tuple[tuple, tuple]:
     """Return which pixels (rows, columns) of the target are written, and the texels (rows, columns) they get."""
     numbers = Image.new(FORMATS[gl.GL_RGBA32F], source.width, source.height)
     numbers.view[..., 0], numbers.view[..., 1] = np.arange(source.height)[:, None], np.arange(source.width)
     made = Image.new(FORMATS[gl.GL_RGBA32F], target.width, target.height)
     made.view[...] = -1
-    draw_image(numbers, made, rectangles, gl.GL_NEAREST)
+    draw_image(numbers, made, rectangles, gl.GL_NEAREST, draw)
     where = np.nonzero(made.view[..., 0] >= 0)
     rows, columns = (made.view[where][:, channel].astype(np.intp) for channel in (0, 1))
     return where, (rows, columns)
 
 
-def draw_image(source: Image, target: Image, rectangles: Rectangles, texture_filter: int) -> None:
+def draw_image(source: Image, target: Image, rectangles: Rectangles, texture_filter: int, draw: DrawFunction) -> None:
     """Draw an image as a textured rectangle: a fan of two triangles, in the order of gallium's blitter."""
-    from softshadow.pipeline.commands import Draw, Vertices
-
     if rectangles.in_texels:
         source = _padded(source)
     left, first, right, end = rectangles.box
@@ -220,7 +218,7 @@ def draw_image(source: Image, target: Image, rectangles: Rectangles, texture_fil
     )
     matrices = (identity, identity, (identity,) * len(state.units))
     command = Draw(state, gl.GL_TRIANGLE_FAN, vertices, None, *matrices, linear=True)
-    pipeline.draw(command, Storage({1: framebuffer}, {1: texture}))
+    draw(command, Storage({1: framebuffer}, {1: texture}))
 
 
 def _padded(image: Image) -> Image:

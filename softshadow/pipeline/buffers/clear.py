@@ -5,23 +5,19 @@ Colour under its mask, depth under its mask, stencil under the front write mask,
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import DEFAULT, Framebuffer, Storage
 from softshadow.image import EXACT_DEPTH, Image
 from softshadow.pipeline.buffers import accumulation
-from softshadow.pipeline.geometry.geometry import region_of
-from softshadow.pipeline.raster.fill import Region
+from softshadow.pipeline.commands import Clear
+from softshadow.pipeline.raster.region import region_of
+from softshadow.pipeline.records import Region
 from softshadow.pipeline.shade.blend import to_unorm8
 from softshadow.pipeline.shade.color_writes import as_pixels
 from softshadow.pixels import largest_stood_for, quantized_depth
 from softshadow.state import State
-
-if TYPE_CHECKING:
-    from softshadow.pipeline.commands import Clear
 
 
 def clear(command: Clear, storage: Storage) -> None:

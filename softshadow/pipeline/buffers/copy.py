@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.image import Image
+from softshadow.pipeline.commands import CopyToTexture
 from softshadow.pixels import color_as_float, quantized_depth, sampled_depth, to_base
-
-if TYPE_CHECKING:
-    from softshadow.pipeline.commands import CopyToTexture
 
 
 def bottom_up(target: Framebuffer, image: Image) -> np.ndarray:

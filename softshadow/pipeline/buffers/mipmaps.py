@@ -13,11 +13,31 @@ from typing import Any
 
 import numpy as np
 
+from softshadow.framebuffer import Storage
 from softshadow.image import Image
+from softshadow.pipeline.commands import GenerateMipmaps
 from softshadow.pixels import quantized_depth, sampled_depth
 
 HALF, ONE = np.float32(0.5), np.float32(1.0)
 STEPS = 256  # weights of the filter in 8 bits
+
+
+def generate_mipmaps(command: GenerateMipmaps, storage: Storage) -> None:
+    """Replace the levels of a texture after the base level.
+
+    The other faces of a cube map get levels of the same sizes, zeros where they had others, as in Mesa.
+    """
+    texture = storage.textures[command.texture]
+    images = texture.images
+    for level in range(command.base + 1, command.last + 1):
+        for face in command.faces:
+            images[face, level] = next_level(images[face, level - 1])
+        model = images[command.faces[0], level]
+        for face in texture.faces:
+            present = images.get((face, level))
+            if present is None or not present.is_laid_out_as(model):
+                images[face, level] = Image.new(model.format, model.width, model.height, model.internal_format)
+            storage.reattach(command.texture, face, level, images[face, level])
 
 
 def half_of(side: int) -> int:
@@ -27,18 +47,18 @@ def half_of(side: int) -> int:
 
 def next_level(image: Image) -> Image:
     """Return the image of the next level."""
-    made = Image.new(image.format, half_of(image.width), half_of(image.height), image.internal_format)
+    level = Image.new(image.format, half_of(image.width), half_of(image.height), image.internal_format)
     if image.format.kind == "unorm8":
-        made.view[:] = halved_in_8_bits(image.view, made.width, made.height)
+        level.view[:] = halved_in_8_bits(image.view, level.width, level.height)
     elif image.format.kind == "depth":
-        z = halved_in_float(sampled_depth(image.view, image.format)[..., np.newaxis], made.width, made.height)[..., 0]
-        made.view[:] = quantized_depth(z, image.format)
+        z = halved_in_float(sampled_depth(image.view, image.format)[..., np.newaxis], level.width, level.height)[..., 0]
+        level.view[:] = quantized_depth(z, image.format)
     else:
-        made.view[:] = halved_in_float(image.view, made.width, made.height)
-    return made
+        level.view[:] = halved_in_float(image.view, level.width, level.height)
+    return level
 
 
-def centres(count: int, other: int, from_far_end: bool) -> np.ndarray:
+def centers(count: int, other: int, from_far_end: bool) -> np.ndarray:
     """Return the interpolated coordinates (count,) of texel centres, `other` being the number on the other axis."""
     step = np.float32(other) * (ONE / np.float32(count * other))
     start = ONE - step * (np.float32(count) - HALF) if from_far_end else step * HALF
@@ -48,9 +68,9 @@ def centres(count: int, other: int, from_far_end: bool) -> np.ndarray:
 def halved_in_8_bits(texels: np.ndarray, width: int, height: int) -> np.ndarray:
     """Return texels (h, w, 4) uint8 filtered to (height, width, 4)."""
     cells = texels.astype(np.int32)
-    first, second, weight = texels_and_weights_in_8_bits(centres(width, height, True), texels.shape[1])
+    first, second, weight = texels_and_weights_in_8_bits(centers(width, height, True), texels.shape[1])
     rows = mix_in_8_bits(cells[:, first], cells[:, second], weight[:, np.newaxis])
-    first, second, weight = texels_and_weights_in_8_bits(centres(height, width, False), texels.shape[0])
+    first, second, weight = texels_and_weights_in_8_bits(centers(height, width, False), texels.shape[0])
     return mix_in_8_bits(rows[first], rows[second], weight[:, np.newaxis, np.newaxis]).astype(np.uint8)
 
 
@@ -68,15 +88,15 @@ def mix_in_8_bits(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarra
 
 def halved_in_float(texels: np.ndarray, width: int, height: int) -> np.ndarray:
     """Return texels (h, w, channels) float32 filtered to (height, width, channels)."""
-    first, second, weight = texels_and_weights(centres(width, height, True), texels.shape[1])
+    first, second, weight = texels_and_weights(centers(width, height, True), texels.shape[1])
     rows = weight[:, np.newaxis] * (texels[:, second] - texels[:, first]) + texels[:, first]
-    made: list[Any] = []
+    of_triangles: list[Any] = []
     for from_far_end in (False, True):
-        first, second, weight = texels_and_weights(centres(height, width, from_far_end), texels.shape[0])
-        made.append(weight[:, np.newaxis, np.newaxis] * (rows[second] - rows[first]) + rows[first])
+        first, second, weight = texels_and_weights(centers(height, width, from_far_end), texels.shape[0])
+        of_triangles.append(weight[:, np.newaxis, np.newaxis] * (rows[second] - rows[first]) + rows[first])
     y, x = np.indices((height, width))
     upper = (2 * y + 1) * width > (2 * x + 1) * height
-    return np.where(upper[..., np.newaxis], made[1], made[0])
+    return np.where(upper[..., np.newaxis], of_triangles[1], of_triangles[0])
 
 
 def texels_and_weights(coordinates: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -1,13 +1,14 @@
-"""Hierarchical z: what happens to a whole tile of a stencil-only draw is decided from a few depths.
+"""Hierarchical z: decides for a whole tile of a stencil-only draw; same result as `raster.fill.fill_rows`.
 
-The sides of shadow volumes are large and many, and change nothing but the stencil buffer. Where the largest depth of a
-triangle in a tile is less than the smallest stored there, all its fragments pass GL_LESS: nothing is read or compared,
-and where the triangle covers the whole tile, one counter is increased in place of 1024 stencil values. The depth of a
-triangle is monotone along rows and columns, rounding included, so its bounds are its values at two corners of the
-tile, from the same expression as every fragment's: exact, without a margin.
+Tested by tests/pipeline/fast/test_stencil_tiles.py. The sides of shadow volumes are large and many, and change only the
+stencil buffer. Where the largest depth of a triangle in a tile is less than the smallest stored there, all its
+fragments pass GL_LESS: nothing is read or compared, and where the triangle covers the whole tile, one counter is
+increased in place of 1024 stencil values. The depth of a triangle is monotone along rows and columns, rounding
+included, so its bounds are its values at two corners of the tile, from `depth_at` like every fragment's: exact, without
+a margin.
 
-Counters are applied when all triangles are through, which changes the order of the updates: only draws whose updates
-commute are filled in tiles (`order_independent`). The slow, readable form of this file is `fill.fill_rows`.
+The counters are applied after the last triangle, which changes the order of the updates: only draws whose stencil
+updates are order-independent are filled in tiles (`order_independent`).
 """
 
 from typing import NamedTuple
@@ -15,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.jit import kernel
+from softshadow.pipeline.raster.depth import depth_at, depth_units
 from softshadow.pipeline.raster.fragment_ops import (
     ALWAYS,
     CLEAR,
@@ -33,7 +35,6 @@ from softshadow.pipeline.raster.fragment_ops import (
     FragmentOps,
     compare,
 )  # fmt: skip
-from softshadow.pipeline.raster.spans import depth_units
 
 COLUMNS_LOG2 = 6  # of a tile, 64
 COLUMNS = 1 << COLUMNS_LOG2
@@ -45,10 +46,10 @@ WRAPPING = {INCR_WRAP, DECR_WRAP}
 
 
 class Tiles(NamedTuple):
-    """What is known of the tiles of a draw's region, each (rows, columns) of tiles.
+    """The tiles of a draw's region, each array (rows, columns) of tiles.
 
-    low, high: bounds of the stored depth, NaN where nobody has looked yet; pending: how many updates of the stencil
-    values are still to be applied.
+    low, high: bounds of the stored depth, NaN where they are not computed yet; pending: how many stencil updates are
+    still to be applied.
     """
 
     low: np.ndarray
@@ -57,9 +58,10 @@ class Tiles(NamedTuple):
 
 
 def order_independent(front: FragmentOps, back: FragmentOps) -> bool:
-    """Return whether a draw of the two facings may be filled in tiles: the order of its stencil updates is all one.
+    """Return whether the stencil updates are order-independent, so that a draw may be filled in tiles.
 
-    Nothing else is written, every fragment updates, and all do the same, or add and subtract modulo 2**bits.
+    Only the stencil buffer is written, every fragment updates it, and all updates are the same operation, or add and
+    subtract modulo 2**bits.
     """
     for ops in (front, back):
         if ops.alpha_test or ops.depth_write or not ops.stencil_test or ops.stencil_func != ALWAYS:
@@ -95,7 +97,7 @@ def columns_of_tile(tile, region):
 
 @kernel
 def decide(func, low, high, stored_low, stored_high):
-    """Return whether all depths from `low` to `high` pass against all that are stored, all fail, or neither is sure."""
+    """Return PASS if all depths from `low` to `high` pass against all stored ones, FAIL if all fail, else MIXED."""
     if func == NEVER or func == ALWAYS:
         return PASS if func == ALWAYS else FAIL
     if func == LESS or func == LEQUAL:
@@ -111,7 +113,7 @@ def decide(func, low, high, stored_low, stored_high):
 
 @kernel
 def find_bounds(depth, first, end, left, right, scratch):
-    """Return the smallest and largest depth of a tile; everything where there are infinities or NaN.
+    """Return the smallest and largest depth of a tile; minus and plus infinity where a depth is infinite or NaN.
 
     First for each column (in `scratch`, (3, 64)), then of these: the loops over columns can be vectorised, a minimum of
     floats in one variable cannot.
@@ -137,17 +139,18 @@ def find_bounds(depth, first, end, left, right, scratch):
 
 @kernel
 def outcome(ops, depth_range, z0, dz, dz_row, offset, left, right, first, end, stored_low, stored_high):
-    """Return what becomes of a triangle's fragments from column `left` to `right` and from row `first` to `end`.
+    """Return the depth test's result for a triangle's fragments from column `left` to `right`, row `first` to `end`.
 
-    PASS or FAIL: all of them; MIXED: nobody knows; NOTHING: no stencil value will change. The depth plane and all
-    bounds (both ends belong to them) are numbers in the precision of depth: an array would be counted at every call.
+    PASS or FAIL: all fragments; MIXED: it differs or is not known; NOTHING: no stencil value will change. The depth
+    plane and all bounds (both ends included) are numbers in the precision of depth: passing an array would cost
+    reference counting.
     """
     result = PASS
     if ops.depth_test:
         column_low, column_high = (left, right) if dz >= 0 else (right, left)
         row_low, row_high = (first, end) if dz_row >= 0 else (end, first)
-        low = ((dz * column_low + z0) + dz_row * row_low) + offset
-        high = ((dz * column_high + z0) + dz_row * row_high) + offset
+        low = depth_at(z0, dz, dz_row, offset, column_low, row_low)
+        high = depth_at(z0, dz, dz_row, offset, column_high, row_high)
         if not np.isfinite(low) or not np.isfinite(high):
             return MIXED  # planes that overflow, or are NaN, are not monotone
         low = depth_units(low, depth_range, ops.depth_largest)
@@ -162,14 +165,14 @@ def outcome(ops, depth_range, z0, dz, dz_row, offset, left, right, first, end, s
 
 @kernel
 def common_op(ops):
-    """Return the one operation of a state that order_independent; GL_INCR_WRAP for steps in both directions."""
+    """Return the one operation of an order-independent state; GL_INCR_WRAP for steps in both directions."""
     op = ops.zfail if ops.zpass == KEEP else ops.zpass
     return INCR_WRAP if op == DECR_WRAP else op
 
 
 @kernel
 def advance(op, s, n, ref, largest):
-    """Return the stencil value after `n` operations: what `stencil_op` returns when called so often.
+    """Return the stencil value after `n` operations: the same as calling `stencil_op` n times.
 
     All values uint8; for GL_INCR_WRAP and GL_DECR_WRAP, n counts increments less decrements.
     """
@@ -181,7 +184,7 @@ def advance(op, s, n, ref, largest):
         return np.uint8(ref)
     if op == INCR_WRAP or op == DECR_WRAP:
         return np.uint8((int(s) + n) & int(largest))
-    often = np.uint8(min(n, 255))  # bytes all along: 64 of them fit into a vector
+    often = np.uint8(min(n, 255))  # only bytes: 64 of them fit into a vector
     if op == INCR:
         return np.uint8(s + min(np.uint8(largest - s), often))
     if op == DECR:
@@ -191,7 +194,7 @@ def advance(op, s, n, ref, largest):
 
 @kernel
 def apply_pending_updates(ops, tiles, region, stencil):
-    """Apply the updates that wait, to whole tiles."""
+    """Apply the pending updates to whole tiles."""
     op = common_op(ops)
     ref, largest = np.uint8(ops.ref), np.uint8(ops.stencil_largest)
     for tile_row in range(tiles.pending.shape[0]):

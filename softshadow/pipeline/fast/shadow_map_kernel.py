@@ -1,8 +1,9 @@
-"""Shading by the program "shadow-map" in one kernel, from planes to written pixels.
+"""The program "shadow-map" in one kernel, from attribute planes to written pixels; same result as `shade.shading`.
 
-Soft shadows by light samples draw everything once for each of many lights with it. Shaded as other programs are, a
-fragment takes 80 bytes from kernel to kernel, and a batch that pays the calls does not fit into the cache; here some
-hundred fragments at a time go through the same kernels, and stay in the nearest cache.
+Tested by tests/pipeline/fast/test_shadow_map_kernel.py. Soft shadows by light samples draw everything once for each of
+many lights with this program. Step by step, a fragment takes 80 bytes from kernel to kernel, and a chunk large enough
+to pay for the calls does not fit into the cache; here a few hundred fragments at a time go through the same functions
+and stay in the first-level cache.
 """
 
 from __future__ import annotations
@@ -14,11 +15,12 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
 from softshadow.jit import kernel
-from softshadow.pipeline.geometry.geometry import Geometry
+from softshadow.pipeline.memory.threads import share, threads
+from softshadow.pipeline.records import Geometry, Spans
 from softshadow.pipeline.shade.blend import FOUR_BYTES
 from softshadow.pipeline.shade.color_writes import as_pixels, pack_bytes, taken_bits, write_pixels
-from softshadow.pipeline.shade.interpolate import Planes, interpolate
-from softshadow.pipeline.shade.visible_spans import Spans
+from softshadow.pipeline.shade.interpolate import AttributePlanes, interpolate
+from softshadow.pipeline.shade.shading import attribute_planes_of
 from softshadow.programs.filtering import gather_texels, sources_of, texels_of, wraps_of
 from softshadow.programs.sampling import divide_all, is_complete
 from softshadow.programs.shadow_map import SHADOW_MAP, compare
@@ -26,14 +28,16 @@ from softshadow.programs.wrapping import nearest_texels
 from softshadow.state import State
 from softshadow.texture import Texture
 
+PART = 1 << 14  # fragments that one thread shades in one go where several threads draw
 AT_A_TIME = 384  # fragments; 30 KB from planes to pixels
 VARYINGS = 8  # color and texCoord
 
 
-def shadow_map_shader(state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans, Planes], None] | None:
-    """Return the function that shades and writes spans; None where the draw is not as `shade_and_write_spans` takes it:
+def shadow_map_shader(state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None] | None:
+    """Return the function that shades and writes spans of a draw, or None where `shade_and_write_spans` cannot.
 
-    float32, the texel nearest in a depth map without GL's own comparison, one buffer of bytes, no blending.
+    It can for float32, a depth map with GL_NEAREST and without GL's own comparison, and one colour buffer of bytes
+    without blending.
     """
     map_ = geometry.uniforms.get("shadowMap")
     if geometry.program.shade is not SHADOW_MAP.shade or not isinstance(map_, Texture) or not _is_plain(map_):
@@ -51,17 +55,25 @@ def shadow_map_shader(state: State, target: Framebuffer, geometry: Geometry) -> 
     ambient, bias = np.array(geometry.uniforms["ambient"], real), real.type(geometry.uniforms["bias"])
     taken, pixels = taken_bits(state, color), as_pixels(color.cells)
 
-    def shade(spans: Spans, planes: Planes) -> None:
+    def shade_part(spans: Spans, planes: AttributePlanes) -> None:
         shade_and_write_spans(
             planes.values, planes.place, *spans, planes.coordinates, geometry.flat, *texels, sources, sizes_and_wraps,
             ambient, bias, taken, pixels,
         )  # fmt: skip
 
+    def shade(spans: Spans) -> None:
+        planes = attribute_planes_of(geometry, spans)
+        if threads() == 1:
+            shade_part(spans, planes)
+        else:
+            parts = spans.chunks(PART)
+            share(lambda n: shade_part(spans.part(parts[n], parts[n + 1]), planes), len(parts) - 1)
+
     return shade
 
 
 def _is_plain(texture: Texture) -> bool:
-    """Return whether a lookup is that of the nearest texel of the base level."""
+    """Return whether a lookup reads the nearest texel of the base level."""
     sampler, image = texture.sampler, texture.base()
     nearest = sampler.min_filter == sampler.mag_filter == gl.GL_NEAREST and sampler.compare_mode == gl.GL_NONE
     return nearest and image is not None and image.format.kind == "depth" and is_complete(texture)
@@ -88,7 +100,7 @@ def shade_and_write_spans(
     places, depths = np.empty(3 * AT_A_TIME, planes.dtype), np.empty(AT_A_TIME, planes.dtype)
     columns_of_texels, rows_of_texels = np.empty(AT_A_TIME, np.int32), np.empty(AT_A_TIME, np.int32)
     colors, packed = np.empty(4 * AT_A_TIME, planes.dtype), np.empty(AT_A_TIME, np.int32)
-    r, done = 0, np.int64(0)  # the run that is next, and how many of its fragments are done
+    r, done = 0, np.int64(0)  # the next span, and how many of its fragments are done
     while r < rows.shape[0]:
         count, n = 0, np.int64(0)
         while r < rows.shape[0] and n < AT_A_TIME:  # as many spans as there is room for; the last may go on afterwards

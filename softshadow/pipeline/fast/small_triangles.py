@@ -1,20 +1,24 @@
-"""Small triangles: every pixel of the bounding box, those outside left as they are.
+"""Fill small triangles by bounding box; same result as `raster.fill.fill_rows`, bit for bit.
 
-The divisions that find the ends of a row cost more than the few pixels between them. Here each pixel is asked on which
-side of the three edges it lies, and to `process_fragment` one outside is like one outside the scissor box: nothing is
-decided by a branch, and what is stored is what was there.
+Tested by tests/pipeline/fast/test_specialize.py. For a triangle of a few pixels, the divisions that find the ends of a
+row cost more than the pixels. So three edge functions are evaluated at every pixel of the box; to `process_fragment`, a
+pixel outside is like one outside the scissor box: no branch decides, and its stored values are written back.
 
-A row is always the same number of pixels, which makes one vector instruction of each operation. Measured on a million
+A row is always the same number of pixels, so that each operation is one vector instruction. Measured on a million
 triangles of 4 pixels: a loop over the box's own columns takes 47 ms, rows of 16 pixels 22 to 30.
 """
 
 import numpy as np
 
 from softshadow.jit import inlined, kernel
-from softshadow.pipeline.raster.fragment_ops import NO_ALPHA, PASSED, process_fragment
-from softshadow.pipeline.raster.spans import depth_units, id_after
+from softshadow.pipeline.raster.coverage import bounds
+from softshadow.pipeline.raster.depth import depth_at, depth_units
+from softshadow.pipeline.raster.fragment_ops import NO_ALPHA, process_fragment
+from softshadow.pipeline.raster.spans import id_after
+from softshadow.pipeline.records import EITHER, PASSED
 
 WIDEST = 16  # columns; measured, boxes are the faster up to some 12 to 24
+WIDEST_OF_STRIPS = 3 * WIDEST  # columns of boxes that are filled strip by strip: in half the time that rows take
 TALLEST = 64  # rows; up to these, edge functions over a row of a box stay below 2^30 in 1/256 pixel squared
 
 
@@ -26,15 +30,55 @@ def columns_of(corners, t):
 
 
 @inlined
-def edge_from(x0, y0, x1, y1, x, y, flip):
-    """Return the edge function of `coverage.edge` at a sample, and what a column takes from it and a row adds to it.
+def is_small(corners, t, region, depth):
+    """Return whether `fill_box` can take triangle `t`: few columns and rows, no column cut off by the region.
 
-    Of corners near the sample: cut to 32 bits operation by operation, which the compiler makes an operation of 32 bits.
+    All strips of a box must lie within the buffers.
+    """
+    first, end = bounds(corners, t)
+    left, right = columns_of(corners, t)
+    narrow = right - left <= WIDEST and depth.shape[1] >= WIDEST
+    fits = narrow or (right - left <= WIDEST_OF_STRIPS and left + WIDEST_OF_STRIPS <= depth.shape[1])
+    return fits and end - first <= TALLEST and left >= region.left and right <= region.right
+
+
+@inlined
+def fill_small(
+    ops, facing, writes_ids, corners, planes, faces_front, numbers, n, region, depth_range, depth, stencil, ids
+):  # fmt: skip
+    """Fill small triangles of one facing by bounding box, from ``numbers[n]`` on; same result as `fill_rows`.
+
+    Return the index of the first triangle that is not small or has the other facing. The caller's loop over large
+    triangles is separate so that the registers of one loop need not hold the values of the other: in one loop, it
+    takes twice as long.
+    """
+    flip = 0 if region.downwards else -1
+    while n < numbers.shape[0]:
+        t = np.uint64(numbers[n])  # unsigned: no wrap-around of negative indices is compiled in
+        if not is_small(corners, t, region, depth) or (facing != EITHER and faces_front[t] != facing):
+            break
+        first, end = bounds(corners, t)
+        left, right = columns_of(corners, t)
+        while left < right:
+            fill_box(
+                ops, writes_ids, corners, planes, flip, left, max(first, region.first_row), min(end, region.end_row),
+                depth_range, t, depth, stencil, ids, region.first_row,
+            )  # fmt: skip
+            left += WIDEST
+        n += 1
+    return n
+
+
+@inlined
+def edge_from(x0, y0, x1, y1, x, y, flip):
+    """Return the edge function of `coverage.edge` at a sample, and its steps: a column subtracts, a row adds.
+
+    For corners near the sample: truncated to 32 bits after every operation, so that the compiler uses 32-bit ones.
     `flip` is 0 where rows grow downwards, else -1.
     """
     across, along = np.int32(y0 - y1), np.int32(x0 - x1)
     # negative where the edge is inclusive: by the sign of `across` and, where that is 0, of `along`;
-    # without a branch, which would be wrong for every second or third edge
+    # without a branch, which would be mispredicted for every second or third edge
     order = (np.int64(across) << 33) + (np.int64(along) ^ flip)
     at = np.int32(np.int32(across * np.int32(x0 - x)) - np.int32(along * np.int32(y0 - y)))
     return np.int32(at + np.int32(~(order >> 63))), np.int32(across << 8), np.int32(along << 8)
@@ -42,14 +86,14 @@ def edge_from(x0, y0, x1, y1, x, y, flip):
 
 @inlined
 def fill_box(
-    ops, writes_ids, corners, z_planes, flip, left, first, end, depth_range, t, depth, stencil, ids, first_of_ids
+    ops, writes_ids, corners, planes, flip, left, first, end, depth_range, t, depth, stencil, ids, first_of_ids
 ):  # fmt: skip
-    """Process the fragments of triangle `t` in the rows [first, end); its box begins with column `left`.
+    """Process the fragments of triangle `t` in the rows [first, end) of a strip of its box, from column `left` on.
 
-    `ids` begins with row `first_of_ids`. Columns and rows as floats are those of `Planes.columns`: reading them there
-    would make the compiler ask for every triangle whether the planes overlap them.
+    `ids` begins with row `first_of_ids`. Columns and rows as floats are those of `FillBuffers.columns`: reading that
+    array would make the compiler test for every triangle whether it overlaps the buffers.
     """
-    z0, dz, dz_row, offset = z_planes[t, 0], z_planes[t, 1], z_planes[t, 2], z_planes[t, 3]
+    z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
     x0, y0, x1, y1, x2, y2 = corners[t, 0], corners[t, 1], corners[t, 2], corners[t, 3], corners[t, 4], corners[t, 5]
     start = np.int32(min(left, depth.shape[1] - WIDEST))
     x, y = np.int32(start << 8), np.int32(first << 8)
@@ -58,11 +102,11 @@ def fill_box(
     at2, across2, along2 = edge_from(x2, y2, x0, y0, x, y, flip)
     for row in range(first, end):
         j = np.uint64(row)
-        row_z = dz_row * np.float32(np.int32(row))
+        row_at = np.float32(np.int32(row))
         for column in range(WIDEST):
             n, i = np.int32(column), np.uint64(start) + np.uint64(column)
-            column_z = dz * np.float32(np.int32(start + n)) + z0
-            z = depth_units((column_z + row_z) + offset, depth_range, ops.depth_largest)
+            z = depth_at(z0, dz, dz_row, offset, np.float32(np.int32(start + n)), row_at)
+            z = depth_units(z, depth_range, ops.depth_largest)
             inside0, inside1 = np.int32(at0 - np.int32(across0 * n)), np.int32(at1 - np.int32(across1 * n))
             inside2 = np.int32(at2 - np.int32(across2 * n))
             inside = np.int32(inside0 | inside1 | inside2) >= 0  # the sign of an or: whether one of them is negative

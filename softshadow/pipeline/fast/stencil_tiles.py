@@ -1,6 +1,7 @@
-"""The fill stage for draws that only count in the stencil buffer, tile by tile (`tiles.py`).
+"""Fill draws that only change the stencil buffer tile by tile; same result as `raster.fill.fill_triangles`.
 
-What a tile's depth bounds do not decide goes row by row, in chunks of 32 columns.
+Tested by tests/pipeline/fast/test_stencil_tiles.py. Tiles that their depth bounds (`hierarchical_z.py`) do not decide
+are filled row by row, in chunks of 32 columns.
 """
 
 import numpy as np
@@ -22,35 +23,33 @@ from softshadow.pipeline.fast.hierarchical_z import (
     rows_of,
     tiles_of,
 )  # fmt: skip
-from softshadow.pipeline.fast.small_triangles import columns_of
-from softshadow.pipeline.geometry.facing import EITHER
+from softshadow.pipeline.fast.small_triangles import columns_of, fill_small
 from softshadow.pipeline.raster.coverage import bounds, row_spans
-from softshadow.pipeline.raster.fill import fill_small
+from softshadow.pipeline.raster.depth import depth_at, depth_units
 from softshadow.pipeline.raster.fragment_ops import DECR_WRAP, NO_ALPHA, process_fragment
-from softshadow.pipeline.raster.spans import depth_units
+from softshadow.pipeline.records import EITHER
 
 CHUNK_LOG2 = 5  # columns processed in one go, 32: what rows are padded to (`image.PITCH`)
 CHUNK = 1 << CHUNK_LOG2
 
 
 @inlined
-def fill_chunk(ops, z0, dz, row_z, offset, depth_range, columns, left, right, start, row, depth, stencil):
+def fill_chunk(ops, z0, dz, dz_row, offset, depth_range, columns, left, right, start, row, depth, stencil):
     """Process the fragments of one row of a triangle, [left, right), that lie in the chunk from column `start` on.
 
-    The same number of columns every time, those outside left as they are: all of them are vectorised, and no remainder
-    has to be gone through one by one.
+    Always the same number of columns, those outside unchanged: the whole loop is vectorised, without a remainder loop.
     """
-    j = np.uint64(row)
+    j, row_at = np.uint64(row), columns[row]
     for k in range(CHUNK):
         i = np.uint64(start + k)
         inside = (columns[i] >= left) & (columns[i] < right)
-        z = depth_units(((dz * columns[i] + z0) + row_z) + offset, depth_range, ops.depth_largest)
+        z = depth_units(depth_at(z0, dz, dz_row, offset, columns[i], row_at), depth_range, ops.depth_largest)
         _, stencil[j, i], _ = process_fragment(ops, inside, NO_ALPHA, z, depth[j, i], stencil[j, i])
 
 
 @inlined
 def advance_chunk(op, step, ref, largest, left, right, start, row, stencil):
-    """Do the same where it is known what the depth test says: in bytes, of which a chunk is one vector."""
+    """Do the same where the result of the depth test is known: in bytes, so that a chunk is one vector."""
     first = min(max(left - start, 0), CHUNK)
     width = np.uint8(min(max(right - start, first), CHUNK) - first)
     j = np.uint64(row)
@@ -61,14 +60,14 @@ def advance_chunk(op, step, ref, largest, left, right, start, row, stencil):
 
 
 @inlined
-def fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, planes):
-    """Do what `binding.generic` does for the triangles of one facing, FRONT, BACK or EITHER.
+def fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, buffers):
+    """Fill the triangles of one facing, FRONT, BACK or EITHER, under a state that is `order_independent`.
 
-    The state is one that `order_independent`. Small triangles are no matter for tiles: they are drawn as ever.
+    Small triangles bypass the tiles.
     """
     # taken out of the tuples once: for every triangle, counting the references would take as long as drawing it
-    corners, z_planes, faces_front = triangles.corners, triangles.depth, triangles.front
-    columns, depth, stencil, ids = planes.columns, planes.depth, planes.stencil, planes.ids
+    corners, planes, faces_front = triangles.corners, triangles.depth, triangles.front
+    columns, depth, stencil, ids = buffers.columns, buffers.depth, buffers.stencil, buffers.ids
     op, ref, largest = common_op(ops), np.uint8(ops.ref), np.uint8(ops.stencil_largest)
     last_start = depth.shape[1] - CHUNK
     tiles = tiles_of(region, columns.dtype)
@@ -78,7 +77,7 @@ def fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, planes):
     n = 0
     while n < numbers.shape[0]:
         n = fill_small(
-            ops, facing, 0, corners, z_planes, faces_front, numbers, n, region, depth_range, depth, stencil, ids
+            ops, facing, 0, corners, planes, faces_front, numbers, n, region, depth_range, depth, stencil, ids
         )  # fmt: skip
         if n == numbers.shape[0]:
             break
@@ -90,12 +89,12 @@ def fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, planes):
         box_left, box_right = max(box_left, region.left), min(box_right, region.right)
         if first >= end or box_left >= box_right or (facing != EITHER and faces_front[t] != facing):
             continue
-        z0, dz, dz_row, offset = z_planes[t, 0], z_planes[t, 1], z_planes[t, 2], z_planes[t, 3]
+        z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
         row_spans(corners, t, first, end, region.downwards, region.left, region.right, lefts, rights)
         for tile_row in range((first - region.first_row) >> ROWS_LOG2, ((end - 1 - region.first_row) >> ROWS_LOG2) + 1):
             top, bottom = rows_of(tile_row, region)
             first_here, end_here = max(first, top), min(end, bottom)
-            # outer: from the first to the last column; inner: the columns that all rows have
+            # outer: from the first to the last column; inner: the columns that all rows cover
             outer_left, outer_right = np.int32(box_right), np.int32(box_left)
             inner_left, inner_right = outer_right, outer_left
             for row in range(first_here, end_here):
@@ -123,7 +122,7 @@ def fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, planes):
                 if what != MIXED and has_all_rows and inner_left <= tile_left and inner_right >= tile_right:
                     pending[tile_row, tile] += step
                     continue
-                fits = right - left <= CHUNK  # then the chunk is laid so that one holds all there is in a row
+                fits = right - left <= CHUNK  # then one chunk, from `left` on, covers the row
                 for row in range(first_here, end_here):
                     j = np.uint64(row)
                     row_left, row_right = max(lefts[j], tile_left), min(rights[j], tile_right)
@@ -134,7 +133,7 @@ def fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, planes):
                     for at in range(start, stop, CHUNK):
                         if what == MIXED:
                             fill_chunk(
-                                ops, z0, dz, dz_row * columns[row], offset, depth_range, columns, row_left, row_right,
+                                ops, z0, dz, dz_row, offset, depth_range, columns, row_left, row_right,
                                 at, row, depth, stencil,
                             )  # fmt: skip
                         else:

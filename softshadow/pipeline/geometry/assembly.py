@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.pipeline.mesa.quad_cuts import quads_of
 
 
 class Triangles(NamedTuple):
@@ -23,7 +24,6 @@ QUAD = ((0, 1, 2, 3), (0, 2, 3, 3))
 QUAD_ACROSS = ((0, 1, 3, 3), (1, 2, 3, 3))  # cut along the other diagonal
 QUAD_OF_STRIP = ((0, 1, 3, 3), (2, 0, 3, 3))
 CLIPPED_QUAD_OF_STRIP = ((2, 0, 3, 3), (0, 1, 3, 3))  # the same cut, but the other triangle comes first
-BATCH, INDEXED_BATCH = 4096, 1024  # vertices that llvmpipe handles at a time (draw_pt_vsplit.c)
 STRIP_PAIR = ((0, 1, 2, 2), (2, 1, 3, 3))  # the odd triangle is (i+1, i, i+2), so that both turn the same way
 
 
@@ -87,33 +87,6 @@ def _quads(mode: int, count: int, clipped: np.ndarray | None, across: bool) -> n
         chosen = np.repeat(clipped, 2)
         rows[chosen] = _repeat(cut, quads, stride)[chosen]
     return rows
-
-
-def quads_of(mode: int, count: int) -> tuple[int, int]:
-    """Return how many quads `count` vertices make, and how many vertices apart they start."""
-    return (count // 4, 4) if mode == gl.GL_QUADS else (max(count // 2 - 1, 0), 2)
-
-
-def in_clipped_batch(mode: int, needs_clipping: np.ndarray, indices: np.ndarray | None) -> np.ndarray:
-    """Return, per quad, whether its batch has a vertex that needs clipping.
-
-    Parameters
-    ----------
-    needs_clipping : (V,) bool, for every vertex of the arrays
-    indices : (N,) int32 or None
-        With indices whose range is no longer than their number, llvmpipe handles the whole range of vertices, also
-        those that no index names.
-    """
-    in_order = needs_clipping if indices is None else needs_clipping[indices]
-    quads, stride = quads_of(mode, len(in_order))
-    used = quads * stride + 4 - stride if quads else 0
-    if indices is not None and 0 < used <= INDEXED_BATCH:
-        first, last = int(indices.min()), int(indices.max())
-        if last - first < used:
-            return np.full(quads, needs_clipping[first : last + 1].any())
-    step = (BATCH if indices is None else INDEXED_BATCH) - (4 - stride)  # batches of a strip share two vertices
-    batches = np.array([in_order[at : min(at + step + 4 - stride, used)].any() for at in range(0, max(used, 1), step)])
-    return batches[np.arange(quads) * stride // step]
 
 
 def _repeat(pattern: tuple[tuple[int, ...], ...], primitives: int, stride: int) -> np.ndarray:

@@ -10,7 +10,6 @@ from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import HALF, SUBPIXELS
 from softshadow.state import Cull
 
-BACK, FRONT, EITHER = 0, 1, 2  # facings of triangles to be drawn
 CULL_NONE, CULL_FRONT, CULL_BACK = 0, 1, 2
 REACH = np.float32(1 << 22)  # pixels; clipping leaves nothing outside of the viewport
 NOWHERE = -(1 << 31)

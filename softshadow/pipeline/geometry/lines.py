@@ -11,11 +11,11 @@ from softshadow import tokens as gl
 from softshadow.jit import kernel
 from softshadow.pipeline.constants import HALF, ONE, SUBPIXEL_BITS, SUBPIXELS, ZERO
 from softshadow.pipeline.geometry.clip import Clipped, distance, frustum_and
-from softshadow.pipeline.geometry.triangle_setup import Setup, half_away, line_gradient, line_plane
+from softshadow.pipeline.geometry.triangle_setup import half_away, line_gradient, line_plane
+from softshadow.pipeline.records import NO_VERTEX, Setup
 
 LINES = (gl.GL_LINES, gl.GL_LINE_STRIP, gl.GL_LINE_LOOP)
 WIDEST = 255
-NO_VERTEX = -1
 
 
 def assemble_lines(mode: int, count: int) -> np.ndarray:

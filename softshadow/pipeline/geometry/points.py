@@ -8,8 +8,8 @@ import numpy as np
 
 from softshadow.pipeline.constants import SUBPIXEL_BITS, SUBPIXELS
 from softshadow.pipeline.geometry.clip import Clipped
-from softshadow.pipeline.geometry.lines import NO_VERTEX
-from softshadow.pipeline.geometry.triangle_setup import Setup, half_away
+from softshadow.pipeline.geometry.triangle_setup import half_away
+from softshadow.pipeline.records import NO_VERTEX, Setup
 
 PIXEL = 1 << SUBPIXEL_BITS
 LARGEST = 255.0

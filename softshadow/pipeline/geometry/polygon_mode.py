@@ -12,7 +12,8 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.image import Image
 from softshadow.pipeline.geometry.facing import CULL_BACK, CULL_FRONT, culling
-from softshadow.pipeline.geometry.triangle_setup import Offset, add_float_units, offset_is_on, offset_of
+from softshadow.pipeline.geometry.triangle_setup import Offset, add_float_units, offset_of
+from softshadow.pipeline.mesa.polygon_rules import drawn_modes, offset_is_on
 from softshadow.state import Cull, Polygon, State
 
 EDGES_IN_ORDER = ((2, 0), (0, 1), (1, 2))  # of a triangle, as they are drawn
@@ -35,13 +36,8 @@ class Outlined(NamedTuple):
     offset_mode: int
 
 
-def drawn_modes(state: State) -> tuple[int, int]:
-    """Return the polygon modes of front and back faces; a face that is culled takes that of the other."""
-    front, back = state.polygon.mode_front, state.polygon.mode_back
-    culled, _ = culling(state.cull)
-    if culled & CULL_FRONT:
-        front = back
-    return front, front if culled & CULL_BACK else back
+def is_filled(state: State) -> bool:
+    return drawn_modes(state) == (gl.GL_FILL, gl.GL_FILL)
 
 
 def outline(

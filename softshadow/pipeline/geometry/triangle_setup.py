@@ -10,6 +10,8 @@ from softshadow.pipeline.constants import HALF, ONE, ZERO
 from softshadow.pipeline.geometry.facing import count_kept, culling, facing_and_area, snap_vertices, vertices_of
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
+from softshadow.pipeline.mesa.polygon_rules import offset_is_on
+from softshadow.pipeline.records import Setup
 from softshadow.state import Cull, Polygon
 
 SLOPES = {"max": 0, "length": 1, "slide": 2}
@@ -17,21 +19,13 @@ MAX_SLOPE, LENGTH_SLOPE = 0, 1
 MANTISSA_BITS = 23
 
 
-class Setup(NamedTuple):
-    """The triangles that reach the pixels, in drawing order.
-
-    corners (n, 6) int32: snapped X0 Y0 X1 Y1 X2 Y2 in 1/256 pixel, sample (i, j) at (256 i, 256 j), turned so that the
-    area is positive (as in llvmpipe, 32 bits reach far beyond the largest viewport; their products need 64); vertices
-    (n, 3) int32 in the same order; depth (n, 4): z at pixel (0, 0), dz/di, dz/dj, offset; front (n,) uint8; ids (n,)
-    int32: which primitive each is, or is a half of. Lines and points are two triangles each: their vertices are
-    (a, b, -1) and (a, -1, -1).
-    """
-
-    corners: np.ndarray
-    vertices: np.ndarray
-    depth: np.ndarray
-    front: np.ndarray
-    ids: np.ndarray
+NO_TRIANGLES = Setup(
+    np.empty((0, 6), np.int32),
+    np.empty((0, 3), np.int32),
+    np.empty((0, 4), np.float32),
+    np.empty(0, np.uint8),
+    np.empty(0, np.int32),
+)
 
 
 class Offset(NamedTuple):
@@ -57,11 +51,6 @@ def offset_of(polygon: Polygon, depth: Image | None, real: type, slope: str, uni
     largest = depth.format.largest if depth else 0
     constant = units * (1.0 / largest) * (2 if unit == "mesa" else 1) if largest else 0.0
     return Offset(SLOPES[slope], real(factor), real(constant), int(flipped))
-
-
-def offset_is_on(polygon: Polygon) -> bool:
-    """Return whether llvmpipe offsets filled polygons; GL 2.1, sec. 3.5.5, asks for `offset_fill` alone."""
-    return polygon.offset_fill or polygon.offset_line or polygon.offset_point
 
 
 def add_float_units(offsets: np.ndarray, window_z: np.ndarray, units: float) -> None:

@@ -1,7 +1,7 @@
-"""Memory for arrays that live as long as a draw.
+"""Scratch arrays that live as long as a draw, in memory that earlier draws have used.
 
 The pages of a large new array come from the operating system one by one, when they are first written: some 2 us for
-4 KB, more than most kernels take for what they write there. So the memory of earlier draws is used again.
+4 KB, more than most kernels take for what they write there.
 """
 
 import math
@@ -11,10 +11,12 @@ from typing import SupportsIndex
 
 import numpy as np
 
-SMALLEST = 1 << 16  # bytes; below, the allocator keeps memory by itself
-KEPT = 128 << 20  # bytes; how much is kept for each thread that draws
-_nobodys = [np.empty(0, np.uint8)]
-UNUSED = sys.getrefcount(_nobodys[0])  # references to a block that nobody uses: from a list, and the call that counts
+SMALLEST = 1 << 16  # bytes; below, the allocator reuses memory by itself
+POOLED = 128 << 20  # bytes that are pooled for each thread that draws
+_unused = [np.empty(0, np.uint8)]
+UNUSED = sys.getrefcount(
+    _unused[0]
+)  # references to a block that is not in use: the list, and the argument of this call
 
 
 class _Blocks(threading.local):
@@ -28,17 +30,17 @@ _own = _Blocks()
 
 
 def scratch(shape: SupportsIndex | tuple[SupportsIndex, ...], dtype: np.typing.DTypeLike) -> np.ndarray:
-    """Return an array like that of ``np.empty``, if possible of memory that the process has used before.
+    """Return an array like that of ``np.empty``, if possible in pooled memory.
 
-    Nobody has to give it back: an array refers to its memory, which is lent again when nothing refers to it any more.
+    A block is reused once its last reference is gone.
     """
     kind = np.dtype(dtype)
     size = math.prod(map(int, shape if isinstance(shape, tuple) else (shape,))) * kind.itemsize
-    if not SMALLEST <= size <= KEPT // 2:
+    if not SMALLEST <= size <= POOLED // 2:
         return np.empty(shape, kind)
-    whole = 1 << (size - 1).bit_length()  # pages that nobody writes to are not there
+    whole = 1 << (size - 1).bit_length()  # pages that are never written take no memory
     blocks = _own.of_size.setdefault(whole, [])
-    for n in range(len(blocks)):  # without a name for the block, which would be one more reference
+    for n in range(len(blocks)):  # a name for the block would be one more reference
         if sys.getrefcount(blocks[n]) == UNUSED:
             return blocks[n][:size].view(kind).reshape(shape)
     _make_room(whole)
@@ -47,8 +49,8 @@ def scratch(shape: SupportsIndex | tuple[SupportsIndex, ...], dtype: np.typing.D
 
 
 def _make_room(size: int) -> None:
-    """Forget all blocks if one more would be too many: those that are in use live on until they are not."""
+    """Empty the pool if one more block would be too many; blocks in use live until their last reference is gone."""
     of_size = _own.of_size
-    if size + sum(each * len(blocks) for each, blocks in of_size.items()) > KEPT:
+    if size + sum(each * len(blocks) for each, blocks in of_size.items()) > POOLED:
         for blocks in of_size.values():
             blocks.clear()

@@ -1,7 +1,7 @@
-"""Threads: pieces of work on a persistent pool, each handed to the thread that is free next.
+"""A persistent thread pool; idle threads take the next piece of work.
 
-Which piece goes where changes no result: a pixel lies in one band of rows, and a band is processed in drawing order by
-one thread (`bins.py`).
+Which thread takes which piece changes no result: a pixel lies in one band of rows, and one thread processes a band in
+drawing order (`raster/bins.py`).
 """
 
 import os
@@ -54,7 +54,7 @@ def threads() -> int:
 
 
 def share(work: Callable[[int], Result], count: int) -> list[Result]:
-    """Return ``[work(0), ..., work(count - 1)]``, each called on whichever thread is free next."""
+    """Return ``[work(0), ..., work(count - 1)]``, each called on the thread that is idle next."""
     most = threads()
     n = min(most, count)
     if n <= 1:
@@ -68,28 +68,28 @@ def share(work: Callable[[int], Result], count: int) -> list[Result]:
     with _making:
         if n > 1 and most not in _pool:
             _pool[most] = ThreadPoolExecutor(most, thread_name_prefix="softshadow")
-    # the caller is the first thread; with its context, the others warn of no more than it does
+    # the caller is the first thread; the others get its context (NumPy's error state, use_short_cuts)
     others = [_pool[most].submit(copy_context().run, until_none_is_left) for _ in range(n - 1)]
     try:
         until_none_is_left()
     finally:
         for other in others:
-            if not other.cancel():  # what has not begun yet is not waited for: nothing is left to do
+            if not other.cancel():  # not started yet: no work is left for it
                 other.result()
     return results
 
 
 def parts_of(count: int, size: int = PART) -> list[tuple[int, int]]:
-    """Return first and end of the parts of ``range(count)`` to share: one for one thread, else of `size` each.
+    """Return first and end of the parts of ``range(count)`` to share: one part for one thread, else of `size` each.
 
-    A part should be worth the hand-over to another thread.
+    A part should take longer than its hand-over to another thread.
     """
     if threads() == 1:
         return [(0, count)]
     return [(first, min(first + size, count)) for first in range(0, max(count, 1), size)]
 
 
-def in_batches(work: Callable[[int, int], None], count: int, size: int) -> None:
-    """Call ``work(first, end)`` for 0 to `count` in batches of `size`, on whichever threads are free; all for one."""
+def share_chunks(work: Callable[[int, int], None], count: int, size: int) -> None:
+    """Call ``work(first, end)`` for chunks of `size` of ``range(count)`` on the idle threads; one chunk for one thread."""
     size = size if threads() > 1 else max(count, 1)
     share(lambda n: work(n * size, min(n * size + size, count)), -(-count // size))

@@ -1,29 +1,27 @@
-"""Batches: consecutive glBegin ... glEnd pairs of quads, or of triangles, that nothing separates are drawn as one.
+"""Which glBegin ... glEnd pairs Mesa hands to the driver as one draw.
 
-How llvmpipe cuts a quad into triangles depends on whether any vertex of its batch is clipped, so the pairs have to be
-known before the first of them is drawn (`softshadow.pipeline.geometry.assembly`). Of triangles it counts how many there are
-(`softshadow.pipeline.mesa.rectangles`).
+Consecutive pairs of triangles or quads with nothing between them are joined to one list of primitives (`JoinedPairs`).
+How llvmpipe cuts a quad into triangles depends on whether any vertex of the joined pairs is clipped, so the pairs have
+to be known before the first of them is drawn (`softshadow.pipeline.mesa.quad_cuts`); of triangles it depends on how
+many there are (`softshadow.pipeline.mesa.rectangles`).
 
-Pairs of other modes are not joined, but those of one mode in a row are still one draw of the driver, in which the first
-triangle decides about the polygon offset of all.
+Pairs of other modes are not joined, but those of one mode in a row are still one draw of the driver (`DriverDraw`), in
+which the first triangle decides about the polygon offset of all.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
 
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.framebuffer import Storage
 from softshadow.pipeline.commands import Draw, Vertices
-from softshadow.pipeline.geometry.geometry import process_geometry
-from softshadow.pipeline.geometry.polygon_mode import drawn_modes
-from softshadow.pipeline.geometry.triangle_setup import offset_is_on
+from softshadow.pipeline.mesa.polygon_rules import drawn_modes, offset_is_on
 
-CORNERS = {gl.GL_TRIANGLES: 3, gl.GL_QUADS: 4}  # modes whose pairs are drawn as one
+CORNERS = {gl.GL_TRIANGLES: 3, gl.GL_QUADS: 4}  # modes whose pairs are joined
 SEPARATE = {gl.GL_POINTS: 1, gl.GL_LINES: 2, **CORNERS}  # vertices of primitives that share none
 MAX_PAIRS = 64  # that Mesa collects before it draws them (VBO_MAX_PRIM)
 
@@ -53,19 +51,20 @@ class JoinedPairs:
         if len(groups) == 1:
             return [replace(self.first, vertices=joined(groups[0][1]))]
         whole = joined([vertices for _, vertices in self.parts]).position
-        made, start = [], 0
+        commands, start = [], 0
         for label, parts in groups:
             vertices = joined(parts)
-            made.append(replace(self.first, vertices=vertices, label=label, batch=whole, batch_start=start))
+            part = replace(self.first, vertices=vertices, label=label, joined_positions=whole, joined_start=start)
+            commands.append(part)
             start += len(vertices.position)
-        return made
+        return commands
 
 
 @dataclass
 class CollectedPairs:
     """The glBegin ... glEnd pairs that Mesa has collected: how many it has not joined, mode and vertices of the last.
 
-    Where they become too many, they are drawn, and what follows is not joined to them (vbo_exec_api.c, _mesa_End).
+    Too many of them are drawn, and later pairs are not joined to them (vbo_exec_api.c, _mesa_End).
     """
 
     count: int = 0
@@ -86,7 +85,7 @@ class CollectedPairs:
 
 @dataclass
 class DriverDraw:
-    """Draws of one mode that are one draw of the driver: a call of Mesa's st_draw_gallium_multimode is cut into such.
+    """Draws of one mode that are one draw of the driver: Mesa's st_draw_gallium_multimode cuts its call into such.
 
     `is_lost` says that it begins with a pair without vertices, because of which Mesa takes all of it for empty.
     `offset_mode` is the polygon mode whose offset the first triangle that is not culled has chosen, or 0 before that.
@@ -96,36 +95,37 @@ class DriverDraw:
     is_lost: bool = False
     offset_mode: int = 0
 
-    def part(self, command: Draw, storage: Storage) -> Draw:
-        """Return a draw as it is in this run, after the ones before it."""
+    def part(self, command: Draw, offset_mode_of: Callable[[Draw], int]) -> Draw:
+        """Return a draw with the offset mode that earlier parts have chosen; the first part chooses it.
+
+        `offset_mode_of` returns the mode that a draw chooses (`softshadow.pipeline.geometry.geometry`).
+        """
         front, back = drawn_modes(command.state)
         if front == back or not offset_is_on(command.state.polygon):
             return command
-        made = replace(command, offset_mode=self.offset_mode)
+        part = replace(command, offset_mode=self.offset_mode)
         if not self.offset_mode:
-            target = storage.framebuffers[command.state.draw_framebuffer]
-            with np.errstate(all="ignore"):  # as in pipeline.draw
-                self.offset_mode = process_geometry(command, target, storage).offset_mode
-        return made
+            self.offset_mode = offset_mode_of(part)
+        return part
 
 
 def joined(parts: Sequence[Vertices]) -> Vertices:
-    """Return the vertices of all parts, which have the same attributes; what is constant stays spread."""
+    """Return the vertices of all parts, which have the same attributes; a constant attribute stays broadcast."""
     if len(parts) == 1:
         return parts[0]
     units = range(len(parts[0].texcoords))
     return Vertices(
-        _stacked([part.position for part in parts]),
-        _stacked([part.color for part in parts]),
-        _stacked([part.normal for part in parts]),
-        tuple(_stacked([part.texcoords[unit] for part in parts]) for unit in units),
-        {name: _stacked([part.materials[name] for part in parts]) for name in parts[0].materials},
+        _concatenated([part.position for part in parts]),
+        _concatenated([part.color for part in parts]),
+        _concatenated([part.normal for part in parts]),
+        tuple(_concatenated([part.texcoords[unit] for part in parts]) for unit in units),
+        {name: _concatenated([part.materials[name] for part in parts]) for name in parts[0].materials},
     )
 
 
-def _stacked(rows: Sequence[np.ndarray]) -> np.ndarray:
+def _concatenated(rows: Sequence[np.ndarray]) -> np.ndarray:
     if all(each.strides[0] == 0 for each in rows) and len({each[:1].tobytes() for each in rows}) == 1:
         return np.broadcast_to(rows[0][0], (sum(map(len, rows)), *rows[0].shape[1:]))
-    made = np.concatenate(rows)
-    made.setflags(write=False)
-    return made
+    whole = np.concatenate(rows)
+    whole.setflags(write=False)
+    return whole

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from softshadow.pipeline.geometry.assembly import BATCH
+from softshadow.pipeline.mesa.quad_cuts import SEGMENT
 
 CORNERS, ALL = 3, 9
-SEGMENT = BATCH - BATCH % CORNERS  # vertices of whole triangles that llvmpipe handles at a time
+WHOLE_TRIANGLES = SEGMENT - SEGMENT % CORNERS  # vertices of whole triangles in a segment
 # which vertices of a rectangle have the same x, and which the same y
 SAME_X, SAME_Y = ((0, 1), (0, 5), (2, 3), (2, 4)), ((0, 3), (0, 5), (1, 2), (1, 4))
 
@@ -19,7 +19,7 @@ SAME_X, SAME_Y = ((0, 1), (0, 5), (2, 3), (2, 4)), ((0, 3), (0, 5), (1, 2), (1, 
 def segment_of_three(count: int) -> int:
     """Return the number of the first of nine vertices that are handled by themselves, or -1 where there are none."""
     used = count - count % CORNERS
-    return used - ALL if used % SEGMENT == ALL else -1
+    return used - ALL if used % WHOLE_TRIANGLES == ALL else -1
 
 
 def is_left_out(window: np.ndarray) -> bool:

@@ -1,7 +1,7 @@
-"""Bins: which triangles meet which band of rows, so that a thread that has a band walks these and no others.
+"""Bin triangles by row band, so that each thread visits only its own.
 
-A counting sort: count per band, add up, write. Within a band the numbers keep the drawing order, which is what makes
-results the same for any number of threads.
+A counting sort: count per band, add up, write. Within a band the numbers stay in drawing order, so results are the same
+for any number of threads.
 """
 
 from collections.abc import Sequence
@@ -12,9 +12,9 @@ import numpy as np
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.memory.threads import share
 from softshadow.pipeline.raster.coverage import bounds
-from softshadow.pipeline.raster.fill import Region
+from softshadow.pipeline.records import Region
 
-ROWS_LOG2 = 5  # rows of a band, 32: then what is drawn over each other there stays in the cache
+ROWS_LOG2 = 5  # rows of a band, 32: layers drawn over each other in a band stay in the cache
 
 
 class Bins(NamedTuple):

@@ -63,10 +63,7 @@ def narrow(x0, y0, x1, y1, row, downwards, first, end):
 
 @kernel
 def row_span(corners, t, row, downwards):
-    """Return first and end column (end exclusive) of triangle `t` in a row;
-
-    `downwards` is 1 where rows grow downwards.
-    """
+    """Return first and end column (end exclusive) of triangle `t` in a row; `downwards`: 1 if rows grow downwards."""
     x0, y0 = int(corners[t, 0]), int(corners[t, 1])
     x1, y1 = int(corners[t, 2]), int(corners[t, 3])
     x2, y2 = int(corners[t, 4]), int(corners[t, 5])
@@ -77,11 +74,11 @@ def row_span(corners, t, row, downwards):
 
 @kernel
 def narrow_rows(x0, y0, x1, y1, first, end, downwards, lefts, rights):
-    """Do what `narrow` does in those of the rows [first, end) that the edge from corner 0 to corner 1 reaches.
+    """Apply `narrow` in those of the rows [first, end) that the edge from corner 0 to corner 1 reaches.
 
-    The quotients are those of whole numbers below 2^53, in float64: a quotient that is no whole number is further from
-    the next one than rounding can take it, so that its floor is the right one. Eight rows are one vector. What is
-    larger, which no viewport makes, goes row by row.
+    The quotients of whole numbers below 2^53 are computed in float64: a quotient that is not whole is farther from the
+    next whole number than the rounding error, so its floor is exact. Eight rows are one vector. Larger numbers, which
+    no viewport produces, are handled row by row.
     """
     first, end = max(first, (min(y0, y1) + 255) >> 8), min(end, (max(y0, y1) >> 8) + 1)
     if first >= end:
@@ -110,8 +107,8 @@ def narrow_rows(x0, y0, x1, y1, first, end, downwards, lefts, rights):
 def row_spans(corners, t, first, end, downwards, left, right, lefts, rights):
     """Write first and end column (end exclusive) of triangle `t` in its rows [first, end), within [left, right).
 
-    The same columns as those of `row_span`. An edge is asked only between its corners: in the rows of the triangle
-    beyond, what lies inside the other two edges lies strictly inside this one.
+    The same columns as those of `row_span`. An edge is evaluated only between its corners: in the other rows of the
+    triangle, columns inside the other two edges lie strictly inside this one.
     """
     for row in range(first, end):
         j = np.uint64(row)
@@ -125,14 +122,14 @@ def row_spans(corners, t, first, end, downwards, left, right, lefts, rights):
 
 
 @kernel
-def triangles_at(corners, column, row, downwards, found):
-    """Write the numbers of the triangles that cover one pixel to `found`; returns how many there are."""
+def triangles_at(corners, column, row, downwards, numbers):
+    """Write the numbers of the triangles that cover one pixel to `numbers`; return how many there are."""
     count = 0
     for t in range(corners.shape[0]):
         first, end = bounds(corners, np.uint64(t))
         if first <= row < end:
             left, right = row_span(corners, np.uint64(t), row, downwards)
             if left <= column < right:
-                found[count] = t
+                numbers[count] = t
                 count += 1
     return count

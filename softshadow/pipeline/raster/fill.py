@@ -1,122 +1,146 @@
 """The fill stage: for every covered pixel of every triangle, depth and `process_fragment`.
 
-One triangle at a time; `binding.py` goes through those of a draw, and binds what is done here to a state.
+`fill_triangles` is the textbook: triangle by triangle, row by row. `fill` calls it, or a kernel of `fast/` that does
+the same, for all triangles at once or for one band of rows after the other.
 """
 
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from softshadow.jit import inlined
-from softshadow.pipeline.fast.small_triangles import TALLEST, WIDEST, columns_of, fill_box
-from softshadow.pipeline.geometry.facing import EITHER
+from softshadow.jit import inlined, kernel
 from softshadow.pipeline.memory.scratch import scratch
+from softshadow.pipeline.memory.threads import parts_of, share
+from softshadow.pipeline.raster.bins import Bins, sort_into_bands
 from softshadow.pipeline.raster.coverage import bounds, row_span
-from softshadow.pipeline.raster.spans import NONE, count_span, fill_span
+from softshadow.pipeline.raster.fragment_ops import FragmentOps
+from softshadow.pipeline.raster.spans import count_span, fill_span
+from softshadow.pipeline.records import NO_TRIANGLE, DepthRange, FillBuffers, FragmentCounts, Region, Setup
 
-MIDDLING = 3 * WIDEST  # columns of boxes that are filled strip by strip: in half the time that rows take
+AT_A_TIME = (
+    1 << 19
+)  # triangles that are sorted into bands in one go; bounds the memory where all of them meet all bands
 
-
-class Region(NamedTuple):
-    """Where a draw may write: columns and rows (end exclusive) of the stored planes, and how their rows run."""
-
-    left: int
-    right: int
-    first_row: int
-    end_row: int
-    downwards: int
-
-
-class Planes(NamedTuple):
-    """What the fill stage reads and writes, full rows with their padding.
-
-    columns: 0, 1, 2 ... in the precision of the triangles' planes; depth and stencil (H, pitch); ids (rows of the
-    region, pitch) int32 receives the number of the triangle whose fragment passed last; verdicts (6,) int64 counts the
-    fragments by verdict, and last the stencil values that changed.
-    """
-
-    columns: np.ndarray
-    depth: np.ndarray
-    stencil: np.ndarray
-    ids: np.ndarray
-    verdicts: np.ndarray
+# fill(front, back, triangles, numbers, region, depth_range, buffers) for the triangles with these numbers, in order
+FillKernel = Callable[..., None]
 
 
 def no_ids(region: Region, pitch: int) -> np.ndarray:
-    """Return the ids (rows of the region, pitch) of pixels that no triangle has got."""
+    """Return ids (rows of the region, pitch) int32 of pixels without a triangle."""
     ids = scratch((region.end_row - region.first_row, pitch), np.int32)
-    ids[:] = NONE
+    ids[:] = NO_TRIANGLE
     return ids
 
 
-@inlined
-def fill_rows(
-    ops, writes_ids, corners, z_planes, t, region, depth_range, columns, depth_plane, stencil_plane, ids_plane
-):  # fmt: skip
-    """Process the fragments of triangle `t` inside the region, row by row: the plain form, for triangles of any size.
+def fill_buffers(
+    depth: np.ndarray,
+    stencil: np.ndarray,
+    real: np.dtype,
+    region: Region,
+    ids: np.ndarray | None = None,
+    counts: FragmentCounts | None = None,
+) -> FillBuffers:
+    """Return what the fill stage reads and writes; ids and counts that are not asked for have a stand-in."""
+    columns = np.arange(max(*depth.shape, region.right, region.end_row), dtype=real)
+    stand_in = np.empty((1, 1), np.int32)
+    return FillBuffers(columns, depth, stencil, stand_in if ids is None else ids, counts or FragmentCounts.zero())
 
-    Depth and stencil change, the ids where `writes_ids` is LAST or SOLE.
+
+def fill(
+    fill_kernel: FillKernel,
+    front: FragmentOps,
+    back: FragmentOps,
+    triangles: Setup,
+    region: Region,
+    depth_range: DepthRange,
+    buffers: FillBuffers,
+    *,
+    writes_ids: bool = False,
+    band_rows_log2: int = 0,
+    ranges: Sequence[tuple[int, int]] | None = None,
+) -> None:
+    """Process all fragments of the triangles inside the region.
+
+    Parameters
+    ----------
+    fill_kernel : `fill_triangles` bound to its flags, or a kernel of `fast/`
+    writes_ids : whether the ids of `buffers` are written
+    band_rows_log2 : the binary logarithm of how many rows a band has, 0 for no bands
+    ranges : the rows [first, end) of `triangles` to draw, all by default
+    """
+
+    def fill_part(numbers: np.ndarray, first_row: int, end_row: int) -> None:
+        part = region._replace(first_row=first_row, end_row=end_row)
+        rows = buffers._replace(ids=buffers.ids[first_row - region.first_row :]) if writes_ids else buffers
+        fill_kernel(front, back, triangles, numbers, part, depth_range, rows)
+
+    if not band_rows_log2:
+        for first, end in [(0, len(triangles.ids))] if ranges is None else ranges:
+            fill_part(np.arange(first, end, dtype=np.int32), region.first_row, region.end_row)
+        return
+    for parts in _chunks(len(triangles.ids)) if ranges is None else [ranges]:
+        bins = sort_into_bands(triangles.corners, parts, region, band_rows_log2)
+        bands = np.flatnonzero(np.diff(bins.starts)).tolist()
+
+        def fill_band(n: int, bins: Bins = bins, bands: list[int] = bands) -> None:
+            fill_part(bins.of(bands[n]), *bins.rows_of(bands[n], region))
+
+        share(fill_band, len(bands))
+
+
+def _chunks(count: int) -> Iterator[list[tuple[int, int]]]:
+    """Yield the parts of so many triangles that are sorted into bands in one go."""
+    for begin in range(0, count, AT_A_TIME):
+        yield [(begin + first, begin + end) for first, end in parts_of(min(AT_A_TIME, count - begin))]
+
+
+@kernel
+def fill_triangles(
+    front, back, two_sided, writes_ids, counting, triangles, numbers, region, depth_range, buffers
+):  # fmt: skip
+    """Process all fragments of the triangles with these numbers, in this order: the state is an argument.
+
+    The state is `front`, and for back-facing triangles `back` where `two_sided` is 1. `writes_ids` is 0, LAST or ONLY;
+    `counting` is 1 where the fragments are counted.
+    """
+    for n in range(numbers.shape[0]):
+        t = int(numbers[n])
+        ops = back if two_sided and not triangles.front[t] else front
+        if counting:
+            count_rows(ops, triangles, t, region, depth_range, buffers)
+        fill_rows(
+            ops, writes_ids, triangles.corners, triangles.depth, t, region, depth_range, buffers.columns,
+            buffers.depth, buffers.stencil, buffers.ids,
+        )  # fmt: skip
+
+
+@inlined
+def fill_rows(ops, writes_ids, corners, planes, t, region, depth_range, columns, depth, stencil, ids):
+    """Process the fragments of triangle `t` inside the region, row by row; `planes` are those of `Setup.depth`.
+
+    Depth and stencil change, the ids where `writes_ids` is LAST or ONLY.
     """
     first, end = bounds(corners, np.uint64(t))
-    plane = z_planes[t]
+    plane = planes[t]
     for row in range(max(first, region.first_row), min(end, region.end_row)):
         left, right = row_span(corners, np.uint64(t), row, region.downwards)
         left, right = max(left, region.left), min(right, region.right)
         if left < right:
-            row_z = plane[2] * columns[row]
-            depth, stencil = depth_plane[row], stencil_plane[row]
-            ids = ids_plane[row - region.first_row] if writes_ids else ids_plane[0]
-            fill_span(ops, writes_ids, plane, row_z, depth_range, columns, left, right, t, depth, stencil, ids)
-
-
-@inlined
-def is_small(corners, t, region, depth):
-    """Return whether triangle `t` is one for `fill_box`: few columns and rows, none of the columns cut off.
-
-    Of boxes with several strips of columns, all of these have to lie within the planes.
-    """
-    first, end = bounds(corners, t)
-    left, right = columns_of(corners, t)
-    narrow = right - left <= WIDEST and depth.shape[1] >= WIDEST
-    fits = narrow or (right - left <= MIDDLING and left + MIDDLING <= depth.shape[1])
-    return fits and end - first <= TALLEST and left >= region.left and right <= region.right
-
-
-@inlined
-def fill_small(
-    ops, facing, writes_ids, corners, z_planes, faces_front, numbers, n, region, depth_range, depth, stencil, ids
-):  # fmt: skip
-    """Do what `fill_rows` does, by boxes, for small triangles of one facing from ``numbers[n]`` on.
-
-    Returns the place of the first triangle that is not small or faces elsewhere. These loops are apart so that the
-    registers of the one do not have to hold what the other needs: it would take twice as long.
-    """
-    flip = 0 if region.downwards else -1
-    while n < numbers.shape[0]:
-        t = np.uint64(numbers[n])  # unsigned: no wrap-around of negative indices is compiled in
-        if not is_small(corners, t, region, depth) or (facing != EITHER and faces_front[t] != facing):
-            break
-        first, end = bounds(corners, t)
-        left, right = columns_of(corners, t)
-        while left < right:
-            fill_box(
-                ops, writes_ids, corners, z_planes, flip, left, max(first, region.first_row), min(end, region.end_row),
-                depth_range, t, depth, stencil, ids, region.first_row,
+            own_ids = ids[row - region.first_row] if writes_ids else ids[0]
+            fill_span(
+                ops, writes_ids, plane, depth_range, columns, columns[row], left, right, t, depth[row], stencil[row],
+                own_ids,
             )  # fmt: skip
-            left += WIDEST
-        n += 1
-    return n
 
 
 @inlined
-def count_triangle(ops, triangles, t, region, depth_range, planes):
-    """Count what will happen to the fragments of triangle `t`, before they are processed."""
+def count_rows(ops, triangles, t, region, depth_range, buffers):
+    """Count the verdicts of the fragments of triangle `t`, before they are processed."""
     first, end = bounds(triangles.corners, np.uint64(t))
     plane = triangles.depth[t]
     for row in range(max(first, region.first_row), min(end, region.end_row)):
         left, right = row_span(triangles.corners, np.uint64(t), row, region.downwards)
-        row_z = plane[2] * planes.columns[row]
         count_span(
-            ops, plane, row_z, depth_range, planes.columns, max(left, region.left), min(right, region.right),
-            planes.depth[row], planes.stencil[row], planes.verdicts,
+            ops, plane, depth_range, buffers.columns, buffers.columns[row], max(left, region.left),
+            min(right, region.right), buffers.depth[row], buffers.stencil[row], buffers.counts,
         )  # fmt: skip

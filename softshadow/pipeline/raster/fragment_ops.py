@@ -1,7 +1,7 @@
 """The per-fragment operations: one textbook function in the order of the specification.
 
-It is bound to its state in two ways (`fill.py`): closed over plain numbers, so that the compiler folds the state away,
-or with the state as an argument. Called from Python it narrates the history of a pixel.
+It gets its state in two ways: as an argument (`raster/fill.py`), or compiled for plain numbers, so that the compiler
+folds the state away (`fast/specialize.py`). Called from Python it explains the history of a pixel.
 """
 
 from typing import NamedTuple
@@ -11,11 +11,10 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.image import Image
 from softshadow.jit import kernel
+from softshadow.pipeline.records import ALPHA_FAILED, DEPTH_FAILED, PASSED, SCISSORED, STENCIL_FAILED
 from softshadow.state import State
 
-NO_ALPHA = np.int64(0)  # where none is tested; a literal would make the compiler take `process_fragment` once more
-PASSED, SCISSORED, ALPHA_FAILED, STENCIL_FAILED, DEPTH_FAILED = range(5)
-VERDICTS = ("passed", "scissor", "alpha failed", "stencil failed", "depth failed")
+NO_ALPHA = np.int64(0)  # where alpha is not tested; a literal would have `process_fragment` compiled once more
 
 NEVER, LESS, EQUAL, LEQUAL = gl.GL_NEVER, gl.GL_LESS, gl.GL_EQUAL, gl.GL_LEQUAL
 GREATER, NOTEQUAL, GEQUAL, ALWAYS = gl.GL_GREATER, gl.GL_NOTEQUAL, gl.GL_GEQUAL, gl.GL_ALWAYS
@@ -26,7 +25,7 @@ INCR_WRAP, DECR_WRAP = gl.GL_INCR_WRAP, gl.GL_DECR_WRAP
 class FragmentOps(NamedTuple):
     """The state of the per-fragment operations for one facing, as plain ints.
 
-    What a disabled test would use is set to one value, so that equal behaviour is equal state. `alpha_ref` is 0-255,
+    Fields of a disabled test have one fixed value, so that equal behaviour is equal state. `alpha_ref` is 0-255,
     `stencil_largest` is ``2**bits - 1``, `depth_largest` the integer that z = 1 becomes (0: depth is kept as z itself).
     """
 
@@ -48,7 +47,7 @@ class FragmentOps(NamedTuple):
     write_mask: int
 
     def code(self) -> "FragmentOps":
-        """Return what changes the code that is compiled: reference values and masks, mere numbers in it, set to 0."""
+        """Return the compilation key: reference values and masks, which do not change the code, set to 0."""
         return self._replace(alpha_ref=0, ref=0, read_mask=0, write_mask=0)
 
 
@@ -99,9 +98,9 @@ def compare(func, a, b):
 
 @kernel
 def stencil_op(op, s, ref, largest):
-    """Return the stencil value after an operation;
+    """Return the stencil value after an operation; all values are uint8.
 
-    All values uint8. Branch-free, so that a loop over it is vectorised.
+    In a kernel compiled for one state, the comparisons of `op` are folded away, and a loop over it is vectorised.
     """
     if op == KEEP:
         return s

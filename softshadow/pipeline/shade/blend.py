@@ -93,16 +93,6 @@ def _factors(equation: int, source: int, target: int) -> tuple[int, int]:
     return (gl.GL_ONE, gl.GL_ONE) if equation in (gl.GL_MIN, gl.GL_MAX) else (source, target)
 
 
-def needs_order(state: State) -> bool:
-    """Return whether a draw's colours depend on the order of its fragments, or its fragments on their colours."""
-    return tests_alpha(state) or state.blend.enabled or state.blend.logic_enabled
-
-
-def tests_alpha(state: State) -> bool:
-    """Return whether a fragment's colour decides if it passes."""
-    return state.alpha.enabled and state.alpha.func != gl.GL_ALWAYS
-
-
 @inlined
 def multiply(a, b):
     """Return a * b of two bytes that stand for 0..1, as llvmpipe rounds it."""

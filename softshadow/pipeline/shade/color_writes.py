@@ -12,6 +12,7 @@ from softshadow import tokens as gl
 from softshadow.image import Format, Image
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ONE, ZERO
+from softshadow.pipeline.records import Spans
 from softshadow.pipeline.shade.blend import (
     ALPHA,
     FOUR_BYTES,
@@ -21,7 +22,6 @@ from softshadow.pipeline.shade.blend import (
     blend_ops,
     to_unorm8,
 )
-from softshadow.pipeline.shade.visible_spans import Spans
 from softshadow.state import State
 
 LARGEST_BYTE, INT32_END = np.float32(255), np.float32(2.0**31)
@@ -29,7 +29,7 @@ GREEN, BLUE, UPPERMOST = np.int32(8), np.int32(16), np.int32(24)  # bits below t
 
 
 def color_writer(state: State, color: Image) -> Callable[[Spans, np.ndarray], None]:
-    """Return the function that writes shaded colours (n, 4) of spans into a buffer, in order, blended as the state says.
+    """Return the function that writes colours (n, 4) of spans into a buffer, in order, blended as the state says.
 
     Floats have no logic operations: where one is on they are written as they are.
     """

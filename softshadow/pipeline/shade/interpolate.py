@@ -10,18 +10,18 @@ import numpy as np
 
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ONE, ZERO
-from softshadow.pipeline.geometry.triangle_setup import Setup, edge_differences, line_gradient, line_plane, plane
+from softshadow.pipeline.geometry.triangle_setup import edge_differences, line_gradient, line_plane, plane
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
-from softshadow.pipeline.shade.visible_spans import Spans
+from softshadow.pipeline.records import Setup, Spans
 
 LONG = 8  # fragments; a run of so many is worth a loop per column
 AT_A_TIME = 1 << 12  # triangles whose planes a thread makes in one go
 BLOCK = 2  # rows and columns of a block of pixels, which may reach over the edge
 
 
-class Planes(NamedTuple):
-    """Planes of the triangles that are seen: values (P, 3, k + 1), and where among them each triangle's are (T,).
+class AttributePlanes(NamedTuple):
+    """The planes of visible triangles: values (P, 3, k + 1); `place` (T,): where among them each triangle's are.
 
     `coordinates` holds 0, 1, 2 ... in the precision of the values, as far as rows and columns go.
     """
@@ -115,7 +115,7 @@ def planes_of(
     back: np.ndarray | None,
     flat: np.ndarray,
     provoking: np.ndarray,
-) -> Planes:
+) -> AttributePlanes:
     """Return the planes of the triangles that spans belong to; see `attribute_planes`.
 
     Parameters
@@ -140,7 +140,7 @@ def planes_of(
 
     share(fill_part, len(parts))
     furthest = max(spans.row.max(initial=0), (spans.left + np.diff(spans.start)).max(initial=0))
-    return Planes(planes, place, np.arange(furthest + BLOCK, dtype=window.dtype))
+    return AttributePlanes(planes, place, np.arange(furthest + BLOCK, dtype=window.dtype))
 
 
 @kernel
@@ -157,7 +157,7 @@ def number_in_order(triangles, place, seen):
     return count
 
 
-def inputs_at(spans: Spans, planes: Planes, flat: np.ndarray) -> np.ndarray:
+def inputs_at(spans: Spans, planes: AttributePlanes, flat: np.ndarray) -> np.ndarray:
     """Return what the fragment stage of a program gets: (n, k), one row per fragment, each column in one piece."""
     out = scratch((len(flat) + 1, spans.fragments), planes.values.dtype)
     interpolate(planes.values, planes.place, *spans, planes.coordinates, flat, out)

@@ -1,29 +1,27 @@
-"""Shading: from fragments to written colours, a batch at a time.
+"""Shading: from fragments to written colours, a chunk of fragments at a time.
 
-What a batch carries from interpolation to the write stays in the cache. In one piece, the inputs of a full screen are
-100 MB of memory that is new to the process each time.
+The values of a chunk stay in the cache from interpolation to the write. In one piece, the inputs of a full screen are
+100 MB of memory that is fresh each time.
 """
 
 import numpy as np
 
 from softshadow.framebuffer import Framebuffer
-from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
-from softshadow.pipeline.geometry.geometry import Geometry
 from softshadow.pipeline.memory.scratch import scratch
-from softshadow.pipeline.memory.threads import share, threads
-from softshadow.pipeline.raster.ordered import in_blocks
+from softshadow.pipeline.memory.threads import share
+from softshadow.pipeline.records import Geometry, Spans
 from softshadow.pipeline.shade.color_writes import color_writer
-from softshadow.pipeline.shade.interpolate import Planes, inputs_at, planes_of
-from softshadow.pipeline.shade.visible_spans import Spans, fragments_of, spans_of
+from softshadow.pipeline.shade.interpolate import AttributePlanes, inputs_at, planes_of
+from softshadow.pipeline.shade.pixel_blocks import in_blocks
+from softshadow.pipeline.shade.visible_spans import fragments_of, spans_of
 from softshadow.state import State
 
-PART = 1 << 14  # fragments that a thread takes of a draw that one thread does in one go
-CHUNK = 32 * 2091  # fragments: columns of an odd number of cache lines, which do not fall on each other in the cache
+CHUNK = 32 * 2091  # fragments; an odd number of cache lines per column, so that columns do not share cache sets
 
 
 def shade(geometry: Geometry, spans: Spans) -> np.ndarray:
     """Return the colours (n, 4) of fragments, unclamped."""
-    planes = _planes_of(geometry, spans)
+    planes = attribute_planes_of(geometry, spans)
     cuts = spans.chunks(CHUNK)
     colors = scratch((4, spans.fragments), geometry.window.dtype).T
 
@@ -40,25 +38,16 @@ def shade_and_write(state: State, target: Framebuffer, geometry: Geometry, spans
 
     Parameters
     ----------
-    ordered : several fragments may belong to one pixel, and are written one after the other. Otherwise batches may be
+    ordered : several fragments may belong to one pixel, and are written one after the other. Otherwise chunks may be
         written in any order, by several threads.
     """
-    shade_map = None if ordered else shadow_map_shader(state, target, geometry)
-    if shade_map is not None:
-        planes = _planes_of(geometry, spans)
-        if threads() == 1:
-            shade_map(spans, planes)
-        else:
-            parts = spans.chunks(PART)
-            share(lambda n: shade_map(spans.part(parts[n], parts[n + 1]), planes), len(parts) - 1)
-        return
     writers = [color_writer(state, image) for image in target.colors]
     if ordered:
         colors = shade(geometry, spans)
         for write in writers:
             write(spans, colors)
         return
-    planes = _planes_of(geometry, spans)
+    planes = attribute_planes_of(geometry, spans)
     cuts = spans.chunks(CHUNK)
 
     def chunk(n: int) -> None:
@@ -70,13 +59,14 @@ def shade_and_write(state: State, target: Framebuffer, geometry: Geometry, spans
     share(chunk, len(cuts) - 1)
 
 
-def _planes_of(geometry: Geometry, spans: Spans) -> Planes:
+def attribute_planes_of(geometry: Geometry, spans: Spans) -> AttributePlanes:
+    """Return the planes of what the vertex stage hands on, for the triangles of the spans."""
     values = (geometry.values, geometry.back, geometry.flat, geometry.provoking)
     return planes_of(spans, geometry.triangles, geometry.window, *values)
 
 
-def _shade_chunk(geometry: Geometry, planes: Planes, spans: Spans) -> np.ndarray:
-    """Return colours (n, 4): interpolate, then call the program. Blocks that a batch cuts are completed in both."""
+def _shade_chunk(geometry: Geometry, planes: AttributePlanes, spans: Spans) -> np.ndarray:
+    """Return colours (n, 4): interpolate, then call the program. Blocks that a chunk cuts are completed in both."""
     own = None
     if geometry.program.blocks:
         complete, own = in_blocks(fragments_of(spans))

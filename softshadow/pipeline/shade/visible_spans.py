@@ -1,49 +1,18 @@
-"""Spans: fragments of one triangle, side by side in a row. Shading and writing take a run at a time.
+"""Spans: fragments of one triangle, side by side in a row, found in the buffer of triangle ids.
 
-What belongs to the triangle and to the row is looked up once per run, and along a long one loops are vectorised.
+Shading and writing take a span at a time: values of the triangle and of the row are looked up once per span, and loops
+along a long one are vectorised.
 """
-
-from __future__ import annotations
-
-from typing import NamedTuple
 
 import numpy as np
 
 from softshadow.jit import kernel
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
-from softshadow.pipeline.raster.ordered import Fragments
+from softshadow.pipeline.records import Fragments, Spans
 
-STRIDE = 16  # pixels of a long run that are looked at together
+STRIDE = 16  # pixels of a long span that are compared together
 ROWS = 128  # of a part that a thread takes
-
-
-class Spans(NamedTuple):
-    """Spans of fragments, one after the other:
-
-    Row and first column (R,) int32 of the stored planes; triangle (R,) int32, a row of `Setup`; start (R + 1,) int64,
-    the number of each run's first fragment, and last how many fragments there are.
-    """
-
-    row: np.ndarray
-    left: np.ndarray
-    triangle: np.ndarray
-    start: np.ndarray
-
-    @property
-    def fragments(self) -> int:
-        """How many fragments there are."""
-        return int(self.start[-1])
-
-    def part(self, first: int, end: int) -> Spans:
-        """Return the spans from `first` to `end`, their fragments numbered from 0."""
-        start = self.start[first : end + 1] - self.start[first]
-        return Spans(self.row[first:end], self.left[first:end], self.triangle[first:end], start)
-
-    def chunks(self, size: int) -> np.ndarray:
-        """Return where to cut (B + 1,), so that each part has about `size` fragments."""
-        cuts = np.searchsorted(self.start, np.arange(0, self.fragments, size))
-        return np.unique(np.append(cuts, len(self.row)))
 
 
 def _empty(count: int) -> Spans:
@@ -54,7 +23,7 @@ def _empty(count: int) -> Spans:
 
 
 def visible_spans(ids: np.ndarray, first_row: int) -> Spans:
-    """Return the spans of the fragments that are left per pixel.
+    """Return the spans of visible fragments.
 
     Parameters
     ----------
@@ -63,27 +32,27 @@ def visible_spans(ids: np.ndarray, first_row: int) -> Spans:
     """
     parts = parts_of(len(ids), ROWS)
     counts = share(lambda n: count_visible(ids[slice(*parts[n])]), len(parts))
-    places = np.cumsum([(0, 0), *counts], axis=0)  # the first run and the first fragment of each part
-    made = _empty(places[-1, 0])
+    places = np.cumsum([(0, 0), *counts], axis=0)  # the first span and the first fragment of each part
+    spans = _empty(places[-1, 0])
 
     def collect(n: int) -> None:
-        (first, end), (run, at) = parts[n], places[n]
-        own = slice(run, places[n + 1, 0])
-        collect_visible(ids[first:end], first_row + first, at, *(array[own] for array in made))
+        (first, end), (span, at) = parts[n], places[n]
+        own = slice(span, places[n + 1, 0])
+        collect_visible(ids[first:end], first_row + first, at, *(array[own] for array in spans))
 
     share(collect, len(parts))
-    made.start[-1] = places[-1, 1]
-    return made
+    spans.start[-1] = places[-1, 1]
+    return spans
 
 
 def spans_of(fragments: Fragments) -> Spans:
-    """Return the spans that fragments make up in their order."""
+    """Return the spans of listed fragments, in their order."""
     if not len(fragments.row):
         return _empty(0)
-    goes_on = np.diff(fragments.column) == 1
+    continues = np.diff(fragments.column) == 1
     for same in (fragments.row, fragments.triangle):
-        goes_on &= same[1:] == same[:-1]
-    first = np.flatnonzero(np.append(True, ~goes_on))
+        continues &= same[1:] == same[:-1]
+    first = np.flatnonzero(np.append(True, ~continues))
     row, column, triangle = (part[first] for part in fragments)
     return Spans(row, column, triangle, np.append(first, len(fragments.row)))
 
@@ -98,7 +67,7 @@ def fragments_of(spans: Spans) -> Fragments:
 
 @kernel
 def count_visible(ids):
-    """Return how many spans there are, pixels with a triangle that the pixel left of them does not have, and pixels."""
+    """Return the number of spans (pixels whose triangle is not that of the left neighbour) and of their pixels."""
     spans = pixels = np.int64(0)
     for row in range(ids.shape[0]):
         line = ids[row]
@@ -112,7 +81,7 @@ def count_visible(ids):
 
 @kernel
 def collect_visible(ids, first_row, at, rows, lefts, triangles, starts):
-    """Write row, first column, triangle and first fragment of all spans; `at` is the number of the first one's."""
+    """Write row, first column, triangle and first fragment of all spans; `at` numbers the first fragment."""
     count = 0
     for row in range(ids.shape[0]):
         line, column = ids[row], 0

@@ -3,7 +3,7 @@
 import pytest
 
 from softshadow.pipeline import set_threads, threads
-from softshadow.pipeline.memory import threads as bands
+from softshadow.pipeline.memory import threads as pool
 from softshadow.pipeline.memory.threads import PART, VARIABLE, parts_of, share
 
 
@@ -43,7 +43,7 @@ def test_parts_make_up_the_whole(some_threads, count):
 
 @pytest.fixture
 def nothing_set(monkeypatch):
-    monkeypatch.setattr(bands, "_threads", [0])
+    monkeypatch.setattr(pool, "_threads", [0])
     return monkeypatch
 
 
@@ -56,7 +56,7 @@ def test_the_environment_says_how_many_threads_unless_set(nothing_set):
 
 def test_without_any_word_there_are_as_many_threads_as_cores(nothing_set):
     nothing_set.setenv(VARIABLE, "")
-    nothing_set.setattr(bands.os, "sched_getaffinity", lambda process: {0, 1, 5}, raising=False)
+    nothing_set.setattr(pool.os, "sched_getaffinity", lambda process: {0, 1, 5}, raising=False)
     assert threads() == 3
 
 

@@ -9,15 +9,17 @@ from hypothesis import strategies as st
 
 from softshadow import tokens as gl
 from softshadow.jit import kernel
-from softshadow.pipeline import set_threads, threads, use_binding
-from softshadow.pipeline.fast import specialize as binding
+from softshadow.pipeline import choose, set_threads, threads, use_short_cuts
+from softshadow.pipeline.choose import DrawPath, Plan, choose_fill
+from softshadow.pipeline.fast import specialize
 from softshadow.pipeline.fast.hierarchical_z import FAIL, MIXED, PASS, advance, decide, find_bounds, order_independent
 from softshadow.pipeline.fast.stencil_tiles import fill_in_tiles
-from softshadow.pipeline.geometry.triangle_setup import MAX_SLOPE, Offset, Setup, set_up
+from softshadow.pipeline.geometry.triangle_setup import MAX_SLOPE, Offset, set_up
+from softshadow.pipeline.raster import fill as fill_stage
 from softshadow.pipeline.raster.coverage import bounds, row_span, row_spans
-from softshadow.pipeline.raster.fill import Region
+from softshadow.pipeline.raster.fill import fill, fill_buffers
 from softshadow.pipeline.raster.fragment_ops import FragmentOps, compare, stencil_op
-from softshadow.pipeline.raster.spans import DepthRange
+from softshadow.pipeline.records import DepthRange, Region, Setup
 from softshadow.state import Cull
 
 WIDTH, PITCH, HEIGHT = 150, 160, 70  # some whole tiles of 64 x 16, and some cut at the borders
@@ -30,7 +32,7 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def counting_state(rng: np.random.Generator, depth_format: str) -> tuple[FragmentOps, FragmentOps]:
-    """Two facings that commute, more often than not with the classical pair of operations."""
+    """Two order-independent facings, more often than not with the classical pair of operations."""
     bits = int(rng.integers(1, 9))
     largest = 2**bits - 1
     op = int(rng.choice(OPS))
@@ -79,8 +81,8 @@ def buffers(rng: np.random.Generator, depth_format: str, stencil_largest: int) -
     return depth, rng.integers(0, stencil_largest + 1, depth.shape, dtype=np.uint8)
 
 
-def filled(seed: int, depth_format: str) -> tuple[np.ndarray, np.ndarray]:
-    """The buffers after a draw that order_independent."""
+def buffers_after(seed: int, depth_format: str) -> tuple[np.ndarray, np.ndarray]:
+    """The buffers after a draw that is order-independent."""
     rng = np.random.default_rng(seed)
     front, back = counting_state(rng, depth_format)
     assert order_independent(front, back)
@@ -93,29 +95,32 @@ def filled(seed: int, depth_format: str) -> tuple[np.ndarray, np.ndarray]:
     left, right = sorted(int(x) for x in rng.choice([0, 7, 64, 100, 128, WIDTH], 2, replace=False))
     first, end = sorted(int(y) for y in rng.choice([0, 5, 16, 40, HEIGHT], 2, replace=False))
     region = Region(left, right, first, end, downwards)
-    binding.fill(front, back, triangles, 10**6, region, DepthRange(real(0), real(1)), depth, stencil)
+    plan = Plan(False, False, False, False, False, front, back, DrawPath("", gl.GL_TRIANGLES))
+    choice = choose_fill(plan, len(triangles.ids), 10**6, region)
+    depth_range, cells = DepthRange(real(0), real(1)), fill_buffers(depth, stencil, triangles.depth.dtype, region)
+    fill(choice.kernel, front, back, triangles, region, depth_range, cells, band_rows_log2=choice.band_rows_log2)
     return depth, stencil
 
 
 @kernel
-def any_state_in_tiles(ops, facing, triangles, numbers, region, depth_range, planes):
-    fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, planes)
+def any_state_in_tiles(ops, facing, triangles, numbers, region, depth_range, buffers):
+    fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, buffers)
 
 
 @contextmanager
 def in_tiles():
-    """Inside, what order_independent is filled in tiles by code for any state: specializing each would take seconds."""
-    with pytest.MonkeyPatch.context() as patch, use_binding("specialized"):
-        patch.setattr(binding, "specialize_in_tiles", lambda code: any_state_in_tiles)
-        patch.setattr(binding, "_compiled", {})
-        patch.setattr(binding, "_marker", lambda key: None)  # nothing is on disk
+    """Inside, tiles are filled by a kernel for any state: compiling each state would take seconds."""
+    with pytest.MonkeyPatch.context() as patch, use_short_cuts("always"):
+        patch.setattr(specialize, "specialize_in_tiles", lambda code: any_state_in_tiles)
+        patch.setattr(specialize, "compiled", {})
+        patch.setattr(specialize, "_marker", lambda key: None)  # nothing is on disk
         yield patch
 
 
 def one_by_one(seed: int, depth_format: str) -> tuple[np.ndarray, np.ndarray]:
     """The same, every fragment processed in drawing order."""
-    with use_binding("generic"):
-        return filled(seed, depth_format)
+    with use_short_cuts(False):
+        return buffers_after(seed, depth_format)
 
 
 def assert_same(found: tuple[np.ndarray, np.ndarray], expected: tuple[np.ndarray, np.ndarray]) -> None:
@@ -126,7 +131,7 @@ def assert_same(found: tuple[np.ndarray, np.ndarray], expected: tuple[np.ndarray
 @given(seeds, st.sampled_from(sorted(LARGEST)))
 def test_tiles_leave_the_bits_of_fragments_one_by_one(seed, depth_format):
     with in_tiles():
-        assert_same(filled(seed, depth_format), one_by_one(seed, depth_format))
+        assert_same(buffers_after(seed, depth_format), one_by_one(seed, depth_format))
 
 
 @pytest.mark.parametrize(
@@ -135,8 +140,8 @@ def test_tiles_leave_the_bits_of_fragments_one_by_one(seed, depth_format):
     + [pytest.param(*case, marks=pytest.mark.slow) for case in ((1, "d24"), (2, "d24"), (0, "d32f"), (2, "d32f"))],
 )
 def test_specialized_tiles_leave_the_same_bits(seed, depth_format):
-    with use_binding("specialized"):
-        found = filled(seed, depth_format)
+    with use_short_cuts("always"):
+        found = buffers_after(seed, depth_format)
     assert_same(found, one_by_one(seed, depth_format))
 
 
@@ -144,11 +149,11 @@ def test_specialized_tiles_leave_the_same_bits(seed, depth_format):
 def test_tiles_of_any_bands_leave_the_same_bits(seed):
     before = threads()
     with in_tiles() as patch:
-        patch.setattr(binding, "AT_A_TIME", 7)
-        patch.setattr(binding, "WORTH_COUNTING", 0)
+        patch.setattr(fill_stage, "AT_A_TIME", 7)
+        patch.setattr(choose, "WORTH_BANDS_IN_TILES", 0)
         try:
             set_threads(3)
-            assert_same(filled(seed, "d24"), one_by_one(seed, "d24"))
+            assert_same(buffers_after(seed, "d24"), one_by_one(seed, "d24"))
         finally:
             set_threads(before)
 
@@ -157,7 +162,7 @@ def test_tiles_of_any_bands_leave_the_same_bits(seed):
 @pytest.mark.parametrize("seed", range(2))
 def test_interpreted_tiles_leave_the_same_bits(seed):
     with in_tiles():
-        assert_same(filled(seed, "d24"), one_by_one(seed, "d24"))
+        assert_same(buffers_after(seed, "d24"), one_by_one(seed, "d24"))
 
 
 def facing(**changes: int) -> FragmentOps:
@@ -167,7 +172,7 @@ def facing(**changes: int) -> FragmentOps:
     return ops._replace(**changes)
 
 
-def test_counting_up_and_down_commutes():
+def test_counting_up_and_down_is_order_independent():
     assert order_independent(facing(), facing(zfail=gl.GL_DECR_WRAP))
     assert order_independent(facing(zfail=gl.GL_INCR), facing(zfail=gl.GL_INCR))
 
@@ -183,11 +188,11 @@ def test_counting_up_and_down_commutes():
         {"alpha_test": 1},
     ],
 )
-def test_what_depends_on_the_order_does_not_commute(changes):
+def test_updates_that_depend_on_the_order_are_told(changes):
     assert not order_independent(facing(), facing(**changes))
 
 
-def test_two_references_do_not_commute():
+def test_two_references_depend_on_the_order():
     assert not order_independent(facing(zfail=gl.GL_REPLACE, ref=1), facing(zfail=gl.GL_REPLACE, ref=2))
 
 

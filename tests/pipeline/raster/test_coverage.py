@@ -6,10 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from softshadow.pipeline.fast.small_triangles import columns_of, edge_from
-from softshadow.pipeline.geometry.triangle_setup import MAX_SLOPE, Offset, Setup, set_up
+from softshadow.pipeline.geometry.triangle_setup import MAX_SLOPE, Offset, set_up
 from softshadow.pipeline.raster.coverage import bounds, edge, row_span, triangles_at
-from softshadow.pipeline.raster.fill import Region
 from softshadow.pipeline.raster.ordered import list_fragments
+from softshadow.pipeline.records import Region, Setup
 from softshadow.state import Cull
 from strategies import window_fans
 

@@ -1,9 +1,10 @@
-"""One function, several bindings: generic, specialized, interpreted, in bands and in order leave the same bits."""
+"""The textbook fill and its short cuts leave the same bits: compiled for the state, in bands, interpreted, in order."""
 
 import os
 import subprocess
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,12 +16,13 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.framebuffer import Attachment
 from softshadow.image import FORMATS, Image
-from softshadow.pipeline import set_threads, threads, use_binding
-from softshadow.pipeline.fast import specialize as binding
+from softshadow.pipeline import choose, set_threads, threads, use_short_cuts
+from softshadow.pipeline.choose import Policy
+from softshadow.pipeline.raster import fill
 
 WIDTH, HEIGHT = 48, 40
 # each of these compiles code of its own: a fixed sample, so that the cache on disk has them from the second run on
-SPECIALISED_SEEDS = [0, 1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(2, 6))]
+SPECIALIZED_SEEDS = [0, 1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(2, 6))]
 
 
 def drawn(seed: int, depth_format: str = "d24", precision: str = "mesa", ordered: bool = False) -> Context:
@@ -45,20 +47,20 @@ def drawn(seed: int, depth_format: str = "d24", precision: str = "mesa", ordered
     return context
 
 
-@pytest.mark.parametrize("seed", SPECIALISED_SEEDS)
+@pytest.mark.parametrize("seed", SPECIALIZED_SEEDS)
 @pytest.mark.parametrize("depth_format", ["d24", "d32f", "d32"])
-def test_specialized_draws_what_generic_draws(seed, depth_format):
-    with use_binding("generic"):
+def test_specialized_draws_what_the_textbook_draws(seed, depth_format):
+    with use_short_cuts(False):
         expected = drawn(seed, depth_format)
-    with use_binding("specialized"):
+    with use_short_cuts("always"):
         assert same_window(drawn(seed, depth_format), expected)
 
 
 @given(st.integers(0, 2**32 - 1), st.booleans(), st.sampled_from([0.5, 4.0, 9.0, 15.0, 64.0, 300.0]))
-def test_rows_of_boxes_at_the_end_of_the_planes_draw_what_single_columns_draw(seed, scissored, pixels):
-    """In 128 columns, the planes have no padding that the last box could reach into; a pixel met twice counts twice."""
+def test_boxes_at_the_end_of_the_buffers_draw_what_the_textbook_draws(seed, scissored, pixels):
+    """In 128 columns, the buffers have no padding after the last box; a pixel processed twice counts twice."""
 
-    def window(policy: str) -> Context:
+    def window(policy: Policy) -> Context:
         rng, context = np.random.default_rng(seed), Context(128, 70)
         scissor = replace(context.state.scissor, enabled=scissored, x=5, y=3, width=120, height=60)
         depth = replace(context.state.depth, enabled=True, func=gl.GL_LEQUAL)
@@ -68,11 +70,11 @@ def test_rows_of_boxes_at_the_end_of_the_planes_draw_what_single_columns_draw(se
         positions = np.ones((30, 3, 4), np.float32)
         positions[:, :, :3] = rng.uniform(-1, 1, (30, 1, 3))
         positions[:, :, :2] += rng.normal(0, pixels / 64, (30, 3, 2)) * rng.choice([0.1, 1.0], (30, 1, 2))
-        with use_binding(policy):
+        with use_short_cuts(policy):
             draw(context, state, vertices(positions.reshape(-1, 4), rng.random((90, 4))))
         return context
 
-    assert same_window(window("specialized"), window("generic"))
+    assert same_window(window("always"), window(False))
 
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from(["d24", "d32f", "d32"]))
@@ -81,20 +83,20 @@ def test_ordered_path_draws_what_the_opaque_path_draws(seed, depth_format):
 
 
 @pytest.mark.interpreted
-@given(st.integers(0, 2**32 - 1), st.sampled_from([1, 5, binding.AT_A_TIME]))
+@given(st.integers(0, 2**32 - 1), st.sampled_from([1, 5, fill.AT_A_TIME]))
 def test_results_do_not_depend_on_the_number_of_threads_or_the_bands(seed, at_a_time):
     before = threads()
     with pytest.MonkeyPatch.context() as patch:
         set_threads(1)
         expected = drawn(seed)
-        for name in ("WORTH", "WORTH_COUNTING"):  # so small a window would not be divided
-            patch.setattr(binding, name, 0)
-        patch.setattr(binding, "AT_A_TIME", at_a_time)
+        for name in ("WORTH_BANDS", "WORTH_BANDS_IN_TILES"):  # so small a window would not be divided
+            patch.setattr(choose, name, 0)
+        patch.setattr(fill, "AT_A_TIME", at_a_time)
         try:
             set_threads(3)
             assert same_window(drawn(seed), expected)
             set_threads(1)
-            patch.setattr(binding, "LAYERS", 0)
+            patch.setattr(choose, "LAYERS", 0)
             assert same_window(drawn(seed), expected)
         finally:
             set_threads(before)
@@ -103,7 +105,7 @@ def test_results_do_not_depend_on_the_number_of_threads_or_the_bands(seed, at_a_
 DIGESTS = """
 import hashlib, sys
 sys.path[:0] = {path!r}
-from test_binding import drawn
+from test_specialize import drawn
 for seed in range(4):
     for depth_format, precision in (("d24", "mesa"), ("d32f", "mesa"), ("d32", "mesa"), ("d24", "exact")):
         window = drawn(seed, depth_format, precision).storage.window
@@ -112,7 +114,8 @@ for seed in range(4):
 
 
 def test_interpreted_draws_what_compiled_draws():
-    code = DIGESTS.format(path=[os.path.dirname(__file__), os.path.dirname(os.path.dirname(__file__))])
+    here = Path(__file__).parent
+    code = DIGESTS.format(path=[str(here), str(here.parents[1])])
     digests = [
         subprocess.run(
             [sys.executable, "-c", code],

@@ -1,4 +1,4 @@
-"""The program "shadow-map" shaded in one kernel: the buffers are those of shading by batches, bit for bit."""
+"""The program "shadow-map" in one kernel leaves the bits of the shading stage."""
 
 import numpy as np
 import pytest
@@ -7,10 +7,9 @@ from hypothesis import strategies as st
 
 from draws import random_triangles, same_window
 from softshadow import gl
-from softshadow.pipeline import set_threads, threads
+from softshadow.pipeline import explain_paths, set_threads, threads, use_short_cuts
 from softshadow.pipeline.commands import Vertices
-from softshadow.pipeline.fast import shadow_map_kernel as map_shading
-from softshadow.pipeline.shade import shading
+from softshadow.pipeline.fast import shadow_map_kernel
 
 WRAPS = (gl.GL_CLAMP_TO_BORDER, gl.GL_CLAMP_TO_EDGE, gl.GL_REPEAT, gl.GL_MIRRORED_REPEAT, gl.GL_CLAMP)
 
@@ -44,40 +43,37 @@ def drawn_under_a_map(seed, size=(48, 40), count=8, **context_options):
 
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from([1, 2]))
-def test_one_kernel_leaves_what_batches_leave(seed, thread_count):
+def test_one_kernel_leaves_what_the_shading_stage_leaves(seed, thread_count):
     before = threads()
     try:
         set_threads(thread_count)
-        made = drawn_under_a_map(seed)
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(shading, "shadow_map_shader", lambda *_: None)
-            assert same_window(made, drawn_under_a_map(seed))
+        window = drawn_under_a_map(seed)
+        with use_short_cuts(False):
+            assert same_window(window, drawn_under_a_map(seed))
     finally:
         set_threads(before)
 
 
-def test_runs_longer_than_what_is_shaded_at_a_time_go_on():
-    with pytest.MonkeyPatch.context() as patch:
-        made = drawn_under_a_map(1, (2 * map_shading.AT_A_TIME + 50, 5), 20)
-        patch.setattr(shading, "shadow_map_shader", lambda *_: None)
-        assert same_window(made, drawn_under_a_map(1, (2 * map_shading.AT_A_TIME + 50, 5), 20))
-    assert len(np.unique(made.storage.window.color.view.reshape(-1, 4), axis=0)) > 100
+def test_spans_longer_than_what_is_shaded_at_a_time_go_on():
+    size = (2 * shadow_map_kernel.AT_A_TIME + 50, 5)
+    window = drawn_under_a_map(1, size, 20)
+    with use_short_cuts(False):
+        assert same_window(window, drawn_under_a_map(1, size, 20))
+    assert len(np.unique(window.storage.window.color.view.reshape(-1, 4), axis=0)) > 100
 
 
 @pytest.mark.parametrize(("option", "is_taken"), [({}, True), ({"precision": "exact"}, False)])
-def test_only_float32_is_shaded_in_one_kernel(monkeypatch, option, is_taken):
-    chosen = []
-    monkeypatch.setattr(
-        shading, "shadow_map_shader", lambda *args: chosen.append(map_shading.shadow_map_shader(*args)) or chosen[-1]
-    )
-    for seed in range(8):
-        drawn_under_a_map(seed, **option)
-    assert any(shade is not None for shade in chosen) == is_taken
-    assert any(shade is None for shade in chosen)  # colours as a map, for one
+def test_only_float32_is_shaded_in_one_kernel(option, is_taken):
+    with explain_paths() as paths:
+        for seed in range(8):
+            drawn_under_a_map(seed, **option)
+    shadings = {path.shading for path in paths}
+    assert ("shadow-map kernel" in shadings) == is_taken
+    assert "program" in shadings  # where the map holds colours, for one
 
 
 @pytest.mark.interpreted
-def test_interpreted_the_kernel_leaves_what_batches_leave(monkeypatch):
-    made = drawn_under_a_map(5, (12, 9), 3)
-    monkeypatch.setattr(shading, "shadow_map_shader", lambda *_: None)
-    assert same_window(made, drawn_under_a_map(5, (12, 9), 3))
+def test_interpreted_the_kernel_leaves_what_the_shading_stage_leaves():
+    window = drawn_under_a_map(5, (12, 9), 3)
+    with use_short_cuts(False):
+        assert same_window(window, drawn_under_a_map(5, (12, 9), 3))

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from softshadow import gl
-from softshadow.pipeline import use_binding
-from softshadow.pipeline.fast import specialize as binding
+from softshadow.pipeline import use_short_cuts
+from softshadow.pipeline.fast import specialize
 
 # of AVX and AVX-512 on registers of 32 or 64 bytes; plain SSE has the same names without the v
 PACKED_FLOATS_COMPARED = re.compile(r"\bv?cmp\w*ps\b[^\n]*%[xyz]mm|\bv?(?:min|max)ps\b[^\n]*%[xyz]mm")
@@ -31,8 +31,8 @@ pytestmark = [
 def machine_code_of_what_draws(monkeypatch: pytest.MonkeyPatch, draw) -> str:
     """Return the assembly of all fills that a draw is specialized to, compiled anew: the cache has no text of it."""
     compiled: dict = {}
-    monkeypatch.setattr(binding, "_compiled", compiled)
-    with gl.create_context(64, 48), use_binding("specialized"):
+    monkeypatch.setattr(specialize, "compiled", compiled)
+    with gl.create_context(64, 48), use_short_cuts("always"):
         draw()
         gl.glFinish()
     assert compiled

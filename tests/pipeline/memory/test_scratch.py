@@ -1,4 +1,4 @@
-"""Lent memory: never lent twice at a time, and lent again afterwards."""
+"""Scratch arrays never share memory while they are in use, and use the memory of earlier ones."""
 
 import threading
 
@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softshadow.pipeline.memory.scratch import KEPT, SMALLEST, scratch
+from softshadow.pipeline.memory.scratch import POOLED, SMALLEST, scratch
 
 LARGE = SMALLEST // 4
 
@@ -15,7 +15,7 @@ def address(array):
     return array.__array_interface__["data"][0]
 
 
-def test_memory_is_lent_again_when_nothing_refers_to_it():
+def test_memory_is_reused_once_nothing_refers_to_it():
     first = scratch((2, LARGE), np.float32)
     where = address(first)
     part = first[1, 5:]
@@ -49,8 +49,8 @@ def test_arrays_in_use_never_share_memory(requests):
         assert (array == number).all()
 
 
-def test_what_is_kept_is_bounded_and_what_is_in_use_survives():
-    half = KEPT // 8
+def test_pooled_memory_is_bounded_and_arrays_in_use_survive():
+    half = POOLED // 8
     arrays = [scratch(half // 4, np.int32) for _ in range(9)]  # more than is kept
     for n, array in enumerate(arrays):
         array[:100] = n

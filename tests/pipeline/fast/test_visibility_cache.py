@@ -1,4 +1,4 @@
-"""Visibility that is used again: every buffer is what it is without, whatever happened between equal draws."""
+"""The visibility cache changes no buffer, whatever happens between equal draws."""
 
 from dataclasses import replace
 
@@ -8,17 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from draws import random_triangles
-from softshadow import gl, pipeline
+from softshadow import gl
 from softshadow.context import Context
+from softshadow.pipeline import explain_paths, use_short_cuts
 from softshadow.pipeline.commands import Vertices
-from softshadow.pipeline.fast import visibility_cache as reuse
+from softshadow.pipeline.fast import visibility_cache
+from softshadow.pipeline.fast.visibility_cache import clear_visibility_cache
 
 SIZE = 24  # of window and framebuffer object
 DEPTH_TEXTURE, FRAMEBUFFER = 1, 1
-
-
-def without_memory(inputs, target, storage, fill):
-    return fill()
 
 
 def frame(seed: int, kinds: list[str], meshes: int = 2) -> tuple[Context, int]:
@@ -34,20 +32,11 @@ def frame(seed: int, kinds: list[str], meshes: int = 2) -> tuple[Context, int]:
     new_depths(context, rng, drawn)
     make_framebuffer()
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
-    hits = [0]
-    with pytest.MonkeyPatch.context() as patch:
-        inner = pipeline.filled
-
-        def counted(inputs, target, storage, fill):
-            filled = []
-            runs = inner(inputs, target, storage, lambda: filled.append(1) or fill())
-            hits[0] += not filled
-            return runs
-
-        patch.setattr(pipeline, "filled", counted)
+    with explain_paths() as paths:
         for kind in kinds:
             CALLS[kind](context, rng, drawn)
-    return context, hits[0]
+        gl.glFinish()
+    return context, sum("an equal draw over the same depths was filled before: only shaded" in p.reasons for p in paths)
 
 
 def make_framebuffer() -> None:
@@ -68,8 +57,8 @@ def depths(rng) -> np.ndarray:
 
 
 def meshed(context: Context, rng) -> Vertices:
-    made = random_triangles(rng, 4)
-    return Vertices(*(context.frozen(rows) for rows in (made.position, made.color, made.normal)), ())
+    mesh = random_triangles(rng, 4)
+    return Vertices(*(context.frozen(rows) for rows in (mesh.position, mesh.color, mesh.normal)), ())
 
 
 def draw(context, rng, meshes) -> None:
@@ -174,7 +163,7 @@ def read(context, rng, meshes) -> None:
 
 
 def forget(context, rng, meshes) -> None:
-    pipeline.clear_visibility_cache(context.storage)
+    clear_visibility_cache(context.storage)
 
 
 CALLS = {
@@ -198,31 +187,30 @@ def buffers(context: Context) -> list:
     ]
 
 
-def assert_memory_makes_no_difference(seed: int, kinds: list[str], meshes: int = 2) -> None:
-    made, _ = frame(seed, kinds, meshes)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(pipeline, "filled", without_memory)
+def assert_cache_makes_no_difference(seed: int, kinds: list[str], meshes: int = 2) -> None:
+    cached, _ = frame(seed, kinds, meshes)
+    with use_short_cuts(False):
         expected, _ = frame(seed, kinds, meshes)
-    for ours, theirs in zip(buffers(made), buffers(expected), strict=True):
+    for ours, theirs in zip(buffers(cached), buffers(expected), strict=True):
         assert ours == theirs
-    assert made.storage.queries == expected.storage.queries
+    assert cached.storage.queries == expected.storage.queries
 
 
 @given(st.integers(0, 2**32 - 1), KINDS)
-def test_buffers_are_those_without_memory(seed, kinds):
-    assert_memory_makes_no_difference(seed, kinds)
+def test_buffers_are_those_without_the_cache(seed, kinds):
+    assert_cache_makes_no_difference(seed, kinds)
 
 
 @pytest.mark.parametrize("other", [False, True])
 @pytest.mark.parametrize("between", CALLS)
-def test_whatever_happens_between_equal_draws_buffers_are_those_without_memory(between, other):
+def test_whatever_happens_between_equal_draws_buffers_are_those_without_the_cache(between, other):
     changes = ["upload_depths"] * (not other)  # of the texture: what is copied from it is never the same
     kinds = [*["clear", "draw"] * 2, *["clear", "draw", *changes, between, "draw"] * 3]
-    assert_memory_makes_no_difference(3, ["other_framebuffer"] * other + kinds, meshes=1)
+    assert_cache_makes_no_difference(3, ["other_framebuffer"] * other + kinds, meshes=1)
 
 
 def test_equal_draws_over_cleared_depths_are_only_shaded():
-    # of 8 pairs one is seen first, and one is kept over each of two depths that `clear` chooses from
+    # of 8 pairs one is seen first, and one is cached over each of two depths that `clear` chooses from
     assert frame(3, SAMPLES, meshes=1)[1] == 10
 
 
@@ -242,24 +230,24 @@ def test_a_draw_over_depths_that_a_texture_was_given_is_filled(between):
     assert frame(3, [*kinds, "clear", between, "draw"], meshes=1)[1] == 1
 
 
-def test_what_was_kept_in_vain_is_not_kept_again():
+def test_entries_evicted_without_a_hit_are_not_cached_again():
     gl.create_context(SIZE, SIZE)
     context, _ = frame(1, ["clear", "draw", "draw", "draw", "draw"] * 2)
-    visibility = context.storage.visibility_cache
-    visibility.kept.clear()
+    cache = context.storage.visibility_cache
+    cache.entries.clear()
     rng = np.random.default_rng(5)
     mesh = meshed(context, rng)
     for _ in range(2):
         clear(context, rng, [])
         draw(context, rng, [mesh, mesh])
-    assert len(visibility.kept) == 1
-    pipeline.clear_visibility_cache(context.storage)
+    assert len(cache.entries) == 1
+    clear_visibility_cache(context.storage)
     clear(context, rng, [])
     draw(context, rng, [mesh, mesh])
-    assert not visibility.kept
+    assert not cache.entries
 
 
-def test_no_more_is_kept_than_there_is_room_for(monkeypatch):
-    monkeypatch.setattr(reuse, "CACHE_BYTES", 5000)
+def test_the_cache_stays_within_its_bytes(monkeypatch):
+    monkeypatch.setattr(visibility_cache, "CACHE_BYTES", 5000)
     context, _ = frame(4, ["clear", "draw", "draw", "draw_in_a_box", "draw_with_offset"] * 6)
-    assert sum(kept.bytes for kept in context.storage.visibility_cache.kept.values()) <= 5000
+    assert sum(entry.bytes for entry in context.storage.visibility_cache.entries.values()) <= 5000

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from softshadow.pipeline.raster.bins import bands_of, sort_into_bands
 from softshadow.pipeline.raster.coverage import bounds, extent
-from softshadow.pipeline.raster.fill import Region
+from softshadow.pipeline.records import Region
 
 pytestmark = pytest.mark.interpreted
 

@@ -1,4 +1,4 @@
-"""Spans of fragments: how they are found, cut into batches, interpolated and written."""
+"""Spans of fragments: how they are found, cut into chunks, interpolated and written."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 from softshadow import tokens as gl
 from softshadow.image import FORMATS, Image
 from softshadow.pipeline import set_threads, threads
-from softshadow.pipeline.geometry.triangle_setup import Setup
+from softshadow.pipeline.records import Setup, Spans
 from softshadow.pipeline.shade import interpolate as interpolation
-from softshadow.pipeline.shade import visible_spans as spans_module
+from softshadow.pipeline.shade import visible_spans as visible_spans_module
 from softshadow.pipeline.shade.color_writes import color_writer
 from softshadow.pipeline.shade.interpolate import LONG, interpolate, planes_of
-from softshadow.pipeline.shade.visible_spans import Spans, fragments_of, spans_of, visible_spans
+from softshadow.pipeline.shade.visible_spans import fragments_of, spans_of, visible_spans
 from softshadow.state import Blend, State
 
 pytestmark = pytest.mark.interpreted
@@ -29,8 +29,8 @@ def some_ids(seed):
     return np.repeat(rng.integers(-1, 3, (5, SIZE // 2), dtype=np.int32), rng.integers(1, 4, SIZE // 2), axis=1)
 
 
-def two_runs(long):
-    """Spans of one row and triangle: one long run, or the same pixels one by one."""
+def span_or_pixels(long):
+    """Spans of one row and triangle: one long span, or the same pixels one by one."""
     count = LONG + 5
     if long:
         row, left, start = np.array([3]), np.array([2]), np.array([0, count])
@@ -60,8 +60,8 @@ def on_threads(count, function, *arguments):
 
 
 @pytest.mark.parametrize("rows", [1, 3, SIZE])
-def test_parts_of_the_rows_together_have_the_runs_of_all(monkeypatch, rows):
-    monkeypatch.setattr(spans_module, "ROWS", rows)
+def test_parts_of_the_rows_together_have_the_spans_of_all(monkeypatch, rows):
+    monkeypatch.setattr(visible_spans_module, "ROWS", rows)
     for seed in range(20):
         whole, parts = (on_threads(count, visible_spans, some_ids(seed), 7) for count in (1, 3))
         assert all(np.array_equal(a, b) for a, b in zip(parts, whole, strict=True))
@@ -88,7 +88,7 @@ def test_planes_are_the_same_in_parts(monkeypatch, at_a_time):
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 30))
-def test_batches_are_all_runs_one_after_the_other(seed, size):
+def test_chunks_are_all_spans_one_after_the_other(seed, size):
     spans = visible_spans(some_ids(seed), 0)
     parts = [spans.part(first, end) for first, end in pairwise(spans.chunks(size))]
     together = [np.concatenate(fields) for fields in zip(*map(fragments_of, parts), strict=True)] if parts else []
@@ -97,7 +97,7 @@ def test_batches_are_all_runs_one_after_the_other(seed, size):
     assert all(part.fragments <= size + 3 * SIZE for part in parts)
 
 
-def test_no_fragments_have_no_runs():
+def test_no_fragments_have_no_spans():
     nothing = visible_spans(np.full((2, 3), -1, np.int32), 0)
     assert nothing.fragments == 0
     assert len(nothing.chunks(10)) == 1
@@ -112,7 +112,7 @@ def test_a_long_run_is_interpolated_like_its_pixels(real):
     for long in (True, False):
         out = np.zeros((5, LONG + 5), real)
         columns = np.arange(64, dtype=real)
-        interpolate(planes, np.zeros(1, np.int32), *two_runs(long), columns, flat, out)
+        interpolate(planes, np.zeros(1, np.int32), *span_or_pixels(long), columns, flat, out)
         found.append(out[:4])
     assert np.array_equal(*found)
     assert (found[0][1] == planes[0, 0, 1]).all()
@@ -126,7 +126,7 @@ def test_a_run_is_written_under_the_color_mask(mask, adding, internal):
     rng = np.random.default_rng(2)
     image = Image.new(FORMATS[internal], 32, 4, internal)
     image.cells[..., :3] = rng.integers(0, 256, image.cells[..., :3].shape)
-    before, spans = image.cells.copy(), two_runs(long=True)
+    before, spans = image.cells.copy(), span_or_pixels(long=True)
     ones = Blend(adding, gl.GL_ONE, gl.GL_ONE, gl.GL_ONE, gl.GL_ONE)
     state = replace(State(), blend=ones, color=replace(State().color, mask=mask))
     colors = rng.uniform(-1, 2, (spans.fragments, 4)).astype(np.float32)

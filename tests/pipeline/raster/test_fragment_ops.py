@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from oracle.fragment import TESTS, fragment
 from softshadow import tokens as gl
 from softshadow.framebuffer import default_framebuffer
-from softshadow.pipeline.raster.fragment_ops import VERDICTS, fragment_ops, process_fragment
+from softshadow.pipeline.raster.fragment_ops import fragment_ops, process_fragment
+from softshadow.pipeline.records import VERDICTS
 from softshadow.state import State
 from strategies import fragment_states
 

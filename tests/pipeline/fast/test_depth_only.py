@@ -1,4 +1,4 @@
-"""Draws without colours, a few triangles at a time: the bits of the draw with all of them at once."""
+"""Draws without colours, a few triangles at a time, leave the bits of the draw with all of them at once."""
 
 from dataclasses import replace
 
@@ -8,17 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from draws import draw, random_state, random_triangles, same_window, small_triangles
-from softshadow import pipeline
 from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.pipeline import set_threads, threads
+from softshadow.pipeline import choose, set_threads, threads, use_short_cuts
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.fast import depth_only as portions
-from softshadow.pipeline.fast import specialize as binding
+from softshadow.pipeline.fast import depth_only
 from softshadow.pipeline.fast.depth_only import chunks_of
-from softshadow.pipeline.geometry.geometry import region_of
-from softshadow.pipeline.memory import threads as bands
+from softshadow.pipeline.memory import threads as pool
 from softshadow.pipeline.raster.coverage import extent
+from softshadow.pipeline.raster.region import region_of
 from softshadow.state import ClipPlanes
 
 seeds = st.integers(0, 2**32 - 1)
@@ -46,21 +44,20 @@ def colorless(seed: int, depth_format: str) -> Context:
 
 
 def all_at_once(seed: int, depth_format: str) -> Context:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(pipeline, "writes_no_colors", lambda command, target: False)
+    with use_short_cuts(False):
         return colorless(seed, depth_format)
 
 
 @pytest.mark.interpreted
 @given(seeds, st.sampled_from(["d24", "d32f"]), st.sampled_from([1, 3]), st.sampled_from([1, 7, 16]))
-def test_portions_leave_what_all_triangles_at_once_leave(seed, depth_format, count, size):
+def test_chunks_leave_what_all_triangles_at_once_leave(seed, depth_format, count, size):
     before = threads()
     expected = all_at_once(seed, depth_format)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(portions, "CHUNK_TRIANGLES", size)
-        patch.setattr(bands, "PART", 1 + size // 3)
-        for name in ("WORTH", "WORTH_COUNTING"):  # so small a window would not be divided
-            patch.setattr(binding, name, 0)
+        patch.setattr(depth_only, "CHUNK_TRIANGLES", size)
+        patch.setattr(pool, "PART", 1 + size // 3)
+        for name in ("WORTH_BANDS", "WORTH_BANDS_IN_TILES"):  # so small a window would not be divided
+            patch.setattr(choose, name, 0)
         set_threads(count)
         try:
             assert same_window(colorless(seed, depth_format), expected)
@@ -69,14 +66,14 @@ def test_portions_leave_what_all_triangles_at_once_leave(seed, depth_format, cou
 
 
 @given(seeds)
-def test_a_portion_has_the_rows_and_the_area_of_its_triangles(seed):
+def test_a_chunk_has_the_rows_and_the_area_of_its_triangles(seed):
     context = colorless(seed, "d24")
     for command in context.frame.commands:
         if not isinstance(command, Draw):
             continue
         whole = region_of(command.state, context.storage.window)
-        for triangles, runs, region, fragments in chunks_of(command, context.storage.window):
-            extents = [extent(triangles.corners, first, end) for first, end in runs]
+        for triangles, ranges, region, fragments in chunks_of(command, context.storage.window):
+            extents = [extent(triangles.corners, first, end) for first, end in ranges]
             assert fragments == sum(area for *_, area in extents) >> 8
             for first_row, end_row, _ in extents:
                 first_row, end_row = max(first_row, whole.first_row), min(end_row, whole.end_row)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from softshadow import tokens as gl
-from softshadow.pipeline.geometry.assembly import assemble, in_clipped_batch
+from softshadow.pipeline.geometry.assembly import assemble
+from softshadow.pipeline.mesa.quad_cuts import in_clipped_segment
 
 
 @pytest.mark.parametrize(
@@ -27,27 +28,27 @@ def test_vertices_make_triangles_in_the_order_of_the_specification(mode, count, 
 def test_quads_of_a_batch_that_is_clipped_are_cut_along_the_other_diagonal():
     outside = np.zeros(12, bool)
     outside[9] = True
-    assert in_clipped_batch(gl.GL_QUADS, outside, None).tolist() == [True] * 3
+    assert in_clipped_segment(gl.GL_QUADS, outside, None).tolist() == [True] * 3
     made = assemble(gl.GL_QUADS, 8, np.array([False, True]))
     assert made.corners.tolist() == [[0, 1, 2], [0, 2, 3], [4, 5, 7], [5, 6, 7]]
 
 
 def test_vertices_that_complete_no_quad_do_not_clip_a_batch():
     outside = np.array([False] * 4 + [True])
-    assert in_clipped_batch(gl.GL_QUADS, outside, None).tolist() == [False]
+    assert in_clipped_segment(gl.GL_QUADS, outside, None).tolist() == [False]
 
 
 def test_batches_end_after_4096_vertices():
     outside = np.zeros(8192, bool)
     outside[4096] = True
-    clipped = in_clipped_batch(gl.GL_QUADS, outside, None)
+    clipped = in_clipped_segment(gl.GL_QUADS, outside, None)
     assert clipped.tolist() == [False] * 1024 + [True] * 1024
 
 
 def test_indices_with_a_short_range_take_its_unnamed_vertices_along():
     outside = np.array([False] * 4 + [True] + [False] * 4)
-    assert in_clipped_batch(gl.GL_QUADS, outside, np.array([0, 1, 2, 3, 5, 6, 7, 8, 0, 1, 2, 3])).all()
-    assert not in_clipped_batch(gl.GL_QUADS, outside, np.array([0, 1, 2, 8])).any()
+    assert in_clipped_segment(gl.GL_QUADS, outside, np.array([0, 1, 2, 3, 5, 6, 7, 8, 0, 1, 2, 3])).all()
+    assert not in_clipped_segment(gl.GL_QUADS, outside, np.array([0, 1, 2, 8])).any()
 
 
 @pytest.mark.parametrize("mode", range(gl.GL_TRIANGLES, gl.GL_POLYGON + 1))

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from softshadow import gl
 from softshadow.pipeline.geometry.clip import outcodes
 from softshadow.pipeline.geometry.lines import assemble_lines, clip_lines, set_up_lines
-from softshadow.pipeline.raster.fill import Region
 from softshadow.pipeline.raster.ordered import list_fragments
+from softshadow.pipeline.records import Region
 
 pytestmark = pytest.mark.interpreted
 

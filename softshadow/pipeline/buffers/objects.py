@@ -1,0 +1,118 @@
+"""Texture, framebuffer and renderbuffer objects: made, filled with images, attached and deleted."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from softshadow.framebuffer import DEFAULT, NOTHING, Attachment, Framebuffer, Storage, plane_for
+from softshadow.image import Image
+from softshadow.pipeline.commands import (
+    AttachRenderbuffer,
+    AttachTexture,
+    CreateFramebuffer,
+    CreateTexture,
+    DefineImage,
+    DefineRenderbuffer,
+    DeleteFramebuffers,
+    DeleteRenderbuffers,
+    DeleteTextures,
+    SelectBuffers,
+    SetSampler,
+    UpdateImage,
+)
+from softshadow.texture import Texture
+
+
+def create_texture(command: CreateTexture, storage: Storage) -> None:
+    """Make a texture object without images."""
+    storage.textures[command.texture] = Texture(command.texture, command.target)
+
+
+def define_image(command: DefineImage, storage: Storage) -> None:
+    """Give a level of a texture a new image; framebuffers that the level is attached to get it, too."""
+    image = Image.new(command.format, command.width, command.height, command.internal_format)
+    if command.cells is not None:
+        image.view[:] = command.cells
+    if command.stencil is not None and image.stencil is not None:
+        image.stencil.view[:] = command.stencil
+    storage.textures[command.texture].images[command.face, command.level] = image
+    storage.reattach(command.texture, command.face, command.level, image)
+
+
+def update_image(command: UpdateImage, storage: Storage) -> None:
+    """Write a rectangle of a level of a texture."""
+    image = storage.textures[command.texture].images[command.face, command.level]
+    for target, cells in ((image, command.cells), (image.stencil, command.stencil)):
+        if target is not None and cells is not None:
+            height, width = cells.shape[:2]
+            target.view[command.y : command.y + height, command.x : command.x + width] = cells
+
+
+def set_sampler(command: SetSampler, storage: Storage) -> None:
+    """Set the sampler state of a texture object."""
+    storage.textures[command.texture].sampler = command.sampler
+
+
+def delete_textures(command: DeleteTextures, storage: Storage) -> None:
+    """Delete texture objects; names without one are ignored."""
+    for name in command.textures:
+        storage.textures.pop(name, None)
+
+
+def create_framebuffer(command: CreateFramebuffer, storage: Storage) -> None:
+    """Make a framebuffer object without attachments."""
+    storage.framebuffers[command.framebuffer] = Framebuffer(command.framebuffer)
+
+
+def delete_framebuffers(command: DeleteFramebuffers, storage: Storage) -> None:
+    """Delete framebuffer objects; the window stays, and names without one are ignored."""
+    for name in command.framebuffers:
+        if name != DEFAULT:
+            storage.framebuffers.pop(name, None)
+
+
+def define_renderbuffer(command: DefineRenderbuffer, storage: Storage) -> None:
+    """Give a renderbuffer a new image of zeros; framebuffers that it is attached to get it, too."""
+    image = Image.new(command.format or NOTHING, command.width, command.height, command.internal_format)
+    storage.renderbuffers[command.renderbuffer] = image
+    for target in storage.framebuffers.values():
+        for point, attachment in target.attachments.items():
+            if attachment.renderbuffer == command.renderbuffer:
+                target.attachments[point] = replace(attachment, image=plane_for(image, point))
+
+
+def delete_renderbuffers(command: DeleteRenderbuffers, storage: Storage) -> None:
+    """Delete renderbuffers; names without one are ignored."""
+    for name in command.renderbuffers:
+        storage.renderbuffers.pop(name, None)
+
+
+def attach_texture(command: AttachTexture, storage: Storage) -> None:
+    """Attach a level of a texture to a framebuffer, or detach what is there (texture 0)."""
+    attachments = storage.framebuffers[command.framebuffer].attachments
+    if command.texture == 0:
+        attachments.pop(command.attachment, None)
+        return
+    images = storage.textures[command.texture].images
+    image = images.get((command.face, command.level)) or Image.new(NOTHING, 0, 0)
+    attached = plane_for(image, command.attachment)
+    attachments[command.attachment] = Attachment(attached, command.texture, command.face, command.level)
+
+
+def attach_renderbuffer(command: AttachRenderbuffer, storage: Storage) -> None:
+    """Attach a renderbuffer to a framebuffer, or detach what is there (renderbuffer 0)."""
+    attachments = storage.framebuffers[command.framebuffer].attachments
+    if command.renderbuffer == 0:
+        attachments.pop(command.attachment, None)
+        return
+    attached = plane_for(storage.renderbuffers[command.renderbuffer], command.attachment)
+    attachments[command.attachment] = Attachment(attached, renderbuffer=command.renderbuffer)
+
+
+def select_buffers(command: SelectBuffers, storage: Storage) -> None:
+    """Set the draw buffers and the read buffer of a framebuffer."""
+    target = storage.framebuffers[command.framebuffer]
+    if command.draw_buffers is not None:
+        target.draw_buffers = command.draw_buffers
+    if command.read_buffer is not None:
+        target.read_buffer = command.read_buffer

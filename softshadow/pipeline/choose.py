@@ -1,0 +1,278 @@
+"""Which way a draw goes, and why: every decision between the textbook and its short cuts.
+
+The textbook is in `geometry/`, `raster/` and `shade/`; the short cuts are in `fast/`. All ways leave the same buffers.
+What the state decides is decided before the geometry (`plan_draw`); what depends on the triangles, after it
+(`choose_fill`, `choose_shading`). `explain_paths` collects the decisions, `use_short_cuts` turns the short cuts off.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from typing import Literal, NamedTuple
+
+from softshadow import tokens as gl
+from softshadow.framebuffer import Framebuffer
+from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.geometry.lines import LINES
+from softshadow.pipeline.geometry.polygon_mode import is_filled
+from softshadow.pipeline.memory.threads import threads
+from softshadow.pipeline.raster.bins import ROWS_LOG2
+from softshadow.pipeline.raster.fill import FillKernel, fill_triangles
+from softshadow.pipeline.raster.fragment_ops import FragmentOps, fragment_ops
+from softshadow.pipeline.records import Geometry, Region, Spans
+from softshadow.pipeline.shade.shading import shade_and_write
+from softshadow.state import State
+
+PAYS_AFTER = (
+    200_000_000  # fragments of one state; measured: `fill_triangles` fills them in the time that compiling takes
+)
+WORTH_BANDS = 1_000_000  # fragments from which sorting and the hand-over to threads are small against the work
+SMALL_TRIANGLE = 100  # fragments that take as long as a small triangle
+WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volumes are long and thin
+BANDS_PER_THREAD = 4  # so that the other threads can make up for one that takes longer
+LAYERS = 4  # of fragments over each other, from which bands pay on one thread, too
+
+Policy = bool | Literal["always"]
+
+_short_cuts: ContextVar[Policy] = ContextVar("short_cuts", default=True)  # each thread has its own
+_explained: ContextVar[list[DrawPath] | None] = ContextVar("explained", default=None)
+_drawn: dict[tuple[int, ...], int] = {}  # fragments per state that is not compiled
+
+
+@contextmanager
+def use_short_cuts(policy: Policy) -> Iterator[None]:
+    """Inside, draws use the short cuts of `softshadow.pipeline.fast` or not; results are the same.
+
+    Parameters
+    ----------
+    policy : bool or "always"
+        False: only the textbook; True: where they pay, which is the default; "always": fill kernels are compiled for
+        every state at once, even where compiling takes longer than it saves.
+
+    Raises
+    ------
+    ValueError
+        `policy` is none of these.
+
+    Examples
+    --------
+    >>> import softshadow as ss
+    >>> with ss.use_short_cuts(False):
+    ...     textbook = ss.run("planar", "boxes", size=(64, 48))
+    >>> bool((textbook.image == ss.run("planar", "boxes", size=(64, 48)).image).all())
+    True
+    """
+    if policy is not True and policy is not False and policy != "always":
+        raise ValueError(f"use_short_cuts({policy!r}): expected True, False or 'always'")
+    token = _short_cuts.set(policy)
+    try:
+        yield
+    finally:
+        _short_cuts.reset(token)
+
+
+@dataclass
+class DrawPath:
+    """The way that one draw went.
+
+    Attributes
+    ----------
+    label : str              the debug groups of the draw ("step/torus")
+    mode : int               GL_POINTS ... GL_POLYGON
+    way, fill, shading : str which way it went; "" where nothing was filled or shaded
+    reasons : list of str    why, in the order of the decisions
+    """
+
+    label: str
+    mode: int
+    way: str = ""
+    fill: str = ""
+    shading: str = ""
+    reasons: list[str] = field(default_factory=list)
+
+    def note(self, reason: str) -> None:
+        """Add a reason, once."""
+        if reason not in self.reasons:
+            self.reasons.append(reason)
+
+
+@contextmanager
+def explain_paths() -> Iterator[list[DrawPath]]:
+    """Inside, the list in the with statement receives the way of every draw of this thread."""
+    paths: list[DrawPath] = []
+    token = _explained.set(paths)
+    try:
+        yield paths
+    finally:
+        _explained.reset(token)
+
+
+class Plan(NamedTuple):
+    """What the state decides about a draw.
+
+    in_order: fragments are tested and written one by one; writes_color: colours may change; in_chunks: set up and fill
+    some triangles at a time; cached: look for an equal fill in the visibility cache; try_unordered: find out whether
+    blended fragments overlap; front, back: the per-fragment operations of each facing.
+    """
+
+    in_order: bool
+    writes_color: bool
+    in_chunks: bool
+    cached: bool
+    try_unordered: bool
+    front: FragmentOps
+    back: FragmentOps
+    path: DrawPath
+
+
+def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
+    """Return what the state decides about a draw; `counting`: its fragments are counted, so each is processed once."""
+    state, path = command.state, DrawPath(command.label, command.mode)
+    explained = _explained.get()
+    if explained is not None:
+        explained.append(path)
+    front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
+    in_order, writes_color = needs_order(state), bool(target.colors) and any(state.color.mask)
+    short = bool(_short_cuts.get()) and not counting
+    in_chunks = short and not in_order and writes_no_colors(command, target)
+    try_unordered = (
+        short and in_order and writes_color and not tests_alpha(state) and keeps_depth_and_stencil(front, back)
+    )
+    cached = short and not in_order and writes_color
+    path.way = "in order" if in_order else "depth and stencil only, in chunks" if in_chunks else "opaque"
+    if counting:
+        path.note("fragments are counted: no short cut")
+    elif not short:
+        path.note("short cuts are off")
+    if in_order:
+        why = "the alpha test reads colours" if tests_alpha(state) else "blending or logic op depends on drawing order"
+        path.note(why)
+    elif in_chunks:
+        path.note("no colour is written or tested")
+    return Plan(in_order, writes_color, in_chunks, cached, try_unordered, front, back, path)
+
+
+def needs_order(state: State) -> bool:
+    """Return whether a draw's colours depend on the order of its fragments, or its fragments on their colours."""
+    return tests_alpha(state) or state.blend.enabled or state.blend.logic_enabled
+
+
+def tests_alpha(state: State) -> bool:
+    """Return whether a fragment's colour decides if it passes."""
+    return state.alpha.enabled and state.alpha.func != gl.GL_ALWAYS
+
+
+def writes_no_colors(command: Draw, target: Framebuffer) -> bool:
+    """Return whether a draw is of filled triangles, and no colour is written or decides about a fragment."""
+    state = command.state
+    if command.mode in (gl.GL_POINTS, *LINES) or not is_filled(state) or (target.colors and any(state.color.mask)):
+        return False
+    # where Mesa shades all the same, with flat colours it may cut quads in another way, see `Varyings.flat_input`
+    is_shaded, is_flat = target.colors or state.alpha.enabled, state.lighting.shade_model == gl.GL_FLAT
+    return not is_shaded or not (command.program_name or is_flat)
+
+
+def keeps_depth_and_stencil(front: FragmentOps, back: FragmentOps) -> bool:
+    """Return whether fragments change neither depth nor stencil, and are likely those of a surface drawn before."""
+    for ops in (front, back):
+        keeps_stencil = ops.write_mask == 0 or (ops.sfail, ops.zfail, ops.zpass) == (gl.GL_KEEP,) * 3
+        if not keeps_stencil or ops.depth_write or ops.depth_func not in (gl.GL_EQUAL, gl.GL_LEQUAL):
+            return False
+    return True
+
+
+class FillChoice(NamedTuple):
+    """The kernel that fills, and the binary logarithm of how many rows a band has (0: no bands)."""
+
+    kernel: FillKernel
+    band_rows_log2: int
+
+
+def choose_fill(
+    plan: Plan, triangles: int, fragments: int, region: Region, *, writes_ids: int = 0, counting: bool = False
+) -> FillChoice:
+    """Return how to fill so many triangles with about so many fragments; `writes_ids` is 0, LAST or ONLY."""
+    front, back, path = plan.front, plan.back, plan.path
+    two_sided, in_tiles = int(front != back), False
+    kernel: FillKernel | None = None
+    if _short_cuts.get() and not counting:
+        # imported here: the textbook must work without the folder
+        from softshadow.pipeline.fast import specialize
+        from softshadow.pipeline.fast.hierarchical_z import order_independent
+
+        if not writes_ids and order_independent(front, back):
+            keys = [specialize.tiles_key(ops) for ops in ((front, back) if two_sided else (front,))]
+            in_tiles = all(_is_specialized(key, fragments, path) for key in keys)
+            kernel = specialize.tiles_kernel(front, back) if in_tiles else None
+        if kernel is None and _is_specialized(specialize.rows_key(front, back, two_sided, writes_ids), fragments, path):
+            kernel = specialize.rows_kernel(front, back, two_sided, writes_ids)
+    path.fill = "textbook" if kernel is None else "stencil tiles" if in_tiles else "specialized"
+    if kernel is None:
+
+        def kernel(front: FragmentOps, back: FragmentOps, *rest: object) -> None:
+            fill_triangles(front, back, two_sided, writes_ids, int(counting), *rest)
+
+    worth = fragments >= WORTH_BANDS_IN_TILES if in_tiles else fragments + SMALL_TRIANGLE * triangles >= WORTH_BANDS
+    if counting or not worth or not _bands_pay(region, fragments):
+        return FillChoice(kernel, 0)
+    path.fill += " in bands"
+    return FillChoice(kernel, _band_rows_log2(region, fragments))
+
+
+def _is_specialized(key: tuple[int, ...], fragments: int, path: DrawPath) -> bool:
+    """Return whether to use the kernel compiled for a state: it is compiled already, or compiling it pays now."""
+    from softshadow.pipeline.fast import specialize
+
+    if key in specialize.compiled:
+        path.note("the state is compiled")
+        return True
+    if _short_cuts.get() == "always":
+        path.note("the state is compiled, as asked for")
+        return True
+    _drawn[key] = _drawn.get(key, 0) + fragments
+    if _drawn[key] > PAYS_AFTER:
+        path.note(f"the state has drawn more than {PAYS_AFTER} fragments: compiling it pays")
+        return True
+    if specialize.is_on_disk(key):
+        path.note("the state was compiled before: its code is on disk")
+        return True
+    path.note(f"the state is not compiled before it has drawn {PAYS_AFTER} fragments")
+    return False
+
+
+def _bands_pay(region: Region, fragments: int) -> bool:
+    """Return whether to sort the triangles into bands of rows.
+
+    They pay for several threads, and for one where many layers lie on each other: the rows of a band stay in the cache
+    while all layers are drawn.
+    """
+    return region.end_row - region.first_row > 1 << ROWS_LOG2 and (threads() > 1 or _has_layers(region, fragments))
+
+
+def _has_layers(region: Region, fragments: int) -> bool:
+    return fragments > LAYERS * (region.right - region.left) * (region.end_row - region.first_row)
+
+
+def _band_rows_log2(region: Region, fragments: int) -> int:
+    """Return the binary logarithm of how many rows a band has: few bands where each has little to do."""
+    if _has_layers(region, fragments):
+        return ROWS_LOG2
+    rows = int(region.end_row - region.first_row) // (BANDS_PER_THREAD * threads())
+    return max(ROWS_LOG2, rows.bit_length() - 1)
+
+
+def choose_shading(plan: Plan, state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None]:
+    """Return the function that shades spans of a draw without overlaps and writes their colours."""
+    if _short_cuts.get():
+        from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
+
+        shader = shadow_map_shader(state, target, geometry)
+        if shader is not None:
+            plan.path.shading = "shadow-map kernel"
+            plan.path.note("plain depth map and one buffer of bytes without blending")
+            return shader
+    plan.path.shading = "program"
+    return lambda spans: shade_and_write(state, target, geometry, spans, ordered=False)

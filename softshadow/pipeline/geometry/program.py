@@ -1,0 +1,44 @@
+"""The shading program of a draw, and the textures that it samples."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from softshadow import programs
+from softshadow import tokens as gl
+from softshadow.framebuffer import Storage
+from softshadow.pipeline.commands import Draw
+from softshadow.programs import Program
+from softshadow.state import State
+from softshadow.texture import Texture, stored_name
+
+
+def program_of(command: Draw, storage: Storage) -> tuple[Program, Mapping[str, Any]]:
+    """Return the program of a draw and its uniforms, samplers resolved to textures."""
+    bound = bound_textures(command.state, storage)
+    if not command.program_name:
+        from softshadow.programs import fixed_function
+
+        return fixed_function.program(command.state, bound), command.uniforms
+    program = programs.get(command.program_name)
+    textures = {
+        name: bound.get((value, gl.GL_TEXTURE_CUBE_MAP if name in program.cube_samplers else gl.GL_TEXTURE_2D))
+        for name, value in command.uniforms.items()
+        if name in program.samplers
+    }
+    blocks = any(texture is not None and programs.needs_blocks(texture) for texture in textures.values())
+    program = replace(program, blocks=True) if blocks else program
+    return program, {**command.uniforms, **textures}
+
+
+def bound_textures(state: State, storage: Storage) -> dict[tuple[int, int], Texture]:
+    """Return what is bound by (unit, target), as the units sample it."""
+    bound = {}
+    for index, unit in enumerate(state.units):
+        for target, name in ((gl.GL_TEXTURE_2D, unit.bound_2d), (gl.GL_TEXTURE_CUBE_MAP, unit.bound_cube)):
+            texture = storage.textures.get(stored_name(target, name))
+            if texture is not None:
+                bound[index, target] = texture.in_unit(unit.lod_bias, state.cube_maps.seamless)
+    return bound

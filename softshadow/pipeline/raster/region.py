@@ -1,0 +1,57 @@
+"""Where a draw may write: the scissor box, the range of depth, and the rows that its triangles meet."""
+
+import numpy as np
+
+from softshadow.framebuffer import Framebuffer
+from softshadow.pipeline.memory.threads import parts_of, share
+from softshadow.pipeline.raster.coverage import extent
+from softshadow.pipeline.records import DepthRange, Region, Setup
+from softshadow.state import State
+
+
+def region_of(state: State, target: Framebuffer) -> Region:
+    """Return where a draw may write: the buffers, inside the scissor box if that test is on."""
+    width, height = target.size
+    left, right, bottom, top = 0, width, 0, height
+    if state.scissor.enabled:
+        box = state.scissor
+        left, right = max(left, box.x), min(right, box.x + box.width)
+        bottom, top = max(bottom, box.y), min(top, box.y + box.height)
+    right, top = max(left, right), max(bottom, top)
+    first, end = (height - top, height - bottom) if target.flipped else (bottom, top)
+    return Region(left, right, first, end, int(target.flipped))
+
+
+def depth_range_of(state: State, real: type) -> DepthRange:
+    """Return the range that window z is clamped to.
+
+    It is [0, 1]; with GL_DEPTH_CLAMP, the depth range as the viewport's scale and shift give it.
+    """
+    if not state.depth.clamp:
+        return DepthRange(real(0), real(1))
+    near, far = real(state.viewport.near), real(state.viewport.far)
+    scale, shift = real(0.5) * (far - near), real(0.5) * (far + near)
+    return DepthRange(min(shift - scale, shift + scale), max(shift - scale, shift + scale))
+
+
+def covered(triangles: Setup, region: Region) -> tuple[Region, int]:
+    """Return the region cut to the rows that the triangles meet, and about how many fragments they have."""
+    parts = parts_of(len(triangles.corners))
+    extents = share(lambda n: extent(triangles.corners, *parts[n]), len(parts))
+    firsts, ends, areas = zip(*extents, strict=True)
+    cut = region._replace(first_row=max(region.first_row, min(firsts)), end_row=min(region.end_row, max(ends)))
+    return cut, sum(areas) >> 8
+
+
+def buffer_cells(target: Framebuffer, real: np.dtype) -> tuple[np.ndarray, np.ndarray]:
+    """Return depth and stencil cells; a missing buffer, whose test is off, has a stand-in of zeros."""
+    shape = padded_shape(target)
+    depth = target.depth.cells if target.depth is not None else np.zeros(shape, real)
+    stencil = target.stencil.cells if target.stencil is not None else np.zeros(shape, np.uint8)
+    return depth, stencil
+
+
+def padded_shape(target: Framebuffer) -> tuple[int, int]:
+    """Return how many rows and columns the buffers have, with their padding."""
+    shape: tuple[int, int] = next(iter(target.attachments.values())).image.shape
+    return shape

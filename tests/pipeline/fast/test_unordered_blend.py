@@ -1,0 +1,38 @@
+"""Blended draws without overlaps leave the bits of the ordered path."""
+
+from dataclasses import replace
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from draws import ADDING, MIXING, draw, same_window, surface_blended_twice, vertices
+from softshadow import tokens as gl
+from softshadow.context import Context
+from softshadow.pipeline import explain_paths, use_short_cuts
+
+
+@given(
+    st.integers(0, 2**32 - 1),
+    st.sampled_from([gl.GL_EQUAL, gl.GL_LEQUAL]),
+    st.sampled_from([ADDING, MIXING]),
+    st.booleans(),
+    st.sampled_from(["mesa", "exact"]),
+)
+def test_draws_without_overlaps_blend_as_in_order(seed, func, blending, overlapping, precision):
+    window = surface_blended_twice(seed, func, blending, overlapping, precision)
+    with use_short_cuts(False):
+        assert same_window(window, surface_blended_twice(seed, func, blending, overlapping, precision))
+
+
+def test_light_added_upon_a_surface_is_drawn_as_opaque():
+    context = Context(8, 8, "d24")
+    depth = replace(context.state.depth, enabled=True)
+    square = vertices([[-1, -1, 0, 1], [1, -1, 0, 1], [1, 1, 0, 1], [-1, -1, 0, 1], [1, 1, 0, 1], [-1, 1, 0, 1]])
+    draw(context, replace(context.state, depth=depth), square)
+    again = replace(context.state, depth=replace(depth, func=gl.GL_EQUAL, write=False), blend=ADDING)
+    twice = vertices([*square.position, *square.position])
+    with explain_paths() as paths:
+        draw(context, again, square)
+        draw(context, again, twice)
+    assert [path.way for path in paths] == ["opaque", "in order"]
+    assert "a dry run found overlapping fragments" in paths[1].reasons
