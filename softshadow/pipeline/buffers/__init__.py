@@ -1,0 +1,1 @@
+"""Commands that change buffers and objects without drawing primitives."""

@@ -1,6 +1,6 @@
-"""Draws that write no colours, half a million triangles at a time; same result as `geometry.process_geometry` and fill.
+"""Draws without colours, in chunks; equals `geometry.geometry.process_geometry`, see fast/test_depth_only.py.
 
-Tested by tests/pipeline/fast/test_depth_only.py. No fragment is shaded, so the triangles are not needed after the fill:
+No fragment is shaded, so the triangles are not needed after the fill:
 those of a chunk are set up, filled and dropped before the next chunk, which uses the same memory. Fresh pages for the
 million triangles of a mesh would take the system as long as setting the triangles up.
 """

@@ -1,6 +1,6 @@
-"""Hierarchical z: decides for a whole tile of a stencil-only draw; same result as `raster.fill.fill_rows`.
+"""Decides whole tiles of stencil-only draws; equals `raster.fill.fill_rows`, see fast/test_stencil_tiles.py.
 
-Tested by tests/pipeline/fast/test_stencil_tiles.py. The sides of shadow volumes are large and many, and change only the
+The sides of shadow volumes are large and many, and change only the
 stencil buffer. Where the largest depth of a triangle in a tile is less than the smallest stored there, all its
 fragments pass GL_LESS: nothing is read or compared, and where the triangle covers the whole tile, one counter is
 increased in place of 1024 stencil values. The depth of a triangle is monotone along rows and columns, rounding

@@ -1,6 +1,6 @@
-"""Fill small triangles by bounding box; same result as `raster.fill.fill_rows`, bit for bit.
+"""Fill small triangles by bounding box; equals `raster.fill.fill_rows`, see fast/test_specialize.py.
 
-Tested by tests/pipeline/fast/test_specialize.py. For a triangle of a few pixels, the divisions that find the ends of a
+For a triangle of a few pixels, the divisions that find the ends of a
 row cost more than the pixels. So three edge functions are evaluated at every pixel of the box; to `process_fragment`, a
 pixel outside is like one outside the scissor box: no branch decides, and its stored values are written back.
 

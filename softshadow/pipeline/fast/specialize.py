@@ -1,6 +1,6 @@
-"""Fill kernels compiled for one state: same result as `raster.fill.fill_triangles`, bit for bit.
+"""Fill kernels compiled for one state; equal to `raster.fill.fill_triangles`, see fast/test_specialize.py.
 
-Tested by tests/pipeline/fast/test_specialize.py. The kernel closes over the numbers that change the code (functions,
+The kernel closes over the numbers that change the code (functions,
 operations, enables, formats); the compiler folds them away and vectorises the loops. Compiled code is kept on disk per
 state. `choose.py` decides which states are compiled.
 """

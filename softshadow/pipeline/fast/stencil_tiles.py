@@ -1,6 +1,6 @@
-"""Fill draws that only change the stencil buffer tile by tile; same result as `raster.fill.fill_triangles`.
+"""Fill stencil-only draws tile by tile; equals `raster.fill.fill_triangles`, see fast/test_stencil_tiles.py.
 
-Tested by tests/pipeline/fast/test_stencil_tiles.py. Tiles that their depth bounds (`hierarchical_z.py`) do not decide
+Tiles that their depth bounds (`hierarchical_z.py`) do not decide
 are filled row by row, in chunks of 32 columns.
 """
 

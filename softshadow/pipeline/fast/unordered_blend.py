@@ -1,6 +1,6 @@
-"""Blended draws without overlaps are drawn as opaque ones; same result as the ordered path of `raster.ordered`.
+"""Blended draws without overlaps; equals `raster.ordered.process_fragments`, see fast/test_unordered_blend.py.
 
-Tested by tests/pipeline/fast/test_unordered_blend.py. Where each pixel takes at most one fragment, drawing order does
+Where each pixel takes at most one fragment, drawing order does
 not matter: light added upon a surface is such a draw, since the depth test passes on that surface alone. Where the
 tests change neither depth nor stencil, a dry-run fill flags pixels where a second fragment passes.
 """

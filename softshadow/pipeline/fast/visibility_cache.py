@@ -1,6 +1,6 @@
-"""Draws that repeat an earlier fill over the same depths are only shaded; same result as `raster.fill.fill`.
+"""Draws that repeat an earlier fill are only shaded; equals `raster.fill.fill`, see fast/test_visibility_cache.py.
 
-Tested by tests/pipeline/fast/test_visibility_cache.py. Soft shadows by light samples draw the same surfaces over a
+Soft shadows by light samples draw the same surfaces over a
 cleared buffer once for each of many lights. The result of a fill (depths, stencil values, visible triangles) is a pure
 function of the triangles in the window, the state of the tests, and the buffers before. All inputs are compared bit for
 bit; buffers are compared by a version token (`Image.contents`), which is lost as soon as the cells are taken. So two

@@ -1,0 +1,1 @@
+"""From a draw command to triangles in the window."""

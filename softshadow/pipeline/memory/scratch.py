@@ -14,9 +14,7 @@ import numpy as np
 SMALLEST = 1 << 16  # bytes; below, the allocator reuses memory by itself
 POOLED = 128 << 20  # bytes that are pooled for each thread that draws
 _unused = [np.empty(0, np.uint8)]
-UNUSED = sys.getrefcount(
-    _unused[0]
-)  # references to a block that is not in use: the list, and the argument of this call
+UNUSED = sys.getrefcount(_unused[0])  # references to a block not in use: the list, and this call
 
 
 class _Blocks(threading.local):

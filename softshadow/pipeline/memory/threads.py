@@ -90,6 +90,6 @@ def parts_of(count: int, size: int = PART) -> list[tuple[int, int]]:
 
 
 def share_chunks(work: Callable[[int, int], None], count: int, size: int) -> None:
-    """Call ``work(first, end)`` for chunks of `size` of ``range(count)`` on the idle threads; one chunk for one thread."""
+    """Call ``work(first, end)`` for chunks of ``range(count)`` on the idle threads; one thread gets one chunk."""
     size = size if threads() > 1 else max(count, 1)
     share(lambda n: work(n * size, min(n * size + size, count)), -(-count // size))

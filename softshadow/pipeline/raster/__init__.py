@@ -1,0 +1,1 @@
+"""From triangles to fragments: coverage, depth, and the per-fragment operations."""

@@ -1,0 +1,1 @@
+"""From visible fragments to colours in the buffers."""

@@ -1,0 +1,101 @@
+"""Every way that a draw can go leaves the same buffers, and says why it was chosen."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import softshadow as ss
+from softshadow import gl, techniques
+from softshadow.pipeline import explain_paths, use_short_cuts
+
+SIZE = (64, 48)
+
+
+def arrays(run: ss.Run) -> list[np.ndarray]:
+    """The buffers and maps after every step."""
+    return [array for step in run.steps for array in (*step.buffers, *step.maps.values())]
+
+
+def same_run(a: ss.Run, b: ss.Run) -> bool:
+    """Whether two runs have equal buffers and maps after every step."""
+    return all(np.array_equal(one, other) for one, other in zip(arrays(a), arrays(b), strict=True))
+
+
+@pytest.mark.parametrize("name", techniques.names())
+def test_every_technique_draws_the_same_without_short_cuts(name):
+    run = ss.run(name, "boxes", SIZE)
+    with use_short_cuts(False):
+        assert same_run(ss.run(name, "boxes", SIZE), run)
+
+
+WITHOUT_THE_FOLDER = """
+import sys
+import numpy as np
+
+class NoFast:
+    def find_spec(self, name, path=None, target=None):
+        if name.startswith("softshadow.pipeline.fast"):
+            raise ModuleNotFoundError(name)
+
+sys.meta_path.insert(0, NoFast())
+import softshadow as ss
+
+with ss.use_short_cuts(False):
+    run = ss.run("volume-zfail", "boxes", (64, 48))
+np.save(sys.argv[1], run.image)
+"""
+
+
+def test_the_textbook_draws_without_the_folder_of_short_cuts(tmp_path):
+    file = tmp_path / "image.npy"
+    subprocess.run([sys.executable, "-c", WITHOUT_THE_FOLDER, str(file)], check=True)
+    assert np.array_equal(np.load(file), ss.run("volume-zfail", "boxes", SIZE).image)
+
+
+@pytest.mark.parametrize("policy", ["never", 1, None])
+def test_an_unknown_policy_is_refused(policy):
+    with pytest.raises(ValueError, match="expected True, False or 'always'"), use_short_cuts(policy):
+        pass
+
+
+def draw_triangle() -> None:
+    gl.glBegin(gl.GL_TRIANGLES)
+    for x, y in ((-1, -1), (1, -1), (0, 1)):
+        gl.glVertex2f(x, y)
+    gl.glEnd()
+    gl.glFinish()
+
+
+def test_the_way_of_a_draw_is_told_with_its_reasons():
+    with gl.create_context(*SIZE), explain_paths() as paths:
+        draw_triangle()
+        gl.glEnable(gl.GL_ALPHA_TEST)
+        gl.glAlphaFunc(gl.GL_GREATER, 0.5)
+        draw_triangle()
+        gl.glDisable(gl.GL_ALPHA_TEST)
+        gl.glColorMask(False, False, False, False)
+        draw_triangle()
+        with use_short_cuts(False):
+            draw_triangle()
+    assert [path.way for path in paths] == ["opaque", "in order", "depth and stencil only, in chunks", "opaque"]
+    assert [path.shading for path in paths] == ["program", "program", "", ""]
+    assert "the alpha test reads colours" in paths[1].reasons
+    assert "no colour is written or tested" in paths[2].reasons
+    assert paths[3].reasons == ["short cuts are off"]
+    assert paths[3].fill == "textbook"
+
+
+def test_always_compiles_the_state_of_every_draw():
+    with gl.create_context(*SIZE), explain_paths() as paths, use_short_cuts("always"):
+        draw_triangle()
+    assert [path.fill for path in paths] == ["specialized"]
+
+
+def test_outside_of_the_block_nothing_is_collected():
+    with explain_paths() as paths:
+        pass
+    with gl.create_context(*SIZE):
+        draw_triangle()
+    assert paths == []
