@@ -1,8 +1,8 @@
 """Draws without colours, in chunks; equals `geometry.geometry.process_geometry`, see fast/test_depth_only.py.
 
-No fragment is shaded, so the triangles are not needed after the fill:
-those of a chunk are set up, filled and dropped before the next chunk, which uses the same memory. Fresh pages for the
-million triangles of a mesh would take the system as long as setting the triangles up.
+No fragment is shaded, so the triangles are not needed after the fill: those of a chunk are set up, filled and dropped
+before the next chunk, which uses the same memory. Fresh pages for the million triangles of a mesh would take the system
+as long as setting the triangles up.
 """
 
 from __future__ import annotations

@@ -1,11 +1,10 @@
 """Decides whole tiles of stencil-only draws; equals `raster.fill.fill_rows`, see fast/test_stencil_tiles.py.
 
-The sides of shadow volumes are large and many, and change only the
-stencil buffer. Where the largest depth of a triangle in a tile is less than the smallest stored there, all its
-fragments pass GL_LESS: nothing is read or compared, and where the triangle covers the whole tile, one counter is
-increased in place of 1024 stencil values. The depth of a triangle is monotone along rows and columns, rounding
-included, so its bounds are its values at two corners of the tile, from `depth_at` like every fragment's: exact, without
-a margin.
+The sides of shadow volumes are large and many, and change only the stencil buffer. Where the largest depth of a
+triangle in a tile is less than the smallest stored there, all its fragments pass GL_LESS: nothing is read or compared,
+and where the triangle covers the whole tile, one counter is increased in place of 1024 stencil values. The depth of a
+triangle is monotone along rows and columns, rounding included, so its bounds are its values at two corners of the tile,
+from `depth_at` like every fragment's: exact, without a margin.
 
 The counters are applied after the last triangle, which changes the order of the updates: only draws whose stencil
 updates are order-independent are filled in tiles (`order_independent`).

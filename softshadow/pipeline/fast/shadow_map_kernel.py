@@ -1,9 +1,8 @@
 """The program "shadow-map" in one kernel; equals `shade.shading.shade_and_write`, see fast/test_shadow_map_kernel.py.
 
-Soft shadows by light samples draw everything once for each of
-many lights with this program. Step by step, a fragment takes 80 bytes from kernel to kernel, and a chunk large enough
-to pay for the calls does not fit into the cache; here a few hundred fragments at a time go through the same functions
-and stay in the first-level cache.
+Soft shadows by light samples draw everything once for each of many lights with this program. Step by step, a fragment
+takes 80 bytes from kernel to kernel, and a chunk large enough to pay for the calls does not fit into the cache; here a
+few hundred fragments at a time go through the same functions and stay in the first-level cache.
 """
 
 from __future__ import annotations

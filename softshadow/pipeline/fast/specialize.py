@@ -1,8 +1,8 @@
 """Fill kernels compiled for one state; equal to `raster.fill.fill_triangles`, see fast/test_specialize.py.
 
-The kernel closes over the numbers that change the code (functions,
-operations, enables, formats); the compiler folds them away and vectorises the loops. Compiled code is kept on disk per
-state. `choose.py` decides which states are compiled.
+The kernel closes over the numbers that change the code (functions, operations, enables, formats); the compiler folds
+them away and vectorises the loops. Compiled code is kept on disk per state. `choose.py` decides which states are
+compiled.
 """
 
 import hashlib

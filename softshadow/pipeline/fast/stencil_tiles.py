@@ -1,7 +1,6 @@
 """Fill stencil-only draws tile by tile; equals `raster.fill.fill_triangles`, see fast/test_stencil_tiles.py.
 
-Tiles that their depth bounds (`hierarchical_z.py`) do not decide
-are filled row by row, in chunks of 32 columns.
+Tiles that their depth bounds (`hierarchical_z.py`) do not decide are filled row by row, in chunks of 32 columns.
 """
 
 import numpy as np

@@ -1,8 +1,8 @@
 """Blended draws without overlaps; equals `raster.ordered.process_fragments`, see fast/test_unordered_blend.py.
 
-Where each pixel takes at most one fragment, drawing order does
-not matter: light added upon a surface is such a draw, since the depth test passes on that surface alone. Where the
-tests change neither depth nor stencil, a dry-run fill flags pixels where a second fragment passes.
+Where each pixel takes at most one fragment, drawing order does not matter: light added upon a surface is such a draw,
+since the depth test passes on that surface alone. Where the tests change neither depth nor stencil, a dry-run fill
+flags pixels where a second fragment passes.
 """
 
 from collections.abc import Callable

@@ -1,10 +1,10 @@
 """Draws that repeat an earlier fill are only shaded; equals `raster.fill.fill`, see fast/test_visibility_cache.py.
 
-Soft shadows by light samples draw the same surfaces over a
-cleared buffer once for each of many lights. The result of a fill (depths, stencil values, visible triangles) is a pure
-function of the triangles in the window, the state of the tests, and the buffers before. All inputs are compared bit for
-bit; buffers are compared by a version token (`Image.contents`), which is lost as soon as the cells are taken. So two
-buffers have equal tokens only where both were cleared to the same value and then drawn to by the same draws.
+Soft shadows by light samples draw the same surfaces over a cleared buffer once for each of many lights. The result of a
+fill (depths, stencil values, visible triangles) is a pure function of the triangles in the window, the state of the
+tests, and the buffers before. All inputs are compared bit for bit; buffers are compared by a version token
+(`Image.contents`), which is lost as soon as the cells are taken. So two buffers have equal tokens only where both were
+cleared to the same value and then drawn to by the same draws.
 
 A draw is cached the second time it is seen. Entries evicted without a hit are not cached again: frames without repeated
 draws pay for one copy once.
