@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
@@ -39,7 +39,7 @@ Policy = bool | Literal["always"]
 
 _short_cuts: ContextVar[Policy] = ContextVar("short_cuts", default=True)  # each thread has its own
 _explained: ContextVar[list[DrawPath] | None] = ContextVar("explained", default=None)
-_drawn: dict[tuple[int, ...], int] = {}  # fragments per state that is not compiled
+_drawn: dict[object, int] = {}  # fragments per state that is not compiled
 
 
 @contextmanager
@@ -203,12 +203,13 @@ def choose_fill(
         from softshadow.pipeline.fast import specialize
         from softshadow.pipeline.fast.hierarchical_z import order_independent
 
+        codes = (front.code(), back.code()) if two_sided else (front.code(),)
         if not writes_ids and order_independent(front, back):
-            keys = [specialize.tiles_key(ops) for ops in ((front, back) if two_sided else (front,))]
-            in_tiles = all(_is_specialized(key, fragments, path) for key in keys)
-            kernel = specialize.tiles_kernel(front, back) if in_tiles else None
-        if kernel is None and _is_specialized(specialize.rows_key(front, back, two_sided, writes_ids), fragments, path):
-            kernel = specialize.rows_kernel(front, back, two_sided, writes_ids)
+            in_tiles = all(_is_specialized(code, fragments, path) for code in codes)
+            kernel = specialize.tiles_kernel(codes) if in_tiles else None
+        key = (codes[0], codes[-1], two_sided, writes_ids)
+        if kernel is None and _is_specialized(key, fragments, path):
+            kernel = specialize.kernel_of(key)
     path.fill = "textbook" if kernel is None else "stencil tiles" if in_tiles else "specialized"
     if kernel is None:
 
@@ -222,7 +223,7 @@ def choose_fill(
     return FillChoice(kernel, _band_rows_log2(region, fragments))
 
 
-def _is_specialized(key: tuple[int, ...], fragments: int, path: DrawPath) -> bool:
+def _is_specialized(key: Any, fragments: int, path: DrawPath) -> bool:
     """Return whether to use the kernel compiled for a state: it is compiled already, or compiling it pays now."""
     from softshadow.pipeline.fast import specialize
 

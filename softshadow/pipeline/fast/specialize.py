@@ -6,8 +6,7 @@ compiled.
 """
 
 import hashlib
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +19,8 @@ from softshadow.pipeline.raster.fill import FillKernel, fill_rows
 from softshadow.pipeline.raster.fragment_ops import FragmentOps
 from softshadow.pipeline.records import BACK, EITHER, FRONT
 
-StateKey = tuple[int, ...]
+# both facings' codes, whether they differ, and what is written of ids; or the code of one facing, for tiles
+StateKey = tuple[FragmentOps, FragmentOps, int, int] | FragmentOps
 
 compiled: dict[StateKey, FillKernel] = {}  # in this process
 
@@ -31,52 +31,36 @@ def is_on_disk(key: StateKey) -> bool:
     return marker is not None and marker.exists()
 
 
-def kernel_of(key: StateKey, specialize: Callable[[], FillKernel]) -> FillKernel:
-    """Return the kernel of a state; `specialize` makes it the first time."""
-    if key not in compiled:
-        compiled[key] = specialize()
-        marker = _marker(key)
-        if marker is not None:
-            marker.touch()
-    return compiled[key]
-
-
 def _marker(key: StateKey) -> Path | None:
     """Return the empty file that says that a state's code is on disk."""
     folder = cache_folder()
     return folder / f"state-{hashlib.blake2b(repr(key).encode(), digest_size=8).hexdigest()}" if folder else None
 
 
-def rows_key(front: FragmentOps, back: FragmentOps, two_sided: int, writes_ids: int) -> StateKey:
-    """Return the key of `rows_kernel`."""
-    return (*front.code(), *back.code(), two_sided, writes_ids)
+def kernel_of(key: StateKey) -> FillKernel:
+    """Return the kernel of a state, compiled on its first call."""
+    if key not in compiled:
+        compiled[key] = specialize_in_tiles(key) if isinstance(key, FragmentOps) else specialize(*key)
+        marker = _marker(key)
+        if marker is not None:
+            marker.touch()
+    return compiled[key]
 
 
-def rows_kernel(front: FragmentOps, back: FragmentOps, two_sided: int, writes_ids: int) -> FillKernel:
-    """Return the kernel that fills in drawing order, compiled for this state."""
-    key = rows_key(front, back, two_sided, writes_ids)
-    return kernel_of(key, lambda: specialize(front.code(), back.code(), two_sided, writes_ids))
-
-
-def tiles_kernel(front: FragmentOps, back: FragmentOps) -> FillKernel:
-    """Return the kernel that fills in tiles, for a state whose stencil updates are order-independent.
+def tiles_kernel(keys: Sequence[FragmentOps]) -> FillKernel:
+    """Return the kernel that fills in tiles, for order-independent states of one facing each, or of both (one key).
 
     All front-facing triangles are filled before the back-facing ones. So each facing uses the code that is compiled
     for draws that cull the other one.
     """
-    facings = ((front, FRONT), (back, BACK)) if front != back else ((front, EITHER),)
-    kernels = [(kernel_of(tiles_key(ops), partial(specialize_in_tiles, ops.code())), facing) for ops, facing in facings]
+    facings = (FRONT, BACK) if len(keys) > 1 else (EITHER,)
+    kernels = [(kernel_of(key), facing) for key, facing in zip(keys, facings, strict=True)]
 
     def fill_facings(front: FragmentOps, back: FragmentOps, *rest: Any) -> None:
         for fill_facing, facing in kernels:
             fill_facing(back if facing == BACK else front, facing, *rest)
 
     return fill_facings
-
-
-def tiles_key(ops: FragmentOps) -> StateKey:
-    """Return the key of `tiles_kernel` for one facing."""
-    return tuple(ops.code())
 
 
 @inlined
