@@ -1,4 +1,4 @@
-"""What softshadow raises and warns of: one message says what was wrong, where, and what was expected."""
+"""The errors and warnings of softshadow. A message says what was wrong, where, and what was expected."""
 
 import builtins
 import difflib
@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 
 class SoftShadowError(Exception):
-    """Base of all errors of this package that a user's input can cause."""
+    """Base of all errors that a user's input can cause."""
 
 
 class SceneError(SoftShadowError):
@@ -14,71 +14,71 @@ class SceneError(SoftShadowError):
 
 
 class MeshError(SceneError):
-    """A model file or mesh cannot be used: names the file and what was expected."""
+    """A model file or mesh is not usable: names the file and what was expected."""
 
 
 class StateError(SoftShadowError):
-    """A GL state or a buffer does not allow the operation."""
+    """The operation is not possible in the current GL state or with this buffer."""
 
 
 class Warning(builtins.UserWarning):
-    """Base of all warnings: legal but surprising input, and what will look wrong."""
+    """Base of all warnings: input that is legal but will look wrong."""
 
 
 class OpenMesh(Warning):
-    """A caster has boundary edges: every face casts, re-oriented towards the light."""
+    """A caster has boundary edges: every face casts, turned towards the light."""
 
 
 class TJunction(Warning):
-    """Vertices of a caster lie within boundary edges: single pixels along such an edge may leak light or shadow."""
+    """Vertices of a caster lie within boundary edges: single pixels along these edges may leak light or shadow."""
 
 
 class UnweldedMesh(Warning):
-    """Boundary vertices of a caster lie next to others, not at equal positions: the mesh is open by a hair."""
+    """Boundary vertices of a caster nearly coincide: the mesh is open only because their positions differ slightly."""
 
 
 class NonManifoldMesh(Warning):
-    """More than two faces meet in an edge."""
+    """More than two faces of a caster share an edge."""
 
 
 class MisorientedMesh(Warning):
-    """Neighbouring faces disagree about the outside: every face casts, re-oriented towards the light."""
+    """Neighbouring faces of a caster disagree about the outside: every face casts, turned towards the light."""
 
 
 class DegenerateFaces(Warning):
-    """Triangles without area: they are not seen and cast nothing."""
+    """A caster has triangles without area: they are not drawn and cast nothing."""
 
 
 class FarFromOrigin(Warning):
-    """The coordinates of a caster are much larger than the caster: float32 has few digits left for its shape."""
+    """The coordinates of a caster are much larger than the caster: float32 keeps few digits of its shape."""
 
 
 class LightInsideCaster(Warning):
-    """A light lies inside a closed caster: volumes let its light out, maps and rays keep it in."""
+    """A light is inside a closed caster: volumes let its light out, shadow maps and rays keep it in."""
 
 
 class InsideOutMesh(Warning):
-    """The triangles of a closed caster run clockwise seen from outside."""
+    """The triangles of a closed caster are clockwise seen from outside."""
 
 
 class PartlyReadFile(Warning):
-    """A model file has parts that are left out: says which and why."""
+    """Parts of a model file were left out: says which and why."""
 
 
 class NearClipZPass(Warning):
-    """The near rectangle cuts a shadow volume: z-pass counts from a wrong start value."""
+    """The near rectangle lies in a shadow volume or cuts one: z-pass starts counting from a wrong value there."""
 
 
 class OutsideLightFrustum(Warning):
-    """A point light stands among its casters: what its one shadow map does not see counts as lit."""
+    """A point light stands among its casters: whatever its single shadow map does not cover counts as lit."""
 
 
 class CounterSaturated(Warning):
-    """A stencil counter reached its largest value (or wrapped): counts above it are lost."""
+    """A stencil count reached its largest value (or wrapped): larger counts are lost."""
 
 
 def nearest(name: str, choices: Iterable[str]) -> str:
-    """Return the end of an "unknown name" message: the nearest name in either case of letters, and what there is.
+    """Return the end of an "unknown name" message: the nearest choice, ignoring case, and the list of choices.
 
     Examples
     --------
@@ -87,8 +87,8 @@ def nearest(name: str, choices: Iterable[str]) -> str:
     >>> nearest("teapot", ["planar", "volume-zfail"])
     'expected one of planar, volume-zfail'
     """
-    known = list(choices)
-    listed = ", ".join(known)
-    spelled = {each.lower(): each for each in known}
+    names = list(choices)
+    listed = ", ".join(names)
+    spelled = {each.lower(): each for each in names}
     close = difflib.get_close_matches(name.lower(), spelled, n=1, cutoff=0.5)
     return f"did you mean {spelled[close[0]]!r}? (there are: {listed})" if close else f"expected one of {listed}"
