@@ -1,4 +1,4 @@
-"""What is true: visibility by ray casting in float64, without any of the pipeline's arithmetic."""
+"""Ground truth: visibility by ray casting in float64, independent of the pipeline's arithmetic."""
 
 from softshadow.truth.ray_cast import casting_faces_between, first_faces
 

@@ -1,8 +1,8 @@
-"""How many casting faces lie between a point and the light: the oracle every shadow technique is compared with.
+"""Count the casting faces between a point and the light: the oracle that every shadow technique is compared with.
 
-The number, not just a flag, is what a stencil buffer holds after a volume technique. A segment through an edge that
-two faces share crosses exactly one of them: both evaluate the same edge function, once with each sign, and a tie goes
-to the face that runs along the edge in ascending order of its end points.
+The result is a number, as in the stencil buffer after a volume technique. A segment through an edge that two faces
+share crosses exactly one of them: both evaluate the same edge function with opposite signs, and if it is 0, the face
+that has the end points of the edge in ascending order wins.
 """
 
 from collections.abc import Sequence
@@ -29,18 +29,18 @@ def casting_faces_between(
     viewer: np.ndarray | None = None,
     faces: Faces = "casting",
 ) -> np.ndarray:
-    """Return how many faces of the casters the open segment from each point to the light crosses.
+    """Return the number of casters' faces that the open segment from each point to the light crosses.
 
     Parameters
     ----------
     points : (N, 3) float64      world space
     light : (4,) float64         homogeneous, world space; with w = 0 the segment is a ray towards the light
-    exclude : (N,), (N,) int     caster and triangle that each point lies on, -1 for none: that face and every face in
-                                 its plane do not count (by number: no distance from the point is compared)
-    viewer : (3,) float64        the point that all points are seen from. What it sees of an open body may be the side
-                                 that looks away from the light: then the point's own face does count
-    faces : str                  "casting": of closed bodies the faces that look to the light, of open ones all;
-                                 "all"; "front": of all casters the faces that look to the light
+    exclude : (N,), (N,) int     caster and triangle that each point lies on, -1 for none: that triangle, and all in
+                                 its plane, are not counted (no distance from the point is involved)
+    viewer : (3,) float64        the eye. If it sees the side of an open body that faces away from the light, the
+                                 point's own face is counted
+    faces : str                  "casting": faces of closed bodies that face the light, and all faces of open bodies;
+                                 "all": all faces; "front": all faces that face the light
 
     Returns
     -------
@@ -48,7 +48,7 @@ def casting_faces_between(
 
     Raises
     ------
-    ValueError                   wrong shapes, an unknown kind of faces
+    ValueError                   wrong shapes, an unknown value of `faces`
     """
     if faces not in FACES:
         raise ValueError(f"faces: expected one of {', '.join(FACES)}, got {faces!r}")
@@ -65,19 +65,19 @@ def casting_faces_between(
         toward = np.tile(homogeneous[:3], (len(start), 1))
         reach = np.inf
     tree = build_tree(casters)
-    own = _own_places(exclude, len(start), tree)
+    own = _own_leaves(exclude, len(start), tree)
     counts = np.zeros(len(start), dtype=np.int32)
     kind = FACES.index(faces)
-    _count(start, toward, reach, own, kind, *_arrays(tree), tree.closed, counts)
+    _count_faces(start, toward, reach, own, kind, *_arrays(tree), tree.closed, counts)
     if viewer is not None:
-        counts += _seen_from_behind(start, toward, np.asarray(viewer, dtype=np.float64), own, kind, tree)
+        counts += _own_face_counts(start, toward, np.asarray(viewer, dtype=np.float64), own, kind, tree)
     return counts
 
 
 def first_faces(
     origins: np.ndarray, directions: np.ndarray, objects: Sequence[SceneObject]
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return what each ray meets first.
+    """Return the first face that each ray hits.
 
     Parameters
     ----------
@@ -85,16 +85,16 @@ def first_faces(
 
     Returns
     -------
-    objects, triangles : (N,) int32          -1 where the ray meets nothing
-    distances : (N,) float64                 in units of the direction, infinite where the ray meets nothing
+    objects, triangles : (N,) int32          -1 if the ray hits nothing
+    distances : (N,) float64                 in units of the direction's length, infinite if the ray hits nothing
     """
     start, toward = _points("origins", origins), _points("directions", directions)
     tree = build_tree(objects)
-    places = np.full(len(start), NONE, dtype=np.int32)
+    leaves = np.full(len(start), NONE, dtype=np.int32)
     distances = np.full(len(start), np.inf)
-    _first(start, toward, *_arrays(tree), places, distances)
-    met = places != NONE
-    return np.where(met, tree.objects[places], NONE), np.where(met, tree.triangles[places], NONE), distances
+    _find_first_faces(start, toward, *_arrays(tree), leaves, distances)
+    hit = leaves != NONE
+    return np.where(hit, tree.objects[leaves], NONE), np.where(hit, tree.triangles[leaves], NONE), distances
 
 
 def _points(key: str, value: np.ndarray) -> np.ndarray:
@@ -108,23 +108,25 @@ def _arrays(tree: TriangleTree) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return tree.corners, tree.boxes, tree.flatness
 
 
-def _own_places(exclude: tuple[np.ndarray, np.ndarray] | None, count: int, tree: TriangleTree) -> np.ndarray:
-    """Return the tree place of the face that each point lies on, -1 for none."""
-    own = np.full(count, NONE, dtype=np.int32)
+def _own_leaves(exclude: tuple[np.ndarray, np.ndarray] | None, n_points: int, tree: TriangleTree) -> np.ndarray:
+    """Return (N,) int32: the leaf of the triangle that each point lies on, -1 for none."""
+    own = np.full(n_points, NONE, dtype=np.int32)
     if exclude is not None:
         objects, triangles = (np.asarray(part, dtype=np.int64) for part in exclude)
-        if objects.shape != (count,) or triangles.shape != (count,):
-            raise ValueError(f"exclude: expected two arrays of shape ({count},)")
-        known = objects >= 0
-        own[known] = tree.places[tree.starts[objects[known]] + triangles[known]]
+        if objects.shape != (n_points,) or triangles.shape != (n_points,):
+            raise ValueError(
+                f"exclude: expected two arrays of shape ({n_points},), got {objects.shape} and {triangles.shape}"
+            )
+        is_on_face = objects >= 0
+        own[is_on_face] = tree.leaves[tree.starts[objects[is_on_face]] + triangles[is_on_face]]
     return own
 
 
-def _seen_from_behind(
+def _own_face_counts(
     points: np.ndarray, toward: np.ndarray, viewer: np.ndarray, own: np.ndarray, kind: int, tree: TriangleTree
 ) -> np.ndarray:
-    """Return (N,) bool: whether each point's own face casts, and is between the light and the side that is seen."""
-    a, b, c = tree.corners[own].transpose(1, 0, 2)  # of points without a face some other face, left out below
+    """Return (N,) bool: whether each point's own face casts and lies between the light and the side that is seen."""
+    a, b, c = tree.corners[own].transpose(1, 0, 2)  # points without a face get any face, and are masked below
     normals = np.cross(b - a, c - a)
     to_light = (normals * toward).sum(axis=1)
     to_viewer = (normals * (viewer - points)).sum(axis=1)
@@ -133,10 +135,10 @@ def _seen_from_behind(
 
 
 @kernel
-def _box_is_met(box, origin, direction, reach):
-    """Whether the segment from origin to origin + reach * direction passes the box."""
+def _segment_meets_box(box, origin, direction, reach):
+    """Return whether the segment from origin to origin + reach * direction meets the box."""
     if box[0, 0] > box[1, 0]:
-        return False  # a leaf without a triangle, or a node above such leaves only
+        return False  # an empty leaf, or a node with empty leaves only
     near, far = 0.0, reach
     for axis in range(3):
         if direction[axis] == 0:
@@ -161,13 +163,13 @@ def _dot(a, b):
 
 
 @kernel
-def _minus(a, b):
+def _difference(a, b):
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
 @kernel
-def _ascends(a, b):
-    """Whether a comes before b in the order of x, then y, then z."""
+def _is_before(a, b):
+    """Return whether a comes before b in the order of x, then y, then z."""
     for axis in range(3):
         if a[axis] != b[axis]:
             return a[axis] < b[axis]
@@ -176,23 +178,23 @@ def _ascends(a, b):
 
 @kernel
 def _side(direction, a, b):
-    """On which side of the edge a to b the ray from 0 passes: +1 or -1; exactly the opposite for b to a."""
+    """Return on which side of the edge a to b the ray from 0 passes, +1 or -1; always the opposite for b to a."""
     value = _dot(direction, _cross(a, b))
     if value != 0:
         return 1 if value > 0 else -1
-    return 1 if _ascends(a, b) else -1
+    return 1 if _is_before(a, b) else -1
 
 
 @kernel
 def _crossing(corners, origin, direction):
-    """Return (sign, t): +1 for a face that looks along the direction, -1 against it, 0 for a miss."""
-    a = _minus(corners[0], origin)
-    b = _minus(corners[1], origin)
-    c = _minus(corners[2], origin)
+    """Return (sign, t): +1 if the face's normal points along the direction, -1 if against it, 0 for a miss."""
+    a = _difference(corners[0], origin)
+    b = _difference(corners[1], origin)
+    c = _difference(corners[2], origin)
     side = _side(direction, a, b)
     if side != _side(direction, b, c) or side != _side(direction, c, a):
         return 0, 0.0
-    normal = _cross(_minus(b, a), _minus(c, a))
+    normal = _cross(_difference(b, a), _difference(c, a))
     slope = _dot(normal, direction)
     if slope == 0:
         return 0, 0.0
@@ -201,18 +203,18 @@ def _crossing(corners, origin, direction):
 
 @kernel
 def _in_one_plane(own, corners, flatness):
-    """Whether all corners of a face lie in the plane of the face that the point is on."""
-    normal = _cross(_minus(own[1], own[0]), _minus(own[2], own[0]))
+    """Return whether all corners of a face lie in the plane of the point's own face."""
+    normal = _cross(_difference(own[1], own[0]), _difference(own[2], own[0]))
     limit = flatness * np.sqrt(_dot(normal, normal))
     for corner in range(3):  # noqa: SIM110 - kernels spell out their loops
-        if abs(_dot(normal, _minus(corners[corner], own[0]))) > limit:
+        if abs(_dot(normal, _difference(corners[corner], own[0]))) > limit:
             return False
     return True
 
 
 @kernel
-def _count(origins, directions, reach, own, faces, corners, boxes, flatness, closed, counts):
-    leaves = len(boxes) // 2
+def _count_faces(origins, directions, reach, own, faces, corners, boxes, flatness, closed, counts):
+    first_leaf = len(boxes) // 2
     stack = np.empty(128, dtype=np.int64)
     for ray in range(len(origins)):
         origin, direction = origins[ray], directions[ray]
@@ -221,28 +223,30 @@ def _count(origins, directions, reach, own, faces, corners, boxes, flatness, clo
         while top > 0:
             top -= 1
             node = stack[top]
-            if not _box_is_met(boxes[node], origin, direction, reach):
+            if not _segment_meets_box(boxes[node], origin, direction, reach):
                 continue
-            if node < leaves:
+            if node < first_leaf:
                 stack[top] = 2 * node
                 stack[top + 1] = 2 * node + 1
                 top += 2
                 continue
-            face = node - leaves
+            face = node - first_leaf
             sign, t = _crossing(corners[face], origin, direction)
             if sign == 0 or not 0 < t < reach:
                 continue
             if sign < 0 and (faces == FRONT or (faces == CASTING and closed[face])):
                 continue
-            mine = own[ray]
-            if mine >= 0 and (face == mine or _in_one_plane(corners[mine], corners[face], flatness[mine])):
+            own_face = own[ray]
+            if own_face >= 0 and (
+                face == own_face or _in_one_plane(corners[own_face], corners[face], flatness[own_face])
+            ):
                 continue
             counts[ray] += 1
 
 
 @kernel
-def _first(origins, directions, corners, boxes, flatness, places, distances):
-    leaves = len(boxes) // 2
+def _find_first_faces(origins, directions, corners, boxes, flatness, leaves, distances):
+    first_leaf = len(boxes) // 2
     stack = np.empty(128, dtype=np.int64)
     for ray in range(len(origins)):
         origin, direction = origins[ray], directions[ray]
@@ -251,14 +255,14 @@ def _first(origins, directions, corners, boxes, flatness, places, distances):
         while top > 0:
             top -= 1
             node = stack[top]
-            if not _box_is_met(boxes[node], origin, direction, distances[ray]):
+            if not _segment_meets_box(boxes[node], origin, direction, distances[ray]):
                 continue
-            if node < leaves:
+            if node < first_leaf:
                 stack[top] = 2 * node
                 stack[top + 1] = 2 * node + 1
                 top += 2
                 continue
-            sign, t = _crossing(corners[node - leaves], origin, direction)
+            sign, t = _crossing(corners[node - first_leaf], origin, direction)
             if sign != 0 and 0 < t < distances[ray]:
-                places[ray] = node - leaves
+                leaves[ray] = node - first_leaf
                 distances[ray] = t

@@ -1,4 +1,4 @@
-"""The oracle: counts of casting faces, each shared edge once, own plane never, as Embree sees it."""
+"""The oracle: casting faces are counted, shared edges once, the own plane never, in agreement with Embree."""
 
 import time
 
@@ -18,7 +18,7 @@ SUN = np.array([0.0, 1, 0, 0])
 
 
 def brute_force(points: np.ndarray, light: np.ndarray, mesh: Mesh) -> np.ndarray:
-    """Return the counts by Moeller & Trumbore 1997, every point against every face, no boundary care."""
+    """Return the counts by Moeller & Trumbore 1997: every point against every face, without a rule for edges."""
     a, b, c = (mesh.positions[mesh.triangles[:, i]].astype(float) for i in range(3))
     counts = np.zeros(len(points), dtype=int)
     for index, point in enumerate(points):
@@ -31,9 +31,9 @@ def brute_force(points: np.ndarray, light: np.ndarray, mesh: Mesh) -> np.ndarray
         second = np.cross(point - a, b - a)
         v = (second * direction).sum(axis=1) * scale
         t = ((c - a) * second).sum(axis=1) * scale
-        met = usable & (u > 0) & (v > 0) & (u + v < 1) & (t > 0) & ((t < 1) | (light[3] == 0))
-        met &= ~mesh.topology.closed_faces | ((mesh.face_normals * direction).sum(axis=1) > 0)
-        counts[index] = met.sum()
+        hit = usable & (u > 0) & (v > 0) & (u + v < 1) & (t > 0) & ((t < 1) | (light[3] == 0))
+        hit &= ~mesh.topology.closed_faces | ((mesh.face_normals * direction).sum(axis=1) > 0)
+        counts[index] = hit.sum()
     return counts
 
 
@@ -64,15 +64,15 @@ def test_no_caster_counts_nothing() -> None:
 
 @pytest.mark.interpreted
 def test_segment_through_a_shared_edge_crosses_one_face() -> None:
-    """Straight up through the middle of a subdivided floor: on edges, and through vertices where six faces meet."""
+    """Rays straight up through a subdivided floor: through edges, and through vertices where six faces meet."""
     grid = SceneObject(shapes.floor(4, cells=4), placement((0, 1, 0)))
     edges = np.array([[0.5, 0, 0.25], [0.25, 0, 1], [0.25, 0, 0.75], [-0.7, 0, -0.3]])
     assert casting_faces_between(edges, SUN, [grid]).tolist() == [1, 1, 1, 1]
 
 
 @given(closed_meshes(), lights())
-def test_along_an_edge_a_closed_mesh_is_entered_as_often_as_left(mesh: Mesh, light: np.ndarray) -> None:
-    """From far outside to a light far outside: fronts and backs balance however the segment grazes edges."""
+def test_segment_along_an_edge_enters_a_closed_mesh_as_often_as_it_leaves(mesh: Mesh, light: np.ndarray) -> None:
+    """From far outside to a light far outside, a segment crosses as many fronts as backs, also along edges."""
     assume(light[:3].any())
     far = np.array([*(100 * light[:3] + [0.5, 0.25, 0.125]), 1.0])
     middles = mesh.positions[mesh.triangles].mean(axis=1)[:8].astype(float)
@@ -87,8 +87,8 @@ grid_points = st.lists(st.tuples(*[st.integers(-32, 32)] * 3), min_size=1, max_s
 
 
 @given(st.one_of(closed_meshes(), open_meshes()), lights(), grid_points)
-def test_counts_are_those_of_brute_force(mesh: Mesh, light: np.ndarray, points: list) -> None:
-    # point and light off the grid of the vertices: no segment meets an edge or ends on a face, where rounding decides
+def test_counts_equal_those_of_brute_force(mesh: Mesh, light: np.ndarray, points: list) -> None:
+    # point and light lie off the grid of the vertices, so that no segment hits an edge or ends on a face
     light = np.add(light, [0.0031, 0.0017, 0.0043, 0])
     start = np.add(np.array(points) / 8, [0.0123456789, 0.0217171717, 0.0371313131])
     counts = casting_faces_between(start, light, [SceneObject(mesh)])
@@ -106,7 +106,7 @@ def test_counts_of_several_casters_add() -> None:
 
 @pytest.mark.interpreted
 def test_own_face_and_faces_in_its_plane_do_not_count() -> None:
-    """A point that rounding put under its own face, which a floor of many cells has neighbours of."""
+    """Rounding may put a point below its own face, and below neighbouring faces in the same plane."""
     floor = SceneObject(shapes.floor(4, cells=8), placement((0, 1, 0), (33, 1, 2, 3)))
     corners = floor.world_positions[floor.mesh.triangles]
     sunk = corners.mean(axis=1) - 1e-7 * floor.plane[:3]
@@ -154,8 +154,8 @@ def test_first_face_of_a_ray_is_the_nearest() -> None:
     eye = np.broadcast_to(scene.camera.eye, (1, 3))
     objects, triangles, distances = first_faces(eye, scene.camera.target - eye, scene.objects)
     point = eye[0] + distances[0] * (scene.camera.target - eye)[0]
-    hit = scene.objects[objects[0]]
-    corner = hit.world_positions[hit.mesh.triangles[triangles[0]]]
+    nearest = scene.objects[objects[0]]
+    corner = nearest.world_positions[nearest.mesh.triangles[triangles[0]]]
     normal = np.cross(corner[1] - corner[0], corner[2] - corner[0])
     assert abs((point - corner[0]) @ normal) < 1e-12  # float64 rounding at a distance of 6
     assert first_faces(eye, np.array([[0.0, 1, 0]]), scene.objects)[0].tolist() == [-1]
@@ -188,7 +188,7 @@ def test_misuse_names_the_argument(arguments: dict, said: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["stanford-bunny.obj", "teapot.obj", "Duck.glb"])
-def test_shadow_is_where_embree_finds_it(name: str) -> None:
+def test_shadows_agree_with_embree(name: str) -> None:
     embree = pytest.importorskip("embreex.rtcore_scene")
     triangle_mesh = pytest.importorskip("embreex.mesh_construction")
     scene = Scene.from_mesh(shared_file(f"meshes/{name}"))
@@ -199,17 +199,17 @@ def test_shadow_is_where_embree_finds_it(name: str) -> None:
     triangle_mesh.TriangleMesh(embree_scene, corners)
 
     points = np.random.default_rng(2).uniform([-3, 0, -3], [3, 0, 3], (3000, 3)).astype(np.float32)
-    # from the light to the floor; the caster stands above it, so what is met first is met before the point
+    # from the light to the floor; the caster stands above it, so a hit is always before the point
     origins = np.tile(light.astype(np.float32), (len(points), 1))
-    met = embree_scene.run(origins, (points - light).astype(np.float32)) >= 0
-    counted = casting_faces_between(points.astype(np.float64), scene.lights[0].position, [caster], faces="all") > 0
-    assert counted.sum() > 100
+    hit = embree_scene.run(origins, (points - light).astype(np.float32)) >= 0
+    shadowed = casting_faces_between(points.astype(np.float64), scene.lights[0].position, [caster], faces="all") > 0
+    assert shadowed.sum() > 100
     # Embree's rays are float32: a few of 3000 pass an outline on the other side
-    assert (met != counted).sum() <= 6
+    assert (hit != shadowed).sum() <= 6
 
 
 def test_bunny_is_counted_quickly() -> None:
-    """69 451 faces, 64 x 48 points: a tree, not every face. A loose bound; seen: 0.1 s."""
+    """69 451 faces and 64 x 48 points take 0.1 s with the tree; the bound is loose."""
     scene = Scene.from_mesh(shared_file("meshes/stanford-bunny.obj"))
     points = np.random.default_rng(3).uniform([-2, 0, -2], [2, 0, 2], (64 * 48, 3))
     light = scene.lights[0].position
