@@ -184,7 +184,7 @@ def shadow_polygons(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) ->
         gl.glDisable(gl.GL_DEPTH_TEST)  # 2. Se dezactivează testul de adâncime
     # 3. Se cere rasterizarea poligoanelor de umbră
     for thing in stage.occluder:
-        lit = casting_faces(thing.mesh, np.array(stage.light)).kept
+        lit = casting_faces(thing.mesh, np.array(stage.light)).facing
         unlit = np.setdiff1d(np.arange(len(thing.mesh.triangles)), lit)
         draw_faces(gl, thing, thing.mesh.triangles[unlit])  # umbră proprie: the face itself
         gl.glPushMatrix()
@@ -208,7 +208,7 @@ def projected_faces(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_
     for thing in stage.occluder:
         if "E16" in corrected and thing.mesh.positions[:, 1].max() <= 0:
             continue  # E16: of a face only the part on the light's side of the receiver casts; here all of it or none
-        lit = casting_faces(thing.mesh, np.array(stage.light)).kept
+        lit = casting_faces(thing.mesh, np.array(stage.light)).facing
         gl.glPushMatrix()
         multiply(gl, onto_ground(stage.light))
         draw_faces(gl, thing, thing.mesh.triangles[lit])

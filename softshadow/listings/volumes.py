@@ -108,7 +108,7 @@ def draw_bounded_volumes(gl: Any, thing: Thing, stage: Stage, by_plane: bool) ->
     """
     light = np.array(stage.light[:3])
     reach = max(np.linalg.norm(each.mesh.positions - light, axis=1).max() for each in stage.receiver)
-    for triangle in thing.mesh.triangles[casting_faces(thing.mesh, np.array(stage.light)).kept]:
+    for triangle in thing.mesh.triangles[casting_faces(thing.mesh, np.array(stage.light)).facing]:
         generator = thing.mesh.positions[triangle].astype(np.float64)
         normal = np.cross(generator[1] - generator[0], generator[2] - generator[0])
         to_plane = abs((generator[0] - light) @ normal) / np.linalg.norm(normal)

@@ -1,11 +1,14 @@
-"""What is drawn: meshes and their shadow geometry, cameras, lights, scenes built in or read from files."""
+"""Meshes and their shadow geometry, cameras, lights, and scenes: built in or read from files."""
 
 from softshadow.scene.camera import Camera
+from softshadow.scene.files import load_scene
 from softshadow.scene.lights import Light
+from softshadow.scene.loading import scene_from_mesh
 from softshadow.scene.mesh import Mesh
-from softshadow.scene.named import scene_names, scene_title
+from softshadow.scene.named import named_scene, scene_names, scene_title
 from softshadow.scene.placement import placement
 from softshadow.scene.scene import Material, Scene, SceneObject
+from softshadow.scene.scene_warnings import scene_warnings
 from softshadow.scene.shadow_volume import ShadowVolume, shadow_volume
 from softshadow.scene.silhouette import CastingFaces, Silhouette, casting_faces, silhouette
 from softshadow.scene.topology import Topology
@@ -28,3 +31,9 @@ __all__ = [
     "shadow_volume",
     "silhouette",
 ]
+
+# attached here, because the modules of these functions import `Scene`; scene.py declares them for type checkers
+Scene.named = staticmethod(named_scene)  # type: ignore[method-assign]
+Scene.from_mesh = staticmethod(scene_from_mesh)  # type: ignore[method-assign]
+Scene.load = staticmethod(load_scene)  # type: ignore[method-assign]
+Scene.warnings = scene_warnings  # type: ignore[method-assign]

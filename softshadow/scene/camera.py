@@ -1,4 +1,4 @@
-"""The camera of a scene: where it stands, where it looks, and what it cuts off."""
+"""The camera of a scene: its position, its direction and its clipping planes."""
 
 from dataclasses import dataclass
 
@@ -6,12 +6,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softshadow.errors import SceneError
-from softshadow.scene.validate import keep, number, numbers
+from softshadow.scene.validate import set_fields, validate_number, validate_numbers
 
 
 @dataclass(frozen=True, eq=False, init=False)
 class Camera:
-    """A perspective camera in the terms of gluLookAt and gluPerspective.
+    """A perspective camera with the parameters of gluLookAt and gluPerspective.
 
     Attributes
     ----------
@@ -21,7 +21,7 @@ class Camera:
 
     Raises
     ------
-    SceneError                         a camera at its target, `up` along the view, fov_y outside (0, 180), near >= far
+    SceneError                         eye equal to target, `up` parallel to the view, fov_y, near or far out of range
     """
 
     eye: np.ndarray
@@ -41,14 +41,14 @@ class Camera:
         far: float = 100,
     ) -> None:
         for key, point in (("eye", eye), ("target", target), ("up", up)):
-            keep(self, **{key: numbers(f"camera: {key}", point, 3)})
+            set_fields(self, **{key: validate_numbers(f"camera: {key}", point, 3)})
         for key, value in (("fov_y", fov_y), ("near", near), ("far", far)):
-            keep(self, **{key: number(f"camera: {key}", value)})
+            set_fields(self, **{key: validate_number(f"camera: {key}", value)})
         if (self.eye == self.target).all():
             raise SceneError(f"camera: eye and target are both {self.eye.tolist()}; expected two different points")
         if not np.cross(self.target - self.eye, self.up).any():
             raise SceneError(
-                f"camera: up {self.up.tolist()} runs along the view direction; expected any other direction"
+                f"camera: up {self.up.tolist()} is parallel to the view direction; expected any other direction"
             )
         if not 0 < self.fov_y < 180:
             raise SceneError(f"camera: fov_y: expected degrees between 0 and 180, got {self.fov_y:g}")
@@ -57,7 +57,7 @@ class Camera:
 
     @property
     def frame(self) -> np.ndarray:
-        """(3, 3) float64, rows: the world directions of right, up and back (eye space x, y, z)."""
+        """(3, 3) float64: rows are the world directions of eye space x, y and z (right, up, back)."""
         back = self.eye - self.target
         back = back / np.linalg.norm(back)
         right = np.cross(self.up, back)
@@ -65,16 +65,16 @@ class Camera:
         return np.stack([right, np.cross(back, right), back])
 
     def near_points(self, window: np.ndarray, size: tuple[int, int]) -> np.ndarray:
-        """Return the world points of the near rectangle that are seen at window positions.
+        """Return the world points of the near rectangle at window positions.
 
         Parameters
         ----------
-        window : (N, 2) float64      x, y in pixels, (0, 0) is the top left corner of the picture, pixel centres at +0.5
+        window : (N, 2) float64      x, y in pixels from the top left corner of the picture, pixel centres at +0.5
         size : (width, height)
 
         Returns
         -------
-        (N, 3) float64               the ray from the eye through such a point is the pixel's ray
+        (N, 3) float64               the ray of the pixel starts at the eye and passes this point
         """
         width, height = size
         top = self.near * np.tan(np.radians(self.fov_y) / 2)

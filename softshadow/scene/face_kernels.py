@@ -1,7 +1,6 @@
-"""Loops over the faces of large meshes, for `silhouette` and `topology`, which import them where they are called:
-reading and describing scenes needs no Numba.
+"""Kernels that loop over the faces of large meshes; imported inside functions, so that reading scenes needs no Numba.
 
-In one walk over a million faces nothing is written but the result; NumPy's temporaries took two thirds of the time.
+They write nothing but the result; with NumPy, temporary arrays took two thirds of the time for a million faces.
 """
 
 import numpy as np
@@ -13,7 +12,7 @@ HASH = (73_856_093, 19_349_663, 83_492_791)  # Teschner et al. 2003, "Optimized 
 
 @kernel
 def distances_to_planes(light, first_corners, face_normals, distances):
-    """Write (T,) ``(L - w p) . n`` of each face: its corner p (T, 3), its normal n (T, 3), the light (4,)."""
+    """Write (T,) ``(L - w p) . n`` for each face, with corner p (T, 3), normal n (T, 3) and the light (4,)."""
     x, y, z, w = light[0], light[1], light[2], light[3]
     for t in range(face_normals.shape[0]):
         from_x, from_y = x - w * first_corners[t, 0], y - w * first_corners[t, 1]
@@ -23,7 +22,7 @@ def distances_to_planes(light, first_corners, face_normals, distances):
 
 @kernel
 def add_chain(face_edges, face_signs, faces, sign, sums):
-    """Add `sign` times the directed edges of some faces to the sums (E,) of their edges."""
+    """Add `sign` times the edge signs of the listed faces to the sums (E,) of their edges."""
     for n in range(faces.shape[0]):
         t = faces[n]
         for corner in range(3):
@@ -32,12 +31,12 @@ def add_chain(face_edges, face_signs, faces, sign, sums):
 
 @kernel
 def join_corners(triangles, labels):
-    """Write into labels (P,), which begin as 0 to P - 1, the smallest position joined to each by triangles (T, 3)."""
+    """Set labels (P,), initially 0 to P - 1, to the smallest position connected to each by triangles (T, 3)."""
     for t in range(triangles.shape[0]):
         for corner in range(3):
             a, b = triangles[t, 0], triangles[t, corner]
             while labels[a] != a:
-                labels[a] = labels[labels[a]]  # halves the path, so that the next walk is short
+                labels[a] = labels[labels[a]]  # path halving: shortens later walks
                 a = labels[a]
             while labels[b] != b:
                 labels[b] = labels[labels[b]]
@@ -46,15 +45,15 @@ def join_corners(triangles, labels):
                 labels[b] = a
             else:
                 labels[a] = b
-    for p in range(labels.shape[0]):  # in ascending order: the smaller label is final already
+    for p in range(labels.shape[0]):  # ascending: the smaller label is already final
         labels[p] = labels[labels[p]]
 
 
 @kernel
-def mark_within_edges(points, keys, low, width, corners, distance, found):
-    """Mark in found (V,) the points (V, 3) that lie within `distance` of an edge (E, 2, 3), away from its ends.
+def mark_within_edges(points, keys, low, width, corners, distance, is_within):
+    """Set is_within (V,) for the points (V, 3) within `distance` of an edge (E, 2, 3) but not of its ends.
 
-    Points are sorted by keys (V,), the hash of the cube that each is in; cubes begin at `low` (3,), are `width` wide.
+    Points are sorted by keys (V,), the hash of the cube that contains each; cubes start at `low` (3,), `width` wide.
     """
     for e in range(corners.shape[0]):
         ax, ay, az = corners[e, 0, 0], corners[e, 0, 1], corners[e, 0, 2]
@@ -78,4 +77,4 @@ def mark_within_edges(points, keys, low, width, corners, distance, found):
                         continue
                     across = px * px + py * py + pz * pz - along * along
                     if across <= distance * distance:
-                        found[n] = True
+                        is_within[n] = True

@@ -1,4 +1,4 @@
-"""Scene files: TOML, checked as a whole, so that one message names every mistake.
+"""Scene files in TOML, checked as a whole, so that one message lists every mistake.
 
 The example scenes in `docs/scenes` show all keys. Lengths are in scene units, angles in degrees, y points up.
 """
@@ -8,51 +8,36 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ValidationError
-
 from softshadow.errors import SceneError
 from softshadow.scene.scene import Scene
-from softshadow.scene.scene_schema import (
-    CameraTable,
-    Context,
-    LightTable,
-    MaterialTable,
-    ObjectTable,
-    ReceiverTable,
-    SceneTable,
-)
-from softshadow.scene.validation_errors import mistakes
-
-TABLES: dict[str, type[BaseModel]] = {
-    "": SceneTable,
-    "camera": CameraTable,
-    "light": LightTable,
-    "object": ObjectTable,
-    "receiver": ReceiverTable,
-    "materials": MaterialTable,
-}
 
 
 def load_scene(path: str | PathLike[str]) -> Scene:
-    """Return the scene of a TOML file.
+    """Return the scene that a TOML file describes.
 
-    Model files are named relative to the scene file and have to lie in its folder or below.
+    Paths of model files are relative to the scene file, and must lie in its folder or below.
 
     Raises
     ------
-    SceneError      the file cannot be read or is no TOML, or names each mistake in it with its place, the value and
+    SceneError      the file cannot be read or is not TOML, or has mistakes: lists each with its place, the value and
                     what was expected
     """
+    # imported here, because pydantic takes longer to load than the rest of the package's scenes
+    from pydantic import ValidationError
+
+    from softshadow.scene.scene_schema import TABLES, LoadContext, SceneTable
+    from softshadow.scene.validation_errors import error_lines
+
     file = Path(path)
     tree = _read(file)
     materials = tree.get("materials", {})
-    context = Context(file.parent, materials if isinstance(materials, dict) else {})
+    context = LoadContext(file.parent, materials if isinstance(materials, dict) else {})
     try:
         table = SceneTable.model_validate(tree, context=context)
     except ValidationError as error:
-        found = mistakes(error, TABLES)
-        count = "1 mistake" if len(found) == 1 else f"{len(found)} mistakes"
-        raise SceneError("\n  ".join([f"{file}: {count}", *found])) from None
+        lines = error_lines(error, TABLES)
+        heading = f"{file}: {len(lines)} mistake{'' if len(lines) == 1 else 's'}"
+        raise SceneError("\n  ".join([heading, *lines])) from None
     return Scene(
         file.stem,
         table.camera.built,

@@ -1,4 +1,4 @@
-"""The JSON tree of a glTF 2 file, made safe to hand on: every buffer read here, nothing left that names another file.
+"""The JSON tree of a glTF 2 file, with its buffers read, and without references to any other file.
 
 References
 ----------
@@ -15,16 +15,16 @@ from softshadow.errors import MeshError, PartlyReadFile
 
 TRIANGLES, TRIANGLE_STRIP = 4, 5
 GLB_MAGIC, JSON_CHUNK, BINARY_CHUNK = b"glTF", 0x4E4F534A, 0x004E4942
-# extensions that only change how a surface looks; any other that a file requires may change its geometry
+# required extensions that affect appearance only; any other may change the geometry
 HARMLESS_EXTENSIONS = ("KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_", "KHR_animation_")
 
 
 def read_tree(data: bytes, name: str) -> tuple[dict[str, Any], bytes | None]:
-    """Return the JSON tree of a .gltf or .glb file and the binary chunk of the latter.
+    """Return the JSON tree of a .gltf or .glb file, and the binary chunk if it is a .glb.
 
     Raises
     ------
-    MeshError      neither JSON nor a GLB container, cut off, or not version 2
+    MeshError      neither JSON nor a GLB container, truncated, or not version 2
     """
     binary = None
     text = data
@@ -47,39 +47,40 @@ def _chunks(data: bytes, name: str) -> dict[int, bytes]:
     if version != 2:
         raise MeshError(f"{name}: expected a GLB container of version 2, got version {version}")
     chunks: dict[int, bytes] = {}
-    place = 12
-    while place + 8 <= len(data):
-        length, kind = struct.unpack_from("<II", data, place)
-        chunk = data[place + 8 : place + 8 + length]
+    offset = 12
+    while offset + 8 <= len(data):
+        length, kind = struct.unpack_from("<II", data, offset)
+        chunk = data[offset + 8 : offset + 8 + length]
         if len(chunk) < length:
-            raise MeshError(f"{name}: a GLB chunk announces {length} bytes, the file has {len(chunk)} more")
+            raise MeshError(f"{name}: a GLB chunk declares {length} bytes, but the file has only {len(chunk)} more")
         chunks.setdefault(kind, chunk)
-        place += 8 + length
+        offset += 8 + length
     return chunks
 
 
 def self_contained(
     tree: dict[str, Any], binary: bytes | None, path: Path
 ) -> tuple[dict[str, Any], dict[str, bytes], list[PartlyReadFile]]:
-    """Return the tree with its buffers beside it and without cameras, textures, skins and animations.
+    """Return the tree without cameras, textures, skins and animations, and the content of its buffers.
 
-    Texture coordinates and vertex colours become attributes `_TEXCOORD_0` and `_COLOR_0`, which arrive unchanged.
+    Texture coordinates and vertex colours are renamed to `_TEXCOORD_0` and `_COLOR_0`, which trimesh passes through
+    unchanged.
 
     Parameters
     ----------
-    path : Path          the model file: buffers are read from its folder and below only
+    path : Path          the model file; buffers are read only from its folder and below
 
     Returns
     -------
-    tree, buffers, notes : `buffers` by the uri that the tree now has for them
+    tree, buffers, notes : `buffers` is keyed by the uri that the tree now uses; `notes` says what was left out
 
     Raises
     ------
-    MeshError            a buffer that is missing, too short or outside the folder; geometry in a form that is not read
+    MeshError            a buffer is missing, too short or outside the folder; geometry in an unsupported form
     """
     for extension in tree.get("extensionsRequired", []):
         if not extension.startswith(HARMLESS_EXTENSIONS):
-            raise MeshError(f"{path}: extensionsRequired: {extension} is not read; expected plain glTF 2 geometry")
+            raise MeshError(f"{path}: extensionsRequired: {extension} is not supported; expected plain glTF 2 geometry")
     notes = [
         PartlyReadFile(f"{path}: images[{index}].uri {image['uri']!r}: outside the folder, not read")
         for index, image in enumerate(tree.get("images", []))
@@ -93,22 +94,22 @@ def self_contained(
             buffer["uri"] = f"buffer {index}"
     for index, accessor in enumerate(tree.get("accessors", [])):
         if "bufferView" not in accessor:
-            raise MeshError(f"{path}: accessors[{index}]: sparse or without bufferView; expected values in a buffer")
+            raise MeshError(f"{path}: accessors[{index}]: sparse or without a bufferView; expected values in a buffer")
 
     for key in ("images", "textures", "samplers", "cameras", "skins", "animations"):
         tree.pop(key, None)
     for node in tree.get("nodes", []):
-        node.pop("camera", None)  # the reader would drop a camera's node with everything below it
-    tree["materials"] = [_only_color(material) for material in tree.get("materials", [])]
+        node.pop("camera", None)  # trimesh drops the node of a camera and its children
+    tree["materials"] = [_base_color(material) for material in tree.get("materials", [])]
     notes += _prepare_primitives(tree, path)
     if "scenes" not in tree:
-        below = {child for node in tree.get("nodes", []) for child in node.get("children", [])}
-        tree["scenes"] = [{"nodes": [index for index in range(len(tree.get("nodes", []))) if index not in below]}]
+        children = {child for node in tree.get("nodes", []) for child in node.get("children", [])}
+        tree["scenes"] = [{"nodes": [index for index in range(len(tree.get("nodes", []))) if index not in children]}]
     return tree, buffers, notes
 
 
 def _inside(folder: Path, uri: str) -> Path | None:
-    """Return the file that a relative uri names, or None when it does not lie in the folder or below."""
+    """Return the file at a relative uri, or None if it lies outside the folder."""
     name = unquote(uri)
     if "://" in name or "\\" in name:
         return None
@@ -121,7 +122,7 @@ def _buffer(buffer: dict[str, Any], index: int, binary: bytes | None, path: Path
     where = f"{path}: buffers[{index}]"
     if uri is None:
         if index or binary is None:
-            raise MeshError(f"{where}: has no uri; expected one, or a GLB file with a binary chunk for buffer 0")
+            raise MeshError(f"{where}: has no uri; expected a uri, or a GLB file with a binary chunk as buffer 0")
         data = binary
     else:
         file = _inside(path.parent, uri)
@@ -135,21 +136,21 @@ def _buffer(buffer: dict[str, Any], index: int, binary: bytes | None, path: Path
     return data
 
 
-def _only_color(material: dict[str, Any]) -> dict[str, Any]:
+def _base_color(material: dict[str, Any]) -> dict[str, Any]:
     color = material.get("pbrMetallicRoughness", {}).get("baseColorFactor", [1, 1, 1, 1])
     return {"pbrMetallicRoughness": {"baseColorFactor": color}}
 
 
 def _prepare_primitives(tree: dict[str, Any], path: Path) -> list[PartlyReadFile]:
-    left_out = 0
+    n_skipped = 0
     for mesh in tree.get("meshes", []):
-        drawn = [item for item in mesh["primitives"] if item.get("mode", TRIANGLES) in (TRIANGLES, TRIANGLE_STRIP)]
-        left_out += len(mesh["primitives"]) - len(drawn)
-        mesh["primitives"] = drawn
-        for primitive in drawn:
+        triangles = [item for item in mesh["primitives"] if item.get("mode", TRIANGLES) in (TRIANGLES, TRIANGLE_STRIP)]
+        n_skipped += len(mesh["primitives"]) - len(triangles)
+        mesh["primitives"] = triangles
+        for primitive in triangles:
             primitive.pop("extensions", None)
             attributes = primitive["attributes"]
             for key in ("TEXCOORD_0", "COLOR_0"):
                 if key in attributes:
                     attributes["_" + key] = attributes.pop(key)
-    return [PartlyReadFile(f"{path}: {left_out} primitives of points, lines or fans left out")] if left_out else []
+    return [PartlyReadFile(f"{path}: {n_skipped} primitives of points, lines or fans left out")] if n_skipped else []

@@ -1,4 +1,4 @@
-"""Lights of a scene: a point, a spot (a point that shines into a cone), or a direction for a light at infinity."""
+"""The lights of a scene: point lights, spot lights and lights at infinity."""
 
 from dataclasses import dataclass
 
@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softshadow.errors import SceneError
-from softshadow.scene.validate import keep, number, numbers
+from softshadow.scene.validate import set_fields, validate_number, validate_numbers
 
-# degrees: of a light that is no spot, as in GL; and GL's largest for one that is
+# GL_SPOT_CUTOFF in degrees: without a cone, and the largest of a cone
 NO_CONE, WIDEST_CONE = 180.0, 90.0
 
 
@@ -18,17 +18,17 @@ class Light:
 
     Attributes
     ----------
-    position : (4,) float64      homogeneous, world space; w = 1 a point, w = 0 the direction towards the light.
-                                 Three numbers are taken as a point, any other w > 0 is divided out.
+    position : (4,) float64      homogeneous, world space; w = 1: a point; w = 0: the direction towards the light.
+                                 Three numbers mean a point; any other w > 0 is divided out.
     color : (3,) float64         linear, 0 to 1
-    name : str                   what steps and messages call it
-    axis : (3,) float64 or None  unit vector along which a spot light shines, world space; None of any other light
-    cutoff : float               degrees from the axis to the side of the cone, GL_SPOT_CUTOFF; 180 is no cone
+    name : str                   used by steps and messages
+    axis : (3,) float64 or None  unit vector along which a spot light shines, world space; None without a cone
+    cutoff : float               GL_SPOT_CUTOFF, degrees from the axis to the side of the cone; 180: no cone
 
     Raises
     ------
-    SceneError                   not finite, w < 0, or a direction of length 0; a cone that is none, or of a light at
-                                 infinity
+    SceneError                   not finite, w < 0, or a direction of length 0; an axis without a cutoff or a cutoff
+                                 without an axis; a cone of a light at infinity
     """
 
     position: np.ndarray
@@ -46,19 +46,21 @@ class Light:
         axis: ArrayLike | None = None,
         cutoff: float = NO_CONE,
     ) -> None:
-        point = numbers(f"{name}: position", np.append(position, 1) if np.shape(position) == (3,) else position, 4)
+        point = validate_numbers(
+            f"{name}: position", np.append(position, 1) if np.shape(position) == (3,) else position, 4
+        )
         if point[3] < 0 or not point.any():
             raise SceneError(
                 f"{name}: position: expected a point (w > 0) or a direction towards the light (w = 0, not all 0), "
                 f"got {point.tolist()}"
             )
-        keep(
+        set_fields(
             self,
             position=point / point[3] if point[3] else point,
-            color=numbers(f"{name}: color", color, 3),
+            color=validate_numbers(f"{name}: color", color, 3),
             name=name,
             axis=None if axis is None else _unit(f"{name}: axis", axis),
-            cutoff=number(f"{name}: cutoff", cutoff),
+            cutoff=validate_number(f"{name}: cutoff", cutoff),
         )
         if axis is None and self.cutoff == NO_CONE:
             return
@@ -72,15 +74,17 @@ class Light:
 
     @property
     def is_spot(self) -> bool:
-        """Whether the light shines into a cone only."""
+        """Whether the light has a cone."""
         return self.axis is not None
 
     def shines_on(self, points: np.ndarray) -> np.ndarray:
-        """Return whether points (..., 3) in world space lie within the cone of a spot light; of others, all do."""
+        """Return whether world points (..., 3) lie within the cone; always true for lights without one."""
         if self.axis is None:
             return np.ones(np.shape(points)[:-1], bool)
-        away = points - self.position[:3]
-        within: np.ndarray = away @ self.axis >= np.cos(np.radians(self.cutoff)) * np.linalg.norm(away, axis=-1)
+        from_light = points - self.position[:3]
+        within: np.ndarray = from_light @ self.axis >= np.cos(np.radians(self.cutoff)) * np.linalg.norm(
+            from_light, axis=-1
+        )
         return within
 
     @property
@@ -89,7 +93,7 @@ class Light:
         return bool(self.position[3] == 0)
 
     def in_object_space(self, object_to_world: np.ndarray) -> np.ndarray:
-        """Return the light in an object's own space.
+        """Return the homogeneous light position in object space.
 
         Parameters
         ----------
@@ -97,11 +101,11 @@ class Light:
 
         Returns
         -------
-        (4,) float64                         w exactly 0 or 1 as before: no inverse matrix touches it
+        (4,) float64                         w is unchanged, exactly 0 or 1
         """
         w = self.position[3]
-        carried = np.linalg.solve(object_to_world[:3, :3], self.position[:3] - w * object_to_world[:3, 3])
-        return np.append(carried, w)
+        position = np.linalg.solve(object_to_world[:3, :3], self.position[:3] - w * object_to_world[:3, 3])
+        return np.append(position, w)
 
     def __repr__(self) -> str:
         kind = "direction" if self.is_directional else "spot" if self.is_spot else "point"
@@ -109,9 +113,9 @@ class Light:
 
 
 def _unit(key: str, value: ArrayLike) -> np.ndarray:
-    """Return a direction (3,) of length 1, or say which key has none."""
-    direction = numbers(key, value, 3)
+    """Return a direction (3,) scaled to length 1."""
+    direction = validate_numbers(key, value, 3)
     length = float(np.linalg.norm(direction))
     if not length:
-        raise SceneError(f"{key}: expected a direction, got {direction.tolist()}")
+        raise SceneError(f"{key}: expected a direction of a length other than 0, got {direction.tolist()}")
     return direction / length

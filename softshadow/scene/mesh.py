@@ -1,41 +1,37 @@
-"""A mesh as it is drawn: its vertices may share a position (creases, texture seams), the topology is beside them."""
+"""A mesh as it is drawn. Vertices may share a position (at creases and texture seams); `topology` joins those."""
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from softshadow.errors import MeshError
 from softshadow.scene.topology import Topology
-from softshadow.scene.validate import keep
+from softshadow.scene.validate import set_fields
 
-if TYPE_CHECKING:
-    from softshadow.scene.boundary import Boundary
-
-# squared lengths of coordinates and their reciprocals must stay finite float32 (largest 3.4e38)
+# so that squared lengths and their reciprocals are finite float32 numbers (largest 3.4e38)
 LARGEST_COORDINATE = 1e18
 
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
 class Mesh:
-    """Triangles over drawing vertices, checked once here: every kernel below assumes what this class promises.
+    """Triangles and their vertices. The arrays are checked here once; all kernels rely on it.
 
     Parameters
     ----------
     positions : (V, 3) float32    object space; converted, copied and made read-only
     triangles : (T, 3) int32      counter-clockwise seen from outside, drawn in this order
-    normals : (V, 3) float32      unit; when not given, the area-weighted mean over the triangles of each drawing vertex
+    normals : (V, 3) float32      unit; by default the area-weighted mean over the triangles of each vertex
     texcoords : (V, 2) float32    (0, 0) at the bottom left, as in GL
     colors : (V, 4) float32       0 to 1
-    name : str                    what messages call the mesh
+    name : str                    used by messages
 
     Raises
     ------
-    ValueError                    an array of the wrong shape or kind
+    ValueError                    an array has the wrong shape or dtype
     MeshError                     no vertices or triangles, an index out of range, a coordinate that is not finite or is
-                                  too large for float32 arithmetic, nothing but triangles without area
+                                  too large for float32 arithmetic, or no triangle has an area
     """
 
     positions: np.ndarray
@@ -67,33 +63,26 @@ class Mesh:
                 raise ValueError(f"{key}: expected one row per vertex ({len(points)}), got {len(array)}")
             if array is not None and not np.isfinite(array).all():
                 raise MeshError(f"{name}: {key} are not all finite; expected finite numbers")
-        keep(self, positions=points, triangles=faces, name=name, **optional)
+        set_fields(self, positions=points, triangles=faces, name=name, **optional)
 
     @cached_property
     def topology(self) -> Topology:
-        """How the triangles hang together by exact position; computed at the first use and kept."""
+        """Edges and bodies of the mesh, with vertices at exactly the same position joined; computed once."""
         return Topology(self.positions, self.triangles)
 
     @cached_property
-    def boundary(self) -> "Boundary":
-        """What there is about boundary edges: loops, T-junctions, positions that are nearly equal."""
-        from softshadow.scene.boundary import boundary_of
-
-        return boundary_of(self)
-
-    @cached_property
     def face_normals(self) -> np.ndarray:
-        """(T, 3) float64, twice the triangle's area long."""
+        """(T, 3) float64: the normal of each triangle; its length is twice the area."""
         return face_normals(self.positions, self.triangles)
 
     @cached_property
     def doubled_areas(self) -> np.ndarray:
-        """(T,) float64: twice the area of each triangle, the length of its face normal."""
+        """(T,) float64: twice the area of each triangle."""
         return np.linalg.norm(self.face_normals, axis=1)
 
     @cached_property
     def first_corners(self) -> np.ndarray:
-        """(T, 3) float64: a point in the plane of each triangle."""
+        """(T, 3) float64: the first corner of each triangle."""
         return self.positions[self.triangles[:, 0]].astype(np.float64)
 
     @cached_property
@@ -106,8 +95,8 @@ class Mesh:
 
     @cached_property
     def signed_volume(self) -> float:
-        """Volume of a closed mesh in object units, negative when its triangles run clockwise seen from outside."""
-        # from the middle: far from the origin the sum of large volumes would round away the small one
+        """Volume of a closed mesh in object units, negative if its triangles are clockwise seen from outside."""
+        # relative to the middle: far from the origin, large terms cancel and would round the volume away
         corners = self.first_corners - self.first_corners.mean(axis=0)
         return float(np.einsum("ij,ij", corners, self.face_normals)) / 6
 
@@ -116,15 +105,15 @@ class Mesh:
 
 
 def face_normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Return (T, 3) float64 normals, twice the triangle's area long, from the float32 positions."""
+    """Return (T, 3) float64 normals of the triangles, each twice as long as the triangle's area."""
     a, b, c = (positions[triangles[:, corner]].astype(np.float64) for corner in range(3))
     return np.cross(b - a, c - a)
 
 
 def vertex_normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Return (V, 3) float32 unit normals: the area-weighted mean over the triangles of each drawing vertex.
+    """Return (V, 3) float32 unit normals: the area-weighted mean over the triangles of each vertex.
 
-    A vertex without any area gets (0, 0, 1), so that lighting stays finite.
+    A vertex of no triangle with an area gets (0, 0, 1), so that lighting stays finite.
     """
     weighted = face_normals(positions, triangles)
     corners = triangles.ravel()
@@ -137,21 +126,21 @@ def vertex_normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
 
 
 def _array(key: str, value: ArrayLike, width: int) -> np.ndarray:
-    given = np.asarray(value)
-    if given.dtype.kind not in "fiu" or given.ndim != 2 or given.shape[1] != width:
-        raise ValueError(f"{key}: expected numbers of shape (V, {width}), got {given.dtype} of shape {given.shape}")
-    with np.errstate(over="ignore"):  # too large for float32: becomes infinite, which the content check names
-        return np.array(given, dtype=np.float32, order="C")
+    array = np.asarray(value)
+    if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] != width:
+        raise ValueError(f"{key}: expected numbers of shape (V, {width}), got {array.dtype} of shape {array.shape}")
+    with np.errstate(over="ignore"):  # numbers too large for float32 become infinite, which _check_content reports
+        return np.array(array, dtype=np.float32, order="C")
 
 
 def _indices(value: ArrayLike) -> np.ndarray:
-    given = np.asarray(value)
-    if given.dtype.kind not in "iu" and given.size:
-        raise ValueError(f"triangles: expected integers of shape (T, 3), got {given.dtype} of shape {given.shape}")
-    if given.size and (given.ndim != 2 or given.shape[1] != 3):
-        raise ValueError(f"triangles: expected integers of shape (T, 3), got shape {given.shape}")
-    # compared before the conversion to int32, which would wrap a huge index into a legal one
-    clipped = np.clip(given.reshape(-1, 3), -1, np.iinfo(np.int32).max)
+    array = np.asarray(value)
+    if array.dtype.kind not in "iu" and array.size:
+        raise ValueError(f"triangles: expected integers of shape (T, 3), got {array.dtype} of shape {array.shape}")
+    if array.size and (array.ndim != 2 or array.shape[1] != 3):
+        raise ValueError(f"triangles: expected integers of shape (T, 3), got shape {array.shape}")
+    # clipped first: the conversion to int32 could wrap a huge index into a legal one
+    clipped = np.clip(array.reshape(-1, 3), -1, np.iinfo(np.int32).max)
     return np.array(clipped, dtype=np.int32, order="C")
 
 
@@ -174,4 +163,6 @@ def _check_content(name: str, positions: np.ndarray, triangles: np.ndarray) -> N
             f"the first is vertex {bad[0]} at {positions[bad[0]].tolist()}; expected finite coordinates"
         )
     if not face_normals(positions, triangles).any():
-        raise MeshError(f"{name}: none of the {len(triangles)} triangles has an area; expected at least one that has")
+        raise MeshError(
+            f"{name}: none of the {len(triangles)} triangles has an area; expected at least one with an area"
+        )

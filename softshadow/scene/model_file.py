@@ -1,7 +1,7 @@
-"""The one door of trimesh: a model file's bytes in, plain arrays out, one clear message for whatever goes wrong.
+"""Model files read into plain arrays by trimesh's parsers; the only module that imports trimesh.
 
-Only trimesh's parsers are used. Its mesh class, which merges and reorders vertices, and its resolvers, which open
-further files, are not: a parser gets bytes and finds nothing else to read.
+Only the parsers are used: trimesh's mesh class merges and reorders vertices, and its resolvers open further files. A
+parser gets bytes and has no access to other files. Whatever fails becomes a MeshError of one sentence.
 """
 
 import io
@@ -19,18 +19,18 @@ import numpy as np
 from softshadow.errors import MeshError, PartlyReadFile, nearest
 from softshadow.scene.gltf_tree import read_tree, self_contained
 from softshadow.scene.obj_text import drawable_lines
-from softshadow.scene.placement import carried
+from softshadow.scene.placement import transform_points
 
 
 @dataclass
-class Part:
-    """One piece of a model, in the space of the whole file.
+class ModelPart:
+    """One piece of a model, in the coordinate system of the file.
 
     Attributes
     ----------
     positions : (V, 3) float64
     triangles : (T, 3) int64
-    normals, texcoords, colors : (V, 3), (V, 2), (V, 4) float64, or None where the file has none; colours 0 to 1
+    normals, texcoords, colors : (V, 3), (V, 2), (V, 4) float64, or None if the file has none; colours 0 to 1
     """
 
     positions: np.ndarray
@@ -40,39 +40,39 @@ class Part:
     colors: np.ndarray | None = None
 
 
-def read_parts(path: Path) -> tuple[list[Part], list[PartlyReadFile]]:
-    """Return the pieces of a model file that have triangles, and what was left out.
+def read_parts(path: Path) -> tuple[list[ModelPart], list[PartlyReadFile]]:
+    """Return the parts of a model file that have triangles, and warnings about what was left out.
 
     Raises
     ------
-    MeshError      missing, not a file, unreadable, an unknown kind, malformed, or without triangles
+    MeshError      missing, not a regular file, unreadable, of an unknown type, malformed, or without triangles
     """
     kind = path.suffix.lower().lstrip(".")
     if kind not in _READERS:
-        raise MeshError(f"{path}: no reader for files of kind {path.suffix!r}; {nearest(kind, sorted(_READERS))}")
+        raise MeshError(f"{path}: cannot read files of type {path.suffix!r}; {nearest(kind, sorted(_READERS))}")
     data = read_bytes(path)
     try:
         with _quiet():
             geometry, notes = _READERS[kind](data, path)
-            parts = [part for kwargs, matrix in geometry if (part := _part(kwargs, matrix, path, notes)) is not None]
+            parts = [part for kwargs, matrix in geometry if (part := _model_part(kwargs, matrix, path, notes))]
     except MeshError:
         raise
-    except Exception as error:  # whatever a parser stumbles over is the file's fault, and is said in one sentence
+    except Exception as error:  # parsers raise anything; the cause is the file
         reason = f"{type(error).__name__}: {error}".split("\n")[0]
         raise MeshError(f"{path}: not a well-formed {kind.upper()} file ({reason})") from None
     if not parts:
-        raise MeshError(f"{path}: {_what_is_there(kind, data, geometry)}; expected a mesh with at least one triangle")
+        raise MeshError(f"{path}: {_content(kind, data, geometry)}; expected a mesh with at least one triangle")
     return parts, notes
 
 
 def read_bytes(path: Path) -> bytes:
-    """Return a regular file's content, or say what is there instead."""
+    """Return the content of a regular file, or raise a MeshError that says why not."""
     if not path.exists():
         folder = path.parent
         known = [item.name for item in folder.iterdir()] if folder.is_dir() else []
         close = nearest(path.name, known).split("?")[0] + "?" if known else ""
-        guess = close if close.startswith("did you mean") else "expected an existing file"
-        raise MeshError(f"{path}: there is no such file; {guess}")
+        hint = close if close.startswith("did you mean") else "expected an existing file"
+        raise MeshError(f"{path}: there is no such file; {hint}")
     if not path.is_file():
         raise MeshError(f"{path}: is {'a folder' if path.is_dir() else 'not a regular file'}; expected a model file")
     try:
@@ -88,7 +88,7 @@ def _read_obj(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
     from trimesh.exchange.obj import load_obj
 
     text, notes = drawable_lines(data.decode("utf-8", errors="replace"), str(path))
-    # maintain_order would keep one normal per position and smooth every crease
+    # maintain_order=True would keep one normal per position, which smooths every crease
     loaded = load_obj(io.StringIO(text), skip_materials=True, group_material=False, maintain_order=False)
     return _placed(loaded), notes
 
@@ -99,18 +99,18 @@ def _read_ply(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
     loaded = load_ply(io.BytesIO(data), skip_materials=True)
     for name, element in loaded["metadata"]["_ply_raw"].items():
         columns = element.get("data")
-        found = {len(values) for values in columns.values()} if isinstance(columns, dict) else {element["length"]}
-        if found != {element["length"]}:
-            raise MeshError(f"{path}: the header announces {element['length']} of element {name}, found {min(found)}")
+        lengths = {len(values) for values in columns.values()} if isinstance(columns, dict) else {element["length"]}
+        if lengths != {element["length"]}:
+            raise MeshError(f"{path}: the header declares {element['length']} of element {name}, got {min(lengths)}")
     return _placed(loaded), []
 
 
 def _read_stl(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
     from trimesh.exchange.stl import load_stl
 
-    announced = _binary_stl_length(data)
-    # another length means text, which the reader would only decode with a package that is not there
-    return _placed(load_stl(io.BytesIO(data if announced == len(data) else _as_utf8(data)))), []
+    is_binary = _binary_stl_length(data) == len(data)
+    # text has to be UTF-8: trimesh decodes other encodings with a package that is not installed
+    return _placed(load_stl(io.BytesIO(data if is_binary else _as_utf8(data)))), []
 
 
 def _read_off(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
@@ -138,7 +138,7 @@ _READERS: dict[str, Callable[[bytes, Path], tuple[Geometry, list[PartlyReadFile]
 
 
 def _placed(loaded: dict[str, Any]) -> Geometry:
-    """Return each geometry with the matrix that carries it into the file's space, as often as the file shows it."""
+    """Return each geometry once per node that shows it, with the matrix from its own to the file's coordinates."""
     if "geometry" not in loaded:
         return [(loaded, np.eye(4))]
     geometry = loaded["geometry"]
@@ -154,7 +154,10 @@ def _placed(loaded: dict[str, Any]) -> Geometry:
     return placed
 
 
-def _part(kwargs: dict[str, Any], matrix: np.ndarray, path: Path, notes: list[PartlyReadFile]) -> Part | None:
+def _model_part(
+    kwargs: dict[str, Any], matrix: np.ndarray, path: Path, notes: list[PartlyReadFile]
+) -> ModelPart | None:
+    """Return a part from what a parser returned, None without triangles; appends to `notes`."""
     positions = np.asarray(kwargs.get("vertices", np.zeros((0, 3))))
     faces = kwargs.get("faces")
     if faces is None or not len(faces) or not len(positions):
@@ -167,15 +170,15 @@ def _part(kwargs: dict[str, Any], matrix: np.ndarray, path: Path, notes: list[Pa
     triangles = faces[:, fan].reshape(-1, 3)
     attributes = kwargs.get("vertex_attributes", {})
     normals = _per_vertex(kwargs.get("vertex_normals"), positions, 3)
-    part = Part(positions.astype(np.float64), triangles, normals, _texcoords(kwargs, attributes, positions))
+    part = ModelPart(positions.astype(np.float64), triangles, normals, _texcoords(kwargs, attributes, positions))
     facets = kwargs.get("face_normals")
     if facets is not None and not np.any(facets, axis=1).all():
-        notes.append(PartlyReadFile(f"{path}: facet normals of length 0 left out, computed from the corners"))
+        notes.append(PartlyReadFile(f"{path}: facet normals of length 0 replaced by computed ones"))
     part.colors = _colors(kwargs, attributes, part)
     if part.colors is not None and not np.isfinite(part.colors).all():
         part.colors = None
         notes.append(PartlyReadFile(f"{path}: vertex colours that are not finite numbers left out"))
-    return _moved(part, matrix)
+    return _transformed(part, matrix)
 
 
 def _per_vertex(values: Any, positions: np.ndarray, width: int) -> np.ndarray | None:
@@ -189,64 +192,65 @@ def _texcoords(kwargs: dict[str, Any], attributes: dict[str, Any], positions: np
     if "_TEXCOORD_0" in attributes:
         uv = _unit_range(np.asarray(attributes["_TEXCOORD_0"]))
         uv[:, 1] = 1 - uv[:, 1]  # glTF has (0, 0) at the top left
-    found = _per_vertex(uv, positions, 2)
-    return found if found is not None and np.isfinite(found).all() else None
+    texcoords = _per_vertex(uv, positions, 2)
+    return texcoords if texcoords is not None and np.isfinite(texcoords).all() else None
 
 
-def _colors(kwargs: dict[str, Any], attributes: dict[str, Any], part: Part) -> np.ndarray | None:
-    """Return (V, 4) colours: of the vertices, else of the faces, else of the material.
+def _colors(kwargs: dict[str, Any], attributes: dict[str, Any], part: ModelPart) -> np.ndarray | None:
+    """Return (V, 4) colours of the vertices, else of the faces, else of the material, else None.
 
-    Faces with colours get vertices of their own.
+    With face colours, the part is changed so that faces share no vertices.
     """
-    given = attributes.get("_COLOR_0", kwargs.get("vertex_colors"))
-    if given is None and kwargs.get("face_colors") is not None and len(kwargs["face_colors"]) == len(part.triangles):
+    values = attributes.get("_COLOR_0", kwargs.get("vertex_colors"))
+    if values is None and kwargs.get("face_colors") is not None and len(kwargs["face_colors"]) == len(part.triangles):
         for key in ("positions", "normals", "texcoords"):
-            values = getattr(part, key)
-            setattr(part, key, None if values is None else values[part.triangles.ravel()])
+            array = getattr(part, key)
+            setattr(part, key, None if array is None else array[part.triangles.ravel()])
         part.triangles = np.arange(3 * len(part.triangles)).reshape(-1, 3)
-        given = np.repeat(kwargs["face_colors"], 3, axis=0)
-    if given is None:
+        values = np.repeat(kwargs["face_colors"], 3, axis=0)
+    if values is None:
         factor = getattr(getattr(kwargs.get("visual"), "material", None), "baseColorFactor", None)
-        given = None if factor is None else np.tile(np.asarray(factor, dtype=np.uint8), (len(part.positions), 1))
-    if given is None or np.ndim(given) != 2 or np.shape(given)[1] not in (3, 4) or len(given) != len(part.positions):
+        values = None if factor is None else np.tile(np.asarray(factor, dtype=np.uint8), (len(part.positions), 1))
+    if values is None or np.shape(values) not in [(len(part.positions), width) for width in (3, 4)]:
         return None
-    colors = np.ones((len(given), 4))
-    colors[:, : np.shape(given)[1]] = _unit_range(np.asarray(given))
+    colors = np.ones((len(values), 4))
+    colors[:, : np.shape(values)[1]] = _unit_range(np.asarray(values))
     return colors
 
 
 def _unit_range(values: np.ndarray) -> np.ndarray:
-    """Return whole numbers divided by their type's largest; other numbers as they are, or / 255 when some exceed 1."""
+    """Return integers divided by the largest of their type; floats unchanged, or / 255 if a colour exceeds 1."""
     if values.dtype.kind in "ui":
         return values / np.iinfo(values.dtype).max
     scaled = values.astype(np.float64)
     return scaled / 255 if values.shape[1] > 2 and np.nanmax(scaled, initial=0) > 1 else scaled
 
 
-def _moved(part: Part, matrix: np.ndarray) -> Part:
-    """Return the part carried by a matrix; a mirror turns its triangles round, so that outside stays outside."""
+def _transformed(part: ModelPart, matrix: np.ndarray) -> ModelPart:
+    """Return the part transformed by a matrix; a reflection also reverses the winding of its triangles."""
     if np.array_equal(matrix, np.eye(4)):
         return part
     linear = matrix[:3, :3]
-    part.positions = carried(part.positions, linear) + matrix[:3, 3]
-    mirrored = np.linalg.det(linear) < 0
-    if mirrored:
+    part.positions = transform_points(part.positions, linear) + matrix[:3, 3]
+    reflects = np.linalg.det(linear) < 0
+    if reflects:
         part.triangles = part.triangles[:, [0, 2, 1]]
     if part.normals is not None:
-        # the cofactor matrix is det times the inverse transpose, and exists for a flattened part too
+        # the cofactor matrix, det times the inverse transpose, exists for singular matrices too
         cofactors = np.stack([np.cross(linear[(i + 1) % 3], linear[(i + 2) % 3]) for i in range(3)])
-        part.normals = carried(part.normals, -cofactors if mirrored else cofactors)
+        part.normals = transform_points(part.normals, -cofactors if reflects else cofactors)
     return part
 
 
-def _what_is_there(kind: str, data: bytes, geometry: Geometry) -> str:
+def _content(kind: str, data: bytes, geometry: Geometry) -> str:
+    """Return what a file without triangles contains, for a message."""
     points = sum(len(kwargs.get("vertices", ())) for kwargs, _ in geometry)
     if points:
         return f"{points} points and no triangle"
-    announced = _binary_stl_length(data)
-    if kind == "stl" and announced > len(data) and b"solid" not in data[:80]:
-        return f"as a binary STL it announces {announced} bytes and has {len(data)}, as text it has no solid"
-    return "no mesh in it" if data.strip() else "the file is empty"
+    declared = _binary_stl_length(data)
+    if kind == "stl" and declared > len(data) and b"solid" not in data[:80]:
+        return f"as a binary STL it declares {declared} bytes but has {len(data)}, as text it has no solid"
+    return "the file has no mesh" if data.strip() else "the file is empty"
 
 
 def _binary_stl_length(data: bytes) -> int:
@@ -259,9 +263,9 @@ def _as_utf8(data: bytes) -> bytes:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Keep the parsers' warnings and log lines away from the user; numbers that stop in mid-text become an error."""
+    """Silence the parsers' warnings and log; NumPy's warning about text after the last number becomes an error."""
     log = logging.getLogger("trimesh")
-    kept = log.disabled
+    was_disabled = log.disabled
     log.disabled = True
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
@@ -269,4 +273,4 @@ def _quiet() -> Iterator[None]:
             warnings.filterwarnings("error", message=".*unmatched data.*")
             yield
     finally:
-        log.disabled = kept
+        log.disabled = was_disabled

@@ -1,4 +1,4 @@
-"""The built-in scenes: small, quick to draw, each made so that one thing is to be seen (or to go wrong) in it."""
+"""The built-in scenes: small, quick to draw, and each designed to show one thing, or one failure."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -24,7 +24,7 @@ SAND, BRICK, SKY, LEAF, GOLD, STONE = (
 
 
 def boxes() -> Scene:
-    """Three boxes on a floor: the plain case, every technique is right here."""
+    """Three boxes on a floor: the plain case, where every technique is right."""
     return Scene(
         "boxes",
         Camera((2.6, 3.0, 4.8), (0.25, 0.45, 0.1), fov_y=40, near=1, far=30),
@@ -52,7 +52,7 @@ def torus() -> Scene:
 
 
 def overlapping() -> Scene:
-    """Two casters one behind the other as the light sees them: counts of two, where parity says lit."""
+    """Two casters, one behind the other as seen from the light: counts of two, where parity says lit."""
     return Scene(
         "overlapping",
         Camera((2.8, 2.8, 4.8), (0.2, 0.85, 0), fov_y=40, near=1, far=30),
@@ -66,7 +66,7 @@ def overlapping() -> Scene:
 
 
 def light_between() -> Scene:
-    """A light low between boxes, with a slab above it: projected on the floor, the slab casts an anti-shadow."""
+    """A low light between boxes, and a slab above it: projected onto the floor, the slab casts an anti-shadow."""
     return Scene(
         "light-between",
         Camera((1.4, 3.2, 6.2), (0.1, 1.0, 0.2), fov_y=40, near=1, far=40),
@@ -82,7 +82,7 @@ def light_between() -> Scene:
 
 
 def room() -> Scene:
-    """A light inside a closed room: six receivers around it, more than the view of one shadow map can hold."""
+    """A light inside a closed room: six receivers around it, more than one shadow map can cover."""
     x, y, z = 3.0, 3.2, 3.5
     walls: list[tuple[str, Sequence[float], Sequence[float], Sequence[float], Sequence[float]]] = [
         ("floor", (-x, 0, z), (2 * x, 0, 0), (0, 0, -2 * z), SAND),
@@ -106,7 +106,7 @@ def room() -> Scene:
 
 
 def eye_in_shadow() -> Scene:
-    """The eye under a roof: the near rectangle lies inside a volume, z-pass starts its count one too low."""
+    """The eye under a roof: the near rectangle lies inside a volume, so z-pass counts are one too low."""
     return Scene(
         "eye-in-shadow",
         Camera((0.3, 1.3, 4.0), (0, 0.6, -1), fov_y=55, near=0.2, far=40),
@@ -121,7 +121,7 @@ def eye_in_shadow() -> Scene:
 
 
 def near_cut() -> Scene:
-    """The side of a volume runs through the near rectangle: no single start value is right for z-pass."""
+    """The side of a volume cuts the near rectangle: no single start value is right for z-pass."""
     return Scene(
         "near-cut",
         Camera((2.4, 1.3, 4.0), (0.5, 0.6, -1), fov_y=55, near=0.5, far=40),
@@ -131,7 +131,7 @@ def near_cut() -> Scene:
 
 
 def thin_wall() -> Scene:
-    """A thin wall on the floor: a depth bias lifts its shadow off its foot, or lets the light through."""
+    """A thin wall on the floor: a depth bias detaches its shadow from its foot, or lets light through."""
     return Scene(
         "thin-wall",
         Camera((1.6, 2.6, 5.0), (0.1, 0.5, 0.5), fov_y=40, near=1, far=30),
@@ -145,7 +145,7 @@ def thin_wall() -> Scene:
 
 
 def staircase() -> Scene:
-    """Receivers at several heights: the crate behind the steps must not throw a (false) shadow up on them."""
+    """Receivers at several heights: the crate behind the steps must not cast a (false) shadow up onto them."""
     rise, tread, half = 0.35, 0.7, 1.6
     steps = []
     for step in range(4):
@@ -183,8 +183,8 @@ def sunlight() -> Scene:
 
 
 def spotlight() -> Scene:
-    """A spot light: outside its cone there is no light, and one shadow map along its axis holds all of it."""
-    # the floor has cells, so that the cone shows where GL lights vertices
+    """A spot light: outside its cone there is no light, and one shadow map along its axis covers the cone."""
+    # many cells, so that GL's lighting per vertex shows the cone
     return Scene(
         "spotlight",
         Camera((2.6, 3.0, 4.8), (0.1, 0.35, 0.1), fov_y=40, near=1, far=30),
@@ -194,7 +194,7 @@ def spotlight() -> Scene:
 
 
 def two_lights() -> Scene:
-    """A warm and a cool light: each has a shadow of its own, and where they overlap only ambient light is left."""
+    """A warm and a cool light: each has its own shadow, and where they overlap only ambient light is left."""
     return Scene(
         "two-lights",
         Camera((0.5, 3.2, 5.4), (0.1, 0.5, 0), fov_y=40, near=1, far=30),
@@ -208,7 +208,7 @@ def two_lights() -> Scene:
 
 
 def open_tube() -> Scene:
-    """An open mesh: its tube has no lids, so every face casts, turned towards the light."""
+    """An open mesh: a tube without lids, where every face casts, turned towards the light."""
     return Scene(
         "open-tube",
         Camera((2.4, 3.0, 4.4), (0, 0.7, 0), fov_y=40, near=1, far=30),
@@ -221,8 +221,8 @@ def open_tube() -> Scene:
 
 
 _SCENES: dict[str, Callable[[], Scene]] = {
-    make.__name__.replace("_", "-"): make
-    for make in (
+    build.__name__.replace("_", "-"): build
+    for build in (
         boxes,
         torus,
         overlapping,
@@ -246,26 +246,26 @@ def scene_names() -> tuple[str, ...]:
 
 
 def scene_title(name: str) -> str:
-    """Return what a built-in scene shows, in one sentence.
+    """Return one sentence on what a built-in scene shows.
 
     Raises
     ------
-    SceneError      there is no such scene; the message names the nearest
+    SceneError      there is no such scene; the message suggests the nearest name
     """
-    return str(_maker(name).__doc__).strip()
+    return str(_builder(name).__doc__).strip()
 
 
 def named_scene(name: str) -> Scene:
-    """Return a built-in scene, made anew.
+    """Return a built-in scene; `scene_names()` lists them.
 
     Raises
     ------
-    SceneError      there is no such scene; the message names the nearest
+    SceneError      there is no such scene; the message suggests the nearest name
     """
-    return replace(_maker(name)(), title=scene_title(name))
+    return replace(_builder(name)(), title=scene_title(name))
 
 
-def _maker(name: str) -> Callable[[], Scene]:
+def _builder(name: str) -> Callable[[], Scene]:
     if name not in _SCENES:
         raise SceneError(f"scene: no built-in scene is called {name!r}; {nearest(name, _SCENES)}")
     return _SCENES[name]

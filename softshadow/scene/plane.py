@@ -1,17 +1,17 @@
-"""Is a mesh one flat convex polygon, and in which plane?"""
+"""The plane of a mesh that is one flat convex polygon."""
 
 import numpy as np
 
 from softshadow.scene.mesh import Mesh
 
-# float32 positions of a turned square miss its plane by some units of 6e-8 of its size
+# rounding to float32 moves corners out of the plane by a few times 6e-8 of the mesh's size
 FLAT = 1e-6
 
 
 def flat_plane(mesh: Mesh) -> np.ndarray | None:
-    """Return the (4,) float64 object-space plane a, b, c, d of a flat mesh, unit normal; None when it is not flat.
+    """Return the (4,) float64 plane a, b, c, d of a flat mesh in object space, with unit normal; None if not flat.
 
-    All triangles have to face the same way, all vertices to lie in one plane, and the outline to be convex.
+    Flat means that all triangles face the same way, all vertices lie in one plane, and the outline is convex.
     """
     normals = mesh.face_normals
     areas = np.linalg.norm(normals, axis=1)
@@ -27,9 +27,9 @@ def flat_plane(mesh: Mesh) -> np.ndarray | None:
     topology = mesh.topology
     outline = np.flatnonzero(topology.edge_sums)
     if (np.abs(topology.edge_sums[outline]) != 1).any():
-        return None  # triangles that overlap
+        return None  # triangles overlap
     u, v = positions[topology.representatives[topology.edges[outline]]].transpose(1, 0, 2)
-    # inward: left of the edge as its one face runs along it
+    # in the plane, perpendicular to the edge, towards its face
     inward = np.cross(normal, v - u) * topology.edge_sums[outline, None]
     inward /= np.linalg.norm(inward, axis=1, keepdims=True)
     lowest = (inward @ used.T).min(axis=1) - (inward * u).sum(axis=1)

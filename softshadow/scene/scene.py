@@ -1,10 +1,11 @@
-"""A scene: what every technique draws. Camera, lights, objects that cast and planes that receive."""
+"""A scene, as every technique draws it: camera, lights, casters and flat receivers."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,14 +15,14 @@ from softshadow.errors import SceneError
 from softshadow.scene.camera import Camera
 from softshadow.scene.lights import Light
 from softshadow.scene.mesh import Mesh
-from softshadow.scene.placement import carried
+from softshadow.scene.placement import transform_points
 from softshadow.scene.plane import flat_plane
-from softshadow.scene.validate import keep, number, numbers
+from softshadow.scene.validate import set_fields, validate_number, validate_numbers
 
 
 @dataclass(frozen=True, eq=False, init=False)
 class Material:
-    """How a surface reflects: GL's ambient and diffuse share `color`.
+    """How a surface reflects light; `color` is both GL's ambient and its diffuse color.
 
     Attributes
     ----------
@@ -37,11 +38,11 @@ class Material:
     def __init__(
         self, color: ArrayLike = (0.8, 0.8, 0.8), specular: ArrayLike = (0, 0, 0), shininess: float = 0
     ) -> None:
-        keep(
+        set_fields(
             self,
-            color=numbers("material: color", color, 3),
-            specular=numbers("material: specular", specular, 3),
-            shininess=number("material: shininess", shininess),
+            color=validate_numbers("material: color", color, 3),
+            specular=validate_numbers("material: specular", specular, 3),
+            shininess=validate_number("material: shininess", shininess),
         )
         if not 0 <= self.shininess <= 128:
             raise SceneError(f"material: shininess: expected 0 to 128, got {self.shininess:g}")
@@ -49,13 +50,13 @@ class Material:
 
 @dataclass(frozen=True, eq=False, init=False)
 class SceneObject:
-    """A mesh that stands somewhere.
+    """A mesh placed in the world, with its material.
 
     Attributes
     ----------
-    object_to_world : (4, 4) float64     affine, not mirrored (a mirror would turn every face inside out)
-    casts : bool                         whether shadow techniques take it as a caster
-    receives : bool                      whether planar techniques take it as a receiver; it also has to be flat
+    object_to_world : (4, 4) float64     affine, without a reflection, which would turn every face inside out
+    casts : bool                         whether it casts shadows
+    receives : bool                      whether planar techniques draw shadows on it, provided that it is flat
     """
 
     mesh: Mesh
@@ -84,7 +85,7 @@ class SceneObject:
                 f"{name}: object_to_world: expected a positive determinant (neither flattened nor mirrored), "
                 f"got {np.linalg.det(matrix[:3, :3]):g}"
             )
-        keep(
+        set_fields(
             self,
             mesh=mesh,
             object_to_world=matrix,
@@ -100,19 +101,19 @@ class SceneObject:
         plane = flat_plane(self.mesh)
         if plane is None:
             return None
-        carried = plane @ np.linalg.inv(self.object_to_world)
-        return carried / np.linalg.norm(carried[:3])
+        world_plane = plane @ np.linalg.inv(self.object_to_world)
+        return world_plane / np.linalg.norm(world_plane[:3])
 
     @cached_property
     def world_positions(self) -> np.ndarray:
         """(V, 3) float64: the vertices in world space."""
         matrix = self.object_to_world
-        return carried(self.mesh.positions.astype(np.float64), matrix[:3, :3]) + matrix[:3, 3]
+        return transform_points(self.mesh.positions.astype(np.float64), matrix[:3, :3]) + matrix[:3, 3]
 
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
 class Scene:
-    """Everything a technique needs to know.
+    """What a technique draws: a camera, lights and objects.
 
     Attributes
     ----------
@@ -120,7 +121,7 @@ class Scene:
     objects : tuple of SceneObject      at least one, in drawing order
     ambient : (3,) float64              light that reaches every surface
     background : (3,) float64           colour where nothing is drawn
-    notes : tuple of Warning            what the making of the scene found, first in `warnings()`
+    notes : tuple of Warning            warnings from reading its files; `warnings()` begins with them
 
     Raises
     ------
@@ -148,20 +149,19 @@ class Scene:
         background: ArrayLike = (0.62, 0.72, 0.82),
         notes: Sequence[errors.Warning] = (),
     ) -> None:
-        parts: tuple[tuple[str, Sequence[Light] | Sequence[SceneObject]], ...] = (
-            ("lights", lights),
-            ("objects", objects),
+        _check_names(f"scene {name}: lights", [light.name for light in lights])
+        _check_names(f"scene {name}: objects", [item.name for item in objects])
+        set_fields(
+            self,
+            name=name,
+            camera=camera,
+            lights=tuple(lights),
+            objects=tuple(objects),
+            title=title,
+            ambient=validate_numbers("ambient", ambient, 3),
+            background=validate_numbers("background", background, 3),
+            notes=tuple(notes),
         )
-        for key, given in parts:
-            if not given:
-                raise SceneError(f"scene {name}: {key}: expected at least one, got none")
-            names = [part.name for part in given]
-            twice = sorted({part for part in names if names.count(part) > 1})
-            if twice:
-                raise SceneError(f"scene {name}: {key}: expected different names, got {', '.join(twice)} twice")
-        keep(self, name=name, camera=camera, lights=tuple(lights), objects=tuple(objects), title=title)
-        keep(self, ambient=numbers("ambient", ambient, 3), background=numbers("background", background, 3))
-        keep(self, notes=tuple(notes))
 
     def __repr__(self) -> str:
         names = ", ".join(item.name for item in self.objects)
@@ -177,29 +177,26 @@ class Scene:
         """The flat objects that planar techniques draw shadows on."""
         return tuple(item for item in self.objects if item.receives and item.plane is not None)
 
-    @classmethod
-    def named(cls, name: str) -> "Scene":
-        """Return a built-in scene; `scene_names()` lists them."""
-        from softshadow.scene.named import named_scene
+    if TYPE_CHECKING:
+        # softshadow.scene attaches these: their modules import this one
 
-        return named_scene(name)
+        @staticmethod
+        def named(name: str) -> "Scene": ...
 
-    @classmethod
-    def from_mesh(cls, path: str | PathLike[str], light: Sequence[float] = (2, 5, 3), **options: Any) -> "Scene":
-        """Return a model file on a floor, seen by a camera that frames it; see `loading.scene_from_mesh`."""
-        from softshadow.scene.loading import scene_from_mesh
+        @staticmethod
+        def from_mesh(
+            path: str | PathLike[str], light: ArrayLike | Light = (2, 5, 3), *, up: str = "y", name: str = ""
+        ) -> "Scene": ...
 
-        return scene_from_mesh(path, light, **options)
+        @staticmethod
+        def load(path: str | PathLike[str]) -> "Scene": ...
 
-    @classmethod
-    def load(cls, path: str | PathLike[str]) -> "Scene":
-        """Return the scene that a TOML file describes; see `files.load_scene`."""
-        from softshadow.scene.files import load_scene
+        def warnings(self, /) -> list[errors.Warning]: ...
 
-        return load_scene(path)
 
-    def warnings(self) -> list[errors.Warning]:
-        """Return what is legal but surprising about the scene, as warnings that nobody has issued yet."""
-        from softshadow.scene.scene_warnings import surprises
-
-        return [*self.notes, *surprises(self)]
+def _check_names(key: str, names: list[str]) -> None:
+    if not names:
+        raise SceneError(f"{key}: expected at least one, got none")
+    repeated = sorted(name for name, n in Counter(names).items() if n > 1)
+    if repeated:
+        raise SceneError(f"{key}: expected different names, got {', '.join(repeated)} twice")

@@ -1,7 +1,7 @@
-"""The tables of a scene file: what each may hold, and the part of a scene that it makes.
+"""The tables of a scene file as pydantic models; each builds its part of the scene.
 
-Each table makes its part while it is checked, so that what a camera or a mesh complains about is one more mistake of
-the file instead of the first and only one.
+The parts are built during validation, so that an error from a camera or a mesh is listed with the other mistakes of the
+file, instead of hiding them.
 """
 
 import inspect
@@ -20,11 +20,11 @@ from softshadow.scene.loading import load_mesh
 from softshadow.scene.mesh import Mesh
 from softshadow.scene.placement import placement
 from softshadow.scene.scene import Material, SceneObject
-from softshadow.scene.validation_errors import EXPECTED, Complaints, mistakes
+from softshadow.scene.validation_errors import EXPECTED, ErrorCollector, error_lines
 
 SHAPES: dict[str, Callable[..., Mesh]] = {
-    make.__name__: make
-    for make in (
+    build.__name__: build
+    for build in (
         shapes.box,
         shapes.sphere,
         shapes.torus,
@@ -37,21 +37,21 @@ SHAPES: dict[str, Callable[..., Mesh]] = {
     )
 }
 
-COUNTS = ("segments", "rings", "sides", "steps", "cells")
-MOST = 1000  # a grid of 1000 x 1000 cells is two million triangles
+INTEGER_PARAMETERS = ("segments", "rings", "sides", "steps", "cells")
+LARGEST_INTEGER = 1000  # a grid of 1000 x 1000 cells is two million triangles
 
 Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
 Color = Annotated[list[Annotated[float, Field(ge=0, le=1)]], Field(min_length=3, max_length=3)]
 
 
-class Context:
-    """What the tables of one file share while they are checked."""
+class LoadContext:
+    """What the tables of one file share during validation."""
 
     def __init__(self, folder: Path, materials: dict[str, Any]) -> None:
         self.folder = folder
         self.materials = materials
-        self.lights: set[str] = set()
-        self.objects: set[str] = set()
+        self.light_names: set[str] = set()
+        self.object_names: set[str] = set()
         self.notes: list[Warning] = []
 
 
@@ -70,12 +70,12 @@ class CameraTable(_Table):
 
     @property
     def built(self) -> Camera:
-        """The part of the scene that this table makes."""
+        """The part of the scene that this table describes."""
         return self._built
 
     @model_validator(mode="after")
     def _build(self) -> Self:
-        with Complaints() as complaints, complaints.about("camera"):
+        with ErrorCollector() as errors, errors.catch("camera"):
             self._built = Camera(self.eye, self.target, self.up, self.fov_y, self.near, self.far)
         return self
 
@@ -91,17 +91,17 @@ class LightTable(_Table):
 
     @property
     def built(self) -> Light:
-        """The part of the scene that this table makes."""
+        """The part of the scene that this table describes."""
         return self._built
 
     @model_validator(mode="after")
     def _build(self, info: ValidationInfo) -> Self:
-        with Complaints() as complaints:
-            name = _new_name(self.name or "light", not self.name, _context(info).lights, complaints)
+        with ErrorCollector() as errors:
+            name = _unique_name(self.name or "light", not self.name, _context(info).light_names, errors)
             if (self.position is None) == (self.direction is None):
-                complaints.add("expected either position (a point) or direction (towards a light at infinity)")
+                errors.add("expected either position (a point) or direction (towards a light at infinity)")
             else:
-                with complaints.about(name):
+                with errors.catch(name):
                     place = self.position or [*(self.direction or ()), 0]
                     self._built = Light(place, self.color, name, axis=self.axis, cutoff=self.cutoff)
         return self
@@ -113,34 +113,36 @@ class MaterialTable(_Table):
     shininess: Annotated[float, Field(ge=0, le=128)] = 0
 
 
-class _Placed(_Table):
+class _SceneObjectTable(_Table):
     name: str = ""
     material: Any = Field(default_factory=dict)
     _built: SceneObject = PrivateAttr()
 
     @property
     def built(self) -> SceneObject:
-        """The part of the scene that this table makes."""
+        """The part of the scene that this table describes."""
         return self._built
 
-    def _material(self, context: Context) -> Material:
-        given = self.material
-        if isinstance(given, str):
-            if given not in context.materials:
-                raise SceneError(f"material: no material is called {given!r}; {nearest(given, context.materials)}")
-            given = context.materials[given]
-            if not _is_valid(MaterialTable, given):
-                return Material()  # its mistakes are named where it is defined
-        if not isinstance(given, dict):
-            raise SceneError(f"material: expected {EXPECTED['material']}, got {given!r}")
+    def _material(self, context: LoadContext) -> Material:
+        value = self.material
+        if isinstance(value, str):
+            if value not in context.materials:
+                raise SceneError(f"material: no material is called {value!r}; {nearest(value, context.materials)}")
+            value = context.materials[value]
+            if not _is_valid(MaterialTable, value):
+                return Material()  # its mistakes are listed under [materials]
+        if not isinstance(value, dict):
+            raise SceneError(f"material: expected {EXPECTED['material']}, got {value!r}")
         try:
-            table = MaterialTable.model_validate(given)
+            table = MaterialTable.model_validate(value)
         except ValidationError as error:
-            raise SceneError("\n".join(f"material.{line}" for line in mistakes(error, {"": MaterialTable}))) from None
+            raise SceneError(
+                "\n".join(f"material.{line}" for line in error_lines(error, {"": MaterialTable}))
+            ) from None
         return Material(table.color, table.specular, table.shininess)
 
 
-class ObjectTable(_Placed):
+class ObjectTable(_SceneObjectTable):
     shape: str | None = None
     parameters: dict[str, Any] = {}
     mesh: str | None = None
@@ -154,48 +156,50 @@ class ObjectTable(_Placed):
     def _build(self, info: ValidationInfo) -> Self:
         context = _context(info)
         mesh, matrix, material = None, None, None
-        with Complaints() as complaints:
+        with ErrorCollector() as errors:
             if (self.shape is None) == (self.mesh is None):
-                complaints.add("expected either shape (a built-in shape) or mesh (a model file)")
+                errors.add("expected either shape (a built-in shape) or mesh (a model file)")
             elif self.shape is not None:
-                with complaints.about():
-                    mesh = self._shape(self.shape, complaints)
+                with errors.catch():
+                    mesh = self._shape(self.shape, errors)
             elif self.mesh is not None:
-                with complaints.about():
+                with errors.catch():
                     mesh = self._model(self.mesh, context)
-            name = _new_name(self.name or (mesh.name if mesh else "object"), not self.name, context.objects, complaints)
-            with complaints.about():
+            name = _unique_name(
+                self.name or (mesh.name if mesh else "object"), not self.name, context.object_names, errors
+            )
+            with errors.catch():
                 matrix = placement(self.move, self.turn, self.scale)
-            with complaints.about():
+            with errors.catch():
                 material = self._material(context)
-            if mesh is not None and not complaints.lines:
+            if mesh is not None and not errors.lines:
                 self._built = SceneObject(mesh, matrix, material, casts=self.casts, receives=self.receives, name=name)
         return self
 
-    def _shape(self, shape: str, complaints: Complaints) -> Mesh | None:
+    def _shape(self, shape: str, errors: ErrorCollector) -> Mesh | None:
         if shape not in SHAPES:
             raise SceneError(f"shape: no shape is called {shape!r}; {nearest(shape, SHAPES)}")
-        make = SHAPES[shape]
-        known = {key: item.default for key, item in inspect.signature(make).parameters.items() if key != "name"}
-        before = len(complaints.lines)
+        build = SHAPES[shape]
+        defaults = {key: item.default for key, item in inspect.signature(build).parameters.items() if key != "name"}
+        n_before = len(errors.lines)
         for key, value in self.parameters.items():
-            if key not in known:
-                complaints.add(f"parameters.{key}: {shape} has no such parameter; {nearest(key, known)}")
-            elif complaint := _about_parameter(key, value, known[key]):
-                complaints.add(complaint)
-        for key, default in known.items():
+            if key not in defaults:
+                errors.add(f"parameters.{key}: {shape} has no such parameter; {nearest(key, defaults)}")
+            elif message := _parameter_error(key, value, defaults[key]):
+                errors.add(message)
+        for key, default in defaults.items():
             if default is inspect.Parameter.empty and key not in self.parameters:
-                complaints.add(f"parameters.{key}: expected [x, y, z], it is missing")
-        if len(complaints.lines) > before:
+                errors.add(f"parameters.{key}: expected [x, y, z], but it is missing")
+        if len(errors.lines) > n_before:
             return None
         try:
-            return make(**self.parameters)
+            return build(**self.parameters)
         except ValueError as error:
             raise SceneError(f"parameters.{error}") from None
 
-    def _model(self, mesh: str, context: Context) -> Mesh:
+    def _model(self, mesh: str, context: LoadContext) -> Mesh:
         if self.parameters:
-            raise SceneError("parameters: only a shape has parameters; expected none beside mesh")
+            raise SceneError("parameters: only a shape has parameters; expected none with mesh")
         file = context.folder / mesh
         if not file.resolve().is_relative_to(context.folder.resolve()):
             raise SceneError(f"mesh: {mesh!r} is outside the folder of the scene file; expected a file inside it")
@@ -207,7 +211,7 @@ class ObjectTable(_Placed):
         return model
 
 
-class ReceiverTable(_Placed):
+class ReceiverTable(_SceneObjectTable):
     corner: Triple
     across: Triple
     up: Triple
@@ -216,15 +220,15 @@ class ReceiverTable(_Placed):
     def _build(self, info: ValidationInfo) -> Self:
         context = _context(info)
         mesh, material = None, None
-        with Complaints() as complaints:
-            name = _new_name(self.name or "receiver", not self.name, context.objects, complaints)
+        with ErrorCollector() as errors:
+            name = _unique_name(self.name or "receiver", not self.name, context.object_names, errors)
             try:
                 mesh = shapes.quad(self.corner, self.across, self.up, name=name)
             except ValueError as error:
-                complaints.add(str(error))
-            with complaints.about():
+                errors.add(str(error))
+            with errors.catch():
                 material = self._material(context)
-            if mesh is not None and not complaints.lines:
+            if mesh is not None and not errors.lines:
                 self._built = SceneObject(mesh, material=material, casts=False, receives=True)
         return self
 
@@ -246,37 +250,51 @@ class SceneTable(_Table):
         return self
 
 
-def _context(info: ValidationInfo) -> Context:
-    assert isinstance(info.context, Context)
+# the model of each table of a file, by its key; the whole file's is under ""
+TABLES: dict[str, type[BaseModel]] = {
+    "": SceneTable,
+    "camera": CameraTable,
+    "light": LightTable,
+    "object": ObjectTable,
+    "receiver": ReceiverTable,
+    "materials": MaterialTable,
+}
+
+
+def _context(info: ValidationInfo) -> LoadContext:
+    assert isinstance(info.context, LoadContext)
     return info.context
 
 
-def _new_name(name: str, made_up: bool, taken: set[str], complaints: Complaints) -> str:
-    """Return the name, with a number behind it when nobody chose it and it is taken."""
-    if name in taken and not made_up:
-        complaints.add(f"name: {name!r} is used twice; expected a name of its own")
-    free = name
-    number = 2
-    while free in taken:
-        free = f"{name} {number}"
+def _unique_name(name: str, is_default: bool, used: set[str], errors: ErrorCollector) -> str:
+    """Return the name, with a number added if it is used already, and add it to `used`.
+
+    Only a default name may be used already; another one is an error.
+    """
+    if name in used and not is_default:
+        errors.add(f"name: {name!r} is used twice; expected a unique name")
+    unique, number = name, 1
+    while unique in used:
         number += 1
-    taken.add(free)
-    return free
+        unique = f"{name} {number}"
+    used.add(unique)
+    return unique
 
 
-def _about_parameter(key: str, value: Any, default: Any) -> str:
-    """Return a complaint when a shape's parameter is not of the kind of its default, else nothing."""
-    plain = isinstance(value, int | float) and not isinstance(value, bool) and np.isfinite(value)
+def _parameter_error(key: str, value: Any, default: Any) -> str:
+    """Return an error message if a shape's parameter has not the type of its default, else an empty string."""
+    is_number = isinstance(value, int | float) and not isinstance(value, bool) and np.isfinite(value)
     if isinstance(default, bool):
-        right, expected = isinstance(value, bool), "true or false"
-    elif key in COUNTS:
-        right, expected = plain and isinstance(value, int) and 1 <= value <= MOST, f"a whole number from 1 to {MOST}"
+        is_valid, expected = isinstance(value, bool), "true or false"
+    elif key in INTEGER_PARAMETERS:
+        is_valid = is_number and isinstance(value, int) and 1 <= value <= LARGEST_INTEGER
+        expected = f"a whole number from 1 to {LARGEST_INTEGER}"
     elif default is inspect.Parameter.empty:
-        right = isinstance(value, list) and len(value) == 3 and all(isinstance(part, int | float) for part in value)
+        is_valid = isinstance(value, list) and len(value) == 3 and all(isinstance(part, int | float) for part in value)
         expected = "[x, y, z]"
     else:
-        right, expected = plain and value > 0, "a positive number"
-    return "" if right else f"parameters.{key}: expected {expected}, got {value!r}"
+        is_valid, expected = is_number and value > 0, "a positive number"
+    return "" if is_valid else f"parameters.{key}: expected {expected}, got {value!r}"
 
 
 def _is_valid(model: type[BaseModel], value: Any) -> bool:

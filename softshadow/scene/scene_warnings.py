@@ -1,77 +1,66 @@
-"""What is legal but surprising about a scene, said before the picture surprises."""
+"""Warnings about a scene: input that is legal but will look wrong."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from softshadow import errors
 from softshadow.scene.mesh import Mesh
+from softshadow.scene.scene import Scene, SceneObject
 
-if TYPE_CHECKING:
-    from softshadow.scene.scene import Scene, SceneObject
-
-# at a thousand times its size a mesh has 14 of float32's 24 bits left: a tenth of a pixel in a large picture
+# at this many times its size from the origin, a mesh keeps 14 of float32's 24 bits: 0.1 pixel in a large picture
 FAR = 1000
-# float64 rounding of a volume of nothing, of a mesh of size 1: faces back to back have no inside to be turned out
+# float64 rounding of the volume of a mesh of size 1 that encloses nothing, such as two faces back to back
 NO_VOLUME = 1e-12
 
 
-def surprises(scene: "Scene") -> Iterator[errors.Warning]:
-    """Yield a named warning for whatever makes a caster leak or count oddly, and for each light inside a caster."""
+def scene_warnings(scene: Scene) -> list[errors.Warning]:
+    """Return warnings about casters that leak or count wrongly and lights inside casters, without issuing them."""
+    warnings = list(scene.notes)
     for caster in scene.casters:
-        yield from leaks(caster)
-        mesh = caster.mesh
-        if mesh.topology.closed and mesh.signed_volume < -NO_VOLUME * float(np.ptp(mesh.bounds, axis=0).max()) ** 3:
-            yield errors.InsideOutMesh(
-                f"{caster.name}: the triangles run clockwise seen from outside. Culling and lighting show the inside, "
-                f"and the far side casts instead of the near one"
-            )
-        for light in scene.lights:
-            if light.is_directional or not mesh.topology.closed_faces.any():
-                continue
-            if _is_inside(mesh, light.in_object_space(caster.object_to_world)[:3]):
-                yield errors.LightInsideCaster(
-                    f"{light.name}: the light is inside {caster.name}. Faces seen from behind cast no volume, so "
-                    f"volumes let the light out, while shadow maps and rays keep it in"
-                )
+        warnings += _mesh_warnings(caster)
+        warnings += _inside_out_warnings(caster)
+        warnings += _light_warnings(caster, scene)
+    return warnings
 
 
-def leaks(caster: "SceneObject") -> Iterator[errors.Warning]:
-    """Yield what keeps the caster from being a solid: what, how many, where the first is (object space), what copes."""
+def _mesh_warnings(caster: SceneObject) -> Iterator[errors.Warning]:
+    """Yield what keeps the mesh from being a solid: what is wrong, how often, and the first place in object space."""
     mesh, topology = caster.mesh, caster.mesh.topology
     if topology.boundary_edges:
-        boundary = mesh.boundary
+        from softshadow.scene.boundary import boundary_of  # needs Numba, which scenes of closed meshes do not
+
+        boundary = boundary_of(mesh)
         yield errors.OpenMesh(
             f"{caster.name}: the mesh is {topology.describe()} in {boundary.loops} "
-            f"{'loop' if boundary.loops == 1 else 'loops'}, the first at {place(*boundary.first_edge)}. Every face of "
-            f"an open body casts, turned towards the light, and counts go up by one per layer. Volumes count right, "
-            f"volume-parity and a map of the far faces (cull=front) do not cope"
+            f"{'loop' if boundary.loops == 1 else 'loops'}, the first at {_text(*boundary.first_edge)}. Every face of "
+            f"an open body casts, turned towards the light, and counts go up by one per layer. Volumes that count are "
+            f"right; volume-parity and a map of the far faces (cull=front) are wrong"
         )
         if len(boundary.unwelded):
             yield errors.UnweldedMesh(
                 f"{caster.name}: {len(boundary.unwelded)} boundary vertices lie next to another one, not at an equal "
-                f"position, the first at {place(boundary.unwelded[0])}. Light may come through between them; merge "
+                f"position, the first at {_text(boundary.unwelded[0])}. Light may leak between them; merge "
                 f"vertices by distance in the program that made the file"
             )
         if len(boundary.t_junctions):
             yield errors.TJunction(
                 f"{caster.name}: {len(boundary.t_junctions)} vertices lie within an edge of another face, the first at "
-                f"{place(boundary.t_junctions[0])}. The two sides of such an edge are rounded apart: single pixels in "
-                f"line with it may leak, in surfaces and volumes; split the edge there, or use a map"
+                f"{_text(boundary.t_junctions[0])}. The two sides of such an edge are rounded differently: single "
+                f"pixels along it may leak, in surfaces and in volumes; split the edge there, or use a shadow map"
             )
     if topology.nonmanifold_edges:
         yield errors.NonManifoldMesh(
             f"{caster.name}: {topology.nonmanifold_edges} edges have more than two faces, the first at "
-            f"{_edge_place(mesh, topology.edge_faces > 2)}. Volumes have as many sides there as are needed and count "
-            f"right, but the body has no inside"
+            f"{_edge_text(mesh, topology.edge_faces > 2)}. Volumes get as many sides there as the faces need, and "
+            f"count correctly, but the body has no inside"
         )
     if topology.misoriented_edges:
         yield errors.MisorientedMesh(
             f"{caster.name}: at {topology.misoriented_edges} edges two faces disagree about the outside, the first at "
-            f"{_edge_place(mesh, (topology.edge_faces == 2) & (topology.edge_sums != 0))}. Every face of such a body "
-            f"casts, turned towards the light: volumes that count cope, volume-parity does not, and triangles are "
-            f"drawn inside out, culled or unlit; make normals consistent in the program that made the file"
+            f"{_edge_text(mesh, (topology.edge_faces == 2) & (topology.edge_sums != 0))}. Every face of such a body "
+            f"casts, turned towards the light: volumes that count are right, volume-parity is wrong, and triangles "
+            f"are drawn inside out, culled or unlit; make normals consistent in the program that made the file"
         )
     size, reach = float(np.ptp(mesh.bounds, axis=0).max()), float(np.abs(mesh.bounds).max())
     if reach > FAR * size:
@@ -85,18 +74,39 @@ def leaks(caster: "SceneObject") -> Iterator[errors.Warning]:
         first = int(np.flatnonzero(flat)[0])
         yield errors.DegenerateFaces(
             f"{caster.name}: {int(flat.sum())} of {len(flat)} triangles have no area, the first is triangle {first} at "
-            f"{place(mesh.positions[mesh.triangles[first, 0]])}. They are not seen and cast nothing"
+            f"{_text(mesh.positions[mesh.triangles[first, 0]])}. They are not drawn and cast nothing"
         )
 
 
-def place(*points: np.ndarray) -> str:
+def _inside_out_warnings(caster: SceneObject) -> Iterator[errors.Warning]:
+    mesh = caster.mesh
+    if mesh.topology.closed and mesh.signed_volume < -NO_VOLUME * float(np.ptp(mesh.bounds, axis=0).max()) ** 3:
+        yield errors.InsideOutMesh(
+            f"{caster.name}: the triangles are clockwise seen from outside. Culling and lighting show the inside, "
+            f"and the far side casts instead of the near one"
+        )
+
+
+def _light_warnings(caster: SceneObject, scene: Scene) -> Iterator[errors.Warning]:
+    for light in scene.lights:
+        if light.is_directional or not caster.mesh.topology.closed_faces.any():
+            continue
+        if _is_inside(caster.mesh, light.in_object_space(caster.object_to_world)[:3]):
+            yield errors.LightInsideCaster(
+                f"{light.name}: the light is inside {caster.name}. Faces seen from behind cast no volume, so "
+                f"volumes let the light out, while shadow maps and rays keep it in"
+            )
+
+
+def _text(*points: np.ndarray) -> str:
     """Return positions as text: (x, y, z), or (x, y, z) - (x, y, z) for an edge."""
     return " - ".join(f"({', '.join(f'{value:.6g}' for value in point)})" for point in points)
 
 
-def _edge_place(mesh: Mesh, which: np.ndarray) -> str:
+def _edge_text(mesh: Mesh, is_listed: np.ndarray) -> str:
+    """Return the end points of the first edge where (E,) `is_listed` is true."""
     topology = mesh.topology
-    return place(*mesh.positions[topology.representatives[topology.edges[np.flatnonzero(which)[0]]]])
+    return _text(*mesh.positions[topology.representatives[topology.edges[np.flatnonzero(is_listed)[0]]]])
 
 
 def _is_inside(mesh: Mesh, point: np.ndarray) -> bool:

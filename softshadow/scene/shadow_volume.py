@@ -1,8 +1,8 @@
-"""The shadow volume of one mesh and one light: light cap, sides and dark cap, closed to the last bit.
+"""The shadow volume of one mesh and one light: light cap, sides and dark cap, which fit together exactly.
 
-Made in the object's own space, to be drawn under the object's own modelview matrix. The light cap is the mesh's own
-triangles over the mesh's own vertices, unchanged in order: its depth is the surface's depth bit for bit, so that under
-GL_LESS it never passes over the surface that it lies on.
+It is built in object space, to be drawn with the object's own modelview matrix. The light cap consists of the mesh's
+own triangles and vertices in the same order. Its depth therefore equals the surface's depth bit for bit, and with
+GL_LESS it never passes on the surface itself.
 
 References
 ----------
@@ -27,24 +27,24 @@ from softshadow.scene.silhouette import (
 Generator = Literal["silhouette", "per-polygon"]
 GENERATORS: tuple[Generator, ...] = ("silhouette", "per-polygon")
 
-# far vertices further out than this would leave no room for a float32 matrix product; only a face that is edge-on
-# to the light within 1e-25 of the reach asks for more, and such a face covers no sample
+# limit of far vertices, so that products with a matrix stay within float32; only a face that is edge-on to the light
+# to within 1e-25 of the reach would need more, and such a face covers no sample
 FARTHEST = 1e25
 
 
 @dataclass(frozen=True, eq=False)
 class ShadowVolume:
-    """Polygons whose directed edges cancel: every edge is run along as often as against. All arrays are read-only.
+    """A closed volume: each edge occurs equally often in both directions. All arrays are read-only.
 
     Attributes
     ----------
-    light_cap : (C, 3) int32             rows of the mesh's triangles, to be drawn with the mesh's own positions
-    light_cap_reversed : (R, 3) int32    the same, to be drawn under glFrontFace(GL_CW)
-    sides : (S, 4, 4) float32            homogeneous quads v, u, u_far, v_far, counter-clockwise from outside;
-                                         (S, 3, 4) triangles where the far two are one point at infinity
-    far_vertices : (V, 4) float32        where the volume ends behind each vertex of the mesh. The dark cap is the light
-                                         cap's triangles over these, seen from the other side; (0, 4) where there is
-                                         none: without caps, and where all of them are one point at infinity
+    light_cap : (C, 3) int32             triangles of the mesh, to be drawn with the mesh's positions
+    light_cap_reversed : (R, 3) int32    the same, to be drawn with glFrontFace(GL_CW)
+    sides : (S, 4, 4) float32            homogeneous quads v, u, u_far, v_far, counter-clockwise from outside; or
+                                         (S, 3, 4) triangles, if all far vertices are one point at infinity
+    far_vertices : (V, 4) float32        the end of the volume behind each vertex of the mesh. The dark cap is the light
+                                         cap over these vertices, reversed. (0, 4) without caps, and if all of them are
+                                         one point at infinity
     """
 
     light_cap: np.ndarray
@@ -58,7 +58,7 @@ class ShadowVolume:
 
     @property
     def dark_cap(self) -> np.ndarray:
-        """(C + R, 3, 4) float32: the dark cap's triangles, counter-clockwise from outside; none where not needed."""
+        """(C + R, 3, 4) float32: the triangles of the dark cap, counter-clockwise from outside; (0, 3, 4) if none."""
         if not len(self.far_vertices):
             return np.zeros((0, 3, 4), np.float32)
         return self.far_vertices[np.concatenate([self.light_cap[:, ::-1], self.light_cap_reversed])]
@@ -72,20 +72,20 @@ def shadow_volume(
     extrusion: Literal["infinite"] | float = "infinite",
     caps: bool = True,
 ) -> ShadowVolume:
-    """Return the volume behind the mesh as seen from the light.
+    """Return the shadow volume: what lies behind the mesh as seen from the light.
 
     Parameters
     ----------
     light : (4,) float64          homogeneous, object space, w >= 0; w = 0 is a direction towards the light
-    generator : str               "silhouette": sides only at the silhouette, once per multiplicity;
-                                  "per-polygon": every casting face makes a volume of its own
-    extrusion : "infinite" or R   R: every point nearer to the light than R (object space) that is in shadow lies in the
-                                  volume; for a directional light, every point within R behind the mesh
-    caps : bool                   without caps both cap arrays are empty
+    generator : str               "silhouette": sides at the silhouette edges only, repeated by multiplicity;
+                                  "per-polygon": a volume for each casting face
+    extrusion : "infinite" or R   R: the volume contains every shadowed point nearer to the light than R (object space);
+                                  for a directional light, every one within R behind the mesh
+    caps : bool                   without caps, both light caps and `far_vertices` are empty
 
     Raises
     ------
-    ValueError                    unknown generator, a reach that is not positive and finite, a malformed light
+    ValueError                    unknown generator, an extrusion that is not positive and finite, a malformed light
     """
     if generator not in GENERATORS:
         raise ValueError(f"generator: expected one of {', '.join(GENERATORS)}, got {generator!r}")
@@ -97,62 +97,62 @@ def shadow_volume(
     corners = [_near(mesh, v), _near(mesh, u), far[u]] + ([] if one_far_point else [far[v]])
     sides = np.stack(corners, axis=1)
     if not caps:
-        nothing = np.zeros((0, 3), dtype=np.int32)
-        return ShadowVolume(nothing, nothing, sides, far[:0])
+        no_cap = np.zeros((0, 3), dtype=np.int32)
+        return ShadowVolume(no_cap, no_cap, sides, far[:0])
     far_vertices = far[:0] if one_far_point else far
-    return ShadowVolume(mesh.triangles[faces.kept], mesh.triangles[faces.reversed], sides, far_vertices)
+    return ShadowVolume(mesh.triangles[faces.facing], mesh.triangles[faces.reversed], sides, far_vertices)
 
 
 def _near(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:
-    """Return (N, 4) float32: vertices of the mesh as homogeneous points."""
+    """Return (N, 4) float32: the listed vertices of the mesh as homogeneous points."""
     near = np.ones((len(vertices), 4), dtype=np.float32)
     near[:, :3] = mesh.positions[vertices]
     return near
 
 
 def _polygon_edges(mesh: Mesh, faces: CastingFaces) -> np.ndarray:
-    """Return (3 (C + R), 2): the edges of the casting faces, all counter-clockwise seen from the light."""
-    triangles = np.concatenate([mesh.triangles[faces.kept], mesh.triangles[faces.reversed][:, ::-1]])
+    """Return (3 (C + R), 2): the edges of the casting faces, counter-clockwise as seen from the light."""
+    triangles = np.concatenate([mesh.triangles[faces.facing], mesh.triangles[faces.reversed][:, ::-1]])
     return np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2)
 
 
 def _silhouette_edges(mesh: Mesh, faces: CastingFaces) -> np.ndarray:
-    found = silhouette_of(mesh, faces)
-    return np.repeat(found.edges, found.multiplicity, axis=0)
+    outline = silhouette_of(mesh, faces)
+    return np.repeat(outline.edges, outline.multiplicity, axis=0)
 
 
 def _far_vertices(
     mesh: Mesh, light: np.ndarray, faces: CastingFaces, extrusion: Literal["infinite"] | float
 ) -> np.ndarray:
-    """Return (V, 4) float32: where each vertex goes; one function of the position, so that sides and cap meet."""
+    """Return (V, 4) float32: the far vertices, each a function of its position only, so that sides and cap meet."""
     positions = mesh.positions.astype(np.float64)
-    away = positions - light[:3] if light[3] else np.broadcast_to(-light[:3], positions.shape)
+    from_light = positions - light[:3] if light[3] else np.broadcast_to(-light[:3], positions.shape)
     far = np.zeros((len(positions), 4), dtype=np.float32)
     if isinstance(extrusion, str):
         if extrusion != "infinite":
             raise ValueError(f"extrusion: expected 'infinite' or a reach (a positive number), got {extrusion!r}")
-        far[:, :3] = away  # (u - L, 0), or (-D, 0)
+        far[:, :3] = from_light  # (u - L, 0), or (-D, 0)
         return far
     reach = float(extrusion)
     if not 0 < reach < FARTHEST:
         raise ValueError(f"extrusion: expected 'infinite' or a reach between 0 and {FARTHEST:g}, got {extrusion!r}")
     if light[3]:
-        moved = light[:3] + _scale(mesh, light, faces, reach) * away
+        moved = light[:3] + _scale(mesh, light, faces, reach) * from_light
     else:
-        moved = positions + reach * away / np.linalg.norm(light[:3])
+        moved = positions + reach * from_light / np.linalg.norm(light[:3])
     far[:, :3] = moved
     far[:, 3] = 1
     return far
 
 
 def _scale(mesh: Mesh, light: np.ndarray, faces: CastingFaces, reach: float) -> float:
-    """Return k: scaled about the light by k, the plane of every casting face is at least `reach` from the light.
+    """Return the factor that, as a scale about the light, moves every casting face's plane to at least `reach` from it.
 
-    Moving each vertex by the same length instead leaves the middle of a near face behind: 8.7 where 20 was asked for.
+    Moving each vertex to the distance `reach` is not enough: the middle of a near face came to 8.7 instead of 20.
     """
-    used = np.concatenate([faces.kept, faces.reversed])
-    if not len(used):
+    casting = np.concatenate([faces.facing, faces.reversed])
+    if not len(casting):
         return 1.0
-    distance = np.abs(light_distances(mesh, light)[used]) / mesh.doubled_areas[used]
+    distance = np.abs(light_distances(mesh, light)[casting]) / mesh.doubled_areas[casting]
     largest = np.abs(mesh.bounds - light[:3]).max()
     return float(min(max(reach / distance.min(), 1.0), FARTHEST / largest))

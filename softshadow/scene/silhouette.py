@@ -1,7 +1,7 @@
-"""Which faces cast, and the silhouette: the boundary of the casting faces as a chain with multiplicity.
+"""The faces that cast, and the silhouette: the boundary of these faces as a chain with multiplicity.
 
-Each face is decided once, in float64 from the float32 positions: whatever the decision for a face that is nearly
-edge-on, the volume made from it is closed (Bergeron 1986; Kim, Kim & Turk 2008 for the multiplicity).
+Each face is classified once, in float64 from the float32 positions. Whatever the result for a face that is nearly
+edge-on, the volume is closed (Bergeron 1986; Kim, Kim & Turk 2008 for the multiplicity).
 """
 
 from dataclasses import dataclass
@@ -13,26 +13,26 @@ from softshadow.scene.mesh import Mesh
 
 @dataclass(frozen=True, eq=False)
 class CastingFaces:
-    """Face numbers in drawing order.
+    """The faces of a mesh that cast, by number, in drawing order.
 
     Attributes
     ----------
-    kept : (C,) int32         faces that face the light as stored
-    reversed : (R,) int32     faces of open bodies that face away and cast the other way round
+    facing : (C,) int32       faces that face the light
+    reversed : (R,) int32     faces of open bodies that face away from the light; they cast with reversed winding
     """
 
-    kept: np.ndarray
+    facing: np.ndarray
     reversed: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
 class Silhouette:
-    """Directed edges, each running as in the casting face it belongs to.
+    """The silhouette as directed edges, each directed as in its casting face.
 
     Attributes
     ----------
-    edges : (S, 2) int32          drawing vertices u, v
-    multiplicity : (S,) int32     how many casting faces have u to v more than v to u; at least 1
+    edges : (S, 2) int32          vertices u, v of the mesh
+    multiplicity : (S,) int32     casting faces with the edge u to v minus those with v to u; at least 1
     """
 
     edges: np.ndarray
@@ -40,9 +40,9 @@ class Silhouette:
 
 
 def light_distances(mesh: Mesh, light: np.ndarray) -> np.ndarray:
-    """Return (T,) float64: how far the light is before each face's plane, times twice the face's area; 0 for no area.
+    """Return (T,) float64: signed distance of the light from each face's plane, times twice the face's area.
 
-    For a directional light the cosine to the direction towards it takes the distance's place.
+    For a directional light it is the dot product of its direction and the face normal.
 
     Parameters
     ----------
@@ -56,24 +56,24 @@ def light_distances(mesh: Mesh, light: np.ndarray) -> np.ndarray:
 
 
 def casting_faces(mesh: Mesh, light: np.ndarray) -> CastingFaces:
-    """Return the faces that cast: of closed bodies those that face the light, of open ones all, turned towards it.
+    """Return the faces that cast: those of closed bodies that face the light, and all faces of open bodies.
 
-    A body is a connected piece of the mesh. A face edge-on to the light, or without area, does not cast.
+    A body is a connected piece of the mesh. A face that is edge-on to the light, or has no area, does not cast.
 
     Parameters
     ----------
     light : (4,) float64      homogeneous, object space, w >= 0; w = 0 is a direction towards the light
     """
     distances = light_distances(mesh, light)
-    kept = np.flatnonzero(distances > 0).astype(np.int32)
+    facing = np.flatnonzero(distances > 0).astype(np.int32)
     topology = mesh.topology
     if topology.closed:
-        return CastingFaces(kept, np.zeros(0, np.int32))
-    return CastingFaces(kept, np.flatnonzero((distances < 0) & ~topology.closed_faces).astype(np.int32))
+        return CastingFaces(facing, np.zeros(0, np.int32))
+    return CastingFaces(facing, np.flatnonzero((distances < 0) & ~topology.closed_faces).astype(np.int32))
 
 
 def silhouette(mesh: Mesh, light: np.ndarray) -> Silhouette:
-    """Return the edges where the chain sum of the casting faces is not 0; at every vertex as many arrive as leave.
+    """Return the edges where the chain sum of the casting faces is not 0; they form closed loops.
 
     Parameters
     ----------
@@ -83,18 +83,18 @@ def silhouette(mesh: Mesh, light: np.ndarray) -> Silhouette:
 
 
 def silhouette_of(mesh: Mesh, faces: CastingFaces) -> Silhouette:
-    """Return the boundary of the given faces as a chain."""
+    """Return the silhouette of a mesh whose casting faces are known."""
     topology = mesh.topology
-    sums = topology.chain_sum(faces.kept, faces.reversed)
-    found = np.flatnonzero(sums)
-    edges = topology.representatives[topology.edges[found]]
-    against = sums[found] < 0
-    edges[against] = edges[against, ::-1]
-    return Silhouette(edges, np.abs(sums[found]))
+    sums = topology.chain_sum(faces.facing, faces.reversed)
+    outline = np.flatnonzero(sums)
+    edges = topology.representatives[topology.edges[outline]]
+    backward = sums[outline] < 0
+    edges[backward] = edges[backward, ::-1]
+    return Silhouette(edges, np.abs(sums[outline]))
 
 
 def homogeneous_light(light: np.ndarray) -> np.ndarray:
-    """Return the light as (4,) float64 with w = 1 (a point) or w = 0 (a direction).
+    """Return the light as (4,) float64 with w = 1 (a point) or w = 0 (a direction towards it).
 
     Raises
     ------

@@ -1,8 +1,8 @@
-"""How triangles hang together: by exact position only, so that split normals and texture seams do not open a mesh.
+"""How triangles are connected: by exact position, so that split normals and texture seams do not open a mesh.
 
-Nothing here moves, merges or reorders a drawing vertex: the light cap of a shadow volume is drawn with the mesh's own
-vertices, and only equal bits give equal depth. Edge sums of open and non-manifold meshes are Bergeron's (1986,
-"A general version of Crow's shadow volumes").
+The mesh's own vertices are neither moved, merged nor reordered: the light cap of a shadow volume is drawn with them,
+and only equal bits give equal depth. Edge sums of open and non-manifold meshes follow Bergeron (1986, "A general
+version of Crow's shadow volumes").
 """
 
 from functools import cached_property
@@ -11,7 +11,7 @@ import numpy as np
 
 
 class Topology:
-    """Vertices by position, edges, and the chain sum of all faces on every edge.
+    """The positions, edges and bodies of a mesh, and the chain sum of its faces on every edge.
 
     Parameters
     ----------
@@ -20,19 +20,19 @@ class Topology:
 
     Attributes
     ----------
-    vertex_ids : (V,) int32           number of the vertex's position, 0 to P - 1; equal positions have equal numbers
-    representatives : (P,) int32      for each position the first drawing vertex that has it
-    triangles : (T, 3) int32          over position numbers, same order as the drawing triangles
-    edges : (E, 2) int32              position numbers, smaller first; an edge between equal positions is none
+    vertex_ids : (V,) int32           position number of each vertex, 0 to P - 1; the same for equal positions
+    representatives : (P,) int32      the first vertex at each position
+    triangles : (T, 3) int32          position numbers; in the order of the mesh's triangles
+    edges : (E, 2) int32              position numbers, smaller first; always two different ones
     face_edges : (T, 3) int32         the edge from corner i to corner i + 1
-    face_signs : (T, 3) int8          +1 where the face runs along its stored edge, -1 against, 0 where there is none
+    face_signs : (T, 3) int8          +1 if the face uses the edge as stored, -1 if reversed, 0 if degenerate
     edge_faces : (E,) int32           number of faces at the edge
     edge_sums : (E,) int32            sum of the face signs: 0 on every edge of a closed, consistently oriented mesh
     boundary_edges : int              edges with one face
     nonmanifold_edges : int           edges with more than two faces
-    misoriented_edges : int           edges with two faces that disagree about the outside
-    degenerate_faces : int            faces with two corners at the same position; they belong to no edge
-    closed : bool                     no edge has a sum other than 0
+    misoriented_edges : int           edges that two faces use in the same direction
+    degenerate_faces : int            faces with two corners at the same position; they have no edges
+    closed : bool                     whether all edge sums are 0
     """
 
     def __init__(self, positions: np.ndarray, triangles: np.ndarray) -> None:
@@ -42,10 +42,10 @@ class Topology:
         end = np.roll(start, -1, axis=1)
         degenerate = (start == end).any(axis=1)
 
-        count = len(self.representatives)
-        keys = np.minimum(start, end).astype(np.int64) * count + np.maximum(start, end)
-        proper, inverse = np.unique(keys[~degenerate], return_inverse=True)
-        self.edges = np.stack([proper // count, proper % count], axis=1).astype(np.int32)
+        n_positions = len(self.representatives)
+        keys = np.minimum(start, end).astype(np.int64) * n_positions + np.maximum(start, end)
+        edge_keys, inverse = np.unique(keys[~degenerate], return_inverse=True)
+        self.edges = np.stack(np.divmod(edge_keys, n_positions), axis=1).astype(np.int32)
         self.face_edges = np.zeros(start.shape, dtype=np.int32)
         self.face_edges[~degenerate] = inverse.reshape(-1, 3)
         self.face_signs = np.where(start < end, 1, -1).astype(np.int8)
@@ -60,16 +60,18 @@ class Topology:
         self.closed = not self.edge_sums.any()
 
     def chain_sum(self, faces: np.ndarray, reversed_faces: np.ndarray | None = None) -> np.ndarray:
-        """Return (E,) int32: how often the faces run along each stored edge minus how often against it.
+        """Return (E,) int32: how often the faces use each edge as stored, minus how often reversed.
 
         Parameters
         ----------
         faces : (C,) int             faces as stored
-        reversed_faces : (R,) int    faces to be taken the other way round
+        reversed_faces : (R,) int    faces whose winding is reversed first
         """
         from softshadow.scene.face_kernels import add_chain
 
-        sums = np.zeros(len(self.edges) + 1, np.int32)  # one more: degenerate faces add their zeros somewhere
+        sums = np.zeros(
+            len(self.edges) + 1, np.int32
+        )  # one more, so that degenerate faces can add their zeros even without edges
         add_chain(self.face_edges, self.face_signs, np.asarray(faces, np.int32), 1, sums)
         if reversed_faces is not None and len(reversed_faces):
             add_chain(self.face_edges, self.face_signs, np.asarray(reversed_faces, np.int32), -1, sums)
@@ -77,7 +79,7 @@ class Topology:
 
     @cached_property
     def face_bodies(self) -> np.ndarray:
-        """(T,) int32: number of the connected piece (over shared positions) that each face belongs to."""
+        """(T,) int32: number of the body of each face; faces that share a position belong to one body."""
         from softshadow.scene.face_kernels import join_corners
 
         labels = np.arange(len(self.representatives), dtype=np.int32)
@@ -86,25 +88,25 @@ class Topology:
 
     @cached_property
     def closed_faces(self) -> np.ndarray:
-        """(T,) bool: whether the body that each face belongs to is closed; one open body does not open the others."""
+        """(T,) bool: whether the body of each face is closed; bodies are judged separately."""
         if self.closed:
             return np.ones(len(self.triangles), dtype=bool)
-        at_fault = ((self.edge_sums[self.face_edges] != 0) & (self.face_signs != 0)).any(axis=1)
+        is_defect = ((self.edge_sums[self.face_edges] != 0) & (self.face_signs != 0)).any(axis=1)
         is_open = np.zeros(self.bodies, dtype=bool)
-        is_open[self.face_bodies[at_fault]] = True
+        is_open[self.face_bodies[is_defect]] = True
         return ~is_open[self.face_bodies]
 
     @property
     def bodies(self) -> int:
-        """Number of connected pieces."""
+        """Number of bodies."""
         return int(self.face_bodies.max()) + 1
 
     def describe(self) -> str:
-        """Return one line: closed or open, how many bodies, and what is odd about the mesh."""
+        """Return one line: closed or open, the number of bodies, and the defects of the mesh."""
         kind = "closed" if self.closed else "open" if self.boundary_edges else "not oriented"
-        odd = [
-            f"{number} {_plural(number, what)}"
-            for number, what in (
+        defects = [
+            f"{number} {name}{'' if number == 1 else 's'}"
+            for number, name in (
                 (self.boundary_edges, "boundary edge"),
                 (self.nonmanifold_edges, "non-manifold edge"),
                 (self.misoriented_edges, "misoriented edge"),
@@ -113,20 +115,18 @@ class Topology:
             if number
         ]
         text = f"{kind}, {self.bodies} {'body' if self.bodies == 1 else 'bodies'}"
-        return f"{text}: {', '.join(odd)}" if odd else text
+        return f"{text}: {', '.join(defects)}" if defects else text
 
 
 def weld(positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return (V,) int32 numbers of exactly equal positions (-0 equals 0) and (P,) int32 first vertices."""
+    """Return (V,) int32, a number per distinct position (-0 equals 0), and (P,) int32, the first vertex at each."""
     bits = (positions + np.float32(0)).view(np.uint32)  # adding 0 turns -0 into 0
-    order = np.lexsort((bits[:, 2], bits[:, 1], bits[:, 0]))  # stable: within a group the first vertex comes first
+    order = np.lexsort(
+        (bits[:, 2], bits[:, 1], bits[:, 0])
+    )  # stable: equal positions stay in the order of the vertices
     ordered = bits[order]
     starts = np.ones(len(order), dtype=bool)
     starts[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
     ids = np.empty(len(order), dtype=np.int32)
     ids[order] = np.cumsum(starts, dtype=np.int32) - 1
     return ids, order[starts].astype(np.int32)
-
-
-def _plural(number: int, what: str) -> str:
-    return what if number == 1 else f"{what}s"

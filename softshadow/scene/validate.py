@@ -1,4 +1,4 @@
-"""Values that were checked once: what the frozen parts of a scene are built with."""
+"""Checks of the values that define cameras, lights, materials and objects."""
 
 from typing import Any
 
@@ -7,24 +7,34 @@ import numpy as np
 from softshadow.errors import SceneError
 
 
-def numbers(key: str, value: Any, count: int) -> np.ndarray:
-    """Return `count` finite numbers as float64, or say which key has something else."""
+def validate_numbers(key: str, value: Any, length: int) -> np.ndarray:
+    """Return `length` finite numbers as float64.
+
+    Raises
+    ------
+    SceneError      another length, or not finite numbers; names `key` and the value
+    """
     try:
         array = np.array(value, dtype=np.float64)
     except (TypeError, ValueError):
         array = np.zeros(0)
-    if array.shape != (count,) or not np.isfinite(array).all():
-        raise SceneError(f"{key}: expected {count} finite numbers, got {value!r}")
+    if array.shape != (length,) or not np.isfinite(array).all():
+        raise SceneError(f"{key}: expected {length} finite numbers, got {value!r}")
     return array
 
 
-def number(key: str, value: Any) -> float:
-    """Return one finite number, or say which key has something else."""
-    return float(numbers(key, [value], 1)[0])
+def validate_number(key: str, value: Any) -> float:
+    """Return one finite number.
+
+    Raises
+    ------
+    SceneError      not a finite number; names `key` and the value
+    """
+    return float(validate_numbers(key, [value], 1)[0])
 
 
-def keep(frozen: Any, **values: Any) -> None:
-    """Set the fields of a frozen dataclass in its `__init__`; arrays become read-only."""
+def set_fields(frozen: Any, **values: Any) -> None:
+    """Set the fields of a frozen dataclass in its `__init__`, and make arrays read-only."""
     for key, value in values.items():
         if isinstance(value, np.ndarray):
             value.flags.writeable = False

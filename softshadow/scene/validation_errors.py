@@ -1,4 +1,4 @@
-"""What is wrong with a scene file, one line per mistake: its place, what stands there, what was expected."""
+"""Errors in a scene file, one line each: the place, what was expected, and the value."""
 
 import re
 from collections.abc import Iterator
@@ -8,7 +8,7 @@ from pydantic import BaseModel, ValidationError
 
 from softshadow.errors import SceneError, nearest
 
-# what a message says was expected, by the last key of the place
+# what a message expects, by the last key of the place
 EXPECTED = {
     **dict.fromkeys(("eye", "target", "up", "position", "direction", "move", "corner", "across"), "[x, y, z]"),
     **dict.fromkeys(("color", "specular", "ambient", "background"), "[red, green, blue], each 0 to 1"),
@@ -30,12 +30,12 @@ EXPECTED = {
 }
 
 
-def mistakes(error: ValidationError, tables: dict[str, type[BaseModel]]) -> list[str]:
-    """Return one line per mistake.
+def error_lines(error: ValidationError, tables: dict[str, type[BaseModel]]) -> list[str]:
+    """Return one line per error that pydantic found.
 
     Parameters
     ----------
-    tables : dict      the table of each key of the file that has one, and the whole file's under ""
+    tables : dict      the model of each table in the file by its key, and the model of the whole file under ""
     """
     lines = []
     for item in error.errors(include_url=False):
@@ -43,25 +43,25 @@ def mistakes(error: ValidationError, tables: dict[str, type[BaseModel]]) -> list
         keys = [part for part in item["loc"] if isinstance(part, str)]
         if item["type"] == "value_error":
             for text in str(item["ctx"]["error"]).split("\n"):
-                # a complaint that begins with a key goes to the key
+                # "key: text" belongs to that key of the table
                 inner = re.match(r"[a-z_]+(\.\w+)*(\[\d+\])?: ", text)
                 lines.append(f"{place}{'.' if inner and place else ': ' if place else ''}{text}")
         elif item["type"] == "extra_forbidden":
             table = tables[keys[0] if len(keys) > 1 else ""]
             lines.append(f"{place}: unknown key; {nearest(keys[-1], list(table.model_fields))}")
         else:
-            got = "it is missing" if item["type"] == "missing" else f"got {item['input']!r}"
-            lines.append(f"{place}: expected {EXPECTED.get(keys[-1] if keys else '', item['msg'])}, {got}")
+            value = "but it is missing" if item["type"] == "missing" else f"got {item['input']!r}"
+            lines.append(f"{place}: expected {EXPECTED.get(keys[-1] if keys else '', item['msg'])}, {value}")
     return lines
 
 
-class Complaints:
-    """What is wrong with one table: collected inside `with`, raised together at its end."""
+class ErrorCollector:
+    """A context manager that collects the errors of one table, and raises them together as a ValueError at its end."""
 
     def __init__(self) -> None:
         self.lines: list[str] = []
 
-    def __enter__(self) -> "Complaints":
+    def __enter__(self) -> "ErrorCollector":
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: object) -> None:
@@ -69,13 +69,13 @@ class Complaints:
             raise ValueError("\n".join(self.lines))
 
     def add(self, line: str) -> None:
-        """Keep a complaint; `key: text` goes to the key."""
+        """Add an error; a line `key: text` belongs to that key of the table."""
         self.lines.append(line)
 
     @contextmanager
-    def about(self, part: str = "") -> Iterator[None]:
-        """Keep what a part of the scene complains about inside this `with`, without the part's own name before it."""
+    def catch(self, name: str = "") -> Iterator[None]:
+        """Add the SceneError that the block raises, without `name: ` at its beginning."""
         try:
             yield
         except SceneError as error:
-            self.lines.append(str(error).removeprefix(f"{part}: "))
+            self.lines.append(str(error).removeprefix(f"{name}: "))

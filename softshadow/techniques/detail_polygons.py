@@ -77,7 +77,7 @@ def shadow_polygons(scene: Scene, light: Light, form: Form = "faces") -> tuple[D
         raise ValueError(f"form={form!r}: expected one of {', '.join(FORMS)}")
     casters = [lit_faces(thing, light) for thing in scene.casters]
     reached = [reached_faces(thing, light) for thing in scene.objects]
-    pairs = sum(len(faces.kept) + len(faces.reversed) for faces in reached) * sum(len(c.triangles) for c in casters)
+    pairs = sum(len(faces.facing) + len(faces.reversed) for faces in reached) * sum(len(c.triangles) for c in casters)
     if pairs > MOST_PAIRS:
         raise SceneError(
             f"scene {scene.name}: {pairs} pairs of a casting and a receiving face; expected at most {MOST_PAIRS} "
@@ -94,9 +94,9 @@ def polygons_on(
     """Return the shadow polygons on one object."""
     away = light_distances(thing.mesh, light.in_object_space(thing.object_to_world)) <= 0
     own = np.flatnonzero(away & thing.casts).astype(np.int32)
-    own_reversed = reached.kept[~thing.mesh.topology.closed_faces[reached.kept] & thing.casts]
+    own_reversed = reached.facing[~thing.mesh.topology.closed_faces[reached.facing] & thing.casts]
     flat = FLAT * float(np.ptp(thing.world_positions, axis=0).max())
-    numbers = np.concatenate([reached.kept, reached.reversed])
+    numbers = np.concatenate([reached.facing, reached.reversed])
     found = [cast_on(face, light, casters, form, flat) for face in turned_triangles(thing, reached)]
     counts = [len(polygons) for polygons in found]
     order = np.argsort(np.repeat(numbers, counts), kind="stable")

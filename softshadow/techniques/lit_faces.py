@@ -41,4 +41,4 @@ def reached_faces(thing: SceneObject, light: Light) -> CastingFaces:
 def turned_triangles(thing: SceneObject, faces: CastingFaces) -> np.ndarray:
     """Return faces as (C, 3, 3) float64 in world space, counter-clockwise as the light sees them."""
     triangles = thing.mesh.triangles
-    return thing.world_positions[np.concatenate([triangles[faces.kept], triangles[faces.reversed][:, ::-1]])]
+    return thing.world_positions[np.concatenate([triangles[faces.facing], triangles[faces.reversed][:, ::-1]])]

@@ -61,7 +61,7 @@ def eye_count(scene: Scene, light: Light, casters: Sequence[SceneObject]) -> int
 def faces_before(caster: SceneObject, light: Light, rectangle: np.ndarray) -> np.ndarray:
     """Return (N, 3, 3) float64, world space: the parts of casting faces between the light and a rectangle (4, 3)."""
     faces = casting_faces(caster.mesh, light.in_object_space(caster.object_to_world))
-    triangles = caster.world_positions[caster.mesh.triangles[np.concatenate([faces.kept, faces.reversed])]]
+    triangles = caster.world_positions[caster.mesh.triangles[np.concatenate([faces.facing, faces.reversed])]]
     return clip_to_planes(triangles, pyramid_between(light.position, rectangle))
 
 

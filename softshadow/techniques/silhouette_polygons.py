@@ -48,8 +48,8 @@ def inside_of_silhouettes(
 def boundary(caster: LitFaces, plane: np.ndarray, planes: np.ndarray, flat: float) -> np.ndarray:
     """Return the boundary (S, 2, 3) of the casting faces between some planes (K, 4), without the faces in `plane`."""
     above = (np.abs(caster.triangles @ plane[:3] + plane[3]) > flat).any(axis=1)
-    kept, turned = np.split(above, [len(caster.faces.kept)])
-    faces = CastingFaces(caster.faces.kept[kept], caster.faces.reversed[turned])
+    kept, turned = np.split(above, [len(caster.faces.facing)])
+    faces = CastingFaces(caster.faces.facing[kept], caster.faces.reversed[turned])
     silhouette = silhouette_of(caster.thing.mesh, faces)
     segments = caster.thing.world_positions[np.repeat(silhouette.edges, silhouette.multiplicity, axis=0)]
     triangles = caster.triangles[above]

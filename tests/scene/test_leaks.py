@@ -1,4 +1,4 @@
-"""What keeps a model from being a solid is named: what, how many, where, and what copes."""
+"""Warnings about meshes that are not solid: what is wrong, how often, and where."""
 
 import numpy as np
 import pytest
@@ -14,18 +14,17 @@ from softshadow.errors import (
     UnweldedMesh,
     Warning,
 )
-from softshadow.scene import Camera, Light, Mesh, Scene, SceneObject, placement, shapes
-from softshadow.scene import boundary as boundaries
+from softshadow.scene import Camera, Light, Mesh, Scene, SceneObject, boundary, placement, shapes
 
 
 def warnings_of(mesh: Mesh, light: tuple = (3, 5, 2), matrix: np.ndarray | None = None) -> dict[type[Warning], str]:
-    """What a scene with nothing but the mesh warns of."""
+    """Return the warnings of a scene with only this mesh, by class."""
     scene = Scene("test", Camera((3, 3, 5), (0, 0, 0)), [Light(light)], [SceneObject(mesh, matrix)])
     return {type(warning): str(warning) for warning in scene.warnings()}
 
 
 def box_with_split_edge(moved: float = 0.0) -> Mesh:
-    """A box with an edge of its top cut in two, but not the same edge of its front; the cut may be beside the edge."""
+    """Return a box with an edge of its top split in two, but not of its front; the split may lie beside the edge."""
     box = shapes.box(1)
     corners = box.positions[box.topology.representatives]
     triangles = box.topology.triangles
@@ -37,7 +36,7 @@ def box_with_split_edge(moved: float = 0.0) -> Mesh:
     return Mesh([*corners, [0.1, 0.5 + moved, 0.5]], [*np.delete(triangles, cut, axis=0), *halves], name="crate")
 
 
-def test_loops_of_an_open_mesh_are_counted_and_the_first_is_placed() -> None:
+def test_loops_of_an_open_mesh_are_counted_and_the_first_is_located() -> None:
     said = warnings_of(shapes.cylinder(segments=8, capped=False))
     assert list(said) == [OpenMesh]
     assert "16 boundary edges in 2 loops, the first at (" in said[OpenMesh]
@@ -45,7 +44,7 @@ def test_loops_of_an_open_mesh_are_counted_and_the_first_is_placed() -> None:
 
 
 @pytest.mark.parametrize("moved", [0.0, 1e-6, -2e-6])
-def test_a_vertex_within_an_edge_is_placed(moved: float) -> None:
+def test_a_vertex_within_an_edge_is_located(moved: float) -> None:
     said = warnings_of(box_with_split_edge(moved))
     assert list(said) == [OpenMesh, TJunction]
     assert "crate: 1 vertices lie within an edge of another face, the first at (0.1, 0." in said[TJunction]
@@ -56,14 +55,14 @@ def test_a_vertex_clearly_off_an_edge_is_no_t_junction() -> None:
 
 
 def test_a_t_junction_is_found_on_a_long_edge_among_short_ones() -> None:
-    # a comb: 200 short edges against one long one that is many cubes of the search long
+    # a comb: 200 short edges along one long edge that crosses many cubes of the search grid
     top = [[k / 100 - 1, 0, 0] for k in range(201)]
     points = [*top, [0, 1, 0], [0, -1, 0]]
     comb = Mesh(points, [*[[k, k + 1, 201] for k in range(200)], [200, 0, 202]])
-    assert len(comb.boundary.t_junctions) == 199
+    assert len(boundary.boundary_of(comb).t_junctions) == 199
 
 
-def test_positions_that_differ_in_a_last_digit_are_placed() -> None:
+def test_positions_that_differ_in_a_last_digit_are_located() -> None:
     sphere = shapes.sphere(0.5, 12, 6)
     corners = sphere.positions[sphere.triangles.ravel()].astype(np.float64)
     noise = np.random.default_rng(1).uniform(-4e-7, 4e-7, corners.shape)
@@ -77,16 +76,16 @@ def test_the_two_ends_of_a_short_edge_are_not_called_unwelded() -> None:
     assert list(warnings_of(sliver)) == [OpenMesh]
 
 
-def test_in_a_large_soup_enough_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_in_a_large_soup_many_defects_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
     sphere = shapes.sphere(0.5, 12, 6)
     corners = sphere.positions[sphere.triangles.ravel()].astype(np.float64)
     noise = np.random.default_rng(1).uniform(-4e-7, 4e-7, corners.shape)
-    monkeypatch.setattr(boundaries, "LOOKED_AT", 10)
+    monkeypatch.setattr(boundary, "MOST_EXAMINED", 10)
     soup = Mesh(corners + noise, np.arange(len(corners)).reshape(-1, 3))
-    assert len(soup.boundary.unwelded) > 100
+    assert len(boundary.boundary_of(soup).unwelded) > 100
 
 
-def test_faces_that_disagree_about_the_outside_are_placed() -> None:
+def test_faces_that_disagree_about_the_outside_are_located() -> None:
     box = shapes.box()
     triangles = box.triangles.copy()
     triangles[0] = triangles[0, ::-1]
@@ -95,7 +94,7 @@ def test_faces_that_disagree_about_the_outside_are_placed() -> None:
     assert "at 3 edges two faces disagree about the outside, the first at (" in said[MisorientedMesh]
 
 
-def test_an_edge_of_many_faces_is_placed() -> None:
+def test_an_edge_of_many_faces_is_located() -> None:
     corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0, -1, 0]]
     said = warnings_of(Mesh(corners, [[0, 1, 2], [0, 1, 3], [0, 1, 4]]))
     assert "1 edges have more than two faces, the first at (0, 0, 0) - (1, 0, 0)" in said[NonManifoldMesh]
@@ -117,7 +116,7 @@ def test_a_light_in_a_closed_body_is_found_beside_an_open_one() -> None:
 
 
 @pytest.mark.parametrize(("away", "named"), [(900, False), (1100, True), (-2000, True)])
-def test_a_mesh_far_from_the_origin_is_named_with_what_float32_keeps(away: float, named: bool) -> None:
+def test_a_mesh_far_from_the_origin_is_named_with_the_precision_left(away: float, named: bool) -> None:
     box = shapes.box()
     said = warnings_of(Mesh(box.positions + np.float32([0, away, 0]), box.triangles))
     assert (FarFromOrigin in said) == named

@@ -1,4 +1,4 @@
-"""Lights, cameras and placements: what they are in other spaces, and what they refuse."""
+"""Lights, cameras and placements: coordinates in other spaces, and refused arguments."""
 
 import numpy as np
 import pytest
@@ -20,12 +20,14 @@ def test_three_numbers_are_a_point_and_four_are_homogeneous() -> None:
 
 
 @given(lights(), angles, axes, st.sampled_from([0.25, 1, 40]))
-def test_light_carried_into_object_space_comes_back(light: np.ndarray, angle: float, axis: tuple, scale: float) -> None:
+def test_light_in_object_space_transforms_back_to_world_space(
+    light: np.ndarray, angle: float, axis: tuple, scale: float
+) -> None:
     object_to_world = placement((1, -2, 3), (angle, *axis), scale)
-    carried = Light(light).in_object_space(object_to_world)
-    assert carried[3] == Light(light).position[3]  # exactly: a direction must not become a far point
+    position = Light(light).in_object_space(object_to_world)
+    assert position[3] == Light(light).position[3]  # exactly: a direction must not become a far point
     # a 4x4 product in float64 with entries up to 40
-    assert object_to_world @ carried == pytest.approx(Light(light).position, abs=1e-12)
+    assert object_to_world @ position == pytest.approx(Light(light).position, abs=1e-12)
 
 
 def test_spot_shines_within_its_cone_and_other_lights_everywhere() -> None:
@@ -50,7 +52,7 @@ def test_spot_shines_within_its_cone_and_other_lights_everywhere() -> None:
         ({"axis": (0, -1, 0), "cutoff": 30, "position": (0, 1, 0, 0)}, "a light at infinity has no cone"),
     ],
 )
-def test_cone_that_is_none_is_refused(cone: dict[str, object], said: str) -> None:
+def test_impossible_cone_is_refused(cone: dict[str, object], said: str) -> None:
     with pytest.raises(SceneError, match=f"lamp: .*{said}"):
         Light(**{"position": (0, 2, 0), **cone}, name="lamp")
 
@@ -65,8 +67,8 @@ def test_malformed_position_is_named(position: object) -> None:
     ("change", "said"),
     [
         ({"target": (1, 2, 3)}, "eye and target are both"),
-        ({"up": (1, 2, 3)}, "up .* runs along the view direction"),
-        ({"up": (0, 0, 0)}, "up .* runs along"),
+        ({"up": (1, 2, 3)}, "up .* is parallel to the view direction"),
+        ({"up": (0, 0, 0)}, "up .* is parallel"),
         ({"fov_y": 180}, "fov_y: expected degrees between 0 and 180, got 180"),
         ({"near": 0}, "0 < near < far, got near 0"),
         ({"near": 5, "far": 5}, "0 < near < far"),

@@ -1,4 +1,4 @@
-"""Model files: every real one is loaded or answered in one sentence, and none is left a way out of its folder."""
+"""Model files: each is loaded or refused with one sentence, and none can reach files outside its folder."""
 
 import base64
 import json
@@ -16,13 +16,13 @@ from softshadow.scene.loading import load_mesh
 
 CUBE_OBJ = (Path(__file__).parents[2] / "docs" / "scenes" / "crate.obj").read_text()
 
-# every file of data/bad: what its one message says, or what the mesh made from it is warned of
+# for each file of data/bad: a part of its error message, or of a warning about the scene
 BAD_FILES = {
     "TestScene.gltf": "error: buffers[0].uri 'TestScene.bin': the file is missing",
-    "busted.STL": "facet normals of length 0 left out",
-    "empty.obj": "error: no mesh in it",
-    "empty.stl": "error: no mesh in it",
-    "empty_nodes.glb": "error: no mesh in it",
+    "busted.STL": "facet normals of length 0 replaced by computed ones",
+    "empty.obj": "error: the file has no mesh",
+    "empty.stl": "error: the file has no mesh",
+    "empty_nodes.glb": "error: the file has no mesh",
     "nancolor.obj": "vertex colours that are not finite numbers left out",
     "notenoughindices.obj": "1 face with fewer than 3 corners left out",
     "obj_points.obj": "error: 8 points and no triangle",
@@ -50,7 +50,7 @@ def write(folder: Path, name: str, content: str | bytes) -> Path:
 
 
 def triangle_gltf(**changes: object) -> dict:
-    """Return a glTF tree of one triangle whose buffer is inside it."""
+    """Return a glTF tree of one triangle with an embedded buffer."""
     data = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype="<f4").tobytes()
     tree = {
         "asset": {"version": "2.0"},
@@ -65,7 +65,7 @@ def triangle_gltf(**changes: object) -> dict:
 
 
 @pytest.mark.parametrize("file", shared_files("meshes"), ids=lambda file: file.name)
-def test_real_model_makes_a_scene_quietly(file: Path, capfd: pytest.CaptureFixture) -> None:
+def test_model_becomes_a_scene_without_output(file: Path, capfd: pytest.CaptureFixture) -> None:
     if file.suffix == ".bin":
         pytest.skip("the buffer of a glTF file")
     with warnings.catch_warnings():
@@ -78,7 +78,7 @@ def test_real_model_makes_a_scene_quietly(file: Path, capfd: pytest.CaptureFixtu
 
 
 @pytest.mark.parametrize("file", shared_files("bad"), ids=lambda file: file.name)
-def test_bad_model_is_answered_in_one_sentence_or_named_warnings(file: Path, capfd: pytest.CaptureFixture) -> None:
+def test_bad_model_is_refused_in_one_sentence_or_gives_warnings(file: Path, capfd: pytest.CaptureFixture) -> None:
     expected = BAD_FILES[file.name]
     if expected.startswith("error: "):
         with pytest.raises(MeshError) as caught:
@@ -93,11 +93,11 @@ def test_bad_model_is_answered_in_one_sentence_or_named_warnings(file: Path, cap
     assert capfd.readouterr() == ("", "")
 
 
-def test_every_bad_file_has_its_answer() -> None:
+def test_every_bad_file_is_listed() -> None:
     assert {file.name for file in shared_files("bad")} <= set(BAD_FILES)
 
 
-def test_model_stands_on_the_floor_at_size_two_in_the_middle_of_the_picture() -> None:
+def test_model_stands_on_the_floor_with_size_two_in_the_middle_of_the_picture() -> None:
     scene = Scene.from_mesh(shared_file("meshes/stanford-bunny.obj"))
     points = scene.casters[0].world_positions[np.unique(scene.casters[0].mesh.triangles)]
     low, high = points.min(axis=0), points.max(axis=0)
@@ -121,10 +121,10 @@ def test_light_may_be_a_point_or_a_direction(tmp_path: Path) -> None:
     assert Scene.from_mesh(cube, light=(1, 2, 3, 0)).lights[0].is_directional
 
 
-# -- what there is instead of a file -----------------------------------------------------------------------------------
+# -- paths that are not a readable model file --------------------------------------------------------------------------
 
 
-def test_missing_file_is_named_with_its_neighbour(tmp_path: Path) -> None:
+def test_missing_file_is_named_with_a_similar_one(tmp_path: Path) -> None:
     write(tmp_path, "bunny.obj", CUBE_OBJ)
     with pytest.raises(MeshError, match=r"buny.obj: there is no such file; did you mean 'bunny.obj'\?"):
         load_mesh(tmp_path / "buny.obj")
@@ -149,22 +149,22 @@ def test_unreadable_file_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 
 
 @pytest.mark.parametrize("name", ["model.blend", "model", "model.ob"])
-def test_unknown_kind_is_named_with_the_known_ones(tmp_path: Path, name: str) -> None:
-    with pytest.raises(MeshError, match=r"no reader for files of kind .*glb, gltf, obj, off, ply, stl"):
+def test_unknown_type_is_named_with_the_known_ones(tmp_path: Path, name: str) -> None:
+    with pytest.raises(MeshError, match=r"cannot read files of type .*glb, gltf, obj, off, ply, stl"):
         load_mesh(write(tmp_path, name, CUBE_OBJ))
 
 
-@pytest.mark.parametrize("kind", ["obj", "ply", "stl", "off", "glb", "gltf"])
+@pytest.mark.parametrize("suffix", ["obj", "ply", "stl", "off", "glb", "gltf"])
 @pytest.mark.parametrize("content", [b"", b"\0" * 200, b"garbage " * 40, b"\xff\xfe\x00ply\nformat"])
-def test_garbage_of_every_kind_is_one_sentence(tmp_path: Path, kind: str, content: bytes) -> None:
+def test_garbage_of_every_type_gives_one_sentence(tmp_path: Path, suffix: str, content: bytes) -> None:
     with pytest.raises(MeshError) as caught:
-        load_mesh(write(tmp_path, f"garbage.{kind}", content))
+        load_mesh(write(tmp_path, f"garbage.{suffix}", content))
     assert str(caught.value).startswith(str(tmp_path))
     assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize("name", ["sphere.ply", "unit_sphere.STL", "Duck.glb", "Mesh_PrimitiveMode_04.gltf"])
-def test_real_file_that_is_cut_off_is_answered(tmp_path: Path, name: str) -> None:
+def test_truncated_file_is_refused_in_one_sentence(tmp_path: Path, name: str) -> None:
     data = shared_file(f"meshes/{name}").read_bytes()
     with pytest.raises(MeshError) as caught:
         load_mesh(write(tmp_path, name, data[: len(data) * 2 // 3 + 1]))
@@ -178,8 +178,8 @@ def test_real_file_that_is_cut_off_is_answered(tmp_path: Path, name: str) -> Non
     ("text", "said"),
     [
         ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4", "line 4: v 4 does not exist; expected 1 to 3"),
-        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2", "line 4: face '0' uses number 0; OBJ counts from 1"),
-        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -4", "line 4: v -4 does not exist, only 3 stand before it"),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2", "line 4: face '0' uses index 0; expected indices from 1 on"),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -4", "line 4: v -4 does not exist; there are 3 before this line"),
         ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/9 2/1 3/1\nvt 0 0", "line 4: vt 9 does not exist"),
         ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 x", "line 4: expected whole numbers in a face, got 'x'"),
         ("v 0 0\nv 1 0 0", "line 1: expected v with three numbers, got '0 0'"),
@@ -206,32 +206,32 @@ def test_quads_with_normals_keep_their_creases_and_are_closed(tmp_path: Path) ->
     assert notes == []
 
 
-def test_triangles_come_in_the_order_of_the_file(tmp_path: Path) -> None:
+def test_triangles_are_in_the_order_of_the_file(tmp_path: Path) -> None:
     text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nusemtl a\nf 1 2 3 4\no b\nusemtl b\nf 1 2 5\nusemtl a\nf 3 4 5"
     mesh, _ = load_mesh(write(tmp_path, "order.obj", text))
     assert mesh.triangles.tolist() == [[0, 1, 2], [0, 2, 3], [0, 1, 4], [2, 3, 4]]
     assert len(mesh.positions) == 5
 
 
-def test_negative_numbers_count_back_from_their_line(tmp_path: Path) -> None:
+def test_negative_indices_count_back_from_their_line(tmp_path: Path) -> None:
     text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nv 6 5 5\nv 5 6 5\nf -3 -2 -1"
     mesh, _ = load_mesh(write(tmp_path, "relative.obj", text))
     assert mesh.triangles.tolist() == [[0, 1, 2], [3, 4, 5]]
 
 
-def test_polygon_with_a_notch_is_cut_inside_its_outline(tmp_path: Path) -> None:
+def test_polygon_with_a_notch_is_triangulated_inside_its_outline(tmp_path: Path) -> None:
     text = "v 0 0 0\nv 2 -1 0\nv 0 2 0\nv 0.5 0 0\nf 1 2 3 4"
     mesh, _ = load_mesh(write(tmp_path, "notch.obj", text))
     assert (mesh.face_normals[:, 2] > 0).all()
 
 
-def test_vertex_colors_of_an_obj_are_kept(tmp_path: Path) -> None:
+def test_vertex_colors_of_an_obj_are_read(tmp_path: Path) -> None:
     text = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 0.5\nf 1 2 3"
     mesh, _ = load_mesh(write(tmp_path, "colors.obj", text))
     assert mesh.colors.tolist() == [[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 0.5, 1]]
 
 
-def test_texture_coordinates_of_an_obj_are_kept(tmp_path: Path) -> None:
+def test_texture_coordinates_of_an_obj_are_read(tmp_path: Path) -> None:
     text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3"
     mesh, _ = load_mesh(write(tmp_path, "uv.obj", text))
     assert mesh.texcoords.tolist() == [[0, 0], [1, 0], [0, 1]]
@@ -250,7 +250,7 @@ def test_material_library_outside_the_folder_is_not_read_and_named(tmp_path: Pat
 # -- glTF --------------------------------------------------------------------------------------------------------------
 
 
-def test_gltf_with_its_buffer_inside_is_read(tmp_path: Path) -> None:
+def test_gltf_with_an_embedded_buffer_is_read(tmp_path: Path) -> None:
     mesh, notes = load_mesh(write(tmp_path, "inside.gltf", json.dumps(triangle_gltf())))
     assert mesh.positions.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
     assert notes == []
@@ -293,17 +293,17 @@ def test_image_outside_the_folder_is_not_read_and_named(tmp_path: Path) -> None:
     ("changes", "said"),
     [
         ({"asset": {"version": "1.0"}}, "asset.version: expected glTF 2.x, got '1.0'"),
-        ({"extensionsRequired": ["KHR_draco_mesh_compression"]}, "KHR_draco_mesh_compression is not read"),
+        ({"extensionsRequired": ["KHR_draco_mesh_compression"]}, "KHR_draco_mesh_compression is not supported"),
         ({"accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"}]}, "accessors[0]: sparse"),
         ({"accessors": []}, "not a well-formed GLTF file (IndexError"),
         ({"meshes": [{"primitives": [{"attributes": {}}]}]}, "KeyError: 'POSITION'"),
-        ({"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 0}]}]}, "no mesh in it"),
+        ({"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 0}]}]}, "the file has no mesh"),
         ({"nodes": []}, "not a well-formed GLTF file"),
         ({"buffers": [{"byteLength": 36}]}, "buffers[0]: has no uri"),
         ({"buffers": "text"}, "not a well-formed GLTF file"),
     ],
 )
-def test_gltf_that_cannot_be_read_is_answered_in_one_sentence(tmp_path: Path, changes: dict, said: str) -> None:
+def test_unreadable_gltf_is_refused_in_one_sentence(tmp_path: Path, changes: dict, said: str) -> None:
     with pytest.raises(MeshError) as caught:
         load_mesh(write(tmp_path, "model.gltf", json.dumps(triangle_gltf(**changes))))
     assert said in str(caught.value)
@@ -324,13 +324,13 @@ def test_scene_graph_moves_turns_and_repeats_a_mesh(tmp_path: Path) -> None:
     )
 
 
-def test_mirrored_node_keeps_its_outside(tmp_path: Path) -> None:
+def test_mirrored_node_keeps_its_faces_outward(tmp_path: Path) -> None:
     tree = triangle_gltf(nodes=[{"mesh": 0, "scale": [-1, 1, 1]}])
     mesh, _ = load_mesh(write(tmp_path, "mirror.gltf", json.dumps(tree)))
     assert (mesh.face_normals[:, 2] > 0).all()
 
 
-def test_nodes_that_contain_each_other_end(tmp_path: Path) -> None:
+def test_nodes_that_contain_each_other_do_not_loop_forever(tmp_path: Path) -> None:
     tree = triangle_gltf(nodes=[{"mesh": 0, "children": [1]}, {"children": [0]}])
     mesh, _ = load_mesh(write(tmp_path, "cycle.gltf", json.dumps(tree)))
     assert len(mesh.triangles) >= 1
@@ -351,20 +351,20 @@ def test_index_beyond_the_vertices_is_named(tmp_path: Path) -> None:
         load_mesh(write(tmp_path, "index.gltf", json.dumps(tree)))
 
 
-def test_base_color_and_texture_coordinates_of_a_glb_are_kept() -> None:
+def test_base_color_and_texture_coordinates_of_a_glb_are_read() -> None:
     mesh, _ = load_mesh(shared_file("meshes/BoxTextured.glb"))
     assert mesh.colors is not None
     assert mesh.texcoords.min() >= 0
     assert mesh.normals is not None
 
 
-def test_glb_that_announces_more_than_it_has_is_named(tmp_path: Path) -> None:
+def test_glb_that_declares_more_bytes_than_it_has_is_named(tmp_path: Path) -> None:
     data = b"glTF" + struct.pack("<IIII", 2, 1000, 900, 0x4E4F534A) + b"{}"
-    with pytest.raises(MeshError, match="a GLB chunk announces 900 bytes, the file has 2 more"):
+    with pytest.raises(MeshError, match="a GLB chunk declares 900 bytes, but the file has only 2 more"):
         load_mesh(write(tmp_path, "short.glb", data))
 
 
-# -- the other kinds ---------------------------------------------------------------------------------------------------
+# -- the other types ---------------------------------------------------------------------------------------------------
 
 
 def test_binary_stl_is_closed_by_position(tmp_path: Path) -> None:
@@ -378,12 +378,12 @@ def test_binary_stl_is_closed_by_position(tmp_path: Path) -> None:
     assert notes == []
 
 
-def test_binary_stl_of_another_length_is_named(tmp_path: Path) -> None:
-    with pytest.raises(MeshError, match="as a binary STL it announces 50084 bytes and has 134"):
+def test_binary_stl_of_wrong_length_is_named(tmp_path: Path) -> None:
+    with pytest.raises(MeshError, match="as a binary STL it declares 50084 bytes but has 134"):
         load_mesh(write(tmp_path, "cut.stl", b"\0" * 80 + struct.pack("<I", 1000) + b"\0" * 50))
 
 
-def test_off_that_is_cut_off_is_answered(tmp_path: Path) -> None:
+def test_truncated_off_is_refused(tmp_path: Path) -> None:
     with pytest.raises(MeshError, match="not a well-formed OFF file"):
         load_mesh(write(tmp_path, "cut.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1"))
 
@@ -406,14 +406,14 @@ property list uchar int vertex_indices
 """
 
 
-def test_vertex_colors_of_a_ply_are_kept(tmp_path: Path) -> None:
+def test_vertex_colors_of_a_ply_are_read(tmp_path: Path) -> None:
     names = "".join(f"property uchar {name}\n" for name in ("red", "green", "blue"))
     rows = "0 0 0 255 0 0\n1 0 0 0 255 0\n1 1 0 0 0 255\n0 1 0 0 0 0\n3 0 1 2\n3 0 2 3\n"
     mesh, _ = load_mesh(write(tmp_path, "colors.ply", PLY.format(vertex=names, face="") + rows))
     assert mesh.colors[:2].tolist() == [[1, 0, 0, 1], [0, 1, 0, 1]]
 
 
-def test_face_colors_of_a_ply_are_kept_on_vertices_of_their_own(tmp_path: Path) -> None:
+def test_face_colors_of_a_ply_are_read_and_faces_share_no_vertices(tmp_path: Path) -> None:
     names = "".join(f"property uchar {name}\n" for name in ("red", "green", "blue"))
     rows = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 255 0 0\n3 0 2 3 0 0 255\n"
     mesh, _ = load_mesh(write(tmp_path, "faces.ply", PLY.format(vertex="", face=names) + rows))

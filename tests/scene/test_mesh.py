@@ -1,4 +1,4 @@
-"""What a mesh promises, and what it refuses."""
+"""The arrays of a mesh, and the content that it refuses."""
 
 import numpy as np
 import pytest
@@ -10,9 +10,9 @@ TRIANGLE = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
 
 
 def test_arrays_are_converted_copied_and_read_only() -> None:
-    given = np.array(TRIANGLE, dtype=np.float64)
-    mesh = Mesh(given, [[0, 1, 2]])
-    given[0] = 7
+    positions = np.array(TRIANGLE, dtype=np.float64)
+    mesh = Mesh(positions, [[0, 1, 2]])
+    positions[0] = 7
     assert mesh.positions.dtype == np.float32
     assert mesh.triangles.dtype == np.int32
     assert mesh.positions[0].tolist() == [0, 0, 0]
@@ -20,7 +20,7 @@ def test_arrays_are_converted_copied_and_read_only() -> None:
         mesh.positions[0] = 1
 
 
-def test_normals_are_computed_where_none_are_given() -> None:
+def test_normals_are_computed_by_default() -> None:
     assert Mesh(TRIANGLE, [[0, 1, 2]]).normals.tolist() == [[0, 0, 1]] * 3
 
 

@@ -1,4 +1,4 @@
-"""The built-in scenes show what they promise: each failure really occurs where the camera sees it."""
+"""The built-in scenes show what their titles say: each failure occurs where the camera sees it."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def near_points(scene: Scene) -> np.ndarray:
 
 
 def seen(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-    """Return (N,) the object each pixel shows and (N, 3) the point."""
+    """Return (N,) the object that each pixel shows, -1 for none, and (N, 3) the point on it."""
     eye = np.broadcast_to(scene.camera.eye, (SIZE[0] * SIZE[1], 3))
     directions = near_points(scene) - eye
     objects, _, distances = first_faces(eye, directions, scene.objects)
@@ -35,13 +35,13 @@ def seen(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
 
 
 def seen_on(scene: Scene, *names: str) -> np.ndarray:
-    """Return the points that the camera sees on these objects."""
+    """Return the world points that the camera sees on the named objects."""
     objects, points = seen(scene)
     return points[np.isin(objects, [i for i, item in enumerate(scene.objects) if item.name in names])]
 
 
 def images_on(scene: Scene, caster: str, receiver: str) -> tuple[np.ndarray, np.ndarray]:
-    """Return (V,) t and (V, 3) the image on the receiver's plane of each vertex of a caster: L + t (P - L)."""
+    """Return t (V,) and L + t (P - L) (V, 3), the projection of each caster vertex P onto the receiver's plane."""
     (plane,) = [item.plane for item in scene.receivers if item.name == receiver]
     (points,) = [item.world_positions for item in scene.casters if item.name == caster]
     light = scene.lights[0].position
@@ -49,7 +49,7 @@ def images_on(scene: Scene, caster: str, receiver: str) -> tuple[np.ndarray, np.
     return t, light[:3] + t[:, None] * (points - light[:3])
 
 
-def test_required_scenes_are_there() -> None:
+def test_required_scenes_exist() -> None:
     assert set(scene_names()) >= REQUIRED
 
 
@@ -74,7 +74,7 @@ def test_camera_sees_light_and_shadow_on_a_receiver(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", scene_names())
-def test_casters_take_a_fair_part_of_the_picture(name: str) -> None:
+def test_casters_fill_a_fair_part_of_the_picture(name: str) -> None:
     scene = Scene.named(name)
     objects, _ = seen(scene)
     casters = [index for index, item in enumerate(scene.objects) if item.casts]
@@ -82,7 +82,7 @@ def test_casters_take_a_fair_part_of_the_picture(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", scene_names())
-def test_near_rectangle_is_in_a_volume_only_where_the_scene_is_made_for_it(name: str) -> None:
+def test_near_rectangle_is_in_a_volume_only_in_the_scenes_that_show_it(name: str) -> None:
     scene = Scene.named(name)
     counts = casting_faces_between(near_points(scene), scene.lights[0].position, scene.casters)
     assert set(counts.tolist()) == {"eye-in-shadow": {1}, "near-cut": {0, 1}}.get(name, {0})
@@ -136,6 +136,6 @@ def test_sun_is_at_infinity() -> None:
     assert Scene.named("sunlight").lights[0].is_directional
 
 
-def test_unknown_scene_is_answered_with_the_nearest_name() -> None:
+def test_unknown_scene_gives_the_nearest_name() -> None:
     with pytest.raises(SceneError, match=r"no built-in scene is called 'boxs'; did you mean 'boxes'\?"):
         Scene.named("boxs")

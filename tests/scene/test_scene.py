@@ -1,4 +1,4 @@
-"""Scenes and what they say about themselves."""
+"""Scenes: their planes and positions, refused content, and warnings."""
 
 import subprocess
 import sys
@@ -23,14 +23,14 @@ def test_plane_of_a_receiver_is_in_world_space_with_unit_normal() -> None:
     assert plane == pytest.approx([0, 0, 1, -3], abs=1e-12)  # float64 inverse of a well-conditioned matrix
 
 
-def test_solid_receives_nothing_on_a_plane() -> None:
+def test_solid_has_no_plane_and_is_no_receiver() -> None:
     assert SceneObject(shapes.box(), receives=True).plane is None
     scene = scene_of(shapes.box(), receives=True)
     assert [item.name for item in scene.receivers] == ["floor"]
     assert [item.name for item in scene.casters] == ["box"]
 
 
-def test_equal_positions_are_equal_in_the_world_too() -> None:
+def test_equal_positions_stay_equal_in_world_space() -> None:
     mesh = shapes.sphere()
     item = SceneObject(mesh, placement((0.1, 0.2, 0.3), (33, 1, 2, 3), 0.7))
     first = mesh.topology.representatives[mesh.topology.vertex_ids]
@@ -47,7 +47,7 @@ def test_equal_positions_are_equal_in_the_world_too() -> None:
         (np.full((4, 4), np.nan), "finite"),
     ],
 )
-def test_matrix_that_turns_faces_inside_out_is_refused(matrix: np.ndarray, said: str) -> None:
+def test_impossible_matrix_is_refused(matrix: np.ndarray, said: str) -> None:
     with pytest.raises(SceneError, match=f"box: object_to_world: .*{said}"):
         SceneObject(shapes.box(), matrix)
 
@@ -67,7 +67,7 @@ def test_shininess_beyond_gl_is_refused() -> None:
         Material(shininess=200)
 
 
-def test_plain_scene_warns_of_nothing() -> None:
+def test_scene_of_solids_has_no_warnings() -> None:
     assert scene_of(shapes.box(), object_to_world=placement((0, 1, 0))).warnings() == []
 
 
@@ -98,7 +98,7 @@ def test_inside_out_mesh_is_named() -> None:
         ((0.7, 1.3, 0), False),
     ],
 )
-def test_light_is_found_inside_a_caster_that_is_not_convex(light: tuple, inside: bool) -> None:
+def test_light_inside_a_nonconvex_caster_is_detected(light: tuple, inside: bool) -> None:
     warnings = scene_of(shapes.torus(0.7, 0.25), light, object_to_world=placement((0, 1, 0))).warnings()
     assert [type(item) for item in warnings] == [LightInsideCaster] * inside
 

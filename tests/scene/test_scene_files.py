@@ -1,4 +1,4 @@
-"""Scene files: the examples load, and one message names every mistake."""
+"""Scene files: the examples load, and one message lists every mistake."""
 
 import shutil
 from pathlib import Path
@@ -29,7 +29,7 @@ def write(folder: Path, text: str, name: str = "lesson.toml") -> Path:
 
 
 def mistakes_of(folder: Path, text: str) -> list[str]:
-    """Return the lines of the error about a scene file, without its first."""
+    """Return the mistakes listed in the error about a scene file."""
     file = write(folder, text)
     with pytest.raises(SceneError) as caught:
         Scene.load(file)
@@ -68,13 +68,13 @@ def test_smallest_scene_file_has_defaults(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("shape", sorted(SHAPES))
-def test_every_shape_can_be_named(tmp_path: Path, shape: str) -> None:
+def test_every_shape_can_be_used(tmp_path: Path, shape: str) -> None:
     sides = "parameters = { corner = [0, 0, 0], across = [1, 0, 0], up = [0, 1, 0] }\n" if shape == "quad" else ""
     scene = Scene.load(write(tmp_path, MINIMAL.replace('"box"', f'"{shape}"') + sides))
     assert scene.objects[0].mesh.name == shape
 
 
-def test_unnamed_objects_get_names_of_their_own(tmp_path: Path) -> None:
+def test_unnamed_objects_get_unique_names(tmp_path: Path) -> None:
     text = MINIMAL + '[[object]]\nshape = "box"\n[[object]]\nshape = "box"\n[[light]]\ndirection = [0, 1, 0]\n'
     scene = Scene.load(write(tmp_path, text))
     assert [item.name for item in scene.objects] == ["box", "box 2", "box 3"]
@@ -86,13 +86,13 @@ def test_spot_light_has_an_axis_and_a_cutoff(tmp_path: Path) -> None:
     scene = Scene.load(write(tmp_path, MINIMAL.replace(place, f"{place}\naxis = [0, -2, 0]\ncutoff = 25")))
     (light,) = scene.lights
     assert (light.is_spot, light.cutoff) == (True, 25)
-    wrong = mistakes_of(tmp_path, MINIMAL.replace(place, "direction = [0, 1, 0]\naxis = [0, -2, 0]\ncutoff = 25"))
-    assert len(wrong) == 1
-    assert "a light at infinity has no cone" in wrong[0]
+    mistakes = mistakes_of(tmp_path, MINIMAL.replace(place, "direction = [0, 1, 0]\naxis = [0, -2, 0]\ncutoff = 25"))
+    assert len(mistakes) == 1
+    assert "a light at infinity has no cone" in mistakes[0]
 
 
-def test_all_mistakes_are_named_in_one_message(tmp_path: Path) -> None:
-    found = mistakes_of(
+def test_all_mistakes_are_listed_in_one_message(tmp_path: Path) -> None:
+    mistakes = mistakes_of(
         tmp_path,
         """
 titel = "x"
@@ -131,7 +131,7 @@ shininess = inf
 """,
     )
     nothere = tmp_path / "nothere.obj"
-    assert sorted(found) == sorted(
+    assert sorted(mistakes) == sorted(
         [
             "titel: unknown key; did you mean 'title'? (there are: title, camera, light, object, receiver, materials, "
             "ambient, background)",
@@ -147,11 +147,11 @@ shininess = inf
             "object[1].material: no material is called 'gould'; did you mean 'gold'? (there are: gold)",
             "object[2].scale: expected positive factors, got -1",
             f"object[3].mesh: {nothere}: there is no such file; expected an existing file",
-            "object[3].name: 'a' is used twice; expected a name of its own",
-            "object[3].turn: expected an axis that is not 0, got [0.0, 0.0, 0.0, 0.0]",
+            "object[3].name: 'a' is used twice; expected a unique name",
+            "object[3].turn: expected an axis of a length other than 0, got [0.0, 0.0, 0.0, 0.0]",
             "object[3].material.colour: unknown key; did you mean 'color'? (there are: color, specular, shininess)",
             "object[4]: expected either shape (a built-in shape) or mesh (a model file)",
-            "receiver[0].up: expected [x, y, z], it is missing",
+            "receiver[0].up: expected [x, y, z], but it is missing",
             "materials.gold.color: expected [red, green, blue], each 0 to 1, got 'red'",
             "materials.gold.shininess: expected a number from 0 to 128, got inf",
         ]
@@ -166,7 +166,7 @@ shininess = inf
             "camera: expected a table [camera] with eye and target",
         ),
         (("[[light]]", "[light]"), "light: expected one or more tables [[light]], got {'position': [2, 5, 3]}"),
-        (("[[light]]\nposition = [2, 5, 3]\n", ""), "light: expected one or more tables [[light]], it is missing"),
+        (("[[light]]\nposition = [2, 5, 3]\n", ""), "light: expected one or more tables [[light]], but it is missing"),
         (('[[object]]\nshape = "box"\n', ""), "expected at least one [[object]] or [[receiver]]"),
         (("position = [2, 5, 3]", ""), "light[0]: expected either position (a point) or direction"),
         (("position = [2, 5, 3]", "direction = [0, 0, 0]"), "light[0].position: expected a point"),
@@ -188,7 +188,7 @@ shininess = inf
         (('"box"', '"torus"\nparameters = { sides = 2 }'), "object[0].parameters.sides: expected at least 3, got 2"),
         (('"box"', '"sphere"\nparameters = { rings = 100000 }'), "rings: expected a whole number from 1 to 1000"),
         (('"box"', '"cylinder"\nparameters = { capped = 1 }'), "parameters.capped: expected true or false, got 1"),
-        (('"box"', '"quad"'), "object[0].parameters.corner: expected [x, y, z], it is missing"),
+        (('"box"', '"quad"'), "object[0].parameters.corner: expected [x, y, z], but it is missing"),
         (('"box"', '"box"\nparameters = 3'), "object[0].parameters: expected a table of numbers, got 3"),
     ],
 )
@@ -208,7 +208,7 @@ def test_model_outside_the_folder_of_the_file_is_refused(tmp_path: Path, mesh: s
     assert line == f"object[0].mesh: {mesh!r} is outside the folder of the scene file; expected a file inside it"
 
 
-def test_model_below_the_folder_is_read_and_its_warnings_are_kept(tmp_path: Path) -> None:
+def test_model_below_the_folder_is_read_with_its_warnings(tmp_path: Path) -> None:
     (tmp_path / "models").mkdir()
     write(tmp_path / "models", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n", "flat.obj")
     scene = Scene.load(write(tmp_path, MINIMAL.replace('shape = "box"', 'mesh = "models/flat.obj"')))
@@ -222,7 +222,7 @@ def test_model_below_the_folder_is_read_and_its_warnings_are_kept(tmp_path: Path
         (b"title = '\xff'", "byte 9 is not UTF-8; expected a scene file"),
     ],
 )
-def test_file_that_is_no_toml_is_named(tmp_path: Path, content: bytes, said: str) -> None:
+def test_file_that_is_not_toml_is_named(tmp_path: Path, content: bytes, said: str) -> None:
     file = tmp_path / "lesson.toml"
     file.write_bytes(content)
     with pytest.raises(SceneError, match=said):

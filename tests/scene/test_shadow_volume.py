@@ -1,4 +1,4 @@
-"""The shadow volume: watertight to the last bit, the mesh's own triangles in front, far enough behind."""
+"""The shadow volume: exactly closed, with the mesh's own triangles as light cap, and long enough."""
 
 from collections import Counter
 from itertools import pairwise
@@ -16,7 +16,7 @@ generators = st.sampled_from(["silhouette", "per-polygon"])
 
 
 def polygons(mesh: Mesh, volume: ShadowVolume) -> list[np.ndarray]:
-    """Return all polygons of a volume as homogeneous points, in their outward order."""
+    """Return all polygons of a volume as homogeneous points, counter-clockwise from outside."""
     near = np.concatenate([mesh.positions, np.ones((len(mesh.positions), 1), np.float32)], axis=1)
     caps = [near[triangle] for triangle in volume.light_cap]
     turned = [near[triangle[::-1]] for triangle in volume.light_cap_reversed]
@@ -24,7 +24,7 @@ def polygons(mesh: Mesh, volume: ShadowVolume) -> list[np.ndarray]:
 
 
 def directed_edge_sum(outlines: list[np.ndarray]) -> Counter:
-    """Return for each pair of homogeneous points how often an edge runs from the first to the second, minus back."""
+    """Return, for each pair of points, the number of edges from the first to the second minus those back."""
     total: Counter = Counter()
     for outline in outlines:
         points = [tuple((point + 0.0).tolist()) for point in outline]  # adding 0 makes -0 equal to 0
@@ -35,7 +35,7 @@ def directed_edge_sum(outlines: list[np.ndarray]) -> Counter:
 
 
 @given(st.one_of(closed_meshes(), open_meshes()), lights(), generators, extrusions)
-def test_every_edge_is_run_along_as_often_as_back(
+def test_every_edge_occurs_equally_often_in_both_directions(
     mesh: Mesh, light: np.ndarray, generator: str, extrusion: str | float
 ) -> None:
     volume = shadow_volume(mesh, light, generator=generator, extrusion=extrusion)
@@ -51,11 +51,11 @@ def test_both_generators_have_the_same_caps(mesh: Mesh, light: np.ndarray) -> No
 
 
 @given(st.one_of(closed_meshes(), open_meshes()), lights())
-def test_light_cap_is_rows_of_the_mesh_in_drawing_order(mesh: Mesh, light: np.ndarray) -> None:
+def test_light_cap_is_triangles_of_the_mesh_in_drawing_order(mesh: Mesh, light: np.ndarray) -> None:
     faces = casting_faces(mesh, light)
     volume = shadow_volume(mesh, light)
-    assert (np.diff(faces.kept) > 0).all()
-    assert (volume.light_cap == mesh.triangles[faces.kept]).all()
+    assert (np.diff(faces.facing) > 0).all()
+    assert (volume.light_cap == mesh.triangles[faces.facing]).all()
     assert (volume.light_cap_reversed == mesh.triangles[faces.reversed]).all()
 
 
@@ -64,9 +64,7 @@ ROUNDING = 1e-5
 
 
 @given(st.one_of(closed_meshes(), open_meshes()), lights(), st.sampled_from([0.5, 20.0, 1000.0]))
-def test_finite_volume_reaches_as_far_as_asked_behind_every_casting_face(
-    mesh: Mesh, light: np.ndarray, reach: float
-) -> None:
+def test_finite_volume_is_long_enough_behind_every_casting_face(mesh: Mesh, light: np.ndarray, reach: float) -> None:
     volume = shadow_volume(mesh, light, extrusion=reach)
     faces = np.concatenate([volume.light_cap, volume.light_cap_reversed[:, ::-1]])
     assume(len(faces))
@@ -82,7 +80,7 @@ def test_finite_volume_reaches_as_far_as_asked_behind_every_casting_face(
     assert (distances >= reach * (1 - ROUNDING)).all()
 
 
-def test_face_is_scaled_by_its_plane_not_by_its_vertices() -> None:
+def test_extrusion_is_measured_to_the_plane_not_to_the_vertices() -> None:
     # vertices are 10 from the light, the plane only 1: moving vertices to a distance of 20 leaves the plane at 2
     corners = np.array([[10, -1, 0], [-5, -1, 8.66], [-5, -1, -8.66]])
     volume = shadow_volume(Mesh(corners, [[0, 2, 1]]), np.array([0.0, 0, 0, 1]), extrusion=20.0)
@@ -109,7 +107,7 @@ def test_finite_volume_of_a_light_at_infinity_has_both_caps() -> None:
     assert volume.dark_cap[:, :, 1] == pytest.approx(0.5 - 7)
 
 
-def test_sides_look_outward() -> None:
+def test_sides_face_outward() -> None:
     light = np.array([0.0, 5, 0, 1])
     sides = shadow_volume(shapes.box(), light, extrusion=30.0).sides.astype(np.float64)[:, :, :3]
     normals = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])
@@ -122,17 +120,17 @@ def test_volume_without_caps_has_sides_only() -> None:
     assert len(volume.sides) == 6
 
 
-def test_light_inside_a_closed_mesh_makes_no_volume() -> None:
+def test_light_inside_a_closed_mesh_gives_an_empty_volume() -> None:
     volume = shadow_volume(shapes.box(), np.array([0.0, 0, 0, 1]), extrusion=5.0)
     assert [len(part) for part in (volume.light_cap, volume.sides, volume.dark_cap)] == [0, 0, 0]
 
 
 @given(lights())
-def test_multiplicity_two_makes_two_sides(light: np.ndarray) -> None:
+def test_multiplicity_two_gives_two_sides(light: np.ndarray) -> None:
     roof = Mesh([[0, 1, 0], [0, 1, 1], [-1, 0, 0], [1, 0, 0]], [[0, 1, 3], [1, 0, 2]])
     both = casting_faces(roof, light)
     outline = shadow_volume(roof, light).sides
-    assert len(outline) in ((4, 6) if len(both.kept) + len(both.reversed) == 2 else (0, 3))
+    assert len(outline) in ((4, 6) if len(both.facing) + len(both.reversed) == 2 else (0, 3))
 
 
 @pytest.mark.parametrize("extrusion", ["far", 0.0, -1.0, float("inf"), float("nan")])

@@ -1,4 +1,4 @@
-"""Shapes: outward faces, the right volume, normals that agree with the faces."""
+"""Shapes: outward faces, the right volume, and normals that match the faces."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ import pytest
 from softshadow.scene import Mesh, shapes
 from softshadow.scene.plane import flat_plane
 
-# volumes of inscribed polyhedra are somewhat below those of the smooth solids
+# inscribed polyhedra have slightly smaller volumes than the smooth solids
 VOLUMES = [
     (shapes.box(1, 2, 3), 6.0, 1e-6),
     (shapes.wall(3, 2, 0.1), 0.6, 1e-6),
@@ -19,7 +19,7 @@ VOLUMES = [
 
 
 @pytest.mark.parametrize(("mesh", "volume", "below"), VOLUMES, ids=lambda value: getattr(value, "name", ""))
-def test_faces_look_outward_and_enclose_the_volume(mesh: Mesh, volume: float, below: float) -> None:
+def test_faces_point_outward_and_enclose_the_volume(mesh: Mesh, volume: float, below: float) -> None:
     assert mesh.signed_volume == pytest.approx(volume, rel=below)
 
 
@@ -35,7 +35,7 @@ def test_quad_faces_across_times_up() -> None:
     assert plane.tolist() == [0, 0, 1, 0]
 
 
-def test_floor_faces_up_and_is_cut_into_cells() -> None:
+def test_floor_faces_up_and_is_divided_into_cells() -> None:
     mesh = shapes.floor(4, cells=3)
     assert len(mesh.triangles) == 18
     assert flat_plane(mesh).tolist() == [0, 1, 0, 0]

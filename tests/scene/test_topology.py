@@ -1,4 +1,4 @@
-"""Topology by position: what is closed, what is open, and that nothing is moved."""
+"""Topology by position: closed and open meshes, bodies, and defects."""
 
 import numpy as np
 import pytest
@@ -53,18 +53,18 @@ def test_positions_one_float_apart_are_not_welded() -> None:
     assert ids[0] != ids[1]
 
 
-def test_two_neighbours_that_disagree_about_the_outside_are_named() -> None:
-    topology = Mesh([*TRIANGLE, [1, 1, 0]], [[0, 1, 2], [1, 2, 3]]).topology  # both run from 1 to 2
+def test_edge_of_two_faces_that_disagree_about_the_outside_is_misoriented() -> None:
+    topology = Mesh([*TRIANGLE, [1, 1, 0]], [[0, 1, 2], [1, 2, 3]]).topology  # both use the edge from 1 to 2
     assert (topology.misoriented_edges, topology.nonmanifold_edges) == (1, 0)
     assert topology.boundary_edges == 4
 
 
-def test_edge_of_three_faces_is_named() -> None:
+def test_edge_of_three_faces_is_nonmanifold() -> None:
     fan = [[0, 1, 2], [0, 1, 3], [0, 1, 4]]
     assert Mesh([*TRIANGLE, [0, 0, 1], [0, -1, 0]], fan).topology.nonmanifold_edges == 1
 
 
-def test_face_with_two_equal_positions_belongs_to_no_edge() -> None:
+def test_face_with_two_equal_positions_has_no_edges() -> None:
     topology = Mesh([*TRIANGLE, [1, 0, 0]], [[0, 1, 2], [1, 3, 2]]).topology
     assert topology.degenerate_faces == 1
     assert topology.boundary_edges == 3
@@ -89,7 +89,7 @@ def test_an_open_body_does_not_open_the_closed_one_beside_it() -> None:
 
 
 @given(open_meshes())
-def test_bodies_are_what_shared_positions_connect(mesh: Mesh) -> None:
+def test_faces_that_share_positions_form_a_body(mesh: Mesh) -> None:
     topology = mesh.topology
     together = (topology.triangles[:, None, :, None] == topology.triangles[None, :, None, :]).any(axis=(2, 3))
     for _ in range(len(mesh.triangles)):

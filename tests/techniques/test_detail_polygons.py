@@ -36,7 +36,7 @@ def faces_of(scene: Scene, details: tuple[DetailPolygons, ...]) -> Iterator[tupl
     for number, (thing, found) in enumerate(zip(scene.objects, details, strict=True)):
         reached = reached_faces(thing, scene.lights[0])
         for face, corners in zip(
-            np.append(reached.kept, reached.reversed), turned_triangles(thing, reached), strict=True
+            np.append(reached.facing, reached.reversed), turned_triangles(thing, reached), strict=True
         ):
             yield number, int(face), corners, found.cast[found.faces == face]
 
@@ -138,7 +138,7 @@ def test_faces_that_look_away_are_in_their_own_shadow_and_receive_nothing() -> N
     scene = replace(SCENE, objects=(FLOOR, RING))
     floor, ring = shadow_polygons(scene, scene.lights[0])
     assert not len(floor.own)
-    assert len(ring.own) + len(reached_faces(RING, scene.lights[0]).kept) == len(RING.mesh.triangles)
+    assert len(ring.own) + len(reached_faces(RING, scene.lights[0]).facing) == len(RING.mesh.triangles)
     assert not np.isin(ring.faces, ring.own).any()
     for face in ring.own:
         middle = RING.world_positions[RING.mesh.triangles[face]].mean(axis=0)
