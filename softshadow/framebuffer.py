@@ -1,7 +1,7 @@
 """Framebuffers and the storage of a context: everything that a command can change.
 
-The default framebuffer is rasterised and stored top row first, framebuffer objects bottom row first, as llvmpipe does
-(the last bits of an interpolated depth depend on it).
+As in llvmpipe, the default framebuffer is rasterised and stored top row first, framebuffer objects bottom row first.
+The last bits of an interpolated depth depend on this order.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from softshadow.texture import Texture
 DEFAULT = 0
 DEPTH_FORMATS = {"d24": D24, "d32f": D32F}
 DRAW_BUFFERS = 8
-LARGEST_SIDE = 16384  # Mesa's own limit; 8 sub-pixel bits keep integer coverage exact far beyond
+LARGEST_SIDE = 16384  # Mesa's limit; with 8 sub-pixel bits, integer coverage is exact far beyond it
 
 
-NOTHING = Format(gl.GL_NONE, "none", np.uint8, 1)  # of an attached level or renderbuffer that has no image yet
+NOTHING = Format(gl.GL_NONE, "none", np.uint8, 1)  # an attached level or renderbuffer without an image
 
 
-def plane_for(image: Image, attachment: int) -> Image:
-    """Return the plane of an image that serves an attachment point: of packed depth-stencil images, the stencil."""
+def attached_image(image: Image, attachment: int) -> Image:
+    """Return the image that an attachment point uses: the stencil image of a packed one at GL_STENCIL_ATTACHMENT."""
     if attachment == gl.GL_STENCIL_ATTACHMENT and image.stencil is not None:
         return image.stencil
     return image
@@ -34,7 +34,7 @@ def plane_for(image: Image, attachment: int) -> Image:
 
 @dataclass(frozen=True)
 class Attachment:
-    """A level of a texture (or a renderbuffer's image) that stands as a buffer of a framebuffer object."""
+    """A level of a texture, or a renderbuffer's image, attached to a framebuffer object."""
 
     image: Image
     texture: int = 0
@@ -47,9 +47,9 @@ class Attachment:
 class Framebuffer:
     """The buffers that a draw writes. A missing buffer is None: its test passes and nothing is written.
 
-    `draw_buffers` are the names of glDrawBuffers, up to `DRAW_BUFFERS` of them; what it does not name is GL_NONE.
-    `flipped` says that row 0 is the top row (the default framebuffer), `clamps` that glGet answers colours clamped to
-    [0, 1]: Mesa finds out whether an object has buffers of floats when it first asks whether it is complete.
+    `draw_buffers` are the buffers set by glDrawBuffers, up to `DRAW_BUFFERS`; all others are GL_NONE. `flipped`: row 0
+    is the top row, as in the default framebuffer. `clamps`: glGet returns colours clamped to [0, 1]; for a framebuffer
+    object, Mesa decides this by its float buffers, but only when it checks whether the object is complete.
     """
 
     name: int
@@ -61,27 +61,27 @@ class Framebuffer:
     accumulation: np.ndarray | None = None
 
     def image(self, attachment: int) -> Image | None:
-        found = self.attachments.get(attachment)
-        return found.image if found else None
+        attached = self.attachments.get(attachment)
+        return attached.image if attached else None
 
     @property
     def color(self) -> Image | None:
-        """The image of the first draw buffer, or None (GL_NONE, or nothing attached)."""
+        """The image of the first draw buffer; None for GL_NONE or without an attachment."""
         return self._color_buffer(self.draw_buffer_at(0))
 
     @property
     def colors(self) -> tuple[Image, ...]:
         """The images that colours are written to: one per draw buffer that has an image."""
-        images = (self._color_buffer(choice) for choice in self.draw_buffers)
+        images = (self._color_buffer(buffer) for buffer in self.draw_buffers)
         return tuple(image for image in images if image is not None)
 
     def draw_buffer_at(self, index: int) -> int:
-        """Return the name of a draw buffer, counted from 0."""
+        """Return the token of a draw buffer by its index."""
         return self.draw_buffers[index] if index < len(self.draw_buffers) else gl.GL_NONE
 
     @property
     def first_color(self) -> Image | None:
-        """The first colour attachment, whichever is written, or None."""
+        """The image of the first colour attachment, drawn to or not; None without any."""
         points = [
             point for point in self.attachments if point in range(gl.GL_COLOR_ATTACHMENT0, gl.GL_DEPTH_ATTACHMENT)
         ]
@@ -89,13 +89,13 @@ class Framebuffer:
 
     @property
     def read_color(self) -> Image | None:
-        """The image that colours are read from, or None."""
+        """The image of the read buffer, or None."""
         return self._color_buffer(self.read_buffer)
 
-    def _color_buffer(self, choice: int) -> Image | None:
-        # the window has one colour buffer, whatever it is called (GL_BACK, GL_FRONT, GL_LEFT ...)
-        named = gl.GL_COLOR_ATTACHMENT0 if self.name == DEFAULT and choice != gl.GL_NONE else choice
-        return self.image(named)
+    def _color_buffer(self, buffer: int) -> Image | None:
+        # GL_BACK, GL_FRONT, GL_LEFT ... are all the one colour buffer of the window
+        attachment = gl.GL_COLOR_ATTACHMENT0 if self.name == DEFAULT and buffer != gl.GL_NONE else buffer
+        return self.image(attachment)
 
     @property
     def depth(self) -> Image | None:
@@ -115,12 +115,12 @@ class Framebuffer:
 def default_framebuffer(
     width: int, height: int, depth_format: str = "d24", stencil_bits: int = 8, precision: str = "mesa"
 ) -> Framebuffer:
-    """Return the window: RGBA8 cleared to 0, depth cleared to 1, stencil cleared to 0.
+    """Return the window: RGBA8 and stencil cleared to 0, depth cleared to 1.
 
     Raises
     ------
     ValueError
-        A size, depth format, number of stencil bits (1-8) or precision that does not exist; sizes are 1 to 16384.
+        A size outside 1 to 16384, more or less than 1 to 8 stencil bits, an unknown depth format or precision.
     """
     for name, value in (("width", width), ("height", height)):
         if not isinstance(value, int | np.integer) or not 1 <= value <= LARGEST_SIDE:
@@ -131,15 +131,15 @@ def default_framebuffer(
         raise ValueError(f"stencil_bits={stencil_bits!r}: expected 1 to 8")
     if precision not in ("mesa", "exact"):
         raise ValueError(f"precision={precision!r}: expected 'mesa' or 'exact'")
-    depth_cells = EXACT_DEPTH if precision == "exact" else DEPTH_FORMATS[depth_format]
-    stencil_cells = Format(gl.GL_STENCIL_INDEX, "stencil", np.uint8, 1, (1 << stencil_bits) - 1)
+    stored_depth = EXACT_DEPTH if precision == "exact" else DEPTH_FORMATS[depth_format]
+    stored_stencil = Format(gl.GL_STENCIL_INDEX, "stencil", np.uint8, 1, (1 << stencil_bits) - 1)
     try:
         color = Image.new(FORMATS[gl.GL_RGBA8], int(width), int(height), gl.GL_RGBA8)
-        depth = Image.new(depth_cells, int(width), int(height), gl.GL_DEPTH_COMPONENT24)
-        stencil = Image.new(stencil_cells, int(width), int(height), gl.GL_STENCIL_INDEX8)
+        depth = Image.new(stored_depth, int(width), int(height), gl.GL_DEPTH_COMPONENT24)
+        stencil = Image.new(stored_stencil, int(width), int(height), gl.GL_STENCIL_INDEX8)
     except MemoryError:
         raise StateError(f"a {width} x {height} framebuffer does not fit in memory") from None
-    depth.cells[:] = depth_cells.largest or 1.0
+    depth.cells[:] = stored_depth.largest or 1.0
     return Framebuffer(
         DEFAULT,
         {
@@ -158,8 +158,8 @@ def default_framebuffer(
 class Storage:
     """The objects of one context by name: framebuffers (0 is the window), textures, renderbuffers and query results.
 
-    `visibility_cache` speeds up draws that repeat earlier ones (`softshadow.pipeline.fast.visibility_cache`); it
-    changes no result.
+    `visibility_cache` speeds up draws that repeat earlier ones (`softshadow.pipeline.fast.visibility_cache`), with the
+    same result.
     """
 
     framebuffers: dict[int, Framebuffer]
@@ -173,18 +173,18 @@ class Storage:
     def window(self) -> Framebuffer:
         return self.framebuffers[DEFAULT]
 
-    def settle(self) -> None:
-        """Write what is still to be written to buffers (`Image.write_later`)."""
+    def write_pending(self) -> None:
+        """Write the pending rows of all buffers (`Image.write_later`)."""
         for target in self.framebuffers.values():
             for attachment in target.attachments.values():
-                attachment.image.settle()
+                attachment.image.write_pending()
 
     def reattach(self, texture: int, face: int, level: int, image: Image) -> None:
-        """Let framebuffer objects follow a level of a texture to its new image."""
+        """Attach the new image of a texture's level wherever the level is attached."""
         for target in self.framebuffers.values():
             for point, attachment in target.attachments.items():
                 if (attachment.texture, attachment.face, attachment.level) == (texture, face, level) and texture:
-                    target.attachments[point] = replace(attachment, image=plane_for(image, point))
+                    target.attachments[point] = replace(attachment, image=attached_image(image, point))
 
 
 __all__ = ["DEFAULT", "STENCIL8", "Attachment", "Framebuffer", "Storage", "default_framebuffer"]

@@ -1,8 +1,8 @@
-"""A plane of pixels or texels: what a buffer of a framebuffer and a level of a texture are made of.
+"""Images: the storage of framebuffers, textures and renderbuffers.
 
-The same `Image` serves as depth attachment and as depth texture, so rendering into a texture copies nothing.
-Depth is held in buffer units: integers for fixed-point formats (in float32, exact up to 2**24; of 32 bits in float64,
-where 2**32 stands for the largest, as drawing in float32 has it), z itself for float formats.
+An `Image` can be a depth attachment and a depth texture at the same time, so rendering into a texture copies nothing.
+Depth is stored in buffer units: integers for fixed-point formats, z itself for float formats. The integers are float32,
+exact up to 2**24. 32-bit depth is float64, with 2**32 for the largest integer, since drawing in float32 rounds to it.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ import numpy as np
 from softshadow import tokens as gl
 
 _writing = Lock()
-PITCH = 32  # a row is padded to whole chunks of 32 pixels: kernels may run over its end, never into the next row
+PITCH = 32  # rows are padded to whole chunks of 32 pixels: kernels may write past the width, but not into the next row
 
 
 @dataclass(frozen=True)
 class Format:
-    """What one cell holds.
+    """The format of one cell.
 
-    `base` is GL's base internal format, `kind` one of "unorm8", "float", "depth", "stencil"; `largest` is the integer
-    that stands for 1.0 in a fixed-point depth format (0 for float depth) and the largest count of a stencil format.
+    `base` is GL's base internal format, `kind` one of "unorm8", "float", "depth", "stencil". `largest` is the integer
+    that represents 1.0 in a fixed-point depth format (0 for float depth), or the largest stencil value.
     """
 
     base: int
@@ -36,9 +36,9 @@ class Format:
 
     @property
     def written(self) -> tuple[bool, bool, bool, bool]:
-        """Which of RGBA a colour image really has; the others are constant, so that sampling needs no case."""
-        count = {gl.GL_RED: 1, gl.GL_RG: 2, gl.GL_RGB: 3}.get(self.base, 4)
-        return count > 0, count > 1, count > 2, count > 3
+        """Which of the four stored channels the format has; the others keep constant values, which sampling reads."""
+        n_channels = {gl.GL_RED: 1, gl.GL_RG: 2, gl.GL_RGB: 3}.get(self.base, 4)
+        return n_channels > 0, n_channels > 1, n_channels > 2, n_channels > 3
 
 
 def _unorm8(base: int) -> Format:
@@ -59,7 +59,7 @@ EXACT_DEPTH = Format(gl.GL_DEPTH_COMPONENT, "depth", np.float64, 1)  # unrounded
 STENCIL8 = Format(gl.GL_STENCIL_INDEX, "stencil", np.uint8, 1, 255)
 
 FORMATS: dict[int, Format] = {
-    1: _unorm8(gl.GL_LUMINANCE),  # GL 1.0 named internal formats by their number of components
+    1: _unorm8(gl.GL_LUMINANCE),  # in GL 1.0 the internal format was the number of components
     2: _unorm8(gl.GL_LUMINANCE_ALPHA),
     3: _unorm8(gl.GL_RGB),
     4: _unorm8(gl.GL_RGBA),
@@ -88,7 +88,7 @@ FORMATS: dict[int, Format] = {
     gl.GL_DEPTH_COMPONENT24: D24,
     gl.GL_DEPTH_COMPONENT32: _depth(32),
     gl.GL_DEPTH_COMPONENT32F: D32F,
-    gl.GL_DEPTH_STENCIL: D24,  # with a stencil plane beside it, see `Image.new`
+    gl.GL_DEPTH_STENCIL: D24,  # with a separate stencil image, see `Image.new`
     gl.GL_DEPTH24_STENCIL8: D24,
     gl.GL_DEPTH32F_STENCIL8: D32F,
     gl.GL_STENCIL_INDEX: STENCIL8,
@@ -98,7 +98,7 @@ WITH_STENCIL = (gl.GL_DEPTH_STENCIL, gl.GL_DEPTH24_STENCIL8, gl.GL_DEPTH32F_STEN
 
 
 def storage_format(internal_format: int, type: int = gl.GL_FLOAT) -> Format:
-    """Return what stores an internal format; unsized depth takes the client's integer size, as in Mesa.
+    """Return the format that stores an internal format; unsized depth gets the client's integer size, as in Mesa.
 
     Raises
     ------
@@ -111,8 +111,8 @@ def storage_format(internal_format: int, type: int = gl.GL_FLOAT) -> Format:
     return FORMATS[internal_format]
 
 
-def padded(height: int, width: int, format: Format) -> np.ndarray:
-    """Return a zeroed plane of `height` rows, each padded to a multiple of `PITCH` pixels."""
+def zeroed_cells(height: int, width: int, format: Format) -> np.ndarray:
+    """Return zeroed cells: `height` rows, each padded to a multiple of `PITCH` pixels."""
     pitch = -(-width // PITCH) * PITCH
     shape: tuple[int, ...] = (height, pitch) if format.channels == 1 else (height, pitch, format.channels)
     return np.zeros(shape, format.dtype)
@@ -124,12 +124,11 @@ def _has_stencil(format: Format, internal_format: int) -> bool:
 
 @dataclass(eq=False)
 class Image:
-    """One plane: `cells` is (height, pitch[, channels]), of which the first `width` columns count.
+    """Cells (height, pitch[, channels]); only the first `width` columns belong to the image.
 
-    `internal_format` is the token it was made with, for queries. Packed depth-stencil formats are two planes: the
-    stencil values are the image `stencil` of the depth image. `contents` is a name for what the cells hold: of two
-    moments at which it is the same name, and not None, the cells are the same. It is lost when the cells are taken,
-    which are then the taker's to write to, until the next command.
+    `internal_format` is the token that the image was created with. A packed depth-stencil format is stored as two
+    images: the depth image, and its `stencil`. `version` is a version token: equal tokens, other than None, mean
+    identical cells; taking the cells clears it. Whoever takes the cells may write to them until the next command.
     """
 
     format: Format
@@ -138,47 +137,47 @@ class Image:
     _cells: np.ndarray
     internal_format: int = 0
     stencil: Image | None = None
-    contents: Hashable | None = None
-    _later: list[tuple[int, np.ndarray]] = field(default_factory=list)  # first row, rows: still to be written
+    version: Hashable | None = None
+    _pending_rows: list[tuple[int, np.ndarray]] = field(default_factory=list)  # (first row, rows)
 
     @property
     def cells(self) -> np.ndarray:
         """The cells, for reading and writing."""
-        self.settle()
-        self.contents = None
+        self.write_pending()
+        self.version = None
         return self._cells
 
-    def settle(self) -> None:
-        """Write what is still to be written."""
-        if self._later:
+    def write_pending(self) -> None:
+        """Write the rows that `write_later` has stored."""
+        if self._pending_rows:
             with _writing:  # several threads may sample one texture
-                for first, rows in self._later:
+                for first, rows in self._pending_rows:
                     self._cells[first : first + len(rows)] = rows
-                self._later = []
+                self._pending_rows = []
 
-    def write_later(self, first_row: int, rows: np.ndarray, contents: Hashable) -> None:
-        """Write whole rows, when somebody asks for the cells; `contents` is the name for all cells with them.
+    def write_later(self, first_row: int, rows: np.ndarray, version: Hashable) -> None:
+        """Store whole rows, to be written when the cells are taken; `version` is the token of all cells after that.
 
-        `rows` (n, pitch), or what spreads to it, must not change any more.
+        `rows` (n, pitch), or an array broadcast to this shape, must not change afterwards.
         """
         if len(rows) == self.height:
-            self._later = []  # of what these would write, nothing would be left
-        self._later.append((first_row, rows))
-        self.contents = contents
+            self._pending_rows = []  # all cells would be overwritten
+        self._pending_rows.append((first_row, rows))
+        self.version = version
 
     @classmethod
     def new(cls, format: Format, width: int, height: int, internal_format: int = 0) -> Image:
-        """Return an image of zeros, with a stencil plane where the internal format has one."""
-        width, height = int(width), int(height)  # callers may have NumPy's
+        """Return an image of zeros, with a stencil image if the internal format has one."""
+        width, height = int(width), int(height)  # they may be NumPy integers
         stencil = cls.new(STENCIL8, width, height, internal_format) if _has_stencil(format, internal_format) else None
-        cells = padded(height, width, format)
+        cells = zeroed_cells(height, width, format)
         if format.base in (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_LUMINANCE):
-            cells[..., 3] = format.largest or 1  # the alpha that such a format is read with
+            cells[..., 3] = format.largest or 1  # formats without alpha are read with alpha 1
         return cls(format, width, height, cells, internal_format, stencil)
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Rows and columns of the cells, with the padding."""
+        """Rows and columns of the cells, padding included."""
         rows, columns = self._cells.shape[:2]
         return rows, columns
 
@@ -192,12 +191,12 @@ class Image:
         return Image(self.format, self.width, self.height, self.cells.copy(), self.internal_format, stencil)
 
     def is_laid_out_as(self, other: Image) -> bool:
-        """Return whether the other image has the same size and format, and was made with the same internal format."""
+        """Return whether the other image has the same size, format and internal format."""
         mine = (self.format, self.internal_format, self.width, self.height)
         return mine == (other.format, other.internal_format, other.width, other.height)
 
     def same_as(self, other: Any) -> bool:
-        """Return whether the other image has the same format and, bit for bit, the same cells."""
+        """Return whether the other image has the same format, and the same cells bit for bit."""
         return (
             isinstance(other, Image)
             and self.format == other.format

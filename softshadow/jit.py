@@ -1,7 +1,7 @@
-"""The one spelling of a kernel, and the folder its machine code is kept in.
+"""The decorators that compile kernels, and the folder that caches their machine code.
 
-Numba's own cache does not see that a function in another file has changed. The folder is therefore named after a hash
-of all sources that can take part in a kernel: an edit is answered by new code, never by a stale result.
+Numba's cache does not notice changes of functions in other files. So the folder is named by a hash of all sources that
+can be part of a kernel: after an edit, everything is compiled again and no stale code is used.
 """
 
 import gc
@@ -19,19 +19,19 @@ import numba
 import numpy as np
 from numba.core import event
 
-# all that kernels are in, and all that these import: its constants are part of the compiled code
+# all files with kernels, and all files these import: constants become part of the compiled code
 KERNEL_SOURCES = (
     "bench/plain_loops.py", "errors.py", "framebuffer.py", "image.py", "jit.py", "matrices.py", "pixel_store.py",
     "pixels.py", "state", "texture.py", "tokens.py", "pipeline", "programs", "scene", "truth",
 )  # fmt: skip
-KEPT_VERSIONS = 8
-# no kernel is called from C: its wrapper for that would take a twentieth of the time of compilation
+MAX_VERSIONS = 8
+# no kernel is called from C, and a wrapper for it would take a twentieth of the compile time
 OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 
 
 @cache
 def source_hash() -> str:
-    """Return the hash of every source that kernels are made of, 16 hex digits."""
+    """Return the hash of all kernel sources, 16 hex digits."""
     root = Path(__file__).parent
     digest = hashlib.blake2b(digest_size=8)
     for block in KERNEL_SOURCES:
@@ -44,7 +44,7 @@ def source_hash() -> str:
 
 @cache
 def cache_folder() -> Path | None:
-    """Return the folder for compiled kernels, or None where none can be written (then nothing is kept)."""
+    """Return the cache folder for compiled kernels; None if it cannot be written, then nothing is cached."""
     if "NUMBA_CACHE_DIR" in os.environ:
         base = Path(os.environ["NUMBA_CACHE_DIR"])
     elif sys.platform == "win32":
@@ -57,73 +57,73 @@ def cache_folder() -> Path | None:
     try:
         if not folder.exists():
             folder.mkdir(parents=True, exist_ok=True)
-            _forget_old(folder.parent)
+            _delete_old_versions(folder.parent)
         with tempfile.TemporaryFile(dir=folder):
             return folder
     except OSError:
         return None
 
 
-def _forget_old(folder: Path) -> None:
-    """Delete the code of all versions but the last few that were used: each edit and upgrade makes a folder."""
+def _delete_old_versions(folder: Path) -> None:
+    """Delete all but the most recently used versions: each edit and each upgrade makes a new folder."""
     versions = sorted((entry for entry in folder.iterdir() if entry.is_dir()), key=lambda entry: entry.stat().st_mtime)
-    for version in versions[:-KEPT_VERSIONS]:
+    for version in versions[:-MAX_VERSIONS]:
         shutil.rmtree(version, ignore_errors=True)
 
 
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile a function of the fragment, vertex or geometry loops (decorator).
 
-    IEEE arithmetic as written (no fastmath), no bounds or division checks, runs without the interpreter lock.
+    IEEE arithmetic as written (no fastmath), no bounds or division checks, no interpreter lock (nogil).
     With ``NUMBA_DISABLE_JIT=1`` the function stays plain Python.
     """
     folder = cache_folder()
-    config: Any = numba.config  # its settings are made when Numba is imported; type checkers see none
-    kept = config.CACHE_DIR
-    # the folder is read when the decorator runs, so a user's own setting is back before anybody else can see ours
+    config: Any = numba.config  # type checkers do not see its settings, which Numba creates at import
+    users_folder = config.CACHE_DIR
+    # njit reads the folder at once, so the user's own setting can be restored right after it
     config.CACHE_DIR = str(folder) if folder else ""
     try:
         return numba.njit(cache=folder is not None, **OPTIONS)(function)
     finally:
-        config.CACHE_DIR = kept
+        config.CACHE_DIR = users_folder
 
 
 def inlined(function: Callable[..., Any]) -> Any:
-    """Compile a function into each kernel that calls it (decorator): what it is called with there is folded away.
+    """Inline a function into each kernel that calls it (decorator); constant arguments are folded.
 
-    For one that kernels call in a place or two this is also the faster way to compile it: as a kernel of its own it
-    gets a wrapper, a cache entry and machine code that nothing uses.
+    A function that kernels call in one or two places also compiles faster this way: a kernel of its own would get a
+    wrapper, a cache entry and machine code that are never used.
     """
     return numba.njit(inline="always", **OPTIONS)(function)
 
 
-class _CollectAfterwards(event.Listener):
-    """Lets garbage collection wait while Numba compiles, where looking for garbage took a tenth of the time."""
+class _PauseCollection(event.Listener):
+    """Pauses garbage collection while Numba compiles: it took a tenth of the compile time."""
 
     def __init__(self) -> None:
-        self.depth = 0  # kernels are compiled inside the compilation of others, under one lock
-        self.collected = True
+        self.depth = 0  # compilations are nested, under one lock
+        self.was_enabled = True
 
     def on_start(self, event: event.Event) -> None:
         if self.depth == 0:
-            self.collected = gc.isenabled()
+            self.was_enabled = gc.isenabled()
             gc.disable()
         self.depth += 1
 
     def on_end(self, event: event.Event) -> None:
         self.depth -= 1
-        if self.depth == 0 and self.collected:
+        if self.depth == 0 and self.was_enabled:
             gc.enable()
 
 
-event.register("numba:compile", _CollectAfterwards())
+event.register("numba:compile", _PauseCollection())
 
 
 def read_only(array: np.ndarray) -> np.ndarray:
     """Return a view that cannot be written to.
 
-    To the compiler it is another type: a kernel that gets users' arrays, which are read-only, gets all its arrays so,
-    or it would be compiled twice.
+    Read-only arrays are a type of their own for the compiler. Users' arrays are read-only, so a kernel that gets them
+    must get all arrays read-only; otherwise it would be compiled twice.
     """
     view = array.view()
     view.flags.writeable = False

@@ -1,7 +1,7 @@
 """Every 4x4 matrix of the course: M @ v with column vectors, angles in degrees.
 
-The makers of GL's own matrices give, in float32, the bits of Mesa 22.3.6: each operation is rounded on its own, in the
-order written there; with ``real=numpy.float64`` they are as exact as that goes.
+In float32, GL's own matrices have the bits of Mesa 22.3.6: each operation is rounded separately, in Mesa's order. With
+``real=numpy.float64`` they are computed in double precision.
 """
 
 import ctypes
@@ -14,9 +14,9 @@ import numpy as np
 
 Real = type[np.floating]
 FLOAT: Real = np.float32
-# overflow is as good as any number in GL, where it makes infinities without a word
+# in GL, overflow gives infinities without an error
 silent = np.errstate(all="ignore")
-NO_LENGTH = 1e-4  # an axis shorter than this is none (Mesa, math/m_matrix.c)
+SHORTEST_AXIS = 1e-4  # glRotate ignores an axis that is not longer (Mesa, math/m_matrix.c)
 
 
 @silent
@@ -32,9 +32,9 @@ def multiply(left: np.ndarray, right: np.ndarray) -> np.ndarray:
 def translate(base: np.ndarray, x: float, y: float, z: float) -> np.ndarray:
     """Return `base` times a translation, as glTranslate computes it."""
     real = base.dtype.type
-    made = base.copy()
-    made[:, 3] = ((base[:, 0] * real(x) + base[:, 1] * real(y)) + base[:, 2] * real(z)) + base[:, 3]
-    return made
+    product = base.copy()
+    product[:, 3] = ((base[:, 0] * real(x) + base[:, 1] * real(y)) + base[:, 2] * real(z)) + base[:, 3]
+    return product
 
 
 @silent
@@ -45,10 +45,10 @@ def scale(base: np.ndarray, x: float, y: float, z: float) -> np.ndarray:
 
 @silent
 def rotation(angle: float, x: float, y: float, z: float, real: Real = FLOAT) -> np.ndarray:
-    """Return glRotate's matrix: `angle` degrees about the axis (x, y, z); a turn about a coordinate axis is exact
-    there.
+    """Return glRotate's matrix: `angle` degrees about the axis (x, y, z).
 
-    Sine and cosine are the C library's in single precision: NumPy's differ in the last place.
+    A rotation about a coordinate axis has exact zeros and ones. Sine and cosine are the C library's single precision
+    functions: NumPy's differ in the last bit.
     """
     sine, cosine = _sine_and_cosine(angle, real)
     return _rotation(sine, cosine, real(x), real(y), real(z))
@@ -56,28 +56,28 @@ def rotation(angle: float, x: float, y: float, z: float, real: Real = FLOAT) -> 
 
 def _rotation(sine: np.floating, cosine: np.floating, x: np.floating, y: np.floating, z: np.floating) -> np.ndarray:
     real = type(x)
-    made = np.eye(4, dtype=real)
+    matrix = np.eye(4, dtype=real)
     if not x and not y and z:
-        _turn(made, 0, 1, cosine, sine if z > 0 else -sine)
+        _set_rotation(matrix, 0, 1, cosine, sine if z > 0 else -sine)
     elif not x and not z and y:
-        _turn(made, 2, 0, cosine, sine if y > 0 else -sine)
+        _set_rotation(matrix, 2, 0, cosine, sine if y > 0 else -sine)
     elif x and not y and not z:
-        _turn(made, 1, 2, cosine, sine if x > 0 else -sine)
+        _set_rotation(matrix, 1, 2, cosine, sine if x > 0 else -sine)
     else:
         length = np.sqrt(x * x + y * y + z * z)
-        if length <= real(NO_LENGTH):
-            return made
+        if length <= real(SHORTEST_AXIS):
+            return matrix
         x, y, z = x / length, y / length, z / length
-        rest = real(1) - cosine
-        made[0, :3] = rest * (x * x) + cosine, rest * (x * y) - z * sine, rest * (z * x) + y * sine
-        made[1, :3] = rest * (x * y) + z * sine, rest * (y * y) + cosine, rest * (y * z) - x * sine
-        made[2, :3] = rest * (z * x) - y * sine, rest * (y * z) + x * sine, rest * (z * z) + cosine
-    return made
+        versine = real(1) - cosine
+        matrix[0, :3] = versine * (x * x) + cosine, versine * (x * y) - z * sine, versine * (z * x) + y * sine
+        matrix[1, :3] = versine * (x * y) + z * sine, versine * (y * y) + cosine, versine * (y * z) - x * sine
+        matrix[2, :3] = versine * (z * x) - y * sine, versine * (y * z) + x * sine, versine * (z * z) + cosine
+    return matrix
 
 
-def _turn(made: np.ndarray, i: int, j: int, cosine: np.floating, sine: np.floating) -> None:
-    made[i, i] = made[j, j] = cosine
-    made[i, j], made[j, i] = -sine, sine
+def _set_rotation(matrix: np.ndarray, i: int, j: int, cosine: np.floating, sine: np.floating) -> None:
+    matrix[i, i] = matrix[j, j] = cosine
+    matrix[i, j], matrix[j, i] = -sine, sine
 
 
 def _sine_and_cosine(angle: float, real: Real) -> tuple[np.floating, np.floating]:
@@ -90,7 +90,7 @@ def _sine_and_cosine(angle: float, real: Real) -> tuple[np.floating, np.floating
 
 @cache
 def _single_precision_functions() -> tuple[Callable[[float], float], Callable[[float], float]]:
-    """Return the C library's sinf and cosf; where there is none, the rounded double precision ones."""
+    """Return the C library's sinf and cosf; without them, Python's double precision functions."""
     try:
         library = ctypes.CDLL(ctypes.util.find_library("m") or "libm.so.6")
         functions = library.sinf, library.cosf
@@ -107,12 +107,12 @@ def frustum(
 ) -> np.ndarray:
     """Return glFrustum's matrix."""
     l, r, b, t, n, f = (real(v) for v in (left, right, bottom, top, near, far))  # noqa: E741 - GL's own letters
-    made = np.zeros((4, 4), real)
-    made[0, 0], made[0, 2] = (real(2) * n) / (r - l), (r + l) / (r - l)
-    made[1, 1], made[1, 2] = (real(2) * n) / (t - b), (t + b) / (t - b)
-    made[2, 2], made[2, 3] = -(f + n) / (f - n), -((real(2) * f) * n) / (f - n)
-    made[3, 2] = -1
-    return made
+    matrix = np.zeros((4, 4), real)
+    matrix[0, 0], matrix[0, 2] = (real(2) * n) / (r - l), (r + l) / (r - l)
+    matrix[1, 1], matrix[1, 2] = (real(2) * n) / (t - b), (t + b) / (t - b)
+    matrix[2, 2], matrix[2, 3] = -(f + n) / (f - n), -((real(2) * f) * n) / (f - n)
+    matrix[3, 2] = -1
+    return matrix
 
 
 @silent
@@ -121,23 +121,23 @@ def ortho(
 ) -> np.ndarray:
     """Return glOrtho's matrix."""
     l, r, b, t, n, f = (real(v) for v in (left, right, bottom, top, near, far))  # noqa: E741 - GL's own letters
-    made = np.eye(4, dtype=real)
-    made[0, 0], made[0, 3] = real(2) / (r - l), -(r + l) / (r - l)
-    made[1, 1], made[1, 3] = real(2) / (t - b), -(t + b) / (t - b)
-    made[2, 2], made[2, 3] = -real(2) / (f - n), -(f + n) / (f - n)
-    return made
+    matrix = np.eye(4, dtype=real)
+    matrix[0, 0], matrix[0, 3] = real(2) / (r - l), -(r + l) / (r - l)
+    matrix[1, 1], matrix[1, 3] = real(2) / (t - b), -(t + b) / (t - b)
+    matrix[2, 2], matrix[2, 3] = -real(2) / (f - n), -(f + n) / (f - n)
+    return matrix
 
 
 @silent
 def perspective(fov_y: float, aspect: float, near: float, far: float, real: Real = FLOAT) -> np.ndarray:
-    """Return gluPerspective's matrix: in double precision, then rounded. `fov_y` in degrees."""
+    """Return gluPerspective's matrix, computed in double precision and then rounded; `fov_y` in degrees."""
     radians = fov_y / 2 * math.pi / 180
     focal = math.cos(radians) / math.sin(radians)
-    made = np.zeros((4, 4))
-    made[0, 0], made[1, 1] = focal / aspect, focal
-    made[2, 2], made[2, 3] = -(far + near) / (far - near), -2 * near * far / (far - near)
-    made[3, 2] = -1
-    return made.astype(real)
+    matrix = np.zeros((4, 4))
+    matrix[0, 0], matrix[1, 1] = focal / aspect, focal
+    matrix[2, 2], matrix[2, 3] = -(far + near) / (far - near), -2 * near * far / (far - near)
+    matrix[3, 2] = -1
+    return matrix.astype(real)
 
 
 @silent
@@ -146,9 +146,9 @@ def look_at(base: np.ndarray, eye: Sequence[float], center: Sequence[float], up:
     real = base.dtype.type
     forward = _normalized((np.asarray(center, np.float64) - np.asarray(eye, np.float64)).astype(real))
     side = _normalized(_cross(forward, np.asarray(up, np.float64).astype(real)))
-    made = np.eye(4, dtype=real)
-    made[0, :3], made[1, :3], made[2, :3] = side, _cross(side, forward), -forward
-    return translate(multiply(base, made), *(-float(v) for v in eye))
+    matrix = np.eye(4, dtype=real)
+    matrix[0, :3], matrix[1, :3], matrix[2, :3] = side, _cross(side, forward), -forward
+    return translate(multiply(base, matrix), *(-float(v) for v in eye))
 
 
 def _normalized(v: np.ndarray) -> np.ndarray:
@@ -163,17 +163,17 @@ def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 def planar_shadow(plane: np.ndarray, light: np.ndarray) -> np.ndarray:
     """Return the matrix that flattens a point onto a plane along the ray from a light.
 
-    S(Λ) = (π·Λ) I − Λ πᵀ, with the plane turned so that π·Λ > 0: a point then keeps w' > 0 as long as it is on the
-    plane's side of the light, and the pipeline draws it; with the other sign it would clip everything away.
+    S(Λ) = (π·Λ) I − Λ πᵀ, with π oriented so that π·Λ > 0. Points on the plane's side of the light then keep w' > 0
+    and are drawn; with the other sign, all of them would be clipped.
 
     Parameters
     ----------
-    plane : (4,)                 π = (a, b, c, d), points with a·x + b·y + c·z + d = 0, either orientation
+    plane : (4,)                 π = (a, b, c, d): points with a·x + b·y + c·z + d = 0; either orientation
     light : (4,)                 Λ homogeneous: (L, 1) a point, (D, 0) the direction D towards the light
 
     Returns
     -------
-    (4, 4) float64               S·S = (π·Λ)·S; S P is on the plane, on the line through P and the light
+    (4, 4) float64               S·S = (π·Λ)·S; S P lies in the plane, on the line through P and the light
 
     Raises
     ------
@@ -193,9 +193,9 @@ def planar_shadow(plane: np.ndarray, light: np.ndarray) -> np.ndarray:
 
 
 def infinite_perspective(fov_y: float, aspect: float, near: float) -> np.ndarray:
-    """Return the projection of gluPerspective in the limit of an infinitely far far plane.
+    """Return gluPerspective's matrix with the far plane at infinity.
 
-    Points at infinity (w = 0) get the depth 1 and are kept, as shadow volumes need it.
+    Points at infinity (w = 0) get depth 1 and are not clipped, as shadow volumes need.
 
     Parameters
     ----------

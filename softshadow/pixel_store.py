@@ -1,4 +1,4 @@
-"""Client memory: how the rows of an image lie in an array, as glPixelStore has it."""
+"""Client memory: how glPixelStore lays out the rows of an image in an array."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ TYPES: dict[int, type[np.generic]] = {
     gl.GL_HALF_FLOAT: np.float16,
     gl.GL_FLOAT: np.float32,
 }
-# a whole pixel in one element; of the word that GL_FLOAT_32_UNSIGNED_INT_24_8_REV has beside z, 8 bits are used
+# types with a whole pixel per element; GL_FLOAT_32_UNSIGNED_INT_24_8_REV uses 8 bits of the word beside z
 PACKED_TYPES: dict[int, np.dtype] = {
     gl.GL_UNSIGNED_INT_24_8: np.dtype(np.uint32),
     gl.GL_FLOAT_32_UNSIGNED_INT_24_8_REV: np.dtype([("depth", np.float32), ("stencil", np.uint32)]),
@@ -43,13 +43,13 @@ COMPONENTS: dict[int, str] = {
 
 
 def dtype_of(type: int) -> np.dtype:
-    """Return the dtype of an array's elements for a client type, packed or not."""
+    """Return the dtype of array elements for a client type, packed or not."""
     return PACKED_TYPES[type] if type in PACKED_TYPES else np.dtype(TYPES[type])
 
 
 @dataclass(frozen=True)
 class PixelStore:
-    """What glPixelStore sets, for one direction; initial values are GL's."""
+    """The state of glPixelStore for one direction (pack or unpack); defaults are GL's initial values."""
 
     alignment: int = 4
     row_length: int = 0
@@ -57,7 +57,7 @@ class PixelStore:
     skip_pixels: int = 0
 
     def layout(self, width: int, height: int, pixel: int, aligned: bool) -> tuple[int, int, int]:
-        """Return (first byte, bytes from row to row, bytes needed) of an image whose pixels take `pixel` bytes."""
+        """Return (first byte, bytes from row to row, total bytes) of an image with `pixel` bytes per pixel."""
         step = (self.row_length or width) * pixel
         if aligned:
             step = -(-step // self.alignment) * self.alignment
@@ -65,18 +65,18 @@ class PixelStore:
         return first, step, first + (height - 1) * step + width * pixel if width and height else 0
 
 
-def rows_in(
+def image_view(
     memory: np.ndarray, store: PixelStore, width: int, height: int, format: int, type: int, operation: str
 ) -> np.ndarray:
-    """Return the image inside client memory as a view (height, width, components).
+    """Return a view (height, width, components) of an image in client memory.
 
-    Rows lie at GL's alignment where the memory is large enough for that; else they lie close together, as the rows of
-    an array do (PyOpenGL's users hand over arrays and leave the alignment at 4).
+    Rows have GL's alignment if the memory is large enough for it. Otherwise they are contiguous: PyOpenGL's users pass
+    arrays and leave the alignment at 4.
 
     Raises
     ------
     ValueError
-        The memory is too small; the message names the size that was needed.
+        The memory is too small; the message gives the size needed.
     """
     dtype, components = dtype_of(type), len(COMPONENTS[format])
     shape = (height, width, components)
@@ -96,50 +96,50 @@ def rows_in(
 def client_image(
     pixels: Any, store: PixelStore, width: int, height: int, format: int, type: int, operation: str
 ) -> np.ndarray:
-    """Return a user's image as (height, width, components) of the dtype that `type` names.
+    """Return a user's image as (height, width, components) with the dtype of `type`.
 
-    Arrays and lists of another dtype are converted as PyOpenGL does; floats are not cut to integers.
+    Arrays and lists of another dtype are converted, as in PyOpenGL, but floats are not truncated to integers.
 
     Raises
     ------
     TypeError, ValueError
-        The pixels are not numbers, or too few.
+        The pixels are not numbers of this type, or too few.
     """
     dtype = dtype_of(type)
     if isinstance(pixels, bytes | bytearray | memoryview):
         memory = np.frombuffer(pixels, np.uint8)
     else:
-        given = np.asarray(pixels)
-        if dtype.names and given.dtype != dtype:
-            raise TypeError(f"{operation}: pixels are {given.dtype}; type={gl.token_name(type)} takes {dtype} or bytes")
-        if not dtype.names and (given.dtype.kind not in "biuf" or (given.dtype.kind == "f" and dtype.kind != "f")):
+        image = np.asarray(pixels)
+        if dtype.names and image.dtype != dtype:
+            raise TypeError(f"{operation}: pixels are {image.dtype}; type={gl.token_name(type)} takes {dtype} or bytes")
+        if not dtype.names and (image.dtype.kind not in "biuf" or (image.dtype.kind == "f" and dtype.kind != "f")):
             raise TypeError(
-                f"{operation}: pixels are {given.dtype}; type={gl.token_name(type)} takes {dtype} numbers or bytes"
+                f"{operation}: pixels are {image.dtype}; type={gl.token_name(type)} takes {dtype} numbers or bytes"
             )
-        memory = np.ascontiguousarray(given, dtype)
-    return rows_in(memory, store, width, height, format, type, operation)
+        memory = np.ascontiguousarray(image, dtype)
+    return image_view(memory, store, width, height, format, type, operation)
 
 
-def answer_array(
+def output_array(
     array: Any, store: PixelStore, width: int, height: int, format: int, type: int, operation: str
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the array that a read-out answers with, and the image in it as a view (h, w, components) to be written.
+    """Return the array that a read-out returns, and a view (h, w, components) of the image in it, to be written.
 
-    Without an array of the user's it is a new one of zeros, (h, w) or (h, w, components).
+    It is the user's `array`; without one, a new array of zeros, (h, w) or (h, w, components).
 
     Raises
     ------
     TypeError, ValueError
-        The user's array cannot be written, has another dtype, or is too small.
+        The user's array is not writeable, has another dtype, or is too small.
     """
     dtype = dtype_of(type)
     if array is None:
         components = len(COMPONENTS[format])
-        made = np.zeros((height, width) if components == 1 else (height, width, components), dtype)
-        return made, made.reshape(height, width, components)
+        zeros = np.zeros((height, width) if components == 1 else (height, width, components), dtype)
+        return zeros, zeros.reshape(height, width, components)
     if not isinstance(array, np.ndarray) or array.dtype not in (dtype, np.dtype(np.uint8)):
-        given = array.dtype if isinstance(array, np.ndarray) else repr(array)
-        raise TypeError(f"{operation}: expected an array of {dtype}, got {given!s:.80}")
+        received = array.dtype if isinstance(array, np.ndarray) else repr(array)
+        raise TypeError(f"{operation}: expected an array of {dtype}, got {received!s:.80}")
     if not array.flags.c_contiguous or not array.flags.writeable:
         raise ValueError(f"{operation}: the array must be C-contiguous and writeable")
-    return array, rows_in(array, store, width, height, format, type, operation)
+    return array, image_view(array, store, width, height, format, type, operation)

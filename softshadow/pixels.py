@@ -1,8 +1,8 @@
-"""Pixels between client memory and storage: the number formats of glTexImage2D, glReadPixels and glGetTexImage.
+"""Conversion of pixels between client memory and storage: glTexImage2D, glReadPixels and glGetTexImage.
 
-Bit for bit those of llvmpipe. What is surprising is GL's: a float becomes depth by cutting, not by rounding, and the
-luminance that glReadPixels reads is R + G + B. Mesa's own is that a float of exactly 1 read as GL_UNSIGNED_INT answers
-0, as GL_INT the smallest integer.
+Bit for bit as in llvmpipe. Two rules of GL may surprise: a float uploaded as depth is truncated, not rounded, and
+glReadPixels returns R + G + B as luminance. One rule is Mesa's own: a float of exactly 1 is read as 0 with
+GL_UNSIGNED_INT, and as the smallest integer with GL_INT.
 """
 
 from __future__ import annotations
@@ -16,33 +16,33 @@ from softshadow.pixel_store import COMPONENTS, PACKED_TYPES
 F32 = np.float32
 LARGEST_UINT = (1 << 32) - 1
 LARGEST_24 = (1 << 24) - 1
-LARGEST_SAMPLED = (1 << 23) - 1  # llvmpipe's textures read the upper 23 of 32 bits of depth
+LARGEST_SAMPLED = (1 << 23) - 1  # llvmpipe samples the upper 23 bits of 32-bit depth
 CHANNEL = {"R": 0, "G": 1, "B": 2, "A": 3}
 
 
 def largest_of(dtype: type[np.generic]) -> int:
-    """Return the integer that stands for 1 in a client type."""
+    """Return the integer that represents 1 in a client type."""
     kind = np.dtype(dtype)
     return int(1 << (8 * kind.itemsize - (kind.kind == "i"))) - 1
 
 
-def largest_stood_for(units: np.ndarray) -> np.ndarray:
-    """Return depth in buffer units of any fixed-point format with 2**32 in place of the largest of 32 bits."""
+def stored_units(units: np.ndarray) -> np.ndarray:
+    """Return depth in buffer units as it is stored: 2**32 instead of the largest 32-bit integer."""
     return np.where(units == LARGEST_UINT, np.float64(1 << 32), units)
 
 
 # -- depth -------------------------------------------------------------------------------------------------------------
 def quantized_depth(z: np.ndarray, format: Format) -> np.ndarray:
-    """Return float32 z in [0, 1] in buffer units, rounded as a fragment's depth is."""
+    """Return float32 z in [0, 1] in buffer units, rounded like a fragment's depth."""
     if not format.largest:
         return z.astype(format.dtype)
-    if format.largest == LARGEST_UINT:  # cut to 31 bits; 2**32 in float32 is only reached by z = 1, for the largest
+    if format.largest == LARGEST_UINT:  # truncated to 31 bits; only z = 1 gives 2**32
         return np.floor(z * F32(1 << 31)) * F32(2)
     return np.rint(z * F32(format.largest))
 
 
 def sampled_depth(cells: np.ndarray, format: Format) -> np.ndarray:
-    """Return depth as a texture delivers it, float32: units times the rounded step, of 32 bits the upper 23."""
+    """Return depth as a texture lookup reads it, float32: units times the rounded step; of 32 bits the upper 23."""
     if not format.largest:
         return cells.astype(F32)
     if format.largest == LARGEST_UINT:
@@ -51,7 +51,7 @@ def sampled_depth(cells: np.ndarray, format: Format) -> np.ndarray:
 
 
 def depth_as_float(cells: np.ndarray, format: Format) -> np.ndarray:
-    """Return depth as a read-out delivers it: float32 of the quotient; 16 bits, the product with the rounded step."""
+    """Return depth as glReadPixels reads it, float32: the rounded quotient; of 16 bits, units times rounded step."""
     if not format.largest:
         return cells.astype(F32)
     if format.largest == (1 << 16) - 1:
@@ -60,23 +60,23 @@ def depth_as_float(cells: np.ndarray, format: Format) -> np.ndarray:
 
 
 def unpack_depth(pixels: np.ndarray, format: Format) -> np.ndarray:
-    """Return client depth (h, w) of any type in buffer units."""
+    """Return client depth (h, w) of any type, converted to buffer units."""
     if pixels.dtype == np.uint16 and format.largest == (1 << 16) - 1:
         return pixels.astype(F32)
     if pixels.dtype == np.uint32 and format.largest == LARGEST_UINT:
-        return largest_stood_for(pixels.astype(np.float64))
+        return stored_units(pixels.astype(np.float64))
     if pixels.dtype == np.uint32 and format.largest == (1 << 16) - 1:
         return (pixels >> np.uint32(16)).astype(F32)
     if pixels.dtype == np.uint16 and format.largest == LARGEST_UINT:
-        return largest_stood_for(pixels * np.float64((1 << 16) + 1))
-    return _cut_depth(_depth_from_client(pixels), format)
+        return stored_units(pixels * np.float64((1 << 16) + 1))
+    return _truncated_depth(_depth_from_client(pixels), format)
 
 
-def _cut_depth(z: np.ndarray, format: Format) -> np.ndarray:
-    """Return float32 z of any size in buffer units, cut and not rounded, as an upload's depth is."""
+def _truncated_depth(z: np.ndarray, format: Format) -> np.ndarray:
+    """Return any float32 z in buffer units: clamped to [0, 1] and truncated, as in an upload."""
     z = np.clip(z, F32(0), F32(1))
     if format.largest == LARGEST_UINT:
-        return largest_stood_for(np.floor(z * np.float64(LARGEST_UINT)))
+        return stored_units(np.floor(z * np.float64(LARGEST_UINT)))
     return np.floor(z * F32(format.largest)) if format.largest else z
 
 
@@ -99,8 +99,8 @@ def _depth_from_client(pixels: np.ndarray) -> np.ndarray:
 def pack_depth(cells: np.ndarray, format: Format, dtype: type[np.generic], through_float: bool = False) -> np.ndarray:
     """Return depth in buffer units (h, w) as a client type.
 
-    GL_UNSIGNED_INT repeats the upper bits of fixed-point depth below it, except where glGetTexImage goes
-    `through_float` (16 and 24 bits).
+    For GL_UNSIGNED_INT, the upper bits of fixed-point depth are repeated below it. glGetTexImage converts 16 and 24
+    bits to floats instead (`through_float`).
     """
     z = depth_as_float(cells, format)
     if dtype == np.uint32 and format.largest and not (through_float and format.largest < LARGEST_UINT):
@@ -121,17 +121,17 @@ def pack_depth(cells: np.ndarray, format: Format, dtype: type[np.generic], throu
 
 
 def pack_stencil(cells: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
-    """Return stencil values as a client type; GL_BYTE has room for 7 bits."""
+    """Return stencil values as a client type; GL_BYTE holds 7 bits."""
     return (cells & np.uint8(127) if dtype == np.int8 else cells).astype(dtype)
 
 
 # -- depth and stencil in one element ----------------------------------------------------------------------------------
 def unpack_packed_depth(pixels: np.ndarray, format: Format) -> np.ndarray:
-    """Return the depth of packed client pixels (h, w) in buffer units; 24 bits stay as they are."""
+    """Return the depth of packed client pixels (h, w) in buffer units; 24-bit depth is copied exactly."""
     if pixels.dtype.names:
-        return _cut_depth(pixels["depth"], format)
+        return _truncated_depth(pixels["depth"], format)
     units = (pixels >> np.uint32(8)).astype(F32)
-    return units if format.largest == LARGEST_24 else _cut_depth(units * (F32(1) / F32(LARGEST_24)), format)
+    return units if format.largest == LARGEST_24 else _truncated_depth(units * (F32(1) / F32(LARGEST_24)), format)
 
 
 def unpack_packed_stencil(pixels: np.ndarray) -> np.ndarray:
@@ -143,7 +143,7 @@ def unpack_packed_stencil(pixels: np.ndarray) -> np.ndarray:
 def pack_depth_stencil(depth: np.ndarray, stencil: np.ndarray, format: Format, type: int) -> np.ndarray:
     """Return depth in buffer units and stencil values (h, w) as a packed client type.
 
-    24 bits stay as they are; a float is cut to 24 bits after a product in its own precision.
+    24-bit depth is copied exactly; a float is scaled in its own precision, then truncated to 24 bits.
     """
     if type == gl.GL_UNSIGNED_INT_24_8:
         units = depth if format.largest == LARGEST_24 else depth * depth.dtype.type(LARGEST_24)
@@ -155,7 +155,7 @@ def pack_depth_stencil(depth: np.ndarray, stencil: np.ndarray, format: Format, t
 
 # -- colour ------------------------------------------------------------------------------------------------------------
 def to_base(rgba: np.ndarray, base: int) -> np.ndarray:
-    """Return RGBA (..., 4) reduced to a base internal format, as sampling delivers it (GL 2.1, table 3.15)."""
+    """Return RGBA (..., 4) as sampling reads it in a base internal format (GL 2.1, table 3.15)."""
     one = 255 if rgba.dtype == np.uint8 else 1
     sources = {
         gl.GL_RGBA: "RGBA",
@@ -215,9 +215,9 @@ def pack_color(
 ) -> np.ndarray:
     """Return colour cells (h, w, 4) as client pixels (h, w, components).
 
-    Luminance and intensity answer (L, 0, 0, A). `from_framebuffer`: luminance is R + G + B, and what becomes an integer
-    is clamped to [0, 1] first. Textures are clamped for unsigned types only, which takes luminance through floats; an
-    alpha that a format has not is the largest integer.
+    Luminance and intensity are read as (L, 0, 0, A). With `from_framebuffer`, luminance is R + G + B, and colours are
+    clamped to [0, 1] before conversion to integers. Texture colours are clamped for unsigned types only, where
+    luminance is converted to floats first; the alpha of a format without alpha is the largest integer.
     """
     one = 255 if format.kind == "unorm8" else 1
     base = {gl.GL_LUMINANCE: "R001", gl.GL_INTENSITY: "R001", gl.GL_LUMINANCE_ALPHA: "R00A"}.get(format.base, "RGBA")
@@ -238,10 +238,10 @@ def pack_color(
     chosen = _swizzled(rgba, names.replace("L", "R"), one)
     if chosen.dtype == np.uint8:
         return _from_unorm8(chosen, dtype)
-    answer = _from_float(chosen, dtype)
+    pixels = _from_float(chosen, dtype)
     if np.dtype(dtype).kind == "i" and not from_framebuffer and not format.written[3]:
-        answer[..., [name == "A" for name in names]] = largest_of(dtype)
-    return answer
+        pixels[..., [name == "A" for name in names]] = largest_of(dtype)
+    return pixels
 
 
 def _from_unorm8(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
@@ -257,6 +257,6 @@ def _from_float(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
         return values.astype(dtype)
     largest = largest_of(dtype)
     low = F32(-1) if np.dtype(dtype).kind == "i" else F32(0)
-    # float32 has no 2**32 - 1: the product of 1 is one too large for 32 bits, and wraps around
+    # 2**32 - 1 is not a float32: 1 gives 2**32, which wraps around to 0 in 32 bits
     scaled = np.rint(np.clip(values, low, F32(1)) * F32(largest)).astype(np.int64).astype(dtype)
     return np.where(values > F32(1), dtype(largest), scaled) if np.dtype(dtype).kind == "i" else scaled

@@ -1,4 +1,4 @@
-"""Texture objects: levels and faces of images, and the sampler that reads them."""
+"""Texture objects: the images of their levels and faces, and their sampling parameters."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from dataclasses import dataclass, field, replace
 from softshadow import tokens as gl
 from softshadow.image import Image
 
-DEFAULT_CUBE_MAP = -1  # what the cube map named 0 is stored as; 0 is the 2-D texture of that name
+DEFAULT_CUBE_MAP = -1  # key of the cube map named 0 in the storage; key 0 is the 2-D texture named 0
 
 
 def stored_name(target: int, name: int) -> int:
-    """Return what a texture of a target is stored as: its name, or what stands for the cube map named 0."""
+    """Return the key of a texture in the storage: its name, or `DEFAULT_CUBE_MAP` for the cube map named 0."""
     return name if name or target == gl.GL_TEXTURE_2D else DEFAULT_CUBE_MAP
 
 
 @dataclass(frozen=True)
 class Sampler:
-    """What glTexParameter sets; initial values are GL's.
+    """The state of glTexParameter; defaults are GL's initial values.
 
-    `unit_lod_bias` is that of the texture unit: it stays 0 in the texture object itself, see `Texture.in_unit`.
+    `unit_lod_bias` belongs to the texture unit: it is 0 in the texture object itself, see `Texture.in_unit`.
     """
 
     min_filter: int = gl.GL_NEAREST_MIPMAP_LINEAR
@@ -44,7 +44,7 @@ class Sampler:
 
 @dataclass(eq=False)
 class Texture:
-    """A texture object: images by (face, level); the face of a 2-D texture is 0, row 0 of an image is at the bottom."""
+    """A texture object: images by (face, level); a 2-D texture has face 0; row 0 of an image is at the bottom."""
 
     name: int
     target: int
@@ -52,11 +52,11 @@ class Texture:
     images: dict[tuple[int, int], Image] = field(default_factory=dict)
 
     def base(self, face: int = 0) -> Image | None:
-        """The image of the base level, or None while it has not been defined."""
+        """Return the image of the base level, or None if it is not defined."""
         return self.images.get((face, self.sampler.base_level))
 
     def last_level(self, face: int = 0) -> int:
-        """The number of the smallest level that mipmaps of the base image have; the base level without an image."""
+        """Return the number of the smallest mipmap level of the base image; without an image, the base level."""
         image, sampler = self.base(face), self.sampler
         if image is None:
             return sampler.base_level
@@ -64,13 +64,13 @@ class Texture:
 
     @property
     def faces(self) -> tuple[int, ...]:
-        """The numbers of the faces: six of a cube map, one of a 2-D texture."""
+        """The indices of the faces: six for a cube map, one for a 2-D texture."""
         return tuple(range(6)) if self.target == gl.GL_TEXTURE_CUBE_MAP else (0,)
 
     def in_unit(self, lod_bias: float, seamless: bool) -> Texture:
-        """Return the texture, over the same images, as a unit of that bias samples it.
+        """Return the texture as a unit with this level-of-detail bias samples it; the images are shared.
 
-        `seamless` is GL_TEXTURE_CUBE_MAP_SEAMLESS of the context.
+        `seamless` is the context's GL_TEXTURE_CUBE_MAP_SEAMLESS.
         """
         is_seamless = int(seamless or self.sampler.seamless)
         if (self.sampler.unit_lod_bias, self.sampler.seamless) == (lod_bias, is_seamless):

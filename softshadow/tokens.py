@@ -736,7 +736,7 @@ GL_SRC2_ALPHA = GL_SOURCE2_ALPHA
 
 
 def token_name(value: int, among: tuple[str, ...] = ()) -> str:
-    """Return the spelling of a token number, the first of `among` that has it, else any.
+    """Return the name of a token by its number: the first one in `among`, or else any.
 
     Examples
     --------

@@ -11,9 +11,9 @@ from softshadow.state import Depth, State
 def test_a_copy_is_that_of_the_standard_library():
     for values in ({}, {"depth": Depth(enabled=True)}, {"program": 3, "depth": Depth(clear=0.5)}):
         before = State()
-        made = frozen.evolve(before, **values)
-        assert made == dataclasses.replace(before, **values)
-        assert hash(made) == hash(dataclasses.replace(before, **values))
+        copy = frozen.evolve(before, **values)
+        assert copy == dataclasses.replace(before, **values)
+        assert hash(copy) == hash(dataclasses.replace(before, **values))
         assert before == State()
 
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from softshadow import tokens as gl
-from softshadow.pixel_store import COMPONENTS, TYPES, PixelStore, answer_array, client_image, rows_in
+from softshadow.pixel_store import COMPONENTS, TYPES, PixelStore, client_image, image_view, output_array
 
 TIGHT = PixelStore(alignment=1)
 
@@ -37,7 +37,7 @@ def test_rows_lie_where_the_specification_says(align, length, rows, pixels, widt
     store = PixelStore(align, length, rows, pixels)
     pixel = len(COMPONENTS[format]) * np.dtype(TYPES[type]).itemsize
     memory = np.random.default_rng(width).integers(0, 256, 4000, dtype=np.uint8)
-    image = rows_in(memory, store, width, height, format, type, "glTexImage2D")
+    image = image_view(memory, store, width, height, format, type, "glTexImage2D")
     found = [np.ascontiguousarray(image[y, x]).tobytes() for y in range(height) for x in range(width)]
     assert found == pixel_by_pixel(memory.tobytes(), store, width, height, pixel)
 
@@ -72,16 +72,16 @@ def test_pixels_that_would_be_cut_are_refused(pixels):
 
 
 def test_a_read_out_is_a_new_array_of_its_own_shape():
-    answer, view = answer_array(None, PixelStore(), 3, 2, gl.GL_RGB, gl.GL_FLOAT, "glReadPixels")
+    answer, view = output_array(None, PixelStore(), 3, 2, gl.GL_RGB, gl.GL_FLOAT, "glReadPixels")
     view[...] = 7
     assert answer.shape == (2, 3, 3)
     assert (answer == 7).all()
-    assert answer_array(None, TIGHT, 3, 2, gl.GL_RED, gl.GL_FLOAT, "glReadPixels")[0].shape == (2, 3)
+    assert output_array(None, TIGHT, 3, 2, gl.GL_RED, gl.GL_FLOAT, "glReadPixels")[0].shape == (2, 3)
 
 
 def test_a_users_array_is_written_in_place():
     array = np.zeros((4, 8), np.uint8)
-    answer, view = answer_array(array, PixelStore(1, 8, 1, 2), 3, 2, gl.GL_RED, gl.GL_UNSIGNED_BYTE, "glReadPixels")
+    answer, view = output_array(array, PixelStore(1, 8, 1, 2), 3, 2, gl.GL_RED, gl.GL_UNSIGNED_BYTE, "glReadPixels")
     view[...] = 9
     expected = np.zeros((4, 8), np.uint8)
     expected[1:3, 2:5] = 9
@@ -100,4 +100,4 @@ def test_a_users_array_is_written_in_place():
 )
 def test_an_array_that_cannot_be_filled_is_refused(array, error, message):
     with pytest.raises(error, match=message):
-        answer_array(array, TIGHT, 2, 2, gl.GL_RED, gl.GL_FLOAT, "glReadPixels")
+        output_array(array, TIGHT, 2, 2, gl.GL_RED, gl.GL_FLOAT, "glReadPixels")

@@ -1,4 +1,4 @@
-"""The current context; in files of their own what it keeps as Mesa does: given attributes, vertex buffer, arrays."""
+"""The current context, with its vertex arrays, and with the vertex buffer and pending attributes that Mesa keeps."""
 
 from softshadow.context.arrays import ArrayLayout, BufferObject, ClientArrays
 from softshadow.context.context import (

@@ -1,4 +1,4 @@
-"""Vertex arrays and buffer objects: what pointer calls gave."""
+"""Vertex arrays and buffer objects: what the pointer calls have set."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ import numpy as np
 
 from softshadow import tokens as gl
 
-KEPT_BYTES = 256 << 20  # of converted arrays and those they were made from: some meshes of a million triangles
+CACHE_BYTES = 256 << 20  # converted arrays with their sources: a few meshes of a million triangles
 
 
 @dataclass(frozen=True)
 class ArrayLayout:
-    """What a pointer call said besides the array: numbers per vertex, GL's type, bytes from vertex to vertex."""
+    """The layout of a vertex array: components per vertex, GL's type, bytes from vertex to vertex."""
 
     size: int = 4
     type: int = gl.GL_FLOAT
@@ -24,42 +24,42 @@ class ArrayLayout:
 
 @dataclass
 class BufferObject:
-    """The bytes of a buffer object, and the usage it was given."""
+    """The bytes of a buffer object, and its usage hint."""
 
     content: np.ndarray = field(default_factory=lambda: np.zeros(0, np.uint8))
     usage: int = gl.GL_STATIC_DRAW
 
 
 class ConvertedArrays:
-    """What drawn arrays were converted to; beyond `KEPT_BYTES` those drawn longest ago are forgotten."""
+    """A cache of converted vertex arrays; beyond `CACHE_BYTES` the least recently drawn ones are evicted."""
 
     def __init__(self) -> None:
-        self._kept: dict[Any, tuple[np.ndarray, np.ndarray]] = {}  # in the order of their last use
+        self._cached: dict[Any, tuple[np.ndarray, np.ndarray]] = {}  # least recently used first
         self._bytes = 0
 
     def get(self, key: Hashable, root: np.ndarray, convert: Callable[[], np.ndarray]) -> np.ndarray:
-        """Return the converted array of a key, made where it is not known.
+        """Return the converted array of a key; convert it if it is not cached.
 
-        `root` owns the memory that the key names; it is kept beside the result, so that its id stays its own.
+        `root` owns the memory that the key identifies. It is cached too, so that no other array can get its id.
         """
-        if key in self._kept:
-            self._kept[key] = self._kept.pop(key)
-            return self._kept[key][0]
-        made = convert()
-        self._kept[key] = made, root
-        self._bytes += _bytes_of(made, root)
-        while self._bytes > KEPT_BYTES and len(self._kept) > 1:
-            self._bytes -= _bytes_of(*self._kept.pop(next(iter(self._kept))))
-        return made
+        if key in self._cached:
+            self._cached[key] = self._cached.pop(key)
+            return self._cached[key][0]
+        converted = convert()
+        self._cached[key] = converted, root
+        self._bytes += _bytes_of(converted, root)
+        while self._bytes > CACHE_BYTES and len(self._cached) > 1:
+            self._bytes -= _bytes_of(*self._cached.pop(next(iter(self._cached))))
+        return converted
 
 
-def _bytes_of(made: np.ndarray, root: np.ndarray) -> int:
-    return int(made.nbytes + root.nbytes)
+def _bytes_of(converted: np.ndarray, root: np.ndarray) -> int:
+    return int(converted.nbytes + root.nbytes)
 
 
 @dataclass
 class ClientArrays:
-    """Vertex arrays: which are enabled, the array each pointer call gave, and what drawn arrays were converted to.
+    """Vertex arrays: which are enabled, the array or buffer of each, and the cache of converted arrays.
 
     Names are "position", "color", "normal", "texcoord0" ...
     """
@@ -74,5 +74,5 @@ class ClientArrays:
     active_unit: int = 0
 
     def layout(self, name: str) -> ArrayLayout:
-        """Return the layout of an array, GL's initial one where there was no pointer call."""
+        """Return the layout of an array; before its first pointer call, GL's initial one."""
         return self.layouts.get(name, ArrayLayout())

@@ -1,6 +1,6 @@
 """The current context: state, matrices, bound objects, and the recording of every command.
 
-`softshadow.gl` spells the calls and checks their arguments; what they do to a context is done here.
+`softshadow.gl` defines the calls and checks their arguments; this module carries them out.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE:
 
 @dataclass
 class Frame:
-    """The recording: what the window was made with, every command, and where each step ends.
+    """The recording: the parameters of the window, every command, and where each step ends.
 
     `steps` holds (title, number of commands until its end).
     """
@@ -44,14 +44,14 @@ class Frame:
     steps: list[tuple[str, int]] = field(default_factory=list)
 
     def fresh_storage(self) -> Storage:
-        """Return storage as it was before the first command."""
+        """Return new storage in its state before the first command."""
         window = default_framebuffer(*self.size, self.depth_format, self.stencil_bits, self.precision)
         return Storage({window.name: window})
 
 
 @dataclass
 class CurrentVertex:
-    """The current values that a vertex takes along: glColor, glNormal, glTexCoord."""
+    """The current colour, normal and texture coordinates, which each new vertex gets."""
 
     color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
@@ -62,7 +62,7 @@ class CurrentVertex:
 
 @dataclass
 class DisplayList:
-    """What stands between glNewList and glEndList: calls in order; `mode` is GL_COMPILE or GL_COMPILE_AND_EXECUTE."""
+    """The calls between glNewList and glEndList, in order; `mode` is GL_COMPILE or GL_COMPILE_AND_EXECUTE."""
 
     name: int
     mode: int
@@ -70,7 +70,7 @@ class DisplayList:
 
     @property
     def executes(self) -> bool:
-        """Whether the calls are carried out while the list is made."""
+        """Whether the calls are also carried out while the list is compiled."""
         return self.mode == gl.GL_COMPILE_AND_EXECUTE
 
 
@@ -104,10 +104,10 @@ class Context:
         if polygon_offset_unit not in ("mesa", "spec"):
             raise ValueError(f"polygon_offset_unit={polygon_offset_unit!r}: expected 'mesa' or 'spec'")
         self._frame = Frame((width, height), depth_format, stencil_bits, precision)
-        self.storage = self._frame.fresh_storage()  # without what waits: `settle` first
+        self.storage = self._frame.fresh_storage()  # collected vertices are not drawn to it yet: `flush` first
         self.offset_slope, self.offset_unit = polygon_offset_slope, polygon_offset_unit
         self.raise_errors = raise_errors
-        self.before: Context | None = None  # what a with statement brings back
+        self.before: Context | None = None  # the context that a with statement restores
         self.error = gl.GL_NO_ERROR
         viewport = evolve(State().viewport, width=width, height=height)
         scissor = evolve(State().scissor, width=width, height=height)
@@ -120,32 +120,32 @@ class Context:
         self.modelview_stack = [identity]
         self.projection_stack = [identity]
         self.texture_stacks = [[identity] for _ in range(TEXTURE_UNITS)]
-        # what the calls that made each matrix say of it: how Mesa inverts it (softshadow.programs.inverse)
+        # which kind each matrix is by the calls that made it: Mesa inverts by kind (softshadow.programs.inverse)
         self.modelview_kinds, self.projection_kinds = [0], [0]
         self.texture_kinds = [[0] for _ in range(TEXTURE_UNITS)]
         self.programs: dict[int, Program] = {}
         self.uniforms: dict[int, dict[str, Any]] = {}
         self.labels: list[str] = []
         self.primitive: Primitive | None = None  # between glBegin and glEnd
-        self.vertex_buffer = VertexBuffer(self._carry_out, self.storage)  # of immediate mode
+        self.vertex_buffer = VertexBuffer(self._carry_out, self.storage)  # immediate mode
         self.arrays = ClientArrays()
         self.client_stack: list[Any] = []
         self.buffers: dict[int, BufferObject] = {}
         self.attribute_stack: list[Any] = []
-        # since the last glPushAttrib or glPopAttrib: the state as it was, groups of attributes changed beside it
-        self.seen, self.touched = self.state, 0
+        # the state at the last glPushAttrib or glPopAttrib; bits of groups touched since, beyond changes of `state`
+        self.state_at_push, self.touched = self.state, 0
         self.pending = PendingAttributes()
         self.lists: dict[int, DisplayList] = {}
         self.compiled_list: DisplayList | None = None  # between glNewList and glEndList
-        self.executes_list = False  # in a call that is carried out while its list is made
+        self.executes_list = False  # during a call of a GL_COMPILE_AND_EXECUTE list
         self.list_base = 0
-        self.list_depth = 0  # of lists that call each other
-        self.hints: dict[int, int] = {}  # where not GL_DONT_CARE
+        self.list_depth = 0  # nesting of lists that call each other
+        self.hints: dict[int, int] = {}  # those that are not GL_DONT_CARE
         self.pack_store, self.unpack_store = PixelStore(), PixelStore()
-        # the highest name that glGen* has given out, per kind; an object exists in storage once it has been bound
+        # the highest name returned by glGen*, per kind; an object exists in storage once it has been bound
         self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query", "buffer"), 0)
         self.renderbuffer = 0
-        self.query_targets: dict[int, int] = {}  # of the queries that have been begun
+        self.query_targets: dict[int, int] = {}  # name: target of the queries that have been begun
 
     def __enter__(self) -> Context:
         make_current(self)
@@ -156,28 +156,28 @@ class Context:
 
     @property
     def frame(self) -> Frame:
-        """The recording, with everything that was drawn."""
-        self.settle()
+        """The recording, after drawing everything that is still collected."""
+        self.flush()
         return self._frame
 
     # -- state ---------------------------------------------------------------------------------------------------------
     def set(self, **groups: Any) -> None:
-        """Replace whole groups of the state, by their names."""
+        """Replace groups of the state, each by its name."""
         self.change_state(evolve(self.state, **groups))
 
     def change_state(self, state: State) -> None:
-        """Replace the state; where that makes a difference to draws, it ends the batch of quads."""
-        waits = self.vertex_buffer.sizes or self.pending.stored
-        if waits and self.primitive is None and _drawn_under(state) != _drawn_under(self.state):
+        """Replace the state; if the change affects draws, draw the collected vertices first."""
+        collected = self.vertex_buffer.sizes or self.pending.reset_due
+        if collected and self.primitive is None and _draw_state(state) != _draw_state(self.state):
             before = self.state
-            self.settle()
-            if self.state is not before:  # materials were handed on
-                handed_on: Any = {"front": self.state.lighting.front, "back": self.state.lighting.back}
-                state = evolve(state, lighting=evolve(state.lighting, **handed_on))
+            self.flush()
+            if self.state is not before:  # the flush has made pending materials current
+                materials: Any = {"front": self.state.lighting.front, "back": self.state.lighting.back}
+                state = evolve(state, lighting=evolve(state.lighting, **materials))
         self.state = state
 
     def frozen(self, values: Any) -> np.ndarray:
-        """Return the values as a read-only array of the context's precision; what is too large becomes infinite."""
+        """Return the values as a read-only array in the context's precision; too large ones become infinite."""
         with np.errstate(over="ignore"):
             array = np.array(values, self.real)
         array.setflags(write=False)
@@ -185,7 +185,7 @@ class Context:
 
     @property
     def matrix_stack(self) -> list[np.ndarray]:
-        """The stack that matrix calls work on; its last entry is the current matrix."""
+        """The stack chosen by glMatrixMode; its last entry is the current matrix."""
         if self.matrix_mode == gl.GL_PROJECTION:
             return self.projection_stack
         return self.texture_stacks[self.active_unit] if self.matrix_mode == gl.GL_TEXTURE else self.modelview_stack
@@ -197,8 +197,8 @@ class Context:
             return self.projection_kinds
         return self.texture_kinds[self.active_unit] if self.matrix_mode == gl.GL_TEXTURE else self.modelview_kinds
 
-    def settle_kinds(self) -> None:
-        """Read unknown kinds of the current matrices off their elements, as Mesa does when something is drawn."""
+    def resolve_matrix_kinds(self) -> None:
+        """Determine unknown kinds of the current matrices from their elements, as Mesa does at each draw."""
         for matrices, kinds in (
             (self.modelview_stack, self.modelview_kinds),
             (self.projection_stack, self.projection_kinds),
@@ -207,37 +207,37 @@ class Context:
 
     # -- commands ------------------------------------------------------------------------------------------------------
     def execute(self, command: Command) -> None:
-        """Carry a command out, then record it: a command that raises has changed nothing."""
-        self.settle()
+        """Carry out a command, then record it; a command that raises is not recorded."""
+        self.flush()
         self._carry_out(command)
 
-    def settle(self) -> None:
-        """Draw what waits; what is drawn next begins a batch of its own. Not between glBegin and glEnd."""
+    def flush(self) -> None:
+        """Draw the collected vertices: later pairs are not joined to them. Do nothing between glBegin and glEnd."""
         if self.primitive is None:
-            self.vertex_buffer.settle()
-            if self.pending.stored:
-                self.pending.forget(self)
+            self.vertex_buffer.flush()
+            if self.pending.reset_due:
+                self.reset_attributes()
 
     def _carry_out(self, command: Command) -> None:
         execute(command, self.storage)
         self._frame.commands.append(command)
 
     def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:
-        """Draw primitives under the present state. The arrays must be read-only and the caller's own no more."""
-        self.settle()
-        self.pending.read(self)
+        """Draw primitives under the current state; nobody may change the arrays afterwards."""
+        self.flush()
+        self.update_current()
         self._carry_out(self._draw_command(mode, vertices, indices))
 
     def draw_primitive(self, mode: int, vertices: Vertices) -> None:
-        """Draw a primitive of immediate mode: vertices that follow may still carry the same attributes."""
-        self.vertex_buffer.draw_pending()
+        """Draw a primitive of immediate mode at once; the vertex format stays for those that follow."""
+        self.vertex_buffer.draw_joined_pairs()
         self.vertex_buffer.draw(self._draw_command(mode, vertices))
 
     def collect(self, mode: int, vertices: Vertices) -> None:
-        """Draw triangles or quads of immediate mode, later: the ones that follow may belong to the same batch."""
-        if not self.vertex_buffer.takes(mode):
-            self.vertex_buffer.begin_batch(self._draw_command(mode, vertices))
-        self.vertex_buffer.add_to_batch("/".join(self.labels), vertices)
+        """Collect triangles or quads of immediate mode, to draw them together with pairs that follow."""
+        if not self.vertex_buffer.can_join(mode):
+            self.vertex_buffer.begin_joined_pairs(self._draw_command(mode, vertices))
+        self.vertex_buffer.join("/".join(self.labels), vertices)
 
     # -- current values ------------------------------------------------------------------------------------------------
     def attribute(self, name: str) -> Any:
@@ -248,19 +248,51 @@ class Context:
         return getattr(getattr(self.state.lighting, side), material) if material else getattr(self.current, name)
 
     def set_attribute(self, name: str, value: Any) -> None:
-        """Set a current value by its name. A material ends no batch of quads by this."""
+        """Set a current value by its name, without drawing the collected vertices first."""
         side, _, material = name.partition(".")
         if name.startswith("texcoord"):
             self.current.texcoords[int(name.removeprefix("texcoord"))] = value
         elif material:
             lighting = self.state.lighting
-            made: Any = {side: evolve(getattr(lighting, side), **{material: value})}
-            self.state = evolve(self.state, lighting=evolve(lighting, **made))
+            materials: Any = {side: evolve(getattr(lighting, side), **{material: value})}
+            self.state = evolve(self.state, lighting=evolve(lighting, **materials))
         else:
             setattr(self.current, name, value)
 
+    def remember_attribute(self, name: str) -> None:
+        """Remember the current value of an attribute that is about to be set."""
+        pending = self.pending
+        if name not in pending.old_values:
+            pending.names.add(name)
+            pending.old_values[name] = self.attribute(name)
+            pending.hidden.pop(name, None)
+
+    def update_current(self) -> None:
+        """Make pending attributes current, as queries of current values do (Mesa's FLUSH_CURRENT)."""
+        if self.pending.old_values:
+            self._make_pending_current()
+            self.pending.reset_due = True
+
+    def reset_attributes(self) -> None:
+        """Make pending attributes current; the vertices that follow do not carry them (Mesa's vbo_reset_all_attr)."""
+        self._make_pending_current()
+        self.pending.names.clear()
+        self.pending.reset_due = False
+
+    def _make_pending_current(self) -> None:
+        pending = self.pending
+        for name, value in pending.hidden.items():
+            pending.old_values.setdefault(name, self.attribute(name))
+            self.set_attribute(name, value)
+        for name, old_value in pending.old_values.items():
+            if old_value != self.attribute(name):
+                self.touched |= gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT
+        pending.hidden.clear()
+        pending.old_values.clear()
+
+    # -- recording -----------------------------------------------------------------------------------------------------
     def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
-        self.settle_kinds()
+        self.resolve_matrix_kinds()
         return Draw(
             state=self.state,
             mode=mode,
@@ -282,13 +314,13 @@ class Context:
         return dict(self.uniforms[self.state.program]) if self.state.program else {}
 
     def end_step(self, title: str) -> None:
-        """Mark the end of a step of the recording."""
-        self.settle()
+        """Mark the end of a step in the recording."""
+        self.flush()
         self._frame.steps.append((title, len(self._frame.commands)))
 
 
-def _drawn_under(state: State) -> State:
-    """Return the state without what draws do not depend on: the values that glClear writes."""
+def _draw_state(state: State) -> State:
+    """Return the state without the fields that draws do not use: clear values and the active stencil face."""
     return evolve(
         state,
         color=evolve(state.color, clear=State().color.clear, clear_accum=State().color.clear_accum),
@@ -315,9 +347,9 @@ def current() -> Context:
 
 
 def make_current(context: Context | None) -> Context | None:
-    """Make a context this thread's current one; return the one before."""
+    """Make a context this thread's current one; return the previous one."""
     before: Context | None = getattr(_thread, "context", None)
     if before is not None:
-        before.settle()
+        before.flush()
     _thread.context = context
     return before

@@ -1,13 +1,13 @@
-"""OpenGL's spelling: functions and tokens named and called as in PyOpenGL's ``OpenGL.GL`` and ``OpenGL.GLU``.
+"""OpenGL calls: functions and tokens named and called as in PyOpenGL's ``OpenGL.GL`` and ``OpenGL.GLU``.
 
-The package checks arguments and replaces state; what draws is `softshadow.pipeline`. Everything works on this thread's
-current context::
+The package checks arguments and sets state; `softshadow.pipeline` draws. Every call works on this thread's current
+context::
 
     from softshadow import gl
     gl.create_context(64, 48)
     gl.glEnable(gl.GL_DEPTH_TEST)
 
-References: GL 2.1 specification; the surface and its conventions: docs/exactness.md.
+References: GL 2.1 specification; the rules of this implementation: docs/exactness.md.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from softshadow.gl.clears import *
 from softshadow.gl.clip_planes import *
 from softshadow.gl.debug_groups import *
 from softshadow.gl.errors import *
-from softshadow.gl.extensions import extension_names, missing, plain_name
+from softshadow.gl.extensions import extension_names, missing_message, plain_name
 from softshadow.gl.fog import *
 from softshadow.gl.fragment_state import *
 from softshadow.gl.framebuffers import *
@@ -63,9 +63,9 @@ def create_context(
     polygon_offset_unit: str = "mesa",
     raise_errors: bool = True,
 ) -> Context:
-    """Make a context in GL's initial state and make it this thread's current one.
+    """Create a context in GL's initial state and make it this thread's current one.
 
-    In a ``with`` statement the context before it comes back at the end.
+    Used in a ``with`` statement, the previous context is current again at its end.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def create_context(
     Raises
     ------
     ValueError
-        An argument is not one of these.
+        An argument has none of these values.
 
     Examples
     --------
@@ -98,10 +98,10 @@ def create_context(
 
 
 def __dir__() -> list[str]:
-    """The names a program can use."""
+    """Return the public names."""
     own = ("Context", "GLError", "create_context", "program")
-    taken = (name for name, value in globals().items() if name.startswith(("gl", "GL_")) and not ismodule(value))
-    return sorted({*own, *taken})
+    spelled = (name for name, value in globals().items() if name.startswith(("gl", "GL_")) and not ismodule(value))
+    return sorted({*own, *spelled})
 
 
 def __getattr__(name: str) -> Any:
@@ -111,5 +111,5 @@ def __getattr__(name: str) -> Any:
         plain = plain_name(name, globals())
         if plain is not None:
             return globals()[plain]
-        raise AttributeError(missing(name, __dir__()), name=name)
+        raise AttributeError(missing_message(name, __dir__()), name=name)
     raise AttributeError(f"module 'softshadow.gl' has no attribute {name!r}", name=name)

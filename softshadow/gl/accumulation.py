@@ -1,4 +1,4 @@
-"""The accumulation buffer, which the window has and framebuffer objects have not."""
+"""The accumulation buffer, which only the window has."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ AN_OPERATION = "GL_ACCUM, GL_LOAD, GL_ADD, GL_MULT or GL_RETURN"
 
 @in_lists
 def glClearAccum(red: float, green: float, blue: float, alpha: float) -> None:
-    """Set the colour that glClear writes to the accumulation buffer, clamped to [-1, 1]."""
+    """Set the clear colour of the accumulation buffer, clamped to [-1, 1]."""
     context = outside_begin("glClearAccum")
     if context is not None:
         context.touched |= gl.GL_ACCUM_BUFFER_BIT
@@ -25,7 +25,7 @@ def glClearAccum(red: float, green: float, blue: float, alpha: float) -> None:
 
 @in_lists
 def glAccum(op: int, value: float) -> None:
-    """Add colours to the accumulation buffer, scale it, or return it to the colour buffer; inside the scissor box."""
+    """Add colours to the accumulation buffer, scale it, or copy it to the colour buffer, inside the scissor box."""
     context = outside_begin("glAccum")
     if context is None or not is_one_of("glAccum", "op", op, OPERATIONS, AN_OPERATION):
         return

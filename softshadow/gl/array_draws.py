@@ -1,4 +1,4 @@
-"""Drawing from vertex arrays and buffer objects; `kept_arrays` has what a recording keeps of them."""
+"""Draws from vertex arrays and buffer objects; `array_snapshots` makes the arrays that a recording stores."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, current
-from softshadow.gl.array_snapshots import extremes, full_rows, owned_indices, spread
+from softshadow.gl.array_snapshots import index_range, repeat_row, snapshot_indices, snapshot_rows
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import (
     from_byte,
@@ -21,7 +21,7 @@ from softshadow.gl.conversions import (
     from_unsigned_short,
 )
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
-from softshadow.gl.immediate import A_MODE, MODES, add_vertex, can_draw, in_order
+from softshadow.gl.immediate import A_MODE, MODES, add_vertex, can_draw, consecutive_indices
 from softshadow.gl.texture_coordinates import set_coordinate
 from softshadow.gl.vertex_arrays import TYPES, rows_of
 from softshadow.gl.vertex_attributes import set_color, set_normal
@@ -31,8 +31,8 @@ from softshadow.state import TEXTURE_UNITS
 
 INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
 AN_INDEX_TYPE = "GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT or GL_UNSIGNED_INT"
-NORMALISED = ("color", "normal")  # integers of these stand for 0 to 1 or -1 to 1
-CONVERSIONS: dict[type[np.generic], Callable[[Any], float]] = {  # of glArrayElement: those of glColor and glNormal
+NORMALIZED = ("color", "normal")  # integers represent 0 to 1 or -1 to 1
+CONVERSIONS: dict[type[np.generic], Callable[[Any], float]] = {  # by glArrayElement, as in glColor and glNormal
     np.int8: from_byte, np.uint8: from_unsigned_byte, np.int16: from_short, np.uint16: from_unsigned_short,
     np.int32: from_int, np.uint32: from_unsigned_int,
 }  # fmt: skip
@@ -40,10 +40,10 @@ CONVERSIONS: dict[type[np.generic], Callable[[Any], float]] = {  # of glArrayEle
 
 # -- drawing -----------------------------------------------------------------------------------------------------------
 def glDrawArrays(mode: int, first: int, count: int) -> None:
-    """Draw `count` vertices of the enabled arrays from `first` on."""
+    """Draw `count` vertices of the enabled arrays, starting at `first`."""
     context = outside_begin("glDrawArrays")
     if context is not None:
-        context.settle()
+        context.flush()
     if context is None:
         return
     if not _refused("glDrawArrays", mode, count) and can_draw(context, "glDrawArrays"):
@@ -52,12 +52,12 @@ def glDrawArrays(mode: int, first: int, count: int) -> None:
 
 
 def glDrawElements(mode: int, count: int, type: int, indices: Any) -> None:
-    """Draw the vertices of the enabled arrays that `indices` name, or an offset into the bound buffer object."""
+    """Draw vertices of the enabled arrays by indices: an array, or an offset into the bound buffer object."""
     _draw_elements("glDrawElements", mode, count, type, indices)
 
 
 def glDrawRangeElements(mode: int, start: int, end: int, count: int, type: int, indices: Any) -> None:
-    """Draw as glDrawElements does, of whose indices one knows that they lie from `start` to `end`."""
+    """glDrawElements with indices promised in [start, end]."""
     if outside_begin("glDrawRangeElements") is None:
         return
     if c_uint(int(end)).value < c_uint(int(start)).value:
@@ -67,11 +67,11 @@ def glDrawRangeElements(mode: int, start: int, end: int, count: int, type: int, 
 
 
 def glMultiDrawArrays(mode: int, first: Any, count: Any, drawcount: int) -> None:
-    """Draw `drawcount` primitives from the enabled arrays, each with its own first vertex and number of vertices."""
+    """Draw `drawcount` ranges of the enabled arrays, each with its first vertex and number of vertices."""
     context, operation = outside_begin("glMultiDrawArrays"), "glMultiDrawArrays"
     if context is None:
         return
-    context.settle()
+    context.flush()
     firsts, counts = np.ravel(first)[:drawcount].tolist(), np.ravel(count)[: max(drawcount, 0)].tolist()
     if drawcount < 0 or min(counts, default=0) < 0:
         fail(gl.GL_INVALID_VALUE, operation, f"count={counts}, drawcount={drawcount}: expected 0 or more")
@@ -84,21 +84,21 @@ def _draw_elements(operation: str, mode: int, count: int, type: int, indices: An
     context = outside_begin(operation)
     if context is None:
         return
-    context.settle()
+    context.flush()
     if _refused(operation, mode, count):
         return
     if not is_one_of(operation, "type", type, INDEX_TYPES, AN_INDEX_TYPE) or not can_draw(context, operation):
         return
-    owned = owned_indices(context, operation, int(count), np.dtype(TYPES[type]), indices)
-    lowest, highest = extremes(owned)
+    snapshot = snapshot_indices(context, operation, int(count), np.dtype(TYPES[type]), indices)
+    lowest, highest = index_range(snapshot)
     if lowest < 0:
         raise ValueError(f"{operation}: index {lowest} is negative")
     vertices = _vertices(context, operation, 0, highest + 1)
-    _draw(context, int(mode), vertices, owned)
+    _draw(context, int(mode), vertices, snapshot)
 
 
 def _refused(operation: str, mode: int, count: int) -> bool:
-    """Return whether a draw has failed; a display list keeps the error for when it is called."""
+    """Return whether the arguments are wrong; in a display list, the error is raised when the list is called."""
     if count < 0:
         in_lists(fail)(gl.GL_INVALID_VALUE, operation, f"count={count}: expected 0 or more")
     elif mode not in MODES:
@@ -109,7 +109,7 @@ def _refused(operation: str, mode: int, count: int) -> bool:
 
 
 def glArrayElement(i: int) -> None:
-    """Give the attributes of one vertex of the enabled arrays, and the vertex itself between glBegin and glEnd."""
+    """Set the current attributes from one vertex of the enabled arrays; its position adds a vertex, as glVertex."""
     context = current()
     for key in sorted(context.arrays.enabled, key=lambda key: key == "position"):
         rows = _rows_of_array(context, key)
@@ -117,12 +117,12 @@ def glArrayElement(i: int) -> None:
             continue
         if not 0 <= i < len(rows):
             raise ValueError(f"glArrayElement(i={i}): the array of {key}s has {len(rows)}")
-        convert = CONVERSIONS.get(rows.dtype.type, float) if key in NORMALISED else float
-        _give(key, [convert(number) for number in rows[i].tolist()])
+        convert = CONVERSIONS.get(rows.dtype.type, float) if key in NORMALIZED else float
+        _set_attribute(key, [convert(number) for number in rows[i].tolist()])
 
 
 @in_lists
-def _give(key: str, values: list[float]) -> None:
+def _set_attribute(key: str, values: list[float]) -> None:
     if key == "position":
         add_vertex(current(), *values)
     elif key == "color":
@@ -134,13 +134,13 @@ def _give(key: str, values: list[float]) -> None:
 
 
 def _draw(context: Context, mode: int, vertices: Vertices | None, indices: np.ndarray | None) -> None:
-    """Draw now, or from the display list: the arrays are read when the list is made."""
+    """Draw now, or record the draw in the display list; its arrays are read now in either case."""
     if vertices is None or not len(vertices.position):
         return
     compiled = context.compiled_list
     if compiled is not None:
-        kept = in_order(len(vertices.position)) if indices is None else indices
-        compiled.calls.append(lambda: current().draw(mode, vertices, kept))
+        indices_or_all = consecutive_indices(len(vertices.position)) if indices is None else indices
+        compiled.calls.append(lambda: current().draw(mode, vertices, indices_or_all))
     if compiled is None or compiled.executes:
         context.draw(mode, vertices, indices)
 
@@ -151,30 +151,33 @@ def _vertices(context: Context, operation: str, first: int, end: int) -> Vertice
     Raises
     ------
     ValueError
-        An enabled array ends before `end`: GL would read memory that is not the array's.
+        An enabled array ends before `end`: GL would read memory outside the array.
     """
     if first < 0:
         raise ValueError(f"{operation}: first={first}: expected 0 or more")
-    arrays, standing = context.arrays, context.current
+    arrays, constants = context.arrays, context.current
     if "position" not in arrays.enabled or _rows_of_array(context, "position") is None:
         return None
 
     def attribute(key: str, constant: tuple[float, ...]) -> np.ndarray:
         rows = _rows_of_array(context, key) if key in arrays.enabled else None
         if rows is None:
-            return spread(np.array(constant, context.real), end - first)
+            return repeat_row(np.array(constant, context.real), end - first)
         if len(rows) < end:
-            raise ValueError(f"{operation}: vertex {end - 1} is asked for, the array of {key}s has {len(rows)}")
-        return full_rows(rows, len(constant), context, key in NORMALISED)[first:end]
+            raise ValueError(f"{operation}: vertex {end - 1} is outside the array of {key}s, which has {len(rows)}")
+        return snapshot_rows(rows, len(constant), context, key in NORMALIZED)[first:end]
 
-    texcoords = tuple(attribute(f"texcoord{unit}", standing.texcoords[unit]) for unit in range(TEXTURE_UNITS))
+    texcoords = tuple(attribute(f"texcoord{unit}", constants.texcoords[unit]) for unit in range(TEXTURE_UNITS))
     return Vertices(
-        attribute("position", REST), attribute("color", standing.color), attribute("normal", standing.normal), texcoords
+        attribute("position", REST),
+        attribute("color", constants.color),
+        attribute("normal", constants.normal),
+        texcoords,
     )
 
 
 def _rows_of_array(context: Context, key: str) -> np.ndarray | None:
-    """Return the array of an attribute as rows, a user's or that in a buffer object."""
+    """Return the array of an attribute as rows: the user's array, or one in a buffer object."""
     arrays = context.arrays
     if key not in arrays.offsets:
         return arrays.pointers.get(key)

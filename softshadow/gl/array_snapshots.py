@@ -1,6 +1,6 @@
-"""What a recording keeps of the arrays that are drawn: indices and vertices that nobody can change any more.
+"""Snapshots of drawn arrays: indices and vertices that cannot change after they are recorded.
 
-Arrays that are read-only already are kept as they are; others are copied, or converted once for the same content.
+Immutable arrays are recorded without a copy. Others are copied; arrays that need a conversion are converted once.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from softshadow.context import Context
 from softshadow.gl.buffers import content_from, offset_of
 from softshadow.gl.vertex_format import REST
 
-LARGEST_FRACTION = (1 << 23) - 1  # llvmpipe fetches as many bits of an unsigned int as float32 has
+LARGEST_FRACTION = (1 << 23) - 1  # llvmpipe fetches the upper 23 bits of an unsigned int
 
 
-def owned_indices(context: Context, operation: str, count: int, dtype: np.dtype, indices: Any) -> np.ndarray:
-    """Return indices that the caller cannot change, read-only int32: the caller's own where they are that already.
+def snapshot_indices(context: Context, operation: str, count: int, dtype: np.dtype, indices: Any) -> np.ndarray:
+    """Return immutable int32 indices: the caller's array itself if it is immutable and 32-bit, else a copy.
 
     Raises
     ------
@@ -31,61 +31,61 @@ def owned_indices(context: Context, operation: str, count: int, dtype: np.dtype,
         indices = np.frombuffer(indices, dtype)
     numbers = np.ravel(indices)[:count]
     if len(numbers) < count:
-        raise ValueError(f"{operation}(count={count}): only {len(numbers)} indices are there")
-    if numbers.dtype in (np.int32, np.uint32) and _is_frozen(numbers):
+        raise ValueError(f"{operation}(count={count}): got only {len(numbers)} indices")
+    if numbers.dtype in (np.int32, np.uint32) and _is_immutable(numbers):
         return numbers.view(np.int32)
-    owned = np.array(numbers, np.int32)
-    owned.setflags(write=False)
-    return owned
+    copy = np.array(numbers, np.int32)
+    copy.setflags(write=False)
+    return copy
 
 
-def extremes(indices: np.ndarray) -> tuple[int, int]:
-    """Return the smallest and the largest index, 0 and -1 where there are none.
+def index_range(indices: np.ndarray) -> tuple[int, int]:
+    """Return the smallest and the largest index; 0 and -1 without indices.
 
-    Found for each draw: kernels do not check bounds, and an array's owner could make it writable in between.
+    Every draw computes them anew: kernels do not check bounds, and the array's owner may have made it writeable.
     """
     return (int(indices.min()), int(indices.max())) if len(indices) else (0, -1)
 
 
-def full_rows(rows: np.ndarray, width: int, context: Context, normalized: bool) -> np.ndarray:
-    """Return rows as read-only (V, width) of the context's precision; the same content is converted once."""
-    if not _is_frozen(rows):
+def snapshot_rows(rows: np.ndarray, width: int, context: Context, normalized: bool) -> np.ndarray:
+    """Return rows as read-only (V, width) in the context's precision; the same contents are converted only once."""
+    if not _is_immutable(rows):
         content: Any = hashlib.blake2b(np.ascontiguousarray(rows).data, digest_size=16).digest()
     elif rows.shape[1] == width and rows.dtype == context.real and rows.flags.c_contiguous:
         return rows
     else:
-        content = _identity(rows)
+        content = _memory_key(rows)
     key = (content, rows.shape, rows.dtype, width, normalized)
-    return context.arrays.converted.get(key, _root(rows), lambda: _converted(rows, width, context, normalized))
+    return context.arrays.converted.get(key, _owner(rows), lambda: _converted(rows, width, context, normalized))
 
 
-def spread(row: np.ndarray, count: int) -> np.ndarray:
-    """Return `count` times the same row, read-only, without its copies: `np.broadcast_to`, of which draws need ten."""
-    made = np.ndarray((count, len(row)), row.dtype, row, strides=(0, row.itemsize))
-    made.flags.writeable = False
-    return made
+def repeat_row(row: np.ndarray, count: int) -> np.ndarray:
+    """Return a read-only view of `count` equal rows: faster than `np.broadcast_to`, and each draw needs ten."""
+    rows = np.ndarray((count, len(row)), row.dtype, row, strides=(0, row.itemsize))
+    rows.flags.writeable = False
+    return rows
 
 
-def _identity(array: np.ndarray) -> tuple[Any, ...]:
-    """Return what tells read-only arrays apart while the memory they lie in is kept."""
-    return (id(_root(array)), array.__array_interface__["data"][0], array.strides)
+def _memory_key(array: np.ndarray) -> tuple[Any, ...]:
+    """Return a key that identifies the memory of a read-only array for as long as its owner lives."""
+    return (id(_owner(array)), array.__array_interface__["data"][0], array.strides)
 
 
-def _is_frozen(array: np.ndarray) -> bool:
-    """Return whether the memory of an array is read-only, as far as it is known whose it is."""
-    root = _root(array)
-    return not root.flags.writeable and (root.base is None or isinstance(root.base, bytes))
+def _is_immutable(array: np.ndarray) -> bool:
+    """Return whether nobody can write to the memory of an array; False if its owner is unknown."""
+    owner = _owner(array)
+    return not owner.flags.writeable and (owner.base is None or isinstance(owner.base, bytes))
 
 
-def _root(rows: np.ndarray) -> np.ndarray:
-    """Return the array that owns the memory, as far as NumPy tells."""
+def _owner(rows: np.ndarray) -> np.ndarray:
+    """Return the array at the end of the chain of bases, which owns the memory or wraps a foreign buffer."""
     while isinstance(rows.base, np.ndarray):
         rows = rows.base
     return rows
 
 
 def _converted(rows: np.ndarray, width: int, context: Context, normalized: bool) -> np.ndarray:
-    """Return rows with all their components: a missing fourth is 1, others 0."""
+    """Return rows with `width` components: a missing fourth is 1, others 0."""
     full = np.empty((len(rows), width), context.real)
     full[:] = REST[:width]
     with np.errstate(over="ignore"):
@@ -96,7 +96,7 @@ def _converted(rows: np.ndarray, width: int, context: Context, normalized: bool)
 
 
 def _fractions(rows: np.ndarray, real: type[np.floating]) -> np.ndarray:
-    """Return integers as the fractions they stand for: times the rounded step; of unsigned ints the upper 23 bits."""
+    """Return integers as fractions: times the rounded step; of unsigned ints the upper 23 bits."""
     if rows.dtype == np.uint32:
         return (rows >> np.uint32(9)).astype(real) * real(1 / LARGEST_FRACTION)
     return rows.astype(real) * real(1 / np.iinfo(rows.dtype).max)

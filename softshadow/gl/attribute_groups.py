@@ -1,4 +1,4 @@
-"""The groups of attributes that glPushAttrib names by bits (GL 2.1, sec. 6.2), and what Mesa takes for changed."""
+"""The attribute groups of glPushAttrib (GL 2.1, sec. 6.2), and when Mesa regards a group as changed."""
 
 from __future__ import annotations
 
@@ -7,13 +7,21 @@ from typing import Any
 
 from softshadow import tokens as gl
 from softshadow.frozen import evolve
-from softshadow.gl.capabilities import CAPABILITIES, CLIP_PLANES, GENERATED, LIGHTS, UNIT_CAPABILITIES, is_on, switched
+from softshadow.gl.capabilities import (
+    CAPABILITIES,
+    CLIP_PLANES,
+    LIGHTS,
+    TEXTURE_GENERATION,
+    UNIT_CAPABILITIES,
+    is_on,
+    with_capability,
+)
 from softshadow.gl.fragment_state import extension_back
 from softshadow.state import State
 
-Fields = dict[str, tuple[str, ...]]  # group of the state: some of its fields, or () for all
+Fields = dict[str, tuple[str, ...]]  # group of the state: its fields, () for all
 LIGHT_MODEL = ("enabled", "color_material", "color_material_face", "color_material_mode", "shade_model")
-# what a bit brings back, in Mesa's order (main/attrib.c); bits without a field stand for what is not in `State`
+# what each bit restores, in Mesa's order (main/attrib.c); bits without fields restore state outside `State`
 GROUPS: dict[int, Fields] = {
     gl.GL_ACCUM_BUFFER_BIT: {"color": ("clear_accum",)},
     gl.GL_COLOR_BUFFER_BIT: {"alpha": (), "blend": (), "color": ("mask", "clear", "dither")},
@@ -40,8 +48,8 @@ GROUPS: dict[int, Fields] = {
     gl.GL_VIEWPORT_BIT: {"viewport": ()},
     gl.GL_MULTISAMPLE_BIT: {"color": ("multisample",)},
 }
-# of these, what Mesa brings back by calls that hand on the attributes given; the rest is copied
-CALLED: dict[int, Fields] = {
+# the fields that Mesa restores by GL calls, which flush the collected vertices; it copies the others
+SET_BY_CALLS: dict[int, Fields] = {
     **GROUPS,
     gl.GL_ACCUM_BUFFER_BIT: {},
     gl.GL_COLOR_BUFFER_BIT: {"alpha": (), "blend": (), "color": ("mask", "dither")},
@@ -61,26 +69,26 @@ CALLED: dict[int, Fields] = {
 def changed_groups(before: State, after: State) -> int:
     """Return the bits of the groups in which two states differ.
 
-    Materials are not among them: they are attributes of vertices, and change when those are handed on.
+    Materials do not count: they are vertex attributes, and change when pending attributes become current.
     """
     if before is after:
         return 0
     bits = sum(bit for bit, groups in GROUPS.items() if differ(before, after, groups))
-    switches = _capabilities(after, lights=True)
-    any_switch = any(is_on(before, cap, unit) != is_on(after, cap, unit) for cap, unit in switches)
-    return bits | (gl.GL_ENABLE_BIT if any_switch else 0)
+    capabilities = _capabilities(after, lights=True)
+    any_switched = any(is_on(before, cap, unit) != is_on(after, cap, unit) for cap, unit in capabilities)
+    return bits | (gl.GL_ENABLE_BIT if any_switched else 0)
 
 
 def differ(before: State, after: State, groups: Fields) -> bool:
-    """Return whether two states differ in some fields of some groups."""
+    """Return whether two states differ in any of these fields."""
     return any(
         old is not new and (old != new if not fields else any(getattr(old, f) != getattr(new, f) for f in fields))
         for old, new, fields in ((getattr(before, g), getattr(after, g), fields) for g, fields in groups.items())
     )
 
 
-def calls_made(bit: int, before: State, after: State) -> bool:
-    """Return whether Mesa makes calls to get from one state to another in one group."""
+def needs_calls(bit: int, before: State, after: State) -> bool:
+    """Return whether Mesa makes GL calls to get from one state to another in one group."""
     if bit == gl.GL_LIGHTING_BIT and any(is_on(before, light, 0) != is_on(after, light, 0) for light in LIGHTS):
         return True
     if bit == gl.GL_ENABLE_BIT:
@@ -90,36 +98,38 @@ def calls_made(bit: int, before: State, after: State) -> bool:
             (old.bound_2d, old.bound_cube) != (new.bound_2d, new.bound_cube)
             for old, new in zip(before.units, after.units, strict=True)
         )
-    return differ(before, after, CALLED[bit])
+    return differ(before, after, SET_BY_CALLS[bit])
 
 
 def with_group(bit: int, now: State, before: State) -> State:
-    """Return the state with one group as it was before."""
+    """Return the state with one group restored from an earlier state."""
     if bit == gl.GL_ENABLE_BIT:
         return _with_capabilities(now, before)
-    made: dict[str, Any] = {}
+    restored: dict[str, Any] = {}
     for group, fields in GROUPS[bit].items():
         old = getattr(before, group)
-        made[group] = evolve(getattr(now, group), **{f: getattr(old, f) for f in fields}) if fields else old
-    if bit == gl.GL_STENCIL_BUFFER_BIT:  # Mesa does not bring the extension's back state back
-        old = made["stencil"]
-        made["stencil"] = evolve(old, **{extension_back(old): getattr(now.stencil, extension_back(now.stencil))})
-    return evolve(now, **made) if made else now
+        restored[group] = evolve(getattr(now, group), **{f: getattr(old, f) for f in fields}) if fields else old
+    if bit == gl.GL_STENCIL_BUFFER_BIT:  # Mesa does not restore the extension's back state
+        old = restored["stencil"]
+        restored["stencil"] = evolve(old, **{extension_back(old): getattr(now.stencil, extension_back(now.stencil))})
+    return evolve(now, **restored) if restored else now
 
 
 def _with_capabilities(state: State, before: State) -> State:
     for cap, unit in _capabilities(state, lights=False):
         on = is_on(before, cap, unit)
         if is_on(state, cap, unit) != on:
-            state = switched(state, cap, unit, on)
+            state = with_capability(state, cap, unit, on)
     return state
 
 
 def _capabilities(state: State, lights: bool) -> Iterable[tuple[int, int]]:
-    """Return (capability, texture unit); Mesa changes GL_ENABLE_BIT by the switch of a light, but never pops it.
+    """Return the (capability, texture unit) pairs of GL_ENABLE_BIT.
 
-    GL_TEXTURE_CUBE_MAP_SEAMLESS, which is younger than GL 2.1, is in no group of Mesa's.
+    In Mesa, enabling a light marks this group as changed, but popping the group does not restore lights.
+    GL_TEXTURE_CUBE_MAP_SEAMLESS, which is newer than GL 2.1, belongs to no group.
     """
     pushed = [cap for cap in CAPABILITIES if cap != gl.GL_TEXTURE_CUBE_MAP_SEAMLESS]
     everywhere = [(cap, 0) for cap in (*pushed, *(LIGHTS if lights else ()), *CLIP_PLANES)]
-    return everywhere + [(cap, unit) for cap in (*UNIT_CAPABILITIES, *GENERATED) for unit in range(len(state.units))]
+    per_unit = (*UNIT_CAPABILITIES, *TEXTURE_GENERATION)
+    return everywhere + [(cap, unit) for cap in per_unit for unit in range(len(state.units))]

@@ -21,9 +21,9 @@ def glBlitFramebuffer(
     srcX0: int, srcY0: int, srcX1: int, srcY1: int, dstX0: int, dstY0: int, dstX1: int, dstY1: int,
     mask: int, filter: int,
 ) -> None:  # fmt: skip
-    """Copy a rectangle of the read framebuffer to one of the draw framebuffer: scaled, mirrored, under the scissor.
+    """Copy a rectangle of the read framebuffer to the draw framebuffer, scaled or mirrored, inside the scissor box.
 
-    Tests, masks and blending do not count. Buffers that one of the two has not are passed over.
+    Tests, masks and blending do not apply. Buffers that only one of the framebuffers has are skipped.
     """
     context = outside_begin("glBlitFramebuffer")
     if context is None:
@@ -40,7 +40,7 @@ def glBlitFramebuffer(
 
 
 def _problem(context: Context, mask: int, filter: int) -> Problem | None:
-    """Return (error code, why) where the blit cannot be, else None."""
+    """Return (error code, message) if the blit is not allowed, else None."""
     names = (context.state.read_framebuffer, context.state.draw_framebuffer)
     for name in names:
         if framebuffer_status(context, name) != gl.GL_FRAMEBUFFER_COMPLETE:
@@ -48,24 +48,24 @@ def _problem(context: Context, mask: int, filter: int) -> Problem | None:
     if filter not in (gl.GL_NEAREST, gl.GL_LINEAR):
         return gl.GL_INVALID_ENUM, f"filter={token_name(filter)}: expected GL_NEAREST or GL_LINEAR"
     if mask & ~BLIT_BITS:
-        return gl.GL_INVALID_VALUE, f"mask=0x{mask:X}: expected bits of colour, depth and stencil only"
+        return gl.GL_INVALID_VALUE, f"mask=0x{mask:X}: expected only colour, depth and stencil bits"
     if mask & WITHOUT_FILTER and filter != gl.GL_NEAREST:
-        return gl.GL_INVALID_OPERATION, "filter=GL_LINEAR: depth and stencil take GL_NEAREST"
-    read, drawn = (context.storage.framebuffers[name] for name in names)
-    depths = {each.depth.format for each in (read, drawn) if each.depth is not None}
+        return gl.GL_INVALID_OPERATION, "filter=GL_LINEAR: expected GL_NEAREST for depth and stencil"
+    source, target = (context.storage.framebuffers[name] for name in names)
+    depths = {each.depth.format for each in (source, target) if each.depth is not None}
     if mask & gl.GL_DEPTH_BUFFER_BIT and len(depths) > 1:
         return gl.GL_INVALID_OPERATION, "the two depth buffers have different formats"
-    if mask & gl.GL_STENCIL_BUFFER_BIT and read.stencil is not None and drawn.stencil is not None:
-        formats = {_depth_beside(read), _depth_beside(drawn)} - {None}
+    if mask & gl.GL_STENCIL_BUFFER_BIT and source.stencil is not None and target.stencil is not None:
+        formats = {_packed_depth(source), _packed_depth(target)} - {None}
         if len(formats) > 1:
-            return gl.GL_INVALID_OPERATION, "the depths beside the two stencil buffers have different formats"
+            return gl.GL_INVALID_OPERATION, "the depth formats packed with the two stencil buffers differ"
     return None
 
 
-def _depth_beside(target: Framebuffer) -> Format | None:
-    """Return the format of the depths that are stored with the stencil values, whether attached or not."""
+def _packed_depth(target: Framebuffer) -> Format | None:
+    """Return the depth format packed with the stencil buffer, attached or not; None for stencil alone."""
     if target.name == DEFAULT:
-        return D24  # as on Mesa; what else the window's depth may be here does not lie with the stencil values
+        return D24  # as in Mesa; another depth format of the window is not packed with its stencil buffer
     assert target.stencil is not None
     internal_format = target.stencil.internal_format
     return FORMATS[internal_format] if internal_format in WITH_STENCIL else None

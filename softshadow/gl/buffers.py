@@ -1,4 +1,4 @@
-"""Buffer objects: vertex arrays and indices that GL keeps."""
+"""Buffer objects: vertex arrays and indices stored by GL."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from softshadow import tokens as gl
 from softshadow.context import BufferObject, Context
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.names import generate, listed, take
+from softshadow.gl.names import generate, names_argument, reserve
 
 TARGETS = {gl.GL_ARRAY_BUFFER: "array_buffer", gl.GL_ELEMENT_ARRAY_BUFFER: "element_buffer"}
 A_TARGET = "GL_ARRAY_BUFFER or GL_ELEMENT_ARRAY_BUFFER"
@@ -29,53 +29,56 @@ def glGenBuffers(n: int, buffers: Any = None) -> Any:
 
 
 def glBindBuffer(target: int, buffer: int) -> None:
-    """Make the pointer calls that follow, or the indices, offsets into a buffer object; 0 goes back to arrays."""
+    """Bind a buffer object: pointers, or indices, are then offsets into it. Name 0 unbinds."""
     context = outside_begin("glBindBuffer")
     if context is None or not is_one_of("glBindBuffer", "target", target, TARGETS, A_TARGET):
         return
     name = int(buffer)
     if name and name not in context.buffers:
-        take(context, "buffer", name)
+        reserve(context, "buffer", name)
         context.buffers[name] = BufferObject()
     setattr(context.arrays, TARGETS[target], name)
 
 
 def glDeleteBuffers(*arguments: Any) -> None:
-    """Delete buffer objects: (name), (names) or (n, names). They leave the bindings and the vertex arrays."""
+    """Delete buffer objects: (name), (names) or (n, names). Bindings and vertex arrays that use them are reset."""
     context = outside_begin("glDeleteBuffers")
     if context is None:
         return
-    for name in listed("glDeleteBuffers", arguments):
+    for name in names_argument("glDeleteBuffers", arguments):
         context.buffers.pop(name, None)
         for binding in TARGETS.values():
             if name and getattr(context.arrays, binding) == name:
                 setattr(context.arrays, binding, 0)
-        for key in [key for key, (held, _) in context.arrays.offsets.items() if held == name]:
+        for key in [key for key, (buffer, _) in context.arrays.offsets.items() if buffer == name]:
             del context.arrays.offsets[key]
 
 
 def glIsBuffer(buffer: int) -> bool:
-    """Return whether a name is that of a buffer object, which it becomes when it is first bound."""
+    """Return whether a buffer object of this name exists; the first glBindBuffer creates it."""
     context = outside_begin("glIsBuffer")
     return context is not None and int(buffer) in context.buffers
 
 
 # -- contents ----------------------------------------------------------------------------------------------------------
 def glBufferData(target: int, size: Any, data: Any = None, usage: int | None = None) -> None:
-    """Give the bound buffer object its bytes: (target, size, data, usage) or (target, data, usage); None is zeros."""
+    """Set the contents of the bound buffer object: (target, size, data, usage) or (target, data, usage).
+
+    Without data (None), all bytes are 0.
+    """
     if usage is None:
         size, data, usage = None, size, data
-    given = None if data is None else _bytes(data)
-    count = int(size) if size is not None else 0 if given is None else len(given)
+    content = None if data is None else _bytes(data)
+    n_bytes = int(size) if size is not None else 0 if content is None else len(content)
     context, operation = outside_begin("glBufferData"), "glBufferData"
     if context is None or (bound := _bound(context, operation, target)) is None:
         return
-    if count < 0:
-        fail(gl.GL_INVALID_VALUE, operation, f"size={count}: expected 0 or more")
+    if n_bytes < 0:
+        fail(gl.GL_INVALID_VALUE, operation, f"size={n_bytes}: expected 0 or more")
     elif is_one_of(operation, "usage", usage, USAGES, A_USAGE):
-        if given is not None and len(given) < count:
-            raise ValueError(f"glBufferData: size={count}, but data has {len(given)} bytes")
-        bound.content = np.zeros(count, np.uint8) if given is None else given[:count].copy()
+        if content is not None and len(content) < n_bytes:
+            raise ValueError(f"glBufferData: size={n_bytes}, but data has {len(content)} bytes")
+        bound.content = np.zeros(n_bytes, np.uint8) if content is None else content[:n_bytes].copy()
         bound.usage = int(usage)
 
 
@@ -83,13 +86,13 @@ def glBufferSubData(target: int, offset: int, size: Any = None, data: Any = None
     """Replace bytes of the bound buffer object: (target, offset, size, data) or (target, offset, data)."""
     if data is None:
         size, data = None, size
-    given = _bytes(data)
-    count = len(given) if size is None else int(size)
+    content = _bytes(data)
+    n_bytes = len(content) if size is None else int(size)
     context = outside_begin("glBufferSubData")
     bound = context and _bound(context, "glBufferSubData", target)
-    if bound and _is_inside("glBufferSubData", bound, int(offset), count):
-        bound.content = bound.content.copy()  # what a drawn array shares with it stays as it was drawn
-        bound.content[offset : offset + count] = given[:count]
+    if bound and _is_inside("glBufferSubData", bound, int(offset), n_bytes):
+        bound.content = bound.content.copy()  # recorded arrays may share the old contents
+        bound.content[offset : offset + n_bytes] = content[:n_bytes]
 
 
 def glGetBufferSubData(target: int, offset: int, size: int, data: Any = None) -> Any:
@@ -98,14 +101,14 @@ def glGetBufferSubData(target: int, offset: int, size: int, data: Any = None) ->
     bound = context and _bound(context, "glGetBufferSubData", target)
     if not bound or not _is_inside("glGetBufferSubData", bound, int(offset), int(size)):
         return None
-    found = bound.content[offset : offset + size].copy()
+    content = bound.content[offset : offset + size].copy()
     if data is not None:
-        np.asarray(data).reshape(-1).view(np.uint8)[:size] = found
-    return found
+        np.asarray(data).reshape(-1).view(np.uint8)[:size] = content
+    return content
 
 
 def glGetBufferParameteriv(target: int, pname: int, params: Any = None) -> Any:
-    """Return size in bytes or usage of the bound buffer object."""
+    """Return the size in bytes, or the usage, of the bound buffer object."""
     context, operation = outside_begin("glGetBufferParameteriv"), "glGetBufferParameteriv"
     bound = context and _bound(context, operation, target)
     if not bound:
@@ -131,7 +134,7 @@ def _bound(context: Context, operation: str, target: int) -> BufferObject | None
 def _is_inside(operation: str, bound: BufferObject, offset: int, size: int) -> bool:
     if offset >= 0 and size >= 0 and offset + size <= len(bound.content):
         return True
-    message = f"offset={offset}, size={size}: expected a range of the {len(bound.content)} bytes"
+    message = f"offset={offset}, size={size}: expected a range inside the {len(bound.content)} bytes"
     fail(gl.GL_INVALID_VALUE, operation, message)
     return False
 
@@ -144,7 +147,7 @@ def _bytes(data: Any) -> np.ndarray:
 
 # -- offsets -----------------------------------------------------------------------------------------------------------
 def offset_of(pointer: Any) -> int:
-    """Return the offset that a pointer argument is while a buffer object is bound: None, an int, ctypes.c_void_p."""
+    """Return a pointer argument as an offset into the bound buffer object: None, an int, or ctypes.c_void_p."""
     value = pointer.value if isinstance(pointer, ctypes.c_void_p) else pointer
     if value is None:
         return 0
@@ -154,7 +157,7 @@ def offset_of(pointer: Any) -> int:
 
 
 def content_from(context: Context, name: int, offset: int, dtype: np.dtype) -> np.ndarray:
-    """Return a buffer object's content from an offset on, as numbers of a type; the rest of a number is left out."""
+    """Return a buffer object's contents from an offset on, as numbers; an incomplete last one is left out."""
     content = context.buffers[name].content[offset:]
     return np.frombuffer(content.tobytes(), dtype, len(content) // dtype.itemsize)
 

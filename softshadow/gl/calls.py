@@ -1,4 +1,4 @@
-"""What GL calls have in common: display lists record them, and a module exports only what is spelled like GL."""
+"""Shared by all calls: how display lists record them, and which names a module exports."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ Call = TypeVar("Call", bound=Callable[..., Any])
 
 
 def in_lists(call: Call) -> Call:
-    """Make a call one that a display list keeps: between glNewList and glEndList it is recorded.
+    """Record a call in the display list between glNewList and glEndList (decorator).
 
-    With GL_COMPILE_AND_EXECUTE it is carried out, too. Calls without this decorator are carried out at once, as GL has
-    it for queries, client state and the making of objects (GL 2.1, sec. 5.4).
+    With GL_COMPILE_AND_EXECUTE the call is carried out, too. Calls without this decorator are never recorded: in GL
+    these are queries, client state and the creation of objects (GL 2.1, sec. 5.4).
     """
 
     @functools.wraps(call)
@@ -26,10 +26,10 @@ def in_lists(call: Call) -> Call:
         compiled = context.compiled_list
         if compiled is None:
             return call(*arguments, **named)
-        compiled.calls.append(functools.partial(call, *map(_owned, arguments), **named))
+        compiled.calls.append(functools.partial(call, *map(_snapshot, arguments), **named))
         if not compiled.executes:
             return None
-        context.compiled_list, context.executes_list = None, True  # what the call itself calls is part of it
+        context.compiled_list, context.executes_list = None, True  # calls made by this call are part of it
         try:
             return call(*arguments, **named)
         finally:
@@ -38,8 +38,8 @@ def in_lists(call: Call) -> Call:
     return recorded  # type: ignore[return-value]
 
 
-def _owned(argument: Any) -> Any:
-    """Return an argument that its caller cannot change any more."""
+def _snapshot(argument: Any) -> Any:
+    """Return an argument as it is now: a copy of an array or list."""
     return np.array(argument) if isinstance(argument, np.ndarray | list) else argument
 
 

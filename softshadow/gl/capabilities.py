@@ -1,4 +1,4 @@
-"""glEnable, glDisable, glIsEnabled, and hints."""
+"""glEnable, glDisable, glIsEnabled and glHint."""
 
 from __future__ import annotations
 
@@ -37,12 +37,12 @@ CAPABILITIES: dict[int, tuple[str, str]] = {
     gl.GL_TEXTURE_CUBE_MAP_SEAMLESS: ("cube_maps", "seamless"),
 }
 UNIT_CAPABILITIES = {gl.GL_TEXTURE_2D: "enabled_2d", gl.GL_TEXTURE_CUBE_MAP: "enabled_cube"}
-GENERATED = (gl.GL_TEXTURE_GEN_S, gl.GL_TEXTURE_GEN_T, gl.GL_TEXTURE_GEN_R, gl.GL_TEXTURE_GEN_Q)
+TEXTURE_GENERATION = (gl.GL_TEXTURE_GEN_S, gl.GL_TEXTURE_GEN_T, gl.GL_TEXTURE_GEN_R, gl.GL_TEXTURE_GEN_Q)
 LIGHTS = range(gl.GL_LIGHT0, gl.GL_LIGHT7 + 1)
 CLIP_PLANES = range(gl.GL_CLIP_PLANE0, gl.GL_CLIP_PLANE5 + 1)
-KNOWN = {*CAPABILITIES, *UNIT_CAPABILITIES, *GENERATED, *LIGHTS, *CLIP_PLANES}
+KNOWN = {*CAPABILITIES, *UNIT_CAPABILITIES, *TEXTURE_GENERATION, *LIGHTS, *CLIP_PLANES}
 A_CAPABILITY = "a capability of this subset"
-LEFT_OUT = (
+UNSUPPORTED = (
     gl.GL_POINT_SMOOTH, gl.GL_LINE_SMOOTH, gl.GL_POLYGON_SMOOTH, gl.GL_LINE_STIPPLE, gl.GL_POLYGON_STIPPLE,
 )  # fmt: skip
 HINTS = (
@@ -53,13 +53,13 @@ HINTS = (
 
 @in_lists
 def glEnable(cap: int) -> None:
-    """Switch a capability on."""
+    """Enable a capability."""
     _switch("glEnable", cap, True)
 
 
 @in_lists
 def glDisable(cap: int) -> None:
-    """Switch a capability off."""
+    """Disable a capability."""
     _switch("glDisable", cap, False)
 
 
@@ -70,35 +70,35 @@ def _switch(operation: str, cap: int, on: bool) -> None:
     if not _is_known(operation, cap):
         return
     if is_on(context.state, cap, context.active_unit) != on:
-        context.change_state(switched(context.state, cap, context.active_unit, on))
+        context.change_state(with_capability(context.state, cap, context.active_unit, on))
         if cap == gl.GL_COLOR_MATERIAL and on:
             start_to_follow(context)
 
 
 def _is_known(operation: str, cap: int) -> bool:
-    """Return whether a capability is known; if not, the call has failed."""
-    if cap in LEFT_OUT:
+    """Return whether a capability is known; otherwise the call fails."""
+    if cap in UNSUPPORTED:
         fail(gl.GL_INVALID_ENUM, operation, f"cap={token_name(cap)} is not part of this subset")
         return False
     return is_one_of(operation, "cap", cap, KNOWN, A_CAPABILITY)
 
 
 def is_on(state: State, cap: int, unit: int) -> bool:
-    """Return whether a known capability is on; `unit` is the texture unit that texturing is asked about."""
+    """Return whether a known capability is enabled; `unit` is the texture unit, for texture capabilities."""
     if cap in CAPABILITIES:
         group, field = CAPABILITIES[cap]
         return bool(getattr(getattr(state, group), field))
     if cap in UNIT_CAPABILITIES:
         return bool(getattr(state.units[unit], UNIT_CAPABILITIES[cap]))
-    if cap in GENERATED:
-        return state.units[unit].gen[GENERATED.index(cap)].enabled
+    if cap in TEXTURE_GENERATION:
+        return state.units[unit].gen[TEXTURE_GENERATION.index(cap)].enabled
     if cap in LIGHTS:
         return state.lighting.lights[cap - gl.GL_LIGHT0].enabled
     return state.clip_planes.enabled[cap - gl.GL_CLIP_PLANE0]
 
 
-def switched(state: State, cap: int, unit: int, on: bool) -> State:
-    """Return the state with a known capability switched."""
+def with_capability(state: State, cap: int, unit: int, on: bool) -> State:
+    """Return the state with a known capability enabled or disabled."""
     if cap in CAPABILITIES:
         group, field = CAPABILITIES[cap]
         changed: Any = evolve(getattr(state, group), **{field: on})
@@ -112,23 +112,23 @@ def switched(state: State, cap: int, unit: int, on: bool) -> State:
     if cap in CLIP_PLANES:
         enabled = with_item(state.clip_planes.enabled, cap - gl.GL_CLIP_PLANE0, on)
         return evolve(state, clip_planes=evolve(state.clip_planes, enabled=enabled))
-    standing = state.units[unit]
+    old = state.units[unit]
     if cap in UNIT_CAPABILITIES:
         field = UNIT_CAPABILITIES[cap]
-        made = evolve(standing, **{field: on})
+        new = evolve(old, **{field: on})
     else:
-        index = GENERATED.index(cap)
-        made = evolve(standing, gen=with_item(standing.gen, index, evolve(standing.gen[index], enabled=on)))
-    return evolve(state, units=with_item(state.units, unit, made))
+        index = TEXTURE_GENERATION.index(cap)
+        new = evolve(old, gen=with_item(old.gen, index, evolve(old.gen[index], enabled=on)))
+    return evolve(state, units=with_item(state.units, unit, new))
 
 
 def with_item(items: tuple[Any, ...], index: int, item: Any) -> Any:
-    """Return a tuple with one item exchanged."""
+    """Return a tuple with one item replaced."""
     return (*items[:index], item, *items[index + 1 :])
 
 
 def glIsEnabled(cap: int) -> bool | None:
-    """Return whether a capability is on."""
+    """Return whether a capability is enabled."""
     context: Context | None = outside_begin("glIsEnabled")
     if context is None or not _is_known("glIsEnabled", cap):
         return None
@@ -137,14 +137,14 @@ def glIsEnabled(cap: int) -> bool | None:
 
 @in_lists
 def glHint(target: int, mode: int) -> None:
-    """Set a hint; hints change nothing here but what glGet answers."""
+    """Set a hint; it has no effect besides what glGet returns."""
     context = outside_begin("glHint")
     modes = (gl.GL_DONT_CARE, gl.GL_FASTEST, gl.GL_NICEST)
     if context is None or not is_one_of("glHint", "mode", mode, modes, "GL_DONT_CARE, GL_FASTEST or GL_NICEST"):
         return
     if is_one_of("glHint", "target", target, HINTS, "a hint of GL 2.1 (sec. 5.6)"):
         if context.hints.get(target, gl.GL_DONT_CARE) != mode:
-            context.settle()
+            context.flush()
             context.touched |= gl.GL_HINT_BIT
         context.hints[target] = int(mode)
 

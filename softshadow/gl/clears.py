@@ -1,4 +1,4 @@
-"""Clear values, glClear, and the end of a frame."""
+"""Clear values, glClear, glFlush and glFinish."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ BUFFER_BITS = gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BU
 
 @in_lists
 def glClearColor(red: float, green: float, blue: float, alpha: float) -> None:
-    """Set the colour that glClear writes."""
+    """Set the clear colour."""
     context = outside_begin("glClearColor")
     if context is not None:
         context.touched |= gl.GL_COLOR_BUFFER_BIT
@@ -25,7 +25,7 @@ def glClearColor(red: float, green: float, blue: float, alpha: float) -> None:
 
 @in_lists
 def glClearDepth(depth: float) -> None:
-    """Set the depth that glClear writes, clamped to [0, 1]."""
+    """Set the clear depth, clamped to [0, 1]."""
     context = outside_begin("glClearDepth")
     if context is not None:
         context.touched |= gl.GL_DEPTH_BUFFER_BIT
@@ -37,7 +37,7 @@ glClearDepthf = glClearDepth
 
 @in_lists
 def glClearStencil(s: int) -> None:
-    """Set the stencil value that glClear writes."""
+    """Set the clear value of the stencil buffer."""
     context = outside_begin("glClearStencil")
     if context is not None:
         context.touched |= gl.GL_STENCIL_BUFFER_BIT
@@ -46,12 +46,12 @@ def glClearStencil(s: int) -> None:
 
 @in_lists
 def glClear(mask: int) -> None:
-    """Clear buffers: under scissor and write masks, whatever the tests are set to."""
+    """Clear buffers; scissor box and write masks apply, the fragment tests do not."""
     context = outside_begin("glClear")
     if context is None:
         return
     if mask & ~BUFFER_BITS:
-        fail(gl.GL_INVALID_VALUE, "glClear", f"mask=0x{mask:X}: expected buffer bits only")
+        fail(gl.GL_INVALID_VALUE, "glClear", f"mask=0x{mask:X}: expected only buffer bits")
     elif framebuffer_status(context, context.state.draw_framebuffer) != gl.GL_FRAMEBUFFER_COMPLETE:
         name = context.state.draw_framebuffer
         fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, "glClear", f"framebuffer {name} is not complete")
@@ -60,18 +60,18 @@ def glClear(mask: int) -> None:
 
 
 def glFlush() -> None:
-    """Draw triangles and quads that wait for more; everything else has been carried out when its call returned."""
+    """Draw the collected vertices; everything else has already been carried out."""
     context = outside_begin("glFlush")
     if context is not None:
-        context.settle()
+        context.flush()
 
 
 def glFinish() -> None:
-    """Draw triangles and quads that wait for more, and write what is known of buffers but not written."""
+    """Draw the collected vertices, and write the pending rows of all buffers."""
     context = outside_begin("glFinish")
     if context is not None:
-        context.settle()
-        context.storage.settle()
+        context.flush()
+        context.storage.write_pending()
 
 
 __all__ = spelled_like_gl(globals())

@@ -19,18 +19,18 @@ A_PLANE = "GL_CLIP_PLANE0 … GL_CLIP_PLANE5"
 
 @in_lists
 def glClipPlane(plane: int, equation: Any) -> None:
-    """Set a clip plane (a, b, c, d): what has a·x + b·y + c·z + d·w < 0 is cut off; GL keeps it in eye space."""
+    """Set a clip plane (a, b, c, d) that clips where a·x + b·y + c·z + d·w < 0; GL stores it in eye space."""
     context = outside_begin("glClipPlane")
     if context is None or not is_one_of("glClipPlane", "plane", plane, CLIP_PLANES, A_PLANE):
         return
-    given = np.array(vector(equation, 4), np.float64)
-    made = tuple(eye_plane(context, given).tolist())
-    equations = with_item(context.state.clip_planes.equations, plane - gl.GL_CLIP_PLANE0, made)
+    object_space = np.array(vector(equation, 4), np.float64)
+    eye_space = tuple(eye_plane(context, object_space).tolist())
+    equations = with_item(context.state.clip_planes.equations, plane - gl.GL_CLIP_PLANE0, eye_space)
     change(context, "clip_planes", equations=equations)
 
 
 def glGetClipPlane(plane: int) -> Any:
-    """Return a clip plane in eye space, 4 float64."""
+    """Return the equation of a clip plane in eye space, 4 float64."""
     context = outside_begin("glGetClipPlane")
     if context is None or not is_one_of("glGetClipPlane", "plane", plane, CLIP_PLANES, A_PLANE):
         return None

@@ -1,6 +1,6 @@
-"""Numbers as GL takes them: integers that stand for colours, vectors of a given length.
+"""Conversion of arguments and answers: integers that represent colours, vectors of a fixed length.
 
-References: GL 2.1, table 2.9; the order of operations and roundings is that of Mesa's main/macros.h.
+References: GL 2.1, table 2.9; operations and roundings in the order of Mesa's main/macros.h.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def from_unsigned_short(s: int) -> float:
 
 
 def from_int(i: int) -> float:
-    """Return the float that an integer stands for: -(2**31) is -1, 2**31 - 1 is 1."""
+    """Return the float that an int represents: -(2**31) is -1, 2**31 - 1 is 1."""
     return float(np.float32(float(TWO * np.float32(c_int(int(i)).value) + ONE) * INT_STEP))
 
 
@@ -44,17 +44,17 @@ def from_unsigned_int(i: int) -> float:
 
 
 def to_int(value: float) -> int:
-    """Return the integer that stands for a float in -1 to 1: what glGetIntegerv answers for colours and depths."""
+    """Return the int that represents a float in [-1, 1]: glGetIntegerv of colours, normals and depths."""
     scaled = 2147483647.0 * value
     return int(scaled) if -2147483648.0 <= scaled <= 2147483647.0 else -2147483648
 
 
 def nearest_int(value: float) -> int:
-    """Return the nearest int that there is, halves away from zero, as C's lround: what glGetIntegerv answers else."""
+    """Return the nearest int, halves away from zero, as C's lround: glGetIntegerv of other floats."""
     return min(int(math.copysign(math.floor(abs(value) + 0.5), value)), LARGEST_INT)
 
 
-# what an array becomes before its numbers are taken: PyOpenGL hands GL the type that the call is named after
+# dtype that an array is converted to: PyOpenGL passes GL the type in the call's name
 ELEMENTS: dict[Callable[[Any], Any], type[np.generic]] = {
     from_byte: np.int8,
     from_unsigned_byte: np.uint8,
@@ -67,9 +67,9 @@ ELEMENTS: dict[Callable[[Any], Any], type[np.generic]] = {
 
 
 def numbers(params: Any, convert: Callable[[Any], Any] = float) -> np.ndarray:
-    """Return a vector argument (array, sequence, bytes, or one number) flat, as numbers of the type GL is handed.
+    """Return a vector argument (array, sequence, bytes, or one number) as a flat array of the call's type.
 
-    Arrays of floats are cut to the integers of a call that takes integers, and what is too large loses its upper bits.
+    For a call with integers, floats are truncated, and too large numbers lose their upper bits.
     """
     element = ELEMENTS.get(convert)
     if isinstance(params, bytes | bytearray | memoryview):
@@ -87,7 +87,7 @@ def vector(params: Any, length: int, convert: Callable[[Any], float] = float) ->
     Raises
     ------
     ValueError
-        There are fewer.
+        The argument has fewer numbers.
     """
     values = numbers(params, convert)
     if len(values) < length:
@@ -101,14 +101,14 @@ def first(params: Any, convert: Callable[[Any], Any] = float) -> Any:
 
 
 def as_floats(value: Any) -> Any:
-    """Return what a query answers: a float, or an array float32; None after an error."""
+    """Return the answer of a float query: a float, or an array float32; None after an error."""
     if isinstance(value, tuple):
         return np.array(value, np.float32)
     return None if value is None else float(np.float32(value))
 
 
 def as_ints(value: Any, convert: Callable[[float], int]) -> Any:
-    """Return what an integer query answers: an int, or an array int32; None after an error."""
+    """Return the answer of an integer query: an int, or an array int32; None after an error."""
     if isinstance(value, tuple):
         return np.array([convert(float(np.float32(v))) for v in value], np.int32)
     return None if value is None else convert(value)

@@ -1,4 +1,4 @@
-"""Debug groups: names for what is drawn in between."""
+"""Debug groups, which name the draws inside them."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from softshadow import tokens as gl
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 
-LONGEST_NAME = 4096  # GL_MAX_DEBUG_MESSAGE_LENGTH of Mesa
+LONGEST_NAME = 4096  # Mesa's GL_MAX_DEBUG_MESSAGE_LENGTH
 DEEPEST_GROUP = 63  # of GL's 64 groups the first is the default one
 SOURCES = (gl.GL_DEBUG_SOURCE_APPLICATION, gl.GL_DEBUG_SOURCE_THIRD_PARTY)
 
 
 def glPushDebugGroup(source: int, id: int, length: int, message: str | bytes) -> None:
-    """Name what is drawn until the matching pop; histories call it the object. A negative length is the whole text."""
+    """Name the draws until the matching pop: the object in pixel histories. Negative `length`: the whole message."""
     context = outside_begin("glPushDebugGroup")
     expected = "GL_DEBUG_SOURCE_APPLICATION or GL_DEBUG_SOURCE_THIRD_PARTY"
     if context is None or not is_one_of("glPushDebugGroup", "source", source, SOURCES, expected):

@@ -19,14 +19,14 @@ FIRST_DISTINCT_TOKEN = 0x100  # numbers below are shared by many tokens: GL_ZERO
 
 
 class GLError(SoftShadowError):
-    """A GL call that failed and changed nothing. PyOpenGL's own error has `err` to `result`, too.
+    """A GL call that failed and changed nothing. All attributes but `operation` are also in PyOpenGL's error.
 
     Attributes
     ----------
     err : int, GL's error code
-    description : str, its words as gluErrorString has them; PyOpenGL: bytes, and only once the error has been printed
-    baseOperation : str, the call; PyOpenGL: the function
-    result : None, since a failed call has none
+    description : str, as gluErrorString describes it; in PyOpenGL bytes, and set only after the error was printed
+    baseOperation : str, the call; in PyOpenGL the function
+    result : None, since a failed call returns nothing
     operation : str, the call
     """
 
@@ -34,21 +34,21 @@ class GLError(SoftShadowError):
 
     def __init__(self, err: int, operation: str, message: str) -> None:
         argument, colon, expected = message.partition(": ")
-        named = colon and "=" in argument.split(" ")[0]
-        said = f"{operation}({argument}): {expected}" if named else f"{operation}: {message}"
+        has_argument = colon and "=" in argument.split(" ")[0]
+        text = f"{operation}({argument}): {expected}" if has_argument else f"{operation}: {message}"
         name = token_name(err, ERROR_NAMES)
-        super().__init__(f"{name}: {said}")
+        super().__init__(f"{name}: {text}")
         self.err, self.operation, self.baseOperation = err, operation, operation
         self.description = name.removeprefix("GL_").replace("ENUM", "ENUMERANT").replace("_", " ").lower()
 
 
 def fail(code: int, operation: str, message: str) -> Any:
-    """Record an error and raise it, or return None where the context only records.
+    """Record an error and raise it; return None in a context with ``raise_errors=False``.
 
-    `message` is "argument=value: expected ...", the value as the caller spelled it.
+    `message` is "argument=value: expected ...", with the value as the caller wrote it.
     """
     context = current()
-    if context.error == gl.GL_NO_ERROR:  # GL keeps the first until it is asked
+    if context.error == gl.GL_NO_ERROR:  # GL keeps the first error until glGetError returns it
         context.error = code
     if context.raise_errors:
         raise GLError(code, operation, message)
@@ -56,7 +56,7 @@ def fail(code: int, operation: str, message: str) -> Any:
 
 
 def glGetError() -> int:
-    """Return the first error since the last call, and forget it. Between glBegin and glEnd it is an error itself."""
+    """Return the first error since the last glGetError and clear it. Between glBegin and glEnd this is an error."""
     context = current()
     if context.primitive is not None:
         context.error = context.error or gl.GL_INVALID_OPERATION  # recorded only: PyOpenGL does not check this call
@@ -73,7 +73,7 @@ def wrong_enum(operation: str, argument: str, value: Any, expected: str) -> Any:
 
 
 def is_one_of(operation: str, argument: str, value: Any, allowed: Container[int], expected: str) -> bool:
-    """Return whether an enum argument is allowed; if not, the call has failed."""
+    """Return whether an enum argument is allowed; otherwise the call fails."""
     if value in allowed:
         return True
     wrong_enum(operation, argument, value, expected)
@@ -81,7 +81,7 @@ def is_one_of(operation: str, argument: str, value: Any, allowed: Container[int]
 
 
 def outside_begin(operation: str) -> Context | None:
-    """Return the current context; None when the call has failed because it stands between glBegin and glEnd."""
+    """Return the current context; between glBegin and glEnd the call fails, and None is returned."""
     context = current()
     if context.primitive is None:
         return context

@@ -1,6 +1,6 @@
-"""Names from the time before GL took an extension over: ``glActiveTextureARB``, ``GL_INCR_WRAP_EXT``.
+"""Names of extensions that were promoted to core GL: ``glActiveTextureARB``, ``GL_INCR_WRAP_EXT``.
 
-A name with the suffix of a vendor or of the review board is the plain name wherever GL took it over unchanged.
+A name with the suffix of an extension means the core name if it was promoted unchanged.
 """
 
 from __future__ import annotations
@@ -9,8 +9,8 @@ from collections.abc import Container, Iterable
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 
-# the plain names whose extension was taken over unchanged, by suffix; * and ? as in file names
-TAKEN_OVER = {
+# core names that were promoted unchanged, by suffix of their extension; * and ? as in file names
+PROMOTED = {
     "ARB": """
         GL_ACTIVE_TEXTURE GL_CLIENT_ACTIVE_TEXTURE GL_MAX_TEXTURE_UNITS GL_TEXTURE? GL_TEXTURE[123]?
         glActiveTexture glClientActiveTexture glMultiTexCoord*
@@ -64,33 +64,33 @@ TAKEN_OVER = {
 }
 
 
-ALIKE = 0.85  # a slip of the pen, not another call: 'glStencilFnc', but not glDrawPixels for glReadPixels
+LEAST_SIMILARITY = 0.85  # accepts typing errors like 'glStencilFnc', but not glReadPixels for glDrawPixels
 
 
 def plain_name(name: str, known: Container[str]) -> str | None:
-    """Return the name without a suffix that means the same, or None."""
-    for suffix in TAKEN_OVER:
+    """Return the core name that a name with a suffix means, or None."""
+    for suffix in PROMOTED:
         plain = name.removesuffix(f"_{suffix}" if name.startswith("GL_") else suffix)
-        if plain != name and plain in known and _is_taken_over(plain, suffix):
+        if plain != name and plain in known and _is_promoted(plain, suffix):
             return plain
     return None
 
 
-def _is_taken_over(plain: str, suffix: str) -> bool:
-    return any(fnmatchcase(plain, pattern) for pattern in TAKEN_OVER[suffix].split())
+def _is_promoted(plain: str, suffix: str) -> bool:
+    return any(fnmatchcase(plain, pattern) for pattern in PROMOTED[suffix].split())
 
 
 def extension_names(known: Iterable[str]) -> list[str]:
-    """Return all names with a suffix, for ``from softshadow.gl import *``."""
+    """Return all promoted names with their suffixes, for ``from softshadow.gl import *``."""
     return sorted(
         f"{plain}_{suffix}" if plain.startswith("GL_") else f"{plain}{suffix}"
         for plain in known
-        for suffix in TAKEN_OVER
-        if _is_taken_over(plain, suffix)
+        for suffix in PROMOTED
+        if _is_promoted(plain, suffix)
     )
 
 
-def missing(name: str, known: Iterable[str]) -> str:
-    """Return the message for a name that is not here: that it is no part, and which names are near."""
-    close = get_close_matches(name, list(known), n=1, cutoff=ALIKE)
+def missing_message(name: str, known: Iterable[str]) -> str:
+    """Return the message for a missing name, with the most similar name that exists."""
+    close = get_close_matches(name, list(known), n=1, cutoff=LEAST_SIMILARITY)
     return f"{name} is not part of this subset of OpenGL" + (f"; did you mean {close[0]!r}?" if close else "")

@@ -1,4 +1,4 @@
-"""Fog."""
+"""Fog parameters."""
 
 from __future__ import annotations
 
@@ -17,22 +17,23 @@ MODES = (gl.GL_LINEAR, gl.GL_EXP, gl.GL_EXP2)
 
 @in_lists
 def glFogfv(pname: int, params: Any) -> None:
-    """Set the fog colour, or another fog parameter from a vector."""
+    """Set a fog parameter from a vector: the colour, or a number."""
     _set("glFogfv", pname, params, float)
 
 
 @in_lists
 def glFogiv(pname: int, params: Any) -> None:
-    """Set a fog parameter from integers: the colour spans the range of an int."""
+    """Set a fog parameter from integers; colours use the full range of int."""
     _set("glFogiv", pname, params, from_int)
 
 
 @in_lists
 def glFogf(pname: int, param: float) -> None:
-    """Set a fog parameter that is one number."""
+    """Set a fog parameter that is a single number."""
     if outside_begin("glFogf") is None:
         return
-    if is_one_of("glFogf", "pname", pname, (gl.GL_FOG_MODE, *NUMBERS), "a fog parameter that is one number"):
+    expected = "GL_FOG_MODE, GL_FOG_DENSITY, GL_FOG_START or GL_FOG_END"
+    if is_one_of("glFogf", "pname", pname, (gl.GL_FOG_MODE, *NUMBERS), expected):
         _set("glFogf", pname, param, float)
 
 

@@ -1,4 +1,4 @@
-"""The state of the per-fragment operations: alpha, stencil and depth test, blending, logic op, masks."""
+"""Calls that set the fragment operations: alpha, stencil and depth test, blending, logic operation, masks."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ FACTORS = {
     gl.GL_ONE_MINUS_CONSTANT_COLOR, gl.GL_CONSTANT_ALPHA, gl.GL_ONE_MINUS_CONSTANT_ALPHA, gl.GL_SRC_ALPHA_SATURATE,
 }  # fmt: skip
 A_FACTOR = "a blend factor (GL 2.1, table 4.2)"
-UNSIGNED = 0xFFFFFFFF  # masks are unsigned ints: -1 has every bit set
+UNSIGNED = 0xFFFFFFFF  # masks are unsigned: -1 sets all bits
 LOGIC_OPS = range(gl.GL_CLEAR, gl.GL_SET + 1)
 
 
@@ -41,10 +41,10 @@ def clamp01(value: float) -> float:
 
 
 def rounded(context: Context, *values: float) -> Any:
-    """Return one number, or a tuple of several, in the precision of the context."""
+    """Return a number, or a tuple of several, rounded to the context's precision."""
     single = context.real is np.float32
-    made = tuple(c_float(value).value if single else float(value) for value in values)
-    return made if len(made) > 1 else made[0]
+    numbers = tuple(c_float(value).value if single else float(value) for value in values)
+    return numbers if len(numbers) > 1 else numbers[0]
 
 
 # -- depth and alpha test ----------------------------------------------------------------------------------------------
@@ -58,7 +58,7 @@ def glDepthFunc(func: int) -> None:
 
 @in_lists
 def glDepthMask(flag: Any) -> None:
-    """Switch the writing of depth."""
+    """Enable or disable depth writes."""
     context = outside_begin("glDepthMask")
     if context is not None:
         change(context, "depth", write=bool(flag))
@@ -66,7 +66,7 @@ def glDepthMask(flag: Any) -> None:
 
 @in_lists
 def glAlphaFunc(func: int, ref: float) -> None:
-    """Set comparison and reference of the alpha test, which clamps it to [0, 1]."""
+    """Set comparison and reference of the alpha test; the test clamps the reference to [0, 1]."""
     context = outside_begin("glAlphaFunc")
     if context is not None and is_one_of("glAlphaFunc", "func", func, FUNCTIONS, A_FUNCTION):
         change(context, "alpha", func=int(func), ref=rounded(context, ref))
@@ -81,7 +81,7 @@ def glStencilFunc(func: int, ref: int, mask: int) -> None:
 
 @in_lists
 def glStencilFuncSeparate(face: int, func: int, ref: int, mask: int) -> None:
-    """Set the stencil comparison of one facing; the reference is clamped to what the buffer holds."""
+    """Set the stencil comparison of one facing; the test clamps the reference to the range of the buffer."""
     _stencil_func("glStencilFuncSeparate", face, func, ref, mask)
 
 
@@ -93,13 +93,13 @@ def _stencil_func(operation: str, face: int | None, func: int, ref: int, mask: i
 
 @in_lists
 def glStencilOp(fail: int, zfail: int, zpass: int) -> None:
-    """Set what happens to the stencil value of both facings: stencil test fails, depth test fails, both pass."""
+    """Set the stencil operations of both facings: stencil test fails, depth test fails, both pass."""
     _stencil_op("glStencilOp", None, fail, zfail, zpass)
 
 
 @in_lists
 def glStencilOpSeparate(face: int, sfail: int, dpfail: int, dppass: int) -> None:
-    """Set what happens to the stencil value of one facing."""
+    """Set the stencil operations of one facing."""
     _stencil_op("glStencilOpSeparate", face, sfail, dpfail, dppass)
 
 
@@ -115,13 +115,13 @@ def _stencil_op(operation: str, face: int | None, sfail: int, zfail: int, zpass:
 
 @in_lists
 def glStencilMask(mask: int) -> None:
-    """Set which stencil bits are written, for both facings."""
+    """Set the stencil write mask of both facings."""
     _stencil_mask("glStencilMask", None, mask)
 
 
 @in_lists
 def glStencilMaskSeparate(face: int, mask: int) -> None:
-    """Set which stencil bits are written, for one facing."""
+    """Set the stencil write mask of one facing."""
     _stencil_mask("glStencilMaskSeparate", face, mask)
 
 
@@ -132,7 +132,7 @@ def _stencil_mask(operation: str, face: int | None, mask: int) -> None:
 
 
 def _set_faces(context: Context, operation: str, face: int | None, **fields: int) -> None:
-    """Set fields of the faces that a call names; one that names none is about the active face."""
+    """Set fields of one face or both; without a `face`, of those chosen by glActiveStencilFaceEXT."""
     if face is not None and not is_one_of(operation, "face", face, FACES, A_FACE):
         return
     stencil = context.state.stencil
@@ -149,21 +149,21 @@ def _set_faces(context: Context, operation: str, face: int | None, **fields: int
 
 
 def extension_back(stencil: Stencil) -> str:
-    """Return the field that holds the back state of GL_EXT_stencil_two_side."""
+    """Return the name of the field with the back state of GL_EXT_stencil_two_side."""
     return "back" if stencil.two_side else "other_back"
 
 
 def core_back(stencil: Stencil) -> str:
-    """Return the field that holds GL 2.0's back state."""
+    """Return the name of the field with GL 2.0's back state."""
     return "other_back" if stencil.two_side else "back"
 
 
 # -- two-sided stencil before GL 2.0 -----------------------------------------------------------------------------------
 @in_lists
 def glActiveStencilFaceEXT(face: int) -> None:
-    """Say whether glStencilFunc, glStencilOp and glStencilMask set the front state or the extension's back state.
+    """Choose whether glStencilFunc, glStencilOp and glStencilMask set the front or the extension's back state.
 
-    That back state is in use while GL_STENCIL_TEST_TWO_SIDE_EXT is enabled.
+    The extension's back state is in use while GL_STENCIL_TEST_TWO_SIDE_EXT is enabled.
     """
     context, faces = outside_begin("glActiveStencilFaceEXT"), (gl.GL_FRONT, gl.GL_BACK)
     if context is not None and is_one_of("glActiveStencilFaceEXT", "face", face, faces, "GL_FRONT or GL_BACK"):
@@ -172,7 +172,7 @@ def glActiveStencilFaceEXT(face: int) -> None:
 
 @in_lists
 def glStencilFuncSeparateATI(frontfunc: int, backfunc: int, ref: int, mask: int) -> None:
-    """Set the stencil comparisons of the two facings, with one reference and one mask."""
+    """Set the stencil comparison of each facing, with one reference and one mask for both."""
     context, operation = outside_begin("glStencilFuncSeparateATI"), "glStencilFuncSeparateATI"
     if context is None or not is_one_of(operation, "frontfunc", frontfunc, FUNCTIONS, A_FUNCTION):
         return
@@ -187,7 +187,7 @@ glStencilOpSeparateATI = glStencilOpSeparate
 # -- colour ------------------------------------------------------------------------------------------------------------
 @in_lists
 def glColorMask(red: Any, green: Any, blue: Any, alpha: Any) -> None:
-    """Switch the writing of each colour channel."""
+    """Enable or disable writes to each colour channel."""
     context = outside_begin("glColorMask")
     if context is not None:
         change(context, "color", mask=(bool(red), bool(green), bool(blue), bool(alpha)))
@@ -195,7 +195,7 @@ def glColorMask(red: Any, green: Any, blue: Any, alpha: Any) -> None:
 
 @in_lists
 def glBlendFunc(sfactor: int, dfactor: int) -> None:
-    """Set the factors of source and destination."""
+    """Set the blend factors of source and destination."""
     _blend_func("glBlendFunc", sfactor, dfactor, sfactor, dfactor)
 
 
@@ -206,7 +206,7 @@ def glBlendFuncSeparate(
     sfactorAlpha: int,
     dfactorAlpha: int,
 ) -> None:
-    """Set the factors of colour and alpha apart."""
+    """Set the blend factors separately for colour and alpha."""
     _blend_func("glBlendFuncSeparate", sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha)
 
 
@@ -225,13 +225,13 @@ def _blend_func(operation: str, src_rgb: int, dst_rgb: int, src_alpha: int, dst_
 
 @in_lists
 def glBlendEquation(mode: int) -> None:
-    """Set how source and destination are put together."""
+    """Set the blend equation."""
     _blend_equation("glBlendEquation", mode, mode)
 
 
 @in_lists
 def glBlendEquationSeparate(modeRGB: int, modeAlpha: int) -> None:
-    """Set how source and destination are put together, colour and alpha apart."""
+    """Set the blend equation separately for colour and alpha."""
     _blend_equation("glBlendEquationSeparate", modeRGB, modeAlpha)
 
 
@@ -247,7 +247,7 @@ def _blend_equation(operation: str, mode_rgb: int, mode_alpha: int) -> None:
 
 @in_lists
 def glBlendColor(red: float, green: float, blue: float, alpha: float) -> None:
-    """Set the constant colour of blending."""
+    """Set the constant blend colour."""
     context = outside_begin("glBlendColor")
     if context is not None:
         change(context, "blend", color=rounded(context, red, green, blue, alpha))
@@ -255,7 +255,7 @@ def glBlendColor(red: float, green: float, blue: float, alpha: float) -> None:
 
 @in_lists
 def glLogicOp(opcode: int) -> None:
-    """Set the bitwise operation on colours."""
+    """Set the bitwise operation of GL_COLOR_LOGIC_OP."""
     context = outside_begin("glLogicOp")
     if context is not None and is_one_of("glLogicOp", "opcode", opcode, LOGIC_OPS, "GL_CLEAR … GL_SET"):
         change(context, "blend", logic_op=int(opcode))

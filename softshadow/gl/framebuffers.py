@@ -1,4 +1,4 @@
-"""Framebuffer objects: names, attachments, completeness, and which colour buffer is meant."""
+"""Framebuffer objects: names, attachments, completeness; selection of colour buffers."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from softshadow.context import Context
 from softshadow.framebuffer import DEFAULT, DRAW_BUFFERS, LARGEST_SIDE, Attachment, Framebuffer
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
-from softshadow.gl.names import generate, listed, take
+from softshadow.gl.names import generate, names_argument, reserve
 from softshadow.pipeline.commands import (
     AttachTexture,
     Command,
@@ -32,7 +32,7 @@ BUFFER_NAMES = ("GL_NONE", "GL_FRONT", "GL_BACK")
 WINDOW_BUFFERS = (
     gl.GL_NONE, gl.GL_FRONT, gl.GL_BACK, gl.GL_LEFT, gl.GL_FRONT_LEFT, gl.GL_BACK_LEFT, gl.GL_FRONT_AND_BACK,
 )  # fmt: skip
-SEVERAL = (gl.GL_FRONT, gl.GL_LEFT, gl.GL_RIGHT, gl.GL_FRONT_AND_BACK)  # glDrawBuffers takes single buffers only
+SEVERAL = (gl.GL_FRONT, gl.GL_LEFT, gl.GL_RIGHT, gl.GL_FRONT_AND_BACK)  # glDrawBuffers takes only single buffers
 MISSING_BUFFERS = (gl.GL_RIGHT, gl.GL_FRONT_RIGHT, gl.GL_BACK_RIGHT, gl.GL_AUX0, gl.GL_AUX1, gl.GL_AUX2, gl.GL_AUX3)
 BINDINGS = {
     gl.GL_FRAMEBUFFER: ("draw_framebuffer", "read_framebuffer"),
@@ -48,24 +48,24 @@ def glGenFramebuffers(n: int, framebuffers: Any = None) -> Any:
 
 
 def glBindFramebuffer(target: int, framebuffer: int) -> None:
-    """Draw to and read from a framebuffer object from now on; 0 is the window."""
+    """Bind a framebuffer object for drawing, reading or both; 0 is the window."""
     if (context := outside_begin("glBindFramebuffer")) is None:
         return None
     name = int(framebuffer)
     if target not in BINDINGS:
         return fail(gl.GL_INVALID_ENUM, "glBindFramebuffer", f"target={token_name(target)}: {EXPECTED_TARGET}")
     if name not in context.storage.framebuffers:
-        take(context, "framebuffer", name)
+        reserve(context, "framebuffer", name)
         context.execute(CreateFramebuffer(name))
     context.set(**dict.fromkeys(BINDINGS[target], name))
     return None
 
 
 def glDeleteFramebuffers(*arguments: Any) -> None:
-    """Delete framebuffer objects: (name), (names) or (n, names). A bound one is replaced by the window."""
+    """Delete framebuffer objects: (name), (names) or (n, names). If one is bound, the window is bound instead."""
     if (context := outside_begin("glDeleteFramebuffers")) is None:
         return None
-    names = [name for name in listed("glDeleteFramebuffers", arguments) if name > 0]
+    names = [name for name in names_argument("glDeleteFramebuffers", arguments) if name > 0]
     for binding in BINDINGS[gl.GL_FRAMEBUFFER]:
         if getattr(context.state, binding) in names:
             context.set(**{binding: DEFAULT})
@@ -75,13 +75,13 @@ def glDeleteFramebuffers(*arguments: Any) -> None:
 
 
 def glIsFramebuffer(framebuffer: int) -> bool:
-    """Return whether a name is that of a framebuffer object, which it becomes when it is first bound."""
+    """Return whether a framebuffer object of this name exists; the first glBindFramebuffer creates it."""
     context = outside_begin("glIsFramebuffer")
     return context is not None and framebuffer != DEFAULT and int(framebuffer) in context.storage.framebuffers
 
 
 def glFramebufferTexture2D(target: int, attachment: int, textarget: int, texture: int, level: int) -> None:
-    """Make a level of a texture the buffer of an attachment point; texture 0 detaches."""
+    """Attach a level of a texture to the bound framebuffer object; texture 0 detaches."""
     operation, name = "glFramebufferTexture2D", int(texture)
     if (context := outside_begin(operation)) is None:
         return None
@@ -99,28 +99,28 @@ def glFramebufferTexture2D(target: int, attachment: int, textarget: int, texture
 
 
 def attach(context: Context, attachment: int, command: Callable[[int], Command]) -> None:
-    """Carry out a command per attachment point; GL_DEPTH_STENCIL_ATTACHMENT is two."""
+    """Execute a command for each attachment point; GL_DEPTH_STENCIL_ATTACHMENT means two points."""
     both = attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT
     for point in (gl.GL_DEPTH_ATTACHMENT, gl.GL_STENCIL_ATTACHMENT) if both else (attachment,):
         context.execute(command(point))
 
 
 def bound_framebuffer(context: Context, target: int) -> int:
-    """Return the name that is bound to a target."""
+    """Return the name of the framebuffer bound to a target."""
     return int(getattr(context.state, BINDINGS[target][0]))
 
 
 def target_problem(target: int) -> Problem | None:
-    """Return (error code, why) where a target is none of framebuffers, else None."""
+    """Return (error code, message) if a target is not a framebuffer target, else None."""
     return None if target in BINDINGS else (gl.GL_INVALID_ENUM, f"target={token_name(target)}: {EXPECTED_TARGET}")
 
 
 def attachment_problem(context: Context, target: int, attachment: int) -> Problem | None:
-    """Return (error code, why) where nothing can be attached there, else None; the target is a right one."""
+    """Return (error code, message) if nothing can be attached there, else None; `target` must be valid."""
     if bound_framebuffer(context, target) == DEFAULT:
-        return gl.GL_INVALID_OPERATION, "the window is bound: its buffers cannot be exchanged"
+        return gl.GL_INVALID_OPERATION, "the window is bound: its buffers cannot be replaced"
     if attachment in range(gl.GL_COLOR_ATTACHMENT7 + 1, gl.GL_COLOR_ATTACHMENT0 + 32):
-        return gl.GL_INVALID_OPERATION, f"attachment={attachment:#x}: there are {len(COLOR_ATTACHMENTS)} for colour"
+        return gl.GL_INVALID_OPERATION, f"attachment={attachment:#x}: expected GL_COLOR_ATTACHMENT0 to 7"
     if attachment not in (*COLOR_ATTACHMENTS, *KINDS, gl.GL_DEPTH_STENCIL_ATTACHMENT):
         return gl.GL_INVALID_ENUM, (
             f"attachment={token_name(attachment)}: expected GL_COLOR_ATTACHMENT0 to 7, GL_DEPTH_ATTACHMENT, "
@@ -132,27 +132,28 @@ def attachment_problem(context: Context, target: int, attachment: int) -> Proble
 def _texture_problem(context: Context, textarget: int, name: int, level: int) -> Problem | None:
     texture = context.storage.textures.get(name)
     if texture is None:
-        return gl.GL_INVALID_OPERATION, f"texture={name} does not exist: bind it once first"
+        return gl.GL_INVALID_OPERATION, f"texture={name}: expected a texture that has been bound before"
     faces = range(gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X, gl.GL_TEXTURE_CUBE_MAP_NEGATIVE_Z + 1)
     if textarget != gl.GL_TEXTURE_2D and textarget not in faces:
         return gl.GL_INVALID_ENUM, (
             f"textarget={token_name(textarget)}: expected GL_TEXTURE_2D or a face of GL_TEXTURE_CUBE_MAP"
         )
     if (textarget == gl.GL_TEXTURE_2D) != (texture.target == gl.GL_TEXTURE_2D):
-        return gl.GL_INVALID_OPERATION, f"texture={name} is a {token_name(texture.target)}, not {token_name(textarget)}"
+        kinds = f"expected a texture for {token_name(textarget)}, got a {token_name(texture.target)}"
+        return gl.GL_INVALID_OPERATION, f"texture={name}: {kinds}"
     if not 0 <= level < LARGEST_SIDE.bit_length():
         return gl.GL_INVALID_VALUE, f"level={level}: expected 0 to {LARGEST_SIDE.bit_length() - 1}"
     return None
 
 
 def framebuffer_status(context: Context, framebuffer: int) -> int:
-    """Return whether a framebuffer is complete, as glCheckFramebufferStatus says it."""
+    """Return the completeness status of a framebuffer, as glCheckFramebufferStatus returns it."""
     if framebuffer == DEFAULT:
         return gl.GL_FRAMEBUFFER_COMPLETE
     target = context.storage.framebuffers[framebuffer]
     attachments = target.attachments
     target.clamps = all(attachment.image.format.kind != "float" for attachment in attachments.values())
-    if not all(_serves(context, point, attachment) for point, attachment in attachments.items()):
+    if not all(_is_complete(context, point, attachment) for point, attachment in attachments.items()):
         return gl.GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT
     if depth_and_stencil_differ(target):
         return gl.GL_FRAMEBUFFER_UNSUPPORTED
@@ -160,18 +161,18 @@ def framebuffer_status(context: Context, framebuffer: int) -> int:
 
 
 def depth_and_stencil_differ(target: Framebuffer) -> bool:
-    """Return whether depth and stencil values would lie in two objects, which gallium's drivers cannot draw to."""
-    found = [target.attachments[point] for point in KINDS if point in target.attachments]
-    return len({(each.texture, each.renderbuffer) for each in found}) > 1
+    """Return whether depth and stencil are attached from two objects, which Gallium drivers do not support."""
+    attachments = [target.attachments[point] for point in KINDS if point in target.attachments]
+    return len({(each.texture, each.renderbuffer) for each in attachments}) > 1
 
 
 def _shares_depth_and_stencil(target: Framebuffer) -> bool:
-    """Return whether the two points have the same object, or both nothing."""
+    """Return whether depth and stencil have the same object attached, or both nothing."""
     depth, stencil = (target.attachments.get(point) for point in KINDS)
     return (depth is None) == (stencil is None) and not depth_and_stencil_differ(target)
 
 
-def _serves(context: Context, point: int, attachment: Attachment) -> bool:
+def _is_complete(context: Context, point: int, attachment: Attachment) -> bool:
     image, texture = attachment.image, context.storage.textures.get(attachment.texture)
     if not (image.width > 0 and image.height > 0):
         return False
@@ -183,7 +184,7 @@ def _serves(context: Context, point: int, attachment: Attachment) -> bool:
 
 
 def glCheckFramebufferStatus(target: int) -> int:
-    """Return GL_FRAMEBUFFER_COMPLETE, or what is missing in the bound framebuffer (0 after an error)."""
+    """Return GL_FRAMEBUFFER_COMPLETE, or why the bound framebuffer is incomplete; 0 after an error."""
     if (context := outside_begin("glCheckFramebufferStatus")) is None:
         return 0
     if target not in BINDINGS:
@@ -193,37 +194,35 @@ def glCheckFramebufferStatus(target: int) -> int:
 
 
 def glGetFramebufferAttachmentParameteriv(target: int, attachment: int, pname: int, params: Any = None) -> Any:
-    """Return what is attached to a point of the bound framebuffer object."""
+    """Return a property of an attachment of the bound framebuffer object."""
     operation = "glGetFramebufferAttachmentParameteriv"
     if (context := outside_begin(operation)) is None:
         return None
     if problem := target_problem(target):
         return fail(problem[0], operation, problem[1])
     if bound_framebuffer(context, target) == DEFAULT:
-        return fail(
-            gl.GL_INVALID_ENUM, operation, "the window is bound: only framebuffer objects answer in this subset"
-        )
+        return fail(gl.GL_INVALID_ENUM, operation, "the window is bound: this subset queries only framebuffer objects")
     if problem := attachment_problem(context, target, attachment):
         return fail(problem[0], operation, problem[1])
     both, bound = attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT, bound_framebuffer(context, target)
     if both and not _shares_depth_and_stencil(context.storage.framebuffers[bound]):
-        return fail(gl.GL_INVALID_OPERATION, operation, "depth and stencil are not the same attachment")
-    found = context.storage.framebuffers[bound].attachments.get(gl.GL_DEPTH_ATTACHMENT if both else attachment)
-    kind = gl.GL_NONE if found is None else gl.GL_TEXTURE if found.texture else gl.GL_RENDERBUFFER
+        return fail(gl.GL_INVALID_OPERATION, operation, "depth and stencil attachments are not the same object")
+    attached = context.storage.framebuffers[bound].attachments.get(gl.GL_DEPTH_ATTACHMENT if both else attachment)
+    kind = gl.GL_NONE if attached is None else gl.GL_TEXTURE if attached.texture else gl.GL_RENDERBUFFER
     answers = {gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE: kind, gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME: 0}
-    of_textures = (gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL, gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_CUBE_MAP_FACE)
-    if found is None and pname in of_textures:
+    texture_only = (gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL, gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_CUBE_MAP_FACE)
+    if attached is None and pname in texture_only:
         return fail(gl.GL_INVALID_OPERATION, operation, f"pname={token_name(pname)}: nothing is attached there")
-    if found is not None:
-        answers[gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME] = found.texture or found.renderbuffer
-    if found is not None and found.texture:
-        cube = context.storage.textures[found.texture].target == gl.GL_TEXTURE_CUBE_MAP
-        answers[gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL] = found.level
+    if attached is not None:
+        answers[gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME] = attached.texture or attached.renderbuffer
+    if attached is not None and attached.texture:
+        cube = context.storage.textures[attached.texture].target == gl.GL_TEXTURE_CUBE_MAP
+        answers[gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL] = attached.level
         answers[gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_CUBE_MAP_FACE] = (
-            gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X + found.face if cube else 0
+            gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X + attached.face if cube else 0
         )
     if pname not in answers:
-        return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)} is no property of this attachment")
+        return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)}: expected a property of this attachment")
     if params is not None:
         np.asarray(params)[:1] = answers[pname]
     return answers[pname]
@@ -232,27 +231,27 @@ def glGetFramebufferAttachmentParameteriv(target: int, attachment: int, pname: i
 # -- colour buffers ----------------------------------------------------------------------------------------------------
 @in_lists
 def glDrawBuffer(mode: int) -> None:
-    """Say which colour buffer of the draw framebuffer is written, alone; GL_NONE: none."""
+    """Select the one colour buffer of the draw framebuffer that is written, or GL_NONE."""
     _select("glDrawBuffer", "draw", int(mode))
 
 
 @in_lists
 def glReadBuffer(mode: int) -> None:
-    """Say which colour buffer of the read framebuffer is read."""
+    """Select the colour buffer of the read framebuffer that is read."""
     _select("glReadBuffer", "read", int(mode))
 
 
 @in_lists
 def glDrawBuffers(*arguments: Any) -> None:
-    """Say which colour buffers get the colour of a fragment: (buffers) or (n, buffers)."""
-    operation, given = "glDrawBuffers", np.ravel(arguments[-1])
+    """Select the colour buffers that are written: (buffers) or (n, buffers)."""
+    operation, buffers = "glDrawBuffers", np.ravel(arguments[-1])
     if (context := outside_begin(operation)) is None:
         return None
     context.touched |= gl.GL_COLOR_BUFFER_BIT
-    count = int(arguments[0]) if len(arguments) == 2 else len(given)
-    if not 0 <= count <= DRAW_BUFFERS:
-        return fail(gl.GL_INVALID_VALUE, operation, f"n={count}: expected 0 to {DRAW_BUFFERS}")
-    modes = [int(mode) for mode in given[:count]]
+    n = int(arguments[0]) if len(arguments) == 2 else len(buffers)
+    if not 0 <= n <= DRAW_BUFFERS:
+        return fail(gl.GL_INVALID_VALUE, operation, f"n={n}: expected 0 to {DRAW_BUFFERS}")
+    modes = [int(mode) for mode in buffers[:n]]
     name = context.state.draw_framebuffer
     for index, mode in enumerate(modes):
         if problem := _several_problem(name, modes, index) or _buffer_problem(name, mode):
@@ -262,15 +261,15 @@ def glDrawBuffers(*arguments: Any) -> None:
 
 
 def _several_problem(framebuffer: int, modes: list[int], index: int) -> Problem | None:
-    """Return (error code, why) where a buffer cannot be one of several, else None."""
+    """Return (error code, message) if a buffer is not allowed in a list of several, else None."""
     mode, in_window = modes[index], framebuffer == DEFAULT
     if mode == gl.GL_BACK and in_window and len(modes) > 1:
-        return gl.GL_INVALID_OPERATION, "GL_BACK stands alone"
+        return gl.GL_INVALID_OPERATION, "buffers=GL_BACK: expected no other buffer beside it"
     if mode in SEVERAL or (mode == gl.GL_BACK and not in_window):
-        return gl.GL_INVALID_ENUM, f"buffers={token_name(mode, BUFFER_NAMES)} may be several buffers"
+        return gl.GL_INVALID_ENUM, f"buffers={token_name(mode, BUFFER_NAMES)}: expected names of single buffers"
     before = [other for other in modes[:index] if other != gl.GL_NONE]
     if mode in before or (in_window and before and mode in WINDOW_BUFFERS and mode != gl.GL_NONE):
-        return gl.GL_INVALID_OPERATION, f"buffers={token_name(mode, BUFFER_NAMES)} stands for a buffer named before"
+        return gl.GL_INVALID_OPERATION, f"buffers={token_name(mode, BUFFER_NAMES)}: expected each buffer once"
     return None
 
 
@@ -287,16 +286,15 @@ def _select(operation: str, which: str, mode: int) -> None:
 
 
 def _buffer_problem(framebuffer: int, mode: int) -> Problem | None:
-    """Return (error code, why) where a name is that of no colour buffer of a framebuffer, else None."""
+    """Return (error code, message) if a framebuffer has no such colour buffer, else None."""
     attachments = range(gl.GL_COLOR_ATTACHMENT0, gl.GL_COLOR_ATTACHMENT0 + 32)
     if mode not in WINDOW_BUFFERS and mode not in MISSING_BUFFERS and mode not in attachments:
-        return gl.GL_INVALID_ENUM, f"mode={token_name(mode, BUFFER_NAMES)} names no colour buffer"
+        return gl.GL_INVALID_ENUM, f"mode={token_name(mode, BUFFER_NAMES)}: expected a colour buffer"
     if mode in (WINDOW_BUFFERS if framebuffer == DEFAULT else (gl.GL_NONE, *COLOR_ATTACHMENTS)):
         return None
     expected = "GL_NONE, GL_FRONT or GL_BACK" if framebuffer == DEFAULT else "GL_NONE or GL_COLOR_ATTACHMENT0 to 7"
-    spelled = token_name(mode, BUFFER_NAMES)
     return gl.GL_INVALID_OPERATION, (
-        f"mode={spelled}: framebuffer {framebuffer} has no such buffer, expected {expected}"
+        f"mode={token_name(mode, BUFFER_NAMES)}: expected {expected} for framebuffer {framebuffer}"
     )
 
 

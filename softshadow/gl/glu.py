@@ -1,4 +1,4 @@
-"""GLU's cameras and projections."""
+"""GLU's cameras, projections, and window coordinates of points."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from softshadow.programs.inverse import GENERAL, TRANSLATION, UNKNOWN
 
 @in_lists
 def gluPerspective(fovy: float, aspect: float, zNear: float, zFar: float) -> None:
-    """Multiply by a perspective projection. `fovy` in degrees; does nothing where GLU does nothing."""
+    """Multiply by a perspective projection, `fovy` in degrees; do nothing for arguments that GLU ignores."""
     context = outside_begin("gluPerspective")
     sine = math.sin(math.radians(fovy / 2))
     if context is not None and zFar != zNear and sine != 0 and aspect != 0:
-        made = matrices.perspective(fovy, aspect, zNear, zFar, context.real)
-        multiply_current(context, made, GENERAL | UNKNOWN)
+        projection = matrices.perspective(fovy, aspect, zNear, zFar, context.real)
+        multiply_current(context, projection, GENERAL | UNKNOWN)
 
 
 @in_lists
 def gluOrtho2D(left: float, right: float, bottom: float, top: float) -> None:
-    """Multiply by a parallel projection of a rectangle, depth -1 to 1."""
+    """Multiply by an orthographic projection of a rectangle, depth -1 to 1."""
     glOrtho(left, right, bottom, top, -1, 1)
 
 
@@ -37,27 +37,27 @@ def gluLookAt(
     centerX: float, centerY: float, centerZ: float,
     upX: float, upY: float, upZ: float,
 ) -> None:  # fmt: skip
-    """Multiply by the view of an eye that looks at a centre."""
+    """Multiply by the view matrix of an eye looking at a centre."""
     context = outside_begin("gluLookAt")
     if context is not None:
         eye, center, up = (eyeX, eyeY, eyeZ), (centerX, centerY, centerZ), (upX, upY, upZ)
-        made = matrices.look_at(context.matrix_stack[-1], eye, center, up)
-        set_current(context, made, context.kind_stack[-1] | GENERAL | TRANSLATION | UNKNOWN)
+        view = matrices.look_at(context.matrix_stack[-1], eye, center, up)
+        set_current(context, view, context.kind_stack[-1] | GENERAL | TRANSLATION | UNKNOWN)
 
 
 def gluProject(
     objX: float, objY: float, objZ: float, model: Any = None, proj: Any = None, view: Any = None
 ) -> tuple[float, float, float] | None:  # fmt: skip
-    """Return the window coordinates of a point, in double precision; y from the bottom.
+    """Return the window coordinates of a point, in double precision; y counts from the bottom.
 
-    Matrices and viewport are the current ones where they are not given.
+    Matrices and viewport default to the current ones.
 
     Raises
     ------
     ValueError
         The point projects to infinity.
     """
-    if any(given is None for given in (model, proj, view)) and outside_begin("gluProject") is None:
+    if any(argument is None for argument in (model, proj, view)) and outside_begin("gluProject") is None:
         return None
     model, proj, (left, bottom, width, height) = _current_or(model, proj, view)
     x, y, z, w = _applied(proj, _applied(model, (float(objX), float(objY), float(objZ), 1.0)))
@@ -70,14 +70,16 @@ def gluProject(
 def gluUnProject(
     winX: float, winY: float, winZ: float, model: Any = None, proj: Any = None, view: Any = None
 ) -> tuple[float, float, float] | None:  # fmt: skip
-    """Return the point whose window coordinates these are, in double precision.
+    """Return the point with these window coordinates, in double precision.
+
+    Matrices and viewport default to the current ones.
 
     Raises
     ------
     ValueError
         The matrices have no inverse, or the point lies at infinity.
     """
-    if any(given is None for given in (model, proj, view)) and outside_begin("gluUnProject") is None:
+    if any(argument is None for argument in (model, proj, view)) and outside_begin("gluUnProject") is None:
         return None
     model, proj, (left, bottom, width, height) = _current_or(model, proj, view)
     ndc = [(winX - left) / width * 2 - 1, (winY - bottom) / height * 2 - 1, winZ * 2 - 1, 1.0]
@@ -91,13 +93,13 @@ def gluUnProject(
 
 
 def _current_or(model: Any, proj: Any, view: Any) -> tuple[list[float], list[float], tuple[float, ...]]:
-    """Return two matrices, column after column, and a viewport; the current ones where None."""
+    """Return two matrices as 16 numbers in column order, and a viewport; None means the current one."""
     context = current()
-    standing = context.state.viewport
-    box = (standing.x, standing.y, standing.width, standing.height) if view is None else tuple(np.ravel(view).tolist())
+    viewport = context.state.viewport
+    box = (viewport.x, viewport.y, viewport.width, viewport.height) if view is None else tuple(np.ravel(view).tolist())
     stacks = ((model, context.modelview_stack), (proj, context.projection_stack))
-    made = [stack[-1].T if matrix is None else np.asarray(matrix) for matrix, stack in stacks]
-    columns = [np.ravel(matrix).astype(np.float64).tolist() for matrix in made]
+    both = [stack[-1].T if matrix is None else np.asarray(matrix) for matrix, stack in stacks]
+    columns = [np.ravel(matrix).astype(np.float64).tolist() for matrix in both]
     return columns[0], columns[1], box
 
 

@@ -1,4 +1,4 @@
-"""Immediate mode: glBegin, vertices, glEnd, and rectangles."""
+"""Immediate mode: glBegin, glVertex, glEnd, glRect."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from softshadow.gl.conversions import vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.materials import follow_color, material_field
-from softshadow.gl.vertex_format import REST, begin, end_continued_loop, give, store_vertex, vertices_of
+from softshadow.gl.vertex_format import REST, begin, carry_attribute, end_continued_loop, store_vertex, vertices_of
 from softshadow.pipeline.mesa.driver_draws import CORNERS
 
 MODES = range(gl.GL_POINTS, gl.GL_POLYGON + 1)
@@ -21,7 +21,7 @@ A_MODE = "GL_POINTS … GL_POLYGON"
 
 
 def can_draw(context: Context, operation: str) -> bool:
-    """Return whether the framebuffer can be drawn to; if not, the call has failed."""
+    """Return whether the draw framebuffer is complete; otherwise the call fails."""
     name = context.state.draw_framebuffer
     if framebuffer_status(context, name) == gl.GL_FRAMEBUFFER_COMPLETE:
         return True
@@ -39,7 +39,7 @@ def glBegin(mode: int) -> None:
 
 @in_lists
 def glEnd() -> None:
-    """Draw the primitive that has been collected."""
+    """Draw the primitive, or collect it to be drawn together with others."""
     context = current()
     primitive = context.primitive
     if primitive is None:
@@ -47,7 +47,7 @@ def glEnd() -> None:
         return
     context.primitive = None
     follow_color(context)
-    context.pending.stored |= bool(primitive.positions)
+    context.pending.reset_due |= bool(primitive.positions)
     if not primitive.positions:
         context.vertex_buffer.end_pair(primitive.mode, 0)
         return
@@ -55,10 +55,10 @@ def glEnd() -> None:
         end_continued_loop(context, primitive)
     vertices = vertices_of(context, primitive)
     if primitive.from_list and context.list_depth > 0:
-        context.draw(primitive.mode, vertices, in_order(len(vertices.position)))
+        context.draw(primitive.mode, vertices, consecutive_indices(len(vertices.position)))
         return
     one_triangle = primitive.mode in (gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN) and len(vertices.position) == 3
-    mode = gl.GL_TRIANGLES if one_triangle else primitive.mode  # as Mesa has it (vbo_try_prim_conversion)
+    mode = gl.GL_TRIANGLES if one_triangle else primitive.mode  # as in Mesa (vbo_try_prim_conversion)
     if mode in CORNERS:
         context.collect(mode, vertices)
     else:
@@ -67,25 +67,25 @@ def glEnd() -> None:
     context.vertex_buffer.end_pair(gl.GL_LINES if one_line else mode, len(vertices.position))
 
 
-def in_order(count: int) -> np.ndarray:
-    """Return the indices 0, 1, 2 ...: Mesa's lists draw by indices, which cuts quads the other way."""
+def consecutive_indices(count: int) -> np.ndarray:
+    """Return the indices 0, 1, 2 ...: Mesa's display lists draw with indices, which cuts quads the other way."""
     indices = np.arange(count, dtype=np.int32)
     indices.setflags(write=False)
     return indices
 
 
 def add_vertex(context: Context, *coordinates: float) -> None:
-    """Add a vertex with the current colour, normal and texture coordinates to the primitive; z = 0, w = 1."""
+    """Add a vertex with the current attributes to the primitive; missing coordinates are z = 0, w = 1."""
     primitive = context.primitive
-    if primitive is None:  # a vertex outside glBegin and glEnd is undefined in GL; here it does nothing
-        context.settle()
+    if primitive is None:  # undefined in GL; here it adds nothing
+        context.flush()
         return
-    give(context, "position", len(coordinates))
-    standing = context.current
+    carry_attribute(context, "position", len(coordinates))
+    attributes = context.current
     primitive.positions.append((*coordinates, *REST[len(coordinates) :]))  # type: ignore[arg-type]
-    primitive.colors.append(standing.color)
-    primitive.normals.append(standing.normal)
-    primitive.texcoords.append(tuple(standing.texcoords))
+    primitive.colors.append(attributes.color)
+    primitive.normals.append(attributes.normal)
+    primitive.texcoords.append(tuple(attributes.texcoords))
     for name, rows in primitive.materials.items():
         rows.append(material_field(context, name))
     store_vertex(context, primitive)
@@ -145,7 +145,7 @@ def glVertex4iv(v: Any) -> None:
     add_vertex(current(), *vector(v, 4, int))
 
 
-# GL makes single precision floats of all of them
+# GL converts all coordinates to single precision
 glVertex2d = glVertex2i = glVertex2s = glVertex2f
 glVertex3d = glVertex3i = glVertex3s = glVertex3f
 glVertex4d = glVertex4i = glVertex4s = glVertex4f

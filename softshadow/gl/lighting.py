@@ -18,7 +18,7 @@ from softshadow.gl.fragment_state import change, rounded
 
 COLORS = {gl.GL_AMBIENT: "ambient", gl.GL_DIFFUSE: "diffuse", gl.GL_SPECULAR: "specular"}
 PLACES = {gl.GL_POSITION: "position", gl.GL_SPOT_DIRECTION: "spot_direction"}
-# parameter: (field, largest); the smallest is 0
+# parameter: (field, largest value); the smallest is 0
 NUMBERS = {
     gl.GL_SPOT_EXPONENT: ("spot_exponent", 128.0),
     gl.GL_SPOT_CUTOFF: ("spot_cutoff", 180.0),
@@ -39,22 +39,22 @@ A_PARAMETER = "a light parameter (GL 2.1, table 2.11)"
 # -- lights ------------------------------------------------------------------------------------------------------------
 @in_lists
 def glLightfv(light: int, pname: int, params: Any) -> None:
-    """Set a parameter of a light; a position or spot direction goes through the modelview matrix of now."""
+    """Set a parameter of a light; positions and spot directions are transformed by the current modelview matrix."""
     _set("glLightfv", light, pname, params, float)
 
 
 @in_lists
 def glLightiv(light: int, pname: int, params: Any) -> None:
-    """Set a parameter of a light from integers: colours span the range of an int."""
+    """Set a parameter of a light from integers; colours use the full range of int."""
     _set("glLightiv", light, pname, params, from_int)
 
 
 @in_lists
 def glLightf(light: int, pname: int, param: float) -> None:
-    """Set a parameter of a light that is one number."""
+    """Set a parameter of a light that is a single number."""
     if outside_begin("glLightf") is None:
         return
-    if is_one_of("glLightf", "pname", pname, NUMBERS, "a light parameter that is one number"):
+    if is_one_of("glLightf", "pname", pname, NUMBERS, "a light parameter that is a single number"):
         _set("glLightf", light, pname, param, float)
 
 
@@ -79,14 +79,14 @@ def _set(operation: str, light: int, pname: int, params: Any, color: Callable[[A
 
 
 def in_eye_space(context: Context, place: Any) -> tuple[float, ...]:
-    """Return a point (4,) or a direction (3,) taken through the modelview matrix, each step rounded in GL's order."""
+    """Return a point (4,) or direction (3,) times the modelview matrix, each step rounded in GL's order."""
     m = context.modelview_stack[-1]
     values = [context.real(rounded(context, v)) for v in place]
     with np.errstate(all="ignore"):
-        turned = (m[:, 0] * values[0] + m[:, 1] * values[1]) + m[:, 2] * values[2]
+        product = (m[:, 0] * values[0] + m[:, 1] * values[1]) + m[:, 2] * values[2]
         if len(values) == 4:
-            turned = turned + m[:, 3] * values[3]
-    return tuple(turned.tolist()[: len(values)])
+            product = product + m[:, 3] * values[3]
+    return tuple(product.tolist()[: len(values)])
 
 
 def _set_number(operation: str, context: Context, light: int, pname: int, value: float) -> None:
@@ -105,12 +105,12 @@ def _replace(context: Context, light: int, **fields: Any) -> None:
 
 
 def glGetLightfv(light: int, pname: int) -> Any:
-    """Return a parameter of a light: a float, or an array float32; position and spot direction in eye space."""
+    """Return a parameter of a light: a float, or an array float32; positions and directions in eye space."""
     return as_floats(_parameter("glGetLightfv", light, pname))
 
 
 def glGetLightiv(light: int, pname: int) -> Any:
-    """Return a parameter of a light: an int, or an array int32; colours span the range of an int."""
+    """Return a parameter of a light: an int, or an array int32; colours use the full range of int."""
     return as_ints(_parameter("glGetLightiv", light, pname), to_int if pname in COLORS else int)
 
 
@@ -126,22 +126,22 @@ def _parameter(operation: str, light: int, pname: int) -> Any:
 # -- light model and shade model ---------------------------------------------------------------------------------------
 @in_lists
 def glLightModelfv(pname: int, params: Any) -> None:
-    """Set the scene's ambient light, or one of the light model's switches."""
+    """Set the global ambient light, or a switch of the light model."""
     _set_model("glLightModelfv", pname, params, float)
 
 
 @in_lists
 def glLightModeliv(pname: int, params: Any) -> None:
-    """Set the light model from integers: the ambient light spans the range of an int."""
+    """Set the light model from integers; the ambient light uses the full range of int."""
     _set_model("glLightModeliv", pname, params, from_int)
 
 
 @in_lists
 def glLightModelf(pname: int, param: float) -> None:
-    """Set a switch of the light model: local viewer, two sides, separate specular colour."""
+    """Set a switch of the light model: local viewer, two-sided lighting, separate specular colour."""
     if outside_begin("glLightModelf") is None:
         return
-    if is_one_of("glLightModelf", "pname", pname, MODEL_NUMBERS, "a light model parameter that is one number"):
+    if is_one_of("glLightModelf", "pname", pname, MODEL_NUMBERS, "a switch of the light model"):
         _set_model("glLightModelf", pname, param, float)
 
 
@@ -158,7 +158,7 @@ def _set_model(operation: str, pname: int, params: Any, color: Callable[[Any], f
     plain = int if color is from_int else float
     if pname == gl.GL_LIGHT_MODEL_AMBIENT:
         ambient = rounded(context, *vector(params, 4, color))
-        if ambient != rounded(context, *context.state.lighting.model_ambient):  # the initial 0.2 is no float32
+        if ambient != rounded(context, *context.state.lighting.model_ambient):  # initially 0.2, not rounded
             change(context, "lighting", model_ambient=ambient)
     elif pname in MODEL_SWITCHES:
         change(context, "lighting", **{MODEL_SWITCHES[pname]: bool(first(params, plain))})
@@ -171,7 +171,7 @@ def _set_model(operation: str, pname: int, params: Any, color: Callable[[Any], f
 
 @in_lists
 def glShadeModel(mode: int) -> None:
-    """Set whether colours are interpolated or those of the provoking vertex."""
+    """Set whether colours are interpolated or taken from the provoking vertex."""
     context = outside_begin("glShadeModel")
     modes = (gl.GL_FLAT, gl.GL_SMOOTH)
     if context is not None and is_one_of("glShadeModel", "mode", mode, modes, "GL_FLAT or GL_SMOOTH"):

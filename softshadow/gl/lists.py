@@ -1,6 +1,6 @@
-"""Display lists: calls that are kept and carried out later.
+"""Display lists: calls that are recorded and carried out later.
 
-What a list keeps is what `in_lists` decorates; arrays are read when the list is made.
+A list records the calls decorated by `in_lists`; arrays are read while the list is compiled.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ MODES = (gl.GL_COMPILE, gl.GL_COMPILE_AND_EXECUTE)
 
 
 def glGenLists(range: int) -> int | None:
-    """Return the first of `range` unused names in a row; they become empty lists."""
+    """Return the first of `range` consecutive unused names, and create empty lists of these names."""
     context = outside_begin("glGenLists")
     if context is None:
         return None
-    context.settle()
+    context.flush()
     if range < 0:
         fail(gl.GL_INVALID_VALUE, "glGenLists", f"range={range}: expected 0 or more")
         return None
@@ -42,12 +42,12 @@ def glGenLists(range: int) -> int | None:
 
 
 def glNewList(list: int, mode: int) -> None:
-    """Start a list: the calls until glEndList are kept under its name, and carried out only where `mode` says so."""
+    """Begin a list: record the calls until glEndList; GL_COMPILE_AND_EXECUTE also carries them out."""
     context = outside_begin("glNewList")
     if context is None:
         return
-    context.settle()
-    context.pending.read(context)
+    context.flush()
+    context.update_current()
     name = c_uint(int(list)).value
     if context.compiled_list is not None:
         fail(gl.GL_INVALID_OPERATION, "glNewList", f"list {context.compiled_list.name} has not been ended")
@@ -58,26 +58,26 @@ def glNewList(list: int, mode: int) -> None:
 
 
 def glEndList() -> None:
-    """End the list: it replaces the one of its name. An open glBegin is an error, but the list ends."""
+    """End the list, which replaces an older one of its name. A missing glEnd is an error, but the list ends."""
     context = current()
     compiled, context.compiled_list = context.compiled_list, None
     if compiled is not None:
         context.lists[compiled.name] = compiled
     if outside_begin("glEndList") is None:
         return
-    context.settle()
+    context.flush()
     if compiled is None:
         fail(gl.GL_INVALID_OPERATION, "glEndList", "there was no glNewList before it")
 
 
 @in_lists
 def glCallList(list: int) -> None:
-    """Carry out a list; a name without one does nothing, nor does name 0 in a list.
+    """Carry out a list. A name without a list does nothing, nor does name 0 inside another list.
 
     Raises
     ------
     GLError
-        GL_INVALID_VALUE for list 0; else the first error of the list, whose calls after it are carried out, too.
+        GL_INVALID_VALUE for name 0; else the first error of the list, after all its calls have been carried out.
     """
     name = c_uint(int(list)).value
     if name == 0 and current().list_depth == 0:
@@ -88,26 +88,26 @@ def glCallList(list: int) -> None:
 
 @in_lists
 def glCallLists(*arguments: Any) -> None:
-    """Carry out the lists of an array of names, or of the characters of a string, counted from glListBase on.
+    """Carry out several lists: (lists), or (n, type, lists) as in C.
 
-    (lists), or (n, type, lists) as in C.
+    The numbers of an array, or the characters of a string, are added to glListBase to get the names.
     """
     context, lists = current(), arguments[-1]
     if len(arguments) == 3:
-        count, type, _ = arguments
-        if count < 0:
-            fail(gl.GL_INVALID_VALUE, "glCallLists", f"n={count}: expected 0 or more")
+        n, type, _ = arguments
+        if n < 0:
+            fail(gl.GL_INVALID_VALUE, "glCallLists", f"n={n}: expected 0 or more")
             return
         if not is_one_of("glCallLists", "type", type, NAME_TYPES, "an integer type or GL_FLOAT"):
             return
-        lists = lists[:count]
+        lists = lists[:n]
     characters = lists.encode() if isinstance(lists, str) else lists
     names = list(characters) if isinstance(characters, bytes) else np.ravel(characters).tolist()
     _carry_out(partial(_call, context, context.list_base + int(name)) for name in names)
 
 
 def _call(context: Context, name: int) -> None:
-    context.settle()
+    context.flush()
     if name not in context.lists or context.list_depth == DEEPEST_LIST:
         return
     context.list_depth += 1
@@ -115,11 +115,11 @@ def _call(context: Context, name: int) -> None:
         _carry_out(context.lists[name].calls)
     finally:
         context.list_depth -= 1
-        context.settle()
+        context.flush()
 
 
 def _carry_out(calls: Iterable[Callable[[], Any]]) -> None:
-    """Make all calls, then raise the first of their errors: GL does not stop at one."""
+    """Make all calls, then raise the first of their errors: GL does not stop at an error."""
     first_error = None
     for call in calls:
         try:
@@ -132,7 +132,7 @@ def _carry_out(calls: Iterable[Callable[[], Any]]) -> None:
 
 @in_lists
 def glListBase(base: int) -> None:
-    """Set what glCallLists adds to the names."""
+    """Set the number that glCallLists adds to each name."""
     context = outside_begin("glListBase")
     if context is not None:
         context.list_base = int(base)
@@ -140,11 +140,11 @@ def glListBase(base: int) -> None:
 
 
 def glDeleteLists(list: int, range: int) -> None:
-    """Forget `range` lists in a row."""
+    """Delete `range` lists with consecutive names."""
     context = outside_begin("glDeleteLists")
     if context is None:
         return
-    context.settle()
+    context.flush()
     if range < 0:
         fail(gl.GL_INVALID_VALUE, "glDeleteLists", f"range={range}: expected 0 or more")
         return
@@ -153,7 +153,7 @@ def glDeleteLists(list: int, range: int) -> None:
 
 
 def glIsList(list: int) -> bool | None:
-    """Return whether a name is that of a list."""
+    """Return whether a list of this name exists."""
     context = outside_begin("glIsList")
     return None if context is None else int(list) in context.lists
 

@@ -1,4 +1,4 @@
-"""Materials, and colours that follow glColor."""
+"""Materials, and material colours that follow glColor."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import as_floats, as_ints, first, from_int, nearest_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.fragment_state import A_FACE, FACES, change, rounded
-from softshadow.gl.vertex_format import give
-from softshadow.state import Lighting, Material
+from softshadow.gl.vertex_format import carry_attribute
+from softshadow.state import Lighting, MaterialState
 
-# parameter: the fields of the material that it sets
+# parameter: fields of the material
 FIELDS: dict[int, tuple[str, ...]] = {
     gl.GL_AMBIENT: ("ambient",),
     gl.GL_DIFFUSE: ("diffuse",),
@@ -33,11 +33,11 @@ LARGEST_SHININESS = 128
 
 @in_lists
 def glMaterialfv(face: int, pname: int, params: Any) -> None:
-    """Set a material of one or both facings, also between glBegin and glEnd.
+    """Set a material parameter of one or both faces; allowed between glBegin and glEnd.
 
-    What GL_COLOR_MATERIAL makes follow glColor keeps its colour.
+    Colours that follow glColor because of GL_COLOR_MATERIAL do not change.
     """
-    context = _checked("glMaterialfv", face, pname)
+    context = _context_if_valid("glMaterialfv", face, pname)
     if context is None:
         return
     if pname == gl.GL_SHININESS:
@@ -48,8 +48,8 @@ def glMaterialfv(face: int, pname: int, params: Any) -> None:
 
 @in_lists
 def glMaterialiv(face: int, pname: int, params: Any) -> None:
-    """Set a material from integers: colours span the range of an int."""
-    context = _checked("glMaterialiv", face, pname)
+    """Set a material parameter from integers; colours use the full range of int."""
+    context = _context_if_valid("glMaterialiv", face, pname)
     if context is None:
         return
     if pname == gl.GL_SHININESS:
@@ -58,7 +58,7 @@ def glMaterialiv(face: int, pname: int, params: Any) -> None:
         set_material(context, face, dict.fromkeys(FIELDS[pname], tuple(vector(params, 4, from_int))))
 
 
-def _checked(operation: str, face: int, pname: int) -> Context | None:
+def _context_if_valid(operation: str, face: int, pname: int) -> Context | None:
     context = current()
     if not is_one_of(operation, "face", face, FACES, A_FACE):
         return None
@@ -69,7 +69,7 @@ def _checked(operation: str, face: int, pname: int) -> Context | None:
 def glMaterialf(face: int, pname: int, param: float) -> None:
     """Set the shininess, 0 to 128."""
     if is_one_of("glMaterialf", "pname", pname, (gl.GL_SHININESS,), "GL_SHININESS"):
-        context = _checked("glMaterialf", face, pname)
+        context = _context_if_valid("glMaterialf", face, pname)
         if context is not None:
             _set_shininess("glMaterialf", context, face, param)
 
@@ -85,28 +85,28 @@ def _set_shininess(operation: str, context: Context, face: int, value: float) ->
 
 
 def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None:
-    """Set fields of the material of one or both facings, but those that follow glColor.
+    """Set fields of the material of one or both faces, except those that follow glColor.
 
-    Between glBegin and glEnd this makes them an attribute of the vertices.
+    Between glBegin and glEnd they become attributes of the vertices.
     """
-    context.settle()
+    context.flush()
     lighting = context.state.lighting
-    made: dict[str, Material] = {}
+    materials: dict[str, MaterialState] = {}
     for side in SIDES[face]:
         free = {field: value for field, value in fields.items() if field not in followed(lighting, side)}
         for field in free:
-            context.pending.about_to_give(f"{side}.{field}", context)
+            context.remember_attribute(f"{side}.{field}")
         if context.primitive is not None:
             for field, value in free.items():
-                give(context, f"{side}.{field}", np.size(value))
-                before = [getattr(getattr(lighting, side), field)] * len(context.primitive.positions)
-                context.primitive.materials.setdefault(f"{side}.{field}", before)
-        made[side] = evolve(getattr(lighting, side), **free)
-    change(context, "lighting", **made)
+                carry_attribute(context, f"{side}.{field}", np.size(value))
+                old_values = [getattr(getattr(lighting, side), field)] * len(context.primitive.positions)
+                context.primitive.materials.setdefault(f"{side}.{field}", old_values)
+        materials[side] = evolve(getattr(lighting, side), **free)
+    change(context, "lighting", **materials)
 
 
 def material_field(context: Context, name: str) -> Any:
-    """Return a field of a material by its name in `Vertices.materials`, as "front.diffuse"."""
+    """Return a field of a material by its name in `Vertices.materials`, such as "front.diffuse"."""
     side, _, field = name.partition(".")
     return getattr(getattr(context.state.lighting, side), field)
 
@@ -114,7 +114,7 @@ def material_field(context: Context, name: str) -> Any:
 # -- colours that follow glColor ---------------------------------------------------------------------------------------
 @in_lists
 def glColorMaterial(face: int, mode: int) -> None:
-    """Set which material colours follow the current colour while GL_COLOR_MATERIAL is on."""
+    """Set which material colours follow glColor while GL_COLOR_MATERIAL is enabled."""
     context = outside_begin("glColorMaterial")
     if context is None or not is_one_of("glColorMaterial", "face", face, FACES, A_FACE):
         return
@@ -124,42 +124,42 @@ def glColorMaterial(face: int, mode: int) -> None:
 
 
 def followed(lighting: Lighting, side: str) -> tuple[str, ...]:
-    """Return the fields of a facing's material ("front", "back") that follow the current colour."""
+    """Return the fields of the "front" or "back" material that follow glColor."""
     follows = lighting.color_material and side in SIDES[lighting.color_material_face]
     return FIELDS[lighting.color_material_mode] if follows else ()
 
 
 def follow_color(context: Context) -> None:
-    """Give the current colour to the materials that follow it, if there are any."""
+    """Copy the current colour to the material fields that follow it."""
     lighting = context.state.lighting
     if lighting.color_material:
         fields: Any = dict.fromkeys(FIELDS[lighting.color_material_mode], rounded(context, *context.current.color))
         sides = SIDES[lighting.color_material_face]
-        made = {side: evolve(getattr(lighting, side), **fields) for side in sides}
-        context.state = evolve(context.state, lighting=evolve(lighting, **made))  # which ends no batch
+        materials = {side: evolve(getattr(lighting, side), **fields) for side in sides}
+        context.state = evolve(context.state, lighting=evolve(lighting, **materials))  # without a flush
 
 
 def start_to_follow(context: Context) -> None:
-    """Give the current colour to materials from now on; one that was given before and not forgotten comes back later.
+    """Copy the current colour to the materials that begin to follow it.
 
-    Mesa hands it on a second time when the vertices are sent off (vbo_exec_copy_to_current).
+    A pending material is only hidden by it: Mesa makes it current again with the next flush (vbo_exec_copy_to_current).
     """
     if context.state.lighting.color_material:
-        context.pending.read(context)
+        context.update_current()
         for name in context.pending.names:
             if "." in name:
-                context.pending.waiting.setdefault(name, context.attribute(name))
+                context.pending.hidden.setdefault(name, context.attribute(name))
         follow_color(context)
 
 
 # -- queries -----------------------------------------------------------------------------------------------------------
 def glGetMaterialfv(face: int, pname: int) -> Any:
-    """Return a material parameter of one facing: 4 float32, or a float for GL_SHININESS."""
+    """Return a material parameter of one face: 4 float32, or a float for GL_SHININESS."""
     return as_floats(_material("glGetMaterialfv", face, pname))
 
 
 def glGetMaterialiv(face: int, pname: int) -> Any:
-    """Return a material parameter of one facing as integers, colours spanning the range of an int."""
+    """Return a material parameter of one face as integers; colours use the full range of int."""
     return as_ints(_material("glGetMaterialiv", face, pname), nearest_int if pname == gl.GL_SHININESS else to_int)
 
 
@@ -168,8 +168,8 @@ def _material(operation: str, face: int, pname: int) -> Any:
     faces = (gl.GL_FRONT, gl.GL_BACK)
     if context is None or not is_one_of(operation, "face", face, faces, "GL_FRONT or GL_BACK"):
         return None
-    context.settle()
-    context.pending.read(context)
+    context.flush()
+    context.update_current()
     readable = [name for name, fields in PARAMETERS.items() if len(fields) == 1]
     if not is_one_of(operation, "pname", pname, readable, "a material parameter (GL 2.1, table 2.11)"):
         return None

@@ -1,4 +1,4 @@
-"""Names of objects: what glGen* gives out and glDelete* takes back."""
+"""Object names: shared by the glGen* and glDelete* calls."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from softshadow.gl.errors import fail, outside_begin
 
 
 def generate(operation: str, kind: str, n: int, names: Any = None) -> Any:
-    """Answer a glGen* call: names that were never used before, counting up as Mesa does.
+    """Return the names of a glGen* call: never used before, counting up as in Mesa.
 
-    One name is an int, several are an array, as in PyOpenGL; they are written into `names` where it is given.
+    As in PyOpenGL, one name is an int, several are an array; an array `names` is filled, too.
     """
     if (context := outside_begin(operation)) is None:
         return None
@@ -22,22 +22,22 @@ def generate(operation: str, kind: str, n: int, names: Any = None) -> Any:
         return fail(gl.GL_INVALID_VALUE, operation, f"n={n}: expected 0 or more")
     first = context.names[kind] + 1
     context.names[kind] += n
-    made = np.arange(first, first + n, dtype=np.uint32)
+    generated = np.arange(first, first + n, dtype=np.uint32)
     if names is not None:
-        np.asarray(names)[:n] = made
-    return first if n == 1 else made
+        np.asarray(names)[:n] = generated
+    return first if n == 1 else generated
 
 
-def take(context: Context, kind: str, name: int) -> None:
-    """Remember a name that a program has chosen itself."""
+def reserve(context: Context, kind: str, name: int) -> None:
+    """Mark a name as used: programs may choose names that glGen* has not returned."""
     context.names[kind] = max(context.names[kind], name)
 
 
-def listed(operation: str, arguments: tuple[Any, ...]) -> list[int]:
+def names_argument(operation: str, arguments: tuple[Any, ...]) -> list[int]:
     """Return the names in the arguments of a glDelete* call: (name), (names) or (n, names); [] after an error."""
-    count, given = (arguments[0], arguments[1]) if len(arguments) == 2 else (None, arguments[0])
-    names = [int(name) for name in np.ravel(np.asarray(given))]
-    if count is not None and count < 0:
-        fail(gl.GL_INVALID_VALUE, operation, f"n={count}: expected 0 or more")
+    n, array = (arguments[0], arguments[1]) if len(arguments) == 2 else (None, arguments[0])
+    names = [int(name) for name in np.ravel(np.asarray(array))]
+    if n is not None and n < 0:
+        fail(gl.GL_INVALID_VALUE, operation, f"n={n}: expected 0 or more")
         return []
-    return names if count is None else names[:count]
+    return names if n is None else names[:n]

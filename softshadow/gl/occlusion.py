@@ -1,4 +1,4 @@
-"""Occlusion queries: how many fragments of the draws in between pass all tests."""
+"""Occlusion queries: the number of fragments that pass all tests."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.names import generate, listed, take
+from softshadow.gl.names import generate, names_argument, reserve
 from softshadow.pipeline.commands import BeginQuery
 
 TARGETS = (gl.GL_SAMPLES_PASSED, gl.GL_ANY_SAMPLES_PASSED)
@@ -23,25 +23,25 @@ def glGenQueries(n: int, ids: Any = None) -> Any:
 
 
 def glDeleteQueries(*arguments: Any) -> None:
-    """Delete queries: (name), (names) or (n, names). One that counts is ended."""
+    """Delete queries: (name), (names) or (n, names). An active one is ended first."""
     context = outside_begin("glDeleteQueries")
     if context is None:
         return
-    for name in listed("glDeleteQueries", arguments):
+    for name in names_argument("glDeleteQueries", arguments):
         if name and name == context.storage.active_query:
             context.execute(BeginQuery(0))
         context.query_targets.pop(name, None)
 
 
 def glIsQuery(id: int) -> bool | None:
-    """Return whether a name is that of a query, which it becomes when it first counts."""
+    """Return whether a query of this name exists; the first glBeginQuery creates it."""
     context = outside_begin("glIsQuery")
     return None if context is None else int(id) in context.query_targets
 
 
 @in_lists
 def glBeginQuery(target: int, id: int) -> None:
-    """Count the fragments that pass from here on, or with GL_ANY_SAMPLES_PASSED, whether there are any."""
+    """Begin to count the fragments that pass; with GL_ANY_SAMPLES_PASSED, only whether any pass."""
     context, name = outside_begin("glBeginQuery"), int(id)
     if context is None or not is_one_of("glBeginQuery", "target", target, TARGETS, A_TARGET):
         return
@@ -50,16 +50,16 @@ def glBeginQuery(target: int, id: int) -> None:
     elif name <= 0:
         fail(gl.GL_INVALID_OPERATION, "glBeginQuery", f"id={id}: expected a name from glGenQueries")
     elif context.query_targets.get(name, target) != target:
-        fail(gl.GL_INVALID_OPERATION, "glBeginQuery", f"id={id}: expected a query that was begun with this target")
+        fail(gl.GL_INVALID_OPERATION, "glBeginQuery", f"id={id}: expected a query of this target")
     else:
-        take(context, "query", name)
+        reserve(context, "query", name)
         context.query_targets[name] = int(target)
         context.execute(BeginQuery(name))
 
 
 @in_lists
 def glEndQuery(target: int) -> None:
-    """End the counting."""
+    """End the active query."""
     context = outside_begin("glEndQuery")
     if context is None or not is_one_of("glEndQuery", "target", target, TARGETS, A_TARGET):
         return
@@ -71,13 +71,13 @@ def glEndQuery(target: int) -> None:
 
 
 def glGetQueryiv(target: int, pname: int, params: Any = None) -> Any:
-    """Return the query that counts for a target, or the number of bits of its counter."""
+    """Return the active query of a target, or the number of bits of its counter."""
     context = outside_begin("glGetQueryiv")
     if context is None or not is_one_of("glGetQueryiv", "target", target, TARGETS, A_TARGET):
         return None
     active = context.storage.active_query
-    counting = active if active and context.query_targets[active] == target else 0
-    answers = {gl.GL_CURRENT_QUERY: counting, gl.GL_QUERY_COUNTER_BITS: COUNTER_BITS[int(target)]}
+    current = active if active and context.query_targets[active] == target else 0
+    answers = {gl.GL_CURRENT_QUERY: current, gl.GL_QUERY_COUNTER_BITS: COUNTER_BITS[int(target)]}
     expected = "GL_CURRENT_QUERY or GL_QUERY_COUNTER_BITS"
     if not is_one_of("glGetQueryiv", "pname", pname, answers, expected):
         return None
@@ -85,12 +85,12 @@ def glGetQueryiv(target: int, pname: int, params: Any = None) -> Any:
 
 
 def glGetQueryObjectiv(id: int, pname: int, params: Any = None) -> Any:
-    """Return the result of an ended query: the number of fragments, or whether there were any."""
+    """Return the result of an ended query: the number of fragments, or whether any passed."""
     return _result("glGetQueryObjectiv", id, pname, params)
 
 
 def glGetQueryObjectuiv(id: int, pname: int, params: Any = None) -> Any:
-    """Return the result of an ended query: the number of fragments, or whether there were any."""
+    """Return the result of an ended query: the number of fragments, or whether any passed."""
     return _result("glGetQueryObjectuiv", id, pname, params)
 
 
@@ -100,9 +100,9 @@ def _result(operation: str, id: int, pname: int, params: Any) -> Any:
         return None
     if name not in context.query_targets or name == context.storage.active_query:
         return fail(gl.GL_INVALID_OPERATION, operation, f"id={id}: expected a query that has been ended")
-    count = context.storage.queries[name]
+    n_passed = context.storage.queries[name]
     any_passed = context.query_targets[name] == gl.GL_ANY_SAMPLES_PASSED
-    answers = {gl.GL_QUERY_RESULT: min(count, 1) if any_passed else count, gl.GL_QUERY_RESULT_AVAILABLE: 1}
+    answers = {gl.GL_QUERY_RESULT: min(n_passed, 1) if any_passed else n_passed, gl.GL_QUERY_RESULT_AVAILABLE: 1}
     if not is_one_of(operation, "pname", pname, answers, "GL_QUERY_RESULT or GL_QUERY_RESULT_AVAILABLE"):
         return None
     return _answer(answers[pname], params)

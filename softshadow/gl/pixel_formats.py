@@ -1,4 +1,4 @@
-"""Which pixel formats and types go together, and with which images (GL 4.5 compatibility, sec. 8.4.4)."""
+"""Valid combinations of pixel format, type and image (GL 4.5 compatibility, sec. 8.4.4)."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from softshadow.image import Format, Image
 from softshadow.pixel_store import COMPONENTS, PACKED_TYPES, TYPES
 from softshadow.tokens import token_name
 
-Problem = tuple[int, str]  # GL error code and what was expected
+Problem = tuple[int, str]  # GL error code and message
 
 
 def format_problem(format: int, type: int) -> Problem | None:
-    """Return why a client format and type cannot be, or None."""
+    """Return (error code, message) if a client format and type are not a valid combination, else None."""
     if format not in COMPONENTS:
         expected = ", ".join(token_name(f) for f in COMPONENTS)
         return gl.GL_INVALID_ENUM, f"format={token_name(format)}: expected one of {expected}"
@@ -20,9 +20,9 @@ def format_problem(format: int, type: int) -> Problem | None:
         return gl.GL_INVALID_ENUM, f"type={token_name(type, TYPE_NAMES)}: expected one of {expected}"
     if format == gl.GL_DEPTH_STENCIL and type not in PACKED_TYPES:
         expected = " or ".join(token_name(t) for t in PACKED_TYPES)
-        return gl.GL_INVALID_ENUM, f"type={token_name(type)}: GL_DEPTH_STENCIL takes {expected}"
+        return gl.GL_INVALID_ENUM, f"type={token_name(type)}: expected {expected} for GL_DEPTH_STENCIL"
     if format != gl.GL_DEPTH_STENCIL and type in PACKED_TYPES:
-        return gl.GL_INVALID_OPERATION, f"{token_name(type)} takes format=GL_DEPTH_STENCIL, not {token_name(format)}"
+        return gl.GL_INVALID_OPERATION, f"format={token_name(format)}: expected GL_DEPTH_STENCIL for {token_name(type)}"
     return None
 
 
@@ -30,7 +30,7 @@ TYPE_NAMES = ("GL_BYTE", "GL_DOUBLE")
 
 
 def kind_of(format: int) -> str:
-    """Return which plane a client format speaks of: "depth", "stencil", "depth-stencil" or "color"."""
+    """Return the kind of buffer of a client format: "depth", "stencil", "depth-stencil" or "color"."""
     kinds = {
         gl.GL_DEPTH_COMPONENT: "depth",
         gl.GL_STENCIL_INDEX: "stencil",
@@ -40,25 +40,25 @@ def kind_of(format: int) -> str:
 
 
 def upload_problem(format: int, stored: Format, has_stencil: bool) -> Problem | None:
-    """Return why client pixels of a format cannot go into an image, or None."""
+    """Return (error code, message) if client pixels of a format cannot be stored in an image, else None."""
     kind = kind_of(format)
     fits = {
         "depth": stored.kind == "depth",
-        "depth-stencil": stored.kind == "depth",  # without a stencil plane its values are dropped
+        "depth-stencil": stored.kind == "depth",  # without a stencil image, stencil values are dropped
         "stencil": stored.kind == "stencil" or has_stencil,
         "color": stored.kind in ("unorm8", "float"),
     }[kind]
     if fits:
         return None
-    return gl.GL_INVALID_OPERATION, f"format={token_name(format)} does not go with an image of {described(stored)}"
+    return gl.GL_INVALID_OPERATION, f"format={token_name(format)}: expected a format for {described(stored)}"
 
 
 def readout_problem(format: int, image: Image) -> Problem | None:
-    """Return why an image cannot be read in a client format, or None."""
+    """Return (error code, message) if an image cannot be read in a client format, else None."""
     if format == gl.GL_DEPTH_STENCIL and image.stencil is None:
-        return gl.GL_INVALID_OPERATION, "format=GL_DEPTH_STENCIL: the image has no stencil values"
+        return gl.GL_INVALID_OPERATION, "format=GL_DEPTH_STENCIL: expected an image with stencil values"
     return upload_problem(format, image.format, image.stencil is not None)
 
 
 def described(stored: Format) -> str:
-    return {"depth": "depth", "stencil": "stencil values", "none": "nothing"}.get(stored.kind, "colours")
+    return {"depth": "depth", "stencil": "stencil values", "none": "no image"}.get(stored.kind, "colours")

@@ -15,7 +15,7 @@ from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import format_problem, kind_of
 from softshadow.image import Image
 from softshadow.pipeline.buffers.copy import bottom_up, clipped
-from softshadow.pixel_store import TYPES, answer_array
+from softshadow.pixel_store import TYPES, output_array
 from softshadow.pixels import pack_color, pack_depth, pack_depth_stencil, pack_stencil
 from softshadow.tokens import token_name
 
@@ -33,15 +33,15 @@ SWITCHED_OFF = (gl.GL_PACK_SWAP_BYTES, gl.GL_PACK_LSB_FIRST, gl.GL_UNPACK_SWAP_B
 
 
 def glPixelStorei(pname: int, param: int) -> None:
-    """Say how the rows of client images lie in memory."""
+    """Set how the rows of client images are laid out in memory."""
     if (context := outside_begin("glPixelStorei")) is None:
         return None
     if pname in SWITCHED_OFF:
         if param:
-            fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param} is not part of this subset")
+            fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param}: expected 0 in this subset")
         return None
     if pname not in STORES:
-        return fail(gl.GL_INVALID_ENUM, "glPixelStorei", f"pname={token_name(pname)} is not part of this subset")
+        return fail(gl.GL_INVALID_ENUM, "glPixelStorei", f"pname={token_name(pname)}: expected a pixel store parameter")
     direction, field = STORES[pname]
     if field == "alignment" and param not in (1, 2, 4, 8):
         return fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param}: expected 1, 2, 4 or 8")
@@ -52,20 +52,20 @@ def glPixelStorei(pname: int, param: int) -> None:
 
 
 def glPixelStoref(pname: int, param: float) -> None:
-    """Say how the rows of client images lie in memory; the value is rounded."""
+    """Set how the rows of client images are laid out in memory; the value is rounded."""
     glPixelStorei(pname, round(param))
 
 
 def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int, array: Any = None) -> Any:
     """Return a rectangle of the read framebuffer, (h, w) or (h, w, components), first row = bottom row.
 
-    `array` is filled and returned where it is given. Pixels outside the framebuffer stay 0, or as they were.
+    An `array` is filled and returned. Pixels outside the framebuffer are 0, or keep their values in `array`.
 
     Raises
     ------
     GLError
-        GL_INVALID_ENUM or GL_INVALID_OPERATION for a format or type that cannot be; GL_INVALID_OPERATION without a
-        buffer to read from; GL_INVALID_VALUE for a negative size.
+        GL_INVALID_ENUM or GL_INVALID_OPERATION for a wrong format or type; GL_INVALID_OPERATION without a buffer to
+        read from; GL_INVALID_VALUE for a negative size.
     """
     operation = "glReadPixels"
     if (context := outside_begin(operation)) is None:
@@ -77,33 +77,33 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
     source = context.storage.framebuffers[context.state.read_framebuffer]
     if framebuffer_status(context, source.name) != gl.GL_FRAMEBUFFER_COMPLETE:
         return fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, operation, f"framebuffer {source.name} is not complete")
-    planes = _planes(source, kind_of(format))
-    if planes is None:
+    buffers = _buffers(source, kind_of(format))
+    if buffers is None:
         missing = kind_of(format).replace("-", " or ").replace("color", "colour")
         return fail(gl.GL_INVALID_OPERATION, operation, f"framebuffer {source.name} has no {missing} buffer to read")
-    context.settle()
+    context.flush()
     rows, columns, left, bottom = clipped(source, int(x), int(y), int(width), int(height))
-    cells = [bottom_up(source, plane)[rows, columns] for plane in planes]
-    answer, view = answer_array(array, context.pack_store, width, height, format, type, operation)
-    inside = _packed(cells, planes, format, type)
+    cells = [bottom_up(source, buffer)[rows, columns] for buffer in buffers]
+    answer, view = output_array(array, context.pack_store, width, height, format, type, operation)
+    inside = _packed(cells, buffers, format, type)
     view[bottom : bottom + inside.shape[0], left : left + inside.shape[1]] = inside
     return answer
 
 
-def _planes(source: Framebuffer, kind: str) -> list[Image] | None:
+def _buffers(source: Framebuffer, kind: str) -> list[Image] | None:
     wanted = {
         "color": [source.read_color],
         "depth": [source.depth],
         "stencil": [source.stencil],
         "depth-stencil": [source.depth, source.stencil],
     }[kind]
-    planes = [plane for plane in wanted if plane is not None]
-    return planes if len(planes) == len(wanted) else None
+    buffers = [buffer for buffer in wanted if buffer is not None]
+    return buffers if len(buffers) == len(wanted) else None
 
 
-def _packed(cells: list[np.ndarray], planes: list[Image], format: int, type: int) -> np.ndarray:
+def _packed(cells: list[np.ndarray], buffers: list[Image], format: int, type: int) -> np.ndarray:
     """Return framebuffer cells as client pixels (h, w, components)."""
-    kind, stored = kind_of(format), planes[0].format
+    kind, stored = kind_of(format), buffers[0].format
     if kind == "depth-stencil":
         return pack_depth_stencil(cells[0], cells[1], stored, type)[..., None]
     dtype = TYPES[type]

@@ -1,4 +1,4 @@
-"""Programs and their uniforms. A program is one of the register of `softshadow.programs`; there is no GLSL compiler."""
+"""Programs and their uniforms. Programs come from the registry of `softshadow.programs`; there is no GLSL."""
 
 from __future__ import annotations
 
@@ -14,61 +14,62 @@ from softshadow.gl.errors import fail, outside_begin
 from softshadow.programs import Program
 from softshadow.state import TEXTURE_UNITS
 
-IGNORED = -1  # the location of a uniform that a program does not use: setting it is no error and no effect
+EXPECTED_PROGRAM = "expected a number returned by program(name)"
+IGNORED = -1  # location of a uniform that the program does not use: setting it has no effect and is no error
 
 
 def program(name: str) -> int:
-    """Return the name, for glUseProgram, of a program of the register; the same one for every call.
+    """Return the number of a registered program, for glUseProgram; the same in every call.
 
     Raises
     ------
     StateError
-        The register has no such program; the message names the nearest.
+        No program of this name is registered; the message suggests a similar name.
     """
     context = current()
     for number, known in context.programs.items():
         if known.name == name:
             return number
-    made = programs.get(name)
+    registered = programs.get(name)
     number = max(context.programs, default=0) + 1
-    context.programs[number] = made
-    context.uniforms[number] = {key: _kept(value) for key, value in made.uniforms.items()}
-    context.uniforms[number].update({key: 0 for key in made.samplers if key not in made.uniforms})
+    context.programs[number] = registered
+    context.uniforms[number] = {key: _stored(value) for key, value in registered.uniforms.items()}
+    context.uniforms[number].update({key: 0 for key in registered.samplers if key not in registered.uniforms})
     return number
 
 
-def _kept(value: Any) -> Any:
-    """Return a uniform's value as it is kept: numbers and tuples as they are, matrices as own read-only float32."""
+def _stored(value: Any) -> Any:
+    """Return a uniform's value as it is stored: numbers and tuples unchanged, matrices as read-only float32 copies."""
     if not isinstance(value, np.ndarray):
         return value
-    own = value.astype(np.float32)
-    own.setflags(write=False)
-    return own
+    copy = value.astype(np.float32)
+    copy.setflags(write=False)
+    return copy
 
 
 @in_lists
 def glUseProgram(program: int) -> None:
-    """Shade with a program from now on; 0 is the fixed function."""
+    """Use a program for the draws that follow; 0 is the fixed-function pipeline."""
     if (context := outside_begin("glUseProgram")) is None:
         return None
     if program and program not in context.programs:
-        return fail(gl.GL_INVALID_VALUE, "glUseProgram", f"program={program} is no name from program(name)")
+        return fail(gl.GL_INVALID_VALUE, "glUseProgram", f"program={program}: {EXPECTED_PROGRAM}")
     context.set(program=int(program))
     return None
 
 
 def glIsProgram(program: int) -> bool:
-    """Return whether a name is that of a program."""
+    """Return whether a program of this number exists."""
     context = outside_begin("glIsProgram")
     return context is not None and program in context.programs
 
 
 def glGetUniformLocation(program: int, name: str | bytes) -> Any:
-    """Return the location of a uniform, -1 where the program has none of that name."""
+    """Return the location of a uniform; -1 if the program has none of this name."""
     if (context := outside_begin("glGetUniformLocation")) is None:
         return None
     if program not in context.programs:
-        return fail(gl.GL_INVALID_VALUE, "glGetUniformLocation", f"program={program} is no name from program(name)")
+        return fail(gl.GL_INVALID_VALUE, "glGetUniformLocation", f"program={program}: {EXPECTED_PROGRAM}")
     names = list(context.uniforms[program])
     spelled = name.decode() if isinstance(name, bytes) else name
     return names.index(spelled) if spelled in names else IGNORED
@@ -173,19 +174,19 @@ def glUniform4iv(location: int, count: int, value: Any) -> None:
 
 @in_lists
 def glUniformMatrix4fv(location: int, count: int, transpose: bool, value: Any) -> None:
-    """Set a mat4 uniform of the program in use from 16 floats in column order, or in row order with `transpose`."""
+    """Set a mat4 uniform of the program in use from 16 floats in column order; with `transpose`, in row order."""
     operation = "glUniformMatrix4fv"
     numbers = np.asarray(value, np.float32).reshape(-1)
     if count == 1 and len(numbers) != 16:
         raise ValueError(f"{operation}: value has {len(numbers)} numbers, expected 16")
-    found = _uniform(operation, location, count)
-    if found is None:
+    uniform = _uniform(operation, location, count)
+    if uniform is None:
         return None
-    context, name, standing = found
-    if np.shape(standing) != (4, 4):
-        return fail(gl.GL_INVALID_OPERATION, operation, f"uniform {name!r} is {described(standing)}, not a mat4")
+    context, name, current_value = uniform
+    if np.shape(current_value) != (4, 4):
+        return fail(gl.GL_INVALID_OPERATION, operation, f"uniform {name!r} is {described(current_value)}, not a mat4")
     matrix = numbers.reshape(4, 4)
-    context.uniforms[context.state.program][name] = _kept(matrix if transpose else matrix.T.copy())
+    context.uniforms[context.state.program][name] = _stored(matrix if transpose else matrix.T.copy())
     return None
 
 
@@ -197,28 +198,28 @@ def _set_array(operation: str, location: int, count: int, value: Any, size: int,
 
 
 def _set(operation: str, location: int, numbers: list[Any], kind: str, count: int = 1) -> None:
-    found = _uniform(operation, location, count)
-    if found is None:
+    uniform = _uniform(operation, location, count)
+    if uniform is None:
         return None
-    context, name, standing = found
+    context, name, current_value = uniform
     used = context.programs[context.state.program]
-    if problem := _type_problem(used, name, standing, len(numbers), kind):
+    if problem := _type_problem(used, name, current_value, len(numbers), kind):
         return fail(gl.GL_INVALID_OPERATION, operation, problem)
     if name in used.samplers and not 0 <= numbers[0] < TEXTURE_UNITS:
         return fail(
             gl.GL_INVALID_VALUE, operation, f"{name}={numbers[0]}: a sampler takes a unit, 0 to {TEXTURE_UNITS - 1}"
         )
-    if isinstance(standing, bool):
+    if isinstance(current_value, bool):
         value: Any = bool(numbers[0])
     else:
         converted = [float(np.float32(n)) if kind == "f" else int(n) for n in numbers]
-        value = tuple(converted) if isinstance(standing, tuple) else converted[0]
+        value = tuple(converted) if isinstance(current_value, tuple) else converted[0]
     context.uniforms[context.state.program][name] = value
     return None
 
 
 def _uniform(operation: str, location: int, count: int) -> tuple[Context, str, Any] | None:
-    """Return (context, uniform's name, present value), or None after an error and for the ignored location."""
+    """Return (context, name of the uniform, its current value); None after an error or for the ignored location."""
     if (context := outside_begin(operation)) is None:
         return None
     used = context.state.program
@@ -230,27 +231,27 @@ def _uniform(operation: str, location: int, count: int) -> tuple[Context, str, A
         return None
     names = list(context.uniforms[used])
     if not 0 <= location < len(names):
-        return fail(
-            gl.GL_INVALID_OPERATION, operation, f"location={location}: the program in use has 0 to {len(names) - 1}"
-        )
+        return fail(gl.GL_INVALID_OPERATION, operation, f"location={location}: expected 0 to {len(names) - 1}")
     if count > 1:
-        return fail(gl.GL_INVALID_OPERATION, operation, f"count={count}: uniform {names[location]!r} is no array")
-    context.settle()
+        return fail(
+            gl.GL_INVALID_OPERATION, operation, f"count={count}: expected 1 for {names[location]!r}, not an array"
+        )
+    context.flush()
     return (context, names[location], context.uniforms[used][names[location]]) if count else None
 
 
-def _type_problem(used: Program, name: str, standing: Any, size: int, kind: str) -> str | None:
-    shape = np.shape(standing)
-    first = np.asarray(standing).dtype.kind
+def _type_problem(used: Program, name: str, current_value: Any, size: int, kind: str) -> str | None:
+    shape = np.shape(current_value)
+    first = np.asarray(current_value).dtype.kind
     allowed = {"b": "fi", "f": "f", "i": "i"}[first]
     if shape == ((size,) if size > 1 else ()) and kind in allowed:
         return None
-    given = f"{size} {'float' if kind == 'f' else 'int'}{'s' if size > 1 else ''}"
-    return f"uniform {name!r} is {'a sampler' if name in used.samplers else described(standing)}, given {given}"
+    got = f"{size} {'float' if kind == 'f' else 'int'}{'s' if size > 1 else ''}"
+    return f"uniform {name!r} is {'a sampler' if name in used.samplers else described(current_value)}, got {got}"
 
 
 def described(value: Any) -> str:
-    """Return the GLSL type of a uniform's value in words."""
+    """Return the GLSL type of a uniform's value, with an article."""
     shape, kind = np.shape(value), np.asarray(value).dtype.kind
     if len(shape) == 2:
         return f"a mat{shape[0]}"
@@ -260,7 +261,7 @@ def described(value: Any) -> str:
 
 # -- queries -----------------------------------------------------------------------------------------------------------
 def glGetUniformfv(program: int, location: int, params: Any = None) -> Any:
-    """Return a uniform's value: a float, an array (n,), or (4, 4) in column order for a matrix."""
+    """Return a uniform's value: a float, an array (n,), or a matrix (4, 4) in column order."""
     return _get("glGetUniformfv", program, location, params, np.float32)
 
 
@@ -273,10 +274,10 @@ def _get(operation: str, program: int, location: int, params: Any, dtype: type[n
     if (context := outside_begin(operation)) is None:
         return None
     if program not in context.programs:
-        return fail(gl.GL_INVALID_VALUE, operation, f"program={program} is no name from program(name)")
+        return fail(gl.GL_INVALID_VALUE, operation, f"program={program}: {EXPECTED_PROGRAM}")
     values = list(context.uniforms[program].values())
     if not 0 <= location < len(values):
-        return fail(gl.GL_INVALID_OPERATION, operation, f"location={location}: the program has 0 to {len(values) - 1}")
+        return fail(gl.GL_INVALID_OPERATION, operation, f"location={location}: expected 0 to {len(values) - 1}")
     value = np.asarray(values[location])
     answer = (np.rint(value) if dtype == np.int32 else value).astype(dtype).T.copy()
     if params is not None:

@@ -1,4 +1,4 @@
-"""What is PyOpenGL's own: calls without a type, and arrays that say their type and size themselves."""
+"""PyOpenGL's additions: calls without a type suffix, and calls that take type and size from an array."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ glLight, glTexCoord, glNormal = glLightfv, glTexCoord2d, glNormal3d
 
 # -- by the number of arguments ----------------------------------------------------------------------------------------
 def glVertex(*arguments: Any) -> None:
-    """Add a vertex from two to four numbers, or from a vector of them."""
+    """Add a vertex from two to four numbers, or from a vector."""
     numbers = arguments[0] if len(arguments) == 1 else arguments
     calls: dict[int, Callable[..., None]] = {2: glVertex2f, 3: glVertex3f, 4: glVertex4f}
     calls[len(numbers)](*numbers)
 
 
 def glColor(*arguments: Any) -> None:
-    """Set the current colour from three or four numbers, or from a vector of them."""
+    """Set the current colour from three or four numbers, or from a vector."""
     if len(arguments) == 1:
         {3: glColor3fv, 4: glColor4fv}[np.size(arguments[0])](arguments[0])
     else:
@@ -41,7 +41,7 @@ def glColor(*arguments: Any) -> None:
 
 
 def glMaterial(face: int, pname: int, *arguments: Any) -> None:
-    """Set a material parameter, from a vector or a number."""
+    """Set a material parameter from a vector or a number."""
     if len(arguments) == 1:
         glMaterialfv(face, pname, arguments[0])
     else:
@@ -49,16 +49,16 @@ def glMaterial(face: int, pname: int, *arguments: Any) -> None:
 
 
 def glTexParameter(target: int, pname: int, parameter: Any) -> None:
-    """Set a parameter of the bound texture, from an int, a float, or a vector."""
+    """Set a parameter of the bound texture from an int, a float, or a vector."""
     call = glTexParameterf if isinstance(parameter, float) else glTexParameterfv
     (glTexParameteri if isinstance(parameter, int) else call)(target, pname, parameter)
 
 
-# -- arrays that say their size ----------------------------------------------------------------------------------------
+# -- type and size of an array -----------------------------------------------------------------------------------------
 def _sized(
     name: str, call: Callable[..., None], type: int, largest: int, otherwise: int | None
 ) -> Callable[[Any], np.ndarray]:
-    """Return a pointer call that takes type and size from an array (n, size); other shapes have `otherwise`."""
+    """Return a pointer call that takes type and size from an array (n, size), or the size `otherwise`."""
 
     def point(array: Any) -> np.ndarray:
         values = np.ascontiguousarray(array, TYPES[type])
@@ -66,7 +66,7 @@ def _sized(
         call(*(() if otherwise is None else (size,)), type, 0, values)
         return values
 
-    return _named(point, name, f"Set an array as {call.__name__} does, of {np.dtype(TYPES[type])} numbers.")
+    return _named(point, name, f"Call {call.__name__} with an array of {np.dtype(TYPES[type])} numbers.")
 
 
 def _indexed(name: str, type: int) -> Callable[[int, Any], None]:
@@ -74,7 +74,7 @@ def _indexed(name: str, type: int) -> Callable[[int, Any], None]:
         values = np.ravel(np.ascontiguousarray(indices, TYPES[type]))
         glDrawElements(mode, len(values), type, values)
 
-    return _named(draw, name, f"Draw all vertices that an array of {np.dtype(TYPES[type])} indices names.")
+    return _named(draw, name, f"Draw with an array of {np.dtype(TYPES[type])} indices.")
 
 
 def _named(function: Any, name: str, documentation: str) -> Any:

@@ -1,4 +1,4 @@
-"""glGet: every state that can be set can be read back, as float, double, integer or truth."""
+"""glGet: all state that can be set can be queried, as floats, doubles, integers or booleans."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.capabilities import KNOWN, is_on
 from softshadow.gl.conversions import nearest_int, to_int
 from softshadow.gl.errors import outside_begin, wrong_enum
-from softshadow.gl.state_table import BY_TOKEN, NORMALISED
+from softshadow.gl.state_table import BY_TOKEN, NORMALIZED
 
-GIVEN = (gl.GL_CURRENT_COLOR, gl.GL_CURRENT_NORMAL, gl.GL_CURRENT_TEXTURE_COORDS)
-DOUBLES = (gl.GL_DEPTH_RANGE, gl.GL_DEPTH_CLEAR_VALUE)  # what GL keeps in double precision
+CURRENT_VALUES = (gl.GL_CURRENT_COLOR, gl.GL_CURRENT_NORMAL, gl.GL_CURRENT_TEXTURE_COORDS)
+DOUBLES = (gl.GL_DEPTH_RANGE, gl.GL_DEPTH_CLEAR_VALUE)  # state that GL stores in double precision
 STRINGS = {
     gl.GL_VENDOR: b"softshadow",
     gl.GL_RENDERER: b"softshadow software rasterizer",
@@ -26,7 +26,7 @@ STRINGS = {
 
 
 def glGetString(name: int) -> bytes | None:
-    """Return a string about this implementation."""
+    """Return a string that describes this implementation."""
     if outside_begin("glGetString") is None:
         return None
     if name in STRINGS:
@@ -42,17 +42,17 @@ def glGetFloatv(pname: int, params: Any = None) -> Any:
 
 def glGetDoublev(pname: int, params: Any = None) -> Any:
     """Return state as float64: a number, or an array; matrices as (4, 4) in GL's memory order."""
-    return _get("glGetDoublev", pname, params, np.float64, float if pname in DOUBLES else _kept)
+    return _get("glGetDoublev", pname, params, np.float64, float if pname in DOUBLES else _rounded)
 
 
 def glGetIntegerv(pname: int, params: Any = None) -> Any:
-    """Return state as integers: a number, or an array int32. For colours, normals and depths 1 is the largest int."""
-    convert = to_int if pname in DOUBLES else _spread if pname in NORMALISED else nearest_int
+    """Return state as int32: a number, or an array. For colours, normals and depths, 1.0 is the largest int."""
+    convert = to_int if pname in DOUBLES else _scaled if pname in NORMALIZED else nearest_int
     return _get("glGetIntegerv", pname, params, np.int32, convert)
 
 
 def glGetBooleanv(pname: int, params: Any = None) -> Any:
-    """Return state as truth: whether it is not 0."""
+    """Return state as booleans: whether it is not 0."""
     return _get("glGetBooleanv", pname, params, np.uint8, bool)
 
 
@@ -60,18 +60,18 @@ glGetFloat, glGetDouble, glGetInteger, glGetBoolean = glGetFloatv, glGetDoublev,
 
 
 def _get(operation: str, pname: int, params: Any, dtype: type[np.generic], convert: Callable[[Any], Any]) -> Any:
-    """Return a state, converted; an array given as `params` is filled, too."""
+    """Return a state value, converted; an array `params` is filled, too."""
     context = outside_begin(operation)
     if context is None:
         return None
-    if pname in GIVEN:
-        context.pending.read(context)
+    if pname in CURRENT_VALUES:
+        context.update_current()
     if pname in BY_TOKEN:
         value = BY_TOKEN[pname](context)
     elif pname in KNOWN:
         value = is_on(context.state, pname, context.active_unit)
     else:
-        return wrong_enum(operation, "pname", pname, "a state of this subset")
+        return wrong_enum(operation, "pname", pname, "a state variable of this subset")
     if isinstance(value, tuple | np.ndarray):
         rows = np.asarray(value)
         answer: Any = np.array([convert(v) for v in rows.ravel().tolist()], dtype).reshape(rows.shape)
@@ -82,13 +82,13 @@ def _get(operation: str, pname: int, params: Any, dtype: type[np.generic], conve
     return answer
 
 
-def _kept(value: float) -> float:
-    """Return a number in the precision that the context keeps its state in; whole ones are whole in any."""
+def _rounded(value: float) -> float:
+    """Return a number in the precision of the context; integers stay exact."""
     return float(value) if isinstance(value, int) else float(current().real(value))
 
 
-def _spread(value: float) -> int:
-    """Return the int that stands for a colour or a normal."""
+def _scaled(value: float) -> int:
+    """Return the int that represents a component of a colour or normal."""
     return to_int(float(np.float32(value)))
 
 

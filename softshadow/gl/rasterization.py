@@ -1,4 +1,4 @@
-"""What is drawn where: facing, polygon mode and offset, sizes of lines and points, viewport, depth range, scissor."""
+"""Calls that set rasterization: culling, polygon mode and offset, line and point size, viewport, scissor box."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.fragment_state import A_FACE, FACES, change, clamp01, rounded
 
 LARGEST_VIEWPORT = 16384
-FARTHEST_CORNER = 32768  # of a viewport; Mesa clamps to it
+FARTHEST_CORNER = 32768  # Mesa clamps the corner of a viewport to this
 POLYGON_MODES = (gl.GL_POINT, gl.GL_LINE, gl.GL_FILL)
 
 
 # -- polygons, lines, points -------------------------------------------------------------------------------------------
 @in_lists
 def glCullFace(mode: int) -> None:
-    """Set which facing GL_CULL_FACE removes."""
+    """Set which faces GL_CULL_FACE removes."""
     context = outside_begin("glCullFace")
     if context is not None and is_one_of("glCullFace", "mode", mode, FACES, A_FACE):
         change(context, "cull", face=int(mode))
@@ -23,7 +23,7 @@ def glCullFace(mode: int) -> None:
 
 @in_lists
 def glFrontFace(mode: int) -> None:
-    """Set which winding is front."""
+    """Set which winding is front-facing."""
     context = outside_begin("glFrontFace")
     if context is not None and is_one_of("glFrontFace", "mode", mode, (gl.GL_CW, gl.GL_CCW), "GL_CW or GL_CCW"):
         change(context, "cull", front_face=int(mode))
@@ -31,7 +31,7 @@ def glFrontFace(mode: int) -> None:
 
 @in_lists
 def glPolygonMode(face: int, mode: int) -> None:
-    """Set whether polygons are filled, outlined or dotted."""
+    """Set whether polygons are drawn filled, as lines or as points."""
     context = outside_begin("glPolygonMode")
     if context is None or not is_one_of("glPolygonMode", "face", face, FACES, A_FACE):
         return
@@ -44,7 +44,7 @@ def glPolygonMode(face: int, mode: int) -> None:
 
 @in_lists
 def glPolygonOffset(factor: float, units: float) -> None:
-    """Set factor (of the slope) and units (of the smallest step) that are added to the depth of polygons."""
+    """Set the depth offset of polygons: `factor` times the slope, plus `units` times the smallest depth step."""
     context = outside_begin("glPolygonOffset")
     if context is not None:
         change(context, "polygon", factor=rounded(context, factor), units=rounded(context, units))
@@ -74,10 +74,10 @@ def glPointSize(size: float) -> None:
         change(context, "polygon", point_size=rounded(context, size))
 
 
-# -- places ------------------------------------------------------------------------------------------------------------
+# -- viewport and scissor box ------------------------------------------------------------------------------------------
 @in_lists
 def glViewport(x: int, y: int, width: int, height: int) -> None:
-    """Set where clip space lands in the window, in pixels from the lower left."""
+    """Set the viewport, in pixels from the lower left."""
     context = outside_begin("glViewport")
     if context is not None and _box_is_valid("glViewport", width, height):
         width, height = min(int(width), LARGEST_VIEWPORT), min(int(height), LARGEST_VIEWPORT)
@@ -103,7 +103,7 @@ def _box_is_valid(operation: str, width: int, height: int) -> bool:
 
 @in_lists
 def glDepthRange(zNear: float, zFar: float) -> None:
-    """Set the depths of the near and the far plane, clamped to [0, 1]."""
+    """Set the depths of the near and far plane, clamped to [0, 1]."""
     context = outside_begin("glDepthRange")
     if context is not None:
         near, far = rounded(context, clamp01(zNear), clamp01(zFar))

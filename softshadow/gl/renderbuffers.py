@@ -1,4 +1,4 @@
-"""Renderbuffers: images that only serve as buffers of framebuffer objects."""
+"""Renderbuffers: images that can only be attached to framebuffer objects."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from softshadow.framebuffer import LARGEST_SIDE
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import attach, attachment_problem, bound_framebuffer, target_problem
-from softshadow.gl.names import generate, listed, take
+from softshadow.gl.names import generate, names_argument, reserve
 from softshadow.gl.texture_images import channel_bits
 from softshadow.image import FORMATS, WITH_STENCIL, storage_format
 from softshadow.pipeline.commands import AttachRenderbuffer, DefineRenderbuffer, DeleteRenderbuffers
@@ -24,7 +24,7 @@ CHANNELS = {
 
 
 def glFramebufferRenderbuffer(target: int, attachment: int, renderbuffertarget: int, renderbuffer: int) -> None:
-    """Make a renderbuffer the buffer of an attachment point; renderbuffer 0 detaches."""
+    """Attach a renderbuffer to the bound framebuffer object; renderbuffer 0 detaches."""
     operation, name = "glFramebufferRenderbuffer", int(renderbuffer)
     if (context := outside_begin(operation)) is None:
         return None
@@ -37,14 +37,14 @@ def glFramebufferRenderbuffer(target: int, attachment: int, renderbuffertarget: 
             f"renderbuffertarget={token_name(renderbuffertarget)}: expected GL_RENDERBUFFER",
         )
     if name and name not in context.storage.renderbuffers:
-        return fail(gl.GL_INVALID_OPERATION, operation, f"renderbuffer={name} does not exist")
+        return fail(gl.GL_INVALID_OPERATION, operation, f"renderbuffer={name}: expected one that has been bound before")
     if problem := attachment_problem(context, target, attachment):
         return fail(problem[0], operation, problem[1])
     if name and attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT:
         internal_format = context.storage.renderbuffers[name].internal_format
         if internal_format and internal_format not in WITH_STENCIL:
-            why = f"renderbuffer={name} is of {token_name(internal_format)}, not of depth and stencil values"
-            return fail(gl.GL_INVALID_OPERATION, operation, why)
+            message = f"renderbuffer={name}: expected depth and stencil, it is {token_name(internal_format)}"
+            return fail(gl.GL_INVALID_OPERATION, operation, message)
     framebuffer = bound_framebuffer(context, target)
     attach(context, attachment, lambda point: AttachRenderbuffer(framebuffer, point, name))
     return None
@@ -56,21 +56,21 @@ def glGenRenderbuffers(n: int, renderbuffers: Any = None) -> Any:
 
 
 def glBindRenderbuffer(target: int, renderbuffer: int) -> None:
-    """Name the renderbuffer that glRenderbufferStorage is about."""
+    """Bind a renderbuffer for glRenderbufferStorage and queries."""
     if (context := outside_begin("glBindRenderbuffer")) is None:
         return None
     name = int(renderbuffer)
     if target != gl.GL_RENDERBUFFER:
         return fail(gl.GL_INVALID_ENUM, "glBindRenderbuffer", f"target={token_name(target)}: expected GL_RENDERBUFFER")
     if name and name not in context.storage.renderbuffers:
-        take(context, "renderbuffer", name)
+        reserve(context, "renderbuffer", name)
         context.execute(DefineRenderbuffer(name))
     context.renderbuffer = name
     return None
 
 
 def glRenderbufferStorage(target: int, internalformat: int, width: int, height: int) -> None:
-    """Give the bound renderbuffer an image of zeros."""
+    """Allocate the image of the bound renderbuffer, filled with zeros."""
     operation = "glRenderbufferStorage"
     if (context := outside_begin(operation)) is None:
         return None
@@ -80,7 +80,9 @@ def glRenderbufferStorage(target: int, internalformat: int, width: int, height: 
         return fail(gl.GL_INVALID_OPERATION, operation, "no renderbuffer is bound")
     if internalformat not in FORMATS or internalformat in (1, 2, 3, 4):
         return fail(
-            gl.GL_INVALID_ENUM, operation, f"internalformat={token_name(internalformat)} is not part of this subset"
+            gl.GL_INVALID_ENUM,
+            operation,
+            f"internalformat={token_name(internalformat)}: expected a format of this subset",
         )
     if not (0 <= width <= LARGEST_SIDE and 0 <= height <= LARGEST_SIDE):
         return fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 to {LARGEST_SIDE}")
@@ -111,10 +113,10 @@ def glGetRenderbufferParameteriv(target: int, pname: int, params: Any = None) ->
 
 
 def glDeleteRenderbuffers(*arguments: Any) -> None:
-    """Delete renderbuffers: (name), (names) or (n, names). They leave the bound framebuffers."""
+    """Delete renderbuffers: (name), (names) or (n, names). They are detached from the bound framebuffers."""
     if (context := outside_begin("glDeleteRenderbuffers")) is None:
         return None
-    names = [name for name in listed("glDeleteRenderbuffers", arguments) if name > 0]
+    names = [name for name in names_argument("glDeleteRenderbuffers", arguments) if name > 0]
     for framebuffer in {context.state.draw_framebuffer, context.state.read_framebuffer}:
         for point, attachment in list(context.storage.framebuffers[framebuffer].attachments.items()):
             if attachment.renderbuffer in names:
@@ -127,7 +129,7 @@ def glDeleteRenderbuffers(*arguments: Any) -> None:
 
 
 def glIsRenderbuffer(renderbuffer: int) -> bool:
-    """Return whether a name is that of a renderbuffer, which it becomes when it is first bound."""
+    """Return whether a renderbuffer of this name exists; the first glBindRenderbuffer creates it."""
     context = outside_begin("glIsRenderbuffer")
     return context is not None and int(renderbuffer) in context.storage.renderbuffers
 

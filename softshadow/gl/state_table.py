@@ -1,4 +1,4 @@
-"""What glGet answers: every state by its name, and where it stands (GL 2.1, sec. 6.2)."""
+"""The state variables of glGet, each with the function that reads it (GL 2.1, sec. 6.2)."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def read_from(c: Context) -> Framebuffer:
 
 
 def bits(image: Image | None) -> int:
-    """Return the bits of a depth or stencil plane; of float depth, those it is stored in."""
+    """Return the number of bits of a depth or stencil buffer; for float depth, of its dtype."""
     if image is None:
         return 0
     return image.format.largest.bit_length() or np.dtype(image.format.dtype).itemsize * 8
@@ -61,22 +61,22 @@ def accumulation_bits(c: Context) -> int:
     return 16 if c.state.draw_framebuffer == DEFAULT else 0
 
 
-def shown_color(color: Callable[[Context], Any]) -> Read:
-    """Return the reader of a colour that glGet answers clamped."""
+def clamped_color(color: Callable[[Context], Any]) -> Read:
+    """Return the reader of a colour that glGet clamps."""
     return lambda c: clamped(c, *color(c))
 
 
 def clamped(c: Context, *values: float) -> tuple[float, ...]:
-    """Return values clamped to [0, 1], but for a framebuffer object with a buffer of floats, or never yet validated."""
+    """Return values clamped to [0, 1] if the draw framebuffer `clamps`, else unchanged."""
     return tuple(min(max(v, 0.0), 1.0) for v in values) if drawn_to(c).clamps else values
 
 
 def stencil(prefix: str, face: Callable[[Context], StencilFace]) -> dict[str, Read]:
-    """Return the readers of one facing; the reference as the buffer clamps it."""
+    """Return the readers of one face; the reference is clamped to the range of the buffer."""
 
     def ref(c: Context) -> int:
-        plane = drawn_to(c).stencil
-        return max(0, min(face(c).ref, plane.format.largest if plane else 0))
+        buffer = drawn_to(c).stencil
+        return max(0, min(face(c).ref, buffer.format.largest if buffer else 0))
 
     return {
         f"GL_STENCIL_{prefix}FUNC": lambda c: face(c).func,
@@ -90,14 +90,14 @@ def stencil(prefix: str, face: Callable[[Context], StencilFace]) -> dict[str, Re
 
 
 def active_face(c: Context) -> StencilFace:
-    """Return the stencil state that glStencilFunc is about."""
+    """Return the stencil state that glStencilFunc sets."""
     state = c.state.stencil
     face: StencilFace = getattr(state, extension_back(state)) if state.active_back else state.front
     return face
 
 
 def matrix(name: str, stack: Callable[[Context], list[np.ndarray]]) -> dict[str, Read]:
-    """Return the readers of a matrix stack; the matrix as (4, 4) in GL's memory order, column after column."""
+    """Return the readers of a matrix stack; a matrix is (4, 4) in GL's memory order, column after column."""
     return {
         f"GL_{name}_MATRIX": lambda c: stack(c)[-1].T,
         f"GL_TRANSPOSE_{name}_MATRIX": lambda c: stack(c)[-1],
@@ -107,20 +107,20 @@ def matrix(name: str, stack: Callable[[Context], list[np.ndarray]]) -> dict[str,
 
 
 def client_array(name: str, token: int) -> dict[str, Read]:
-    """Return the readers of a vertex array; those of texture coordinates are the client's active unit's."""
+    """Return the readers of a vertex array; texture coordinates are those of the client's active unit."""
 
     def key(c: Context) -> str:
         return ARRAYS.get(token, f"texcoord{c.arrays.active_unit}")
 
-    made: dict[str, Read] = {
+    readers: dict[str, Read] = {
         f"GL_{name}_ARRAY": lambda c: key(c) in c.arrays.enabled,
         f"GL_{name}_ARRAY_TYPE": lambda c: c.arrays.layout(key(c)).type,
         f"GL_{name}_ARRAY_STRIDE": lambda c: c.arrays.layout(key(c)).stride,
         f"GL_{name}_ARRAY_BUFFER_BINDING": lambda c: c.arrays.offsets.get(key(c), (0, 0))[0],
     }
     if name != "NORMAL":
-        made[f"GL_{name}_ARRAY_SIZE"] = lambda c: c.arrays.layout(key(c)).size
-    return made
+        readers[f"GL_{name}_ARRAY_SIZE"] = lambda c: c.arrays.layout(key(c)).size
+    return readers
 
 
 def pixel_store(name: str, store: Callable[[Context], PixelStore]) -> dict[str, Read]:
@@ -162,10 +162,10 @@ QUERIES: dict[str, Read] = {
     "GL_BLEND_DST_ALPHA": lambda c: c.state.blend.dst_alpha,
     "GL_BLEND_EQUATION_RGB": lambda c: c.state.blend.equation_rgb,
     "GL_BLEND_EQUATION_ALPHA": lambda c: c.state.blend.equation_alpha,
-    "GL_BLEND_COLOR": shown_color(lambda c: c.state.blend.color),
+    "GL_BLEND_COLOR": clamped_color(lambda c: c.state.blend.color),
     "GL_LOGIC_OP_MODE": lambda c: c.state.blend.logic_op,
     "GL_COLOR_WRITEMASK": lambda c: c.state.color.mask,
-    "GL_COLOR_CLEAR_VALUE": shown_color(lambda c: c.state.color.clear),
+    "GL_COLOR_CLEAR_VALUE": clamped_color(lambda c: c.state.color.clear),
     "GL_ACCUM_CLEAR_VALUE": lambda c: c.state.color.clear_accum,
     "GL_SHADE_MODEL": lambda c: c.state.lighting.shade_model,
     "GL_LIGHT_MODEL_AMBIENT": lambda c: c.state.lighting.model_ambient,
@@ -178,7 +178,7 @@ QUERIES: dict[str, Read] = {
     "GL_FOG_DENSITY": lambda c: c.state.fog.density,
     "GL_FOG_START": lambda c: c.state.fog.start,
     "GL_FOG_END": lambda c: c.state.fog.end,
-    "GL_FOG_COLOR": shown_color(lambda c: c.state.fog.color),
+    "GL_FOG_COLOR": clamped_color(lambda c: c.state.fog.color),
     "GL_MATRIX_MODE": lambda c: c.matrix_mode,
     **matrix("MODELVIEW", lambda c: c.modelview_stack),
     **matrix("PROJECTION", lambda c: c.projection_stack),
@@ -212,7 +212,7 @@ QUERIES: dict[str, Read] = {
     "GL_LIST_BASE": lambda c: c.list_base,
     "GL_LIST_INDEX": lambda c: c.compiled_list.name if c.compiled_list else 0,
     "GL_LIST_MODE": lambda c: c.compiled_list.mode if c.compiled_list else 0,
-    # what this implementation has
+    # limits and properties of this implementation
     "GL_RED_BITS": color_bits(0),
     "GL_GREEN_BITS": color_bits(1),
     "GL_BLUE_BITS": color_bits(2),
@@ -228,7 +228,7 @@ QUERIES: dict[str, Read] = {
     "GL_SUBPIXEL_BITS": lambda c: 8,
     "GL_MAX_TEXTURE_UNITS": lambda c: TEXTURE_UNITS,
     "GL_MAX_TEXTURE_SIZE": lambda c: LARGEST_SIDE,
-    "GL_MAX_TEXTURE_LOD_BIAS": lambda c: 16.0,  # Mesa's answer; larger ones count, too
+    "GL_MAX_TEXTURE_LOD_BIAS": lambda c: 16.0,  # Mesa's answer; larger values work, too
     "GL_MAX_TEXTURE_COORDS": lambda c: TEXTURE_UNITS,
     "GL_MAX_TEXTURE_IMAGE_UNITS": lambda c: TEXTURE_UNITS,
     "GL_MAX_CUBE_MAP_TEXTURE_SIZE": lambda c: LARGEST_SIDE,
@@ -247,8 +247,8 @@ QUERIES: dict[str, Read] = {
 }
 BY_TOKEN: dict[int, Read] = {getattr(gl, name): read for name, read in QUERIES.items() if hasattr(gl, name)}
 BY_TOKEN |= {hint: (lambda c, hint=hint: c.hints.get(hint, gl.GL_DONT_CARE)) for hint in HINTS}  # type: ignore[misc]
-# state that is a colour, a normal, a depth or a matrix: as an integer 1 spans the whole range (GL 2.1, sec. 6.1.2)
-NORMALISED = {
+# colours, normals, depths and matrices: as an integer, 1.0 is the largest int (GL 2.1, sec. 6.1.2)
+NORMALIZED = {
     getattr(gl, name)
     for name in (
         "GL_DEPTH_RANGE", "GL_DEPTH_CLEAR_VALUE", "GL_COLOR_CLEAR_VALUE", "GL_ACCUM_CLEAR_VALUE", "GL_CURRENT_COLOR",

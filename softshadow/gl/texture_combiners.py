@@ -1,4 +1,4 @@
-"""The parameters of GL_COMBINE: which there are, what they may be, and where they stand in a unit's state."""
+"""The parameters of GL_COMBINE: their names, allowed values and fields."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ MODES = {
     gl.GL_COMBINE_RGB: ("mode_rgb", FUNCTIONS_RGB),
     gl.GL_COMBINE_ALPHA: ("mode_alpha", FUNCTIONS_ALPHA),
 }
-# parameter: (field, which argument, values)
+# parameter: (field, index of the argument, allowed values)
 ARGUMENTS = {
     first + i: (field, i, values)
     for first, field, values in (
@@ -38,7 +38,7 @@ COMBINE_PARAMETERS = {*SCALES, *MODES, *ARGUMENTS}
 
 
 def with_parameter(combine: Combine, pname: int, value: Any) -> tuple[Combine | None, str]:
-    """Return the setting with one parameter changed, or (None, why not)."""
+    """Return (`combine` with one parameter changed, ""), or (None, message) if the value is not allowed."""
     if pname in SCALES:
         if float(value) in SCALE_VALUES:
             return evolve(combine, **{SCALES[pname]: float(value)}), ""
@@ -50,8 +50,8 @@ def with_parameter(combine: Combine, pname: int, value: Any) -> tuple[Combine | 
     if pname in MODES:
         return evolve(combine, **{MODES[pname][0]: int(value)}), ""
     field, index, _ = ARGUMENTS[pname]
-    standing = getattr(combine, field)
-    changed: Any = (*standing[:index], int(value), *standing[index + 1 :])
+    old = getattr(combine, field)
+    changed: Any = (*old[:index], int(value), *old[index + 1 :])
     return evolve(combine, **{field: changed}), ""
 
 

@@ -1,4 +1,4 @@
-"""Texture coordinates of the vertices to come, for one unit or another."""
+"""The current texture coordinates of each unit."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from softshadow import tokens as gl
 from softshadow.context import current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import vector
-from softshadow.gl.vertex_format import REST, give
+from softshadow.gl.vertex_format import REST, carry_attribute
 from softshadow.state import TEXTURE_UNITS
 
 UNITS = range(gl.GL_TEXTURE0, gl.GL_TEXTURE0 + TEXTURE_UNITS)
@@ -17,14 +17,14 @@ A_UNIT = f"GL_TEXTURE0 … GL_TEXTURE{TEXTURE_UNITS - 1}"
 
 def set_coordinate(unit: int, *coordinates: float) -> None:
     """Set the current texture coordinate of a unit."""
-    context, given = current(), tuple(float(c) for c in coordinates)
-    standing = context.current.texcoords
-    kept = max(give(context, f"texcoord{unit}", len(given)), len(given))
-    standing[unit] = given + standing[unit][len(given) : kept] + REST[kept:]  # type: ignore[assignment]
+    context, new = current(), tuple(float(c) for c in coordinates)
+    texcoords = context.current.texcoords
+    size = max(carry_attribute(context, f"texcoord{unit}", len(new)), len(new))
+    texcoords[unit] = new + texcoords[unit][len(new) : size] + REST[size:]  # type: ignore[assignment]
 
 
 def _set_of(target: int, *coordinates: float) -> None:
-    # GL leaves wrong targets undefined; Mesa takes their last bits
+    # wrong targets are undefined in GL; Mesa uses their lowest bits
     set_coordinate(int(target) % TEXTURE_UNITS, *coordinates)
 
 

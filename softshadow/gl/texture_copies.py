@@ -30,7 +30,7 @@ def glCopyTexImage2D(
 ) -> None:
     """Define a level of the bound texture from a rectangle of the read framebuffer.
 
-    Outside the framebuffer texels become 0; in an image that had this format and size already they stay.
+    Texels outside the framebuffer become 0; if the level already had this format and size, they keep their values.
     """
     operation = "glCopyTexImage2D"
     if (context := outside_begin(operation)) is None:
@@ -92,7 +92,7 @@ def _source_problem(context: Context) -> Problem | None:
 def _copy_problem(context: Context, stored: Format, with_stencil: bool) -> Problem | None:
     source = context.storage.framebuffers[context.state.read_framebuffer]
     if stored.kind == "stencil":
-        return gl.GL_INVALID_OPERATION, "copying into GL_STENCIL_INDEX8 is not part of this subset: take packed depth"
+        return gl.GL_INVALID_OPERATION, "this subset copies stencil values only into packed depth and stencil"
     missing = None
     if stored.kind == "depth" and source.depth is None:
         missing = "depth"

@@ -1,4 +1,4 @@
-"""Images of textures: uploads and reading them back."""
+"""Texture images: uploads, mipmaps and read-outs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from softshadow.gl.pixel_formats import Problem, format_problem, kind_of, readou
 from softshadow.gl.textures import FACES, bound_name, bound_texture, target_problem
 from softshadow.image import FORMATS, WITH_STENCIL, Format, Image, storage_format
 from softshadow.pipeline.commands import DefineImage, GenerateMipmaps, UpdateImage
-from softshadow.pixel_store import TYPES, answer_array, client_image
+from softshadow.pixel_store import TYPES, client_image, output_array
 from softshadow.pixels import (
     pack_color,
     pack_depth,
@@ -31,7 +31,7 @@ from softshadow.tokens import token_name
 
 LARGEST_LEVEL = LARGEST_SIDE.bit_length() - 1
 COMPONENT_NUMBERS = (1, 2, 3, 4)  # internal formats of GL 1.0, which glCopyTexImage2D does not take
-SIZES: dict[int, tuple[int, ...]] = {  # which base formats have a channel
+SIZES: dict[int, tuple[int, ...]] = {  # the base formats that have the channel
     gl.GL_TEXTURE_RED_SIZE: (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_RGBA),
     gl.GL_TEXTURE_GREEN_SIZE: (gl.GL_RG, gl.GL_RGB, gl.GL_RGBA),
     gl.GL_TEXTURE_BLUE_SIZE: (gl.GL_RGB, gl.GL_RGBA),
@@ -60,7 +60,7 @@ def glTexImage2D(
     type: int,
     pixels: Any = None,
 ) -> None:
-    """Define a level of the bound texture from an image, first row = bottom row; None leaves it zero."""
+    """Define a level of the bound texture from an image, first row = bottom row; None fills it with zeros."""
     operation = "glTexImage2D"
     if (context := outside_begin(operation)) is None:
         return None
@@ -125,25 +125,25 @@ def glTexSubImage2D(
 def _cells(
     context: Context, pixels: Any, width: int, height: int, format: int, type: int, stored: Format, operation: str
 ) -> tuple[np.ndarray | None, np.ndarray | None]:
-    """Return client pixels as (cells, stencil values) of the storage; what the client does not give is None."""
+    """Return client pixels as (cells, stencil values) to be stored; None for a part that the format does not have."""
     if pixels is None:
         return None, None
     image = client_image(pixels, context.unpack_store, width, height, format, type, operation)
     kind = kind_of(format)
     if kind == "color":
         return unpack_color(image, format, stored).copy(), None
-    plane = image[..., 0]
+    elements = image[..., 0]
     if kind == "depth-stencil":
-        return unpack_packed_depth(plane, stored), unpack_packed_stencil(plane)
+        return unpack_packed_depth(elements, stored), unpack_packed_stencil(elements)
     if kind == "depth":
-        return unpack_depth(plane, stored), None
-    values = plane.astype(np.int64).astype(np.uint8)
+        return unpack_depth(elements, stored), None
+    values = elements.astype(np.int64).astype(np.uint8)
     return (values, None) if stored.kind == "stencil" else (None, values)
 
 
 # -- mipmaps -----------------------------------------------------------------------------------------------------------
 def glGenerateMipmap(target: int) -> None:
-    """Make all levels of the bound texture from its base level."""
+    """Compute all mipmap levels of the bound texture from its base level."""
     operation = "glGenerateMipmap"
     if (context := outside_begin(operation)) is None:
         return None
@@ -163,12 +163,12 @@ def _base_problem(context: Context, target: int) -> Problem | None:
         missing = "the base level of every face, all of one size" if cube else "a base level"
         return gl.GL_INVALID_OPERATION, f"the bound texture needs {missing}: call glTexImage2D first"
     if first.stencil is not None or first.format.kind == "stencil":
-        return gl.GL_INVALID_OPERATION, "the bound texture holds stencil values, which have no mipmaps"
+        return gl.GL_INVALID_OPERATION, "the bound texture has stencil values, which cannot have mipmaps"
     return None
 
 
 def follow_base_level(context: Context, texture: Texture, face: int, level: int) -> None:
-    """Make the other levels of a face whose base level has changed, where GL_GENERATE_MIPMAP asks for it."""
+    """Compute the mipmaps of a face after a change of its base level, if GL_GENERATE_MIPMAP is on."""
     sampler = texture.sampler
     base = texture.base(face)
     if sampler.generate_mipmap and level == sampler.base_level and base is not None and base.stencil is None:
@@ -183,19 +183,19 @@ def _generate(context: Context, texture: Texture, faces: tuple[int, ...]) -> Non
 
 # -- reading back ------------------------------------------------------------------------------------------------------
 def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = None) -> Any:
-    """Return a level of the bound texture, (h, w) or (h, w, components), first row = bottom row, or fill `array`."""
+    """Return a level of the bound texture, (h, w) or (h, w, components), bottom row first; an `array` is filled."""
     operation = "glGetTexImage"
     if (context := outside_begin(operation)) is None:
         return None
     problem = target_problem(context, target, faces=True) or level_problem(level) or format_problem(format, type)
     if problem:
         return fail(problem[0], operation, problem[1])
-    context.settle()
+    context.flush()
     image = image_at(context, target, level)
     if image is not None and (problem := readout_problem(format, image)):
         return fail(problem[0], operation, problem[1])
     width, height = (image.width, image.height) if image is not None else (0, 0)
-    answer, view = answer_array(array, context.pack_store, width, height, format, type, operation)
+    answer, view = output_array(array, context.pack_store, width, height, format, type, operation)
     if image is not None:
         view[...] = texture_pixels(image, format, type)
     return answer
@@ -236,7 +236,7 @@ def glGetTexLevelParameteriv(target: int, level: int, pname: int, params: Any = 
     elif pname in SIZES:
         answer = channel_bits(image, pname) if image else 0
     else:
-        return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)} is no property of a texture's level")
+        return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)}: expected a property of a texture level")
     if params is not None:
         np.asarray(params)[:1] = answer
     return answer
@@ -249,7 +249,7 @@ def glGetTexLevelParameterfv(target: int, level: int, pname: int, params: Any = 
 
 
 def channel_bits(image: Image, size: int) -> int:
-    """Return the bits of the channel that a GL_TEXTURE_*_SIZE names, 0 where the format has none."""
+    """Return the number of bits of the channel of a GL_TEXTURE_*_SIZE, 0 if the format does not have it."""
     if size == gl.GL_TEXTURE_STENCIL_SIZE:
         return 8 if image.stencil is not None or image.format.kind == "stencil" else 0
     if image.format.base not in SIZES[size]:
@@ -260,21 +260,21 @@ def channel_bits(image: Image, size: int) -> int:
 
 
 def image_at(context: Context, target: int, level: int) -> Image | None:
-    """Return the image of a level of the bound texture, or None where it is not defined."""
+    """Return the image of a level of the bound texture, or None if it is not defined."""
     texture = context.storage.textures.get(bound_name(context, target))
     return texture.images.get((face_of(target), level)) if texture is not None else None
 
 
-# -- what can be wrong -------------------------------------------------------------------------------------------------
+# -- wrong arguments ---------------------------------------------------------------------------------------------------
 def level_problem(level: int) -> Problem | None:
-    """Return (error code, why) where there is no such level, else None."""
+    """Return (error code, message) if a level is out of range, else None."""
     if 0 <= level <= LARGEST_LEVEL:
         return None
     return gl.GL_INVALID_VALUE, f"level={level}: expected 0 to {LARGEST_LEVEL}"
 
 
 def size_problem(target: int, level: int, width: int, height: int, border: int) -> Problem | None:
-    """Return (error code, why) where a level cannot have that size, else None."""
+    """Return (error code, message) if a level cannot have this size, else None."""
     if problem := level_problem(level):
         return problem
     if problem := border_problem(border):
@@ -283,12 +283,12 @@ def size_problem(target: int, level: int, width: int, height: int, border: int) 
     if not (0 <= width <= largest and 0 <= height <= largest):
         return gl.GL_INVALID_VALUE, f"width={width}, height={height}: expected 0 to {largest} at level {level}"
     if target in FACES and width != height:
-        return gl.GL_INVALID_VALUE, f"width={width}, height={height}: faces of a cube map are square"
+        return gl.GL_INVALID_VALUE, f"width={width}, height={height}: expected a square face of a cube map"
     return None
 
 
 def border_problem(border: int) -> Problem | None:
-    """Return (error code, why) where an image has a border, else None."""
+    """Return (error code, message) if a border is asked for, else None."""
     if border == 0:
         return None
     return gl.GL_INVALID_VALUE, f"border={border}: expected 0 (texel borders are not part of this subset)"
@@ -298,11 +298,11 @@ def internal_problem(internalformat: int, code: int, exclude: tuple[int, ...] = 
     if internalformat in FORMATS and internalformat not in exclude:
         return None
     known = ", ".join(token_name(f) for f in FORMATS if f not in COMPONENT_NUMBERS)
-    return code, f"internalformat={token_name(internalformat)} is not part of this subset: expected one of {known}"
+    return code, f"internalformat={token_name(internalformat)}: expected one of {known}"
 
 
 def missing_problem(context: Context, target: int, level: int) -> Problem | None:
-    """Return (error code, why) where the level has no image, else None."""
+    """Return (error code, message) if the level is not defined, else None."""
     if image_at(context, target, level) is not None:
         return None
     return gl.GL_INVALID_OPERATION, f"level {level} of the bound texture is not defined: call glTexImage2D first"
@@ -317,14 +317,14 @@ def _negative_problem(width: int, height: int) -> Problem | None:
 def region_problem(
     context: Context, target: int, level: int, x: int, y: int, width: int, height: int
 ) -> Problem | None:
-    """Return (error code, why) where a rectangle leaves the image, else None."""
+    """Return (error code, message) if a rectangle is not inside the image, else None."""
     if problem := _negative_problem(width, height):
         return problem
     image = image_at(context, target, level)
     assert image is not None
     if x < 0 or y < 0 or x + width > image.width or y + height > image.height:
         return gl.GL_INVALID_VALUE, (
-            f"the rectangle at ({x}, {y}) of {width} x {height} leaves the image of {image.width} x {image.height}"
+            f"the rectangle of {width} x {height} at ({x}, {y}) leaves the image of {image.width} x {image.height}"
         )
     return None
 

@@ -1,4 +1,4 @@
-"""Texture units: the active one, its environment and level-of-detail bias, and the generation of its coordinates."""
+"""Texture units: the active unit, texture environment, level-of-detail bias, generated coordinates."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from softshadow.tokens import token_name
 
 ENVIRONMENT_MODES = (gl.GL_MODULATE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_REPLACE, gl.GL_ADD, gl.GL_COMBINE)
 COORDINATES = (gl.GL_S, gl.GL_T, gl.GL_R, gl.GL_Q)
-GEN_MODES = {  # and the coordinates that can be generated so
+GEN_MODES = {  # mode: the coordinates that can be generated this way
     gl.GL_OBJECT_LINEAR: COORDINATES,
     gl.GL_EYE_LINEAR: COORDINATES,
     gl.GL_SPHERE_MAP: COORDINATES[:2],
@@ -33,7 +33,7 @@ PLANES = {gl.GL_OBJECT_PLANE: "object_plane", gl.GL_EYE_PLANE: "eye_plane"}
 
 @in_lists
 def glActiveTexture(texture: int) -> None:
-    """Say which unit texture calls and the texture matrix stack are about."""
+    """Select the unit that texture calls and the texture matrix stack apply to."""
     if (context := outside_begin("glActiveTexture")) is None:
         return None
     unit = int(texture) - gl.GL_TEXTURE0
@@ -44,7 +44,7 @@ def glActiveTexture(texture: int) -> None:
             f"texture={token_name(texture)}: expected GL_TEXTURE0 to GL_TEXTURE{TEXTURE_UNITS - 1}",
         )
     if context.active_unit != unit:
-        context.settle()
+        context.flush()
         context.touched |= gl.GL_TEXTURE_BIT
     context.active_unit = unit
     return None
@@ -53,13 +53,13 @@ def glActiveTexture(texture: int) -> None:
 # -- environment -------------------------------------------------------------------------------------------------------
 @in_lists
 def glTexEnvi(target: int, pname: int, param: int) -> None:
-    """Set how a texture's colour meets the fragment's."""
+    """Set how a texture's colour is combined with the fragment's."""
     _set_environment("glTexEnvi", target, pname, param)
 
 
 @in_lists
 def glTexEnvf(target: int, pname: int, param: float) -> None:
-    """Set how a texture's colour meets the fragment's, or GL_TEXTURE_LOD_BIAS of GL_TEXTURE_FILTER_CONTROL."""
+    """Set how a texture's colour is combined with the fragment's, or the unit's level-of-detail bias."""
     _set_environment("glTexEnvf", target, pname, param)
 
 
@@ -71,7 +71,7 @@ def glTexEnvfv(target: int, pname: int, params: Any) -> None:
 
 @in_lists
 def glTexEnviv(target: int, pname: int, params: Any) -> None:
-    """Set a parameter of the texture environment; the colour's ints stand for 1 at 2**31 - 1."""
+    """Set a parameter of the texture environment; for the colour, 2**31 - 1 represents 1."""
     is_color = pname == gl.GL_TEXTURE_ENV_COLOR
     values = vector(params, 4, from_int) if is_color else numbers(params, int)
     _set_environment("glTexEnviv", target, pname, values, is_vector=True)
@@ -92,9 +92,9 @@ def _set_environment(operation: str, target: int, pname: int, value: Any, is_vec
         return None
     if pname in COMBINE_PARAMETERS:
         unit = context.state.units[context.active_unit]
-        combine, why = with_parameter(unit.combine, pname, values[0])
+        combine, message = with_parameter(unit.combine, pname, values[0])
         if combine is None:
-            return fail(gl.GL_INVALID_VALUE if pname in SCALES else gl.GL_INVALID_ENUM, operation, why)
+            return fail(gl.GL_INVALID_VALUE if pname in SCALES else gl.GL_INVALID_ENUM, operation, message)
         set_unit(context, context.active_unit, combine=combine)
         return None
     mode = int(values[0])
@@ -125,12 +125,12 @@ def _environment_problem(target: int, pname: int, is_vector: bool) -> str | None
 
 
 def glGetTexEnviv(target: int, pname: int, params: Any = None) -> Any:
-    """Return the mode of the texture environment, its colour as 4 int32, or the unit's level-of-detail bias."""
+    """Return a parameter of the texture environment: an int, or 4 int32 for its colour."""
     return _environment("glGetTexEnviv", target, pname, params, np.int32)
 
 
 def glGetTexEnvfv(target: int, pname: int, params: Any = None) -> Any:
-    """Return what glGetTexEnviv does, as floats."""
+    """Return a parameter of the texture environment: a float, or 4 float32 for its colour."""
     return _environment("glGetTexEnvfv", target, pname, params, np.float32)
 
 
@@ -160,25 +160,25 @@ def _answer(values: np.ndarray, params: Any) -> Any:
 # -- generated coordinates ---------------------------------------------------------------------------------------------
 @in_lists
 def glTexGeni(coord: int, pname: int, param: int) -> None:
-    """Say how a coordinate is generated; GL_SPHERE_MAP makes only s and t, GL_NORMAL_MAP and GL_REFLECTION_MAP no q."""
+    """Set how a coordinate is generated: GL_SPHERE_MAP only s and t, GL_NORMAL_MAP and GL_REFLECTION_MAP not q."""
     _set_mode("glTexGeni", coord, pname, param)
 
 
 @in_lists
 def glTexGenf(coord: int, pname: int, param: float) -> None:
-    """Say how a coordinate is generated."""
+    """Set how a coordinate is generated."""
     _set_mode("glTexGenf", coord, pname, param)
 
 
 @in_lists
 def glTexGend(coord: int, pname: int, param: float) -> None:
-    """Say how a coordinate is generated."""
+    """Set how a coordinate is generated."""
     _set_mode("glTexGend", coord, pname, param)
 
 
 @in_lists
 def glTexGenfv(coord: int, pname: int, params: Any) -> None:
-    """Set a plane of a generated coordinate, or its mode; an eye plane is taken to eye space."""
+    """Set a plane of a generated coordinate, or its mode; an eye plane is transformed to eye space."""
     _set_generation("glTexGenfv", coord, pname, params)
 
 
@@ -204,7 +204,7 @@ def _set_mode(operation: str, coord: int, pname: int, value: Any) -> None:
         return fail(
             gl.GL_INVALID_ENUM,
             operation,
-            f"GL_TEXTURE_GEN_MODE={token_name(int(value))} of {token_name(coord)}: expected one of {expected}",
+            f"GL_TEXTURE_GEN_MODE={token_name(int(value))}: expected one of {expected} for {token_name(coord)}",
         )
     _replace_generation(context, coord, mode=int(value))
     return None
@@ -227,7 +227,7 @@ def _set_generation(
 
 
 def eye_plane(context: Context, plane: np.ndarray) -> np.ndarray:
-    """Return the plane (4,) in eye space: times the inverse of the current modelview matrix, from left to right."""
+    """Return a plane (4,) in eye space: the row vector times the inverse of the current modelview matrix."""
     modelview, kinds = context.modelview_stack[-1], context.modelview_kinds
     kinds[-1] = known_kind(modelview, kinds[-1])
     m = inverse(modelview, kinds[-1])

@@ -13,7 +13,7 @@ from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import first, from_int, nearest_int, vector
 from softshadow.gl.errors import fail, outside_begin
-from softshadow.gl.names import generate, listed, take
+from softshadow.gl.names import generate, names_argument, reserve
 from softshadow.pipeline.commands import AttachTexture, CreateTexture, DeleteTextures, SetSampler
 from softshadow.state import TextureUnit
 from softshadow.texture import Sampler, Texture, stored_name
@@ -56,71 +56,71 @@ def glGenTextures(n: int, textures: Any = None) -> Any:
 
 @in_lists
 def glBindTexture(target: int, texture: int) -> None:
-    """Bind a texture to the active unit; a name that is new becomes a texture of that target."""
+    """Bind a texture to the active unit; a new name becomes a texture of this target."""
     if (context := outside_begin("glBindTexture")) is None:
         return None
     if target not in BINDINGS:
         return fail(gl.GL_INVALID_ENUM, "glBindTexture", f"target={token_name(target)}: {EXPECTED_TARGET}")
     name = int(texture)
-    standing = context.storage.textures.get(name)
-    if name and standing is not None and standing.target != target:
+    texture_object = context.storage.textures.get(name)
+    if name and texture_object is not None and texture_object.target != target:
         return fail(
             gl.GL_INVALID_OPERATION,
             "glBindTexture",
-            f"texture={name} is a {token_name(standing.target)}, it cannot become a {token_name(target)}",
+            f"texture={name}: expected a {token_name(target)}, it is a {token_name(texture_object.target)}",
         )
-    if name and standing is None:
-        take(context, "texture", name)
+    if name and texture_object is None:
+        reserve(context, "texture", name)
         context.execute(CreateTexture(name, target))
     set_unit(context, context.active_unit, **{BINDINGS[target]: name})
     return None
 
 
 def glDeleteTextures(*arguments: Any) -> None:
-    """Delete textures: (name), (names) or (n, names). They leave all units and the bound framebuffers."""
+    """Delete textures: (name), (names) or (n, names). They leave all units and are detached from bound framebuffers."""
     if (context := outside_begin("glDeleteTextures")) is None:
         return None
-    names = [name for name in listed("glDeleteTextures", arguments) if name > 0]
+    names = [name for name in names_argument("glDeleteTextures", arguments) if name > 0]
     for framebuffer in {context.state.draw_framebuffer, context.state.read_framebuffer}:
         attachments = context.storage.framebuffers[framebuffer].attachments
         for point, attachment in list(attachments.items()):
             if attachment.texture in names:
                 context.execute(AttachTexture(framebuffer, point, 0))
     for index, unit in enumerate(context.state.units):
-        kept = {field: 0 for field in BINDINGS.values() if getattr(unit, field) in names}
-        if kept:
-            set_unit(context, index, **kept)
+        unbound = {field: 0 for field in BINDINGS.values() if getattr(unit, field) in names}
+        if unbound:
+            set_unit(context, index, **unbound)
     existing = tuple(name for name in names if name in context.storage.textures)
     if existing:
         context.execute(DeleteTextures(existing))
 
 
 def glIsTexture(texture: int) -> bool:
-    """Return whether a name is that of a texture, which it becomes when it is first bound."""
+    """Return whether a texture of this name exists; the first glBindTexture creates it."""
     context = outside_begin("glIsTexture")
     return context is not None and texture > 0 and int(texture) in context.storage.textures
 
 
 def set_unit(context: Context, index: int, **fields: Any) -> None:
-    """Replace fields of one texture unit's state."""
+    """Replace fields of a texture unit's state."""
     units: list[TextureUnit] = list(context.state.units)
     units[index] = evolve(units[index], **fields)
     context.set(units=tuple(units))
 
 
 def object_target(target: int) -> int:
-    """Return the target of the texture object that a target is about: faces are those of a cube map."""
+    """Return the target of the texture object: GL_TEXTURE_CUBE_MAP for a face of a cube map."""
     return gl.GL_TEXTURE_CUBE_MAP if target in FACES else target
 
 
 def bound_name(context: Context, target: int) -> int:
-    """Return what the texture is stored as that the active unit has for a target, or for a face of a cube map."""
+    """Return the key in the storage of the texture bound to a target; the target may be a face of a cube map."""
     target = object_target(target)
     return stored_name(target, int(getattr(context.state.units[context.active_unit], BINDINGS[target])))
 
 
 def bound_texture(context: Context, target: int) -> Texture:
-    """Return the texture bound to the active unit; those named 0 are made when it is first used."""
+    """Return the texture bound to a target; the default textures, named 0, are created at their first use."""
     name = bound_name(context, target)
     if name not in context.storage.textures:
         context.execute(CreateTexture(name, object_target(target)))
@@ -128,7 +128,7 @@ def bound_texture(context: Context, target: int) -> Texture:
 
 
 def target_problem(context: Context, target: int, faces: bool = False) -> tuple[int, str] | None:
-    """Return (error code, why) where a call's target cannot be meant, else None."""
+    """Return (error code, message) if a target is wrong, else None; with `faces`, it is an image target."""
     allowed = (gl.GL_TEXTURE_2D, *FACES) if faces else tuple(BINDINGS)
     if target not in allowed:
         expected = "expected GL_TEXTURE_2D or a face of GL_TEXTURE_CUBE_MAP" if faces else EXPECTED_TARGET
@@ -160,7 +160,7 @@ def glTexParameterfv(target: int, pname: int, params: Any) -> None:
 
 @in_lists
 def glTexParameteriv(target: int, pname: int, params: Any) -> None:
-    """Set a parameter of the bound texture; GL_TEXTURE_BORDER_COLOR takes four ints, 2**31 - 1 stands for 1."""
+    """Set a parameter of the bound texture; in GL_TEXTURE_BORDER_COLOR, 2**31 - 1 represents 1."""
     if pname == gl.GL_TEXTURE_BORDER_COLOR:
         _set_border("glTexParameteriv", target, vector(params, 4, from_int))
     else:
@@ -203,9 +203,7 @@ def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
         limited = min(max(number, 0.0), 1.0) if pname == gl.GL_TEXTURE_PRIORITY else number
         _set_sampler(context, target, **{NUMBERS[pname]: limited})
     else:
-        return fail(
-            gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)} is no parameter of a texture in this subset"
-        )
+        return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)}: expected a texture parameter")
     return None
 
 
@@ -229,7 +227,7 @@ def glGetTexParameteriv(target: int, pname: int, params: Any = None) -> Any:
 
 
 def queried_color(context: Context, color: tuple[float, ...]) -> np.ndarray:
-    """Return a colour of texturing as a query answers it: clamped, unless colours are drawn as floats."""
+    """Return a texture colour as queries return it: clamped, unless the colour buffer is float."""
     target = context.storage.framebuffers[context.state.draw_framebuffer].first_color
     values = np.array(color, np.float32)
     return values if target is not None and target.format.kind == "float" else values.clip(0, 1)
@@ -249,9 +247,7 @@ def _parameter(operation: str, target: int, pname: int, params: Any, dtype: type
         value = getattr(sampler, FIELDS[pname])
         answer = np.array([value], np.float32) if dtype == np.float32 else np.array([round(value)], np.int32)
     else:
-        return fail(
-            gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)} is no parameter of a texture in this subset"
-        )
+        return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)}: expected a texture parameter")
     if params is not None:
         np.asarray(params)[: len(answer)] = answer
     return answer if len(answer) > 1 else answer[0].item()

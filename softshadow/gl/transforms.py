@@ -1,4 +1,4 @@
-"""Matrix stacks and what changes the current matrix."""
+"""Matrix stacks, and calls that change the current matrix."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ from softshadow.programs.inverse import (
     known_kind,
 )
 
-SAME_SCALE = 1e-8  # a scale is uniform where its factors differ by less (Mesa, math/m_matrix.c)
+SAME_SCALE = 1e-8  # a scale is uniform if its factors differ by less (Mesa, math/m_matrix.c)
 
 
 def set_current(context: Context, matrix: np.ndarray, kind: int) -> None:
-    """Make a matrix current. `kind` says what may be in it, and with that how Mesa inverts it."""
-    context.settle()
+    """Replace the current matrix; Mesa inverts it by its `kind`, the transformations that it may contain."""
+    context.flush()
     matrix.setflags(write=False)
     context.matrix_stack[-1] = matrix
     context.kind_stack[-1] = kind
 
 
-def _given(context: Context, m: Any) -> np.ndarray:
-    """Return a matrix argument, 16 numbers in GL's column-major order, as (4, 4) with column vectors."""
+def _matrix_argument(context: Context, m: Any) -> np.ndarray:
+    """Return a matrix argument, 16 numbers in column-major order, as a matrix (4, 4)."""
     if isinstance(m, bytes | bytearray | memoryview):
         m = np.frombuffer(m, np.float64 if len(m) == 128 else np.float32)
     return context.frozen(m).reshape(4, 4).T
@@ -41,7 +41,7 @@ def _given(context: Context, m: Any) -> np.ndarray:
 
 @in_lists
 def glMatrixMode(mode: int) -> None:
-    """Choose the stack that matrix calls work on."""
+    """Select the stack that matrix calls work on."""
     context = outside_begin("glMatrixMode")
     expected = "GL_MODELVIEW, GL_PROJECTION or GL_TEXTURE"
     if context is not None and is_one_of("glMatrixMode", "mode", mode, MATRIX_STACK_DEPTHS, expected):
@@ -52,7 +52,7 @@ def glMatrixMode(mode: int) -> None:
 
 @in_lists
 def glPushMatrix() -> None:
-    """Put a copy of the current matrix on its stack."""
+    """Push a copy of the current matrix onto its stack."""
     context = outside_begin("glPushMatrix")
     if context is None:
         return
@@ -68,7 +68,7 @@ def glPushMatrix() -> None:
 
 @in_lists
 def glPopMatrix() -> None:
-    """Go back to the matrix of the last push."""
+    """Restore the matrix of the last push."""
     context = outside_begin("glPopMatrix")
     if context is None:
         return
@@ -76,69 +76,69 @@ def glPopMatrix() -> None:
         fail(gl.GL_STACK_UNDERFLOW, "glPopMatrix", "there was no glPushMatrix before it")
     else:
         if context.matrix_stack[-1].tobytes() != context.matrix_stack[-2].tobytes():
-            context.settle()
+            context.flush()
         context.matrix_stack.pop()
         context.kind_stack.pop()
 
 
 @in_lists
 def glLoadIdentity() -> None:
-    """Make the identity current."""
+    """Replace the current matrix by the identity."""
     context = outside_begin("glLoadIdentity")
     if context is not None:
-        # Mesa keeps what the matrix before could have had in it, and so inverts the next one more generally
+        # Mesa keeps the kind of the old matrix, and so inverts products with the identity more generally
         set_current(context, np.eye(4, dtype=context.real), context.kind_stack[-1] & ~UNKNOWN)
 
 
 @in_lists
 def glLoadMatrixf(m: Any) -> None:
-    """Make a matrix current: 16 numbers, column after column."""
+    """Replace the current matrix by 16 numbers, column after column."""
     context = outside_begin("glLoadMatrixf")
     if context is not None:
-        made = _given(context, m)
-        if made.tobytes() != context.matrix_stack[-1].tobytes():
-            set_current(context, made, GENERAL | UNKNOWN)
+        matrix = _matrix_argument(context, m)
+        if matrix.tobytes() != context.matrix_stack[-1].tobytes():
+            set_current(context, matrix, GENERAL | UNKNOWN)
 
 
 @in_lists
 def glMultMatrixf(m: Any) -> None:
-    """Multiply the current matrix from the right: 16 numbers, column after column."""
+    """Multiply the current matrix by 16 numbers, column after column."""
     context = outside_begin("glMultMatrixf")
     if context is not None:
-        made = _given(context, m)
-        if made.tobytes() != np.eye(4, dtype=context.real).tobytes():  # Mesa passes over an identity
-            multiply_current(context, made, GENERAL | UNKNOWN)
+        matrix = _matrix_argument(context, m)
+        if matrix.tobytes() != np.eye(4, dtype=context.real).tobytes():  # Mesa skips the identity
+            multiply_current(context, matrix, GENERAL | UNKNOWN)
 
 
 @in_lists
 def glLoadTransposeMatrixf(m: Any) -> None:
-    """Make a matrix current: 16 numbers, row after row."""
+    """Replace the current matrix by 16 numbers, row after row."""
     glLoadMatrixf(np.reshape(m, (4, 4)).T)
 
 
 @in_lists
 def glMultTransposeMatrixf(m: Any) -> None:
-    """Multiply the current matrix from the right: 16 numbers, row after row."""
+    """Multiply the current matrix by 16 numbers, row after row."""
     glMultMatrixf(np.reshape(m, (4, 4)).T)
 
 
 def multiply_current(context: Context, matrix: np.ndarray, kind: int) -> None:
-    """Multiply the current matrix from the right by one of a kind."""
+    """Multiply the current matrix on the right by a matrix of a kind."""
     set_current(context, matrices.multiply(context.matrix_stack[-1], matrix), context.kind_stack[-1] | kind)
 
 
 @in_lists
 def glTranslatef(x: float, y: float, z: float) -> None:
-    """Move what is drawn from here on."""
+    """Multiply the current matrix by a translation."""
     context = outside_begin("glTranslatef")
     if context is not None:
-        made = matrices.translate(context.matrix_stack[-1], x, y, z)
-        set_current(context, made, context.kind_stack[-1] | TRANSLATION)
+        product = matrices.translate(context.matrix_stack[-1], x, y, z)
+        set_current(context, product, context.kind_stack[-1] | TRANSLATION)
 
 
 @in_lists
 def glScalef(x: float, y: float, z: float) -> None:
-    """Scale what is drawn from here on."""
+    """Multiply the current matrix by a scale."""
     context = outside_begin("glScalef")
     if context is not None:
         uniform = max(abs(x - y), abs(x - z)) < SAME_SCALE
@@ -148,17 +148,17 @@ def glScalef(x: float, y: float, z: float) -> None:
 
 @in_lists
 def glRotatef(angle: float, x: float, y: float, z: float) -> None:
-    """Turn what is drawn from here on: degrees about an axis."""
+    """Multiply the current matrix by a rotation: degrees about an axis."""
     context = outside_begin("glRotatef")
     if context is not None:
-        context.settle()
+        context.flush()
     if context is not None and angle and (x or y or z):
         multiply_current(context, matrices.rotation(angle, x, y, z, context.real), ROTATION)
 
 
 @in_lists
 def glFrustum(left: float, right: float, bottom: float, top: float, zNear: float, zFar: float) -> None:
-    """Multiply by the perspective projection of a frustum."""
+    """Multiply the current matrix by a perspective projection."""
     context = outside_begin("glFrustum")
     if context is None:
         return
@@ -171,7 +171,7 @@ def glFrustum(left: float, right: float, bottom: float, top: float, zNear: float
 
 @in_lists
 def glOrtho(left: float, right: float, bottom: float, top: float, zNear: float, zFar: float) -> None:
-    """Multiply by the parallel projection of a box."""
+    """Multiply the current matrix by an orthographic projection."""
     context = outside_begin("glOrtho")
     if context is None:
         return
@@ -179,8 +179,8 @@ def glOrtho(left: float, right: float, bottom: float, top: float, zNear: float, 
         expected = "expected left ≠ right, bottom ≠ top and near ≠ far"
         fail(gl.GL_INVALID_VALUE, "glOrtho", f"left={left}, right={right}: {expected}")
     else:
-        made = matrices.ortho(left, right, bottom, top, zNear, zFar, context.real)
-        multiply_current(context, made, GENERAL_SCALE | TRANSLATION)
+        projection = matrices.ortho(left, right, bottom, top, zNear, zFar, context.real)
+        multiply_current(context, projection, GENERAL_SCALE | TRANSLATION)
 
 
 glLoadMatrixd, glMultMatrixd = glLoadMatrixf, glMultMatrixf

@@ -1,4 +1,4 @@
-"""Vertex arrays: pointers to a user's arrays or into buffer objects, and which of them are enabled."""
+"""Vertex arrays: pointers to users' arrays or into buffer objects, and which are enabled."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ TYPES = {
 }  # fmt: skip
 POSITION_TYPES = (gl.GL_SHORT, gl.GL_INT, gl.GL_FLOAT, gl.GL_DOUBLE)
 NORMAL_TYPES = (gl.GL_BYTE, *POSITION_TYPES)
-LARGEST_STRIDE = 2048  # GL_MAX_VERTEX_ATTRIB_STRIDE of Mesa
+LARGEST_STRIDE = 2048  # Mesa's GL_MAX_VERTEX_ATTRIB_STRIDE
 ARRAYS = {gl.GL_VERTEX_ARRAY: "position", gl.GL_NORMAL_ARRAY: "normal", gl.GL_COLOR_ARRAY: "color"}
-# glInterleavedArrays: numbers of texture coordinates, colour (a 4 of bytes), normal (3 or none), position
+# glInterleavedArrays: components of texture coordinate, colour (key of `COLORS`), normal and position
 INTERLEAVED = {
     gl.GL_V2F: (0, "", 0, 2), gl.GL_V3F: (0, "", 0, 3), gl.GL_C4UB_V2F: (0, "4ub", 0, 2),
     gl.GL_C4UB_V3F: (0, "4ub", 0, 3), gl.GL_C3F_V3F: (0, "3f", 0, 3), gl.GL_N3F_V3F: (0, "", 3, 3),
@@ -30,18 +30,18 @@ INTERLEAVED = {
     gl.GL_T2F_C4UB_V3F: (2, "4ub", 0, 3), gl.GL_T2F_C3F_V3F: (2, "3f", 0, 3), gl.GL_T2F_N3F_V3F: (2, "", 3, 3),
     gl.GL_T2F_C4F_N3F_V3F: (2, "4f", 3, 3), gl.GL_T4F_C4F_N3F_V4F: (4, "4f", 3, 4),
 }  # fmt: skip
-COLORS = {"": (0, 0), "3f": (3, 12), "4f": (4, 16), "4ub": (4, 4)}  # numbers, bytes
+COLORS = {"": (0, 0), "3f": (3, 12), "4f": (4, 16), "4ub": (4, 4)}  # (components, bytes)
 DEEPEST_CLIENT_ATTRIBUTES = 16
 
 
-# -- which arrays ------------------------------------------------------------------------------------------------------
+# -- single arrays -----------------------------------------------------------------------------------------------------
 def glEnableClientState(array: int) -> None:
-    """Take an attribute of each vertex from its array."""
+    """Enable the array of an attribute."""
     _client_state("glEnableClientState", array, True)
 
 
 def glDisableClientState(array: int) -> None:
-    """Take the current value of an attribute for all vertices."""
+    """Disable the array of an attribute: all vertices get its current value."""
     _client_state("glDisableClientState", array, False)
 
 
@@ -55,29 +55,29 @@ def _client_state(operation: str, array: int, on: bool) -> None:
 
 
 def glClientActiveTexture(texture: int) -> None:
-    """Choose the unit that glTexCoordPointer and GL_TEXTURE_COORD_ARRAY mean."""
+    """Select the unit that glTexCoordPointer and GL_TEXTURE_COORD_ARRAY apply to."""
     context = outside_begin("glClientActiveTexture")
     if context is not None and is_one_of("glClientActiveTexture", "texture", texture, UNITS, A_UNIT):
         context.arrays.active_unit = int(texture) - gl.GL_TEXTURE0
 
 
 def glVertexPointer(size: int, type: int, stride: int, pointer: Any) -> None:
-    """Set the array of positions: `size` 2, 3 or 4 numbers a vertex."""
+    """Set the array of positions: `size` 2, 3 or 4 components per vertex."""
     _pointer("glVertexPointer", "position", size, (2, 3, 4), type, POSITION_TYPES, stride, pointer)
 
 
 def glNormalPointer(type: int, stride: int, pointer: Any) -> None:
-    """Set the array of normals: 3 numbers a vertex; integers stand for -1 to 1."""
+    """Set the array of normals: 3 components per vertex; integers represent -1 to 1."""
     _pointer("glNormalPointer", "normal", 3, (3,), type, NORMAL_TYPES, stride, pointer)
 
 
 def glColorPointer(size: int, type: int, stride: int, pointer: Any) -> None:
-    """Set the array of colours: `size` 3 or 4 numbers a vertex; unsigned integers stand for 0 to 1."""
+    """Set the array of colours: `size` 3 or 4 components per vertex; unsigned integers represent 0 to 1."""
     _pointer("glColorPointer", "color", size, (3, 4), type, tuple(TYPES), stride, pointer)
 
 
 def glTexCoordPointer(size: int, type: int, stride: int, pointer: Any) -> None:
-    """Set the array of texture coordinates of the client's active unit: `size` 1 to 4 numbers a vertex."""
+    """Set the array of texture coordinates of the client's active unit: `size` 1 to 4 components per vertex."""
     key = f"texcoord{current().arrays.active_unit}"
     _pointer("glTexCoordPointer", key, size, (1, 2, 3, 4), type, POSITION_TYPES, stride, pointer)
 
@@ -105,21 +105,21 @@ def _pointer(
 
 
 def rows_of(pointer: Any, dtype: np.dtype, size: int, stride: int) -> np.ndarray:
-    """Return an array as rows of `size` numbers, without copying one that fits; `stride` in bytes, 0 for none."""
+    """Return an array as rows of `size` numbers, without a copy if possible; `stride` in bytes, 0 if contiguous."""
     if isinstance(pointer, bytes | bytearray | memoryview):
         values = np.frombuffer(pointer, dtype)
     else:
         values = np.ascontiguousarray(pointer, dtype)
     if stride and stride != size * dtype.itemsize:
         flat = values.reshape(-1).view(np.uint8)
-        count = (len(flat) - size * dtype.itemsize) // stride + 1
-        return np.ndarray((max(count, 0), size), dtype, flat, 0, (stride, dtype.itemsize))
+        n_rows = (len(flat) - size * dtype.itemsize) // stride + 1
+        return np.ndarray((max(n_rows, 0), size), dtype, flat, 0, (stride, dtype.itemsize))
     return values.reshape(-1)[: values.size // size * size].reshape(-1, size)
 
 
 # -- several at once ---------------------------------------------------------------------------------------------------
 def glInterleavedArrays(format: int, stride: int, pointer: Any) -> None:
-    """Take positions, normals, colours and texture coordinates from one array in one of fourteen layouts."""
+    """Set all arrays from one interleaved array in one of fourteen layouts."""
     context, operation = outside_begin("glInterleavedArrays"), "glInterleavedArrays"
     if context is None:
         return
@@ -150,13 +150,13 @@ def glInterleavedArrays(format: int, stride: int, pointer: Any) -> None:
 
 
 def _memory(pointer: Any) -> memoryview:
-    """Return an array as bytes; numbers of another type are kept as they are, since a layout may mix types."""
+    """Return an array as bytes, without conversion of its type: a layout may mix types."""
     values = np.array(pointer, np.float32) if isinstance(pointer, list | tuple) else pointer
     return memoryview(values if isinstance(values, bytes) else np.ascontiguousarray(values).tobytes())
 
 
 def glPushClientAttrib(mask: int) -> None:
-    """Keep vertex arrays and pixel store until the matching pop."""
+    """Save vertex arrays and pixel store until the matching pop."""
     context = outside_begin("glPushClientAttrib")
     if context is None:
         return
@@ -174,7 +174,7 @@ def glPushClientAttrib(mask: int) -> None:
 
 
 def glPopClientAttrib() -> None:
-    """Bring back what the last push kept."""
+    """Restore what the last push has saved."""
     context = outside_begin("glPopClientAttrib")
     if context is None:
         return

@@ -1,4 +1,4 @@
-"""The current colour and normal, which a vertex takes along."""
+"""The current colour and normal."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from softshadow.gl.conversions import (
     vector,
 )
 from softshadow.gl.materials import follow_color
-from softshadow.gl.vertex_format import give
+from softshadow.gl.vertex_format import carry_attribute
 
 
 # -- colour ------------------------------------------------------------------------------------------------------------
 def set_color(red: float, green: float, blue: float, *alpha: float) -> None:
     context = current()
-    kept = give(context, "color", 3 + len(alpha))
+    size = carry_attribute(context, "color", 3 + len(alpha))
     if not alpha:
-        alpha = context.current.color[3:] if kept > 3 else (1.0,)
+        alpha = context.current.color[3:] if size > 3 else (1.0,)
     context.current.color = (float(red), float(green), float(blue), float(alpha[0]))
-    if context.primitive is None:  # inside, glEnd does it: the vertices take their colours along
+    if context.primitive is None:  # between glBegin and glEnd, glEnd does it
         follow_color(context)
 
 
@@ -58,7 +58,7 @@ def glColor4fv(v: Any) -> None:
 @in_lists
 def glColor3d(red: float, green: float, blue: float) -> None:
     """Set the current colour, alpha 1."""
-    set_color(red, green, blue, 1.0)  # to Mesa a call with four numbers, as all of glColor3 but glColor3f
+    set_color(red, green, blue, 1.0)  # Mesa sets four components in all glColor3 calls but glColor3f
 
 
 @in_lists
@@ -71,7 +71,7 @@ glColor4d, glColor4dv = glColor4f, glColor4fv
 
 
 def _calls_for(convert: Callable[[Any], float]) -> tuple[Callable[..., None], ...]:
-    """Return glColor3, glColor4, glColor3v and glColor4v for integers that stand for 0 to 1 or -1 to 1."""
+    """Return glColor3, glColor4, glColor3v and glColor4v for integers that represent 0 to 1 or -1 to 1."""
 
     @in_lists
     def three(red: int, green: int, blue: int) -> None:
@@ -106,7 +106,7 @@ glColor3ui, glColor4ui, glColor3uiv, glColor4uiv = _calls_for(from_unsigned_int)
 
 # -- normal ------------------------------------------------------------------------------------------------------------
 def set_normal(x: float, y: float, z: float) -> None:
-    give(current(), "normal", 3)
+    carry_attribute(current(), "normal", 3)
     current().current.normal = (float(x), float(y), float(z))
 
 
@@ -127,19 +127,19 @@ glNormal3d, glNormal3dv = glNormal3f, glNormal3fv
 
 @in_lists
 def glNormal3b(nx: int, ny: int, nz: int) -> None:
-    """Set the current normal from bytes that stand for -1 to 1."""
+    """Set the current normal from bytes that represent -1 to 1."""
     set_normal(from_byte(nx), from_byte(ny), from_byte(nz))
 
 
 @in_lists
 def glNormal3s(nx: int, ny: int, nz: int) -> None:
-    """Set the current normal from shorts that stand for -1 to 1."""
+    """Set the current normal from shorts that represent -1 to 1."""
     set_normal(from_short(nx), from_short(ny), from_short(nz))
 
 
 @in_lists
 def glNormal3i(nx: int, ny: int, nz: int) -> None:
-    """Set the current normal from ints that stand for -1 to 1."""
+    """Set the current normal from ints that represent -1 to 1."""
     set_normal(from_int(nx), from_int(ny), from_int(nz))
 
 

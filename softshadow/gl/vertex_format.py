@@ -1,8 +1,8 @@
-"""What the vertices of immediate mode carry, and what sends off those that have been collected.
+"""The vertex format of immediate mode: which attributes the collected vertices carry, and when they are submitted.
 
 Mesa collects glBegin ... glEnd pairs in one buffer, in which all vertices carry the same attributes. An attribute that
-they do not carry yet, or with fewer numbers, sends off what has been collected, and so does the end of the buffer
-(vbo_exec_api.c). So it decides which quads are drawn together, and whether their colour is one for all.
+they do not carry yet, or with fewer components, submits the collected vertices, and so does a full buffer
+(vbo_exec_api.c). So the format decides which quads are drawn together, and whether they share one constant colour.
 """
 
 from __future__ import annotations
@@ -18,70 +18,70 @@ from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
 from softshadow.state import TEXTURE_UNITS
 
-REST = (0.0, 0.0, 0.0, 1.0)  # what a vector gets where the call gives fewer than four numbers
-FEW_VERTICES = 8  # an attribute given after more of them, outside glBegin, makes Mesa forget all others
+REST = (0.0, 0.0, 0.0, 1.0)  # default values of components that a call does not set
+FEW_VERTICES = 8  # with more collected vertices, a new attribute outside glBegin makes Mesa reset all others
 
 
 class Cut(NamedTuple):
-    """Where a primitive is cut that is sent off before its glEnd.
+    """Where to cut a primitive that is submitted before its glEnd.
 
-    As which mode its vertices [start, end) are drawn, and the numbers of those that the rest of it needs.
+    Its vertices [start, end) are drawn in `mode`; those with indices `copied` also begin the rest of the primitive.
     """
 
     mode: int
     start: int
     end: int
-    kept: tuple[int, ...]
+    copied: tuple[int, ...]
 
 
 def begin(context: Context, mode: int) -> None:
-    """Start to collect a primitive. Attributes that were given before any vertex are constants of it."""
+    """Begin a primitive. Attributes set before its first vertex are constant for all its vertices."""
     if "position" not in context.vertex_buffer.sizes:
         context.vertex_buffer.sizes.clear()
         if context.pending.names:
-            context.pending.forget(context)
+            context.reset_attributes()
     materials: dict[str, list[Any]] = {name: [] for name in context.vertex_buffer.sizes if "." in name}
     context.primitive = Primitive(mode, from_list=context.list_depth > 0, materials=materials)
 
 
-def give(context: Context, name: str, size: int) -> int:
-    """Make the vertices to come carry an attribute of `size` numbers, sending off those that cannot.
+def carry_attribute(context: Context, name: str, size: int) -> int:
+    """Make the following vertices carry an attribute of `size` components; submit the vertices that do not.
 
     Returns
     -------
     int
-        How many numbers of the attribute, from the first on, are the ones given or given before; those after them
-        become 0 and 1. Mesa sets what a call leaves out only where the call before gave more numbers, and it forgets
-        that one did: of glColor4, glColor3, glColor4, glColor3 the last keeps the alpha of the third. Display lists
-        keep count.
+        The number of components that keep a value set by this call or an earlier one; the others become 0 and 1. Mesa
+        resets the components that a call leaves out only if the previous call set more of them, and it loses track of
+        this: after glColor4, glColor3, glColor4, glColor3, the last call keeps the third one's alpha. Display lists
+        do not lose track.
     """
     if name != "position":
-        context.pending.about_to_give(name, context)
+        context.remember_attribute(name)
     sizes, primitive = context.vertex_buffer.sizes, context.primitive
-    carried, given_before = sizes.get(name, 0), context.vertex_buffer.given_sizes.get(name, 0)
+    carried, previous_size = sizes.get(name, 0), context.vertex_buffer.active_sizes.get(name, 0)
     if carried >= size:
         in_list = context.list_depth > 0 or (primitive is not None and context.executes_list)
-        if size < given_before or in_list:
-            context.vertex_buffer.given_sizes[name] = size
+        if size < previous_size or in_list:
+            context.vertex_buffer.active_sizes[name] = size
             return size
         return carried
-    context.vertex_buffer.given_sizes[name] = size
+    context.vertex_buffer.active_sizes[name] = size
     if primitive is not None:
         if not primitive.from_list:
             _wrap(context, primitive)
             if name not in sizes:
                 _shorten(primitive, name, size)
     else:
-        many = context.vertex_buffer.stored > FEW_VERTICES
-        context.vertex_buffer.send_off()
-        if name not in sizes and many:
+        had_many = context.vertex_buffer.n_vertices > FEW_VERTICES
+        context.vertex_buffer.submit()
+        if name not in sizes and had_many:
             sizes.clear()
     sizes[name] = size
     return size
 
 
 def _shorten(primitive: Primitive, name: str, size: int) -> None:
-    """Give the vertices that are kept only `size` numbers of an attribute that they did not carry, as Mesa does."""
+    """Reset all but `size` components of an attribute in the copied vertices, which did not carry it, as Mesa does."""
     if name == "color":
         primitive.colors[:] = [(*color[:size], *REST[size:]) for color in primitive.colors]  # type: ignore[misc]
     elif name.startswith("texcoord"):
@@ -92,56 +92,56 @@ def _shorten(primitive: Primitive, name: str, size: int) -> None:
 
 
 def store_vertex(context: Context, primitive: Primitive) -> None:
-    """Count a vertex that has been collected; the one that fills the buffer sends off all of them."""
+    """Count a collected vertex; when the buffer is full, submit all vertices."""
     if primitive.from_list:
         return
-    context.vertex_buffer.stored += 1
-    if context.vertex_buffer.stored >= context.vertex_buffer.room - 1:  # one is kept free, for the end of a line loop
+    context.vertex_buffer.n_vertices += 1
+    if context.vertex_buffer.n_vertices >= context.vertex_buffer.room - 1:  # one is reserved for the end of a line loop
         _wrap(context, primitive)
 
 
 def _wrap(context: Context, primitive: Primitive) -> None:
-    """Draw what has been collected, and keep the vertices that the rest of the primitive needs."""
-    count, alone = len(primitive.positions), context.vertex_buffer.stored == len(primitive.positions)
-    cut = _cut(primitive, count)
-    if cut.end > cut.start and not (alone and len(cut.kept) == count):
+    """Draw the collected vertices, and keep those that the rest of the primitive needs."""
+    n, alone = len(primitive.positions), context.vertex_buffer.n_vertices == len(primitive.positions)
+    cut = _cut(primitive, n)
+    if cut.end > cut.start and not (alone and len(cut.copied) == n):
         context.draw_primitive(cut.mode, vertices_of(context, primitive, cut.start, cut.end))
-    context.vertex_buffer.send_off()
+    context.vertex_buffer.submit()
     for rows in primitive.rows:
-        rows[:] = [rows[i] for i in cut.kept]
-    primitive.continued = primitive.continued or len(cut.kept) != count
-    context.vertex_buffer.stored = len(cut.kept)
+        rows[:] = [rows[i] for i in cut.copied]
+    primitive.continued = primitive.continued or len(cut.copied) != n
+    context.vertex_buffer.n_vertices = len(cut.copied)
 
 
-def _cut(primitive: Primitive, count: int) -> Cut:
-    """Return where to cut a primitive after `count` vertices (vbo_copy_vertices)."""
-    mode, last = primitive.mode, count - 1
+def _cut(primitive: Primitive, n: int) -> Cut:
+    """Return where to cut a primitive of `n` vertices (vbo_copy_vertices)."""
+    mode, last = primitive.mode, n - 1
     if mode in SEPARATE:
-        end = count - count % SEPARATE[mode]
-        return Cut(mode, 0, end, tuple(range(end, count)))
+        end = n - n % SEPARATE[mode]
+        return Cut(mode, 0, end, tuple(range(end, n)))
     if mode == gl.GL_LINE_STRIP:
-        return Cut(mode, 0, count if count > 1 else 0, (last,) if count else ())
+        return Cut(mode, 0, n if n > 1 else 0, (last,) if n else ())
     if mode in (gl.GL_TRIANGLE_STRIP, gl.GL_QUAD_STRIP):
-        end = count - count % 2  # the rest begins with a triangle that turns as the first one did
-        return Cut(mode, 0, end if end > 2 else 0, tuple(range(max(end - 2, 0), count)))
+        end = n - n % 2  # so that the rest begins with a triangle of the same winding
+        return Cut(mode, 0, end if end > 2 else 0, tuple(range(max(end - 2, 0), n)))
     if mode == gl.GL_LINE_LOOP and primitive.continued:
-        # its first vertex waits for the end; that the last but one is kept loses a line, which is so in Mesa
-        return Cut(gl.GL_LINE_STRIP, 1, count if count > 2 else 1, (0, last - 1) if count > 2 else (0,))
+        # its first vertex is needed at the end; Mesa copies the last but one, and so loses a line
+        return Cut(gl.GL_LINE_STRIP, 1, n if n > 2 else 1, (0, last - 1) if n > 2 else (0,))
     drawn = gl.GL_LINE_STRIP if mode == gl.GL_LINE_LOOP else mode
     least = 2 if mode == gl.GL_LINE_LOOP else 3
-    return Cut(drawn, 0, count if count >= least else 0, (0, last) if count > 1 else tuple(range(count)))
+    return Cut(drawn, 0, n if n >= least else 0, (0, last) if n > 1 else tuple(range(n)))
 
 
 def end_continued_loop(context: Context, primitive: Primitive) -> None:
-    """Make the rest of a line loop that was cut a line strip, which ends at the first vertex of the loop."""
+    """Turn the rest of a cut line loop into a line strip that ends at the first vertex of the loop."""
     for rows in primitive.rows:
         rows.append(rows.pop(0))
     primitive.mode = gl.GL_LINE_STRIP
-    context.vertex_buffer.stored += 1  # the first one stays in the buffer
+    context.vertex_buffer.n_vertices += 1  # the first one stays in the buffer
 
 
 def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int | None = None) -> Vertices:
-    """Return the vertices [start, end) of a primitive; an attribute that they do not carry is spread from one row."""
+    """Return the vertices [start, end) of a primitive; attributes that they do not carry are broadcast from one row."""
 
     def rows(name: str, values: Sequence[Any]) -> np.ndarray:
         if name in context.vertex_buffer.sizes:

@@ -29,8 +29,7 @@ WARNINGS = _of(errors, errors.Warning)
 IN_SCENE = (scene.Scene, scene.SceneObject, scene.Mesh, scene.Camera, scene.Light, scene.Material)
 KINDS: dict[str, type] = {
     **{name: kind for name, kind in (_of(commands) | _of(state)).items() if is_dataclass(kind)},
-    **{kind.__name__: kind for kind in (texture.Sampler, image.Format, Frame)},
-    **{f"scene.{kind.__name__}": kind for kind in IN_SCENE},  # the state has a Light and a Material, too
+    **{kind.__name__: kind for kind in (texture.Sampler, image.Format, Frame, *IN_SCENE)},
 }
 NAMES = {kind: name for name, kind in KINDS.items()}
 

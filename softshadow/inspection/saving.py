@@ -36,7 +36,7 @@ from softshadow.scene import Scene
 if TYPE_CHECKING:
     from softshadow.run import Run
 
-SCHEMA = 1
+SCHEMA = 2
 # what reading a damaged file may raise
 BROKEN = (OSError, ValueError, KeyError, TypeError, IndexError, AttributeError, EOFError)
 ENDINGS = (".png", ".npz", ".html")

@@ -20,7 +20,7 @@ from softshadow.programs.llvmpipe_math import powers
 from softshadow.programs.reflectances import Reflectances, vector
 from softshadow.programs.stale_registers import NAMES, Scratch, leftovers
 from softshadow.programs.texture_coordinates import dot, normalized_rows, reciprocal_root, transform
-from softshadow.state import Light, Lighting
+from softshadow.state import Lighting, LightState
 
 ZERO, ONE = np.float32(0.0), np.float32(1.0)
 TOWARDS_EYE = np.array([0.0, 0.0, 1.0], np.float32)
@@ -44,7 +44,7 @@ class LightAtVertices:
     are what the attenuation was made of: "distance", "spot", "inside" (V,).
     """
 
-    light: Light
+    light: LightState
     direction: np.ndarray
     half: np.ndarray
     attenuation: np.ndarray | None
@@ -63,7 +63,7 @@ def normalized(v: np.ndarray) -> np.ndarray:
     return v * (ONE / np.sqrt(squared)) if squared else v
 
 
-def enabled_lights(lighting: Lighting) -> list[Light]:
+def enabled_lights(lighting: Lighting) -> list[LightState]:
     return [light for light in lighting.lights if light.enabled]
 
 
@@ -146,7 +146,7 @@ def transformed_normals(
 
 
 def at_vertices(
-    light: Light,
+    light: LightState,
     lighting: Lighting,
     eye: np.ndarray | None,
     modelview: np.ndarray,
@@ -177,7 +177,7 @@ def at_vertices(
 
 
 def attenuation(
-    light: Light, direction: np.ndarray, squared_distance: np.ndarray | None
+    light: LightState, direction: np.ndarray, squared_distance: np.ndarray | None
 ) -> tuple[np.ndarray | None, dict[str, np.ndarray]]:
     """Return the spot factor times the distance factor (V,) or (1,), and the parts of `LightAtVertices`.
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.programs import VertexInputs
-from softshadow.state import Light, Lighting, Material
+from softshadow.state import Lighting, LightState, MaterialState
 
 COLOR_MATERIAL: dict[int, tuple[str, ...]] = {
     gl.GL_AMBIENT: ("ambient",),
@@ -33,7 +33,7 @@ class Reflectances:
     """
 
     def __init__(self, lighting: Lighting, vertices: VertexInputs, side: str) -> None:
-        self._material: Material = getattr(lighting, side)
+        self._material: MaterialState = getattr(lighting, side)
         self._vertices, self._side = vertices, side
         sides = gl.GL_FRONT_AND_BACK, gl.GL_FRONT if side == "front" else gl.GL_BACK
         follows = lighting.color_material and lighting.color_material_face in sides
@@ -52,7 +52,7 @@ class Reflectances:
         given = self._vertices.materials.get(f"{self._side}.{name}")
         return vector(getattr(self._material, name))[np.newaxis] if given is None else np.asarray(given, np.float32)
 
-    def product(self, name: str, light: Light, stray: Mapping[str, np.ndarray]) -> np.ndarray:
+    def product(self, name: str, light: LightState, stray: Mapping[str, np.ndarray]) -> np.ndarray:
         """Return RGB of light times material, (V, 3) or (1, 3), with what `stray` has in green and blue."""
         made: np.ndarray = vector(getattr(light, name))[:3] * self(name)[:, :3]
         if name not in stray:

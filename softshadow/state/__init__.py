@@ -1,6 +1,6 @@
-"""The state of a GL context as frozen values: defaults are GL's initial values, numbers are GL's own tokens.
+"""The state of a GL context as frozen dataclasses: defaults are GL's initial values, enums are GL's tokens.
 
-A change is `frozen.replace`, a snapshot is a reference. Every group prints as the GL calls that make it.
+Change it with `frozen.evolve`; keep a reference to save it. Every group prints as the GL calls that set it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from softshadow.state.fragments import (
     Stencil,
     StencilFace,
 )
-from softshadow.state.lighting import INITIAL_LIGHTS, Fog, Light, Lighting, Material
+from softshadow.state.lighting import INITIAL_LIGHTS, Fog, Lighting, LightState, MaterialState
 from softshadow.state.rasterization import ClipPlanes, Cull, Polygon, Scissor, Viewport
 from softshadow.state.texturing import Combine, CubeMaps, TexGen, TextureUnit
 
@@ -41,9 +41,9 @@ __all__ = [
     "Cull",
     "Depth",
     "Fog",
-    "Light",
+    "LightState",
     "Lighting",
-    "Material",
+    "MaterialState",
     "Polygon",
     "Scissor",
     "State",
@@ -59,8 +59,7 @@ TEXTURE_UNITS = 8
 
 @dataclass(frozen=True)
 class State:
-    """The whole state that a draw depends on, besides matrices, current vertex attributes and bound objects'
-    contents."""
+    """The state that draws depend on, except matrices, current vertex attributes and contents of bound objects."""
 
     viewport: Viewport = Viewport()
     scissor: Scissor = Scissor()
@@ -81,24 +80,24 @@ class State:
     program: int = 0
 
     def calls(self) -> list[str]:
-        """Return the GL calls that make the groups which differ from GL's initial state."""
-        initial, made = State(), []
+        """Return the GL calls that set the groups which differ from GL's initial state."""
+        initial_state, calls = State(), []
         for group in fields(self):
-            value, before = getattr(self, group.name), getattr(initial, group.name)
-            if value == before:
+            value, initial = getattr(self, group.name), getattr(initial_state, group.name)
+            if value == initial:
                 continue
             if group.name == "units":
                 for index, unit in enumerate(self.units):
-                    if unit != before[index]:
-                        made += unit.calls(index)
+                    if unit != initial[index]:
+                        calls += unit.calls(index)
             elif group.name == "program":
-                made.append(f"glUseProgram({value})")
+                calls.append(f"glUseProgram({value})")
             elif group.name.endswith("framebuffer"):
-                made.append(f"glBindFramebuffer(GL_{group.name.upper()}, {value})")
+                calls.append(f"glBindFramebuffer(GL_{group.name.upper()}, {value})")
             else:
-                standing = set(before.calls())
-                made += [call for call in value.calls() if call not in standing]
-        return made
+                initial_calls = set(initial.calls())
+                calls += [call for call in value.calls() if call not in initial_calls]
+        return calls
 
     def __str__(self) -> str:
         return "\n".join(self.calls()) or "# GL's initial state"

@@ -1,4 +1,4 @@
-"""What happens to a fragment: alpha, stencil and depth test, blending, the colour buffer's masks."""
+"""State of the fragment operations: alpha, stencil and depth test, blending, colour mask."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from softshadow import tokens as gl
 from softshadow.state.common import Color, numbers, switch
 from softshadow.tokens import token_name
 
-ALL_BITS = 0xFF  # masks start with every bit that a stencil buffer can have
+ALL_BITS = 0xFF  # initial masks: every bit that a stencil buffer can have
 
 STENCIL_OPS = ("GL_KEEP", "GL_ZERO", "GL_REPLACE", "GL_INCR", "GL_DECR", "GL_INVERT", "GL_INCR_WRAP", "GL_DECR_WRAP")
 BLEND_FACTORS = ("GL_ZERO", "GL_ONE")
@@ -26,7 +26,7 @@ class AlphaTest:
 
 @dataclass(frozen=True)
 class StencilFace:
-    """What glStencilFunc, glStencilOp and glStencilMask set for one facing."""
+    """The state of glStencilFunc, glStencilOp and glStencilMask for one facing."""
 
     func: int = gl.GL_ALWAYS
     ref: int = 0
@@ -50,8 +50,8 @@ class StencilFace:
 class Stencil:
     """Stencil test of both facings, and the clear value.
 
-    There are two back states: GL 2.0's, and that of GL_EXT_stencil_two_side. `back` is the one in use, that of the
-    extension where `two_side`; `other_back` is the other one. `active_back` is what glActiveStencilFaceEXT sets.
+    There are two back states: one of GL 2.0, one of GL_EXT_stencil_two_side. `back` is the one in use: the extension's
+    while `two_side` is on. `other_back` is the other one. `active_back`: glActiveStencilFaceEXT has chosen GL_BACK.
     """
 
     enabled: bool = False
@@ -123,7 +123,7 @@ class Blend:
 class ColorBuffer:
     """Colour mask and clear colours.
 
-    GL_DITHER and GL_MULTISAMPLE are on in GL; at 8 bits, and with one sample a pixel, they are without effect.
+    GL_DITHER and GL_MULTISAMPLE are on initially. With 8 bits per channel and one sample per pixel they have no effect.
     """
 
     mask: tuple[bool, bool, bool, bool] = (True, True, True, True)

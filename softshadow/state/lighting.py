@@ -1,4 +1,4 @@
-"""Colours of vertices: lights, materials, the lighting model; and fog."""
+"""State of lighting and fog: lights, materials, the light model."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from softshadow.tokens import token_name
 
 
 @dataclass(frozen=True)
-class Light:
-    """One light source; position and spot direction are in eye space, as GL keeps them."""
+class LightState:
+    """One light source; position and spot direction are in eye space, as GL stores them."""
 
     enabled: bool = False
     ambient: Color = BLACK
@@ -27,18 +27,18 @@ class Light:
 
     def calls(self, index: int) -> list[str]:
         name = f"GL_LIGHT{index}"
-        made = [switch(name, self.enabled)]
+        calls = [switch(name, self.enabled)]
         for parameter in fields(self)[1:]:
             value, initial = getattr(self, parameter.name), getattr(INITIAL_LIGHTS[index], parameter.name)
             if value != initial:
                 arguments = f"({numbers(*value)})" if isinstance(value, tuple) else f"{value:g}"
                 suffix = "fv" if isinstance(value, tuple) else "f"
-                made.append(f"glLight{suffix}({name}, GL_{parameter.name.upper()}, {arguments})")
-        return made
+                calls.append(f"glLight{suffix}({name}, GL_{parameter.name.upper()}, {arguments})")
+        return calls
 
 
 @dataclass(frozen=True)
-class Material:
+class MaterialState:
     ambient: Color = (0.2, 0.2, 0.2, 1.0)
     diffuse: Color = (0.8, 0.8, 0.8, 1.0)
     specular: Color = BLACK
@@ -47,11 +47,11 @@ class Material:
 
     def calls(self, face: str) -> list[str]:
         colors = ("ambient", "diffuse", "specular", "emission")
-        made = [f"glMaterialfv({face}, GL_{c.upper()}, ({numbers(*getattr(self, c))}))" for c in colors]
-        return [*made, f"glMaterialf({face}, GL_SHININESS, {self.shininess:g})"]
+        calls = [f"glMaterialfv({face}, GL_{c.upper()}, ({numbers(*getattr(self, c))}))" for c in colors]
+        return [*calls, f"glMaterialf({face}, GL_SHININESS, {self.shininess:g})"]
 
 
-INITIAL_LIGHTS = (Light(diffuse=WHITE, specular=WHITE), *(Light() for _ in range(7)))
+INITIAL_LIGHTS = (LightState(diffuse=WHITE, specular=WHITE), *(LightState() for _ in range(7)))
 
 
 @dataclass(frozen=True)
@@ -59,13 +59,13 @@ class Lighting:
     """Lights, light model, materials and shade model."""
 
     enabled: bool = False
-    lights: tuple[Light, ...] = INITIAL_LIGHTS
+    lights: tuple[LightState, ...] = INITIAL_LIGHTS
     model_ambient: Color = (0.2, 0.2, 0.2, 1.0)
     local_viewer: bool = False
     two_side: bool = False
     color_control: int = gl.GL_SINGLE_COLOR
-    front: Material = Material()
-    back: Material = Material()
+    front: MaterialState = MaterialState()
+    back: MaterialState = MaterialState()
     color_material: bool = False
     color_material_face: int = gl.GL_FRONT_AND_BACK
     color_material_mode: int = gl.GL_AMBIENT_AND_DIFFUSE
@@ -74,22 +74,22 @@ class Lighting:
     shade_model: int = gl.GL_SMOOTH
 
     def calls(self) -> list[str]:
-        made = [switch("GL_LIGHTING", self.enabled), f"glShadeModel({token_name(self.shade_model)})"]
+        calls = [switch("GL_LIGHTING", self.enabled), f"glShadeModel({token_name(self.shade_model)})"]
         for index, light in enumerate(self.lights):
             if light != INITIAL_LIGHTS[index]:
-                made += light.calls(index)
-        made += [
+                calls += light.calls(index)
+        calls += [
             f"glLightModelfv(GL_LIGHT_MODEL_AMBIENT, ({numbers(*self.model_ambient)}))",
             f"glLightModeli(GL_LIGHT_MODEL_LOCAL_VIEWER, {int(self.local_viewer)})",
             f"glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, {int(self.two_side)})",
             f"glLightModeli(GL_LIGHT_MODEL_COLOR_CONTROL, {token_name(self.color_control)})",
         ]
         if self.front == self.back:
-            made += self.front.calls("GL_FRONT_AND_BACK")
+            calls += self.front.calls("GL_FRONT_AND_BACK")
         else:
-            made += self.front.calls("GL_FRONT") + self.back.calls("GL_BACK")
+            calls += self.front.calls("GL_FRONT") + self.back.calls("GL_BACK")
         return [
-            *made,
+            *calls,
             f"glColorMaterial({token_name(self.color_material_face)}, {token_name(self.color_material_mode)})",
             switch("GL_COLOR_MATERIAL", self.color_material),
             switch("GL_NORMALIZE", self.normalize),

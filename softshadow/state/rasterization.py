@@ -1,4 +1,4 @@
-"""Where fragments arise: viewport, scissor box, culling, polygon modes and offset, clip planes."""
+"""State of rasterization: viewport, scissor box, culling, polygon modes and offset, clip planes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from softshadow.tokens import token_name
 
 @dataclass(frozen=True)
 class Viewport:
-    """glViewport and glDepthRange. Pixels; y counts from the bottom."""
+    """glViewport and glDepthRange, in pixels; y counts from the bottom."""
 
     x: int = 0
     y: int = 0
@@ -29,7 +29,7 @@ class Viewport:
 
 @dataclass(frozen=True)
 class Scissor:
-    """GL_SCISSOR_TEST and glScissor. Pixels; y counts from the bottom."""
+    """GL_SCISSOR_TEST and glScissor, in pixels; y counts from the bottom."""
 
     enabled: bool = False
     x: int = 0
@@ -87,7 +87,7 @@ class Polygon:
 
 @dataclass(frozen=True)
 class ClipPlanes:
-    """User clip planes in eye space, as GL keeps them."""
+    """User clip planes in eye space, as GL stores them."""
 
     enabled: tuple[bool, ...] = (False,) * 6
     equations: tuple[Color, ...] = ((0.0, 0.0, 0.0, 0.0),) * 6

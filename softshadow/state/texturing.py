@@ -1,4 +1,4 @@
-"""Texture units: what is bound, generated coordinates, combiners; and how cube maps are sampled."""
+"""State of texture units: bound textures, combiners, generated coordinates; and seamless cube maps."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from softshadow.tokens import token_name
 
 @dataclass(frozen=True)
 class TexGen:
-    """Generation of one texture coordinate; the eye plane is kept as GL keeps it, times the inverse modelview."""
+    """Generation of one texture coordinate; the eye plane is stored multiplied by the inverse modelview matrix."""
 
     enabled: bool = False
     mode: int = gl.GL_EYE_LINEAR
@@ -27,7 +27,7 @@ def _initial_gen() -> tuple[TexGen, TexGen, TexGen, TexGen]:
 
 @dataclass(frozen=True)
 class Combine:
-    """What GL_COMBINE does: functions, sources and operands of up to three arguments, scales; for RGB and alpha."""
+    """State of GL_COMBINE for RGB and alpha: function, sources and operands of up to three arguments, scale."""
 
     mode_rgb: int = gl.GL_MODULATE
     mode_alpha: int = gl.GL_MODULATE
@@ -39,18 +39,18 @@ class Combine:
     alpha_scale: float = 1.0
 
     def calls(self) -> list[str]:
-        made = [f"GL_COMBINE_RGB, {token_name(self.mode_rgb)}", f"GL_COMBINE_ALPHA, {token_name(self.mode_alpha)}"]
+        settings = [f"GL_COMBINE_RGB, {token_name(self.mode_rgb)}", f"GL_COMBINE_ALPHA, {token_name(self.mode_alpha)}"]
         for part in ("rgb", "alpha"):
             for kind in ("source", "operand"):
                 values = getattr(self, f"{kind}s_{part}")
-                made += [f"GL_{kind.upper()}{i}_{part.upper()}, {token_name(v)}" for i, v in enumerate(values)]
-        made += [f"GL_RGB_SCALE, {self.rgb_scale:g}", f"GL_ALPHA_SCALE, {self.alpha_scale:g}"]
-        return [f"glTexEnvf(GL_TEXTURE_ENV, {setting})" for setting in made]
+                settings += [f"GL_{kind.upper()}{i}_{part.upper()}, {token_name(v)}" for i, v in enumerate(values)]
+        settings += [f"GL_RGB_SCALE, {self.rgb_scale:g}", f"GL_ALPHA_SCALE, {self.alpha_scale:g}"]
+        return [f"glTexEnvf(GL_TEXTURE_ENV, {setting})" for setting in settings]
 
 
 @dataclass(frozen=True)
 class TextureUnit:
-    """What one texture unit does: enabled targets, bound names, environment, coordinate generation."""
+    """One texture unit: enabled targets, bound textures, environment, coordinate generation."""
 
     enabled_2d: bool = False
     enabled_cube: bool = False
@@ -63,7 +63,7 @@ class TextureUnit:
     gen: tuple[TexGen, TexGen, TexGen, TexGen] = field(default_factory=_initial_gen)
 
     def calls(self, index: int) -> list[str]:
-        made = [
+        calls = [
             f"glActiveTexture(GL_TEXTURE{index})",
             switch("GL_TEXTURE_2D", self.enabled_2d),
             f"glBindTexture(GL_TEXTURE_2D, {self.bound_2d})",
@@ -73,23 +73,23 @@ class TextureUnit:
             f"glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, ({numbers(*self.env_color)}))",
         ]
         if self.env_mode == gl.GL_COMBINE:
-            made += self.combine.calls()
+            calls += self.combine.calls()
         if self.lod_bias:
-            made.append(f"glTexEnvf(GL_TEXTURE_FILTER_CONTROL, GL_TEXTURE_LOD_BIAS, {self.lod_bias:g})")
+            calls.append(f"glTexEnvf(GL_TEXTURE_FILTER_CONTROL, GL_TEXTURE_LOD_BIAS, {self.lod_bias:g})")
         for name, gen in zip("STRQ", self.gen, strict=True):
             if gen.enabled:
-                made.append(f"glTexGeni(GL_{name}, GL_TEXTURE_GEN_MODE, {token_name(gen.mode)})")
+                calls.append(f"glTexGeni(GL_{name}, GL_TEXTURE_GEN_MODE, {token_name(gen.mode)})")
                 if gen.mode == gl.GL_OBJECT_LINEAR:
-                    made.append(f"glTexGenfv(GL_{name}, GL_OBJECT_PLANE, ({numbers(*gen.object_plane)}))")
+                    calls.append(f"glTexGenfv(GL_{name}, GL_OBJECT_PLANE, ({numbers(*gen.object_plane)}))")
                 elif gen.mode == gl.GL_EYE_LINEAR:
-                    made.append(f"glTexGenfv(GL_{name}, GL_EYE_PLANE, ({numbers(*gen.eye_plane)}))")
-                made.append(switch(f"GL_TEXTURE_GEN_{name}", True))
-        return made
+                    calls.append(f"glTexGenfv(GL_{name}, GL_EYE_PLANE, ({numbers(*gen.eye_plane)}))")
+                calls.append(switch(f"GL_TEXTURE_GEN_{name}", True))
+        return calls
 
 
 @dataclass(frozen=True)
 class CubeMaps:
-    """Whether linear filters of all cube maps go on over the edges of the faces."""
+    """GL_TEXTURE_CUBE_MAP_SEAMLESS: whether linear filters read across the edges of a cube map's faces."""
 
     seamless: bool = False
 

@@ -174,5 +174,5 @@ def test_buffer_that_is_too_short_is_refused():
         gl.glBufferData(gl.GL_ARRAY_BUFFER, 24, None, gl.GL_STATIC_DRAW)
         gl.glVertexPointer(3, gl.GL_FLOAT, 0, None)
         gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
-        with pytest.raises(ValueError, match="vertex 2 is asked for"):
+        with pytest.raises(ValueError, match="vertex 2 is outside the array"):
             gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)

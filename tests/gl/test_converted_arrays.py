@@ -1,4 +1,4 @@
-"""Arrays that are drawn are converted once, and the memory for that is bounded."""
+"""Drawn arrays are converted once; the memory of the conversions is bounded."""
 
 import numpy as np
 import pytest
@@ -6,34 +6,34 @@ import pytest
 from softshadow.context import arrays
 from softshadow.context.arrays import ConvertedArrays
 
-ROOT = np.zeros(10, np.uint8)  # each array counts 20 bytes, with what it is made from
+ROOT = np.zeros(10, np.uint8)  # each array takes 20 bytes, source included
 
 
-def make(known: ConvertedArrays, key: int, calls: list[int]) -> np.ndarray:
+def get(cache: ConvertedArrays, key: int, calls: list[int]) -> np.ndarray:
     def convert() -> np.ndarray:
         calls.append(key)
         return np.full(10, key, np.uint8)
 
-    return known.get(key, ROOT, convert)
+    return cache.get(key, ROOT, convert)
 
 
 def test_an_array_is_converted_once():
-    known, calls = ConvertedArrays(), []
-    assert make(known, 1, calls) is make(known, 1, calls)
+    cache, calls = ConvertedArrays(), []
+    assert get(cache, 1, calls) is get(cache, 1, calls)
     assert calls == [1]
 
 
-def test_the_array_drawn_longest_ago_is_forgotten_first(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(arrays, "KEPT_BYTES", 40)
-    known, calls = ConvertedArrays(), []
+def test_the_least_recently_drawn_array_is_evicted_first(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(arrays, "CACHE_BYTES", 40)
+    cache, calls = ConvertedArrays(), []
     for key in (1, 2, 1, 3, 1, 2):
-        assert make(known, key, calls)[0] == key
+        assert get(cache, key, calls)[0] == key
     assert calls == [1, 2, 3, 2]
 
 
-def test_an_array_larger_than_the_bound_is_kept_until_the_next(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(arrays, "KEPT_BYTES", 5)
-    known, calls = ConvertedArrays(), []
+def test_an_array_larger_than_the_cache_stays_until_the_next(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(arrays, "CACHE_BYTES", 5)
+    cache, calls = ConvertedArrays(), []
     for key in (1, 1, 2, 1):
-        make(known, key, calls)
+        get(cache, key, calls)
     assert calls == [1, 2, 1]

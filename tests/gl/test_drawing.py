@@ -177,7 +177,7 @@ def test_read_only_array_is_taken_as_it_is():
 def test_array_that_is_too_short_is_not_read_past_its_end():
     with gl.create_context(*SIZE):
         pointers(gl, *vertices(0))
-        with pytest.raises(ValueError, match=f"vertex 11 is asked for, the array of positions has {COUNT}"):
+        with pytest.raises(ValueError, match=f"vertex 11 is outside the array of positions, which has {COUNT}"):
             gl.glDrawArrays(gl.GL_TRIANGLES, 0, 12)
 
 

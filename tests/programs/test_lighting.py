@@ -11,27 +11,29 @@ from mesa_points import load, same_bits, vertices_on_mesa
 from softshadow import tokens as gl
 from softshadow.programs import VertexInputs
 from softshadow.programs.lighting import light_vertices
-from softshadow.state import INITIAL_LIGHTS, Light, Lighting, Material
+from softshadow.state import INITIAL_LIGHTS, Lighting, LightState, MaterialState
 
 COUNT = 200
 IDENTITY = np.eye(4, dtype=np.float32)
-MATERIAL = Material((0.3, 0.4, 0.5, 1.0), (0.7, 0.6, 0.5, 0.8), (0.9, 0.8, 0.7, 1.0), (0.05, 0.02, 0.01, 1.0), 20.0)
+MATERIAL = MaterialState(
+    (0.3, 0.4, 0.5, 1.0), (0.7, 0.6, 0.5, 0.8), (0.9, 0.8, 0.7, 1.0), (0.05, 0.02, 0.01, 1.0), 20.0
+)
 COLORS = {"ambient": (0.1, 0.2, 0.05, 1.0), "diffuse": (0.5, 0.4, 0.6, 1.0), "specular": (0.3, 0.5, 0.4, 1.0)}
 LIGHTS = {
-    "directional": Light(True, **COLORS, position=(1.0, 2.0, 3.0, 0.0)),
-    "positional": Light(True, **COLORS, position=(1.0, 2.0, 3.0, 2.0)),
-    "attenuated": Light(
+    "directional": LightState(True, **COLORS, position=(1.0, 2.0, 3.0, 0.0)),
+    "positional": LightState(True, **COLORS, position=(1.0, 2.0, 3.0, 2.0)),
+    "attenuated": LightState(
         True, **COLORS, position=(1.0, 2.0, 3.0, 2.0),
         constant_attenuation=0.5, linear_attenuation=0.1, quadratic_attenuation=0.05,
     ),
-    "spot": Light(
+    "spot": LightState(
         True, **COLORS, position=(1.0, 2.0, 3.0, 1.0),
         spot_direction=(-0.3, -0.6, -0.9), spot_exponent=3.0, spot_cutoff=70.0, linear_attenuation=0.2,
     ),
 }  # fmt: skip
 
 
-def with_lights(*lights: Light, **settings: Any) -> Lighting:
+def with_lights(*lights: LightState, **settings: Any) -> Lighting:
     settings.setdefault("front", MATERIAL)
     return Lighting(enabled=True, lights=(*lights, *INITIAL_LIGHTS[len(lights) :]), **settings)
 
@@ -55,8 +57,8 @@ def towards(lighting: Lighting, normal: tuple[float, float, float], position=(0,
 
 
 def test_a_facing_surface_gets_ambient_and_full_diffuse():
-    light = Light(True, (0.1, 0.1, 0.1, 1), (0.5, 0.5, 0.5, 1), (0, 0, 0, 1), (0, 0, 1, 0))
-    lighting = with_lights(light, front=Material((0.5, 0.5, 0.5, 1), (0.8, 0.4, 0.2, 0.7)))
+    light = LightState(True, (0.1, 0.1, 0.1, 1), (0.5, 0.5, 0.5, 1), (0, 0, 0, 1), (0, 0, 1, 0))
+    lighting = with_lights(light, front=MaterialState((0.5, 0.5, 0.5, 1), (0.8, 0.4, 0.2, 0.7)))
     # ambient 0.2 * 0.5 + 0.1 * 0.5, diffuse 0.5 * (0.8, 0.4, 0.2); alpha is the material's diffuse alpha
     assert np.allclose(towards(lighting, (0, 0, 1)), (0.55, 0.35, 0.25, 0.7))
     assert np.allclose(towards(lighting, (0, 0, -1)), (0.15, 0.15, 0.15, 0.7))
@@ -72,16 +74,16 @@ def test_colour_material_takes_the_current_colour():
 
 
 def test_distance_divides_a_positional_light():
-    light = Light(True, (0, 0, 0, 1), (1, 1, 1, 1), (0, 0, 0, 1), (0, 0, 2, 1), quadratic_attenuation=1.0)
-    lighting = with_lights(light, model_ambient=(0, 0, 0, 1), front=Material(diffuse=(1, 1, 1, 1)))
+    light = LightState(True, (0, 0, 0, 1), (1, 1, 1, 1), (0, 0, 0, 1), (0, 0, 2, 1), quadratic_attenuation=1.0)
+    lighting = with_lights(light, model_ambient=(0, 0, 0, 1), front=MaterialState(diffuse=(1, 1, 1, 1)))
     assert np.allclose(towards(lighting, (0, 0, 1))[:3], 1 / (1 + 4))
 
 
 def test_outside_the_cone_of_a_spot_light_it_is_dark():
-    light = Light(
+    light = LightState(
         True, (0, 0, 0, 1), (1, 1, 1, 1), (0, 0, 0, 1), (0, 0, 2, 1), spot_direction=(0, 0, -1), spot_cutoff=30.0
     )
-    lighting = with_lights(light, model_ambient=(0, 0, 0, 1), front=Material(diffuse=(1, 1, 1, 1)))
+    lighting = with_lights(light, model_ambient=(0, 0, 0, 1), front=MaterialState(diffuse=(1, 1, 1, 1)))
     assert towards(lighting, (0, 0, 1))[0] == 1
     assert towards(lighting, (0, 0, 1), (2, 0, 0, 1))[0] == 0
 
@@ -134,7 +136,7 @@ def lit_on_mesa(lighting: Lighting, given: VertexInputs) -> np.ndarray:
     return vertices_on_mesa(setup, arrays, given.modelview)[0]
 
 
-def set_light(on: Any, name: int, light: Light) -> None:
+def set_light(on: Any, name: int, light: LightState) -> None:
     on.glEnable(name)
     for parameter in ("ambient", "diffuse", "specular", "position", "spot_direction"):
         on.glLightfv(name, getattr(on, f"GL_{parameter.upper()}"), getattr(light, parameter))
@@ -144,7 +146,7 @@ def set_light(on: Any, name: int, light: Light) -> None:
         on.glLightf(name, getattr(on, f"GL_{kind.upper()}_ATTENUATION"), getattr(light, f"{kind}_attenuation"))
 
 
-def set_material(on: Any, face: int, material: Material) -> None:
+def set_material(on: Any, face: int, material: MaterialState) -> None:
     for parameter in ("ambient", "diffuse", "specular", "emission"):
         on.glMaterialfv(face, getattr(on, f"GL_{parameter.upper()}"), getattr(material, parameter))
     on.glMaterialf(face, on.GL_SHININESS, material.shininess)

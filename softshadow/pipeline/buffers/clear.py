@@ -16,7 +16,7 @@ from softshadow.pipeline.raster.region import region_of
 from softshadow.pipeline.records import Region
 from softshadow.pipeline.shade.blend import to_unorm8
 from softshadow.pipeline.shade.color_writes import as_pixels
-from softshadow.pixels import largest_stood_for, quantized_depth
+from softshadow.pixels import quantized_depth, stored_units
 from softshadow.state import State
 
 
@@ -63,7 +63,7 @@ def write_everywhere(image: Image, region: Region, value: float) -> None:
 def clear_depth(value: float, depth: Image) -> float:
     """Return the clear depth in buffer units: rounded in double precision for fixed-point formats."""
     clamped = min(max(value, 0.0), 1.0)
-    return float(largest_stood_for(np.rint(clamped * depth.format.largest))) if depth.format.largest else clamped
+    return float(stored_units(np.rint(clamped * depth.format.largest))) if depth.format.largest else clamped
 
 
 def is_drawn(state: State, target: Framebuffer, mask: int) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from softshadow.framebuffer import DEFAULT, NOTHING, Attachment, Framebuffer, Storage, plane_for
+from softshadow.framebuffer import DEFAULT, NOTHING, Attachment, Framebuffer, Storage, attached_image
 from softshadow.image import Image
 from softshadow.pipeline.commands import (
     AttachRenderbuffer,
@@ -78,7 +78,7 @@ def define_renderbuffer(command: DefineRenderbuffer, storage: Storage) -> None:
     for target in storage.framebuffers.values():
         for point, attachment in target.attachments.items():
             if attachment.renderbuffer == command.renderbuffer:
-                target.attachments[point] = replace(attachment, image=plane_for(image, point))
+                target.attachments[point] = replace(attachment, image=attached_image(image, point))
 
 
 def delete_renderbuffers(command: DeleteRenderbuffers, storage: Storage) -> None:
@@ -95,7 +95,7 @@ def attach_texture(command: AttachTexture, storage: Storage) -> None:
         return
     images = storage.textures[command.texture].images
     image = images.get((command.face, command.level)) or Image.new(NOTHING, 0, 0)
-    attached = plane_for(image, command.attachment)
+    attached = attached_image(image, command.attachment)
     attachments[command.attachment] = Attachment(attached, command.texture, command.face, command.level)
 
 
@@ -105,7 +105,7 @@ def attach_renderbuffer(command: AttachRenderbuffer, storage: Storage) -> None:
     if command.renderbuffer == 0:
         attachments.pop(command.attachment, None)
         return
-    attached = plane_for(storage.renderbuffers[command.renderbuffer], command.attachment)
+    attached = attached_image(storage.renderbuffers[command.renderbuffer], command.attachment)
     attachments[command.attachment] = Attachment(attached, renderbuffer=command.renderbuffer)
 
 

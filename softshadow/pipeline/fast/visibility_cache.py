@@ -3,7 +3,7 @@
 Soft shadows by light samples draw the same surfaces over a cleared buffer once for each of many lights. The result of a
 fill (depths, stencil values, visible triangles) is a pure function of the triangles in the window, the state of the
 tests, and the buffers before. All inputs are compared bit for bit; buffers are compared by a version token
-(`Image.contents`), which is lost as soon as the cells are taken. So two buffers have equal tokens only where both were
+(`Image.version`), which is lost as soon as the cells are taken. So two buffers have equal tokens only where both were
 cleared to the same value and then drawn to by the same draws.
 
 A draw is cached the second time it is seen. Entries evicted without a hit are not cached again: frames without repeated
@@ -145,7 +145,7 @@ def cached_fill(
     fill : fills the buffers of `target` and returns the visible spans
     """
     cache = storage.visibility_cache = storage.visibility_cache or VisibilityCache()
-    tokens = _contents(target.depth), _contents(target.stencil)
+    tokens = _version(target.depth), _version(target.stencil)
     before = tokens[0] if inputs.tests_depth else UNREAD, tokens[1] if inputs.tests_stencil else UNREAD
     key = inputs.fingerprint(), *before
     entry = cache.look_up(key, inputs)
@@ -162,13 +162,13 @@ def cached_fill(
     depth = _after_fill(target.depth, inputs.region, tokens[0], inputs.writes_depth, pays)
     stencil = _after_fill(target.stencil, inputs.region, tokens[1], inputs.tests_stencil, pays)
     if pays:
-        after = _contents(target.depth), _contents(target.stencil)
+        after = _version(target.depth), _version(target.stencil)
         cache.add(key, CacheEntry(inputs, after, depth, stencil, spans))
     return spans, False
 
 
-def _contents(image: Image | None) -> object:
-    return None if image is None else image.contents
+def _version(image: Image | None) -> object:
+    return None if image is None else image.version
 
 
 def _after_fill(image: Image | None, region: Region, token: object, changed: bool, copies: bool) -> np.ndarray | None:
@@ -176,10 +176,10 @@ def _after_fill(image: Image | None, region: Region, token: object, changed: boo
     if image is None:
         return None
     if not changed:
-        image.contents = token  # the fill has taken the cells, but not changed them
+        image.version = token  # the fill has taken the cells, but not changed them
         return None
     if not copies:
         return None
     rows: np.ndarray = image.cells[region.first_row : region.end_row].copy()
-    image.contents = object()
+    image.version = object()
     return rows

@@ -1,4 +1,4 @@
-"""Pairs of glBegin and glEnd that are drawn as one, and what the recording says of them."""
+"""glBegin ... glEnd pairs that are joined to one draw, and how the recording shows them."""
 
 import numpy as np
 import pytest
@@ -16,9 +16,9 @@ SIDE = 8
 
 @pytest.fixture(autouse=True)
 def context():
-    with gl.create_context(2 * SIDE, SIDE) as made:
+    with gl.create_context(2 * SIDE, SIDE) as context:
         gl.glOrtho(0, 2 * SIDE, 0, SIDE, -1, 1)
-        yield made
+        yield context
 
 
 def dart(column, clipped=False):
@@ -35,32 +35,32 @@ def assembled(command):
     return assembled_triangles(command, codes != 0, joined_needs_clipping(command, planes)).corners.tolist()
 
 
-def test_pairs_in_a_row_are_one_draw(context):
+def test_consecutive_pairs_are_one_draw(context):
     dart(0)
     dart(1)
     (command,) = context.frame.commands
     assert len(command.vertices.position) == 8
 
 
-def test_a_pair_waits_until_something_needs_it(context):
+def test_a_pair_is_drawn_at_the_next_flush(context):
     dart(0)
     assert not context.storage.window.color.view.any()
     gl.glFlush()
     assert context.storage.window.color.view.any()
 
 
-def test_reading_the_window_draws_what_waits():
+def test_reading_the_window_draws_collected_pairs():
     dart(0)
     assert gl.glReadPixels(1, 1, 1, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE).tolist() == [[[255, 255, 255]]]
 
 
-def test_leaving_the_context_draws_what_waits():
+def test_leaving_the_context_draws_collected_pairs():
     with gl.create_context(4, 4) as other:
         gl.glRectf(-1, -1, 1, 1)
     assert other.storage.window.color.view.all()
 
 
-def test_the_end_of_a_step_ends_a_batch(context):
+def test_the_end_of_a_step_draws_collected_pairs(context):
     dart(0)
     context.end_step("first")
     dart(1)
@@ -68,7 +68,7 @@ def test_the_end_of_a_step_ends_a_batch(context):
     assert context.frame.steps == [("first", 1), ("second", 2)]
 
 
-def test_pairs_of_two_debug_groups_are_two_draws_that_are_cut_as_one_batch(context):
+def test_joined_pairs_of_two_debug_groups_are_two_draws_cut_as_one(context):
     dart(0)
     gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, "clipped")
     dart(1, clipped=True)
@@ -81,19 +81,19 @@ def test_pairs_of_two_debug_groups_are_two_draws_that_are_cut_as_one_batch(conte
     assert assembled(context.frame.commands[-1]) == [[0, 1, 2], [0, 2, 3]]
 
 
-def test_a_recorded_batch_gives_the_same_window_again(context):
+def test_recorded_joined_pairs_draw_the_same_window_again(context):
     dart(0)
     gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, "clipped")
     dart(1, clipped=True)
     frame = context.frame
-    played = Replay(frame).storage_after(len(frame.commands))
-    assert played.window.color.same_as(context.storage.window.color)
+    replayed = Replay(frame).storage_after(len(frame.commands))
+    assert replayed.window.color.same_as(context.storage.window.color)
     y, x = np.argwhere(context.storage.window.color.view[:, SIDE:, 0])[0]
     row = pixel_history(frame, x + SIDE, y)[-1]
     assert (row.draw, row.object, row.verdict) == (1, "clipped", "passed")
 
 
-def test_a_color_given_before_glBegin_is_one_for_all_vertices(context):
+def test_a_color_set_before_glBegin_is_constant_for_all_vertices(context):
     gl.glColor3f(1, 0, 0)
     dart(0)
     gl.glFlush()
@@ -107,7 +107,7 @@ def test_a_color_given_before_glBegin_is_one_for_all_vertices(context):
     assert varying.strides[0] != 0
 
 
-def test_an_attribute_that_comes_later_sends_off_the_quads_before_it(context):
+def test_a_new_attribute_submits_the_quads_before_it(context):
     gl.glBegin(gl.GL_QUADS)
     for corner in range(6):
         if corner == 5:
@@ -119,7 +119,7 @@ def test_an_attribute_that_comes_later_sends_off_the_quads_before_it(context):
     assert rest.vertices.color.tolist() == [[1, 1, 1, 1], [1, 0, 0, 1]]
 
 
-def test_a_light_model_set_to_what_it_is_ends_no_batch(context):
+def test_setting_the_same_light_model_again_changes_no_state(context):
     before = context.state
     gl.glLightModelfv(gl.GL_LIGHT_MODEL_AMBIENT, (0.2, 0.2, 0.2, 1.0))
     assert context.state is before

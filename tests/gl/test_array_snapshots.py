@@ -1,19 +1,19 @@
-"""Arrays that are read-only already are drawn as they are; all others are copied."""
+"""Immutable arrays are recorded without a copy; all others are copied."""
 
 import numpy as np
 import pytest
 
 from softshadow import gl
-from softshadow.gl import array_snapshots as kept_arrays
+from softshadow.gl import array_snapshots
 
 CORNERS = np.array([(-1, -1, 0, 1), (3, -1, 0, 1), (-1, 3, 0, 1)], np.float32)
 
 
 @pytest.fixture
 def context():
-    made = gl.create_context(4, 4)
+    context = gl.create_context(4, 4)
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
-    return made
+    return context
 
 
 def frozen(array: np.ndarray) -> np.ndarray:
@@ -34,11 +34,11 @@ def test_read_only_arrays_are_not_copied(context):
     assert np.shares_memory(last_draw(context).indices, indices)
 
 
-def test_what_is_recorded_does_not_change_with_the_callers_arrays(context):
+def test_recorded_arrays_do_not_change_with_the_callers_arrays(context):
     corners, indices = CORNERS.copy(), np.array([0, 1, 2], np.uint32)
     views = corners.view(), indices.view()
     for view in views:
-        view.setflags(write=False)  # the memory can be written to all the same
+        view.setflags(write=False)  # the memory is still writeable
     gl.glVertexPointer(4, gl.GL_FLOAT, 0, views[0])
     gl.glDrawElements(gl.GL_TRIANGLES, 3, gl.GL_UNSIGNED_INT, views[1])
     corners[:], indices[:] = 0, 0
@@ -47,7 +47,7 @@ def test_what_is_recorded_does_not_change_with_the_callers_arrays(context):
 
 
 @pytest.mark.parametrize("kind", [bytearray, bytes])
-def test_of_buffers_only_bytes_cannot_change(context, kind):
+def test_buffers_other_than_bytes_are_copied(context, kind):
     memory = kind(np.array([0, 1, 2], np.uint32).tobytes())
     indices = memoryview(memory).toreadonly() if kind is bytearray else memory
     gl.glVertexPointer(4, gl.GL_FLOAT, 0, frozen(CORNERS))
@@ -61,7 +61,7 @@ def test_indices_are_checked_at_every_draw(context):
     gl.glVertexPointer(4, gl.GL_FLOAT, 0, frozen(CORNERS))
     indices = frozen(np.array([0, 1, 2], np.int32))
     gl.glDrawElements(gl.GL_TRIANGLES, 3, gl.GL_UNSIGNED_INT, indices)
-    for wrong, message in ((3, "vertex 3 is asked for, the array of positions has 3"), (-1, "index -1 is negative")):
+    for wrong, message in ((3, "vertex 3 is outside the array of positions, which has 3"), (-1, "index -1 is negative")):
         indices.setflags(write=True)
         indices[2] = wrong
         indices.setflags(write=False)
@@ -70,11 +70,11 @@ def test_indices_are_checked_at_every_draw(context):
 
 
 @pytest.mark.parametrize("count", [0, 1, 5])
-def test_a_row_that_is_spread_is_there_once(count):
+def test_repeated_rows_share_their_memory(count):
     row = np.array([1, -0.0, np.nan], np.float32)
-    made = kept_arrays.spread(row, count)
+    rows = array_snapshots.repeat_row(row, count)
     expected = np.broadcast_to(row, (count, 3))
-    assert made.shape == expected.shape
-    assert made.tobytes() == expected.tobytes()
-    assert made.strides[0] == 0
-    assert not made.flags.writeable
+    assert rows.shape == expected.shape
+    assert rows.tobytes() == expected.tobytes()
+    assert rows.strides[0] == 0
+    assert not rows.flags.writeable
