@@ -61,7 +61,10 @@ def test_indices_are_checked_at_every_draw(context):
     gl.glVertexPointer(4, gl.GL_FLOAT, 0, frozen(CORNERS))
     indices = frozen(np.array([0, 1, 2], np.int32))
     gl.glDrawElements(gl.GL_TRIANGLES, 3, gl.GL_UNSIGNED_INT, indices)
-    for wrong, message in ((3, "vertex 3 is outside the array of positions, which has 3"), (-1, "index -1 is negative")):
+    for wrong, message in (
+        (3, "vertex 3 is outside the array of positions, which has 3"),
+        (-1, "index -1 is negative"),
+    ):
         indices.setflags(write=True)
         indices[2] = wrong
         indices.setflags(write=False)
