@@ -137,7 +137,7 @@ class Context:
         self.pending = PendingAttributes()
         self.lists: dict[int, DisplayList] = {}
         self.compiled_list: DisplayList | None = None  # between glNewList and glEndList
-        self.executes_list = False  # during a call of a GL_COMPILE_AND_EXECUTE list
+        self.executes_list = False  # while a compiled call is also being executed
         self.list_base = 0
         self.list_depth = 0  # nesting of lists that call each other
         self.hints: dict[int, int] = {}  # those that are not GL_DONT_CARE

@@ -1,7 +1,7 @@
-"""Attributes that are set but not yet among Mesa's current values.
+"""Attributes that have been set, but that Mesa has not yet made current values.
 
-glPopAttrib depends on the difference: it saves and restores the current values, and restores only those groups that
-changed since the push (vbo_exec_api.c; NeedFlush in mtypes.h). `Context` updates this record.
+glPopAttrib depends on the difference: it replaces only current values, and only in groups that have changed since the
+push (vbo_exec_api.c; NeedFlush in mtypes.h). `Context` updates this record.
 """
 
 from __future__ import annotations

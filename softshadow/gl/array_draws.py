@@ -57,7 +57,7 @@ def glDrawElements(mode: int, count: int, type: int, indices: Any) -> None:
 
 
 def glDrawRangeElements(mode: int, start: int, end: int, count: int, type: int, indices: Any) -> None:
-    """glDrawElements with indices promised in [start, end]."""
+    """Draw as glDrawElements does, with indices promised in [start, end]."""
     if outside_begin("glDrawRangeElements") is None:
         return
     if c_uint(int(end)).value < c_uint(int(start)).value:

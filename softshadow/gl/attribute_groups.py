@@ -126,7 +126,7 @@ def _with_capabilities(state: State, before: State) -> State:
 def _capabilities(state: State, lights: bool) -> Iterable[tuple[int, int]]:
     """Return the (capability, texture unit) pairs of GL_ENABLE_BIT.
 
-    In Mesa, enabling a light marks this group as changed, but popping the group does not restore lights.
+    In Mesa, switching a light on or off marks this group as changed, but popping it does not restore lights.
     GL_TEXTURE_CUBE_MAP_SEAMLESS, which is newer than GL 2.1, belongs to no group.
     """
     pushed = [cap for cap in CAPABILITIES if cap != gl.GL_TEXTURE_CUBE_MAP_SEAMLESS]

@@ -12,7 +12,7 @@ SOURCES = (gl.GL_DEBUG_SOURCE_APPLICATION, gl.GL_DEBUG_SOURCE_THIRD_PARTY)
 
 
 def glPushDebugGroup(source: int, id: int, length: int, message: str | bytes) -> None:
-    """Name the draws until the matching pop: the object in pixel histories. Negative `length`: the whole message."""
+    """Name the draws until the matching pop; pixel histories show the name. Negative `length`: the whole message."""
     context = outside_begin("glPushDebugGroup")
     expected = "GL_DEBUG_SOURCE_APPLICATION or GL_DEBUG_SOURCE_THIRD_PARTY"
     if context is None or not is_one_of("glPushDebugGroup", "source", source, SOURCES, expected):
