@@ -1,4 +1,4 @@
-"""The cache of compiled kernels: never stale, never in the way."""
+"""The cache of compiled kernels: never stale, and optional."""
 
 import ast
 import os
@@ -78,8 +78,8 @@ def test_an_edit_in_another_file_of_a_kernel_changes_the_next_result(tmp_path):
 
 def test_code_is_kept_and_read_again(tmp_path):
     run_with(PACKAGE.parent, tmp_path)
-    kept = sorted(p.name for p in (tmp_path / "softshadow").rglob("*.nbi"))
-    assert any(name.startswith("fragment_ops.process_fragment") for name in kept)
+    cached = sorted(p.name for p in (tmp_path / "softshadow").rglob("*.nbi"))
+    assert any(name.startswith("fragment_ops.process_fragment") for name in cached)
 
 
 def test_a_cache_folder_that_cannot_be_written_is_no_error(tmp_path):
@@ -120,7 +120,7 @@ def sources_of(name: str) -> list[Path]:
 
 def imported_by(file: Path) -> set[str]:
     """Return the modules of the package that a file imports from, as "pipeline" or "pixels.py"."""
-    found = set()
+    blocks = set()
     for node in ast.walk(ast.parse(file.read_text())):
         modules = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
         if isinstance(node, ast.ImportFrom) and node.module:
@@ -128,8 +128,8 @@ def imported_by(file: Path) -> set[str]:
         for module in modules:
             parts = module.split(".")
             if parts[0] == "softshadow" and len(parts) > 1:
-                found |= {name for name in (parts[1], f"{parts[1]}.py") if (PACKAGE / name).exists()}
-    return found
+                blocks |= {name for name in (parts[1], f"{parts[1]}.py") if (PACKAGE / name).exists()}
+    return blocks
 
 
 def test_the_hash_takes_in_whatever_kernels_are_made_of():

@@ -1,4 +1,4 @@
-"""The matrix makers: what they map where in double precision, and Mesa's bits in single precision."""
+"""GL's matrices: what they map where in double precision, and Mesa's bits in single precision."""
 
 from typing import Any
 
@@ -89,13 +89,13 @@ MAKERS = {
 @pytest.mark.parametrize("maker", MAKERS)
 def test_made_matrices_have_the_bits_of_mesa(maker):
     def program(namespace: Any) -> np.ndarray:
-        rng, made = np.random.default_rng(5), []
+        rng, results = np.random.default_rng(5), []
         for case in range(3 * CASES):
             starts(namespace, rng, case % 3)
             arguments = MAKERS[maker](rng)
             getattr(namespace, maker)(*(a if isinstance(a, np.ndarray) else float(a) for a in arguments))
-            made.append(np.array(namespace.glGetFloatv(namespace.GL_MODELVIEW_MATRIX)))
-        return np.array(made)
+            results.append(np.array(namespace.glGetFloatv(namespace.GL_MODELVIEW_MATRIX)))
+        return np.array(results)
 
     with gl.create_context(4, 4):
         ours = program(gl)

@@ -38,26 +38,26 @@ def test_rows_lie_where_the_specification_says(align, length, rows, pixels, widt
     pixel = len(COMPONENTS[format]) * np.dtype(TYPES[type]).itemsize
     memory = np.random.default_rng(width).integers(0, 256, 4000, dtype=np.uint8)
     image = image_view(memory, store, width, height, format, type, "glTexImage2D")
-    found = [np.ascontiguousarray(image[y, x]).tobytes() for y in range(height) for x in range(width)]
-    assert found == pixel_by_pixel(memory.tobytes(), store, width, height, pixel)
+    pixels_read = [np.ascontiguousarray(image[y, x]).tobytes() for y in range(height) for x in range(width)]
+    assert pixels_read == pixel_by_pixel(memory.tobytes(), store, width, height, pixel)
 
 
 def test_an_array_needs_no_padding_at_the_initial_alignment():
     image = np.arange(2 * 3 * 3, dtype=np.uint8).reshape(2, 3, 3)
-    found = client_image(image, PixelStore(), 3, 2, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, "glTexImage2D")
-    assert (found == image).all()
+    converted = client_image(image, PixelStore(), 3, 2, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, "glTexImage2D")
+    assert (converted == image).all()
 
 
 def test_padded_memory_is_read_at_its_alignment():
     rows = np.arange(2 * 4, dtype=np.uint8).reshape(2, 4)
-    found = client_image(rows.tobytes(), PixelStore(), 3, 2, gl.GL_RED, gl.GL_UNSIGNED_BYTE, "glTexImage2D")
-    assert (found[..., 0] == rows[:, :3]).all()
+    converted = client_image(rows.tobytes(), PixelStore(), 3, 2, gl.GL_RED, gl.GL_UNSIGNED_BYTE, "glTexImage2D")
+    assert (converted[..., 0] == rows[:, :3]).all()
 
 
 def test_lists_and_other_number_types_are_converted():
-    found = client_image([[1, 2], [3, 4]], TIGHT, 2, 2, gl.GL_RED, gl.GL_FLOAT, "glTexImage2D")
-    assert found.dtype == np.float32
-    assert found.ravel().tolist() == [1, 2, 3, 4]
+    converted = client_image([[1, 2], [3, 4]], TIGHT, 2, 2, gl.GL_RED, gl.GL_FLOAT, "glTexImage2D")
+    assert converted.dtype == np.float32
+    assert converted.ravel().tolist() == [1, 2, 3, 4]
 
 
 def test_too_few_pixels_are_named():

@@ -132,7 +132,7 @@ class Context:
         self.client_stack: list[Any] = []
         self.buffers: dict[int, BufferObject] = {}
         self.attribute_stack: list[Any] = []
-        # the state at the last glPushAttrib or glPopAttrib; bits of groups touched since, beyond changes of `state`
+        # the state at the last glPushAttrib or glPopAttrib; bits of the groups that calls have marked as changed since
         self.state_at_push, self.touched = self.state, 0
         self.pending = PendingAttributes()
         self.lists: dict[int, DisplayList] = {}

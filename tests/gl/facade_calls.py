@@ -1,4 +1,4 @@
-"""A right call of every function of `softshadow.gl`, and the same with arguments that are wrong.
+"""A valid call of every function of `softshadow.gl`, and calls of it with wrong arguments.
 
 Arguments are data: tokens by name, objects by what `World` calls them ("@texture"), everything else as it is.
 """
@@ -205,14 +205,14 @@ def prepare(gl: Any) -> World:
     uniforms = {f"@{name}": gl.glGetUniformLocation(program, name) for name in ("bias", "ambient", "shadowMap")}
     uniforms["@lightMatrix"] = gl.glGetUniformLocation(program, "lightMatrix")
     gl.glUseProgram(0)
-    made = {
+    objects = {
         "texture": texture,
         "framebuffer": framebuffer,
         "renderbuffer": renderbuffer,
         "query": query,
         "buffer": buffer,
     }
-    return World({f"@{name}": value for name, value in made.items()} | uniforms | {"@program": program})
+    return World({f"@{name}": value for name, value in objects.items()} | uniforms | {"@program": program})
 
 
 # numbers that GL takes for right ones, and then reads memory that is not the array's, or what there is more of in Mesa

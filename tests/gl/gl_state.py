@@ -1,4 +1,4 @@
-"""Programs that set state and answer every error and every state afterwards, on any GL namespace."""
+"""Programs that set state and return every error and all state afterwards, on any GL namespace."""
 
 from typing import Any
 

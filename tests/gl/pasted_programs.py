@@ -1,4 +1,4 @@
-"""Drawing routines in the manner of the red book's programs and of demos of extensions, with GLUT's part left out."""
+"""Drawing routines in the style of the Red Book and of extension demos, without GLUT."""
 
 import math
 from collections.abc import Callable

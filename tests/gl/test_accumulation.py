@@ -1,4 +1,4 @@
-"""The accumulation buffer adds in 16 bits, cut as Mesa cuts."""
+"""The accumulation buffer adds in 16 bits, clamped as in Mesa."""
 
 from typing import Any
 
@@ -78,5 +78,5 @@ def test_random_sums_are_those_of_mesa(seed):
                 namespace.glScissor(*rng.integers(0, 30, 4).tolist())
         namespace.glAccum(namespace.GL_RETURN, 1.0)
 
-    found = compare(program, SIZE)
-    assert found, str(found)
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)

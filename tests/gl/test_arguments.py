@@ -1,4 +1,4 @@
-"""Vectors may be lists, tuples, arrays of any kind or bytes: GL is handed the numbers that PyOpenGL hands it."""
+"""Vectors may be lists, tuples, arrays of any kind or bytes: GL gets the numbers that PyOpenGL passes."""
 
 from collections.abc import Callable, Iterator
 from typing import Any

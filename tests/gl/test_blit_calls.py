@@ -1,4 +1,4 @@
-"""glBlitFramebuffer: what is copied where, and what is refused."""
+"""glBlitFramebuffer: which pixels are copied where, and which calls are refused."""
 
 import numpy as np
 import pytest
@@ -11,14 +11,14 @@ COLOR = gl.GL_COLOR_BUFFER_BIT
 
 @pytest.fixture(autouse=True)
 def context():
-    with gl.create_context(4, 2) as made:
+    with gl.create_context(4, 2) as context:
         gl.glEnable(gl.GL_SCISSOR_TEST)
         for x in range(4):
             gl.glScissor(x, 0, 1, 1)
             gl.glClearColor(x / 4, 1, 0, 1)
             gl.glClear(COLOR)
         gl.glDisable(gl.GL_SCISSOR_TEST)
-        yield made
+        yield context
 
 
 def reds(y):

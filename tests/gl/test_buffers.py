@@ -1,4 +1,4 @@
-"""Buffer objects and the further calls on vertex arrays draw what Mesa draws."""
+"""Buffer objects and vertex arrays draw what Mesa draws."""
 
 import ctypes
 from typing import Any

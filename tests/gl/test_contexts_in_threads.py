@@ -45,9 +45,9 @@ def test_pictures_drawn_at_the_same_time_are_those_drawn_one_by_one(most: int) -
             at_once = [future.result() for future in futures]
     finally:
         set_threads(before)
-    for expected, found in zip(alone, at_once, strict=True):
-        for plane, same in zip(expected, found, strict=True):
-            np.testing.assert_array_equal(plane, same)
+    for expected, drawn in zip(alone, at_once, strict=True):
+        for image, same in zip(expected, drawn, strict=True):
+            np.testing.assert_array_equal(image, same)
 
 
 def test_the_current_context_belongs_to_its_thread() -> None:

@@ -15,8 +15,8 @@ SIZE = (24, 20)
 
 @pytest.fixture
 def context():
-    with gl.create_context(*SIZE) as made:
-        yield made
+    with gl.create_context(*SIZE) as context:
+        yield context
 
 
 def define(on: Any, side: int, seed: int = 1) -> None:

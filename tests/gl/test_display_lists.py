@@ -1,4 +1,4 @@
-"""Display lists keep calls, not what the calls would do now."""
+"""Display lists record calls, not their results."""
 
 import numpy as np
 import pytest
@@ -11,8 +11,8 @@ SIZE = (8, 6)
 
 @pytest.fixture(autouse=True)
 def context():
-    with gl.create_context(*SIZE) as made:
-        yield made
+    with gl.create_context(*SIZE) as context:
+        yield context
 
 
 def test_compiling_carries_nothing_out():

@@ -94,8 +94,8 @@ def test_every_way_of_drawing_gives_the_pixels_of_mesa(way, mode):
         namespace.glEnable(namespace.GL_DEPTH_TEST)
         way(namespace, mode, *vertices(2))
 
-    found = compare(program, SIZE)
-    assert found, str(found)
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)
 
 
 @pytest.mark.mesa
@@ -117,8 +117,8 @@ def test_colour_arrays_of_every_type_are_those_of_mesa(token, dtype):
         namespace.glColorPointer(3, getattr(namespace, token), 0, color)
         namespace.glDrawArrays(namespace.GL_TRIANGLES, 0, COUNT)
 
-    found = compare(program, SIZE)
-    assert found, str(found)
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)
 
 
 @pytest.mark.mesa
@@ -134,8 +134,8 @@ def test_rectangle_is_that_of_mesa():
         namespace.glColor3ub(9, 200, 30)
         namespace.glRectiv((-1, -1), (0, 0))
 
-    found = compare(program, SIZE)
-    assert found, str(found)
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)
 
 
 def test_stride_steps_over_what_lies_between_the_vertices():

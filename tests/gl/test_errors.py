@@ -1,4 +1,4 @@
-"""What GL refuses: raised with a message that helps, recorded for glGetError."""
+"""Refused calls: raised with a helpful message, recorded for glGetError."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Names with the suffix of an extension are those of Mesa, and two-sided stencil before GL 2.0 draws as there."""
+"""Names with extension suffixes are those of Mesa, and two-sided stencil from before GL 2.0 draws as in Mesa."""
 
 import inspect
 from typing import Any
@@ -15,8 +15,8 @@ NAMES = [name for name in gl.__all__ if name not in dir(gl)]
 
 def values(namespace: Any) -> dict[str, Any]:
     """What each name stands for: its number, or that it can be called."""
-    found = {name: getattr(namespace, name) for name in NAMES}
-    return {name: "call" if callable(value) else int(value) for name, value in found.items()}
+    values = {name: getattr(namespace, name) for name in NAMES}
+    return {name: "call" if callable(value) else int(value) for name, value in values.items()}
 
 
 @pytest.mark.mesa

@@ -1,4 +1,4 @@
-"""Every function of the facade, called rightly, wrongly, and between glBegin and glEnd, has Mesa's error codes."""
+"""Every function, called correctly, wrongly, and between glBegin and glEnd, has Mesa's error codes."""
 
 import inspect
 from typing import Any

@@ -8,8 +8,8 @@ from softshadow import gl
 
 @pytest.fixture(autouse=True)
 def context():
-    with gl.create_context(8, 6) as made:
-        yield made
+    with gl.create_context(8, 6) as context:
+        yield context
 
 
 def texture(internal=gl.GL_RGBA8, width=4, height=3):
@@ -27,9 +27,9 @@ def bound_framebuffer(**attached):
     """A new bound framebuffer object with textures at GL_<NAME>_ATTACHMENT."""
     name = gl.glGenFramebuffers(1)
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, name)
-    for point, made in attached.items():
+    for point, texture in attached.items():
         token = getattr(gl, "GL_COLOR_ATTACHMENT0" if point == "color" else f"GL_{point.upper()}_ATTACHMENT")
-        gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, token, gl.GL_TEXTURE_2D, made, 0)
+        gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, token, gl.GL_TEXTURE_2D, texture, 0)
     return name
 
 
@@ -69,8 +69,8 @@ def test_what_is_drawn_is_in_the_texture():
     bound_framebuffer(color=name)
     gl.glClearColor(1, 0, 0.2, 1)
     gl.glClear(gl.GL_COLOR_BUFFER_BIT)
-    found = gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
-    assert found.reshape(-1, 4).tolist() == [[255, 0, 51, 255]] * 12
+    texels = gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
+    assert texels.reshape(-1, 4).tolist() == [[255, 0, 51, 255]] * 12
 
 
 def test_a_framebuffer_follows_its_texture_to_a_new_image():
@@ -177,24 +177,26 @@ def test_depth_and_stencil_in_two_objects_are_not_drawn_to():
 
 def test_a_renderbuffer_of_depth_alone_is_not_attached_to_both_points():
     bound_framebuffer(color=texture())
-    made = gl.glGenRenderbuffers(1)
-    gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, made)
+    renderbuffer = gl.glGenRenderbuffers(1)
+    gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, renderbuffer)
     gl.glRenderbufferStorage(gl.GL_RENDERBUFFER, gl.GL_DEPTH_COMPONENT24, 4, 3)
     with pytest.raises(gl.GLError, match="expected depth and stencil, it is GL_DEPTH_COMPONENT24"):
-        gl.glFramebufferRenderbuffer(gl.GL_FRAMEBUFFER, gl.GL_DEPTH_STENCIL_ATTACHMENT, gl.GL_RENDERBUFFER, made)
+        gl.glFramebufferRenderbuffer(
+            gl.GL_FRAMEBUFFER, gl.GL_DEPTH_STENCIL_ATTACHMENT, gl.GL_RENDERBUFFER, renderbuffer
+        )
 
 
 def test_a_renderbuffer_serves_as_a_buffer():
-    made = gl.glGenRenderbuffers(1)
-    gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, made)
+    renderbuffer = gl.glGenRenderbuffers(1)
+    gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, renderbuffer)
     bound_framebuffer(color=texture())
-    gl.glFramebufferRenderbuffer(gl.GL_FRAMEBUFFER, gl.GL_DEPTH_ATTACHMENT, gl.GL_RENDERBUFFER, made)
+    gl.glFramebufferRenderbuffer(gl.GL_FRAMEBUFFER, gl.GL_DEPTH_ATTACHMENT, gl.GL_RENDERBUFFER, renderbuffer)
     assert status() == gl.GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT
     gl.glRenderbufferStorage(gl.GL_RENDERBUFFER, gl.GL_DEPTH_COMPONENT24, 4, 3)
     assert status() == gl.GL_FRAMEBUFFER_COMPLETE
     gl.glClear(gl.GL_DEPTH_BUFFER_BIT)
     assert (gl.glReadPixels(0, 0, 4, 3, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT) == 1).all()
-    gl.glDeleteRenderbuffers(1, [made])
+    gl.glDeleteRenderbuffers(1, [renderbuffer])
     with pytest.raises(gl.GLError, match="has no depth buffer to read"):
         gl.glReadPixels(0, 0, 4, 3, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT)
 

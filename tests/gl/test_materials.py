@@ -88,5 +88,5 @@ def test_materials_that_change_from_vertex_to_vertex_are_those_of_mesa(seed):
             namespace.glVertex3f(*rng.uniform(-1, 1, 3).tolist())
         namespace.glEnd()
 
-    found = compare(program, SIZE)
-    assert found, str(found)
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)

@@ -1,4 +1,4 @@
-"""Generated mipmaps: GL's small print by example, and every texel of every level against Mesa."""
+"""Generated mipmaps: special cases by example, and every texel of every level against Mesa."""
 
 from typing import Any
 
@@ -19,8 +19,8 @@ FORMATS = (
 
 @pytest.fixture
 def context():
-    with gl.create_context(8, 8) as made:
-        yield made
+    with gl.create_context(8, 8) as context:
+        yield context
 
 
 def define(gl: Any, width: int, height: int, level: int = 0, internal: str = "GL_RGBA8") -> tuple[int, int]:
@@ -51,11 +51,11 @@ def all_levels(gl: Any, width: int, height: int, base: int, last: int, internal:
     formats = define(gl, width, height, base, internal)
     if not automatic:
         gl.glGenerateMipmap(gl.GL_TEXTURE_2D)
-    found = []
+    levels = []
     for level in range(base, base + max(width, height).bit_length() + 1):
         side = gl.glGetTexLevelParameteriv(gl.GL_TEXTURE_2D, level, gl.GL_TEXTURE_WIDTH)
-        found.append(np.array(gl.glGetTexImage(gl.GL_TEXTURE_2D, level, *formats)) if side else None)
-    return found
+        levels.append(np.array(gl.glGetTexImage(gl.GL_TEXTURE_2D, level, *formats)) if side else None)
+    return levels
 
 
 @pytest.mark.mesa

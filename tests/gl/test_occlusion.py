@@ -103,5 +103,5 @@ def test_counts_are_those_of_mesa():
             counts.append(int(namespace.glGetQueryObjectuiv(query, namespace.GL_QUERY_RESULT)))
         return [np.array(counts)]
 
-    found = compare(program, SIZE)
-    assert found, str(found)
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)

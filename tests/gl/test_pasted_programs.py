@@ -1,4 +1,4 @@
-"""Programs as one finds them draw here what they draw on Mesa."""
+"""Programs in the style of textbooks and demos draw the same as on Mesa."""
 
 import functools
 from typing import Any
@@ -15,9 +15,9 @@ SIZE = (96, 72)
 @pytest.mark.mesa
 @pytest.mark.parametrize("name", PASTED)
 def test_pasted_program_draws_as_on_mesa(name):
-    found = compare(functools.partial(PASTED[name], size=SIZE), SIZE)
-    assert found.differences == ()
-    assert len(np.unique(found.ours.color.reshape(-1, 4), axis=0)) >= 3
+    comparison = compare(functools.partial(PASTED[name], size=SIZE), SIZE)
+    assert comparison.differences == ()
+    assert len(np.unique(comparison.ours.color.reshape(-1, 4), axis=0)) >= 3
 
 
 def signed_sums(gl: Any) -> None:

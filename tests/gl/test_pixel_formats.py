@@ -94,12 +94,12 @@ def same_on_mesa(program: Any) -> None:
 @pytest.mark.parametrize("internal", COLORS)
 def test_uploaded_colours_are_mesas(internal):
     def program(gl: Any) -> list[np.ndarray]:
-        found = []
+        answers = []
         for format, components in COMPONENTS.items():
             for type in TYPES:
                 texture(gl, internal, format, type, client_pixels(type, components))
-                found.append(stored(gl, internal))
-        return found
+                answers.append(stored(gl, internal))
+        return answers
 
     same_on_mesa(program)
 
@@ -148,27 +148,27 @@ def test_a_clear_writes_the_channels_that_mesa_writes(internal):
 @pytest.mark.parametrize("internal", DEPTHS)
 def test_depth_is_uploaded_and_read_as_on_mesa(internal):
     def program(gl: Any) -> list[np.ndarray]:
-        found = []
+        answers = []
         for uploaded in TYPES:
             name = texture(gl, internal, "GL_DEPTH_COMPONENT", uploaded, client_pixels(uploaded, 1))
             attach(gl, name, internal)
             for type in TYPES:
-                found.append(gl.glReadPixels(0, 0, *SIZE, gl.GL_DEPTH_COMPONENT, getattr(gl, type)))
-                found.append(gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH_COMPONENT, getattr(gl, type)))
+                answers.append(gl.glReadPixels(0, 0, *SIZE, gl.GL_DEPTH_COMPONENT, getattr(gl, type)))
+                answers.append(gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH_COMPONENT, getattr(gl, type)))
         gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
-        return found
+        return answers
 
     same_on_mesa(program)
 
 
 def test_unsized_depth_takes_the_size_of_the_clients_integers():
     def program(gl: Any) -> list[np.ndarray]:
-        found = []
+        answers = []
         for type in TYPES:
             texture(gl, "GL_DEPTH_COMPONENT", "GL_DEPTH_COMPONENT", type, client_pixels(type, 1))
             bits = gl.glGetTexLevelParameteriv(gl.GL_TEXTURE_2D, 0, gl.GL_TEXTURE_DEPTH_SIZE)
-            found.append(np.array([bits]))
-        return found
+            answers.append(np.array([bits]))
+        return answers
 
     same_on_mesa(program)
 
@@ -180,12 +180,12 @@ def test_packed_depth_and_stencil_are_mesas():
         name = texture(gl, "GL_DEPTH24_STENCIL8", "GL_DEPTH_STENCIL", "GL_UNSIGNED_INT_24_8", words)
         attach(gl, name, "GL_DEPTH24_STENCIL8")
         packed = (gl.GL_DEPTH_STENCIL, gl.GL_UNSIGNED_INT_24_8)
-        found = [gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, *packed), gl.glReadPixels(0, 0, *SIZE, *packed)]
-        found += [gl.glReadPixels(0, 0, *SIZE, gl.GL_STENCIL_INDEX, getattr(gl, type)) for type in TYPES]
+        answers = [gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, *packed), gl.glReadPixels(0, 0, *SIZE, *packed)]
+        answers += [gl.glReadPixels(0, 0, *SIZE, gl.GL_STENCIL_INDEX, getattr(gl, type)) for type in TYPES]
         gl.glTexSubImage2D(gl.GL_TEXTURE_2D, 0, 3, 2, 4, 3, *packed, words[:3, :4].copy())
-        found.append(gl.glReadPixels(0, 0, *SIZE, *packed))
+        answers.append(gl.glReadPixels(0, 0, *SIZE, *packed))
         gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
-        return found
+        return answers
 
     same_on_mesa(program)
 
@@ -198,13 +198,13 @@ def test_copies_between_formats_are_mesas(source):
         pixels = client_pixels("GL_FLOAT", 1 if of_depth else 4)
         name = texture(gl, source, "GL_DEPTH_COMPONENT" if of_depth else "GL_RGBA", "GL_FLOAT", pixels)
         attach(gl, name, source)
-        found = []
+        answers = []
         for internal in (*DEPTHS[:4], "GL_DEPTH_COMPONENT") if of_depth else COLORS:
             gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
             gl.glCopyTexImage2D(gl.GL_TEXTURE_2D, 0, getattr(gl, internal), 0, 0, *SIZE, 0)
-            found.append(stored(gl, internal))
+            answers.append(stored(gl, internal))
         gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
-        return found
+        return answers
 
     same_on_mesa(program)
 
@@ -225,7 +225,7 @@ def draw_something(gl: Any) -> None:
 def test_the_window_is_read_as_on_mesa():
     def program(gl: Any) -> list[np.ndarray]:
         draw_something(gl)
-        found = [
+        answers = [
             gl.glReadPixels(0, 0, *SIZE, getattr(gl, format), getattr(gl, type))
             for format in (*COMPONENTS, "GL_DEPTH_COMPONENT", "GL_STENCIL_INDEX")
             for type in TYPES
@@ -233,7 +233,7 @@ def test_the_window_is_read_as_on_mesa():
         ]
         outside = np.full((20, 30, 4), 77, np.uint8)
         gl.glReadPixels(-3, -5, 30, 20, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, outside)
-        return [*found, outside]
+        return [*answers, outside]
 
     same_on_mesa(program)
 
@@ -243,12 +243,12 @@ def test_copies_of_the_window_are_mesas(internal):
     def program(gl: Any) -> list[np.ndarray]:
         draw_something(gl)
         gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
-        found = []
+        answers = []
         for rectangle in ((0, 0, *SIZE), (2, 3, 7, 4), (-5, -2, 30, 20)):
             gl.glCopyTexImage2D(gl.GL_TEXTURE_2D, 0, getattr(gl, internal), *rectangle, 0)
-            found.append(stored(gl, internal))
+            answers.append(stored(gl, internal))
         gl.glCopyTexSubImage2D(gl.GL_TEXTURE_2D, 0, 5, 6, 3, 2, 20, 9)
-        return [*found, stored(gl, internal)]
+        return [*answers, stored(gl, internal)]
 
     same_on_mesa(program)
 
@@ -295,8 +295,8 @@ def test_drawn_depth_is_sampled_as_on_mesa(internal):
             gl.glTexCoord2f(s, t)
             gl.glVertex2f(2 * s - 1, 2 * t - 1)
         gl.glEnd()
-        found = [gl.glReadPixels(0, 0, *SIZE, gl.GL_RED, gl.GL_FLOAT), stored(gl, internal)]
+        answers = [gl.glReadPixels(0, 0, *SIZE, gl.GL_RED, gl.GL_FLOAT), stored(gl, internal)]
         gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
-        return found
+        return answers
 
     same_on_mesa(program)

@@ -48,8 +48,8 @@ def test_matrices_come_in_column_order(shadow_map, transpose):
     location = gl.glGetUniformLocation(shadow_map, b"lightMatrix")
     matrix = np.arange(16, dtype=np.float32).reshape(4, 4)
     gl.glUniformMatrix4fv(location, 1, transpose, matrix if transpose else matrix.T.copy())
-    kept = gl.current().uniforms[shadow_map]["lightMatrix"]
-    assert (kept == matrix).all()
+    stored = gl.current().uniforms[shadow_map]["lightMatrix"]
+    assert (stored == matrix).all()
     assert (gl.glGetUniformfv(shadow_map, location) == matrix.T).all()
 
 

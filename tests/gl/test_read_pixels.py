@@ -12,10 +12,10 @@ WIDTH, HEIGHT = 7, 5
 
 @pytest.fixture(autouse=True)
 def context():
-    with gl.create_context(WIDTH, HEIGHT) as made:
-        rows = made.storage.window.color.view
+    with gl.create_context(WIDTH, HEIGHT) as context:
+        rows = context.storage.window.color.view
         rows[:] = np.arange(HEIGHT * WIDTH * 4).reshape(HEIGHT, WIDTH, 4)[::-1]
-        yield made
+        yield context
 
 
 def read(x, y, width, height, array=None, format=gl.GL_RGBA):

@@ -68,7 +68,7 @@ def test_what_is_set_is_read_back(name, arguments, reads):
 @given(state_calls())
 def test_popping_all_attributes_brings_all_state_back(calls: list[Call]):
     # what is no attribute: matrices, client state, seamless cube maps, the depth of the stack itself
-    kept = ("MATRIX)", "STACK_DEPTH)", "CLIENT_ACTIVE_TEXTURE)", "CUBE_MAP_SEAMLESS)")
+    not_popped = ("MATRIX)", "STACK_DEPTH)", "CLIENT_ACTIVE_TEXTURE)", "CUBE_MAP_SEAMLESS)")
     with gl.create_context(*SIZE, raise_errors=False):
         calls = [call for call in calls if "Attrib" not in call[0] and not call[0].startswith(GIVEN)]
         gl.glActiveTexture(gl.GL_TEXTURE1)
@@ -77,7 +77,7 @@ def test_popping_all_attributes_brings_all_state_back(calls: list[Call]):
         make(gl, calls)
         gl.glPopAttrib()
         after = state_of(gl)
-        changed = [name for name in before if not same(before[name], after[name]) and not name.endswith(kept)]
+        changed = [name for name in before if not same(before[name], after[name]) and not name.endswith(not_popped)]
         assert changed == []
 
 

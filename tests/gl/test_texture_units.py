@@ -11,8 +11,8 @@ from softshadow.testing import run_on_mesa
 
 @pytest.fixture
 def context():
-    with gl.create_context(4, 4) as made:
-        yield made
+    with gl.create_context(4, 4) as context:
+        yield context
 
 
 def test_units_have_their_own_bindings_and_environments(context):
@@ -44,14 +44,14 @@ def test_an_eye_plane_moves_with_the_modelview_matrix(context):
 
 
 def eye_planes(gl: Any) -> np.ndarray:
-    """Planes as kept under one loaded matrix; a second would inherit from the first on Mesa."""
+    """Eye planes set under one loaded matrix; a second would inherit from the first on Mesa."""
     rng = np.random.default_rng(4)
     gl.glLoadMatrixf(rng.normal(size=16).astype(np.float32))
-    kept = []
+    planes = []
     for plane in rng.normal(size=(20, 4)).astype(np.float32):
         gl.glTexGenfv(gl.GL_Q, gl.GL_EYE_PLANE, plane)
-        kept.append(np.array(gl.glGetTexGenfv(gl.GL_Q, gl.GL_EYE_PLANE)))
-    return np.array(kept)
+        planes.append(np.array(gl.glGetTexGenfv(gl.GL_Q, gl.GL_EYE_PLANE)))
+    return np.array(planes)
 
 
 @pytest.mark.mesa

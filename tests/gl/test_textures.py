@@ -12,8 +12,8 @@ RGBA = np.arange(48, dtype=np.uint8).reshape(3, 4, 4)
 
 @pytest.fixture(autouse=True)
 def context():
-    with gl.create_context(8, 6) as made:
-        yield made
+    with gl.create_context(8, 6) as context:
+        yield context
 
 
 def bound_texture(pixels=RGBA, internal=gl.GL_RGBA8):
@@ -134,8 +134,8 @@ def test_parameters_are_read_back(pname, initial, value):
 
 def test_the_border_colour_is_queried_clamped():
     gl.glTexParameterfv(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_BORDER_COLOR, (0.5, 2.0, -1.0, 1.0))
-    found = gl.glGetTexParameterfv(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_BORDER_COLOR)
-    assert found.tolist() == [0.5, 1, 0, 1]
+    color = gl.glGetTexParameterfv(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_BORDER_COLOR)
+    assert color.tolist() == [0.5, 1, 0, 1]
 
 
 def test_textures_keep_their_own_parameters():
@@ -153,8 +153,8 @@ def test_faces_of_a_cube_map_are_images_of_their_own():
     for value, face in enumerate(faces):
         pixels = np.full((2, 2), value, np.uint8)
         gl.glTexImage2D(face, 0, gl.GL_RGBA8, 2, 2, 0, gl.GL_RED, gl.GL_UNSIGNED_BYTE, pixels)
-    found = [gl.glGetTexImage(face, 0, gl.GL_RED, gl.GL_UNSIGNED_BYTE)[0, 0] for face in faces]
-    assert found == list(range(6))
+    texels = [gl.glGetTexImage(face, 0, gl.GL_RED, gl.GL_UNSIGNED_BYTE)[0, 0] for face in faces]
+    assert texels == list(range(6))
 
 
 def test_replay_gives_every_texture_again(context):

@@ -1,4 +1,4 @@
-"""Matrix stacks, and planes and lights that are taken through the current matrix."""
+"""Matrix stacks, and planes and lights that are transformed by the current matrix."""
 
 from typing import Any
 

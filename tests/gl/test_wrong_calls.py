@@ -1,4 +1,4 @@
-"""What GL refuses has Mesa's error code and changes nothing."""
+"""Refused calls have Mesa's error codes and change nothing."""
 
 from typing import Any
 

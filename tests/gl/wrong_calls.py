@@ -1,4 +1,4 @@
-"""Calls on textures, framebuffer objects, pixels and programs that GL refuses, in a world where the rest is right."""
+"""Refused calls on textures, framebuffer objects, pixels and programs, each with a single mistake."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
