@@ -1,4 +1,4 @@
-"""The accumulation buffer adds in 16 bits, clamped as in Mesa."""
+"""The accumulation buffer adds in 16 bits, truncated as in Mesa."""
 
 from typing import Any
 
