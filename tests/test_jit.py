@@ -56,7 +56,9 @@ def run_with(source: Path, cache: Path, code: str = COUNT_UP) -> str:
     environment = {**os.environ, "PYTHONPATH": str(source), "XDG_CACHE_HOME": str(cache)}
     environment.pop("NUMBA_CACHE_DIR", None)
     environment.pop("NUMBA_DISABLE_JIT", None)
-    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    # Python looks in the current folder first, where there may be another copy of the package
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, env=environment, cwd=source, capture_output=True, text=True, check=True)
     return done.stdout.strip()
 
 
