@@ -262,7 +262,7 @@ def run(
     if not isinstance(drawn, Scene):
         raise TypeError(f"scene={scene!r}: expected a Scene or the name of one")
     width, height = checked_size(size)
-    given = chosen.checked_options(options)
+    given = chosen.validate_options(options)
     context = Context(width, height, depth_format, stencil_bits, precision, polygon_offset_slope, polygon_offset_unit)
     replay = Replay(context.frame, keep_bytes)
     maps, caught = _draw(chosen, drawn, context, replay, given)

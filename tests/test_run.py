@@ -233,7 +233,7 @@ def test_the_callers_context_is_current_again_also_after_an_error(monkeypatch):
         mine = current()
         ss.run("volume-zfail", "torus", SIZE)
         assert current() is mine
-        monkeypatch.setattr("softshadow.techniques.volume_zfail.begin_frame", lambda gl, scene: 1 / 0)
+        monkeypatch.setattr("softshadow.techniques.drawing.begin_frame", lambda gl, scene: 1 / 0)
         with pytest.raises(ZeroDivisionError):
             ss.run("volume-zfail", "torus", SIZE)
         assert current() is mine

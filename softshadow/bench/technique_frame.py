@@ -32,7 +32,7 @@ def prepare(
     """
     drawn = with_lights(Scene.named(scene), lights, kind)
     entry = techniques.get(technique)
-    options = entry.checked_options({})
+    options = entry.validate_options({})
 
     def frame() -> None:
         gl.glPushAttrib(gl.GL_ALL_ATTRIB_BITS)

@@ -1,8 +1,8 @@
-"""The GL listings of the course, as printed and as corrected, and the register that knows them by name.
+"""The GL listings of the course, as printed and as corrected, and the register that lists them by name.
 
-Each listing is a function of a GL namespace: `softshadow.gl`, or any other with the same names. It is one text with a
-switch at every place where the slide has to be corrected, so that it can run as printed, with all corrections, or with
-all but one. The corrections have the numbers of docs/corrections.md.
+Each listing is a function of a GL namespace: `softshadow.gl`, or any other with the same names. It is one function with
+a switch at every place where the slide has to be corrected, so that it can run as printed, with all corrections, or
+with all but one. The corrections have the numbers of docs/corrections.md.
 
 The slides are named by text and line: RO1 and RO2 (Moldoveanu, "Redarea umbrelor în imagini" 1 and 2, Politehnica
 Bucharest 2021-22), SK (Zimányi & Valient, Comenius University Bratislava 2004/05) and CA (Andújar, Universitat
@@ -10,14 +10,13 @@ Politècnica de Catalunya, 2021).
 """
 
 from softshadow.errors import nearest
-from softshadow.listings import depth_and_stencil as tools
-from softshadow.listings import maps, planar, volumes
+from softshadow.listings import depth_and_stencil, maps, planar, volumes
 from softshadow.listings.listing import Listing
 from softshadow.listings.stage import SIZE
 
 __all__ = ["SIZE", "Listing", "get", "names"]
 
-REGISTER = {listing.name: listing for family in (tools, planar, volumes, maps) for listing in family.LISTINGS}
+REGISTER = {listing.name: listing for file in (depth_and_stencil, planar, volumes, maps) for listing in file.LISTINGS}
 
 
 def names() -> list[str]:
@@ -32,11 +31,11 @@ def names() -> list[str]:
 
 
 def get(name: str) -> Listing:
-    """Return a listing by its name.
+    """Return the listing of a name.
 
     Raises
     ------
-    ValueError                   there is none of that name; the message has the nearest one
+    ValueError                   unknown name; the message has the nearest one
 
     Examples
     --------

@@ -1,6 +1,6 @@
 """The steps that the listings of shadow volumes share: draw the volumes, count their faces, light the scene.
 
-"Trimite in banda grafica poligoanele de umbra" and ``dibuixa(volum_ombra)`` are ``draw_volumes``.
+"Trimite in banda grafica poligoanele de umbra" and ``dibuixa(volum_ombra)`` on the slides are ``draw_volumes`` here.
 """
 
 from typing import Any
@@ -12,7 +12,7 @@ from softshadow.scene import shadow_volume
 
 
 def draw_volumes(gl: Any, stage: Stage, closed: bool = False) -> None:
-    """Draw the side polygons of every volume (RO1:93-101), counter-clockwise seen from outside; `closed`: caps, too."""
+    """Draw the side polygons of every volume (RO1:93-101), counter-clockwise seen from outside; `closed` adds caps."""
     for thing in stage.occluder:
         volume = shadow_volume(thing.mesh, np.array(stage.light))
         gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, f"volume of the {thing.name}")
@@ -38,9 +38,9 @@ def ambient_scene(gl: Any, stage: Stage, far: float | None = None) -> None:
 
 
 def begin_count(gl: Any, corrected: frozenset[str]) -> None:
-    """RO1:200-204 and RO1:304-308 but for the faces that are culled: write the stencil buffer and nothing else."""
+    """RO1:200-204 and RO1:304-308 without glCullFace: let draws change the stencil buffer and nothing else."""
     if "E1" in corrected:
-        gl.glEnable(gl.GL_STENCIL_TEST)  # E1: printed in step 4 only, after the counting
+        gl.glEnable(gl.GL_STENCIL_TEST)  # E1: printed in step 4 only, after counting
         gl.glEnable(gl.GL_CULL_FACE)  # E1: printed nowhere
     gl.glDepthMask(gl.GL_FALSE)
     gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
@@ -61,21 +61,21 @@ def count_passes(gl: Any, corrected: frozenset[str], stage: Stage) -> None:
 
 
 def volumes_around_eye(stage: Stage) -> int:
-    """Return how many volumes contain the eye: the boxes that the way from the eye to the lamp meets."""
-    eye, way = np.array(stage.eye), np.array(stage.light[:3]) - np.array(stage.eye)
-    count = 0
+    """Return how many volumes contain the eye: the number of boxes between the eye and the lamp."""
+    eye, to_lamp = np.array(stage.eye), np.array(stage.light[:3]) - np.array(stage.eye)
+    volumes = 0
     for thing in stage.occluder:
         low, high = thing.mesh.positions.min(axis=0), thing.mesh.positions.max(axis=0)
-        enters, leaves = np.sort([(low - eye) / way, (high - eye) / way], axis=0)
-        count += bool(max(enters.max(), 0) < min(leaves.min(), 1))
-    return count
+        enters, leaves = np.sort([(low - eye) / to_lamp, (high - eye) / to_lamp], axis=0)
+        volumes += bool(max(enters.max(), 0) < min(leaves.min(), 1))
+    return volumes
 
 
 def start_at_near_plane(gl: Any, stage: Stage) -> None:
-    """E10: leave in each pixel the number of volumes that contain its point of the near plane.
+    """E10: write into each pixel the number of volumes that contain its point of the near plane.
 
-    A ray from there leaves each of them, and one that it enters on its way it leaves as well: of closed volumes it
-    meets as many more back faces, wherever they are.
+    A ray from that point leaves each of these volumes; any other volume that it enters it leaves again. So it meets as
+    many more back faces than front faces of closed volumes, whatever their depth.
     """
     begin_count(gl, frozenset({"E1"}))
     gl.glDisable(gl.GL_DEPTH_TEST)
@@ -89,7 +89,7 @@ def start_at_near_plane(gl: Any, stage: Stage) -> None:
 def lit_scene(gl: Any, corrected: frozenset[str], stage: Stage) -> None:
     """Pasul 4 (RO1:260-277): the scene with light where the count is 0."""
     if "E2" in corrected:
-        gl.glDepthFunc(gl.GL_LEQUAL)  # E2: not printed; the second drawing has equal depth
+        gl.glDepthFunc(gl.GL_LEQUAL)  # E2: not printed; the second draw has equal depth
     gl.glEnable(gl.GL_STENCIL_TEST)
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_KEEP)  # E4: printed KEEP
     gl.glStencilFunc(gl.GL_EQUAL, 0x0, 0xFF)

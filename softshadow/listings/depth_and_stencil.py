@@ -1,4 +1,4 @@
-"""What decides which surface is seen: stencil buffer, polygon offset, depth range.
+"""The tools that decide which surface is seen: stencil buffer, polygon offset, depth range.
 
 Slides CA:104-145, CA:214-288 and CA:648-703.
 """
@@ -14,21 +14,24 @@ from softshadow.scene.shapes import box
 
 RED, GREEN = (0.8, 0.2, 0.2), (0.2, 0.8, 0.2)
 SMALLEST_STEP = 1 / (2**24 - 1)  # of the depth buffer
-SLOPES = ((0.6, 0.2), (-0.6, -0.2))  # depth of window z per window: one quad sinks to the right, the other rises
+SLOPES = (
+    (0.6, 0.2),
+    (-0.6, -0.2),
+)  # change of window z across the window: one quad goes back towards the right, the other comes nearer
 SKELETON = Thing(moved(box(0.7, 0.5, 0.7, name="skeleton"), 0.0, 0.5, 0.0), (0.9, 0.9, 0.9))
 
 
 # -- stencil -----------------------------------------------------------------------------------------------------------
 def stencil_setup(gl: Any, corrected: frozenset[str]) -> list[np.ndarray]:
-    """CA:214-226: ask for the bits, clear. The clear minds glStencilMask and not glStencilFunc, as the slide says.
+    """CA:214-226: query the bits, then clear: glStencilMask affects the clear, glStencilFunc does not, as printed.
 
-    The window with a stencil buffer is the context's business (E57: the class is QSurfaceFormat).
+    Asking for a window with a stencil buffer is left to the context (E57: the class is QSurfaceFormat).
     """
     bits = np.array([gl.glGetIntegerv(gl.GL_STENCIL_BITS)])
     gl.glEnable(gl.GL_STENCIL_TEST)
     gl.glStencilFunc(gl.GL_NEVER, 0, 0)
     gl.glClearStencil(0xFF)
-    gl.glClear(gl.GL_STENCIL_BUFFER_BIT)  # all bits: glStencilFunc has no part in it
+    gl.glClear(gl.GL_STENCIL_BUFFER_BIT)  # all bits, whatever glStencilFunc says
     gl.glStencilMask(0x0F)
     gl.glClearStencil(0)
     gl.glClear(gl.GL_STENCIL_BUFFER_BIT)  # the lower four bits
@@ -36,7 +39,7 @@ def stencil_setup(gl: Any, corrected: frozenset[str]) -> list[np.ndarray]:
 
 
 def two_quads(gl: Any, corrected: frozenset[str]) -> None:
-    """CA:262-286: mark a quad with 1, then draw a second where there is no mark."""
+    """CA:262-286: mark a quad with 1, then draw a second one where there is no mark."""
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
     gl.glEnable(gl.GL_STENCIL_TEST)
     gl.glStencilFunc(gl.GL_ALWAYS, 1, 255)
@@ -52,7 +55,7 @@ def draw_quad(
     gl: Any, color: tuple[float, float, float], left: float, bottom: float, right: float, top: float,
     slope: tuple[float, float] = (0.0, 0.0),
 ) -> None:  # fmt: skip
-    """Draw a quad of the window, -1 to 1; `slope` is dz/dx and dz/dy around its middle."""
+    """Draw a rectangle in normalized device coordinates; `slope` is dz/dx and dz/dy around its middle."""
     gl.glColor3f(*color)
     gl.glBegin(gl.GL_QUADS)
     for x, y in ((left, bottom), (right, bottom), (right, top), (left, top)):
@@ -62,10 +65,10 @@ def draw_quad(
 
 # -- polygon offset ----------------------------------------------------------------------------------------------------
 def offset_formula(gl: Any, corrected: frozenset[str]) -> None:
-    """CA:104-145, Evitar problemes de z-fighting: glPolygonOffset(1, 1) by the slide's formula, each quad moved by it.
+    """CA:104-145, Evitar problemes de z-fighting: the formula of glPolygonOffset(1, 1), applied by moving quads.
 
-    A is drawn plain, B (larger) is moved: z' = z + dz·factor + r·units should put B behind A. E32: r is what a driver
-    can resolve, two steps on Mesa; the slide's smallest step is kept here.
+    A is drawn as it is, B (larger) is moved: z' = z + dz·factor + r·units should put B behind A. E32: r is what a
+    driver can resolve, two steps on Mesa; here it is one step, as on the slide.
     """
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
     gl.glEnable(gl.GL_DEPTH_TEST)
@@ -73,15 +76,17 @@ def offset_formula(gl: Any, corrected: frozenset[str]) -> None:
     factor, units = 1.0, 1.0
     for middle, (dz_dx, dz_dy) in zip((-0.5, 0.5), SLOPES, strict=True):
         draw_quad(gl, RED, middle - 0.3, -0.6, middle + 0.3, 0.6, (dz_dx, dz_dy))
-        per_pixel = (dz_dx / width, dz_dy / height)  # window z is half of z from -1 to 1, and so are pixels of x
+        per_pixel = (dz_dx / width, dz_dy / height)  # z and x both run from -1 to 1, so the halves cancel
         if "E31" in corrected:
-            slope = max(abs(per_pixel[0]), abs(per_pixel[1]))  # E31: or a surface that rises is pulled nearer
+            slope = max(
+                abs(per_pixel[0]), abs(per_pixel[1])
+            )  # E31: without abs, a surface that comes nearer is pulled nearer
         else:
             slope = max(per_pixel)  # ∂z = max(∂z/∂x, ∂z/∂y)
         if "E30" in corrected:
             constant = SMALLEST_STEP * units  # E30: r times units, as on the second slide (CA:124)
         else:
-            constant = 1 / SMALLEST_STEP * units  # z' = z + 1/r · units (CA:110): beyond all depths
+            constant = 1 / SMALLEST_STEP * units  # z' = z + 1/r · units (CA:110): larger than every depth
         offset = slope * factor + constant
         gl.glPushMatrix()
         gl.glTranslatef(0.0, 0.0, 2 * offset)
@@ -90,10 +95,10 @@ def offset_formula(gl: Any, corrected: frozenset[str]) -> None:
 
 
 def offset_quiz(gl: Any, corrected: frozenset[str]) -> None:
-    """CA:648-665: A plain, B with (1, 1); where they coincide A has priority. The quads of `offset_formula`."""
+    """CA:648-665: A without, B with an offset of (1, 1): where they coincide A wins. The quads of `offset_formula`."""
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
     gl.glEnable(gl.GL_DEPTH_TEST)
-    gl.glDepthFunc(gl.GL_LEQUAL)  # without the offset B would win: it is drawn later
+    gl.glDepthFunc(gl.GL_LEQUAL)  # without the offset B would win, because it is drawn later
     for middle, slope in zip((-0.5, 0.5), SLOPES, strict=True):
         draw_quad(gl, RED, middle - 0.3, -0.6, middle + 0.3, 0.6, slope)  # drawObject(A)
         gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
@@ -104,7 +109,7 @@ def offset_quiz(gl: Any, corrected: frozenset[str]) -> None:
 
 # -- visibility quiz ---------------------------------------------------------------------------------------------------
 def depth_range(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
-    """CA:690-703: the skeleton in the nearer half of all depths, the skin around it in the farther one."""
+    """CA:690-703: the skeleton in the nearer half of the depth range, the skin around it in the farther half."""
     begin_frame(gl, stage)
     gl.glDepthRange(0.0, 0.5)
     draw(gl, [SKELETON])
@@ -121,9 +126,9 @@ def option(
     before: Callable[[Any], None],
     after: Callable[[Any], None],
 ) -> None:
-    """CA:694-697: a call in front of the skeleton, then the skin; none of the four helps, as the slide says.
+    """CA:694-697: a call before the skeleton is drawn, then the skin; as the slide says, none of the four helps.
 
-    E45: the depth test off does help when the skeleton is drawn last (unsorted in itself).
+    E45: switching the depth test off helps if the skeleton is drawn last (but it does not sort its own faces).
     """
     begin_frame(gl, stage)
     if "E45" in corrected:
@@ -147,7 +152,7 @@ def depth_test_off(gl: Any, corrected: frozenset[str]) -> None:
 
 
 def offset_skeleton(gl: Any, corrected: frozenset[str]) -> None:
-    """CA:695, option b; enabled, too, which the slide does not say."""
+    """CA:695, option b; also enables the offset, which the slide does not print."""
 
     def before(gl: Any) -> None:
         gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
@@ -157,7 +162,7 @@ def offset_skeleton(gl: Any, corrected: frozenset[str]) -> None:
 
 
 def whole_depth_range(gl: Any, corrected: frozenset[str]) -> None:
-    """CA:696, option c: what it is anyway."""
+    """CA:696, option c: the default depth range."""
     option(gl, corrected, before=lambda gl: gl.glDepthRange(0, 1), after=lambda gl: None)
 
 

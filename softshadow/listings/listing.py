@@ -1,4 +1,4 @@
-"""What a listing is: the calls of a slide, with every correction a switch of its own."""
+"""What a listing is: the calls of a slide, with a switch for each correction."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -7,7 +7,7 @@ from typing import Any
 
 from softshadow.errors import nearest
 
-Calls = Callable[..., Any]  # calls(gl, corrected): `corrected` are the numbers of the corrections that are made
+Calls = Callable[..., Any]  # calls(gl, corrected): `corrected` are the numbers of the corrections to apply
 Program = Callable[[Any], Any]
 
 
@@ -17,10 +17,10 @@ class Listing:
 
     Attributes
     ----------
-    name, title, family : str    family is planar, tools, volumes or maps, the file it stands in
+    name, title, family : str    family is tools, planar, volumes or maps
     slide : str                  text and lines, as in "CA:75-96"; the texts are listed in `softshadow.listings`
     calls : calls(gl, corrected)
-    corrections : number -> what it changes, as in {"E2": "the second drawing has equal depth: GL_LEQUAL"}
+    corrections : number -> what it corrects, as in {"E2": "the second drawing has equal depth: GL_LEQUAL"}
     """
 
     name: str
@@ -45,12 +45,12 @@ class Listing:
 
         Raises
         ------
-        ValueError                   the listing has no correction of that number; the message has the nearest one
+        ValueError                   a number that the listing has no correction for; the message has the nearest
         """
         return partial(self.calls, corrected=self._known(numbers))
 
     def without(self, *numbers: str) -> Program:
-        """Return the program with all corrections but these: what each of them is good for.
+        """Return the program with all corrections but these, which shows what they are for.
 
         Raises
         ------

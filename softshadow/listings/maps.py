@@ -1,7 +1,7 @@
 """Shadow maps: CA:508-637 (set-up, pass 1, texture matrix, shaders), and the pseudo code of RO2:24-85.
 
 The shaders are programs of the register: the slide's own ("slide-shadow-map"), and where a correction asks for it
-"shadow-map", which looks whether the light sees a point at all. Surfaces have their plain colour, no lighting.
+"shadow-map", which first checks whether the light sees a point at all. Surfaces have their plain colour, no lighting.
 """
 
 from typing import Any
@@ -15,14 +15,14 @@ from softshadow.listings.stage import AMBIENT, STAGE, Stage, begin_frame, draw, 
 MAP_SIZE = 192  # SHADOW_MAP_WIDTH and SHADOW_MAP_HEIGHT: larger than the window
 LIGHT_FOV, LIGHT_NEAR, LIGHT_FAR = 34.0, 1.0, 12.0  # the floor's corners lie outside
 SHADOW_FACTOR = 0.5  # RO2:85, 0 < factor_umbra < 1
-ALMOST_NO_BIAS = 0.0005  # of the map's depth: what E52 asks for at the least, here under a slope offset
+ALMOST_NO_BIAS = 0.0005  # in the map's depth, 0 to 1: the least that E52 needs besides a slope offset
 
 
 # -- CA ----------------------------------------------------------------------------------------------------------------
 def shadow_map(
     gl: Any, corrected: frozenset[str], stage: Stage = STAGE, *, offset: bool = True, map_size: int = MAP_SIZE
 ) -> list[np.ndarray]:
-    """CA:498-637: one program of its four slides; returns the map that pass 1 leaves, (h, w) float32."""
+    """CA:498-637: the four slides as one program; returns the map of pass 1, (h, w) float32."""
     begin_frame(gl, stage)
     gl.glDisable(gl.GL_LIGHTING)
     texture = set_up(gl, corrected, map_size=map_size)
@@ -33,7 +33,7 @@ def shadow_map(
         end_framebuffer(gl, framebuffer)
     else:
         draw_from_light(gl, stage, offset, map_size)
-        # 3. Guardar el z-buffer en una textura; E62: the window has no more than its own pixels to give
+        # 3. Guardar el z-buffer en una textura; E62: only as many pixels as the window has can be copied
         gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
         gl.glCopyTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 0, 0, map_size, map_size)
     stored = gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT)
@@ -43,7 +43,7 @@ def shadow_map(
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
 
     # Pas 2, with the matrix of CA:559-575 and the shaders of CA:577-637
-    program = gl.program("shadow-map" if "E47" in corrected else SLIDE_SHADER)  # E47: q > 0, 0 <= s, t <= 1
+    program = gl.program("shadow-map" if "E47" in corrected else SLIDE_SHADER)  # E47: tests q > 0 and 0 <= s, t <= 1
     # E48: "només si no hem usat glPolygonOffset", and pass 1 has used it
     use(gl, program, light_matrix(gl, stage), 0.0 if offset and "E48" in corrected else 0.01, AMBIENT)
     draw(gl, stage.scene, unlit=1.0)
@@ -53,17 +53,19 @@ def shadow_map(
 
 def map_with_bias(gl: Any, corrected: frozenset[str]) -> list[np.ndarray]:
     """CA:620: the bias alone, "només si no hem usat glPolygonOffset"."""
-    # E49: 0.01 of the depth range is another distance at every depth; an offset follows the slope
+    # E49: 0.01 of the depth range is a different distance at every depth; an offset follows the slope
     return shadow_map(gl, frozenset({"E46", "E47", "E48", "E62"}), offset="E49" in corrected)
 
 
 def set_up(gl: Any, corrected: frozenset[str], start: float = 0.0, map_size: int = MAP_SIZE) -> int:
     """CA:508-522, Shadow mapping - setup: return the bound texture.
 
-    The slide hands over NULL; what no copy reaches then holds anything, here `start`.
+    The slide passes NULL: texels that no copy reaches are then undefined, here they hold `start`.
     """
-    wrap = gl.GL_CLAMP_TO_BORDER if "E47" in corrected else gl.GL_CLAMP_TO_EDGE  # E47: the edge's texel is smeared
-    filtering = gl.GL_NEAREST if "E46" in corrected else gl.GL_LINEAR  # E46: a mean of depths is the depth of nothing
+    wrap = gl.GL_CLAMP_TO_BORDER if "E47" in corrected else gl.GL_CLAMP_TO_EDGE  # E47: edge texels smear
+    filtering = (
+        gl.GL_NEAREST if "E46" in corrected else gl.GL_LINEAR
+    )  # E46: the mean of two depths is the depth of nothing
     gl.glActiveTexture(gl.GL_TEXTURE0)
     texture: int = gl.glGenTextures(1)
     gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
@@ -115,13 +117,13 @@ def light_matrix(gl: Any, stage: Stage) -> np.ndarray:
 
 
 def restore(gl: Any, stage: Stage) -> None:
-    """Set viewport and camera to those of the window; the scissor box still has its size."""
+    """Set viewport and camera back to those of the window, whose size the scissor box still has."""
     gl.glViewport(*gl.glGetIntegerv(gl.GL_SCISSOR_BOX))
     set_camera(gl, stage)
 
 
 def use(gl: Any, program: int, matrix: np.ndarray, bias: float, factor: float) -> None:
-    """Use a shadow map program: in shadow the colour has this factor."""
+    """Use a shadow map program; in shadow the colour is multiplied by `factor`."""
     gl.glUseProgram(program)
     gl.glUniformMatrix4fv(gl.glGetUniformLocation(program, "lightMatrix"), 1, gl.GL_FALSE, matrix)
     gl.glUniform1i(gl.glGetUniformLocation(program, "shadowMap"), 0)
@@ -154,9 +156,9 @@ def two_stages(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> list
 
     # Etapa II
     matrix = light_matrix(gl, stage) if "E50" in corrected else view_of_light(gl, stage)
-    bias = ALMOST_NO_BIAS if "E52" in corrected else 0.0  # E52: every surface is as far as itself, but for rounding
+    bias = ALMOST_NO_BIAS if "E52" in corrected else 0.0  # E52: else rounding decides whether a surface shadows itself
     if "E53" in corrected:
-        draw(gl, stage.scene)  # E53: ambient light is there in shadow, too; the factor is for the direct light alone
+        draw(gl, stage.scene)  # E53: ambient light reaches shadows, too; the factor is for the direct light only
         gl.glEnable(gl.GL_BLEND)
         gl.glBlendFunc(gl.GL_ONE, gl.GL_ONE)
         gl.glDepthFunc(gl.GL_EQUAL)
@@ -177,12 +179,12 @@ def first_stage(gl: Any, corrected: frozenset[str], stage: Stage) -> np.ndarray:
     gl.glMatrixMode(gl.GL_PROJECTION)
     gl.glLoadIdentity()
     if "E50" in corrected:
-        gl.gluPerspective(LIGHT_FOV, 1.0, LIGHT_NEAR, LIGHT_FAR)  # E50: ViewS alone maps to no pixel of ZS
+        gl.gluPerspective(LIGHT_FOV, 1.0, LIGHT_NEAR, LIGHT_FAR)  # E50: ViewS alone does not map to pixels of ZS
     gl.glMatrixMode(gl.GL_MODELVIEW)
     gl.glLoadIdentity()
     look_from_light(gl, stage)
     if "E51" in corrected:
-        gl.glClear(gl.GL_DEPTH_BUFFER_BIT)  # E51: where ZS starts at 0, no z is less
+        gl.glClear(gl.GL_DEPTH_BUFFER_BIT)  # E51: if ZS starts at 0, no z is less
     if "E52" in corrected:
         gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
         gl.glPolygonOffset(1, 1)

@@ -1,7 +1,7 @@
 """Projected planar shadows: the slides CA:60-168 and CA:292-396 (again CA:706-784), SK:139-180, RO1:64-68.
 
-``dibuixa(receptor)`` is ``draw(gl, stage.receiver)``; ``MatriuProjeccio`` is the matrix of SK:153, whose sign is right,
-except in the two listings that are about the matrix. The shader of CA:149-167 becomes fixed function: its uniform
+``dibuixa(receptor)`` is ``draw(gl, stage.receiver)``. ``MatriuProjeccio`` is the matrix of SK:153, whose sign is right,
+except in the two listings about the matrix itself. The shader of CA:149-167 becomes fixed function: its uniform
 ``shadow`` is lighting switched off, its ``modelMatrix`` the modelview matrix.
 """
 
@@ -18,7 +18,7 @@ GROUND = (0.0, 1.0, 0.0, 0.0)
 
 
 def multiply(gl: Any, matrix: np.ndarray) -> None:
-    """Call glMultMatrixf with a matrix that is written by rows: GL's memory holds columns."""
+    """Call glMultMatrixf with a matrix of rows; GL stores matrices by columns."""
     gl.glMultMatrixf(np.ascontiguousarray(matrix.T, np.float32))
 
 
@@ -26,7 +26,7 @@ def three_steps(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, projec
     """CA:60-96, Ombres per projecció (un pla): receiver, flattened occluder without depth test, occluder."""
     begin_frame(gl, stage)
     if "E33" in corrected:
-        gl.glEnable(gl.GL_STENCIL_TEST)  # E33: the flattened occluder does not know where the receiver ends
+        gl.glEnable(gl.GL_STENCIL_TEST)  # E33: the flattened occluder may reach beyond the receiver's edge
         gl.glStencilFunc(gl.GL_ALWAYS, 1, 255)
         gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
     # 1. Dibuixar receptor
@@ -62,7 +62,7 @@ def matrix_from_point(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) 
 def matrix_along_direction(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
     """CA:385-396, Projecció en la direcció (x,y,z): the three steps with this matrix, the lamp far away."""
     towards = np.array(stage.light[:3]) - np.array(stage.target)
-    # E36: "la direcció" is read as the way the light travels; w > 0 needs the way towards it
+    # E36: "la direcció" reads as the direction in which light travels; w > 0 needs the direction towards the light
     direction = towards if "E36" in corrected else -towards
     three_steps(gl, frozenset({"E33", "E34"}), stage, along_direction(GROUND, direction.tolist()))
 
@@ -74,7 +74,7 @@ def rays(gl: Any, corrected: frozenset[str], stage: Stage = LOW_LAMP) -> None:
     gl.glDisable(gl.GL_LIGHTING)
     gl.glDisable(gl.GL_DEPTH_TEST)
     if "E21" in corrected:
-        # E21: GL clips w < 0, above the lamp, when it does the dividing; what is below the ground must not come to it
+        # E21: GL clips w < 0, above the lamp, if it does the division; casters below the ground must be left out
         gl.glPushMatrix()
         multiply(gl, onto_ground(stage.light))
         draw(gl, [thing for thing in stage.occluder if thing.mesh.positions[:, 1].min() >= 0])
@@ -87,7 +87,7 @@ def rays(gl: Any, corrected: frozenset[str], stage: Stage = LOW_LAMP) -> None:
 
 
 def flattened(thing: Thing, stage: Stage) -> Thing:
-    """Return a thing with all of its vertices taken to the ground along the rays of the lamp."""
+    """Return a thing with its vertices projected onto the ground along the rays of the lamp."""
     mesh = thing.mesh
     return Thing(
         Mesh(along_rays(mesh.positions, stage.light), mesh.triangles, mesh.normals, name=mesh.name), thing.color
@@ -116,7 +116,7 @@ def with_offset(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Non
 
 
 def with_stencil(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, mask: int = 1) -> None:
-    """CA:292-359, Ombres per projecció (amb stencil); CA:743-784 has the mask 255 in step 2. Right as printed (E41)."""
+    """CA:292-359, Ombres per projecció (amb stencil), right as printed (E41); CA:743-784 has the mask 255 in step 2."""
     begin_frame(gl, stage)
     # 1. Dibuixa el receptor al color buffer i al stencil buffer
     gl.glEnable(gl.GL_STENCIL_TEST)
@@ -150,12 +150,12 @@ def with_stencil(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, mask:
 
 
 def with_stencil_255(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
-    """CA:743-784: glStencilFunc(GL_EQUAL, 1, 255) in step 2; the "1 = 1?" beside it holds for both masks."""
+    """CA:743-784: glStencilFunc(GL_EQUAL, 1, 255) in step 2; its comment "1 = 1?" is true for both masks."""
     with_stencil(gl, corrected, stage, mask=255)
 
 
 def darkened(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
-    """SK:163-171, Základný algoritmus: render the scene, then per receiver the flattened casters, dark."""
+    """SK:163-171, Základný algoritmus: render the scene, then for each receiver the flattened casters in dark."""
     begin_frame(gl, stage)
     draw(gl, stage.receiver if "E60" in corrected else stage.scene)  # render scenu (uplné osvetlenie)
     gl.glDisable(gl.GL_LIGHTING)
@@ -168,11 +168,11 @@ def darkened(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
     if "E60" in corrected:
         gl.glEnable(gl.GL_DEPTH_TEST)
         gl.glEnable(gl.GL_LIGHTING)
-        draw(gl, stage.occluder)  # E60: what casts comes after its shadow
+        draw(gl, stage.occluder)  # E60: casters are drawn after their shadows
 
 
 def shadow_polygons(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
-    """RO1:41-68, Umbre planare, functia Update: the scene, then polygons of own and of cast shadow over it."""
+    """RO1:41-68, Umbre planare, functia Update: the scene, then the polygons of own and cast shadows over it."""
     begin_frame(gl, stage)
     draw(gl, stage.scene)  # 1. Se cere rasterizarea poligoanelor scenei.
     gl.glDisable(gl.GL_LIGHTING)
@@ -194,7 +194,7 @@ def shadow_polygons(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) ->
 
 
 def projected_faces(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_EDGE) -> None:
-    """RO1:43, "proiectând în scenă, din poziția sursei, toate poligoanele": every lit face, whatever is below it."""
+    """RO1:43, "proiectând în scenă, din poziția sursei, toate poligoanele": every lit face, wherever it lies."""
     begin_frame(gl, stage)
     if "E16" in corrected:
         gl.glEnable(gl.GL_STENCIL_TEST)  # E16: a projection ends where its receiver does
@@ -207,7 +207,7 @@ def projected_faces(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_
     gl.glDisable(gl.GL_DEPTH_TEST)
     for thing in stage.occluder:
         if "E16" in corrected and thing.mesh.positions[:, 1].max() <= 0:
-            continue  # E16: of a face only the part on the light's side of the receiver casts; here all of it or none
+            continue  # E16: only what lies on the light's side of the receiver casts; here no face lies on both sides
         lit = casting_faces(thing.mesh, np.array(stage.light)).facing
         gl.glPushMatrix()
         multiply(gl, onto_ground(stage.light))

@@ -1,7 +1,7 @@
-"""The slides' projection matrices, printed as they stand: points onto a plane, from a light.
+"""The slides' projection matrices as printed: they project points onto a plane, away from a light.
 
-All are the one matrix S(Λ) = (π·Λ) I − Λ πᵀ of `softshadow.matrices.planar_shadow`, up to a sign that the slides do
-not speak of. GL keeps what has w > 0 and clips the rest, so the sign decides between a shadow and none.
+All are the matrix S(Λ) = (π·Λ) I − Λ πᵀ of `softshadow.matrices.planar_shadow`, up to a sign that the slides do not
+mention. GL clips everything with w <= 0, so with the wrong sign there is no shadow.
 """
 
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ def from_origin(plane: Sequence[float]) -> np.ndarray:
 def from_point(plane: Sequence[float], light: Sequence[float]) -> np.ndarray:
     """Return the matrix of CA:378-383: the light at a point. It is −S(Λ).
 
-    E35: so w is negative for casters when the plane's positive side is the light's; the plane has to be turned over.
+    E35: so w is negative for casters if the light is on the plane's positive side; the plane has to be negated.
     """
     a, b, c, d = plane
     x, y, z = light[:3]
@@ -36,7 +36,7 @@ def from_point(plane: Sequence[float], light: Sequence[float]) -> np.ndarray:
 def along_direction(plane: Sequence[float], direction: Sequence[float]) -> np.ndarray:
     """Return the matrix of CA:391-396: a light at infinity. It is +S(D).
 
-    E36: so w is the plane's normal times the direction, which has to point towards the light.
+    E36: so w is the dot product of normal and direction, and the direction has to point towards the light.
     """
     a, b, c, d = plane
     x, y, z = direction[:3]
@@ -58,9 +58,9 @@ def onto_ground(light: Sequence[float]) -> np.ndarray:
 
 
 def along_rays(positions: np.ndarray, light: Sequence[float]) -> np.ndarray:
-    """Return positions (V, 3) flattened onto y = 0 by the ray form of SK:143-145, divided here and not by GL.
+    """Return positions (V, 3) flattened onto y = 0 by the ray form of SK:143-145, divided here instead of by GL.
 
-    E21: a vertex above the light (t < 0) and one below the ground (0 < t < 1) come down as well.
+    E21: vertices above the light (t < 0) and below the ground (0 < t < 1) are projected as well.
     """
     lamp = np.asarray(light[:3], np.float64)
     t = lamp[1] / (lamp[1] - positions[:, 1:2])  # t = l_y / (l_y − v_y)

@@ -1,6 +1,6 @@
-"""The shaders of CA:577-637 as a program: like the program "shadow-map", without its test for the light's frustum.
+"""The shaders of CA:577-637 as a program: the program "shadow-map" without its test of the light's frustum.
 
-Its GLSL is the slide's, in the spelling of version 1.20, with the two colours that the slide leaves open.
+The GLSL is the slide's, written for version 1.20, with the two colours that the slide leaves out.
 """
 
 from collections.abc import Mapping
@@ -34,7 +34,7 @@ void main()
 
 
 def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
-    """Fill `out` (N, 4) with the lit or the shaded colour."""
+    """Write the colour in light or in shadow into `out` (N, 4)."""
     projected = project(inputs[:, 4:])
     stored = np.empty_like(out)
     sample(uniforms["shadowMap"], projected, stored)
@@ -42,7 +42,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
     out[:] = np.where(lit[:, None], inputs[:, :4], inputs[:, :4] * np.array(uniforms["ambient"], inputs.dtype))
 
 
-# registered where the listings are imported: here, and in the process that Mesa runs in
+# registered on import of the listings: in this process, and in the one that Mesa runs in
 register(
     Program(
         NAME, SHADOW_MAP.vertex, shade, SHADOW_MAP.uniforms, SHADOW_MAP.samplers,

@@ -1,7 +1,7 @@
 """The scene of the listings: a floor, two boxes one upon the other, a lamp; drawn by glBegin and glEnd.
 
-The slides draw by names: ``dibuixa(receptor)``, ``dibuixa(oclusor)``, ``dibuixa(escena)``. Here that is
-``draw(gl, stage.receiver)``, and the stage is a parameter of every listing.
+The slides write ``dibuixa(receptor)``, ``dibuixa(oclusor)`` and ``dibuixa(escena)``. Here that is
+``draw(gl, stage.receiver)`` and so on, and the stage is a parameter of every listing.
 """
 
 from collections.abc import Iterable
@@ -14,15 +14,15 @@ from softshadow import matrices
 from softshadow.scene import Mesh
 from softshadow.scene.shapes import box, floor
 
-SIZE = (128, 128)  # of the window that the listings are shown in, and that their counts are from
-AMBIENT = 0.3  # of the light, and so the colour of a surface in shadow
+SIZE = (128, 128)  # of the window in which the listings are shown and their pixels counted
+AMBIENT = 0.3  # ambient light, and so the share of its colour that a surface has in shadow
 NEAR, FAR = 1.0, 13.0
 FIELD_OF_VIEW = 40.0
 
 
 @dataclass(frozen=True, eq=False)
 class Thing:
-    """What is drawn under one name: a mesh in world space, and its colour."""
+    """A mesh in world space, its colour, and its name."""
 
     mesh: Mesh
     color: tuple[float, float, float]
@@ -34,7 +34,7 @@ class Thing:
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """Who stands where: a lamp (homogeneous position), an eye that looks at a target, and what the slides draw."""
+    """A lamp (homogeneous position), an eye that looks at a target, and the objects that the slides draw."""
 
     light: tuple[float, float, float, float]
     eye: tuple[float, float, float]
@@ -62,10 +62,10 @@ UPPER = Thing(moved(box(0.8, 0.8, 0.8, name="upper box"), 0.1, 1.4, -0.1), (0.2,
 BELOW = Thing(moved(box(0.5, name="box below the floor"), 1.5, -0.6, -0.8), (0.3, 0.8, 0.3))
 STAGE = Stage((-2.0, 4.0, 1.5, 1.0), (4.2, 4.0, 6.1), (0.1, 0.5, -0.1), (FLOOR,), (LOWER, UPPER))
 
-# the eye among the shadows: part of the near rectangle lies in a volume, part of it outside
+# the eye near the shadows: part of the near rectangle lies in a volume, part of it outside
 NEAR_SHADOW = Stage(STAGE.light, (1.6, 0.6, -0.8), (2.5, 0.0, 2.5), (FLOOR,), (LOWER, UPPER))
 
-# the lamp behind the eye: rays run along the volumes and leave them far away
+# the lamp behind the eye: lines of sight run along the volumes and leave them far away
 DOWN_THE_AXIS = Stage((5.0, 3.2, 5.0, 1.0), STAGE.eye, STAGE.target, (FLOOR,), (LOWER, UPPER))
 
 # a lamp low over a long table: the middle of its top is much nearer than its corners
@@ -90,15 +90,15 @@ LOW_LAMP = Stage(
     ),
 )
 
-# shadows that hang over the floor's edge, and a box below it
+# shadows that reach over the floor's edge, and a box below the floor
 OVER_THE_EDGE = Stage(STAGE.light, STAGE.eye, STAGE.target, (FLOOR,), (LOWER, UPPER, BELOW))
 
 
 def begin_frame(gl: Any, stage: Stage, far: float | None = FAR) -> None:
-    """Clear the buffers and set what the slides take for granted: camera, depth test, one white light.
+    """Clear the buffers and set what the slides assume: camera, depth test, one white light.
 
-    That buffers "are initialised in each frame by themselves" (RO1:177-179) is E61: only glClear does it. `far` is
-    the distance of the far plane, or None for a camera that has none.
+    The slide has the buffers "initialised automatically in each frame" (RO1:177-179); E61: only glClear does it. `far`
+    is the distance of the far plane, or None for a camera without one.
     """
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
     gl.glEnable(gl.GL_DEPTH_TEST)
@@ -124,13 +124,13 @@ def set_camera(gl: Any, stage: Stage, far: float | None = FAR) -> None:
 
 
 def draw(gl: Any, things: Iterable[Thing], unlit: float = AMBIENT) -> None:
-    """Draw things; where lighting is off, they have this share of their colour."""
+    """Draw things; with lighting off they have the share `unlit` of their colour."""
     for thing in things:
         draw_faces(gl, thing, thing.mesh.triangles, unlit)
 
 
 def draw_faces(gl: Any, thing: Thing, triangles: np.ndarray, unlit: float = AMBIENT) -> None:
-    """Draw some triangles (T, 3) of a thing, always by the same vertices in the same order: so depths are equal."""
+    """Draw some triangles (T, 3) of a thing; every draw sends the same vertices, so its depths are the same bits."""
     gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, thing.name)
     gl.glMaterialfv(gl.GL_FRONT_AND_BACK, gl.GL_AMBIENT_AND_DIFFUSE, (*thing.color, 1.0))
     gl.glColor3f(*(unlit * channel for channel in thing.color))

@@ -1,6 +1,6 @@
 """Shadow volumes in the stencil buffer: RO1:142-353 (z-pass and z-fail), CA:398-492 (five passes), SK:261-286.
 
-The volumes reach to infinity, but for those of E7, which end at a far side (RO1:77-82). The camera of the corrected
+The volumes reach to infinity, except those of E7, which end at a far side (RO1:77-82). The camera of the corrected
 listings has no far plane.
 """
 
@@ -33,7 +33,7 @@ from softshadow.scene import casting_faces
 
 
 def z_pass(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
-    """RO1:169-277: count up at the front faces before what is seen, down at the back faces."""
+    """RO1:169-277: count up at the front faces before the visible surface, down at the back faces."""
     ambient_scene(gl, stage)
     count_passes(gl, corrected, stage)
     if "E3" in corrected:
@@ -42,7 +42,7 @@ def z_pass(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
 
 
 def z_pass_decrement_first(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
-    """RO1:195-236 with Pasul 3 before Pasul 2: nothing on the slide forbids it, and GL_DECR stops at 0."""
+    """RO1:195-236 with Pasul 3 before Pasul 2: the slide does not forbid it, and GL_DECR stops at 0."""
     up, down = (gl.GL_INCR_WRAP, gl.GL_DECR_WRAP) if "E11" in corrected else (gl.GL_INCR, gl.GL_DECR)
     ambient_scene(gl, stage)
     begin_count(gl, frozenset({"E1"}))
@@ -56,7 +56,7 @@ def z_pass_decrement_first(gl: Any, corrected: frozenset[str], stage: Stage = ST
 
 
 def z_pass_general(gl: Any, corrected: frozenset[str], stage: Stage = NEAR_SHADOW) -> None:
-    """RO1:281-289, Cazul general: the eye in a shadow, the stencil buffer starts at the number of volumes around it."""
+    """RO1:281-289, Cazul general: the eye in shadow; the stencil buffer starts at the number of volumes around it."""
     ambient_scene(gl, stage)
     if "E10" in corrected:
         start_at_near_plane(gl, stage)
@@ -73,23 +73,23 @@ def z_pass_general(gl: Any, corrected: frozenset[str], stage: Stage = NEAR_SHADO
 
 
 def z_fail(gl: Any, corrected: frozenset[str], stage: Stage = DOWN_THE_AXIS) -> None:
-    """RO1:289-353, Carmack's reverse: count behind what is seen, back faces up and front faces down."""
-    # E8: "volumul este decupat la marginile volumului vizual" (RO1:83), and with it go the faces behind the far plane
+    """RO1:289-353, Carmack's reverse: count behind the visible surface, back faces up and front faces down."""
+    # E8: "volumul este decupat la marginile volumului vizual" (RO1:83): faces behind the far plane are lost
     ambient_scene(gl, stage, None if "E8" in corrected else FAR)
-    closed = "E6" in corrected  # E6: "poligoane de umbră" are the sides alone; the ends are faces, too
+    closed = "E6" in corrected  # E6: the "poligoane de umbră" are only the sides; a closed volume has caps, too
     begin_count(gl, corrected)
     gl.glCullFace(gl.GL_FRONT)  # nu sunt rasterizate polig PUV
     gl.glStencilOp(gl.GL_KEEP, gl.GL_INCR, gl.GL_KEEP)
     draw_volumes(gl, stage, closed)
 
-    gl.glCullFace(gl.GL_BACK)  # E5: the comment beside it says front faces; the call is right
+    gl.glCullFace(gl.GL_BACK)  # E5: the slide's comment says front faces; its call is right
     gl.glStencilOp(gl.GL_KEEP, gl.GL_DECR, gl.GL_KEEP)
     draw_volumes(gl, stage, closed)
     lit_scene(gl, corrected, stage)
 
 
 def bounded(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_TABLE) -> None:
-    """RO1:77-82 by depth fail: one volume for each lit polygon, up to the same polygon scaled from the light."""
+    """RO1:77-82 with depth fail: one volume for each lit polygon, which ends at that polygon scaled from the light."""
     ambient_scene(gl, stage, None)
     begin_count(gl, frozenset({"E1"}))
     for cull, operation in ((gl.GL_FRONT, gl.GL_INCR_WRAP), (gl.GL_BACK, gl.GL_DECR_WRAP)):
@@ -103,8 +103,8 @@ def bounded(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_TABLE) -
 def draw_bounded_volumes(gl: Any, thing: Thing, stage: Stage, by_plane: bool) -> None:
     """Draw the prisms between the lit polygons and their scaled copies, counter-clockwise seen from outside.
 
-    The copy is where the light is negligible: here beyond all corners of the receiver. E7: that its vertices are this
-    far from the light does not mean that its plane is (`by_plane`).
+    The copy lies where the light is negligible: here beyond all corners of the receiver. E7: its vertices may be that
+    far from the light and its plane still nearer, so the distance is that of the plane (`by_plane`).
     """
     light = np.array(stage.light[:3])
     reach = max(np.linalg.norm(each.mesh.positions - light, axis=1).max() for each in stage.receiver)
@@ -140,7 +140,7 @@ def five_passes(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Non
     # 2. Dibuixa al stencil les cares frontals del volum
     gl.glEnable(gl.GL_STENCIL_TEST)
     gl.glDepthMask(gl.GL_FALSE)
-    gl.glStencilFunc(gl.GL_ALWAYS, 0, 0)  # E39: GL_ALWAYS does not look at the mask
+    gl.glStencilFunc(gl.GL_ALWAYS, 0, 0)  # E39: GL_ALWAYS ignores the mask
     gl.glEnable(gl.GL_CULL_FACE)
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, up)
     gl.glCullFace(gl.GL_BACK)
@@ -160,7 +160,7 @@ def five_passes(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Non
     if "E38" in corrected:
         gl.glStencilFunc(gl.GL_NOTEQUAL, 0, 0xFF)
     else:
-        gl.glStencilFunc(gl.GL_EQUAL, 1, 1)  # E38: the last bit is parity, two volumes read as none
+        gl.glStencilFunc(gl.GL_EQUAL, 1, 1)  # E38: the last bit is the parity: two volumes look like none
     gl.glDisable(gl.GL_LIGHTING)
     draw(gl, stage.scene)
 
@@ -178,12 +178,12 @@ def five_passes(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Non
 
 
 def five_passes_in_shadow(gl: Any, corrected: frozenset[str]) -> None:
-    """CA:398-492 with the eye among the shadows, of which the slide does not speak."""
+    """CA:398-492 with the eye near the shadows, a case that the slide does not mention."""
     five_passes(gl, corrected | {"E38", "E63"}, NEAR_SHADOW)
 
 
 def draw_mark(gl: Any) -> None:
-    """Draw a clockwise triangle in a corner, as a next frame might: it shows what state is left behind."""
+    """Draw a clockwise triangle in a corner, as the next frame might: it shows which state is left behind."""
     gl.glMatrixMode(gl.GL_PROJECTION)
     gl.glLoadIdentity()
     gl.glMatrixMode(gl.GL_MODELVIEW)
@@ -197,7 +197,7 @@ def draw_mark(gl: Any) -> None:
 
 
 def in_out_counter(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
-    """SK:261-286: the counter's two cases, and the algorithm in eight points; light is added to the ambient picture."""
+    """SK:261-286: the two cases of the counter and the eight steps; the light is added to the ambient picture."""
     ambient_scene(gl, stage)  # vyčisti stencil buffer; renderuj scenu bez difuzneho/spec osvetlenia
     count_passes(gl, frozenset({"E1"}), stage)
     gl.glCullFace(gl.GL_BACK)
@@ -213,7 +213,7 @@ def in_out_counter(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> 
     draw(gl, stage.scene)
 
 
-COUNTED = "stencil test and culling are enabled before the count"
+COUNTED = "stencil test and culling are enabled before counting"
 EQUAL_DEPTH = "the lit scene is drawn with GL_LEQUAL"
 LISTINGS = (
     Listing(

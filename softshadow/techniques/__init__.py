@@ -1,7 +1,7 @@
-"""The shadow techniques, and the register that knows them by name.
+"""The shadow techniques, and the register that lists them by name.
 
-Each technique is a file that reads like its slide: a generator ``steps(gl, scene, *, size, **options)`` written in
-the calls of OpenGL, which yields the title of every step it has finished, with named maps where it has some. `gl` is
+Each technique is a file that reads like its slide: a generator ``steps(gl, scene, *, size, ...)`` of OpenGL calls,
+which yields the title of each finished step, some with named maps. Its other keyword arguments are the options. `gl` is
 `softshadow.gl`, or any other namespace with the same names.
 """
 
@@ -32,7 +32,6 @@ REGISTER = {
             "planar",
             "Atherton, Weiler & Greenberg 1978, Polygon shadow generation",
             shadow_polygons.steps,
-            shadow_polygons.OPTIONS,
         ),
         Technique(
             "planar",
@@ -40,7 +39,6 @@ REGISTER = {
             "planar",
             "Blinn 1988, Me and my (fake) shadow",
             planar.steps,
-            planar.OPTIONS,
         ),
         Technique(
             "blob",
@@ -48,7 +46,6 @@ REGISTER = {
             "planar",
             "none: older than the papers about it",
             blob.steps,
-            blob.OPTIONS,
         ),
         Technique(
             "volume-zpass",
@@ -56,7 +53,6 @@ REGISTER = {
             "volume",
             "Heidmann 1991, Real shadows, real time",
             volume_zpass.steps,
-            volume_zpass.OPTIONS,
         ),
         Technique(
             "volume-zfail",
@@ -64,7 +60,6 @@ REGISTER = {
             "volume",
             "Everitt & Kilgard 2002, Practical and robust stenciled shadow volumes",
             volume_zfail.steps,
-            volume_zfail.OPTIONS,
         ),
         Technique(
             "volume-zpass-plus",
@@ -72,7 +67,6 @@ REGISTER = {
             "volume",
             "Hornus et al. 2005, ZP+: correct Z-pass stencil shadows",
             volume_zpass_plus.steps,
-            volume_zpass_plus.OPTIONS,
         ),
         Technique(
             "volume-parity",
@@ -80,7 +74,6 @@ REGISTER = {
             "volume",
             "Heidmann 1991, Real shadows, real time (with one bit for the counter)",
             volume_parity.steps,
-            volume_parity.OPTIONS,
         ),
         Technique(
             "map",
@@ -88,7 +81,6 @@ REGISTER = {
             "map",
             "Williams 1978, Casting curved shadows on curved surfaces",
             map.steps,
-            map.OPTIONS,
         ),
         Technique(
             "map-pcf",
@@ -96,7 +88,6 @@ REGISTER = {
             "map",
             "Reeves, Salesin & Cook 1987, Rendering antialiased shadows with depth maps",
             map_pcf.steps,
-            map_pcf.OPTIONS,
         ),
         Technique(
             "map-cube",
@@ -104,7 +95,6 @@ REGISTER = {
             "map",
             "Gerasimov 2004, Omnidirectional shadow mapping",
             map_cube.steps,
-            map_cube.OPTIONS,
         ),
         Technique(
             "map-silhouette",
@@ -112,7 +102,6 @@ REGISTER = {
             "map",
             "Sen, Cammarano & Hanrahan 2003, Shadow silhouette maps",
             map_silhouette.steps,
-            map_silhouette.OPTIONS,
         ),
     )
 }
@@ -131,11 +120,11 @@ def names() -> list[str]:
 
 
 def get(name: str) -> Technique:
-    """Return a technique by its name.
+    """Return the technique of a name.
 
     Raises
     ------
-    ValueError                   there is none of that name; the message has the nearest one
+    ValueError                   unknown name; the message has the nearest one
     """
     if name not in REGISTER:
         raise ValueError(f"unknown technique {name!r}: {nearest(str(name), REGISTER)}")
@@ -143,11 +132,11 @@ def get(name: str) -> Technique:
 
 
 def describe(name: str) -> str:
-    """Return what a technique does, where it comes from, how it fails, and its options, as text.
+    """Return a text on a technique: what it does, its paper, its known failures and its options.
 
     Raises
     ------
-    ValueError                   there is none of that name; the message has the nearest one
+    ValueError                   unknown name; the message has the nearest one
     """
     technique = get(name)
     module = technique.steps.__globals__

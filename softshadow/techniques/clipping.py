@@ -1,7 +1,6 @@
 """Clip triangles against planes, in double precision, before anything is projected.
 
-The first fixed-function pipelines had glClipPlane for this; clipping here keeps the cut visible to the reader and to
-tests.
+Fixed-function OpenGL has glClipPlane for this. Here the cut polygons are data, which a reader and a test can look at.
 """
 
 import numpy as np
@@ -13,11 +12,11 @@ def clip_triangles(triangles: np.ndarray, plane: np.ndarray) -> np.ndarray:
     Parameters
     ----------
     triangles : (T, 3, 3) float64
-    plane : (4,)                 a, b, c, d: kept is a·x + b·y + c·z + d ≥ 0
+    plane : (4,)                 a, b, c, d: its positive side is a·x + b·y + c·z + d ≥ 0
 
     Returns
     -------
-    (U, 3, 3) float64            U ≤ 2·T; two triangles that shared an edge share the cut point on it, to the bit
+    (U, 3, 3) float64            U ≤ 2·T; two triangles with a common edge have the same cut point on it, bit for bit
 
     References
     ----------
@@ -25,17 +24,17 @@ def clip_triangles(triangles: np.ndarray, plane: np.ndarray) -> np.ndarray:
     """
     distance = triangles @ plane[:3] + plane[3]
     inside = distance >= 0
-    count = inside.sum(axis=1)
-    pieces = [triangles[count == 3]]
-    for kept in (1, 2):
-        cut = count == kept
-        # turn the corners so that the lonely one (the only one inside, or the only one outside) comes first
-        lonely = np.argmax(inside[cut] == (kept == 1), axis=1)
-        order = (lonely[:, None] + np.arange(3)) % 3
+    corners_inside = inside.sum(axis=1)
+    pieces = [triangles[corners_inside == 3]]
+    for number in (1, 2):
+        cut = corners_inside == number
+        # rotate the corners so that the single one, inside or outside, comes first
+        single = np.argmax(inside[cut] == (number == 1), axis=1)
+        order = (single[:, None] + np.arange(3)) % 3
         corner = np.take_along_axis(triangles[cut], order[:, :, None], axis=1)
         height = np.take_along_axis(distance[cut], order, axis=1)
         first, second, third = corner[:, 0], corner[:, 1], corner[:, 2]
-        if kept == 1:
+        if number == 1:
             to_second = _crossing(first, height[:, 0], second, height[:, 1])
             to_third = _crossing(first, height[:, 0], third, height[:, 2])
             pieces.append(np.stack([first, to_second, to_third], axis=1))
@@ -48,7 +47,7 @@ def clip_triangles(triangles: np.ndarray, plane: np.ndarray) -> np.ndarray:
 
 
 def _crossing(inner: np.ndarray, above: np.ndarray, outer: np.ndarray, below: np.ndarray) -> np.ndarray:
-    """The points where edges cross the plane; always from the inner end, so that both triangles of an edge agree."""
+    """Return where edges cross the plane, computed from the inner end so that both triangles of an edge agree."""
     return inner + (above / (above - below))[:, None] * (outer - inner)
 
 
@@ -72,20 +71,21 @@ def clip_segments(segments: np.ndarray, plane: np.ndarray) -> np.ndarray:
 
 
 def cuts(triangles: np.ndarray, plane: np.ndarray) -> np.ndarray:
-    """Return where a plane cuts triangles (T, 3, 3), as segments (S, 2, 3) that close the edges of what is kept.
+    """Return the segments (S, 2, 3) in which a plane cuts triangles (T, 3, 3).
 
-    Each runs from the point where the triangle's outline leaves the positive side to the one where it comes back.
+    They close the outlines of the clipped triangles: each runs from the point where the outline leaves the positive
+    side to the point where it returns.
     """
     distance = triangles @ plane[:3] + plane[3]
     inside = distance >= 0
     cut = np.flatnonzero(inside.any(axis=1) & ~inside.all(axis=1))
     following = np.roll(inside[cut], -1, axis=1)
-    leaves, comes_back = np.argmax(inside[cut] & ~following, axis=1), np.argmax(~inside[cut] & following, axis=1)
+    leaves, returns = np.argmax(inside[cut] & ~following, axis=1), np.argmax(~inside[cut] & following, axis=1)
 
     def crossing(inner: np.ndarray, outer: np.ndarray) -> np.ndarray:
         return _crossing(triangles[cut, inner], distance[cut, inner], triangles[cut, outer], distance[cut, outer])
 
-    return np.stack([crossing(leaves, (leaves + 1) % 3), crossing((comes_back + 1) % 3, comes_back)], axis=1)
+    return np.stack([crossing(leaves, (leaves + 1) % 3), crossing((returns + 1) % 3, returns)], axis=1)
 
 
 def pyramid_between(light: np.ndarray, polygon: np.ndarray) -> np.ndarray:
@@ -100,15 +100,15 @@ def pyramid_between(light: np.ndarray, polygon: np.ndarray) -> np.ndarray:
     -------
     (N + 1, 4) float64           the sides and the polygon's own plane, positive inside
     """
-    centre = polygon.mean(axis=0)
+    center = polygon.mean(axis=0)
     position, w = light[:3], light[3]
     planes = []
     for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
-        # the plane through a, b and the light: direction to the light is position - w·a, also for w = 0
+        # the plane through a, b and the light; the direction to the light is position - w·a, for w = 0 as well
         normal = np.cross(b - a, position - w * a)
-        normal *= 1.0 if normal @ (centre - a) >= 0 else -1.0
+        normal *= 1.0 if normal @ (center - a) >= 0 else -1.0
         planes.append([*normal, -normal @ a])
     normal = np.cross(polygon[1] - polygon[0], polygon[2] - polygon[1])
-    normal *= 1.0 if normal @ (position - w * centre) >= 0 else -1.0
-    planes.append([*normal, -normal @ centre])
+    normal *= 1.0 if normal @ (position - w * center) >= 0 else -1.0
+    planes.append([*normal, -normal @ center])
     return np.array(planes)

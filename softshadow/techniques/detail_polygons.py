@@ -1,7 +1,7 @@
 """Own and cast shadows as polygons on the faces of a scene, computed once for every camera.
 
-A face that looks away from the light is in shadow as a whole (its *own* shadow). On a face that the light reaches, the
-others *cast*: what stands between it and the light is cut off at the pyramid which the two span, and flattened onto the
+A face turned away from the light is in shadow as a whole (its *own* shadow). On a face that the light reaches, the
+others *cast*: the parts between it and the light are cut out by the pyramid which the two span, and flattened onto the
 face. Only faces that the light reaches cast or receive.
 
 References
@@ -27,23 +27,23 @@ from softshadow.techniques.silhouette_polygons import inside_of_silhouettes
 Form = Literal["faces", "silhouettes"]
 FORMS: tuple[Form, ...] = ("faces", "silhouettes")
 
-# every casting face is held against every receiving one: 4096 of each take some seconds
+# every casting face is compared with every receiving one: 4096 of each take some seconds
 MOST_PAIRS = 1 << 24
-# a polygon of this share of its face's area comes from rounding at a common edge, and covers no sample
+# a polygon below this share of its face's area comes from rounding at a common edge, and covers no sample
 SLIVER = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
 class DetailPolygons:
-    """The shadows that one light leaves on one object; no camera has a part in them.
+    """The shadows of one light on one object; they do not depend on the camera.
 
     Attributes
     ----------
-    own : (O,) int32              faces in shadow as a whole, seen as the mesh stores them
+    own : (O,) int32              faces whose front, as the mesh stores them, is in shadow as a whole
     own_reversed : (R,) int32     faces of open bodies whose back, as the mesh stores them, is in shadow as a whole
     cast : (N, 3, 3) float64      world space; triangles in shadow on faces that the light reaches, counter-clockwise
-                                  seen from the light; those of different casters overlap in the form "faces"
-    faces : (N,) int32            the face that each of them lies on, ascending
+                                  seen from the light; in the form "faces" those of different casters may overlap
+    faces : (N,) int32            the face that each triangle of `cast` lies on, ascending
     """
 
     own: np.ndarray
@@ -57,9 +57,9 @@ def shadow_polygons(scene: Scene, light: Light, form: Form = "faces") -> tuple[D
 
     Parameters
     ----------
-    form : "faces"                every casting face is flattened onto every face that it meets
-           "silhouettes"          the outlines of the casters are flattened, and their inside is cut into triangles that
-                                  do not overlap
+    form : "faces"                every casting face is flattened onto every face that it shadows
+           "silhouettes"          the silhouettes of the casters are flattened, and their inside is cut into triangles
+                                  that do not overlap
 
     Raises
     ------
@@ -81,7 +81,7 @@ def shadow_polygons(scene: Scene, light: Light, form: Form = "faces") -> tuple[D
     if pairs > MOST_PAIRS:
         raise SceneError(
             f"scene {scene.name}: {pairs} pairs of a casting and a receiving face; expected at most {MOST_PAIRS} "
-            "(softshadow.techniques.detail_polygons.MOST_PAIRS), since each is looked at. Volumes and maps take more"
+            "(softshadow.techniques.detail_polygons.MOST_PAIRS), since all are compared; volumes and maps take more"
         )
     return tuple(
         polygons_on(thing, faces, light, casters, form) for thing, faces in zip(scene.objects, reached, strict=True)
@@ -97,17 +97,17 @@ def polygons_on(
     own_reversed = reached.facing[~thing.mesh.topology.closed_faces[reached.facing] & thing.casts]
     flat = FLAT * float(np.ptp(thing.world_positions, axis=0).max())
     numbers = np.concatenate([reached.facing, reached.reversed])
-    found = [cast_on(face, light, casters, form, flat) for face in turned_triangles(thing, reached)]
-    counts = [len(polygons) for polygons in found]
-    order = np.argsort(np.repeat(numbers, counts), kind="stable")
-    cast = np.concatenate([np.zeros((0, 3, 3)), *found])[order]
-    return DetailPolygons(own, own_reversed, cast, np.repeat(numbers, counts)[order])
+    on_faces = [cast_on(face, light, casters, form, flat) for face in turned_triangles(thing, reached)]
+    faces = np.repeat(numbers, [len(polygons) for polygons in on_faces])
+    order = np.argsort(faces, kind="stable")
+    cast = np.concatenate([np.zeros((0, 3, 3)), *on_faces])[order]
+    return DetailPolygons(own, own_reversed, cast, faces[order])
 
 
 def cast_on(face: np.ndarray, light: Light, casters: Sequence[LitFaces], form: Form, flat: float) -> np.ndarray:
-    """Return what the casters cast on a face (3, 3) that is turned towards the light, as (N, 3, 3).
+    """Return the shadow polygons (N, 3, 3) of the casters on a face (3, 3) that is turned towards the light.
 
-    What lies within `flat` of the face's plane casts nothing on it: the face itself, and its neighbours there.
+    Faces within a distance of `flat` from the face's plane cast nothing on it: the face itself, and those beside it.
     """
     pyramid = pyramid_between(light.position, face)
     normal = np.cross(face[1] - face[0], face[2] - face[0])
@@ -118,7 +118,7 @@ def cast_on(face: np.ndarray, light: Light, casters: Sequence[LitFaces], form: F
         shading = [caster for caster, triangles in zip(casters, met, strict=True) if len(triangles)]
         polygons = clip_to_planes(inside_of_silhouettes(shading, face, plane, light, flat), pyramid[:-1])
     else:
-        # the pyramid lies before the face and before the light: c1 >= 0 and c2 > 0 hold in it
+        # the pyramid lies between the face and the light: c1 >= 0 and c2 > 0 hold inside
         clipped = clip_to_planes(np.concatenate([np.zeros((0, 3, 3)), *met]), pyramid)
         polygons = flattened_points(clipped, plane, light.position)
     areas = np.linalg.norm(np.cross(polygons[:, 1] - polygons[:, 0], polygons[:, 2] - polygons[:, 0]), axis=1)
@@ -126,6 +126,6 @@ def cast_on(face: np.ndarray, light: Light, casters: Sequence[LitFaces], form: F
 
 
 def faces_between(triangles: np.ndarray, pyramid: np.ndarray, flat: float) -> np.ndarray:
-    """Return (C,) bool: which triangles may have a part inside the pyramid, and are not in its base."""
+    """Return which triangles (C,) bool may have a part inside the pyramid and do not lie in its base."""
     heights = triangles @ pyramid[:, :3].T + pyramid[:, 3]
     return ~(heights <= 0).all(axis=1).any(axis=1) & (np.abs(heights[:, :, -1]) > flat).any(axis=1)

@@ -1,7 +1,6 @@
 """What all techniques draw with: the camera, the light, objects by vertex arrays, and the read-out of buffers.
 
-Every draw stands in a debug group that carries the name of its object, so that a recorded or traced frame says what
-it drew.
+Every draw is inside a debug group with the name of its object, so that a recorded or traced frame says what it drew.
 """
 
 from collections.abc import Iterable, Iterator
@@ -26,7 +25,7 @@ def column_major(matrix: np.ndarray) -> np.ndarray:
 
 
 def begin_frame(gl: Any, scene: Scene) -> None:
-    """Clear all buffers (E61: only glClear does) and set the state a frame starts from.
+    """Clear all buffers (E61: nothing but glClear does) and set the state that a frame starts from.
 
     Raises
     ------
@@ -44,7 +43,8 @@ def begin_frame(gl: Any, scene: Scene) -> None:
 def set_camera(gl: Any, camera: Camera, size: tuple[int, int], far: str = "finite") -> None:
     """Set viewport, projection and view.
 
-    `far` is "finite", "infinite" (the matrix has no far plane) or "clamp" (GL_DEPTH_CLAMP: near and far cut nothing).
+    `far` is "finite", "infinite" (a projection without a far plane) or "clamp" (GL_DEPTH_CLAMP: neither the near nor
+    the far plane clips).
     """
     width, height = size
     gl.glViewport(0, 0, width, height)
@@ -65,7 +65,7 @@ def set_camera(gl: Any, camera: Camera, size: tuple[int, int], far: str = "finit
 
 
 def light_ambient_only(gl: Any, scene: Scene) -> None:
-    """Light what follows by the ambient light alone: what a surface looks like in shadow."""
+    """Switch every light off but the ambient light: surfaces are drawn as they look in shadow."""
     gl.glEnable(gl.GL_LIGHTING)
     gl.glLightModelfv(gl.GL_LIGHT_MODEL_AMBIENT, (*scene.ambient, 1.0))
     for index in range(len(scene.lights)):
@@ -73,10 +73,11 @@ def light_ambient_only(gl: Any, scene: Scene) -> None:
 
 
 def light_by(gl: Any, scene: Scene, lights: Iterable[Light], ambient: bool, cones: bool = True) -> None:
-    """Light what follows by some of the scene's lights; call it while the modelview matrix is the view.
+    """Switch on some of the scene's lights and no others; the modelview matrix has to be the view.
 
-    A pass that is added to an earlier one must not bring the ambient light again. The cone of a spot light is decided
-    at the vertices, as GL lights, and only a finely cut surface shows it; without `cones` it is left to the caller.
+    A pass that is added to an earlier one must not add the ambient light again (`ambient` = False). GL computes light
+    at vertices, so the cone of a spot light shows on finely divided surfaces only; with `cones` = False the lights have
+    no cone, and the caller cuts it out.
     """
     light_ambient_only(gl, scene)
     if not ambient:
@@ -93,8 +94,8 @@ def light_by(gl: Any, scene: Scene, lights: Iterable[Light], ambient: bool, cone
 
 
 @contextmanager
-def added(gl: Any) -> Iterator[None]:
-    """Add the colours of what is drawn to those in the buffer, at the pixels of the very same surface."""
+def additive_blending(gl: Any) -> Iterator[None]:
+    """Add colours to those in the buffer, at the pixels that show the surface which is drawn."""
     gl.glEnable(gl.GL_BLEND)
     gl.glBlendFunc(gl.GL_ONE, gl.GL_ONE)
     gl.glDepthFunc(gl.GL_LEQUAL)  # E2: the second draw has equal depth
@@ -106,7 +107,7 @@ def added(gl: Any) -> Iterator[None]:
 
 
 def darken_picture(gl: Any, share: float) -> None:
-    """Take a share of every colour away, by a rectangle over the picture, where the stencil test lets it."""
+    """Take a share of every colour away where the stencil test passes, with a rectangle over the picture."""
     for mode in (gl.GL_PROJECTION, gl.GL_MODELVIEW):
         gl.glMatrixMode(mode)
         gl.glPushMatrix()
@@ -124,9 +125,9 @@ def darken_picture(gl: Any, share: float) -> None:
         gl.glPopMatrix()
 
 
-def title_of(title: str, scene: Scene, light: Light) -> str:
-    """Return a step's title, with the light's name where there are several."""
-    return title if len(scene.lights) == 1 else f"{title}: {light.name}"
+def title(text: str, scene: Scene, light: Light) -> str:
+    """Return the title of a step or a map, with the light's name if the scene has several lights."""
+    return text if len(scene.lights) == 1 else f"{text}: {light.name}"
 
 
 # -- objects -----------------------------------------------------------------------------------------------------------
@@ -134,8 +135,8 @@ def title_of(title: str, scene: Scene, light: Light) -> str:
 
 @contextmanager
 def object_space(gl: Any, thing: SceneObject) -> Iterator[None]:
-    """Draw in the space of an object, under its name."""
-    with named(gl, thing):
+    """Draw in the space of an object, in a debug group with its name."""
+    with debug_group(gl, thing):
         gl.glPushMatrix()
         gl.glMultMatrixd(column_major(thing.object_to_world))
         yield
@@ -143,8 +144,8 @@ def object_space(gl: Any, thing: SceneObject) -> Iterator[None]:
 
 
 @contextmanager
-def named(gl: Any, thing: SceneObject) -> Iterator[None]:
-    """Draw under the name of an object."""
+def debug_group(gl: Any, thing: SceneObject) -> Iterator[None]:
+    """Draw in a debug group with the name of an object."""
     gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, thing.name)
     yield
     gl.glPopDebugGroup()
@@ -174,9 +175,9 @@ def set_material(gl: Any, thing: SceneObject) -> None:
 
 
 def draw_mesh(gl: Any, thing: SceneObject, shaded: bool, texture_coordinates: np.ndarray | None = None) -> None:
-    """Draw an object's mesh: always the same positions in the same order, so that every pass has the same depths.
+    """Draw an object's mesh; every pass sends the same positions in the same order, so its depths are the same bits.
 
-    `texture_coordinates` (V, 3) float32 are handed over for the texture matrix to take on.
+    `texture_coordinates` (V, 3) float32 go through the texture matrix.
     """
     mesh = thing.mesh
     if shaded:
@@ -207,21 +208,21 @@ def draw_triangles(gl: Any, positions: np.ndarray, triangles: np.ndarray) -> Non
 
 
 def draw_polygons(gl: Any, polygons: np.ndarray) -> None:
-    """Draw triangles (N, 3, k) or quads (N, 4, k) float32, each with corners of its own; k = 4 is homogeneous."""
+    """Draw triangles (N, 3, k) or quads (N, 4, k) float32 that share no vertices; k = 4 is homogeneous."""
     if len(polygons) == 0:
         return
-    count, corners, components = polygons.shape
+    number, corners, components = polygons.shape
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
     gl.glVertexPointer(components, gl.GL_FLOAT, 0, polygons)
-    gl.glDrawArrays(gl.GL_TRIANGLES if corners == 3 else gl.GL_QUADS, 0, count * corners)
+    gl.glDrawArrays(gl.GL_TRIANGLES if corners == 3 else gl.GL_QUADS, 0, number * corners)
     gl.glDisableClientState(gl.GL_VERTEX_ARRAY)
 
 
 @contextmanager
 def texture_attached(gl: Any, attachment: int, texture: int, target: int | None = None) -> Iterator[None]:
-    """Inside, draw into a texture: it is this attachment of a framebuffer object that has no other.
+    """Draw into a texture, the only attachment of a framebuffer object.
 
-    `target` names a face where the texture is a cube map.
+    `target` names the face if the texture is a cube map.
     """
     framebuffer = gl.glGenFramebuffers(1)
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
@@ -253,7 +254,7 @@ def read_alpha(gl: Any, size: tuple[int, int]) -> np.ndarray:
 
 
 def world_points(scene: Scene, depth: np.ndarray, size: tuple[int, int], far: str = "finite") -> np.ndarray:
-    """Return the world points that the camera sees, from their window depths; first row = bottom.
+    """Return the world points that the camera sees, computed from their window depths; first row = bottom.
 
     Parameters
     ----------
@@ -262,7 +263,7 @@ def world_points(scene: Scene, depth: np.ndarray, size: tuple[int, int], far: st
 
     Returns
     -------
-    (h, w, 3) float64            infinite where an infinite projection has drawn nothing
+    (h, w, 3) float64            infinite where nothing was drawn with an infinite projection
     """
     width, height = size
     camera = scene.camera
@@ -276,30 +277,34 @@ def world_points(scene: Scene, depth: np.ndarray, size: tuple[int, int], far: st
 
 
 def within_cone(scene: Scene, light: Light, depth: np.ndarray, size: tuple[int, int], far: str = "finite") -> Any:
-    """Return (h, w) bool: where a spot light shines at all, of other lights True; the arguments of `world_points`."""
+    """Return where a light shines if nothing is in its way: (h, w) bool for a spot light, True for any other.
+
+    The arguments are those of `world_points`.
+    """
     if not light.is_spot:
         return True
-    with np.errstate(invalid="ignore"):  # infinitely far away: in no cone
+    with np.errstate(invalid="ignore"):  # a point at infinity is in no cone
         return light.shines_on(world_points(scene, depth, size, far))
 
 
 def visibility_maps(scene: Scene, lit: list[np.ndarray], valid: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the visibility of the lights done so far as maps, 1 lit and 0 in shadow.
+    """Return maps of the visibility of the lights so far, 1 lit and 0 in shadow.
 
     Parameters
     ----------
-    lit : one (h, w) bool per light done, in the scene's order; or float32, 1 lit to 0 in shadow
+    lit : one (h, w) per light so far, in the scene's order; bool, or float32 from 0 in shadow to 1 lit
     valid : (h, w) bool          where visibility is defined; elsewhere the maps hold 1
 
     Returns
     -------
-    dict                         "visibility of NAME" float32 for each light done, where there are several; once all
-                                 are done "visibility" (the mean over the lights) and "valid"
+    dict                         "visibility of NAME" float32 for each light so far, if the scene has several; after the
+                                 last light "visibility" (the mean over the lights) and "valid"
     """
-    visible = [np.where(valid, one, True).astype(np.float32) for one in lit]
+    visibilities = [np.where(valid, pixels, True).astype(np.float32) for pixels in lit]
     maps = {}
     if len(scene.lights) > 1:
-        maps = {f"visibility of {light.name}": one for light, one in zip(scene.lights, visible, strict=False)}
+        names = [f"visibility of {light.name}" for light in scene.lights]
+        maps = dict(zip(names, visibilities, strict=False))
     if len(lit) == len(scene.lights):
-        maps |= {"visibility": np.mean(visible, axis=0, dtype=np.float32), "valid": valid}
+        maps |= {"visibility": np.mean(visibilities, axis=0, dtype=np.float32), "valid": valid}
     return maps

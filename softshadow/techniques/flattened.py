@@ -1,7 +1,7 @@
-"""Casters flattened onto a receiver's plane: the matrix, what is cut away before, the casters themselves after.
+"""Casters flattened onto a receiver's plane: the matrix, the clipping before, and the casters themselves after.
 
-A point casts properly only between the receiver's plane and the light. What is behind the plane would cast a false
-shadow, what is behind the light an anti-shadow.
+Only points between the receiver's plane and the light cast properly. Points behind the plane would cast a false shadow,
+points behind the light an anti-shadow.
 """
 
 from typing import Any
@@ -10,39 +10,29 @@ import numpy as np
 
 from softshadow import matrices
 from softshadow.scene import Light, Scene, SceneObject
+from softshadow.techniques import drawing
 from softshadow.techniques.clipping import clip_to_planes
-from softshadow.techniques.drawing import (
-    column_major,
-    draw_mesh,
-    draw_objects,
-    draw_polygons,
-    light_by,
-    object_space,
-    read_depth,
-    visibility_maps,
-    within_cone,
-)
 from softshadow.techniques.technique import Steps
 
 
 def shadow_matrix(receiver: SceneObject, light: Light) -> np.ndarray | None:
-    """Return the matrix (4, 4) that flattens the world onto a receiver, or None where the light lies in its plane."""
+    """Return the matrix (4, 4) that flattens the world onto a receiver, or None if the light lies in its plane."""
     if receiver.plane is None:
-        raise ValueError(f"{receiver.name!r} is not flat: there is no plane to flatten casters onto")
+        raise ValueError(f"{receiver.name!r} is not flat: expected a receiver with a plane to flatten casters onto")
     if receiver.plane @ light.position == 0:
         return None
     return matrices.planar_shadow(receiver.plane, light.position)
 
 
 def flattened_points(points: np.ndarray, plane: np.ndarray, light: np.ndarray) -> np.ndarray:
-    """Return where the rays of a light (4,) through points (..., 3) that cast properly meet a plane (4,)."""
+    """Return where rays from a light (4,) through points (..., 3) that cast properly meet a plane (4,)."""
     matrix = matrices.planar_shadow(plane, light)
     homogeneous = points @ matrix[:, :3].T + matrix[:, 3]
     return homogeneous[..., :3] / homogeneous[..., 3:]
 
 
 def proper_planes(receiver_plane: np.ndarray, light: np.ndarray) -> np.ndarray:
-    """Return the planes between which a point casts properly on a receiver: 0 ≤ π·P and, for a point light, π·P ≤ π·Λ.
+    """Return the planes between which points cast properly: 0 ≤ π·P and, for a point light, π·P ≤ π·Λ.
 
     Parameters
     ----------
@@ -60,26 +50,26 @@ def proper_planes(receiver_plane: np.ndarray, light: np.ndarray) -> np.ndarray:
 
 
 def draw_flattened(gl: Any, scene: Scene, receiver: SceneObject, light: Light, clip: bool) -> None:
-    """Draw all casters flattened onto a receiver, by position alone; `clip` cuts away what does not cast properly."""
+    """Draw all casters flattened onto a receiver; `clip` cuts away the parts that do not cast properly."""
     matrix = shadow_matrix(receiver, light)
     if matrix is None:
         return
     gl.glPushMatrix()
-    gl.glMultMatrixd(column_major(matrix))
+    gl.glMultMatrixd(drawing.column_major(matrix))
     for caster in scene.casters:
         if caster is receiver:
             continue
-        with object_space(gl, caster):
-            kept = proper_part(caster, receiver, light) if clip else None
-            if kept is None:
-                draw_mesh(gl, caster, shaded=False)
+        with drawing.object_space(gl, caster):
+            triangles = proper_part(caster, receiver, light) if clip else None
+            if triangles is None:
+                drawing.draw_mesh(gl, caster, shaded=False)
             else:
-                draw_polygons(gl, kept)
+                drawing.draw_polygons(gl, triangles)
     gl.glPopMatrix()
 
 
 def proper_part(caster: SceneObject, receiver: SceneObject, light: Light) -> np.ndarray | None:
-    """Return the triangles (N, 3, 3) float32 of a caster that cast properly, in its own space; None for all of it."""
+    """Return the part of a caster that casts properly, (N, 3, 3) float32 in its own space; None if all of it does."""
     assert receiver.plane is not None
     planes = proper_planes(receiver.plane, light.position) @ caster.object_to_world
     mesh = caster.mesh
@@ -92,17 +82,23 @@ def proper_part(caster: SceneObject, receiver: SceneObject, light: Light) -> np.
 def draw_the_casters(
     gl: Any, scene: Scene, size: tuple[int, int], on_receiver: np.ndarray, lit: list[np.ndarray]
 ) -> Steps:
-    """Draw everything that is no receiver, lit; visibility is defined on the receivers that are still seen after it."""
-    before = read_depth(gl, size)
-    light_by(gl, scene, scene.lights, ambient=True)
-    draw_objects(gl, others(scene))
+    """Draw all objects but the receivers, with all lights.
+
+    Visibility is defined where a receiver is still seen afterwards.
+    """
+    before = drawing.read_depth(gl, size)
+    drawing.light_by(gl, scene, scene.lights, ambient=True)
+    drawing.draw_objects(gl, others(scene))
     # a nearer caster has changed the depth of its pixels
-    valid = on_receiver & (read_depth(gl, size) == before)
-    reached = [one * within_cone(scene, light, before, size) for light, one in zip(scene.lights, lit, strict=True)]
-    yield "draw the casters", visibility_maps(scene, reached, valid)
+    valid = on_receiver & (drawing.read_depth(gl, size) == before)
+    cones = [drawing.within_cone(scene, light, before, size) for light in scene.lights]
+    yield (
+        "draw the casters",
+        drawing.visibility_maps(scene, [pixels * cone for pixels, cone in zip(lit, cones, strict=True)], valid),
+    )
 
 
 def others(scene: Scene) -> list[SceneObject]:
-    """Return what is drawn after the shadows: every object that is not a receiver."""
+    """Return the objects that are drawn after the shadows, which are not receivers."""
     receivers = scene.receivers
     return [thing for thing in scene.objects if not any(thing is receiver for receiver in receivers)]

@@ -1,7 +1,7 @@
-"""The camera in the light: a view that sees every caster, tightly.
+"""The camera of a light: a tight view of all casters.
 
-Only what stands behind a caster can be in its shadow, so a frustum round the casters is enough: whatever lies outside
-it is lit. A spot light's camera looks along its axis and holds its cone instead.
+Only what lies behind a caster can be in its shadow, so a frustum round the casters is enough: what lies outside it is
+lit. The camera of a spot light looks along its axis and frames its cone instead.
 """
 
 from dataclasses import dataclass
@@ -10,15 +10,15 @@ import numpy as np
 
 from softshadow.scene import Light, Scene
 
-# sides of one perspective map, in tangents of the half angle: 60 degrees to each side; more would starve the middle
-# of texels
+# the widest perspective map, as the tangent of half its angle: 60 degrees to each side; a wider one would leave too few
+# texels to its middle
 WIDEST = np.tan(np.radians(60.0))
 # room round the casters, so that their silhouette stays off the border texels
 MARGIN = 1.05
 # smallest near / far: a light next to a caster keeps half of the 24 bits of depth
 NEAREST = 1e-3
-# largest near / far: depths between two planes close together would be the small difference of large float32 numbers
-ROOMY = 2
+# smallest far / near: with planes closer together, depths would be small differences of large float32 numbers
+LEAST_RATIO = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +52,7 @@ class LightCamera:
         return view_frame(self.target - self.eye, self.up)
 
     def sees(self, points: np.ndarray) -> np.ndarray:
-        """Return whether points (..., 3) lie within the four sides of the map, before or beyond near and far."""
+        """Return whether points (..., 3) lie within the four sides of the map; near and far do not matter."""
         right, up, forward = np.moveaxis((points - self.eye) @ self.frame.T, -1, 0)
         side = self.half if self.parallel else self.half * forward
         return (np.abs(right) <= side) & (np.abs(up) <= side) & (self.parallel | (forward > 0))
@@ -63,7 +63,7 @@ class LightCamera:
 
 
 def view_frame(forward: np.ndarray, up: np.ndarray) -> np.ndarray:
-    """Return (3, 3): unit right, up and forward, as gluLookAt makes them."""
+    """Return (3, 3), rows: unit right, up and forward, as gluLookAt computes them."""
     forward = forward / np.linalg.norm(forward)
     right = np.cross(forward, up)
     right /= np.linalg.norm(right)
@@ -74,7 +74,7 @@ def light_camera(scene: Scene, light: Light) -> LightCamera:
     """Return the camera of a light that frames the scene's casters.
 
     A point light among the casters cannot see all of them with one camera: it looks at their middle, 60 degrees to
-    each side, and what is outside is left unknown (E55).
+    each side, and points outside remain unknown (E55).
     """
     vertices = np.concatenate([thing.world_positions for thing in scene.casters or scene.objects])
     middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
@@ -93,13 +93,13 @@ def light_camera(scene: Scene, light: Light) -> LightCamera:
 
 
 def any_up(forward: np.ndarray) -> np.ndarray:
-    """Return the world axis that is farthest from a view: any up will do that is not the view itself."""
+    """Return the world axis that is farthest from a view direction, to serve as its up."""
     up: np.ndarray = np.eye(3)[np.abs(forward).argmin()]
     return up
 
 
 def parallel_camera(middle: np.ndarray, forward: np.ndarray, up: np.ndarray, seen: np.ndarray) -> LightCamera:
-    """Return the camera of a directional light; `seen` are the casters' vertices round the middle."""
+    """Return the camera of a directional light; `seen` are the casters' vertices in its view, round the middle."""
     half = MARGIN * max(float(np.abs(seen[:, :2]).max()), NEAREST)
     depth = MARGIN * max(float(np.abs(seen[:, 2]).max()), NEAREST)
     eye = middle - 2 * depth * forward / np.linalg.norm(forward)
@@ -109,7 +109,7 @@ def parallel_camera(middle: np.ndarray, forward: np.ndarray, up: np.ndarray, see
 def point_camera(
     light: Light, middle: np.ndarray, forward: np.ndarray, up: np.ndarray, seen: np.ndarray
 ) -> LightCamera:
-    """Return the camera of a point light; `seen` are the casters' vertices from the light."""
+    """Return the camera of a point light; `seen` are the casters' vertices in its view."""
     depth = seen[:, 2]
     near, far = near_and_far(seen)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -120,7 +120,7 @@ def point_camera(
 
 
 def spot_camera(light: Light, vertices: np.ndarray) -> LightCamera:
-    """Return the camera of a spot light: its map is the square round its cone, up to 60 degrees to each side."""
+    """Return the camera of a spot light: its map is the square round its cone, at most 60 degrees to each side."""
     assert light.axis is not None
     eye, up = light.position[:3], any_up(light.axis)
     near, far = near_and_far((vertices - eye) @ view_frame(light.axis, up).T)
@@ -129,6 +129,6 @@ def spot_camera(light: Light, vertices: np.ndarray) -> LightCamera:
 
 
 def near_and_far(seen: np.ndarray) -> tuple[float, float]:
-    """Return the planes between which a point light sees the casters' vertices (N, 3), as it sees them."""
+    """Return the near and the far distance for the casters' vertices (N, 3), which are in the light's view."""
     far = MARGIN * float(np.linalg.norm(seen, axis=1).max())
-    return min(max(float(seen[:, 2].min()) / MARGIN, NEAREST * far), far / ROOMY), far
+    return min(max(float(seen[:, 2].min()) / MARGIN, NEAREST * far), far / LEAST_RATIO), far

@@ -1,6 +1,6 @@
-"""Which faces of an object the light reaches, where nothing else is in its way.
+"""Which faces of an object the light reaches if nothing is in its way.
 
-On closed bodies that cast, these are the faces that look to the light, on open ones all.
+On closed bodies that cast, these are the faces turned towards the light; on open ones, all faces.
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from softshadow.scene.silhouette import light_distances
 
 @dataclass(frozen=True, eq=False)
 class LitFaces:
-    """A caster, its faces that cast, and the same as triangles (C, 3, 3) in world space, turned towards the light."""
+    """A caster, its casting faces, and these as triangles (C, 3, 3) in world space, turned towards the light."""
 
     thing: SceneObject
     faces: CastingFaces
@@ -21,15 +21,15 @@ class LitFaces:
 
 
 def lit_faces(thing: SceneObject, light: Light) -> LitFaces:
-    """Return the faces of an object that cast."""
+    """Return the casting faces of an object."""
     faces = casting_faces(thing.mesh, light.in_object_space(thing.object_to_world))
     return LitFaces(thing, faces, turned_triangles(thing, faces))
 
 
 def reached_faces(thing: SceneObject, light: Light) -> CastingFaces:
-    """Return the faces that the light reaches unless another is in its way; one side of them, turned towards it.
+    """Return the faces that the light reaches if nothing is in its way, each with the side turned towards the light.
 
-    What does not cast lets the light through, itself included: it is reached on both sides.
+    An object that does not cast lets the light through, even to its own far side: all of its faces are reached.
     """
     in_object_space = light.in_object_space(thing.object_to_world)
     if thing.casts:

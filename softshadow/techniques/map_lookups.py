@@ -1,7 +1,7 @@
-"""Pass 2 of every shadow map: how the camera's picture finds its place in the light's.
+"""Pass 2 of every shadow map: how a point in the camera's picture finds its place in the map.
 
-World positions are handed over as texture coordinates, and the texture matrix takes them into the map: s and t its
-texel, r the depth to be compared, all divided by q.
+World positions are sent as texture coordinates, and the texture matrix takes them into the map: s and t are the place
+in the map, r is the depth to be compared, all divided by q.
 
 References: Segal et al. 1992, "Fast shadows and lighting effects using texture mapping".
 """
@@ -12,23 +12,23 @@ from typing import Any
 import numpy as np
 
 from softshadow.scene import SceneObject
-from softshadow.techniques.depth_maps import set_light_camera
-from softshadow.techniques.drawing import column_major, draw_mesh, object_space, set_material
+from softshadow.techniques import drawing
+from softshadow.techniques.depth_maps import multiply_light_camera
 from softshadow.techniques.light_camera import LightCamera
 
 
 def set_map_coordinates(gl: Any, camera: LightCamera, bias: float) -> None:
-    """Set the texture matrix: the world to the map's s, t and depth r, the bias taken from r."""
+    """Set the texture matrix: world space to the map's s, t and depth r, less the bias."""
     gl.glMatrixMode(gl.GL_TEXTURE)
     gl.glLoadIdentity()
     gl.glTranslated(0.5, 0.5, 0.5 - bias)
     gl.glScaled(0.5, 0.5, 0.5)
-    set_light_camera(gl, camera)
+    multiply_light_camera(gl, camera)
     gl.glMatrixMode(gl.GL_MODELVIEW)
 
 
 def clear_coordinates(gl: Any) -> None:
-    """Leave the texture matrix as GL starts with it."""
+    """Set the texture matrix back to the identity, its initial value."""
     gl.glMatrixMode(gl.GL_TEXTURE)
     gl.glLoadIdentity()
     gl.glMatrixMode(gl.GL_MODELVIEW)
@@ -39,12 +39,12 @@ def draw_looked_up(gl: Any, objects: Iterable[SceneObject], normal_bias: float =
     for thing in objects:
         gl.glMatrixMode(gl.GL_TEXTURE)
         gl.glPushMatrix()
-        gl.glMultMatrixd(column_major(thing.object_to_world))
+        gl.glMultMatrixd(drawing.column_major(thing.object_to_world))
         gl.glMatrixMode(gl.GL_MODELVIEW)
-        with object_space(gl, thing):
+        with drawing.object_space(gl, thing):
             if shaded:
-                set_material(gl, thing)
-            draw_mesh(gl, thing, shaded, texture_coordinates=moved_along_normals(thing, normal_bias))
+                drawing.set_material(gl, thing)
+            drawing.draw_mesh(gl, thing, shaded, texture_coordinates=moved_along_normals(thing, normal_bias))
         gl.glMatrixMode(gl.GL_TEXTURE)
         gl.glPopMatrix()
         gl.glMatrixMode(gl.GL_MODELVIEW)
@@ -55,6 +55,6 @@ def moved_along_normals(thing: SceneObject, distance: float) -> np.ndarray:
     if distance == 0:
         return thing.mesh.positions
     world_to_object = np.linalg.inv(thing.object_to_world[:3, :3])
-    normals = thing.mesh.normals.astype(np.float64) @ world_to_object  # as rows: by the inverse transposed
+    normals = thing.mesh.normals.astype(np.float64) @ world_to_object  # row vectors: the inverse transposed
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     return (thing.mesh.positions + distance * normals @ world_to_object.T).astype(np.float32)

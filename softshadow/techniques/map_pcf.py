@@ -1,57 +1,31 @@
 """Percentage-closer filtering: the share of shadow map texels round a point that are lit.
 
-A shadow map's depths cannot be filtered: the mean of two depths is the depth of nothing. But the answers can. So a
-point is compared with each texel of a square round its place, and sees as much of the light as the share of those that
-are not nearer than it.
+A shadow map's depths cannot be filtered: the mean of two depths is the depth of nothing. The results of comparisons
+can. So a point is compared with each texel of a square round its place in the map, and it sees as much of the light as
+the share of texels that are not nearer.
 
 Paper: Reeves, Salesin & Cook 1987, "Rendering antialiased shadows with depth maps".
 Slides: Andújar, Shadow mapping (GL_LINEAR); Moldoveanu "umbre 2"; Zimányi & Valient.
 
-With `bilinear` the square moves along with the place, and the share changes continuously; without, it has as many steps
-as the square has texels. A texel farther away on a slope is farther off in depth, so the slope offset grows with the
-square: factor 2 r + 1 for (2 r + 1)² texels, 2 r + 2 with `bilinear`.
+With `bilinear` the square is centred on the point, and the share changes continuously; without it the square is made of
+whole texels, and the share has as many steps as there are texels. On a slope, a texel farther away differs more in
+depth, so the slope offset grows with the square: factor 2 r + 1 for (2 r + 1)² texels, 2 r + 2 with `bilinear`.
 
 Known failures: the ramp is no penumbra, it is as wide as the square everywhere, near the caster and far from it; the
-larger offset takes shadows off their casters (factor = 1 leaves acne instead); what the light does not see is unknown,
-as with a single comparison.
+larger offset takes shadows off their casters (factor = 1 leaves acne instead); points that the light does not see are
+unknown, as with a single comparison.
 """
 
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
 from softshadow.scene import Light, Scene
-from softshadow.techniques import depth_maps
-from softshadow.techniques.depth_maps import (
-    depth_texture,
-    draw_into,
-    offset_and_culled,
-    read_depths,
-    unknown,
-    warn_of_casters_outside,
-)
-from softshadow.techniques.drawing import (
-    begin_frame,
-    draw_objects,
-    light_ambient_only,
-    read_depth,
-    set_camera,
-    title_of,
-    visibility_maps,
-    world_points,
-)
+from softshadow.techniques import depth_maps, drawing
 from softshadow.techniques.light_camera import LightCamera, light_camera
 from softshadow.techniques.map_lookups import set_map_coordinates
-from softshadow.techniques.technique import Option, Steps
+from softshadow.techniques.technique import Range, Steps
 from softshadow.techniques.visibility_buffer import add_light_times, draw_visibility, set_uniforms
-
-OPTIONS = depth_maps.OPTIONS | {
-    "factor": Option(
-        None, float, "slope offset: first argument of glPolygonOffset; by default the kernel, one more if bilinear"
-    ),
-    "kernel": Option(3, int, "texels on a side of the square, an odd number", minimum=1, maximum=31),
-    "bilinear": Option(False, bool, "let the square move with the place, and weight texels by their part of it"),
-}
 
 
 def steps(
@@ -59,16 +33,18 @@ def steps(
     scene: Scene,
     *,
     size: tuple[int, int],
-    map_size: int = 512,
-    factor: float | None = None,
-    units: float = 1.0,
-    bias: float = 0.0,
-    normal_bias: float = 0.0,
-    outside: str = "lit",
-    kernel: int = 3,
-    bilinear: bool = False,
+    map_size: depth_maps.MapSize = 512,
+    factor: Annotated[
+        float | None, "slope offset: first argument of glPolygonOffset; by default the kernel, one more if bilinear"
+    ] = None,
+    units: depth_maps.Units = 1.0,
+    bias: depth_maps.Bias = 0.0,
+    normal_bias: depth_maps.NormalBias = 0.0,
+    outside: depth_maps.Outside = "lit",
+    kernel: Annotated[int, "texels on a side of the square, an odd number", Range(1, 31)] = 3,
+    bilinear: Annotated[bool, "centre the square on the point, and weight texels by the part inside"] = False,
 ) -> Steps:
-    """Draw the scene with percentage-closer filtered shadow maps; see `OPTIONS`.
+    """Draw the scene with percentage-closer filtered shadow maps.
 
     Raises
     ------
@@ -76,32 +52,36 @@ def steps(
     """
     if kernel % 2 == 0:
         raise ValueError(f"option kernel={kernel}: expected an odd number")
-    begin_frame(gl, scene)
+    if factor is None:
+        factor = farthest_texel(kernel, bilinear)
+    drawing.begin_frame(gl, scene)
     cameras = [light_camera(scene, light) for light in scene.lights]
-    warn_of_casters_outside(scene, cameras)
+    depth_maps.warn_of_casters_outside(scene, cameras)
 
     # pass 1: the depth of the casters, seen from the light
     shadow_maps = []
     for light, camera in zip(scene.lights, cameras, strict=True):
-        shadow_map = depth_texture(gl, map_size, gl.GL_NEAREST, outside)
-        with offset_and_culled(gl, farthest_texel(kernel, bilinear) if factor is None else factor, units):
-            draw_into(gl, scene, camera, shadow_map, map_size)
+        shadow_map = depth_maps.depth_texture(gl, map_size, gl.GL_NEAREST, outside)
+        with depth_maps.polygon_offset(gl, factor, units):
+            depth_maps.draw_into(gl, scene, camera, shadow_map, map_size)
         shadow_maps.append(shadow_map)
-        stored = read_depths(gl, shadow_map)
-        yield title_of("draw the depth map from the light", scene, light), {title_of("ZS", scene, light): stored}
+        yield (
+            drawing.title("draw the depth map from the light", scene, light),
+            {drawing.title("ZS", scene, light): depth_maps.read_depths(gl, shadow_map)},
+        )
 
-    # pass 2: the camera's picture, first as if all were in shadow
-    begin_frame(gl, scene)
-    set_camera(gl, scene.camera, size)
-    light_ambient_only(gl, scene)
-    draw_objects(gl, scene.objects)
-    depth = read_depth(gl, size)
+    # pass 2: the camera's picture, first as if all of it were in shadow
+    drawing.begin_frame(gl, scene)
+    drawing.set_camera(gl, scene.camera, size)
+    drawing.light_ambient_only(gl, scene)
+    drawing.draw_objects(gl, scene.objects)
+    depth = drawing.read_depth(gl, size)
     valid = depth < 1
     yield "draw the scene without the light"
 
     # then how much of the light each pixel sees, and that much of the light
-    seen = []
-    points = world_points(scene, depth, size)
+    lit = []
+    points = drawing.world_points(scene, depth, size)
     program = gl.program("map-visibility-bilinear" if bilinear else "map-visibility")
     for light, camera, shadow_map in zip(scene.lights, cameras, shadow_maps, strict=True):
 
@@ -112,30 +92,30 @@ def steps(
             set_uniforms(gl, program, behind=behind(light, outside), cone=disc(light, camera))
 
         visibility, values = draw_visibility(gl, scene, size, program, look_up, normal_bias)
-        seen.append(values[..., 3])
+        lit.append(values[..., 3])
         yield (
-            title_of("compare with the texels round each point", scene, light),
-            {title_of("unknown", scene, light): valid & unknown(scene, light, camera, points)},
+            drawing.title("compare with the texels round each point", scene, light),
+            {drawing.title("unknown", scene, light): valid & depth_maps.unknown(scene, light, camera, points)},
         )
 
         add_light_times(gl, scene, size, light, visibility)
         gl.glDeleteTextures([visibility])
-        yield title_of("add the share of the light", scene, light), visibility_maps(scene, seen, valid)
+        yield drawing.title("add the share of the light", scene, light), drawing.visibility_maps(scene, lit, valid)
     gl.glDeleteTextures(shadow_maps)
 
 
 def farthest_texel(kernel: int, bilinear: bool) -> float:
     """Return the slope factor that ends acne: twice the distance to the farthest texel centre on an axis, in texels.
 
-    On a plane that rises by a and b per texel a comparison with a texel whose centre is at most d texels away errs by
-    at most d (|a| + |b|) <= 2 d max(|a|, |b|), and glPolygonOffset takes that maximum. Of a square of texels round the
-    place's own, d is r + 1/2; one that moves along reaches d = r + 1.
+    On a plane that rises by a and b per texel, a comparison with a texel whose centre is at most d texels away errs by
+    at most d (|a| + |b|) <= 2 d max(|a|, |b|), and the slope in glPolygonOffset is that maximum. In a square of whole
+    texels round the point's own d = r + 1/2; in a square centred on the point d = r + 1.
     """
     return float(kernel + 1 if bilinear else kernel)
 
 
 def behind(light: Light, outside: str) -> float:
-    """Return the visibility of what is not before the light."""
+    """Return the visibility of points beside or behind the light."""
     return 0.0 if light.is_spot or outside == "shadow" else 1.0
 
 

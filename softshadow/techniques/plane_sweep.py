@@ -1,11 +1,12 @@
-"""Cut what a chain of directed edges in the plane winds around into triangles, level by level.
+"""Triangulate what a chain of directed edges in the plane winds around, level by level.
 
-Between two levels at which an edge ends or two edges cross, the edges only have to be sorted. Nothing is assumed of the
-chain but that it is closed: loops may cross themselves, each other, and run along each other.
+The levels are the values of y at which an edge ends or two edges cross; between two of them the edges only have to be
+sorted. The chain has to be closed, and nothing else: loops may cross themselves and each other, or share edges.
 
 References
 ----------
-Bentley & Ottmann 1979, "Algorithms for reporting and counting geometric intersections", with all levels known at first.
+Bentley & Ottmann 1979, "Algorithms for reporting and counting geometric intersections"; here all levels are
+computed first.
 """
 
 from itertools import pairwise
@@ -13,14 +14,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-# a slab this much thinner than the range of levels comes from rounding, and covers no sample
+# a slab thinner than this share of the range of levels comes from rounding, and covers no sample
 THIN = 1e-12
-# pairs of edges that are compared at a time
+# number of pairs of edges that are compared at a time
 AT_A_TIME = 1 << 18
 
 
 class Edges(NamedTuple):
-    """Edges that run upwards from (x0, y0) to (x1, y1), each (E,) float64; sign -1 where they ran down in the chain."""
+    """Edges that run upwards from (x0, y0) to (x1, y1), each (E,) float64; sign is -1 if they run down in the chain."""
 
     x0: np.ndarray
     y0: np.ndarray
@@ -29,38 +30,38 @@ class Edges(NamedTuple):
     sign: np.ndarray
 
     def x_at(self, y: np.ndarray | float) -> np.ndarray:
-        """Return where the edges' lines are at a level."""
+        """Return where the lines of the edges cross a level."""
         return self.x0 + (y - self.y0) / (self.y1 - self.y0) * (self.x1 - self.x0)
 
 
-def cover(chain: np.ndarray, low: float, high: float) -> np.ndarray:
-    """Return triangles that cover, without overlap, the points which the chain winds around in either sense.
+def triangulate_nonzero(chain: np.ndarray, low: float, high: float) -> np.ndarray:
+    """Return triangles that cover, without overlap, the points with a winding number other than 0.
 
     Parameters
     ----------
-    chain : (E, 2, 2) float64    edges from point to point; at every point as many arrive as leave
-    low, high : float            only between these two levels of y
+    chain : (E, 2, 2) float64    edges from point to point; at every point as many edges end as begin
+    low, high : float            the range of y that is covered
 
     Returns
     -------
-    (N, 3, 2) float64            counter-clockwise; no corner of one lies inside an edge of another
+    (N, 3, 2) float64            counter-clockwise; no corner of one lies within an edge of another
     """
     edges = upwards(chain, low, high)
     levels = levels_of(edges, low, high)
-    found = trapezoids(edges, levels)
-    bottom, top = levels[found[:, 2]], levels[found[:, 3]]
-    # left and right end at the bottom, then at the top; at a crossing the two edges round apart
-    sides = [Edges(*(part[side] for part in edges)) for side in found[:, :2].T]
+    slabs = trapezoids(edges, levels)
+    bottom, top = levels[slabs[:, 2]], levels[slabs[:, 3]]
+    # left and right end at the bottom, then at the top; where two edges cross, rounding may swap them
+    sides = [Edges(*(part[side] for part in edges)) for side in slabs[:, :2].T]
     ends = np.array([[side.x_at(level) for side in sides] for level in (bottom, top)])
     ends.sort(axis=1)
-    corners: dict[int, list[float]] = {}  # by level: of what ends there and of what begins there
-    for at_level, (left, right) in zip(found[:, 2:].T, ends, strict=True):
+    corners: dict[int, list[float]] = {}  # by level: of trapezoids that end there and that begin there
+    for at_level, (left, right) in zip(slabs[:, 2:].T, ends, strict=True):
         for level, one, other in zip(at_level.tolist(), left.tolist(), right.tolist(), strict=True):
             corners.setdefault(level, []).extend((one, other))
-    points = {level: np.unique(given) for level, given in corners.items()}
+    points = {level: np.unique(xs) for level, xs in corners.items()}
     triangles: list[list[list[float]]] = []
     for (_, _, i, j), ((lower_left, upper_left), (lower_right, upper_right)) in zip(
-        found.tolist(), ends.transpose(2, 1, 0), strict=True
+        slabs.tolist(), ends.transpose(2, 1, 0), strict=True
     ):
         lower = points[i][np.searchsorted(points[i], lower_left) : np.searchsorted(points[i], lower_right, "right")]
         upper = points[j][np.searchsorted(points[j], upper_left) : np.searchsorted(points[j], upper_right, "right")]
@@ -69,55 +70,55 @@ def cover(chain: np.ndarray, low: float, high: float) -> np.ndarray:
 
 
 def trapezoids(edges: Edges, levels: np.ndarray) -> np.ndarray:
-    """Return (N, 4) int: left and right edge, bottom and top level of what the chain winds around."""
-    found: list[tuple[int, int, int, int]] = []
+    """Return (N, 4) int: left and right edge, bottom and top level of the trapezoids inside the chain."""
+    slabs: list[tuple[int, int, int, int]] = []
     begun: dict[tuple[int, int], int] = {}
     for index, (bottom, top) in enumerate(pairwise(levels)):
         spans = spans_between(edges, bottom, top)
-        found += [(*span, first, index) for span, first in begun.items() if span not in spans]
+        slabs += [(*span, first, index) for span, first in begun.items() if span not in spans]
         begun = {span: begun.get(span, index) for span in spans}
-    found += [(*span, first, len(levels) - 1) for span, first in begun.items()]
-    return np.array(found, np.int64).reshape(-1, 4)
+    slabs += [(*span, first, len(levels) - 1) for span, first in begun.items()]
+    return np.array(slabs, np.int64).reshape(-1, 4)
 
 
 def upwards(chain: np.ndarray, low: float, high: float) -> Edges:
-    """Return the edges of a chain that have a part between two levels; a level edge bounds nothing from the side."""
+    """Return the edges of a chain that have a part between two levels, without the horizontal ones."""
     start, end = chain[:, 0], chain[:, 1]
     falls = end[:, 1] < start[:, 1]
     bottom, top = np.where(falls[:, None], end, start), np.where(falls[:, None], start, end)
-    kept = (bottom[:, 1] < top[:, 1]) & (top[:, 1] > low) & (bottom[:, 1] < high)
-    (x0, y0), (x1, y1) = bottom[kept].T, top[kept].T
-    return Edges(x0, y0, x1, y1, np.where(falls, -1, 1)[kept])
+    between = (bottom[:, 1] < top[:, 1]) & (top[:, 1] > low) & (bottom[:, 1] < high)
+    (x0, y0), (x1, y1) = bottom[between].T, top[between].T
+    return Edges(x0, y0, x1, y1, np.where(falls, -1, 1)[between])
 
 
 def levels_of(edges: Edges, low: float, high: float) -> np.ndarray:
-    """Return the levels between which no edge ends and none cross, ascending, from low to high."""
-    found = [np.array([low, high]), edges.y0, edges.y1]
-    count = len(edges.sign)
-    rows = max(1, AT_A_TIME // max(count, 1))
-    for first in range(0, count, rows):
+    """Return the levels, ascending from low to high, between which no edge ends and no edges cross."""
+    levels = [np.array([low, high]), edges.y0, edges.y1]
+    number = len(edges.sign)
+    rows = max(1, AT_A_TIME // max(number, 1))
+    for first in range(0, number, rows):
         one = Edges(*(part[first : first + rows, None] for part in edges))
         begin, end = np.maximum(one.y0, edges.y0), np.minimum(one.y1, edges.y1)
         at_begin, at_end = one.x_at(begin) - edges.x_at(begin), one.x_at(end) - edges.x_at(end)
         crossing = (begin < end) & (at_begin * at_end < 0)
         share = at_begin[crossing] / (at_begin[crossing] - at_end[crossing])
-        found.append(begin[crossing] + share * (end - begin)[crossing])
-    levels = np.unique(np.clip(np.concatenate(found), low, high))
-    return levels[np.append(True, np.diff(levels) > THIN * (high - low))]
+        levels.append(begin[crossing] + share * (end - begin)[crossing])
+    ascending = np.unique(np.clip(np.concatenate(levels), low, high))
+    return ascending[np.append(True, np.diff(ascending) > THIN * (high - low))]
 
 
 def spans_between(edges: Edges, bottom: float, top: float) -> dict[tuple[int, int], None]:
-    """Return between which edges, left and right, the chain winds around something from level to level, in order."""
+    """Return the pairs of edges, left and right, that bound the inside of the chain between two levels, in order."""
     middle = (bottom + top) / 2
     active = np.flatnonzero((edges.y0 < middle) & (edges.y1 > middle))
     order = active[np.argsort(edges.x_at(middle)[active], kind="stable")]
     inside = np.cumsum(edges.sign[order]) != 0
     changes = order[np.flatnonzero(np.diff(inside, prepend=False))].tolist()
-    # where the chain is open by rounding, a left edge has no right one
+    # if rounding has opened the chain, the last left edge has no right one
     return dict.fromkeys(zip(changes[::2], changes[1::2], strict=False))
 
 
 def strip(lower: list[float], bottom: float, upper: list[float], top: float) -> list[list[list[float]]]:
-    """Return counter-clockwise triangles between ascending points on two levels; none without area."""
+    """Return counter-clockwise triangles between ascending points on two levels; all have an area."""
     fan = [[[a, bottom], [b, bottom], [upper[0], top]] for a, b in pairwise(lower)]
     return fan + [[[lower[-1], bottom], [b, top], [a, top]] for a, b in pairwise(upper)]

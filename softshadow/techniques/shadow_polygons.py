@@ -1,65 +1,36 @@
 """Own and cast shadows as detail polygons, drawn over the faces they lie on.
 
-Where a face looks away from the light it is dark as a whole; where it looks to the light, the faces in front of it are
-flattened onto it and cut at its edges. That takes no camera: `shadow_polygons` makes the polygons, `draw` draws them
-from any. They lie in the faces, so that the depth test needs help: `offset` moves them a little nearer, `decal` marks
-each face first and draws its polygons without the depth test where the mark is.
+A face turned away from the light is dark as a whole; onto a face turned towards the light, the faces in front of it are
+flattened, and cut at its edges. No camera is needed for that: `shadow_polygons` computes the polygons, and `draw` draws
+them from any camera. They lie in the planes of the faces, so the depth test cannot decide between the two: `offset`
+moves the polygons a little nearer, `decal` marks each face first and draws its polygons there without the depth test.
 
 Paper: Atherton, Weiler & Greenberg 1978, "Polygon shadow generation".
 Slides: Moldoveanu "umbre 1", own- and cast-shadow polygons, added to the faces as detail polygons.
 
-Known failures: every face is held against every other, so scenes of too many faces are refused; where the polygons of
-two faces meet, corners rounded apart may leave a pixel lit; edges are hard. offset reaches up to a pixel over the edge
-of what stands nearer, as over the feet of casters; with factor and units 0 faces and polygons fight. depth-off, the
-slides' own way, paints over whatever is nearer. `combine` = modulate takes a share of the whole colour: faces that the
-light does not reach anyway get darker than the ambient light leaves them, and shadows of several lights multiply.
+Known failures: every face is compared with every other, so scenes with too many faces are refused; where the polygons
+of two faces meet, differently rounded corners may leave a pixel lit; edges are hard. offset reaches up to a pixel over
+the edge of nearer objects, as over the feet of casters; with factor and units 0 faces and polygons fight for the pixel.
+depth-off, the slides' own way, paints over nearer objects. `combine` = modulate takes a share of the whole colour:
+faces turned away from the light get darker than the ambient light leaves them, and shadows of several lights multiply.
 """
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
 from softshadow.scene import Light, Scene, SceneObject
-from softshadow.techniques.detail_polygons import FORMS, DetailPolygons, shadow_polygons
-from softshadow.techniques.drawing import (
-    added,
-    begin_frame,
-    darken_picture,
-    draw_objects,
-    draw_polygons,
-    draw_triangles,
-    light_ambient_only,
-    light_by,
-    named,
-    object_space,
-    read_depth,
-    read_stencil,
-    set_camera,
-    title_of,
-    visibility_maps,
-    within_cone,
-)
+from softshadow.techniques import drawing
+from softshadow.techniques.detail_polygons import DetailPolygons, Form, shadow_polygons
 from softshadow.techniques.planar import DARKNESS
-from softshadow.techniques.technique import Option, Steps
+from softshadow.techniques.technique import Steps
 
-OPTIONS = {
-    "form": Option("faces", str, "what is flattened: every casting face, or the silhouettes", choices=FORMS),
-    "method": Option(
-        "offset", str, "how faces and polygons share their planes", choices=("offset", "decal", "depth-off")
-    ),
-    "factor": Option(-1.0, float, "offset: first argument of glPolygonOffset; negative is nearer"),
-    "units": Option(-1.0, float, "offset: second argument of glPolygonOffset"),
-    "combine": Option(
-        "add",
-        str,
-        "add every light where its polygons are not, or darken the fully lit scene where they are",
-        choices=("add", "modulate"),
-    ),
-}
-
-# the stencil buffer: shadow in one bit, the face that a decal is drawn on in others
+# bits of the stencil buffer: shadow, and the face that a decal is drawn on
 SHADOW, FACE = 0x01, 0x02
+
+Method = Literal["offset", "decal", "depth-off"]
+Combine = Literal["add", "modulate"]
 
 
 def steps(
@@ -67,14 +38,16 @@ def steps(
     scene: Scene,
     *,
     size: tuple[int, int],
-    form: str = "faces",
-    method: str = "offset",
-    factor: float = -1.0,
-    units: float = -1.0,
-    combine: str = "add",
+    form: Annotated[Form, "what is flattened: every casting face, or the silhouettes"] = "faces",
+    method: Annotated[Method, "how faces and polygons share their planes"] = "offset",
+    factor: Annotated[float, "offset: first argument of glPolygonOffset; negative is nearer"] = -1.0,
+    units: Annotated[float, "offset: second argument of glPolygonOffset"] = -1.0,
+    combine: Annotated[
+        Combine, "add every light where its polygons are not, or darken the fully lit scene where they are"
+    ] = "add",
 ) -> Steps:
-    """Draw the scene with shadow polygons; see `OPTIONS`."""
-    polygons = [shadow_polygons(scene, light, form) for light in scene.lights]  # type: ignore[arg-type]
+    """Draw the scene with shadow polygons."""
+    polygons = [shadow_polygons(scene, light, form) for light in scene.lights]
     yield from draw(gl, scene, size, polygons, method=method, offset=(factor, units), combine=combine)
 
 
@@ -84,23 +57,23 @@ def draw(
     size: tuple[int, int],
     polygons: Sequence[Sequence[DetailPolygons]],
     *,
-    method: str = "offset",
+    method: Method = "offset",
     offset: tuple[float, float] = (-1.0, -1.0),
-    combine: str = "add",
+    combine: Combine = "add",
 ) -> Steps:
-    """Draw the scene from its camera with polygons made before: for each light, for each object.
+    """Draw the scene from its camera with polygons computed before, one entry for each light and object.
 
-    They stay right for as long as lights and objects stand still.
+    The polygons stay right as long as lights and objects do not move.
     """
     # 1. draw the scene
-    begin_frame(gl, scene)
-    set_camera(gl, scene.camera, size)
+    drawing.begin_frame(gl, scene)
+    drawing.set_camera(gl, scene.camera, size)
     if combine == "add":
-        light_ambient_only(gl, scene)
+        drawing.light_ambient_only(gl, scene)
     else:
-        light_by(gl, scene, scene.lights, ambient=True)
-    draw_objects(gl, scene.objects)
-    depth = read_depth(gl, size)
+        drawing.light_by(gl, scene, scene.lights, ambient=True)
+    drawing.draw_objects(gl, scene.objects)
+    depth = drawing.read_depth(gl, size)
     valid = depth < 1
     yield "draw the scene without the light" if combine == "add" else "draw the scene with all lights"
 
@@ -116,25 +89,25 @@ def draw(
             else:
                 without_depth(gl, thing, details)
         end_marks(gl)
-        lit.append((read_stencil(gl, size) & SHADOW == 0) & within_cone(scene, light, depth, size))
-        yield title_of("mark the shadow polygons", scene, light)
+        lit.append((drawing.read_stencil(gl, size) & SHADOW == 0) & drawing.within_cone(scene, light, depth, size))
+        yield drawing.title("mark the shadow polygons", scene, light)
 
         # 3. draw the lit part of the scene, or darken the rest
         if combine == "add":
             add_light(gl, scene, light)
         else:
             gl.glStencilFunc(gl.GL_EQUAL, SHADOW, SHADOW)
-            darken_picture(gl, DARKNESS)
+            drawing.darken_picture(gl, DARKNESS)
         gl.glDisable(gl.GL_STENCIL_TEST)
         title = "add the light where no polygon is" if combine == "add" else "darken the marked pixels"
-        yield title_of(title, scene, light), visibility_maps(scene, lit, valid)
+        yield drawing.title(title, scene, light), drawing.visibility_maps(scene, lit, valid)
 
 
 # -- polygons over faces -----------------------------------------------------------------------------------------------
 
 
 def with_offset(gl: Any, thing: SceneObject, details: DetailPolygons, offset: tuple[float, float]) -> None:
-    """Mark the polygons of an object where they are seen, a little nearer than the faces they lie on."""
+    """Mark the polygons of an object where they are visible, drawn a little nearer than the faces they lie on."""
     gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
     gl.glPolygonOffset(*offset)
     draw_own(gl, thing, details)
@@ -143,8 +116,8 @@ def with_offset(gl: Any, thing: SceneObject, details: DetailPolygons, offset: tu
 
 
 def as_decals(gl: Any, thing: SceneObject, details: DetailPolygons) -> None:
-    """Mark each face where it is seen, then its polygons there without the depth test, then take the mark away."""
-    draw_own(gl, thing, details)  # whole faces have the depth of the faces, bit for bit
+    """Mark each visible face, draw its polygons there without the depth test, then clear the mark."""
+    draw_own(gl, thing, details)  # these are the faces themselves, so their depths are equal bit for bit
     for face in np.unique(details.faces):
         gl.glStencilMask(FACE)
         gl.glStencilFunc(gl.GL_ALWAYS, FACE, 0xFF)
@@ -162,7 +135,7 @@ def as_decals(gl: Any, thing: SceneObject, details: DetailPolygons) -> None:
 
 
 def without_depth(gl: Any, thing: SceneObject, details: DetailPolygons) -> None:
-    """Mark the polygons of an object wherever they are in the picture, behind other faces, too (E15)."""
+    """Mark the polygons of an object everywhere in the picture, behind other faces, too (E15)."""
     gl.glDisable(gl.GL_DEPTH_TEST)
     draw_own(gl, thing, details)
     draw_cast(gl, thing, details.cast)
@@ -170,7 +143,7 @@ def without_depth(gl: Any, thing: SceneObject, details: DetailPolygons) -> None:
 
 
 def draw_own(gl: Any, thing: SceneObject, details: DetailPolygons) -> None:
-    """Draw the faces in their own shadow, only their dark sides."""
+    """Draw the dark sides of the faces that are in their own shadow."""
     gl.glEnable(gl.GL_CULL_FACE)
     draw_faces(gl, thing, details.own)
     gl.glFrontFace(gl.GL_CW)
@@ -181,16 +154,16 @@ def draw_own(gl: Any, thing: SceneObject, details: DetailPolygons) -> None:
 
 def draw_faces(gl: Any, thing: SceneObject, faces: Sequence[int] | np.ndarray) -> None:
     """Draw some faces of an object with the vertices of the object itself."""
-    with object_space(gl, thing):
-        draw_triangles(gl, thing.mesh.positions, np.ascontiguousarray(thing.mesh.triangles[faces]))
+    with drawing.object_space(gl, thing):
+        drawing.draw_triangles(gl, thing.mesh.positions, np.ascontiguousarray(thing.mesh.triangles[faces]))
 
 
 def draw_cast(gl: Any, thing: SceneObject, polygons: np.ndarray) -> None:
-    """Draw polygons (N, 3, 3) on an object; the back of a caster is in its own shadow, what does not cast has none."""
+    """Draw polygons (N, 3, 3) on an object: on a caster one-sided, since its back is in its own shadow anyway."""
     if thing.casts:
         gl.glEnable(gl.GL_CULL_FACE)
-    with named(gl, thing):
-        draw_polygons(gl, np.ascontiguousarray(polygons, np.float32))
+    with drawing.debug_group(gl, thing):
+        drawing.draw_polygons(gl, np.ascontiguousarray(polygons, np.float32))
     gl.glDisable(gl.GL_CULL_FACE)
 
 
@@ -198,7 +171,7 @@ def draw_cast(gl: Any, thing: SceneObject, polygons: np.ndarray) -> None:
 
 
 def begin_marks(gl: Any) -> None:
-    """Let what is drawn leave `SHADOW` in the stencil buffer and nothing else; equal depth passes (E2)."""
+    """Let draws write `SHADOW` into the stencil buffer and change nothing else; equal depth passes (E2)."""
     gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
     gl.glDisable(gl.GL_LIGHTING)
     gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
@@ -210,7 +183,7 @@ def begin_marks(gl: Any) -> None:
 
 
 def end_marks(gl: Any) -> None:
-    """Let colour and depth be written again."""
+    """Enable writing of colour and depth again."""
     gl.glColorMask(gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE)
     gl.glDepthMask(gl.GL_TRUE)
     gl.glDepthFunc(gl.GL_LESS)
@@ -218,8 +191,8 @@ def end_marks(gl: Any) -> None:
 
 
 def add_light(gl: Any, scene: Scene, light: Light) -> None:
-    """Add a light where nothing is marked."""
+    """Add a light where there is no mark."""
     gl.glStencilFunc(gl.GL_EQUAL, 0, SHADOW)
-    light_by(gl, scene, [light], ambient=False)
-    with added(gl):
-        draw_objects(gl, scene.objects)
+    drawing.light_by(gl, scene, [light], ambient=False)
+    with drawing.additive_blending(gl):
+        drawing.draw_objects(gl, scene.objects)

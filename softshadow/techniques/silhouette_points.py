@@ -1,8 +1,8 @@
-"""The points of a shadow silhouette map: for each cell of a shadow map one point of the silhouette that crosses it.
+"""The points of a shadow silhouette map: for each cell of a shadow map, one point of the silhouette that crosses it.
 
-A cell has its corners at four texel centres of the shadow map. An edge that ends in a cell gives its end; one that
-crosses it gives where it meets the cell's diagonals, the middle of both where it meets two. A cell keeps the point
-nearest to the light.
+The corners of a cell are four texel centres of the shadow map. For an edge that ends in a cell the point is its end;
+for an edge that crosses the cell it is the intersection with a diagonal, or the middle of both intersections. A cell
+crossed by several edges stores the point nearest to the light.
 
 References: Sen, Cammarano & Hanrahan 2003, "Shadow silhouette maps".
 """
@@ -16,13 +16,13 @@ from softshadow.scene.silhouette import silhouette
 from softshadow.techniques.light_camera import LightCamera
 
 MIDDLE = 0.5
-# an edge is hidden where all four texels round it are nearer by more than this, of the map's range: the map holds the
-# very surfaces that meet in the edge
+# an edge is hidden if all four texels round it are nearer by more than this, in the map's range 0 to 1; the margin is
+# needed because the map holds the surfaces that meet in the edge
 HIDDEN = 2.0**-12
 
 
 class Pieces(NamedTuple):
-    """Parts of edges, each within one cell.
+    """Pieces of edges, each within one cell.
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class Pieces(NamedTuple):
 
 
 def silhouette_points(scene: Scene, light: Light, camera: LightCamera, stored: np.ndarray) -> np.ndarray:
-    """Return the silhouette map (n, n, 3) float32 of a shadow map (n, n): s and t in the cell, and 1 where stored."""
+    """Return the silhouette map (n, n, 3) float32 of a shadow map (n, n): s, t in the cell, and 1 if it has a point."""
     ends = [np.zeros((0, 2, 3))]
     for caster in scene.casters:
         edges = silhouette(caster.mesh, light.in_object_space(caster.object_to_world)).edges
@@ -46,9 +46,9 @@ def silhouette_points(scene: Scene, light: Light, camera: LightCamera, stored: n
 
 
 def in_window(edges: np.ndarray, camera: LightCamera, side: int) -> np.ndarray:
-    """Return edges (E, 2, 3) of the world as the map sees them: x and y in texels between texel centres, and depth.
+    """Return world-space edges (E, 2, 3) in the map's window: x and y in texels, whole at texel centres, and depth.
 
-    What lies before the near plane is cut off.
+    The parts in front of the near plane are cut off.
     """
     seen = (edges - camera.eye) @ camera.frame.T
     seen = seen[(seen[:, :, 2] > camera.near).any(axis=1)]
@@ -75,15 +75,15 @@ def stored_points(edges: np.ndarray, stored: np.ndarray) -> np.ndarray:
     chosen = edges[pieces.edges, 0] + where[:, None] * (edges[pieces.edges, 1] - edges[pieces.edges, 0])
     x, y = pieces.cells.T
     corners = np.array([stored[y + j, x + i] for j in (0, 1) for i in (0, 1)])
-    kept = np.flatnonzero((chosen[:, 2] <= corners.max(axis=0, initial=0) + HIDDEN) & np.isfinite(where))
-    kept = kept[np.argsort(-chosen[kept, 2], kind="stable")]  # the nearest is written last
-    points[y[kept], x[kept], :2] = chosen[kept, :2] - pieces.cells[kept]
-    points[y[kept], x[kept], 2] = 1
+    visible = np.flatnonzero((chosen[:, 2] <= corners.max(axis=0, initial=0) + HIDDEN) & np.isfinite(where))
+    visible = visible[np.argsort(-chosen[visible, 2], kind="stable")]  # the nearest is written last
+    points[y[visible], x[visible], :2] = chosen[visible, :2] - pieces.cells[visible]
+    points[y[visible], x[visible], 2] = 1
     return points
 
 
 def cut_at_cells(edges: np.ndarray) -> Pieces:
-    """Return the pieces of edges between the lines where x or y is whole."""
+    """Return the pieces into which the lines of whole x and of whole y cut the edges."""
     numbers, places = [np.repeat(np.arange(len(edges)), 2)], [np.tile([0.0, 1.0], len(edges))]
     for axis in (0, 1):
         start, end = edges[:, 0, axis], edges[:, 1, axis]
@@ -103,7 +103,7 @@ def cut_at_cells(edges: np.ndarray) -> Pieces:
 
 
 def representative(edges: np.ndarray, pieces: Pieces) -> np.ndarray:
-    """Return where (P,) on its edge each piece has the point that stands for it; not a number where it has none."""
+    """Return where (P,) on its edge the point of each piece lies, from 0 to 1; NaN where the piece has no point."""
     start = edges[pieces.edges, 0, :2] - pieces.cells
     along = edges[pieces.edges, 1, :2] - edges[pieces.edges, 0, :2]
     crossings = []

@@ -1,8 +1,8 @@
-"""The shadow on one face from the outlines of its casters instead of their faces.
+"""The shadow on one face, computed from the silhouettes of its casters instead of their faces.
 
-The casting faces are a surface, and its boundary is the silhouette. Flattened onto a plane, the boundary winds around a
-point once for every casting face on the way to the light. A caster that reaches through the plane is cut there, and the
-cuts close its boundary.
+The casting faces form a surface whose boundary is the silhouette. Flattened onto a plane, the boundary winds around a
+point once for every casting face between the point and the light. A caster that crosses the plane is cut there, and the
+cut edges close its boundary.
 """
 
 from collections.abc import Sequence
@@ -14,42 +14,42 @@ from softshadow.scene.silhouette import silhouette_of
 from softshadow.techniques.clipping import clip_segments, clip_triangles, cuts
 from softshadow.techniques.flattened import flattened_points, proper_planes
 from softshadow.techniques.lit_faces import LitFaces
-from softshadow.techniques.plane_sweep import cover
+from softshadow.techniques.plane_sweep import triangulate_nonzero
 
-# as near to the light as this share of its height over the plane, points are flattened a million times as far away
+# points nearer to the light than this share of its height over the plane would be flattened a million times as far away
 NEAREST = 1e-6
 
 
 def inside_of_silhouettes(
     casters: Sequence[LitFaces], face: np.ndarray, plane: np.ndarray, light: Light, flat: float
 ) -> np.ndarray:
-    """Return triangles (N, 3, 3) that cover the shadow in a plane without overlap, as far as a face (3, 3) reaches.
+    """Return triangles (N, 3, 3) that cover the shadow in the plane of a face (3, 3), without overlap.
 
     Parameters
     ----------
     plane : (4,)                 of the face, unit normal towards the light
-    flat : float                 casting faces as near as that to the plane cast nothing
+    flat : float                 casting faces nearer than this to the plane cast nothing
     """
     planes = proper_planes(plane, light.position)
     planes[1:, 3] -= NEAREST * (plane @ light.position)
     chains = [flattened_points(boundary(caster, plane, planes, flat), plane, light.position) for caster in casters]
-    # seen along the largest component of the normal
+    # drop the coordinate in which the normal is largest
     axis = int(np.abs(plane[:3]).argmax())
     u, v = (axis + 1) % 3, (axis + 2) % 3
     chain = np.concatenate([np.zeros((0, 2, 3)), *chains])[:, :, [u, v]]
-    triangles = cover(chain, face[:, v].min(), face[:, v].max())
+    triangles = triangulate_nonzero(chain, face[:, v].min(), face[:, v].max())
     in_space = np.empty((len(triangles), 3, 3))
     in_space[:, :, [u, v]] = triangles
     in_space[:, :, axis] = -(triangles @ plane[[u, v]] + plane[3]) / plane[axis]
-    # counter-clockwise in (u, v) is counter-clockwise seen from where the axis points to
+    # counter-clockwise in (u, v) means counter-clockwise seen from the positive end of the axis
     return in_space if plane[axis] > 0 else in_space[:, ::-1]
 
 
 def boundary(caster: LitFaces, plane: np.ndarray, planes: np.ndarray, flat: float) -> np.ndarray:
-    """Return the boundary (S, 2, 3) of the casting faces between some planes (K, 4), without the faces in `plane`."""
+    """Return the boundary (S, 2, 3) of the casting faces, clipped to `planes` (K, 4), without the faces in `plane`."""
     above = (np.abs(caster.triangles @ plane[:3] + plane[3]) > flat).any(axis=1)
-    kept, turned = np.split(above, [len(caster.faces.facing)])
-    faces = CastingFaces(caster.faces.facing[kept], caster.faces.reversed[turned])
+    facing, turned = np.split(above, [len(caster.faces.facing)])
+    faces = CastingFaces(caster.faces.facing[facing], caster.faces.reversed[turned])
     silhouette = silhouette_of(caster.thing.mesh, faces)
     segments = caster.thing.world_positions[np.repeat(silhouette.edges, silhouette.multiplicity, axis=0)]
     triangles = caster.triangles[above]

@@ -1,18 +1,37 @@
-"""What the register says about a technique: its name, its steps, its options and where it comes from."""
+"""What the register says about a technique: its name, its steps, its options and where it comes from.
 
+An option is a keyword argument of the generator of steps and is declared there alone: its type, one sentence of help,
+the bounds of a number, and its default.
+
+    map_size: Annotated[int, "texels on a side of the map", Range(1, 8192)] = 512
+    cull: Annotated[Literal["none", "front", "back"], "faces left out of the map"] = "none"
+    reach: Annotated[float | None, "where the volume ends"] = None
+"""
+
+import inspect
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
 
 from softshadow.errors import nearest
+
+KINDS = {bool: "True or False", int: "a whole number", float: "a number", str: "a text"}
+
+
+class Range(NamedTuple):
+    """The smallest and the largest value of a number."""
+
+    minimum: float = -math.inf
+    maximum: float = math.inf
 
 
 @dataclass(frozen=True)
 class Option:
-    """One option of a technique: its default, what it may be, and one sentence of help.
+    """One option of a technique: its default, its type, one sentence of help, and which values it takes.
 
-    `kind` is bool, int, float or str; `choices` lists what a str may be; `minimum` and `maximum` bound a number. With
+    `kind` is bool, int, float or str; `choices` lists the values of a str; `minimum` and `maximum` bound a number. With
     a default of None the value is chosen to fit the scene or the other options.
     """
 
@@ -23,12 +42,12 @@ class Option:
     minimum: float = -math.inf
     maximum: float = math.inf
 
-    def checked(self, name: str, value: Any) -> Any:
-        """Return the value as this option takes it.
+    def validate(self, name: str, value: Any) -> Any:
+        """Return the value in the option's own type.
 
         Raises
         ------
-        TypeError, ValueError        naming the option, what was given and what was expected
+        TypeError, ValueError        the message names the option, the value and what was expected
         """
         kind: Any = self.kind  # a type that mypy does not narrow to
         if value is None and self.default is None:
@@ -47,10 +66,10 @@ class Option:
 
     @property
     def expected(self) -> str:
-        """What the option may be, in words."""
+        """The values that the option takes, in words."""
         if self.choices:
             return "one of " + ", ".join(self.choices)
-        words = {bool: "True or False", int: "a whole number", float: "a number", str: "a text"}[self.kind]
+        words = KINDS[self.kind]
         if math.isfinite(self.maximum):
             return f"{words} from {self.minimum:g} to {self.maximum:g}"
         return f"{words} of at least {self.minimum:g}" if math.isfinite(self.minimum) else words
@@ -65,7 +84,8 @@ Steps = Iterator[str | tuple[str, dict[str, Any]]]
 class Technique:
     """One entry of the register.
 
-    ``steps(gl, scene, *, size, **options)`` draws the technique with the calls of `gl` and yields after each step.
+    ``steps(gl, scene, *, size, **options)`` draws the technique with the calls of `gl` and yields after each step. The
+    options are those that the signature of `steps` declares, unless they are passed as a table.
     """
 
     name: str
@@ -73,20 +93,63 @@ class Technique:
     family: str
     paper: str
     steps: Callable[..., Steps]
-    options: Mapping[str, Option]
+    options: Mapping[str, Option] = None  # type: ignore[assignment]  # never None once the technique is made
 
-    def checked_options(self, given: Mapping[str, Any]) -> dict[str, Any]:
-        """Return every option of the technique, from `given` or by default.
+    def __post_init__(self) -> None:
+        if self.options is None:
+            object.__setattr__(self, "options", options_of(self.steps))
+
+    def validate_options(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Return every option of the technique, with its value from `values` or its default.
 
         Raises
         ------
-        ValueError                   an unknown option (with the nearest name), or a value outside what it may be
+        ValueError                   an unknown option (the message has the nearest name), or a value out of range
         TypeError                    a value of the wrong type
         """
-        for name in given:
+        for name in values:
             if name not in self.options:
                 raise ValueError(f"technique {self.name!r} has no option {name!r}: {nearest(name, self.options)}")
         return {
-            name: option.checked(name, given[name]) if name in given else option.default
+            name: option.validate(name, values[name]) if name in values else option.default
             for name, option in self.options.items()
         }
+
+
+def options_of(steps: Callable[..., Steps]) -> dict[str, Option]:
+    """Return the options that a generator of steps declares: its keyword arguments that have a default.
+
+    Examples
+    --------
+    >>> def steps(gl, scene, *, size, radius: Annotated[float, "of the blob", Range(0)] = 1.0, soft=False):
+    ...     yield "draw"
+    >>> options = options_of(steps)
+    >>> options["radius"]
+    Option(default=1.0, kind=<class 'float'>, help='of the blob', choices=(), minimum=0, maximum=inf)
+    >>> options["soft"].expected
+    'True or False'
+
+    Raises
+    ------
+    TypeError                    an option of another type than bool, int, float, str or a Literal of str
+    """
+    types = get_type_hints(steps, include_extras=True)
+    return {
+        name: option_of(name, types.get(name, type(parameter.default)), parameter.default)
+        for name, parameter in inspect.signature(steps).parameters.items()
+        if parameter.kind is parameter.KEYWORD_ONLY and parameter.default is not parameter.empty
+    }
+
+
+def option_of(name: str, annotation: Any, default: Any) -> Option:
+    """Return the option that an annotated keyword argument declares."""
+    kind, *metadata = get_args(annotation) if get_origin(annotation) is Annotated else (annotation,)
+    if get_origin(kind) in (Union, UnionType):
+        (kind,) = (one for one in get_args(kind) if one is not NoneType)
+    choices = get_args(kind) if get_origin(kind) is Literal else ()
+    kind = str if choices else kind
+    if kind not in KINDS:
+        raise TypeError(f"option {name}: {kind!r}; expected bool, int, float, str or a Literal of str")
+    text = next((item for item in metadata if isinstance(item, str)), "")
+    bounds = next((item for item in metadata if isinstance(item, Range)), Range())
+    return Option(default, kind, text, choices, *bounds)

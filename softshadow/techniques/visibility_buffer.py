@@ -1,6 +1,6 @@
-"""Visibility in a buffer of its own: a program writes for every pixel how much of the light it sees, as a float.
+"""Visibility in a buffer of its own: a program writes, as a float, how much of the light each pixel sees.
 
-The light is then added as it always is, times that buffer, which lies over the window like a texture.
+The light is then added as in the other techniques, times this buffer, which covers the window as a texture.
 """
 
 from collections.abc import Callable, Iterator
@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 
 from softshadow.scene import Light, Scene
-from softshadow.techniques.drawing import added, light_by, set_camera
+from softshadow.techniques import drawing
 from softshadow.techniques.map_lookups import clear_coordinates, draw_looked_up
 
 
 def visibility_texture(gl: Any, size: tuple[int, int]) -> int:
-    """Return a bound texture of the window's size that holds floats."""
+    """Return a bound float texture of the window's size."""
     name: int = gl.glGenTextures(1)
     gl.glBindTexture(gl.GL_TEXTURE_2D, name)
     for parameter, value in (
@@ -32,17 +32,17 @@ def visibility_texture(gl: Any, size: tuple[int, int]) -> int:
 def draw_visibility(
     gl: Any, scene: Scene, size: tuple[int, int], program: int, look_up: Callable[[], None], normal_bias: float = 0.0
 ) -> tuple[int, np.ndarray]:
-    """Return a texture with what a program in use writes for each pixel, and the same as (h, w, 4) float32.
+    """Return a texture that a program has filled, and its texels as (h, w, 4) float32.
 
     Parameters
     ----------
-    look_up : () -> None         binds what the program looks up, sets its uniforms and the texture matrix
+    look_up : () -> None         binds the program's textures, sets its uniforms and the texture matrix
     """
     visibility = visibility_texture(gl, size)
-    with drawn_to(gl, visibility, size):
+    with texture_and_depth_attached(gl, visibility, size):
         gl.glClearColor(1.0, 1.0, 1.0, 1.0)
         gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
-        set_camera(gl, scene.camera, size)
+        drawing.set_camera(gl, scene.camera, size)
         gl.glDisable(gl.GL_LIGHTING)
         gl.glUseProgram(program)
         look_up()
@@ -54,8 +54,8 @@ def draw_visibility(
 
 
 @contextmanager
-def drawn_to(gl: Any, texture: int, size: tuple[int, int]) -> Iterator[None]:
-    """Inside, draw into a colour texture, with a depth buffer of its own."""
+def texture_and_depth_attached(gl: Any, texture: int, size: tuple[int, int]) -> Iterator[None]:
+    """Draw into a colour texture, with a depth buffer of its own."""
     framebuffer, depths = gl.glGenFramebuffers(1), gl.glGenRenderbuffers(1)
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
     gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, depths)
@@ -69,9 +69,9 @@ def drawn_to(gl: Any, texture: int, size: tuple[int, int]) -> Iterator[None]:
 
 
 def add_light_times(gl: Any, scene: Scene, size: tuple[int, int], light: Light, visibility: int) -> None:
-    """Add a light times the alpha of a visibility texture, which is looked up where each pixel is in the window."""
-    set_camera(gl, scene.camera, size)
-    light_by(gl, scene, [light], ambient=False, cones=False)
+    """Add a light times the alpha of a visibility texture, looked up at each pixel's place in the window."""
+    drawing.set_camera(gl, scene.camera, size)
+    drawing.light_by(gl, scene, [light], ambient=False, cones=False)
     gl.glEnable(gl.GL_TEXTURE_2D)
     gl.glBindTexture(gl.GL_TEXTURE_2D, visibility)
     for parameter, value in (
@@ -84,7 +84,7 @@ def add_light_times(gl: Any, scene: Scene, size: tuple[int, int], light: Light, 
     ):
         gl.glTexEnvi(gl.GL_TEXTURE_ENV, parameter, value)
     set_window_coordinates(gl, scene, size)
-    with added(gl):
+    with drawing.additive_blending(gl):
         draw_looked_up(gl, scene.objects, shaded=True)
     clear_coordinates(gl)
     gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, gl.GL_MODULATE)
@@ -92,7 +92,7 @@ def add_light_times(gl: Any, scene: Scene, size: tuple[int, int], light: Light, 
 
 
 def set_window_coordinates(gl: Any, scene: Scene, size: tuple[int, int]) -> None:
-    """Set the texture matrix: the world to the window, whose width and height are 1."""
+    """Set the texture matrix: world space to the window, whose width and height are 1."""
     camera = scene.camera
     gl.glMatrixMode(gl.GL_TEXTURE)
     gl.glLoadIdentity()
@@ -104,7 +104,7 @@ def set_window_coordinates(gl: Any, scene: Scene, size: tuple[int, int]) -> None
 
 
 def set_uniforms(gl: Any, program: int, **values: float | tuple[float, ...]) -> None:
-    """Set the float, int and vec3 uniforms of the program in use."""
+    """Set uniforms of the program in use; their types are float, int or vec3."""
     for name, value in values.items():
         location = gl.glGetUniformLocation(program, name)
         if isinstance(value, tuple):

@@ -19,7 +19,7 @@ def draw(gl: Any, failure: Failure) -> None:
     setting = failure.with_failure
     technique = setting.technique if isinstance(setting.technique, Technique) else techniques.get(setting.technique)
     scene = setting.make_scene() if setting.make_scene else failure.scene
-    options = technique.checked_options(setting.options)
+    options = technique.validate_options(setting.options)
     for _ in recorded(technique, setting.changes, []).steps(gl, scene, size=SIZE, **options):
         pass
 

@@ -19,7 +19,7 @@ def draw(name: str, scene: str) -> list[np.ndarray]:
     """Return colour, depth and stencil of a technique drawn in a context of its own."""
     technique = techniques.get(name)
     with gl.create_context(*SIZE):
-        for _ in technique.steps(gl, Scene.named(scene), size=SIZE, **technique.checked_options({})):
+        for _ in technique.steps(gl, Scene.named(scene), size=SIZE, **technique.validate_options({})):
             pass
         return [
             gl.glReadPixels(0, 0, *SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE),

@@ -56,7 +56,7 @@ def program(gl: Any, name: str, scene: Scene, size: tuple[int, int], options: di
     technique = techniques.get(name)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        for item in technique.steps(listening, scene, size=size, **technique.checked_options(options)):
+        for item in technique.steps(listening, scene, size=size, **technique.validate_options(options)):
             title, maps = (item, {}) if isinstance(item, str) else item
             drawn.titles.append(title)
             drawn.maps |= maps
@@ -78,6 +78,16 @@ def run(function: Callable[[Any], Any], size: tuple[int, int] = SIZE, precision:
     """Call a function with the namespace of a fresh context."""
     with gl.create_context(*size, precision=precision):
         return function(gl)
+
+
+def begin_count(gl: Any) -> None:
+    """Let draws change the stencil buffer alone, as in step 2 of the shadow volumes."""
+    gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
+    gl.glEnable(gl.GL_STENCIL_TEST)
+    gl.glEnable(gl.GL_CULL_FACE)
+    gl.glDepthMask(gl.GL_FALSE)
+    gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
+    gl.glStencilFunc(gl.GL_ALWAYS, 0, 0xFF)
 
 
 # -- ray casting -------------------------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from softshadow.scene import Camera, Light, Mesh, Scene, SceneObject, placement,
 from softshadow.techniques import detail_polygons
 from softshadow.techniques.detail_polygons import DetailPolygons, shadow_polygons
 from softshadow.techniques.lit_faces import reached_faces, turned_triangles
-from softshadow.techniques.plane_sweep import cover
+from softshadow.techniques.plane_sweep import triangulate_nonzero
 from softshadow.truth import casting_faces_between
 from strategies import floor_scenes
 
@@ -74,11 +74,11 @@ def covered(corners: np.ndarray, polygons: np.ndarray, lit: bool) -> np.ndarray:
     loops = polygons[:, :, plane]
     chain = np.stack([loops, np.roll(loops, -1, axis=1)], axis=2).reshape(-1, 2, 2)
     low, high = corners[:, plane[1]].min(), corners[:, plane[1]].max()
-    once = cover(chain, low, high)
+    once = triangulate_nonzero(chain, low, high)
     if lit:
         # around the face once, and around what is covered once against it
         loops = np.concatenate([corners[None][:, :, plane], once[:, ::-1] if normal[axis] > 0 else once])
-        once = cover(np.stack([loops, np.roll(loops, -1, axis=1)], axis=2).reshape(-1, 2, 2), low, high)
+        once = triangulate_nonzero(np.stack([loops, np.roll(loops, -1, axis=1)], axis=2).reshape(-1, 2, 2), low, high)
     in_space = np.empty((len(once), 3, 3))
     in_space[:, :, plane] = once
     in_space[:, :, axis] = ((normal @ corners[0]) - once @ normal[plane]) / normal[axis]

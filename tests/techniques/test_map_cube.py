@@ -91,7 +91,7 @@ def test_slope_factor_one_is_enough_on_every_face() -> None:
 
 
 def test_a_light_at_infinity_has_no_inside() -> None:
-    with pytest.raises(SceneError, match="sun: is a light at infinity; map-cube expected points"):
+    with pytest.raises(SceneError, match="'sun' is at infinity; map-cube expected point lights"):
         draw("map-cube", Scene.named("sunlight"))
 
 

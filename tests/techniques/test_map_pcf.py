@@ -57,6 +57,6 @@ def test_light_is_added_in_proportion_to_the_visibility() -> None:
 
 
 def test_a_square_needs_a_middle() -> None:
-    options = get("map-pcf").checked_options({"kernel": 4})
+    options = get("map-pcf").validate_options({"kernel": 4})
     with pytest.raises(ValueError, match="option kernel=4: expected an odd number"):
         run(lambda gl: next(iter(get("map-pcf").steps(gl, SLOPE, size=(8, 8), **options))))

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from softshadow.errors import NearClipZPass
 from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shapes
-from softshadow.techniques.near_rectangle import counts_by_rays, near_rectangle, seen_edge_on, shadows_near_rectangle
+from softshadow.techniques.near_rectangle import corners, counts_by_rays, seen_edge_on, shadows_near_rectangle
 from strategies import coordinates, scenes_from_within
 from techniques.drawn_frames import SIZE, draw
 
@@ -35,7 +35,7 @@ def test_a_light_in_the_near_plane_is_shadowed_where_rays_are(
 ) -> None:
     camera = Camera((0, 0, 1), (0, 0, 0), near=0.8)
     source, caster = Light(light), SceneObject(BOX, placement(np.add(move, (0, 2.5, 0.2))), name="box")
-    assert far == "clamp" or seen_edge_on(source, near_rectangle(camera, SIZE, far))
+    assert far == "clamp" or seen_edge_on(source, corners(camera, SIZE, far))
     reached = counts_by_rays(camera, source, [caster], SIZE, far).any()
     said = shadows_near_rectangle(caster, source, camera, SIZE, far)
     # where it is not seen edge-on, also points of the rectangle between the pixels' count

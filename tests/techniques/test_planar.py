@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
+from softshadow import techniques
 from softshadow.errors import SceneError
 from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shapes
 from softshadow.techniques import planar
 from strategies import floor_scenes
 from techniques.drawn_frames import SIZE, cast_rays, draw, off_the_edges
 
-METHODS = planar.OPTIONS["method"].choices
+METHODS = techniques.get("planar").options["method"].choices
 
 FLOOR = SceneObject(shapes.floor(4), casts=False, receives=True, name="floor")
 BOX = SceneObject(shapes.box(0.8), placement((0, 1, 0)), name="box")

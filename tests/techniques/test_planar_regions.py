@@ -31,7 +31,7 @@ def painted(scene: Scene, depth_clamp: bool = False, **options: Any) -> np.ndarr
         if depth_clamp:
             gl.glEnable(gl.GL_DEPTH_CLAMP)
         planar = get("planar")
-        given = planar.checked_options({"method": "depth-off", **options})
+        given = planar.validate_options({"method": "depth-off", **options})
         for title in planar.steps(gl, scene, size=SIZE, **given):
             if title == PAINT:
                 return gl.glReadPixels(0, 0, *SIZE, gl.GL_STENCIL_INDEX, gl.GL_UNSIGNED_BYTE)

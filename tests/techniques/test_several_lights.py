@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 
 from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shapes
-from softshadow.techniques.drawing import added, begin_frame, draw_objects, light_ambient_only, light_by, set_camera
+from softshadow.techniques import drawing
 from strategies import floor_scenes
 from techniques.drawn_frames import SIZE, cast_rays, draw, run
 
@@ -38,16 +38,16 @@ def parts_of(scene: Scene) -> list[np.ndarray]:
     """Return the picture by ambient light alone, then what each light adds without shadows; (h, w, 3) float64."""
 
     def program(gl: Any) -> list[np.ndarray]:
-        begin_frame(gl, replace(scene, background=(0, 0, 0)))
-        set_camera(gl, scene.camera, SIZE)
-        light_ambient_only(gl, scene)
-        draw_objects(gl, scene.objects)
+        drawing.begin_frame(gl, replace(scene, background=(0, 0, 0)))
+        drawing.set_camera(gl, scene.camera, SIZE)
+        drawing.light_ambient_only(gl, scene)
+        drawing.draw_objects(gl, scene.objects)
         parts = [gl.glReadPixels(0, 0, *SIZE, gl.GL_RGB, gl.GL_UNSIGNED_BYTE).astype(float)]
         for light in scene.lights:
             gl.glClear(gl.GL_COLOR_BUFFER_BIT)
-            light_by(gl, scene, [light], ambient=False)
-            with added(gl):
-                draw_objects(gl, scene.objects)
+            drawing.light_by(gl, scene, [light], ambient=False)
+            with drawing.additive_blending(gl):
+                drawing.draw_objects(gl, scene.objects)
             parts.append(gl.glReadPixels(0, 0, *SIZE, gl.GL_RGB, gl.GL_UNSIGNED_BYTE).astype(float))
         return parts
 

@@ -13,9 +13,8 @@ from softshadow.errors import NearClipZPass
 from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shapes
 from softshadow.techniques import drawing, start_value
 from softshadow.techniques.near_rectangle import eye_count, near_counts
-from softshadow.techniques.shadow_volumes import begin_count
 from strategies import scenes_from_within
-from techniques.drawn_frames import SIZE, cast_rays, draw, off_the_edges, run
+from techniques.drawn_frames import SIZE, begin_count, cast_rays, draw, off_the_edges, run
 
 COUNTED, COUNTED_BY_ZFAIL = "count back faces", "count front faces"
 SHADOWED, CUT = Scene.named("eye-in-shadow"), Scene.named("near-cut")

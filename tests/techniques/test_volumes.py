@@ -10,9 +10,9 @@ from hypothesis import assume, given, settings
 from softshadow.errors import CounterSaturated, NearClipZPass
 from softshadow.scene import Camera, Light, Mesh, Scene, SceneObject, placement, scene_names, shapes
 from softshadow.techniques import drawing
-from softshadow.techniques.shadow_volumes import begin_count, draw_volumes, volumes_of
+from softshadow.techniques.shadow_volumes import draw_volumes, volumes_of
 from strategies import coordinates, floor_scenes, open_meshes
-from techniques.drawn_frames import SIZE, Drawn, cast_rays, draw, off_the_edges, run
+from techniques.drawn_frames import SIZE, Drawn, begin_count, cast_rays, draw, off_the_edges, run
 
 FLOOR = SceneObject(shapes.floor(12), casts=False, receives=True, name="floor")
 BOX = SceneObject(shapes.box(0.8), placement((0, 1, 0)), name="box")

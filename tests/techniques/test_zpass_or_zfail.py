@@ -13,10 +13,10 @@ from softshadow.errors import NearClipZPass
 from softshadow.scene import Camera, Light, Scene, SceneObject, placement, scene_names, shapes
 from softshadow.techniques import drawing
 from softshadow.techniques.near_rectangle import shadows_near_rectangle
-from softshadow.techniques.shadow_volumes import begin_count, volumes_of
+from softshadow.techniques.shadow_volumes import volumes_of
 from softshadow.techniques.zpass_or_zfail import Counting, split_plane
 from strategies import coordinates, scenes_from_within
-from techniques.drawn_frames import SIZE, draw, run
+from techniques.drawn_frames import SIZE, begin_count, draw, run
 
 TWO = ["volume-zpass", "volume-zfail"]
 
@@ -54,7 +54,7 @@ def test_casters_that_do_not_reach_the_near_rectangle_are_counted_either_way(
         begin_count(gl)
         ops = (gl.GL_INCR, gl.GL_DECR) if saturate else (gl.GL_INCR_WRAP, gl.GL_DECR_WRAP)
         counting = Counting(*ops, two_sided=False, caps=True, finite=False)
-        for item, passing in zip(volumes_of(scene, light, "silhouette", "infinite", None), choice, strict=False):
+        for item, passing in zip(volumes_of(scene, light), choice, strict=False):
             reached = shadows_near_rectangle(item.caster, light, scene.camera, SIZE, "infinite")
             (counting.where_passing if passing and not reached else counting.where_failing)(gl, [item])
         return drawing.read_stencil(gl, SIZE)
