@@ -60,7 +60,7 @@ def steps(
         "what is stored: the nearest surface, the nearest turned away (back), or the middle of first and second",
     ] = "front",
     filter: Annotated[
-        Literal["nearest", "linear"], "one comparison, or four that are weighted and decided by a half"
+        Literal["nearest", "linear"], "one comparison, or four weighted ones, lit from a half on"
     ] = "nearest",
     storage: Annotated[Storage, "draw into the texture itself, or into the window and copy"] = "framebuffer",
 ) -> Steps:

@@ -1,4 +1,4 @@
-"""Planar shadows kept in a texture on each receiver, the fifth method of `planar`.
+"""Planar shadows in a texture on each receiver, the fifth method of `planar`.
 
 The casters are flattened into the receiver's own coordinates (u, v) instead of onto the screen; then the texture is
 laid over the receiver. It is drawn once and stays right as long as light, casters and receiver do not move (E56):

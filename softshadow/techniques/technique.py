@@ -93,7 +93,7 @@ class Technique:
     family: str
     paper: str
     steps: Callable[..., Steps]
-    options: Mapping[str, Option] = None  # type: ignore[assignment]  # never None once the technique is made
+    options: Mapping[str, Option] = None  # type: ignore[assignment]  # filled in below
 
     def __post_init__(self) -> None:
         if self.options is None:

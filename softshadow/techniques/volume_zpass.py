@@ -63,8 +63,8 @@ def steps(
 
         # step 2 (Pasul 2): entering a volume before the visible surface counts up
         gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
-        gl.glEnable(gl.GL_STENCIL_TEST)  # E1: without these two nothing is counted
-        gl.glEnable(gl.GL_CULL_FACE)
+        gl.glEnable(gl.GL_STENCIL_TEST)  # E1: the slide has this in step 4 only,
+        gl.glEnable(gl.GL_CULL_FACE)  # and this nowhere
         gl.glDepthMask(gl.GL_FALSE)
         gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
         gl.glStencilFunc(gl.GL_ALWAYS, 0, 0xFF)

@@ -44,7 +44,7 @@ def test_json_tells_where_the_page_is() -> None:
     assert (answer["index"], answer["scene"], answer["size"]) == ("t/index.html", "lesson", [24, 18])
     # the sun is a light at infinity, which has no inside: one stop is left out, and the page says so
     assert answer["runs"] == len(STOPS) - 1
-    assert "map-cube expected points" in Path("t/index.html").read_text()
+    assert "map-cube expected point lights" in Path("t/index.html").read_text()
 
 
 def test_folder_of_somebody_else_needs_force_and_keeps_its_files() -> None:

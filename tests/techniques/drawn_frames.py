@@ -71,10 +71,10 @@ def program(gl: Any, name: str, scene: Scene, size: tuple[int, int], options: di
 
 def draw(name: str, scene: Scene, size: tuple[int, int] = SIZE, precision: str = "mesa", **options: Any) -> Drawn:
     """Draw a technique with softshadow's own pipeline."""
-    return run(lambda gl: program(gl, name, scene, size, options), size, precision)
+    return in_context(lambda gl: program(gl, name, scene, size, options), size, precision)
 
 
-def run(function: Callable[[Any], Any], size: tuple[int, int] = SIZE, precision: str = "mesa") -> Any:
+def in_context(function: Callable[[Any], Any], size: tuple[int, int] = SIZE, precision: str = "mesa") -> Any:
     """Call a function with the namespace of a fresh context."""
     with gl.create_context(*size, precision=precision):
         return function(gl)

@@ -5,7 +5,7 @@ import pytest
 
 from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shapes
 from softshadow.techniques import get
-from techniques.drawn_frames import cast_rays, draw, run
+from techniques.drawn_frames import cast_rays, draw, in_context
 
 ROOF = SceneObject(shapes.floor(2, 1), placement((0, 1, 0), (35, 1, 0, 0.3)), receives=True, name="roof")
 SLOPE = Scene("slope", Camera((3, 4, 6), (0, 1, 0), fov_y=20, near=1, far=30), (Light((-2.5, 5, 1)),), (ROOF,))
@@ -59,4 +59,4 @@ def test_light_is_added_in_proportion_to_the_visibility() -> None:
 def test_a_square_needs_a_middle() -> None:
     options = get("map-pcf").validate_options({"kernel": 4})
     with pytest.raises(ValueError, match="option kernel=4: expected an odd number"):
-        run(lambda gl: next(iter(get("map-pcf").steps(gl, SLOPE, size=(8, 8), **options))))
+        in_context(lambda gl: next(iter(get("map-pcf").steps(gl, SLOPE, size=(8, 8), **options))))

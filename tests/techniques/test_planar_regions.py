@@ -12,7 +12,7 @@ from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shape
 from softshadow.techniques import get
 from softshadow.truth import casting_faces_between
 from strategies import floor_scenes
-from techniques.drawn_frames import SIZE, cast_rays, draw, off_the_edges, run
+from techniques.drawn_frames import SIZE, cast_rays, draw, in_context, off_the_edges
 
 FLOOR = SceneObject(shapes.floor(8), casts=False, receives=True, name="floor")
 BOX = SceneObject(shapes.box(0.8), placement((0, 1, 0)), name="box")
@@ -37,7 +37,7 @@ def painted(scene: Scene, depth_clamp: bool = False, **options: Any) -> np.ndarr
                 return gl.glReadPixels(0, 0, *SIZE, gl.GL_STENCIL_INDEX, gl.GL_UNSIGNED_BYTE)
         raise AssertionError(f"no step {PAINT!r}")
 
-    return run(program)
+    return in_context(program)
 
 
 @settings(max_examples=8)

@@ -10,7 +10,7 @@ import softshadow as ss
 from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shapes
 from softshadow.techniques import Technique
 from softshadow.techniques.planar_texture import delete_textures, draw, shadow_textures
-from techniques.drawn_frames import SIZE, run
+from techniques.drawn_frames import SIZE, in_context
 from techniques.drawn_frames import draw as drawn_by
 
 FLOOR = SceneObject(shapes.floor(4), casts=False, receives=True, name="floor")
@@ -31,7 +31,7 @@ def test_textures_drawn_once_give_every_camera_the_picture_of_its_own() -> None:
         delete_textures(gl, shadows)
         return pictures
 
-    for camera, picture in zip(CAMERAS, run(program), strict=True):
+    for camera, picture in zip(CAMERAS, in_context(program), strict=True):
         assert (picture == drawn_by("planar", replace(SCENE, camera=camera), method="texture").image).all()
 
 

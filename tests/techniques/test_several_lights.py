@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shapes
 from softshadow.techniques import drawing
 from strategies import floor_scenes
-from techniques.drawn_frames import SIZE, cast_rays, draw, run
+from techniques.drawn_frames import SIZE, cast_rays, draw, in_context
 
 ADDING: list[tuple[str, dict[str, Any]]] = [
     ("planar", {"method": "stencil"}),
@@ -51,7 +51,7 @@ def parts_of(scene: Scene) -> list[np.ndarray]:
             parts.append(gl.glReadPixels(0, 0, *SIZE, gl.GL_RGB, gl.GL_UNSIGNED_BYTE).astype(float))
         return parts
 
-    return run(program)
+    return in_context(program)
 
 
 @pytest.mark.parametrize(("technique", "options"), ADDING)

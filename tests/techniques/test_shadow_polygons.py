@@ -13,7 +13,7 @@ from softshadow.techniques import shadow_polygons as technique
 from softshadow.techniques.detail_polygons import FORMS, shadow_polygons
 from softshadow.techniques.planar import DARKNESS
 from strategies import floor_scenes
-from techniques.drawn_frames import SIZE, cast_rays, draw, off_the_edges, run
+from techniques.drawn_frames import SIZE, cast_rays, draw, in_context, off_the_edges
 
 FLOOR = SceneObject(shapes.floor(8), casts=False, receives=True, name="floor")
 BOX = SceneObject(shapes.box(0.8), placement((0, 1, 0), (-20, 0, 1, 0)), name="box")
@@ -86,7 +86,7 @@ def test_polygons_made_once_serve_every_camera() -> None:
                 pass
             return gl.glReadPixels(0, 0, *SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
 
-        assert (run(program) == draw("shadow-polygons", scene).image).all()
+        assert (in_context(program) == draw("shadow-polygons", scene).image).all()
 
 
 def test_the_back_of_a_sheet_is_dark_and_its_front_is_lit() -> None:

@@ -14,7 +14,7 @@ from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shape
 from softshadow.techniques import drawing, start_value
 from softshadow.techniques.near_rectangle import eye_count, near_counts
 from strategies import scenes_from_within
-from techniques.drawn_frames import SIZE, begin_count, cast_rays, draw, off_the_edges, run
+from techniques.drawn_frames import SIZE, begin_count, cast_rays, draw, in_context, off_the_edges
 
 COUNTED, COUNTED_BY_ZFAIL = "count back faces", "count front faces"
 SHADOWED, CUT = Scene.named("eye-in-shadow"), Scene.named("near-cut")
@@ -135,7 +135,7 @@ def test_written_stencil_values_are_read_back(values: np.ndarray) -> None:
         start_value.write_stencil(gl, values, SIZE)
         return drawing.read_stencil(gl, SIZE)
 
-    assert (run(program) == values).all()
+    assert (in_context(program) == values).all()
 
 
 def test_a_count_that_the_buffer_does_not_hold_wraps_or_stops() -> None:
@@ -143,4 +143,4 @@ def test_a_count_that_the_buffer_does_not_hold_wraps_or_stops() -> None:
         wrapped = start_value.limited(gl, 258, (gl.GL_INCR_WRAP, gl.GL_DECR_WRAP))
         return wrapped, start_value.limited(gl, 258, (gl.GL_INCR, gl.GL_DECR))
 
-    assert run(program) == (2, 255)
+    assert in_context(program) == (2, 255)

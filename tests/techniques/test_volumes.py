@@ -12,7 +12,7 @@ from softshadow.scene import Camera, Light, Mesh, Scene, SceneObject, placement,
 from softshadow.techniques import drawing
 from softshadow.techniques.shadow_volumes import draw_volumes, volumes_of
 from strategies import coordinates, floor_scenes, open_meshes
-from techniques.drawn_frames import SIZE, Drawn, begin_count, cast_rays, draw, off_the_edges, run
+from techniques.drawn_frames import SIZE, Drawn, begin_count, cast_rays, draw, in_context, off_the_edges
 
 FLOOR = SceneObject(shapes.floor(12), casts=False, receives=True, name="floor")
 BOX = SceneObject(shapes.box(0.8), placement((0, 1, 0)), name="box")
@@ -88,7 +88,7 @@ def test_a_light_cap_nowhere_passes_over_its_own_surface(generator: str, eye: tu
         draw_volumes(gl, volumes, sides=False, dark_caps=False)
         return passed, drawing.read_stencil(gl, SIZE)
 
-    passed, equal = run(program)
+    passed, equal = in_context(program)
     assert not passed.any()
     assert equal.any()
 

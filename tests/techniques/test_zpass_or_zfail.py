@@ -16,7 +16,7 @@ from softshadow.techniques.near_rectangle import shadows_near_rectangle
 from softshadow.techniques.shadow_volumes import volumes_of
 from softshadow.techniques.zpass_or_zfail import Counting, split_plane
 from strategies import coordinates, scenes_from_within
-from techniques.drawn_frames import SIZE, begin_count, draw, run
+from techniques.drawn_frames import SIZE, begin_count, draw, in_context
 
 TWO = ["volume-zpass", "volume-zfail"]
 
@@ -59,7 +59,7 @@ def test_casters_that_do_not_reach_the_near_rectangle_are_counted_either_way(
             (counting.where_passing if passing and not reached else counting.where_failing)(gl, [item])
         return drawing.read_stencil(gl, SIZE)
 
-    assert (run(program) == counts("volume-zfail", scene)).all()
+    assert (in_context(program) == counts("volume-zfail", scene)).all()
 
 
 @pytest.mark.parametrize("name", TWO)
