@@ -1,8 +1,8 @@
 """Own and cast shadows as detail polygons, drawn over the faces they lie on.
 
-A face turned away from the light is dark as a whole; onto a face turned towards the light, the faces in front of it are
-flattened, and cut at its edges. No camera is needed for that: `shadow_polygons` computes the polygons, and `draw` draws
-them from any camera. They lie in the planes of the faces, so the depth test cannot decide between the two: `offset`
+A face turned away from the light is dark as a whole. The faces between the light and a face turned towards it are
+flattened onto that face and cut at its edges. This needs no camera: `shadow_polygons` computes the polygons, and `draw`
+draws them from any camera. They lie in the planes of the faces, so the depth test cannot decide between the two: `offset`
 moves the polygons a little nearer, `decal` marks each face first and draws its polygons there without the depth test.
 
 Paper: Atherton, Weiler & Greenberg 1978, "Polygon shadow generation".
