@@ -2,8 +2,9 @@
 
 A face turned away from the light is dark as a whole. The faces between the light and a face turned towards it are
 flattened onto that face and cut at its edges. This needs no camera: `shadow_polygons` computes the polygons, and `draw`
-draws them from any camera. They lie in the planes of the faces, so the depth test cannot decide between the two: `offset`
-moves the polygons a little nearer, `decal` marks each face first and draws its polygons there without the depth test.
+draws them from any camera. They lie in the planes of the faces, so the depth test cannot decide between the two:
+`offset` moves the polygons a little nearer, `decal` marks each face first and draws its polygons there without the
+depth test.
 
 Paper: Atherton, Weiler & Greenberg 1978, "Polygon shadow generation".
 Slides: Moldoveanu "umbre 1", own- and cast-shadow polygons, added to the faces as detail polygons.
