@@ -17,15 +17,21 @@ from softshadow.jit import kernel, read_only
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.clip import CUT, INSIDE, OUTSIDE, clip_triangles, write_sides
 from softshadow.pipeline.geometry.draw_primitives import triangles_of
-from softshadow.pipeline.geometry.geometry import Positions, has_float_units, offset_in, positions_of, stored_rows
+from softshadow.pipeline.geometry.geometry import (
+    Positions,
+    filled_offset,
+    has_float_units,
+    positions_of,
+    window_transform,
+)
 from softshadow.pipeline.geometry.triangle_setup import (
     add_float_units,
-    drawn_facing,
-    room_for,
+    empty_setup,
     set_up_triangles,
     snapped_vertices,
+    stored_culling,
 )
-from softshadow.pipeline.geometry.vertex import to_window, with_rows
+from softshadow.pipeline.geometry.vertex import append_rows, to_window
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.raster.region import region_of
 from softshadow.pipeline.records import Region, Setup
@@ -76,8 +82,8 @@ class ClippedTriangles(NamedTuple):
 def chunks_of(command: Draw, target: Framebuffer) -> Iterator[Chunk]:
     """Yield the triangles of a draw without colours (`choose.writes_no_colors`)."""
     window, clipped = _clipped(command, target, positions_of(command, target))
-    (snapped, (first_row, end_row)), offset = snapped_vertices(window), offset_in(command, target)
-    facing, units = drawn_facing(command.state.cull, target.flipped), command.state.polygon.units
+    (snapped, (first_row, end_row)), offset = snapped_vertices(window), filled_offset(command, target)
+    facing, units = stored_culling(command.state.cull, target.flipped), command.state.polygon.units
     region = region_of(command.state, target)
     region = region._replace(first_row=max(region.first_row, first_row), end_row=min(region.end_row, end_row))
     if region.first_row >= region.end_row:
@@ -85,7 +91,7 @@ def chunks_of(command: Draw, target: Framebuffer) -> Iterator[Chunk]:
     for begin in range(0, len(clipped.triangles), CHUNK_TRIANGLES):
         parts = [(begin + a, begin + b) for a, b in parts_of(min(CHUNK_TRIANGLES, len(clipped.triangles) - begin))]
         places = np.cumsum([0, *(clipped.most(*part) for part in parts)]).tolist()
-        setup = room_for(places[-1], window.dtype)
+        setup = empty_setup(places[-1], window.dtype)
 
         def set_up_part(n: int, setup: Setup = setup, parts: list = parts, places: list = places) -> tuple[int, int]:
             visible = clipped.visible(*parts[n])
@@ -116,7 +122,7 @@ def _clipped(command: Draw, target: Framebuffer, positions: Positions) -> tuple[
     clipped = clip_triangles(clip[corners], np.empty((len(corners), 0), clip.dtype), own, codes[corners], planes)
     starts = np.searchsorted(clipped.source, np.arange(len(cut) + 1))
     pieces = clipped.triangles + np.int32(len(window))
-    window = with_rows(window, to_window(clipped.clip, *stored_rows(command, target)))
+    window = append_rows(window, to_window(clipped.clip, *window_transform(command, target)))
     return window, ClippedTriangles(triangles, sides, cut, pieces, starts)
 
 

@@ -1,17 +1,17 @@
-"""Primitive assembly: which vertices make which triangle, in GL's order."""
+"""Primitive assembly: the triangles of each primitive, in GL's order."""
 
 from typing import NamedTuple
 
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.pipeline.mesa.quad_cuts import quads_of
+from softshadow.pipeline.mesa.quad_cuts import quads_and_stride
 
 
 class Triangles(NamedTuple):
-    """corners (T, 3) int32 vertex numbers in drawing order;
+    """Assembled triangles.
 
-    Provoking (T,) int32: the vertex that gives flat colours.
+    corners (T, 3) int32: vertex numbers, in drawing order; provoking (T,) int32: the vertex that gives flat colours.
     """
 
     corners: np.ndarray
@@ -23,19 +23,21 @@ class Triangles(NamedTuple):
 QUAD = ((0, 1, 2, 3), (0, 2, 3, 3))
 QUAD_ACROSS = ((0, 1, 3, 3), (1, 2, 3, 3))  # cut along the other diagonal
 QUAD_OF_STRIP = ((0, 1, 3, 3), (2, 0, 3, 3))
-CLIPPED_QUAD_OF_STRIP = ((2, 0, 3, 3), (0, 1, 3, 3))  # the same cut, but the other triangle comes first
+CLIPPED_QUAD_OF_STRIP = ((2, 0, 3, 3), (0, 1, 3, 3))  # the same diagonal, but the other triangle comes first
 STRIP_PAIR = ((0, 1, 2, 2), (2, 1, 3, 3))  # the odd triangle is (i+1, i, i+2), so that both turn the same way
 
 
-def assemble(mode: int, count: int, clipped: np.ndarray | None = None, across: bool = False) -> Triangles:
-    """Return the triangles that `count` vertices make; vertices that complete no primitive are dropped.
+def assemble(
+    mode: int, n_vertices: int, in_clipped_segment: np.ndarray | None = None, across: bool = False
+) -> Triangles:
+    """Return the triangles that a number of vertices make; incomplete primitives are dropped.
 
     Parameters
     ----------
     mode : GL_TRIANGLES ... GL_POLYGON
-    clipped : (quads,) bool, optional
-        For quads and quad strips: which of them are drawn in a batch that is clipped; they are cut in Mesa's other way
-        (draw_decompose_tmp.h).
+    in_clipped_segment : (Q,) bool, optional
+        For quads and quad strips: which of them lie in a segment with a vertex that needs clipping. Mesa cuts these in
+        another way (draw_decompose_tmp.h).
     across : bool
         Cut all quads along the other diagonal, as Mesa does for indexed and flat-shaded ones.
 
@@ -44,14 +46,14 @@ def assemble(mode: int, count: int, clipped: np.ndarray | None = None, across: b
     GL 2.1, sec. 2.6.1 (primitives) and 2.14.7 (flat shading).
     """
     if mode == gl.GL_TRIANGLES:
-        return separate(np.arange(count, dtype=np.int32))
+        return separate_triangles(np.arange(n_vertices, dtype=np.int32))
     if mode in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
-        rows = _quads(mode, count, clipped, across)
+        rows = _quads(mode, n_vertices, in_clipped_segment, across)
     elif mode == gl.GL_TRIANGLE_STRIP:
-        triangles = max(count - 2, 0)
-        rows = _repeat(STRIP_PAIR, (triangles + 1) // 2, 2)[:triangles]
+        n_triangles = max(n_vertices - 2, 0)
+        rows = _repeat(STRIP_PAIR, (n_triangles + 1) // 2, 2)[:n_triangles]
     else:
-        middle = np.arange(1, max(count - 1, 1), dtype=np.int32)
+        middle = np.arange(1, max(n_vertices - 1, 1), dtype=np.int32)
         first = np.zeros_like(middle)
         fan = (middle, middle + 1, first, first) if mode == gl.GL_POLYGON else (first, middle, middle + 1, middle + 1)
         rows = np.stack(fan, axis=1)
@@ -59,19 +61,19 @@ def assemble(mode: int, count: int, clipped: np.ndarray | None = None, across: b
     return Triangles(np.ascontiguousarray(rows[:, :3]), np.ascontiguousarray(rows[:, 3]))
 
 
-def separate(order: np.ndarray) -> Triangles:
-    """Return the triangles that each three vertices of `order` (N,) make, as views of it: a mesh may have millions."""
+def separate_triangles(order: np.ndarray) -> Triangles:
+    """Return a triangle for each three vertices of `order` (N,), as views of it: a mesh may have millions."""
     corners = order[: len(order) // 3 * 3].reshape(-1, 3)
     return Triangles(corners, corners[:, 2])
 
 
-def edge_flags(mode: int, triangles: int) -> np.ndarray:
-    """Return which edges of the assembled triangles, from corner i to i + 1, are edges of the primitives.
+def edge_flags(mode: int, n_triangles: int) -> np.ndarray:
+    """Return which edges of the assembled triangles are edges of the primitives.
 
-    (T, 3) uint8; quads are cut as in a clipped batch. glPolygonMode does not draw the diagonals of quads and polygons,
-    but it does draw what lies between the triangles of a strip or fan.
+    (T, 3) uint8, for the edges from corner i to corner i + 1; quads are cut as in a clipped segment. glPolygonMode does
+    not draw the diagonals of quads and polygons, but it draws the edges between the triangles of a strip or fan.
     """
-    edges = np.ones((triangles, 3), np.uint8)
+    edges = np.ones((n_triangles, 3), np.uint8)
     if mode in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
         edges[0::2, 1] = edges[1::2, 2] = 0
     elif mode == gl.GL_POLYGON:
@@ -79,18 +81,18 @@ def edge_flags(mode: int, triangles: int) -> np.ndarray:
     return edges
 
 
-def _quads(mode: int, count: int, clipped: np.ndarray | None, across: bool) -> np.ndarray:
-    whole, cut = (QUAD, QUAD_ACROSS) if mode == gl.GL_QUADS else (QUAD_OF_STRIP, CLIPPED_QUAD_OF_STRIP)
-    quads, stride = quads_of(mode, count)
-    rows = _repeat(QUAD_ACROSS if across and mode == gl.GL_QUADS else whole, quads, stride)
-    if clipped is not None:
-        chosen = np.repeat(clipped, 2)
-        rows[chosen] = _repeat(cut, quads, stride)[chosen]
+def _quads(mode: int, n_vertices: int, in_clipped_segment: np.ndarray | None, across: bool) -> np.ndarray:
+    unclipped_cut, clipped_cut = (QUAD, QUAD_ACROSS) if mode == gl.GL_QUADS else (QUAD_OF_STRIP, CLIPPED_QUAD_OF_STRIP)
+    n_quads, stride = quads_and_stride(mode, n_vertices)
+    rows = _repeat(QUAD_ACROSS if across and mode == gl.GL_QUADS else unclipped_cut, n_quads, stride)
+    if in_clipped_segment is not None:
+        triangle_rows = np.repeat(in_clipped_segment, 2)
+        rows[triangle_rows] = _repeat(clipped_cut, n_quads, stride)[triangle_rows]
     return rows
 
 
-def _repeat(pattern: tuple[tuple[int, ...], ...], primitives: int, stride: int) -> np.ndarray:
-    first = np.arange(primitives, dtype=np.int32) * stride
+def _repeat(pattern: tuple[tuple[int, ...], ...], n_primitives: int, stride: int) -> np.ndarray:
+    first = np.arange(n_primitives, dtype=np.int32) * stride
     return (first[:, None, None] + np.array(pattern, np.int32)).reshape(-1, 4)
 
 

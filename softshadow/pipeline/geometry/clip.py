@@ -1,7 +1,7 @@
 """Clipping in homogeneous space, before the division: left, right, bottom, top, near, far.
 
-There is no guard band: x and y are clipped exactly to the frustum, as llvmpipe does, because the last bits of what is
-interpolated depend on where the pieces end (docs/exactness.md, 2).
+There is no guard band: x and y are clipped exactly to the frustum, as llvmpipe does, because the last bits of
+interpolated values depend on the corners of the pieces (docs/exactness.md, 2).
 """
 
 from typing import NamedTuple
@@ -23,11 +23,11 @@ ADDED_PER_PLANE = 2  # a plane cuts a convex polygon in two new vertices
 
 
 class Clipped(NamedTuple):
-    """What is left after clipping.
+    """The pieces that clipping leaves.
 
     clip (V', 4) and values (V', k): the vertices, the old ones first and unchanged; triangles (T', 3) int32, lines
     (T', 2), points (T', 1); source (T',) int32: which input primitive each is a piece of; edges (T', 3) uint8: which
-    edges of triangles, from corner i to corner i + 1, are edges of what was drawn.
+    edges of triangles, from corner i to corner i + 1, are edges of the drawn primitives.
     """
 
     clip: np.ndarray
@@ -51,11 +51,11 @@ def clip_triangles(
     Parameters
     ----------
     clip : (V, 4) clip positions
-    values : (V, k) what is interpolated along with them
+    values : (V, k) vertex outputs, interpolated like the positions
     triangles : (T, 3) int32
-    codes : (V,) int32, what each vertex is outside of: `outcodes`
+    codes : (V,) int32, the `outcodes` of the vertices
     user_planes : (P, 4) in clip space; a vertex is kept where its dot product is not negative
-    edges : (T, 3) uint8, for polygons that are not filled: the edges to be drawn; none: nobody asks which
+    edges : (T, 3) uint8, which edges of unfilled polygons are drawn; no rows for filled ones
     linear : whether values change linearly in the window, instead of in perspective
     """
     triangles = read_only(triangles)
@@ -63,33 +63,35 @@ def clip_triangles(
         return Clipped(clip, values, triangles, np.arange(len(triangles), dtype=np.int32), edges)
     sides = scratch(len(triangles), np.uint8)
     write_sides(triangles, codes, 0, len(triangles), sides)
-    whole, cut = np.count_nonzero(sides == INSIDE), np.count_nonzero(sides == CUT)
-    planes = frustum_and(user_planes, clip.dtype)
-    room = len(planes) * ADDED_PER_PLANE
-    more_clip, more_values = clip, np.ascontiguousarray(values)  # one memory order, one compiled kernel
-    if cut:
-        more_clip = scratch((len(clip) + cut * room, 4), clip.dtype)
-        more_values = scratch((len(clip) + cut * room, values.shape[1]), values.dtype)
-        more_clip[: len(clip)], more_values[: len(clip)] = clip, values
-    pieces = scratch((whole + cut * (room + 1), 3), np.int32)
+    n_inside, n_cut = np.count_nonzero(sides == INSIDE), np.count_nonzero(sides == CUT)
+    planes = all_clip_planes(user_planes, clip.dtype)
+    most_added = len(planes) * ADDED_PER_PLANE
+    all_clip, all_values = clip, np.ascontiguousarray(values)  # always in C order: one compiled kernel
+    if n_cut:
+        all_clip = scratch((len(clip) + n_cut * most_added, 4), clip.dtype)
+        all_values = scratch((len(clip) + n_cut * most_added, values.shape[1]), values.dtype)
+        all_clip[: len(clip)], all_values[: len(clip)] = clip, values
+    pieces = scratch((n_inside + n_cut * (most_added + 1), 3), np.int32)
     source = scratch(len(pieces), np.int32)
     piece_edges = scratch((len(pieces) if len(edges) else 0, 3), np.uint8)
-    count, vertices = cut_triangles(
-        triangles, edges, codes, planes, more_clip, more_values, len(clip), pieces, source, piece_edges,
-        np.zeros((2, room + 3), np.int32), np.zeros((2, room + 3), np.uint8), int(linear),
+    n_pieces, n_vertices = cut_triangles(
+        triangles, edges, codes, planes, all_clip, all_values, len(clip), pieces, source, piece_edges,
+        np.zeros((2, most_added + 3), np.int32), np.zeros((2, most_added + 3), np.uint8), int(linear),
     )  # fmt: skip
-    return Clipped(more_clip[:vertices], more_values[:vertices], pieces[:count], source[:count], piece_edges[:count])
+    return Clipped(
+        all_clip[:n_vertices], all_values[:n_vertices], pieces[:n_pieces], source[:n_pieces], piece_edges[:n_pieces]
+    )
 
 
-def frustum_and(user_planes: np.ndarray, dtype: np.dtype) -> np.ndarray:
+def all_clip_planes(user_planes: np.ndarray, dtype: np.dtype) -> np.ndarray:
     """Return all planes in the order of their clip codes, (6 + P, 4)."""
     return np.concatenate([FRUSTUM, user_planes]).astype(dtype)
 
 
 def outcodes(clip: np.ndarray, depth_clamp: bool, user_planes: np.ndarray) -> np.ndarray:
-    """Return, per vertex, a bit for each plane it is outside of; on the boundary counts as inside, NaN as outside.
+    """Return the clip code of each vertex: a bit for each plane that it is outside of.
 
-    With `depth_clamp` near and far do not clip.
+    The boundary is inside, NaN is outside. With `depth_clamp` near and far do not clip.
     """
     codes = np.empty(len(clip), np.int32)
     write_outcodes(clip, user_planes.astype(clip.dtype), NEAR_FAR if depth_clamp else 0, codes)
@@ -98,7 +100,7 @@ def outcodes(clip: np.ndarray, depth_clamp: bool, user_planes: np.ndarray) -> np
 
 @inlined
 def outcode(x, y, z, w):
-    """Return the bits of the frustum's planes for one vertex. Each test is one that NaN fails."""
+    """Return the clip code of one vertex for the frustum; NaN fails every test."""
     code = 0 if x <= w else 1
     code |= 0 if x + w >= ZERO else 2
     code |= 0 if y <= w else 4
@@ -110,19 +112,19 @@ def outcode(x, y, z, w):
 
 @kernel
 def write_outcodes(clip, user_planes, ignored, codes):
-    """Write `outcodes`, without the bits that are ignored: plane after plane of the user's, for loops of vectors."""
+    """Write `outcodes` without the ignored bits; the loop for each user plane is vectorised."""
     for v in range(clip.shape[0]):
         codes[v] = outcode(clip[v, 0], clip[v, 1], clip[v, 2], clip[v, 3]) & ~ignored
     for p in range(user_planes.shape[0]):
         a, b, c, d = user_planes[p, 0], user_planes[p, 1], user_planes[p, 2], user_planes[p, 3]
         for v in range(clip.shape[0]):
-            kept = (clip[v, 0] * a + clip[v, 1] * b) + clip[v, 2] * c + clip[v, 3] * d >= ZERO
-            codes[v] |= 0 if kept else 1 << (FRUSTUM_PLANES + p)
+            inside = (clip[v, 0] * a + clip[v, 1] * b) + clip[v, 2] * c + clip[v, 3] * d >= ZERO
+            codes[v] |= 0 if inside else 1 << (FRUSTUM_PLANES + p)
 
 
 @kernel
 def write_sides(triangles, codes, first, end, sides):
-    """Write which of the triangles [first, end) are inside of all planes, outside of one, or have to be cut."""
+    """Write INSIDE, OUTSIDE (of one plane) or CUT for each of the triangles [first, end)."""
     for t in range(first, end):
         v0, v1, v2 = vertices_of(triangles, t)
         a, b, c = codes[v0], codes[v1], codes[v2]
@@ -135,28 +137,29 @@ def distance(plane, position):
 
 
 @inlined
-def part_in_window(clip, first, second, between, t):
-    """Return how far a vertex lies between two others in the window, by its x if they differ in that; `t` is in space.
+def weight_in_window(clip, first, second, new, t):
+    """Return the interpolation weight of a new vertex between two others in the window.
 
-    As Mesa does it for what is interpolated without perspective (draw_pipe_clip.c).
+    It is computed from x where theirs differ, else from y; else it is `t`, the weight in clip space. Mesa does so for
+    values that are interpolated without perspective (draw_pipe_clip.c).
     """
     for k in range(2):
         if clip[first, k] != clip[second, k]:
             start, end = clip[first, k] / clip[first, 3], clip[second, k] / clip[second, 3]
-            return (clip[between, k] / clip[between, 3] - start) / (end - start)
+            return (clip[new, k] / clip[new, 3] - start) / (end - start)
     return t
 
 
 @kernel
 def cut_triangles(
-    triangles, edges, codes, planes, clip, values, vertices, pieces, source, piece_edges, polygons, drawn, linear
+    triangles, edges, codes, planes, clip, values, n_vertices, pieces, source, piece_edges, polygons, flags, linear
 ):
-    """Clip triangle by triangle (Sutherland & Hodgman 1974); new vertices are appended from row `vertices` on.
+    """Clip triangle by triangle (Sutherland & Hodgman 1974); new vertices are appended from row `n_vertices` on.
 
-    Returns the number of pieces and the number of vertices. `polygons` and `drawn` are scratch: two lists of vertex
-    numbers, and whether the edge that starts at each of them is to be drawn.
+    Return the number of pieces and the number of vertices. `polygons` and `flags` are scratch: two lists of vertex
+    numbers, and whether the edge that starts at each of them is drawn.
     """
-    count, with_edges = 0, edges.shape[0] > 0
+    n_pieces, with_edges = 0, edges.shape[0] > 0
     for t in range(triangles.shape[0]):
         a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
         code_a, code_b, code_c = codes[np.uint64(a)], codes[np.uint64(b)], codes[np.uint64(c)]
@@ -164,77 +167,77 @@ def cut_triangles(
             continue
         union = code_a | code_b | code_c
         if union == 0:
-            pieces[count, 0], pieces[count, 1], pieces[count, 2] = a, b, c
-            source[count] = t
+            pieces[n_pieces, 0], pieces[n_pieces, 1], pieces[n_pieces, 2] = a, b, c
+            source[n_pieces] = t
             if with_edges:
                 for i in range(3):  # one by one: an assignment of rows takes two seconds to compile
-                    piece_edges[count, i] = edges[t, i]
-            count += 1
+                    piece_edges[n_pieces, i] = edges[t, i]
+            n_pieces += 1
             continue
         polygons[0, 0], polygons[0, 1], polygons[0, 2] = a, b, c
         if with_edges:
-            drawn[0, 0], drawn[0, 1], drawn[0, 2] = edges[t, 0], edges[t, 1], edges[t, 2]
-        corners, now = np.int64(3), 0  # not a literal, for which the cut would be compiled once more
+            flags[0, 0], flags[0, 1], flags[0, 2] = edges[t, 0], edges[t, 1], edges[t, 2]
+        corners, current = np.int64(3), 0  # typed: for a literal, the cut would be compiled a second time
         for p in range(planes.shape[0]):
             if union >> p & 1:
-                corners, vertices = cut_polygon(
-                    planes[p], p >= FRUSTUM_PLANES, polygons[now], drawn[now], corners, polygons[1 - now],
-                    drawn[1 - now], clip, values, vertices, linear,
+                corners, n_vertices = cut_polygon(
+                    planes[p], p >= FRUSTUM_PLANES, polygons[current], flags[current], corners,
+                    polygons[1 - current], flags[1 - current], clip, values, n_vertices, linear,
                 )  # fmt: skip
-                now = 1 - now
+                current = 1 - current
         for i in range(2, corners):
-            pieces[count, 0], pieces[count, 1] = polygons[now, i - 1], polygons[now, i]
-            pieces[count, 2] = polygons[now, 0]
-            source[count] = t
+            pieces[n_pieces, 0], pieces[n_pieces, 1] = polygons[current, i - 1], polygons[current, i]
+            pieces[n_pieces, 2] = polygons[current, 0]
+            source[n_pieces] = t
             if with_edges:
-                # only the outline of the fan, not the cuts between its triangles
-                piece_edges[count, 0] = drawn[now, i - 1]
-                piece_edges[count, 1] = drawn[now, i] if i == corners - 1 else 0
-                piece_edges[count, 2] = drawn[now, 0] if i == 2 else 0
-            count += 1
-    return count, vertices
+                # only the outline of the fan, not the edges between its triangles
+                piece_edges[n_pieces, 0] = flags[current, i - 1]
+                piece_edges[n_pieces, 1] = flags[current, i] if i == corners - 1 else 0
+                piece_edges[n_pieces, 2] = flags[current, 0] if i == 2 else 0
+            n_pieces += 1
+    return n_pieces, n_vertices
 
 
 @inlined
-def cut_polygon(plane, draws_cut, polygon, drawn, corners, out, out_drawn, clip, values, vertices, linear):
-    """Keep the part of a convex polygon on the positive side of a plane; returns its corners and the vertex count.
+def cut_polygon(plane, draws_cut, polygon, edges, corners, out, out_edges, clip, values, n_vertices, linear):
+    """Cut off the part of a convex polygon behind a plane; return the numbers of its corners and of all vertices.
 
-    A distance that is not finite drops the polygon. The new edge along the plane is to be drawn where `draws_cut`: that
-    of a user plane is, that of the frustum is not (as Mesa does it).
+    A polygon with a distance that is not finite is dropped. `draws_cut` says whether the new edge along the plane is
+    drawn: as in Mesa, along a user plane it is, along the frustum it is not.
     """
     if corners < 3:
-        return 0, vertices
-    kept = 0
-    previous, edge = polygon[0], drawn[0]
-    before = distance(plane, clip[previous])
-    if not np.isfinite(before):
-        return 0, vertices
+        return 0, n_vertices
+    n_out = 0
+    previous, edge = polygon[0], edges[0]
+    d_previous = distance(plane, clip[previous])
+    if not np.isfinite(d_previous):
+        return 0, n_vertices
     for i in range(1, corners + 1):
         current = polygon[i] if i < corners else polygon[0]
-        now = distance(plane, clip[current])
-        if not np.isfinite(now):
-            return 0, vertices
-        if before >= ZERO:
-            out[kept], out_drawn[kept] = previous, edge
-            kept += 1
-        if (before >= ZERO) != (now >= ZERO):
+        d_current = distance(plane, clip[current])
+        if not np.isfinite(d_current):
+            return 0, n_vertices
+        if d_previous >= ZERO:
+            out[n_out], out_edges[n_out] = previous, edge
+            n_out += 1
+        if (d_previous >= ZERO) != (d_current >= ZERO):
             # from the vertex that is nearer to the plane, for the better conditioned t
-            span = now - before
-            if (-now < before) if now < ZERO else (-before >= now):
-                first, second, t = current, previous, now / span
+            span = d_current - d_previous
+            if (-d_current < d_previous) if d_current < ZERO else (-d_previous >= d_current):
+                first, second, t = current, previous, d_current / span
             else:
-                first, second, t = previous, current, -before / span
+                first, second, t = previous, current, -d_previous / span
             t = t if t >= SMALLEST_NORMAL else ZERO  # llvmpipe runs with denormal results flushed to 0
             for k in range(4):
-                clip[vertices, k] = clip[first, k] + t * (clip[second, k] - clip[first, k])
+                clip[n_vertices, k] = clip[first, k] + t * (clip[second, k] - clip[first, k])
             if linear:
-                t = part_in_window(clip, first, second, vertices, t)
+                t = weight_in_window(clip, first, second, n_vertices, t)
             for k in range(values.shape[1]):
-                values[vertices, k] = values[first, k] + t * (values[second, k] - values[first, k])
-            out[kept] = vertices
-            out_drawn[kept] = edge if now >= ZERO else 1 if draws_cut else 0
-            kept += 1
-            vertices += 1
-        previous, before = current, now
-        edge = drawn[i] if i < corners else drawn[0]
-    return kept, vertices
+                values[n_vertices, k] = values[first, k] + t * (values[second, k] - values[first, k])
+            out[n_out] = n_vertices
+            out_edges[n_out] = edge if d_current >= ZERO else 1 if draws_cut else 0
+            n_out += 1
+            n_vertices += 1
+        previous, d_previous = current, d_current
+        edge = edges[i] if i < corners else edges[0]
+    return n_out, n_vertices

@@ -1,6 +1,6 @@
-"""Snapped vertices, and by them: which triangles have an area, which way they face, and which are culled.
+"""Snap vertices, and tell from them which triangles have an area, which way they face, and which are culled.
 
-A vertex is snapped once, though in a mesh six triangles share it.
+Each vertex is snapped once; in a mesh, about six triangles share it.
 """
 
 import numpy as np
@@ -11,28 +11,27 @@ from softshadow.pipeline.constants import HALF, SUBPIXELS
 from softshadow.state import Cull
 
 CULL_NONE, CULL_FRONT, CULL_BACK = 0, 1, 2
-REACH = np.float32(1 << 22)  # pixels; clipping leaves nothing outside of the viewport
-NOWHERE = -(1 << 31)
+REACH = np.float32(1 << 22)  # pixels; beyond every vertex that clipping leaves
+NOWHERE = -(1 << 31)  # snapped coordinates of a vertex that cannot be drawn
 
 
 def culling(cull: Cull) -> tuple[int, bool]:
-    """Return what is culled (CULL_NONE, _FRONT, _BACK or both) and whether counter-clockwise is front."""
+    """Return which faces are culled (CULL_NONE, _FRONT, _BACK or both), and whether counter-clockwise is front."""
     faces = {gl.GL_FRONT: CULL_FRONT, gl.GL_BACK: CULL_BACK, gl.GL_FRONT_AND_BACK: CULL_FRONT | CULL_BACK}
     return (faces[cull.face] if cull.enabled else CULL_NONE), cull.front_face == gl.GL_CCW
 
 
 @inlined
 def snap(coordinate):
-    """Return a window coordinate in 1/256 pixel, samples on multiples of 256 (rounded half to even)."""
+    """Return a window coordinate in 1/256 pixel, rounded half to even; samples are multiples of 256."""
     return int(np.rint((coordinate - HALF) * SUBPIXELS))
 
 
 @kernel
 def snap_vertices(window, first, end, snapped):
-    """Write snapped x and y of each vertex; x is `NOWHERE` where a coordinate is not finite, or farther off than any
-    that clipping leaves.
+    """Write the snapped x and y of each vertex; return the smallest and the largest y.
 
-    Returns the smallest and the largest y of the others.
+    Vertices with a coordinate that is not finite, or out of `REACH`, get `NOWHERE` and are not in that range.
     """
     low, high = -NOWHERE, NOWHERE
     for v in range(first, end):
@@ -47,7 +46,7 @@ def snap_vertices(window, first, end, snapped):
 
 @kernel
 def facing_and_area(snapped, v0, v1, v2, culled, positive_is_front):
-    """Return 1 for a front and 0 for a back face, or -1 where nothing is drawn; and twice the area, with its sign."""
+    """Return 1 for a front face, 0 for a back face, -1 if nothing is drawn; and twice the signed area."""
     x0, y0 = int(snapped[v0, 0]), int(snapped[v0, 1])
     x1, y1 = int(snapped[v1, 0]), int(snapped[v1, 1])
     x2, y2 = int(snapped[v2, 0]), int(snapped[v2, 1])
@@ -68,10 +67,10 @@ def vertices_of(triangles, t):
 
 
 @kernel
-def count_kept(snapped, triangles, first, end, culled, positive_is_front):
-    """Return how many of the triangles [first, end) are drawn."""
-    count = 0
+def count_drawn(snapped, triangles, first, end, culled, positive_is_front):
+    """Return how many of the triangles [first, end) have an area and are not culled."""
+    n_drawn = 0
     for t in range(first, end):
         facing, _ = facing_and_area(snapped, *vertices_of(triangles, t), culled, positive_is_front)
-        count += 1 if facing >= 0 else 0
-    return count
+        n_drawn += 1 if facing >= 0 else 0
+    return n_drawn

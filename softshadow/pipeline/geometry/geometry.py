@@ -21,11 +21,11 @@ from softshadow.pipeline.geometry.triangle_setup import (
     NO_TRIANGLES,
     Offset,
     add_float_units,
-    in_order,
+    merge_by_id,
     offset_of,
     set_up,
 )
-from softshadow.pipeline.geometry.vertex import process_vertices, to_window, with_rows
+from softshadow.pipeline.geometry.vertex import append_rows, process_vertices, to_window
 from softshadow.pipeline.mesa.polygon_rules import offset_is_on
 from softshadow.pipeline.records import Geometry
 from softshadow.programs import VertexInputs
@@ -34,7 +34,7 @@ from softshadow.state import Cull, Polygon, Viewport
 
 
 class Positions(NamedTuple):
-    """The vertices of a draw: clip (V, 4), codes (V,) `outcodes`, window (V, 4); and planes (P, 4): `user_planes`."""
+    """The vertices of a draw: clip (V, 4), codes (V,): `outcodes`, window (V, 4); and planes (P, 4): `user_planes`."""
 
     clip: np.ndarray
     codes: np.ndarray
@@ -45,7 +45,7 @@ class Positions(NamedTuple):
 def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull: Cull | None = None) -> Geometry:
     """Return the triangles of a draw in the window of `target`; lines and points are two triangles each.
 
-    `cull` replaces the state's face culling, for pixel histories, which show culled triangles, too.
+    `cull` replaces the state's face culling: pixel histories show culled triangles, too.
     """
     state, vertices = command.state, command.vertices
     cull = state.cull if cull is None else cull
@@ -62,13 +62,13 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull:
         clipped = clip_primitives(clip, columns, primitives, codes, planes)
     else:
         set_up_primitives = _filled if is_filled(state) else _outlined
-        across = varyings.flat_input and (bool(target.colors) or state.alpha.enabled)  # else Mesa shades nothing
+        across = varyings.flat_input and (bool(target.colors) or state.alpha.enabled)  # else Mesa does not shade
         assembled = triangles_of(command, target, codes, planes, across)
         provoking = assembled.provoking
         edges = edge_flags(command.mode, len(provoking)) if set_up_primitives is _outlined else NO_EDGES
         clipped = clip_triangles(clip, columns, assembled.corners, codes, planes, edges, command.linear)
-    if len(clipped.clip) > len(clip):  # the cuts' own vertices come after all others
-        window = with_rows(window, to_window(clipped.clip[len(clip) :], *stored_rows(command, target)))
+    if len(clipped.clip) > len(clip):  # the new vertices of clipping come last
+        window = append_rows(window, to_window(clipped.clip[len(clip) :], *window_transform(command, target)))
     k = varyings.values.shape[1]
     geometry = Geometry(
         NO_TRIANGLES,
@@ -85,19 +85,19 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull:
 
 
 def positions_of(command: Draw, target: Framebuffer) -> Positions:
-    """Return where the vertices of a draw are."""
+    """Return the positions and clip codes of a draw's vertices."""
     matrix, planes = matrices.multiply(command.projection, command.modelview), user_planes(command)
     clamp = command.state.depth.clamp
-    moved = process_vertices(matrix, command.vertices.position, planes, clamp, *stored_rows(command, target))
-    return Positions(*moved, planes)
+    positions = command.vertices.position
+    return Positions(*process_vertices(matrix, positions, planes, clamp, *window_transform(command, target)), planes)
 
 
-def stored_rows(command: Draw, target: Framebuffer) -> tuple[Viewport, int, bool]:
-    """Return what `to_window` asks for: viewport, height of the framebuffer, whether its rows are stored top first."""
+def window_transform(command: Draw, target: Framebuffer) -> tuple[Viewport, int, bool]:
+    """Return the arguments of `to_window`: viewport, height of the framebuffer, whether row 0 is stored at the top."""
     return command.state.viewport, target.size[1], target.flipped
 
 
-def offset_in(command: Draw, target: Framebuffer) -> Offset:
+def filled_offset(command: Draw, target: Framebuffer) -> Offset:
     """Return the polygon offset of a draw's filled triangles."""
     real = command.vertices.position.dtype.type
     polygon, slope, unit = command.state.polygon, command.offset_slope, command.offset_unit
@@ -105,7 +105,7 @@ def offset_in(command: Draw, target: Framebuffer) -> Offset:
 
 
 def has_float_units(command: Draw, target: Framebuffer) -> bool:
-    """Return whether the unit of the offset depends on the triangle: `add_float_units`."""
+    """Return whether the unit of the polygon offset depends on the triangle, see `add_float_units`."""
     has_floats = target.depth is not None and not target.depth.format.largest
     return has_floats and offset_is_on(command.state.polygon)
 
@@ -113,14 +113,14 @@ def has_float_units(command: Draw, target: Framebuffer) -> bool:
 def _filled(geometry: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull) -> Geometry:
     """Return the geometry with its triangles set up."""
     window = geometry.window
-    triangles = set_up(window, clipped.triangles, cull, offset_in(command, target), target.flipped)
+    triangles = set_up(window, clipped.triangles, cull, filled_offset(command, target), target.flipped)
     if has_float_units(command, target):
         add_float_units(triangles.depth[:, 3], window[triangles.vertices, 2], command.state.polygon.units)
     return geometry._replace(triangles=triangles)
 
 
 def _points_and_lines(geometry: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull) -> Geometry:
-    """Return the geometry with its points or lines set up; nothing culls them."""
+    """Return the geometry with its points or lines set up; they are never culled."""
     polygon, primitives = command.state.polygon, clipped.triangles
     ids = np.arange(len(primitives), dtype=np.int32)
     if command.mode == gl.GL_POINTS:
@@ -131,27 +131,29 @@ def _points_and_lines(geometry: Geometry, clipped: Clipped, command: Draw, targe
 
 
 def _outlined(geometry: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull) -> Geometry:
-    """Return the geometry of polygons that are not all filled, over vertices of its own."""
+    """Return the geometry of polygons that are not all filled; it has vertices of its own."""
     state, flipped = command.state, target.flipped
-    drawn = outline(
+    outlined = outline(
         geometry.window, geometry.values, geometry.back, geometry.flat, clipped.triangles, clipped.edges,
         geometry.provoking, state, cull, target.depth, command.offset_slope, command.offset_unit, flipped,
         command.offset_mode,
     )  # fmt: skip
-    window, polygon = drawn.window, state.polygon
-    none = offset_of(Polygon(), target.depth, window.dtype.type, command.offset_slope, command.offset_unit, flipped)
-    filled = set_up(window, drawn.triangles, cull, none, flipped)
-    filled = filled._replace(ids=drawn.triangles[filled.ids, 0] // 3)
-    lines = set_up_lines(window, drawn.lines, drawn.lines[:, 0] // 3, polygon.line_width)
-    points = set_up_points(window, drawn.points, drawn.points // 3, polygon.point_size, flipped)
+    window, polygon = outlined.window, state.polygon
+    no_offset = offset_of(
+        Polygon(), target.depth, window.dtype.type, command.offset_slope, command.offset_unit, flipped
+    )
+    filled = set_up(window, outlined.triangles, cull, no_offset, flipped)
+    filled = filled._replace(ids=outlined.triangles[filled.ids, 0] // 3)
+    lines = set_up_lines(window, outlined.lines, outlined.lines[:, 0] // 3, polygon.line_width)
+    points = set_up_points(window, outlined.points, outlined.points // 3, polygon.point_size, flipped)
     return geometry._replace(
-        triangles=in_order([filled, lines, points]),
+        triangles=merge_by_id([filled, lines, points]),
         window=window,
-        values=drawn.values,
+        values=outlined.values,
         back=None,
-        provoking=np.arange(len(drawn.front), dtype=np.int32) * 3,
-        faces=drawn.front,
-        offset_mode=drawn.offset_mode,
+        provoking=np.arange(len(outlined.front), dtype=np.int32) * 3,
+        faces=outlined.front,
+        offset_mode=outlined.offset_mode,
     )
 
 

@@ -2,7 +2,7 @@
 
 A line of width n is n pixels wide across its major direction (GL 2.1, sec. 3.4.1). llvmpipe draws it as a parallelogram
 whose ends are moved so that exactly those end pixels are covered that the diamond exit rule asks for. A parallelogram
-is two triangles that share a depth plane, and so it goes through the same fill, shading and history as any other.
+is two triangles that share a depth plane, so lines need no fill, shading or history of their own.
 """
 
 import numpy as np
@@ -10,25 +10,25 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.jit import kernel
 from softshadow.pipeline.constants import HALF, ONE, SUBPIXEL_BITS, SUBPIXELS, ZERO
-from softshadow.pipeline.geometry.clip import Clipped, distance, frustum_and
+from softshadow.pipeline.geometry.clip import Clipped, all_clip_planes, distance
 from softshadow.pipeline.geometry.triangle_setup import half_away, line_gradient, line_plane
 from softshadow.pipeline.records import NO_VERTEX, Setup
 
 LINES = (gl.GL_LINES, gl.GL_LINE_STRIP, gl.GL_LINE_LOOP)
-WIDEST = 255
+WIDEST_LINE = 255
 
 
-def assemble_lines(mode: int, count: int) -> np.ndarray:
-    """Return the lines (L, 2) int32 that `count` vertices make; the second vertex gives flat colours.
+def assemble_lines(mode: int, n_vertices: int) -> np.ndarray:
+    """Return the lines (L, 2) int32 that a number of vertices make; the second vertex gives flat colours.
 
     References
     ----------
     GL 2.1, sec. 2.6.1 (primitives) and 2.14.7 (flat shading).
     """
-    first = np.arange(0, max(count - 1, 0), 2 if mode == gl.GL_LINES else 1, dtype=np.int32)
+    first = np.arange(0, max(n_vertices - 1, 0), 2 if mode == gl.GL_LINES else 1, dtype=np.int32)
     lines = np.stack([first, first + 1], axis=1)
-    if mode == gl.GL_LINE_LOOP and count >= 2:
-        lines = np.concatenate([lines, np.array([[count - 1, 0]], np.int32)])
+    if mode == gl.GL_LINE_LOOP and n_vertices >= 2:
+        lines = np.concatenate([lines, np.array([[n_vertices - 1, 0]], np.int32)])
     return lines
 
 
@@ -36,91 +36,96 @@ def clip_lines(
     clip: np.ndarray, values: np.ndarray, lines: np.ndarray, codes: np.ndarray, user_planes: np.ndarray
 ) -> Clipped:
     """Return the parts of the lines (L, 2) inside the frustum and the user planes, as `clip_triangles` does."""
-    used = codes[lines]
-    cut = int(np.count_nonzero(used.any(axis=1)))
-    room = len(clip) + 2 * cut
-    more_clip, more_values = np.empty((room, 4), clip.dtype), np.empty((room, values.shape[1]), values.dtype)
-    more_clip[: len(clip)], more_values[: len(clip)] = clip, values
+    end_codes = codes[lines]
+    n_cut = int(np.count_nonzero(end_codes.any(axis=1)))
+    most_vertices = len(clip) + 2 * n_cut
+    all_clip, all_values = (
+        np.empty((most_vertices, 4), clip.dtype),
+        np.empty((most_vertices, values.shape[1]), values.dtype),
+    )
+    all_clip[: len(clip)], all_values[: len(clip)] = clip, values
     pieces, source = np.empty((len(lines), 2), np.int32), np.empty(len(lines), np.int32)
-    planes = frustum_and(user_planes, clip.dtype)
-    count, vertices = cut_lines(
-        np.ascontiguousarray(lines), codes, planes, more_clip, more_values, len(clip), pieces, source
+    planes = all_clip_planes(user_planes, clip.dtype)
+    n_pieces, n_vertices = cut_lines(
+        np.ascontiguousarray(lines), codes, planes, all_clip, all_values, len(clip), pieces, source
     )
     return Clipped(
-        np.ascontiguousarray(more_clip[:vertices]),
-        np.ascontiguousarray(more_values[:vertices]),
-        pieces[:count].copy(),
-        source[:count].copy(),
+        np.ascontiguousarray(all_clip[:n_vertices]),
+        np.ascontiguousarray(all_values[:n_vertices]),
+        pieces[:n_pieces].copy(),
+        source[:n_pieces].copy(),
     )
 
 
 @kernel
-def cut_lines(lines, codes, planes, clip, values, vertices, pieces, source):
-    """Clip line by line (Liang & Barsky 1984); new vertices are appended from row `vertices` on.
+def cut_lines(lines, codes, planes, clip, values, n_vertices, pieces, source):
+    """Clip line by line (Liang & Barsky 1984); new vertices are appended from row `n_vertices` on.
 
-    Returns the number of pieces and the number of vertices. Both ends are moved along the whole line, once.
+    Return the number of pieces and the number of vertices. Each end is moved once, along the whole line.
     """
-    count = 0
+    n_pieces = 0
     for n in range(lines.shape[0]):
         a, b = lines[n, 0], lines[n, 1]
         union = codes[a] | codes[b]
-        kept = codes[a] & codes[b] == 0
+        visible = codes[a] & codes[b] == 0
         from_a = from_b = ZERO
         for p in range(planes.shape[0]):
-            if kept and union >> p & 1:
-                at_a, at_b = distance(planes[p], clip[a]), distance(planes[p], clip[b])
-                if not (np.isfinite(at_a) and np.isfinite(at_b)):
-                    kept = False
-                if at_b < ZERO:
-                    from_b = max(from_b, at_b / (at_b - at_a))
-                if at_a < ZERO:
-                    from_a = max(from_a, at_a / (at_a - at_b))
-                kept = kept and from_a + from_b < ONE
-        if not kept:
+            if visible and union >> p & 1:
+                distance_a, distance_b = distance(planes[p], clip[a]), distance(planes[p], clip[b])
+                if not (np.isfinite(distance_a) and np.isfinite(distance_b)):
+                    visible = False
+                if distance_b < ZERO:
+                    from_b = max(from_b, distance_b / (distance_b - distance_a))
+                if distance_a < ZERO:
+                    from_a = max(from_a, distance_a / (distance_a - distance_b))
+                visible = visible and from_a + from_b < ONE
+        if not visible:
             continue
-        pieces[count, 0], pieces[count, 1] = a, b
+        pieces[n_pieces, 0], pieces[n_pieces, 1] = a, b
         for end in range(2):
             start, other, t = (a, b, from_a) if end == 0 else (b, a, from_b)
             if codes[start]:
                 for k in range(4):
-                    clip[vertices, k] = clip[start, k] + t * (clip[other, k] - clip[start, k])
+                    clip[n_vertices, k] = clip[start, k] + t * (clip[other, k] - clip[start, k])
                 for k in range(values.shape[1]):
-                    values[vertices, k] = values[start, k] + t * (values[other, k] - values[start, k])
-                pieces[count, end] = vertices
-                vertices += 1
-        source[count] = n
-        count += 1
-    return count, vertices
+                    values[n_vertices, k] = values[start, k] + t * (values[other, k] - values[start, k])
+                pieces[n_pieces, end] = n_vertices
+                n_vertices += 1
+        source[n_pieces] = n
+        n_pieces += 1
+    return n_pieces, n_vertices
 
 
 def set_up_lines(window: np.ndarray, lines: np.ndarray, ids: np.ndarray, width: float) -> Setup:
-    """Return the two triangles of each line that covers something.
+    """Return the two triangles of each line that has an area.
 
     Parameters
     ----------
     window : (V, 4) window x, y (stored rows), z, 1/w
     lines : (L, 2) int32
-    ids : (L,) int32, handed on
-    width : in pixels, rounded to whole ones (a half: up)
+    ids : (L,) int32, copied to the triangles
+    width : in pixels, rounded to a whole number, a half up
     """
-    across = max(1, min(int(width + 0.5), WIDEST)) << SUBPIXEL_BITS
-    n = 2 * len(lines)
-    made = Setup(
-        np.empty((n, 6), np.int32),
-        np.full((n, 3), NO_VERTEX, np.int32),
-        np.zeros((n, 4), window.dtype),
-        np.ones(n, np.uint8),
-        np.empty(n, np.int32),
+    across = max(1, min(int(width + 0.5), WIDEST_LINE)) << SUBPIXEL_BITS
+    most_triangles = 2 * len(lines)
+    setup = Setup(
+        np.empty((most_triangles, 6), np.int32),
+        np.full((most_triangles, 3), NO_VERTEX, np.int32),
+        np.zeros((most_triangles, 4), window.dtype),
+        np.ones(most_triangles, np.uint8),
+        np.empty(most_triangles, np.int32),
     )
     scratch = np.empty(8, np.int64)
-    kept = line_triangles(window, lines, ids, across, made.corners, made.vertices, made.depth, made.ids, scratch)
-    return Setup(*(array[:kept] for array in made))
+    n_triangles = line_triangles(
+        window, lines, ids, across, setup.corners, setup.vertices, setup.depth, setup.ids, scratch
+    )
+    return Setup(*(array[:n_triangles] for array in setup))
 
 
 @kernel
-def line_triangles(window, lines, ids, across, corners, vertices, depth, made_ids, quad):
-    """Fill the arrays of `Setup`; returns how many triangles there are. `quad` (8,) is scratch."""
-    kept = 0
+def line_triangles(window, lines, ids, across, corners, vertices, depth, triangle_ids, quad):
+    """Fill the arrays of `Setup`; return the number of triangles. `quad` (8,) is scratch."""
+    t = 0
     for n in range(lines.shape[0]):
         a, b = lines[n, 0], lines[n, 1]
         finite = True
@@ -130,31 +135,31 @@ def line_triangles(window, lines, ids, across, corners, vertices, depth, made_id
         if not finite or not np.isfinite(over_area):
             continue
         line_corners(window, a, b, across, quad)
-        # ends that were moved past each other: nothing of the line is left
+        # ends that were moved past each other leave nothing of the line
         if (quad[0] - quad[2]) * (quad[5] - quad[1]) - (quad[4] - quad[0]) * (quad[1] - quad[3]) <= 0:
             continue
         z = line_plane(window[a, 0], window[a, 1], dx, dy, over_area, window[a, 2], window[b, 2])
         for half in range(2):
-            corners[kept, 0], corners[kept, 1] = quad[0], quad[1]
+            corners[t, 0], corners[t, 1] = quad[0], quad[1]
             for k in range(4):
-                corners[kept, 2 + k] = quad[2 + 2 * half + k]
-            vertices[kept, 0], vertices[kept, 1] = a, b
-            depth[kept, 0], depth[kept, 1], depth[kept, 2] = z
-            made_ids[kept] = ids[n]
-            kept += 1
-    return kept
+                corners[t, 2 + k] = quad[2 + 2 * half + k]
+            vertices[t, 0], vertices[t, 1] = a, b
+            depth[t, 0], depth[t, 1], depth[t, 2] = z
+            triangle_ids[t] = ids[n]
+            t += 1
+    return t
 
 
 @kernel
 def line_corners(window, a, b, across, quad):
-    """Write the snapped corners x0 y0 ... x3 y3 of a line's parallelogram, its ends moved by the diamond exit rule."""
+    """Write the snapped corners x0 y0 ... x3 y3 of a line's parallelogram; its ends follow the diamond exit rule."""
     x_major = abs(window[a, 0] - window[b, 0]) >= abs(window[a, 1] - window[b, 1])
     # u runs along the major direction, v across it
     u, v = (0, 1) if x_major else (1, 0)
     du, dv = window[a, u] - window[b, u], window[a, v] - window[b, v]
     slope = dv / du
-    start_u, start_v = off_centre(window[a, u]), off_centre(window[a, v])
-    end_u, end_v = off_centre(window[b, u]), off_centre(window[b, v])
+    start_u, start_v = offset_from_center(window[a, u]), offset_from_center(window[a, v])
+    end_u, end_v = offset_from_center(window[b, u]), offset_from_center(window[b, v])
     if end_v == -HALF and dv < ZERO:
         end_v = HALF
     # where the line crosses the middle of the pixels that its ends lie in, across the major direction
@@ -162,7 +167,7 @@ def line_corners(window, a, b, across, quad):
     turn = ONE if x_major else -ONE  # the rule for steep lines is mirrored
     draws_start = draws_start_pixel(start_u * turn, start_v * turn, du * turn, dv * turn, start_at)
     draws_end = draws_end_pixel(end_u * turn, end_v * turn, du * turn, dv * turn, end_at, not x_major)
-    # what is covered without moving the ends, as Mesa has it: on a pixel centre it may be wrong, and no harm is done
+    # Mesa's rule for the end pixels that are covered without moving; where it errs, on a pixel centre, nothing changes
     backwards = du < ZERO
     start_covered = (start_u < ZERO) == backwards if start_u != ZERO else backwards == x_major
     end_covered = end_u >= ZERO if backwards else end_u <= ZERO
@@ -182,7 +187,7 @@ def line_corners(window, a, b, across, quad):
 
 @kernel
 def snap_end(coordinate):
-    """Return a window coordinate in 1/256 pixel, as `snap` does it but for a half, which goes away from zero."""
+    """Return a window coordinate in 1/256 pixel, like `snap`, but with a half rounded away from zero."""
     return int(half_away((coordinate - HALF) * SUBPIXELS))
 
 
@@ -192,14 +197,14 @@ def fraction(coordinate):
 
 
 @kernel
-def off_centre(coordinate):
-    """Return how far a coordinate is from the centre of its pixel, in [-1/2, 1/2)."""
+def offset_from_center(coordinate):
+    """Return the offset of a coordinate from its pixel's centre, in [-1/2, 1/2)."""
     return fraction(coordinate) - HALF
 
 
 @kernel
 def draws_start_pixel(off_u, off_v, du, dv, crossing):
-    """Return whether a line leaves the diamond of the pixel it begins in, `off_u`, `off_v` from the centre.
+    """Return whether a line leaves the diamond of its first pixel; it starts at `off_u`, `off_v` from the centre.
 
     GL 2.1, sec. 3.4.1: a pixel belongs to a line that exits its diamond, abs(u) + abs(v) < 1/2. `du` and `dv` point
     from the end of the line to its start.
@@ -215,7 +220,7 @@ def draws_start_pixel(off_u, off_v, du, dv, crossing):
 
 @kernel
 def draws_end_pixel(off_u, off_v, du, dv, crossing, closed):
-    """Return whether a line leaves the diamond of the pixel it ends in; `closed`: also through its lower corner."""
+    """Return whether a line leaves the diamond of its last pixel; `closed`: also through its lower corner."""
     if abs(off_u) + abs(off_v) < HALF:
         return False
     if (off_u >= ZERO) != (-du >= ZERO):

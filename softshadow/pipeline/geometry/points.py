@@ -1,7 +1,7 @@
 """Points: the square of pixels that each becomes.
 
 GL 2.1, sec. 3.3.1: an aliased point of size n is a square of n by n pixels, around the pixel it lies in for an odd n,
-around the nearest corner of pixels for an even one. As for lines, the square is two triangles.
+around the nearest pixel corner for an even one. As for lines, the square is two triangles.
 """
 
 import numpy as np
@@ -12,15 +12,15 @@ from softshadow.pipeline.geometry.triangle_setup import half_away
 from softshadow.pipeline.records import NO_VERTEX, Setup
 
 PIXEL = 1 << SUBPIXEL_BITS
-LARGEST = 255.0
+LARGEST_SIZE = 255.0
 
 
 def clip_points(
     clip: np.ndarray, values: np.ndarray, points: np.ndarray, codes: np.ndarray, user_planes: np.ndarray
 ) -> Clipped:
     """Return the points (P, 1) whose centre is inside the frustum and the user planes, as `clip_triangles` does."""
-    kept = np.flatnonzero((codes[points[:, 0]] == 0) & np.isfinite(clip[points[:, 0]]).all(axis=1)).astype(np.int32)
-    return Clipped(clip, values, np.ascontiguousarray(points[kept]), kept)
+    visible = np.flatnonzero((codes[points[:, 0]] == 0) & np.isfinite(clip[points[:, 0]]).all(axis=1)).astype(np.int32)
+    return Clipped(clip, values, np.ascontiguousarray(points[visible]), visible)
 
 
 def set_up_points(window: np.ndarray, points: np.ndarray, ids: np.ndarray, size: float, flipped: bool) -> Setup:
@@ -30,25 +30,27 @@ def set_up_points(window: np.ndarray, points: np.ndarray, ids: np.ndarray, size:
     ----------
     window : (V, 4) window x, y (stored rows), z, 1/w
     points : (P,) int32
-    ids : (P,) int32, handed on
-    size : in pixels, rounded to whole ones (a half: down)
+    ids : (P,) int32, copied to the triangles
+    size : in pixels, rounded to a whole number, a half down
     """
-    at = window[points]
-    finite = np.isfinite(at[:, :3]).all(axis=1)
-    points, ids, at = points[finite], ids[finite], at[finite]
-    width = max(1, int(half_away(np.float32(min(size, LARGEST)) * SUBPIXELS)) + PIXEL // 2 - 1 >> SUBPIXEL_BITS)
-    # a point on the edge of a row belongs to the upper one (GL's up), as on the edge of a triangle
-    snapped = half_away(at[:, :2] * SUBPIXELS).astype(np.int64) - (0, int(flipped))
-    middle = snapped if width % 2 else snapped + PIXEL // 2
-    first = (middle >> SUBPIXEL_BITS) - width // 2
+    positions = window[points]
+    finite = np.isfinite(positions[:, :3]).all(axis=1)
+    points, ids, positions = points[finite], ids[finite], positions[finite]
+    width = max(1, int(half_away(np.float32(min(size, LARGEST_SIZE)) * SUBPIXELS)) + PIXEL // 2 - 1 >> SUBPIXEL_BITS)
+    # on the border of two rows the upper one (in GL's sense) is covered, as along the edges of triangles
+    snapped = half_away(positions[:, :2] * SUBPIXELS).astype(np.int64) - (0, int(flipped))
+    center = snapped if width % 2 else snapped + PIXEL // 2
+    first = (center >> SUBPIXEL_BITS) - width // 2
     # corners half a pixel outside the first and last samples, which lie on multiples of 256
     low = first * PIXEL - PIXEL // 2
     high = low + width * PIXEL
     x0, y0, x1, y1 = low[:, 0], low[:, 1], high[:, 0], high[:, 1]
-    n = len(points)
-    corners = np.stack([x1, y0, x0, y0, x0, y1, x1, y0, x0, y1, x1, y1], axis=1).reshape(2 * n, 6).astype(np.int32)
-    vertices = np.full((2 * n, 3), NO_VERTEX, np.int32)
+    n_points = len(points)
+    corners = (
+        np.stack([x1, y0, x0, y0, x0, y1, x1, y0, x0, y1, x1, y1], axis=1).reshape(2 * n_points, 6).astype(np.int32)
+    )
+    vertices = np.full((2 * n_points, 3), NO_VERTEX, np.int32)
     vertices[:, 0] = np.repeat(points, 2)
-    depth = np.zeros((2 * n, 4), window.dtype)
-    depth[:, 0] = np.repeat(at[:, 2], 2)
-    return Setup(corners, vertices, depth, np.ones(2 * n, np.uint8), np.repeat(ids, 2))
+    depth = np.zeros((2 * n_points, 4), window.dtype)
+    depth[:, 0] = np.repeat(positions[:, 2], 2)
+    return Setup(corners, vertices, depth, np.ones(2 * n_points, np.uint8), np.repeat(ids, 2))

@@ -1,7 +1,7 @@
-"""Polygons that are not filled: glPolygonMode turns them into their edges or corners, each face in its own way.
+"""glPolygonMode: polygons drawn as their edges or corners, front and back faces in modes of their own.
 
 Mesa does this per triangle, after clipping: facing and culling, polygon offset (here added to the vertices), then the
-edges that are edges of what was drawn. Faces that stay filled go the same way (draw_pipe_unfilled.c, _offset.c).
+edges that belong to the drawn primitive. Faces that stay filled take the same path (draw_pipe_unfilled.c, _offset.c).
 """
 
 from dataclasses import replace
@@ -13,16 +13,16 @@ from softshadow import tokens as gl
 from softshadow.image import Image
 from softshadow.pipeline.geometry.facing import CULL_BACK, CULL_FRONT, culling
 from softshadow.pipeline.geometry.triangle_setup import Offset, add_float_units, offset_of
-from softshadow.pipeline.mesa.polygon_rules import drawn_modes, offset_is_on
+from softshadow.pipeline.mesa.polygon_rules import effective_modes, offset_is_on
 from softshadow.state import Cull, Polygon, State
 
 EDGES_IN_ORDER = ((2, 0), (0, 1), (1, 2))  # of a triangle, as they are drawn
 
 
 class Outlined(NamedTuple):
-    """What becomes of clipped triangles, over vertices of their own: 3t, 3t + 1, 3t + 2 for triangle t.
+    """Triangles, lines and points made of clipped triangles; triangle t has the vertices 3t, 3t + 1 and 3t + 2.
 
-    window (3T, 4), z with its offset; values (3T, k), those of the facing, flat ones equal on all three; triangles
+    window (3T, 4), z with its offset; values (3T, k), those of the facing, flat ones equal at all three; triangles
     (A, 3), lines (B, 2) and points (C,) int32; their number t is a vertex // 3; front (T,) bool; offset_mode: the
     polygon mode whose offset was added, 0 where no triangle decides it.
     """
@@ -37,7 +37,7 @@ class Outlined(NamedTuple):
 
 
 def is_filled(state: State) -> bool:
-    return drawn_modes(state) == (gl.GL_FILL, gl.GL_FILL)
+    return effective_modes(state) == (gl.GL_FILL, gl.GL_FILL)
 
 
 def outline(
@@ -56,7 +56,7 @@ def outline(
     flipped: bool,
     offset_mode: int = 0,
 ) -> Outlined:
-    """Return triangles, lines and points that are left of triangles in the window.
+    """Return the triangles, lines and points that the polygon modes make of triangles in the window.
 
     Parameters
     ----------
@@ -64,40 +64,40 @@ def outline(
     values, back : (V, k) from the vertex stage, for front- and back-facing triangles
     flat : (k,) bool, columns taken from the `provoking` (T,) vertex
     triangles, edges : (T, 3), corners, and which edges are drawn
-    cull : what is left out; `state.cull` decides about modes
+    cull : the faces to leave out; the modes depend on `state.cull`
     depth, slope, unit : of the polygon offset, as for `offset_of`
     offset_mode : the polygon mode whose offset is added; 0: that of the first triangle that is not culled
     """
     corners = window[triangles]
     det = _determinant(corners)
     counter_clockwise_is_front = (state.cull.front_face == gl.GL_CCW) == flipped
-    turns = det < 0
-    front = np.where(det == 0, False, turns == counter_clockwise_is_front)
-    modes = drawn_modes(state)
+    negative = det < 0
+    front = np.where(det == 0, False, negative == counter_clockwise_is_front)
+    modes = effective_modes(state)
     # a triangle without area is culled as a back face, but drawn in the mode of clockwise ones
-    mode = np.where(turns == counter_clockwise_is_front, *modes)
+    mode = np.where(negative == counter_clockwise_is_front, *modes)
     polygon = state.polygon
     if offset_is_on(polygon):
-        decisive = np.flatnonzero(_kept(front, state.cull))[:1]
+        decisive = np.flatnonzero(_not_culled(front, state.cull))[:1]
         if offset_mode == 0 and len(decisive):
             offset_mode = int(mode[decisive[0]])
-        offset = _offset(polygon, offset_mode or gl.GL_FILL)
-        corners[:, :, 2] = _with_offset(corners, det, offset, depth, slope, unit, flipped)
-    shown, constant = values[triangles], values[provoking]
+        offset = _mode_offset(polygon, offset_mode or gl.GL_FILL)
+        corners[:, :, 2] = _offset_depth(corners, det, offset, depth, slope, unit, flipped)
+    corner_values, provoking_values = values[triangles], values[provoking]
     if back is not None:
-        turned = (det != 0) & ~front  # without area: lit as a front face
-        shown[turned], constant[turned] = back[triangles[turned]], back[provoking[turned]]
-    shown[:, :, flat] = constant[:, None, flat]
-    kept = _kept(front, cull)
+        back_lit = (det != 0) & ~front  # a triangle without area is lit as a front face
+        corner_values[back_lit], provoking_values[back_lit] = back[triangles[back_lit]], back[provoking[back_lit]]
+    corner_values[:, :, flat] = provoking_values[:, None, flat]
+    visible = _not_culled(front, cull)
     first = np.arange(len(triangles), dtype=np.int32) * 3
-    filled = first[kept & (mode == gl.GL_FILL)]
-    lined, dotted = kept & (mode == gl.GL_LINE), kept & (mode == gl.GL_POINT)
+    filled = first[visible & (mode == gl.GL_FILL)]
+    as_lines, as_points = visible & (mode == gl.GL_LINE), visible & (mode == gl.GL_POINT)
     return Outlined(
         np.ascontiguousarray(corners.reshape(-1, 4)),
-        np.ascontiguousarray(shown.reshape(-1, values.shape[1])),
+        np.ascontiguousarray(corner_values.reshape(-1, values.shape[1])),
         filled[:, None] + np.arange(3, dtype=np.int32),
-        _lines(first[lined], edges[lined]),
-        (first[dotted][:, None] + np.arange(3, dtype=np.int32))[edges[dotted] != 0],
+        _edge_lines(first[as_lines], edges[as_lines]),
+        (first[as_points][:, None] + np.arange(3, dtype=np.int32))[edges[as_points] != 0],
         front,
         offset_mode,
     )
@@ -109,24 +109,24 @@ def _determinant(corners: np.ndarray) -> np.ndarray:
     return e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0]
 
 
-def _kept(front: np.ndarray, cull: Cull) -> np.ndarray:
+def _not_culled(front: np.ndarray, cull: Cull) -> np.ndarray:
     culled, _ = culling(cull)
     return np.where(front, not culled & CULL_FRONT, not culled & CULL_BACK)
 
 
-def _lines(first: np.ndarray, edges: np.ndarray) -> np.ndarray:
+def _edge_lines(first: np.ndarray, edges: np.ndarray) -> np.ndarray:
     """Return the lines (B, 2) of triangles with vertices first, first + 1, first + 2."""
     lines = first[:, None, None] + np.array(EDGES_IN_ORDER, np.int32)
     return np.ascontiguousarray(lines[edges[:, [start for start, _ in EDGES_IN_ORDER]] != 0], np.int32)
 
 
-def _offset(polygon: Polygon, mode: int) -> Polygon:
+def _mode_offset(polygon: Polygon, mode: int) -> Polygon:
     """Return the polygon state with the offset of one mode only."""
     enabled = {gl.GL_FILL: polygon.offset_fill, gl.GL_LINE: polygon.offset_line, gl.GL_POINT: polygon.offset_point}
     return replace(polygon, offset_fill=enabled[mode], offset_line=False, offset_point=False)
 
 
-def _with_offset(
+def _offset_depth(
     corners: np.ndarray, det: np.ndarray, polygon: Polygon, depth: Image | None, slope: str, unit: str, flipped: bool
 ) -> np.ndarray:
     """Return z (T, 3) of the corners with the offset added, clamped to [0, 1]; NaN becomes 0."""

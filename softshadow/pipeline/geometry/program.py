@@ -1,4 +1,4 @@
-"""The shading program of a draw, and the textures that it samples."""
+"""The program of a draw and the textures that it samples."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def program_of(command: Draw, storage: Storage) -> tuple[Program, Mapping[str, A
 
 
 def bound_textures(state: State, storage: Storage) -> dict[tuple[int, int], Texture]:
-    """Return what is bound by (unit, target), as the units sample it."""
+    """Return the bound textures by (unit, target), with the LOD bias and the seamless filter of their units."""
     bound = {}
     for index, unit in enumerate(state.units):
         for target, name in ((gl.GL_TEXTURE_2D, unit.bound_2d), (gl.GL_TEXTURE_CUBE_MAP, unit.bound_cube)):

@@ -1,4 +1,4 @@
-"""Triangle setup: the corners of the triangles that are drawn, the depth plane and its polygon offset."""
+"""Triangle setup: snapped corners, depth plane and polygon offset of the triangles that are drawn."""
 
 from typing import NamedTuple
 
@@ -7,7 +7,7 @@ import numpy as np
 from softshadow.image import Image
 from softshadow.jit import inlined, kernel, read_only
 from softshadow.pipeline.constants import HALF, ONE, ZERO
-from softshadow.pipeline.geometry.facing import count_kept, culling, facing_and_area, snap_vertices, vertices_of
+from softshadow.pipeline.geometry.facing import count_drawn, culling, facing_and_area, snap_vertices, vertices_of
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.mesa.polygon_rules import offset_is_on
@@ -31,7 +31,7 @@ NO_TRIANGLES = Setup(
 class Offset(NamedTuple):
     """Polygon offset, slope * factor + constant.
 
-    `downwards`: stored rows grow downwards, GL's dz/dy is the negative.
+    `downwards`: stored rows grow downwards, so GL's dz/dy is the negative of dz/dj.
     """
 
     slope: int
@@ -43,8 +43,8 @@ class Offset(NamedTuple):
 def offset_of(polygon: Polygon, depth: Image | None, real: type, slope: str, unit: str, flipped: bool) -> Offset:
     """Return the polygon offset of filled polygons for the depth format that is drawn to.
 
-    llvmpipe adds it where the offset of any mode is enabled, also that of lines or points (`offset_is_on`).
-    `unit` "mesa" makes one unit two steps of a fixed-point format, as llvmpipe does; "spec" one (GL 2.1, sec. 3.5.5).
+    llvmpipe adds it where the offset of any mode is enabled, also that of lines or points (`offset_is_on`). With `unit`
+    "mesa" a unit is two steps of a fixed-point format, as in llvmpipe; with "spec" one (GL 2.1, sec. 3.5.5).
     The constant of float depth depends on the triangle: `add_float_units`.
     """
     factor, units = (polygon.factor, polygon.units) if offset_is_on(polygon) else (0.0, 0.0)
@@ -54,9 +54,9 @@ def offset_of(polygon: Polygon, depth: Image | None, real: type, slope: str, uni
 
 
 def add_float_units(offsets: np.ndarray, window_z: np.ndarray, units: float) -> None:
-    """Add `units` last places of each triangle's largest abs(z), window_z (n, 3), to its offset:
+    """Add `units` last places of each triangle's largest abs(z) to its offset: the unit of float depth formats.
 
-    Float depth formats.
+    window_z (n, 3), the depths of the corners.
     """
     largest = np.abs(window_z).max(axis=1)
     _, exponent = np.frexp(largest)
@@ -65,8 +65,8 @@ def add_float_units(offsets: np.ndarray, window_z: np.ndarray, units: float) -> 
     offsets += offsets.dtype.type(units) * np.where(tiny, offsets.dtype.type(0), step)
 
 
-def in_order(setups: list[Setup]) -> Setup:
-    """Return triangles, lines and points together, ordered by their ids."""
+def merge_by_id(setups: list[Setup]) -> Setup:
+    """Return triangles, lines and points in one `Setup`, in the order of their ids."""
     joined = Setup(*(np.concatenate(arrays) for arrays in zip(*setups, strict=True)))
     order = np.argsort(joined.ids, kind="stable")
     return Setup(*(array[order] for array in joined))
@@ -80,22 +80,23 @@ def set_up(window: np.ndarray, triangles: np.ndarray, cull: Cull, offset: Offset
     window : (V, 4) window x, y (stored rows), z, 1/w
     triangles : (T, 3) int32
     """
-    facing, (snapped, _) = drawn_facing(cull, flipped), snapped_vertices(window)
+    facing, (snapped, _) = stored_culling(cull, flipped), snapped_vertices(window)
     triangles, parts = read_only(triangles), parts_of(len(triangles))
     if len(parts) > 1:
-        counts = share(lambda n: count_kept(snapped, triangles, *parts[n], *facing), len(parts))
-        places = np.cumsum([0, *counts])  # where the triangles of each part begin
+        n_drawn = share(lambda n: count_drawn(snapped, triangles, *parts[n], *facing), len(parts))
+        first_rows = np.cumsum([0, *n_drawn])  # of each part
     else:
-        places = np.array([0, len(triangles)])  # there may be fewer
-    made = room_for(places[-1], window.dtype)
+        first_rows = np.array([0, len(triangles)])  # of all; some may not be drawn
+    setup = empty_setup(first_rows[-1], window.dtype)
     ends = share(
-        lambda n: set_up_triangles(window, snapped, triangles, *parts[n], *facing, offset, places[n], *made), len(parts)
+        lambda n: set_up_triangles(window, snapped, triangles, *parts[n], *facing, offset, first_rows[n], *setup),
+        len(parts),
     )
-    return Setup(*(array[: ends[-1][0]] for array in made))
+    return Setup(*(array[: ends[-1][0]] for array in setup))
 
 
-def drawn_facing(cull: Cull, flipped: bool) -> tuple[int, int]:
-    """Return what is culled, see `culling`, and whether triangles of positive area face the front.
+def stored_culling(cull: Cull, flipped: bool) -> tuple[int, int]:
+    """Return which faces are culled, see `culling`, and whether triangles of positive area face the front.
 
     Stored rows that grow downwards mirror the picture: there, a positive area is counter-clockwise.
     """
@@ -104,20 +105,20 @@ def drawn_facing(cull: Cull, flipped: bool) -> tuple[int, int]:
 
 
 def snapped_vertices(window: np.ndarray) -> tuple[np.ndarray, tuple[int, int]]:
-    """Return x and y (V, 2) int32 of all vertices, see `snap_vertices`, and first and end row of samples among them."""
+    """Return the snapped x and y (V, 2) int32 of all vertices, and the first and end row of samples that they span."""
     snapped, parts = scratch((len(window), 2), np.int32), parts_of(len(window))
     lows, highs = zip(*share(lambda n: snap_vertices(window, *parts[n], snapped), len(parts)), strict=True)
     return snapped, ((min(lows) + 255) >> 8, (max(highs) >> 8) + 1)
 
 
-def room_for(count: int, real: np.dtype) -> Setup:
-    """Return arrays for so many triangles."""
+def empty_setup(n_triangles: int, real: np.dtype) -> Setup:
+    """Return the arrays of a `Setup`, not yet filled."""
     return Setup(
-        scratch((count, 6), np.int32),
-        scratch((count, 3), np.int32),
-        scratch((count, 4), real),
-        scratch(count, np.uint8),
-        scratch(count, np.int32),
+        scratch((n_triangles, 6), np.int32),
+        scratch((n_triangles, 3), np.int32),
+        scratch((n_triangles, 4), real),
+        scratch(n_triangles, np.uint8),
+        scratch(n_triangles, np.int32),
     )
 
 
@@ -125,18 +126,18 @@ def room_for(count: int, real: np.dtype) -> Setup:
 def half_away(values):
     """Return numbers rounded to whole ones, a half away from zero.
 
-    So Mesa 22.3 rounds what belongs to lines and points (util_iround: add a half, then cut off), where those of
-    triangles go through an instruction that rounds a half to even.
+    Mesa 22.3 rounds coordinates of lines and points in this way (util_iround: add a half, then truncate); for triangles
+    it uses an instruction that rounds a half to even.
     """
     return np.trunc(values + np.copysign(HALF, values))
 
 
 @kernel
 def plane(x0, y0, dx01, dy01, dx20, dy20, a0, a1, a2):
-    """Return (value at pixel (0, 0), d/di, d/dj) of the plane through three vertices, in llvmpipe's order of
-    operations.
+    """Return (value at pixel (0, 0), d/di, d/dj) of the plane through three vertices.
 
-    dx.. and dy.. are the differences of the unsnapped positions, the last two pairs already divided by twice the area.
+    The operations are in llvmpipe's order. dx.. and dy.. are differences of the unsnapped positions, divided by twice
+    the area.
     """
     da01, da20 = a0 - a1, a2 - a0
     di = da01 * dy20 - da20 * dy01
@@ -146,7 +147,7 @@ def plane(x0, y0, dx01, dy01, dx20, dy20, a0, a1, a2):
 
 @inlined
 def line_gradient(window, a, b):
-    """Return what the difference of a value along a line is multiplied by for d/di and d/dj, and 1 / length**2.
+    """Return (dx, dy, 1 / length**2) of a line, for the gradients in `line_plane`.
 
     Values change along the major direction only.
     """
@@ -161,7 +162,7 @@ def line_gradient(window, a, b):
 
 @inlined
 def line_plane(x, y, dx, dy, over_area, a0, a1):
-    """Return (value at pixel (0, 0), d/di, d/dj) of values at the two ends of a line, the first of which is (x, y)."""
+    """Return (value at pixel (0, 0), d/di, d/dj) for values at the two ends of a line; the first end is (x, y)."""
     di, dj = (a0 - a1) * dx * over_area, (a0 - a1) * dy * over_area
     return a0 - (di * (x - HALF) + dj * (y - HALF)), di, dj
 
@@ -176,7 +177,7 @@ def edge_differences(window, v0, v1, v2):
 
 @inlined
 def polygon_offset(offset, dx01, dy01, dz01, dx20, dy20, dz20, over_area):
-    """Return what is added to z: GL 2.1, eq. (3.12), with the slope form and the unit that the context asks for."""
+    """Return the polygon offset of z (GL 2.1, eq. (3.12)), in the slope form and the unit of the context."""
     di = -((dz20 * dy01 - dy20 * dz01) * over_area)
     dj = -((dx20 * dz01 - dz20 * dx01) * over_area)
     if offset.slope == MAX_SLOPE:
@@ -190,14 +191,14 @@ def polygon_offset(offset, dx01, dy01, dz01, dx20, dy20, dz20, over_area):
 
 @kernel
 def set_up_triangles(
-    window, snapped, triangles, first, end, culled, positive_is_front, offset, kept, corners, vertices, depth, front,
-    ids,
+    window, snapped, triangles, first, end, culled, positive_is_front, offset, first_row, corners, vertices, depth,
+    front, ids,
 ):  # fmt: skip
-    """Fill the arrays of `Setup` with those of the triangles [first, end) that are drawn, from row `kept` on.
+    """Fill the arrays of `Setup` from `first_row` on with the triangles of [first, end) that are drawn.
 
-    Returns the row after the last, and the sum of their areas in 1/256 pixel.
+    Return the row after the last one, and the sum of their areas in 1/256 pixel.
     """
-    row, covered = np.uint64(kept), 0
+    row, total_area = np.uint64(first_row), 0
     for t in range(first, end):
         v0, v1, v2 = vertices_of(triangles, t)
         facing, area = facing_and_area(snapped, v0, v1, v2, culled, positive_is_front)
@@ -220,5 +221,5 @@ def set_up_triangles(
         front[row] = facing
         ids[row] = t
         row += np.uint64(1)
-        covered += abs(area) >> 9
-    return row, covered
+        total_area += abs(area) >> 9
+    return row, total_area

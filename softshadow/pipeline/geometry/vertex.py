@@ -9,7 +9,7 @@ from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.state import Viewport
 
-SPARE = 8  # there is room for one vertex more, made by clipping, for each so many; it costs nothing until it is used
+VERTICES_PER_SPARE = 8  # for each so many, room is left for one new vertex of clipping; unwritten memory costs nothing
 
 
 def to_clip(model_view_projection: np.ndarray, positions: np.ndarray) -> np.ndarray:
@@ -23,8 +23,7 @@ def to_window(clip: np.ndarray, viewport: Viewport, framebuffer_height: int, fli
     """Return window x, y, z and 1/w (V, 4) of clip positions (V, 4).
 
     x and y are in pixels of the stored rows: y grows downwards in a flipped framebuffer (the window), upwards in an
-    FBO. z is in the depth range. Vertices with w = 0 become infinite or NaN; no triangle that is left after clipping
-    has one.
+    FBO. z is in the depth range. Vertices with w = 0 become infinite or NaN; clipping removes them.
 
     References
     ----------
@@ -46,7 +45,7 @@ def process_vertices(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return `to_clip`, `outcodes` and `to_window` of object positions (V, 4)."""
     clip = scratch(positions.shape, positions.dtype)
-    window = np.empty((len(positions) + len(positions) // SPARE, 4), positions.dtype)[: len(positions)]
+    window = np.empty((len(positions) + len(positions) // VERTICES_PER_SPARE, 4), positions.dtype)[: len(positions)]
     codes = scratch(len(positions), np.int32)
     scale, shift = scale_and_shift(viewport, framebuffer_height, flipped, positions.dtype)
     planes, ignored = user_planes.astype(positions.dtype), NEAR_FAR if depth_clamp else 0
@@ -54,29 +53,29 @@ def process_vertices(
     parts = parts_of(len(positions))
 
     def process(part: int) -> None:
-        own = slice(*parts[part])
-        transform(model_view_projection, positions[own], clip[own])
-        write_outcodes(clip[own], planes, ignored, codes[own])
-        write_window(clip[own], scale, shift, window[own])
+        rows = slice(*parts[part])
+        transform(model_view_projection, positions[rows], clip[rows])
+        write_outcodes(clip[rows], planes, ignored, codes[rows])
+        write_window(clip[rows], scale, shift, window[rows])
 
     share(process, len(parts))
     return clip, codes, window
 
 
-def with_rows(window: np.ndarray, more: np.ndarray) -> np.ndarray:
-    """Return the rows of `window` and `more`: without a copy of a million, where `process_vertices` has left room."""
-    count, room = len(window), window.base
-    if room is None or room.ndim != 2 or len(room) < count + len(more):
-        return np.concatenate([window, more])
-    room[count : count + len(more)] = more
-    whole: np.ndarray = room[: count + len(more)]
-    return whole
+def append_rows(window: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Return `window` with `rows` appended; without a copy where `process_vertices` has left room."""
+    n_window, with_room = len(window), window.base
+    if with_room is None or with_room.ndim != 2 or len(with_room) < n_window + len(rows):
+        return np.concatenate([window, rows])
+    with_room[n_window : n_window + len(rows)] = rows
+    extended: np.ndarray = with_room[: n_window + len(rows)]
+    return extended
 
 
 def scale_and_shift(
     viewport: Viewport, framebuffer_height: int, flipped: bool, dtype: np.dtype
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return what x/w, y/w and z/w are multiplied by for the window, and what is added then, (3,) each."""
+    """Return scale and shift (3,) of the viewport transform, from x/w, y/w, z/w to the window."""
     real = dtype.type
     near, far = real(viewport.near), real(viewport.far)
     half_height = viewport.height / 2

@@ -1,12 +1,12 @@
 """Which glBegin ... glEnd pairs Mesa hands to the driver as one draw.
 
 Consecutive pairs of triangles or quads with nothing between them are joined to one list of primitives (`JoinedPairs`).
-How llvmpipe cuts a quad into triangles depends on whether any vertex of the joined pairs is clipped, so the pairs have
-to be known before the first of them is drawn (`softshadow.pipeline.mesa.quad_cuts`); of triangles it depends on how
-many there are (`softshadow.pipeline.mesa.rectangles`).
+How llvmpipe cuts a quad into triangles depends on whether any vertex of the joined pairs is clipped, so all pairs must
+be known before the first one is drawn (`softshadow.pipeline.mesa.quad_cuts`). Which triangles it draws depends on their
+number (`softshadow.pipeline.mesa.rectangles`).
 
 Pairs of other modes are not joined, but those of one mode in a row are still one draw of the driver (`DriverDraw`), in
-which the first triangle decides about the polygon offset of all.
+which the first triangle decides the polygon offset of all.
 """
 
 from __future__ import annotations
@@ -19,41 +19,41 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.pipeline.commands import Draw, Vertices
-from softshadow.pipeline.mesa.polygon_rules import drawn_modes, offset_is_on
+from softshadow.pipeline.mesa.polygon_rules import effective_modes, offset_is_on
 
-CORNERS = {gl.GL_TRIANGLES: 3, gl.GL_QUADS: 4}  # modes whose pairs are joined
-SEPARATE = {gl.GL_POINTS: 1, gl.GL_LINES: 2, **CORNERS}  # vertices of primitives that share none
-MAX_PAIRS = 64  # that Mesa collects before it draws them (VBO_MAX_PRIM)
+CORNERS = {gl.GL_TRIANGLES: 3, gl.GL_QUADS: 4}  # vertices per primitive, for the modes whose pairs are joined
+SEPARATE = {gl.GL_POINTS: 1, gl.GL_LINES: 2, **CORNERS}  # vertices per primitive, for the modes that share none
+MAX_PAIRS = 64  # that Mesa collects before it draws (VBO_MAX_PRIM)
 
 
 @dataclass(eq=False)
 class JoinedPairs:
-    """CollectedPairs that wait to be drawn: `first` is the command of the first one, its state is that of all.
+    """Joined pairs that are not drawn yet: `first` is the command of the first one, with the state of all.
 
-    `parts` holds the debug groups and the vertices of each.
+    `parts` holds the debug groups and the vertices of each pair.
     """
 
     first: Draw
     parts: list[tuple[str, Vertices]] = field(default_factory=list)
 
     @property
-    def vertex_count(self) -> int:
+    def n_vertices(self) -> int:
         return sum(len(vertices.position) for _, vertices in self.parts)
 
     @property
     def takes_more(self) -> bool:
-        """Whether another pair can join: only after whole primitives."""
-        return self.vertex_count % CORNERS[self.first.mode] == 0
+        """Whether another pair can be joined: only after complete primitives."""
+        return self.n_vertices % CORNERS[self.first.mode] == 0
 
     def commands(self) -> list[Draw]:
-        """Return the draws: one where all pairs stand in the same debug groups, else one for each of these."""
+        """Return the draws: one if all pairs are in the same debug groups, else one for each change of groups."""
         groups = [(label, [part for _, part in parts]) for label, parts in groupby(self.parts, lambda part: part[0])]
         if len(groups) == 1:
-            return [replace(self.first, vertices=joined(groups[0][1]))]
-        whole = joined([vertices for _, vertices in self.parts]).position
+            return [replace(self.first, vertices=join_vertices(groups[0][1]))]
+        whole = join_vertices([vertices for _, vertices in self.parts]).position
         commands, start = [], 0
         for label, parts in groups:
-            vertices = joined(parts)
+            vertices = join_vertices(parts)
             part = replace(self.first, vertices=vertices, label=label, joined_positions=whole, joined_start=start)
             commands.append(part)
             start += len(vertices.position)
@@ -62,33 +62,34 @@ class JoinedPairs:
 
 @dataclass
 class CollectedPairs:
-    """The glBegin ... glEnd pairs that Mesa has collected: how many it has not joined, mode and vertices of the last.
+    """The glBegin ... glEnd pairs that Mesa has collected: their number, and mode and number of vertices of the last.
 
-    Too many of them are drawn, and later pairs are not joined to them (vbo_exec_api.c, _mesa_End).
+    Joined pairs count as one. Too many pairs are drawn, and later ones are not joined to them (vbo_exec_api.c,
+    _mesa_End).
     """
 
-    count: int = 0
+    n_pairs: int = 0
     mode: int = -1
-    vertices: int = 0
+    n_vertices: int = 0
 
-    def add(self, mode: int, vertices: int) -> None:
-        """Count a pair, or join it to the one before."""
-        if mode == self.mode and mode in SEPARATE and self.vertices % SEPARATE[mode] == 0:
-            self.vertices += vertices
+    def add(self, mode: int, n_vertices: int) -> None:
+        """Add a pair, or join it to the one before."""
+        if mode == self.mode and mode in SEPARATE and self.n_vertices % SEPARATE[mode] == 0:
+            self.n_vertices += n_vertices
             return
-        self.count, self.mode, self.vertices = self.count + 1, mode, vertices
+        self.n_pairs, self.mode, self.n_vertices = self.n_pairs + 1, mode, n_vertices
 
     @property
     def too_many(self) -> bool:
-        return self.count >= MAX_PAIRS
+        return self.n_pairs >= MAX_PAIRS
 
 
 @dataclass
 class DriverDraw:
-    """Draws of one mode that are one draw of the driver: Mesa's st_draw_gallium_multimode cuts its call into such.
+    """Draws of one mode that Mesa hands to the driver as one (st_draw_gallium_multimode).
 
-    `is_lost` says that it begins with a pair without vertices, because of which Mesa takes all of it for empty.
-    `offset_mode` is the polygon mode whose offset the first triangle that is not culled has chosen, or 0 before that.
+    `is_lost`: it begins with a pair without vertices, so Mesa takes all of it for empty. `offset_mode` is the polygon
+    mode of the first triangle that is not culled, whose offset applies to all, or 0 before that.
     """
 
     mode: int = -1
@@ -96,11 +97,11 @@ class DriverDraw:
     offset_mode: int = 0
 
     def part(self, command: Draw, offset_mode_of: Callable[[Draw], int]) -> Draw:
-        """Return a draw with the offset mode that earlier parts have chosen; the first part chooses it.
+        """Return a draw with the offset mode that an earlier part has decided; the first part decides it.
 
-        `offset_mode_of` returns the mode that a draw chooses (`softshadow.pipeline.geometry.geometry`).
+        `offset_mode_of` returns the mode that a draw decides (`softshadow.pipeline.geometry.geometry`).
         """
-        front, back = drawn_modes(command.state)
+        front, back = effective_modes(command.state)
         if front == back or not offset_is_on(command.state.polygon):
             return command
         part = replace(command, offset_mode=self.offset_mode)
@@ -109,7 +110,7 @@ class DriverDraw:
         return part
 
 
-def joined(parts: Sequence[Vertices]) -> Vertices:
+def join_vertices(parts: Sequence[Vertices]) -> Vertices:
     """Return the vertices of all parts, which have the same attributes; a constant attribute stays broadcast."""
     if len(parts) == 1:
         return parts[0]
@@ -124,7 +125,7 @@ def joined(parts: Sequence[Vertices]) -> Vertices:
 
 
 def _concatenated(rows: Sequence[np.ndarray]) -> np.ndarray:
-    if all(each.strides[0] == 0 for each in rows) and len({each[:1].tobytes() for each in rows}) == 1:
+    if all(part.strides[0] == 0 for part in rows) and len({part[:1].tobytes() for part in rows}) == 1:
         return np.broadcast_to(rows[0][0], (sum(map(len, rows)), *rows[0].shape[1:]))
     whole = np.concatenate(rows)
     whole.setflags(write=False)

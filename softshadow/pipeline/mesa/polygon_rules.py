@@ -1,4 +1,4 @@
-"""Which polygon modes and offsets llvmpipe applies, where they differ from what the specification asks for."""
+"""The polygon modes and offsets that llvmpipe applies where it differs from the specification."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from softshadow import tokens as gl
 from softshadow.state import Polygon, State
 
 
-def drawn_modes(state: State) -> tuple[int, int]:
-    """Return the polygon modes of front and back faces; a face that is culled takes that of the other."""
+def effective_modes(state: State) -> tuple[int, int]:
+    """Return the polygon modes of front and back faces; a culled face takes the mode of the other one."""
     front, back, cull = state.polygon.mode_front, state.polygon.mode_back, state.cull
     if cull.enabled and cull.face in (gl.GL_FRONT, gl.GL_FRONT_AND_BACK):
         front = back
@@ -15,5 +15,5 @@ def drawn_modes(state: State) -> tuple[int, int]:
 
 
 def offset_is_on(polygon: Polygon) -> bool:
-    """Return whether llvmpipe offsets filled polygons; GL 2.1, sec. 3.5.5, asks for `offset_fill` alone."""
+    """Return whether llvmpipe offsets filled polygons; by GL 2.1, sec. 3.5.5, only `offset_fill` decides."""
     return polygon.offset_fill or polygon.offset_line or polygon.offset_point

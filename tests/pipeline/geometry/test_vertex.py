@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from softshadow.pipeline import set_threads, threads
 from softshadow.pipeline.geometry.clip import FRUSTUM, outcodes
-from softshadow.pipeline.geometry.vertex import SPARE, process_vertices, to_clip, to_window, with_rows
+from softshadow.pipeline.geometry.vertex import VERTICES_PER_SPARE, process_vertices, to_clip, to_window, append_rows
 from softshadow.pipeline.memory import threads as bands
 from softshadow.state import Viewport
 
@@ -31,7 +31,7 @@ def test_parts_of_the_vertices_give_what_all_at_once_give(real, seed, flipped, c
     user_planes = rng.normal(0, 1, (planes, 4)).astype(np.float32)
     before = threads()
     with np.errstate(all="ignore"), pytest.MonkeyPatch.context() as patch:
-        patch.setattr(bands, "PART", 7)
+        patch.setattr(bands, "PART_SIZE", 7)
         set_threads(2)
         try:
             clip, codes, window = process_vertices(matrix, positions, user_planes, clamp, VIEWPORT, 40, flipped)
@@ -76,6 +76,6 @@ def test_rows_are_appended_whether_or_not_there_is_room(more):
     window = process_vertices(matrix, positions, np.empty((0, 4), np.float32), False, VIEWPORT, 40, False)[2]
     rows = np.arange(4 * more, dtype=np.float32).reshape(more, 4)
     expected = np.concatenate([window, rows])
-    whole = with_rows(window, rows)
+    whole = append_rows(window, rows)
     np.testing.assert_array_equal(whole, expected)
-    assert np.shares_memory(whole, window) == (more <= 17 // SPARE)
+    assert np.shares_memory(whole, window) == (more <= 17 // VERTICES_PER_SPARE)
