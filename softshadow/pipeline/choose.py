@@ -19,7 +19,7 @@ from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.geometry.polygon_mode import is_filled
 from softshadow.pipeline.memory.threads import threads
-from softshadow.pipeline.raster.bins import ROWS_LOG2
+from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2
 from softshadow.pipeline.raster.fill import FillKernel, fill_triangles
 from softshadow.pipeline.raster.fragment_ops import FragmentOps, fragment_ops
 from softshadow.pipeline.records import Geometry, Region, Spans
@@ -250,7 +250,7 @@ def _bands_pay(region: Region, fragments: int) -> bool:
     They pay for several threads, and for one where many layers lie on each other: the rows of a band stay in the cache
     while all layers are drawn.
     """
-    return region.end_row - region.first_row > 1 << ROWS_LOG2 and (threads() > 1 or _has_layers(region, fragments))
+    return region.end_row - region.first_row > 1 << BAND_ROWS_LOG2 and (threads() > 1 or _has_layers(region, fragments))
 
 
 def _has_layers(region: Region, fragments: int) -> bool:
@@ -260,9 +260,9 @@ def _has_layers(region: Region, fragments: int) -> bool:
 def _band_rows_log2(region: Region, fragments: int) -> int:
     """Return the binary logarithm of how many rows a band has: few bands where each has little to do."""
     if _has_layers(region, fragments):
-        return ROWS_LOG2
+        return BAND_ROWS_LOG2
     rows = int(region.end_row - region.first_row) // (BANDS_PER_THREAD * threads())
-    return max(ROWS_LOG2, rows.bit_length() - 1)
+    return max(BAND_ROWS_LOG2, rows.bit_length() - 1)
 
 
 def choose_shading(plan: Plan, state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None]:

@@ -1,7 +1,7 @@
-"""The commands that a context records: what changed a buffer, a texture or a framebuffer, with all it depends on.
+"""The commands that a context records: changes of buffers, textures and framebuffers, with all that they depend on.
 
-Commands are data: `softshadow.pipeline.execute` carries them out. A command never changes after it was made, so the
-list of them is a recording: executed in order on fresh storage, it gives every buffer again, bit for bit.
+Commands are data: `softshadow.pipeline.execute` carries them out. A command never changes after its creation, so a list
+of commands is a recording: executed in order on fresh storage, it gives every buffer again, bit for bit.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from softshadow.texture import Sampler
 class Vertices:
     """The vertices of a draw, read-only: position (V, 4), color (V, 4), normal (V, 3), one texcoord (V, 4) per unit.
 
-    `materials` holds what glMaterial changed from vertex to vertex: "front.diffuse" (V, 4), "back.shininess" (V,) ...
+    `materials` holds what glMaterial changed between vertices: "front.diffuse" (V, 4), "back.shininess" (V,) ...
     """
 
     position: np.ndarray
@@ -34,14 +34,14 @@ class Vertices:
 
 @dataclass(frozen=True, eq=False)
 class Draw:
-    """Primitives with everything that decides about their pixels.
+    """Primitives, with everything that determines their pixels.
 
     `mode` is GL_POINTS ... GL_POLYGON, `indices` (N,) int32 into the vertices, or None for all in order; `label` names
     the debug groups the draw stands in ("step/torus"); `uniforms` are those of the program in use; the kinds of the
     matrices decide how they are inverted. Where Mesa joins draws of several debug groups into one, `joined_positions`
-    (N, 4) are those of all of them and `joined_start` is the number of this draw's first vertex among them. `linear`
-    says that clipping interpolates values without perspective. `offset_mode` is the polygon mode whose offset unfilled
-    polygons get where an earlier draw has decided it, else 0.
+    (N, 4) are those of all of them and `joined_start` is the number of this draw's first vertex among them. `linear`:
+    clipping interpolates values without perspective. `offset_mode` is the polygon mode whose offset unfilled
+    polygons get if an earlier draw has decided it, else 0.
     """
 
     state: State
@@ -83,14 +83,14 @@ class Accumulate:
 
 @dataclass(frozen=True, eq=False)
 class BeginQuery:
-    """Count the fragments that pass from here on; `query` 0 ends the counting."""
+    """glBeginQuery: count the fragments that pass from here on; `query` 0 ends it."""
 
     query: int
 
 
 @dataclass(frozen=True, eq=False)
 class DefineImage:
-    """glTexImage2D. `cells` and `stencil` are in the storage's own layout, (height, width[, channels]), None: zeros.
+    """glTexImage2D. `cells` and `stencil` are in the storage's own layout, (height, width[, channels]), None for zeros.
 
     A framebuffer object that the level is attached to gets the new image.
     """
@@ -108,7 +108,7 @@ class DefineImage:
 
 @dataclass(frozen=True, eq=False)
 class UpdateImage:
-    """glTexSubImage2D. `cells` and `stencil` are in the storage's own layout; None leaves a plane as it is."""
+    """glTexSubImage2D. `cells` and `stencil` are in the storage's own layout; None leaves them as they are."""
 
     texture: int
     face: int
@@ -137,7 +137,7 @@ class CopyToTexture:
 
 @dataclass(frozen=True, eq=False)
 class GenerateMipmaps:
-    """glGenerateMipmap, or what GL_GENERATE_MIPMAP does to one face: all levels after the base level, to the last.
+    """glGenerateMipmap, or GL_GENERATE_MIPMAP for one face: all levels after the base level, up to the last.
 
     The other faces of a cube map get levels of the same sizes, zeros where they had others, as in Mesa.
     """
@@ -163,7 +163,7 @@ class BlitFramebuffer:
 
 @dataclass(frozen=True, eq=False)
 class CreateTexture:
-    """The first glBindTexture of a name, which makes the texture object."""
+    """The first glBindTexture of a name: it creates the texture object."""
 
     texture: int
     target: int
@@ -186,7 +186,7 @@ class DeleteTextures:
 
 @dataclass(frozen=True, eq=False)
 class CreateFramebuffer:
-    """The first glBindFramebuffer of a name, which makes the framebuffer object."""
+    """The first glBindFramebuffer of a name: it creates the framebuffer object."""
 
     framebuffer: int
 
@@ -200,7 +200,7 @@ class DeleteFramebuffers:
 
 @dataclass(frozen=True, eq=False)
 class DefineRenderbuffer:
-    """glRenderbufferStorage (zeros), or with no format the making of the name."""
+    """glRenderbufferStorage (zeros); without a format, the creation of the renderbuffer."""
 
     renderbuffer: int
     format: Format | None = None

@@ -1,6 +1,6 @@
 """The accumulation buffer: 16-bit integers, -1 to 1, rounded as Mesa rounds them.
 
-Products are cut towards zero: 256 times glAccum(GL_ACCUM, 1/256) of a byte loses up to half a step each time.
+Products are truncated: 256 times glAccum(GL_ACCUM, 1/256) of a byte loses up to half a step each time.
 
 References: GL 2.1, sec. 4.2.4; Mesa 22.3, main/accum.c.
 """
@@ -22,10 +22,10 @@ from softshadow.pipeline.records import Region
 from softshadow.pipeline.shade.color_writes import LARGEST_BYTE
 from softshadow.programs.wrapping import to_int32
 
-LARGEST = np.float32(32767)
+LARGEST_SUM = np.float32(32767)
 BYTE_STEP = np.float32(1) / np.float32(255)
 CHANNELS = 4
-ROWS = 64  # at a time
+ROWS_PER_TASK = 64  # that a thread processes in one go
 
 
 def accumulate(command: Accumulate, storage: Storage) -> None:
@@ -36,38 +36,38 @@ def accumulate(command: Accumulate, storage: Storage) -> None:
     where = np.s_[region.first_row : region.end_row, region.left : region.right]
     sums = buffer_of(target)
     if command.operation == gl.GL_ADD:
-        sums[where] += cut(value * LARGEST)
+        sums[where] += truncate(value * LARGEST_SUM)
     elif command.operation == gl.GL_MULT:
-        sums[where] = cut(sums[where].astype(np.float32) * value)
+        sums[where] = truncate(sums[where].astype(np.float32) * value)
     elif command.operation == gl.GL_RETURN:
         colors, mask = np.empty_like(sums, np.uint8), np.array(state.color.mask)
-        by_rows(write_bytes, region, sums, value / LARGEST, colors)
+        by_rows(write_bytes, region, sums, value / LARGEST_SUM, colors)
         for image in target.colors:
             image.cells[where] = colors[where] if mask.all() else np.where(mask, colors[where], image.cells[where])
     elif target.read_color is not None:
         if command.operation == gl.GL_LOAD:
             sums[where] = 0
-        by_rows(add_products, region, target.read_color.cells, value * LARGEST, sums)
+        by_rows(add_products, region, target.read_color.cells, value * LARGEST_SUM, sums)
 
 
 def by_rows(work: Callable[..., None], region: Region, source: np.ndarray, factor: np.float32, out: np.ndarray) -> None:
     """Call ``work(source, factor, left, right, out)`` for bands of rows of a region, on all threads.
 
-    `source` and `out` (rows, columns, 4) become rows of channels, of which those from left to right count.
+    `source` and `out` (rows, columns, 4) are passed as rows of channels, of which [left, right) are in the region.
     """
     first, columns = region.first_row, (CHANNELS * region.left, CHANNELS * region.right)
     from_rows, to_rows = (cells.reshape(len(cells), -1)[first : region.end_row] for cells in (source, out))
 
-    def rows(begin: int, end: int) -> None:
+    def work_on_rows(begin: int, end: int) -> None:
         with np.errstate(all="ignore"):  # set per thread
             work(from_rows[begin:end], factor, *columns, to_rows[begin:end])
 
-    share_chunks(rows, len(from_rows), ROWS)
+    share_chunks(work_on_rows, len(from_rows), ROWS_PER_TASK)
 
 
 @kernel
 def add_products(colors, factor, left, right, sums):
-    """Add bytes that stand for 0 to 1 times a factor to the sums, cut towards zero and wrapped around."""
+    """Add bytes, as 0 to 1, times a factor to the sums; products are truncated, sums wrap around."""
     for row in range(colors.shape[0]):
         source, target = colors[row, left:right], sums[row, left:right]
         for i in range(source.shape[0]):
@@ -76,7 +76,7 @@ def add_products(colors, factor, left, right, sums):
 
 @kernel
 def write_bytes(sums, factor, left, right, colors):
-    """Write sums times a factor as bytes, clamped to 0 to 1; NaN becomes 0."""
+    """Write sums times a factor as bytes, clamped to [0, 1]; NaN becomes 0."""
     for row in range(sums.shape[0]):
         source, target = sums[row, left:right], colors[row, left:right]
         for i in range(source.shape[0]):
@@ -86,15 +86,15 @@ def write_bytes(sums, factor, left, right, colors):
 
 
 def buffer_of(target: Framebuffer) -> np.ndarray:
-    """Return the accumulation buffer (rows, columns, 4) int16 of the window, made where it is first needed."""
+    """Return the accumulation buffer (rows, columns, 4) int16 of the window, created when first needed."""
     if target.accumulation is None:
         width, height = target.size
         target.accumulation = np.zeros((height, width, CHANNELS), np.int16)
     return target.accumulation
 
 
-def cut(values: np.ndarray | np.float32) -> np.ndarray:
-    """Return 16-bit integers, cut towards zero, wrapped around."""
+def truncate(values: np.ndarray | np.float32) -> np.ndarray:
+    """Return values as 16-bit integers, truncated and wrapped around."""
     return np.asarray(values).astype(np.int32).astype(np.int16)
 
 

@@ -1,8 +1,8 @@
 """glBlitFramebuffer: rectangles from framebuffer to framebuffer, scaled and mirrored.
 
-llvmpipe draws a textured rectangle, so the same is done here: what texel a pixel gets where two are as near as each
-other, and the last bits of a mixture, are those of the pipeline's own interpolation and sampling. Both framebuffers are
-taken as they are stored: the window's rows are counted from the top, and a copy between it and an object is mirrored.
+llvmpipe draws a textured rectangle, and so do we: which of two equally near texels a pixel gets, and the last bits of a
+filtered colour, follow from interpolation and sampling in the pipeline. Rows are those in storage: they begin at the
+top in the window and at the bottom in framebuffer objects, so a copy between the two is mirrored.
 
 References: GL 4.5 compatibility, sec. 18.3.1; Mesa, main/blit.c, main/image.c and gallium's util/u_blitter.c.
 """
@@ -20,6 +20,7 @@ from softshadow.framebuffer import DEFAULT, Attachment, Framebuffer, Storage
 from softshadow.image import FORMATS, Image
 from softshadow.pipeline.buffers.copy import convert_color
 from softshadow.pipeline.commands import BlitFramebuffer, Draw, Vertices
+from softshadow.pipeline.constants import HALF
 from softshadow.pixels import LARGEST_UINT, quantized_depth, sampled_depth
 from softshadow.state import Scissor, State, TextureUnit, Viewport
 from softshadow.texture import Sampler, Texture
@@ -27,14 +28,13 @@ from softshadow.texture import Sampler, Texture
 DrawFunction = Callable[[Draw, Storage], None]
 
 F32 = np.float32
-HALF = F32(0.5)
 
 
 class Rectangles(NamedTuple):
-    """Where a blit reads and writes, in stored rows; `box` (left, first row, right, end row) is what may be written.
+    """Where a blit reads and writes, in stored rows; `box` (left, first row, right, end row) may be written.
 
-    `in_texels` says that the source is the window, which Mesa reads as a rectangle texture: its coordinates are not
-    divided by the size.
+    `cut`: a part was clipped off; `in_texels`: the source is the window, which Mesa reads as a rectangle texture, with
+    coordinates that are not divided by the size.
     """
 
     source: tuple[int, int, int, int]
@@ -51,53 +51,56 @@ class Rectangles(NamedTuple):
 
     @property
     def straight(self) -> bool:
-        """Whether every pixel is copied as it is: no scaling, no mirroring, nothing cut off."""
+        """Whether pixels are copied one to one: no scaling, no mirroring, nothing cut off."""
         (a, b, c, d), (e, f, g, h) = self.source, self.target
         return not self.cut and (c - a, d - b) == (g - e, h - f)
 
 
 def blit(command: BlitFramebuffer, storage: Storage, draw: DrawFunction) -> None:
     """Copy the buffers that both framebuffers have; `draw` is `softshadow.pipeline.draw`."""
-    read, drawn = storage.framebuffers[command.read], storage.framebuffers[command.draw]
-    rectangles = rectangles_of(command, read, drawn)
+    source, target = storage.framebuffers[command.read], storage.framebuffers[command.draw]
+    rectangles = rectangles_of(command, source, target)
     if rectangles is None:
         return
-    if command.mask & gl.GL_COLOR_BUFFER_BIT and read.read_color is not None:
-        for target in drawn.colors:
-            _blit_color(read.read_color.copy(), target, rectangles, command.filter, draw)
-    depth = command.mask & gl.GL_DEPTH_BUFFER_BIT and read.depth is not None and drawn.depth is not None
-    stencil = command.mask & gl.GL_STENCIL_BUFFER_BIT and read.stencil is not None and drawn.stencil is not None
-    if depth and read.depth is not None and drawn.depth is not None:
-        whole = drawn.depth.format.largest == LARGEST_UINT  # llvmpipe copies 32 bits as integers (lp_surface.c)
-        plain = whole or (rectangles.straight and _copies_depth(read, drawn, bool(stencil)))
-        where, texels = nearest_texels(read.depth, drawn.depth, rectangles, draw)
-        cells = read.depth.view[texels]
-        through = cells if plain else quantized_depth(sampled_depth(cells, read.depth.format), drawn.depth.format)
-        drawn.depth.view[where] = through
-    if stencil and read.stencil is not None and drawn.stencil is not None:
-        where, texels = nearest_texels(read.stencil, drawn.stencil, rectangles, draw)
-        drawn.stencil.view[where] = read.stencil.view[texels]
+    if command.mask & gl.GL_COLOR_BUFFER_BIT and source.read_color is not None:
+        for image in target.colors:
+            _blit_color(source.read_color.copy(), image, rectangles, command.filter, draw)
+    stencils = (source.stencil, target.stencil) if command.mask & gl.GL_STENCIL_BUFFER_BIT else (None, None)
+    if command.mask & gl.GL_DEPTH_BUFFER_BIT and source.depth is not None and target.depth is not None:
+        is_32_bit = target.depth.format.largest == LARGEST_UINT  # llvmpipe copies 32 bits as integers (lp_surface.c)
+        unchanged = is_32_bit or (rectangles.straight and _depth_is_unchanged(source, target, None not in stencils))
+        where, texels = nearest_texels(source.depth, target.depth, rectangles, draw)
+        cells = source.depth.view[texels]
+        if not unchanged:
+            cells = quantized_depth(sampled_depth(cells, source.depth.format), target.depth.format)
+        target.depth.view[where] = cells
+    source_stencil, target_stencil = stencils
+    if source_stencil is not None and target_stencil is not None:
+        where, texels = nearest_texels(source_stencil, target_stencil, rectangles, draw)
+        target_stencil.view[where] = source_stencil.view[texels]
 
 
 def _blit_color(source: Image, target: Image, rectangles: Rectangles, texture_filter: int, draw: DrawFunction) -> None:
-    if texture_filter == gl.GL_LINEAR and rectangles.scaled:  # the blitter filters nothing else
+    if texture_filter == gl.GL_LINEAR and rectangles.scaled:  # without scaling, the blitter does not filter
         draw_image(source, target, rectangles, gl.GL_LINEAR, draw)
     else:
         where, texels = nearest_texels(source, target, rectangles, draw)
-        made = convert_color(source.view[texels], source, target)
+        colors = convert_color(source.view[texels], source, target)
         for channel in np.flatnonzero(target.format.written):
-            target.view[..., channel][where] = made[..., channel]
+            target.view[..., channel][where] = colors[..., channel]
 
 
-def _copies_depth(read: Framebuffer, drawn: Framebuffer, with_stencil: bool) -> bool:
-    """Return whether depth is copied in memory; else it goes through float32.
+def _depth_is_unchanged(source: Framebuffer, target: Framebuffer, with_stencil: bool) -> bool:
+    """Return whether depth is copied unchanged, as Mesa does where all bits of the target's format are copied.
 
-    Mesa does so where everything that the target's format holds is copied.
+    Otherwise depth goes through float32.
     """
-    return (with_stencil and _packed(read) and _packed(drawn)) or not (_has_stencil_bits(drawn) or _packed(read))
+    if with_stencil and _has_packed_stencil(source) and _has_packed_stencil(target):
+        return True
+    return not (_has_stencil_bits(target) or _has_packed_stencil(source))
 
 
-def _packed(target: Framebuffer) -> bool:
+def _has_packed_stencil(target: Framebuffer) -> bool:
     depth, stencil = target.depth, target.stencil
     return target.name == DEFAULT or (depth is not None and stencil is not None and depth.stencil is stencil)
 
@@ -107,11 +110,11 @@ def _has_stencil_bits(target: Framebuffer) -> bool:
 
 
 # -- where -------------------------------------------------------------------------------------------------------------
-def rectangles_of(command: BlitFramebuffer, read: Framebuffer, drawn: Framebuffer) -> Rectangles | None:
-    """Return the rectangles of a blit, None where nothing is left of them."""
+def rectangles_of(command: BlitFramebuffer, source: Framebuffer, target: Framebuffer) -> Rectangles | None:
+    """Return the rectangles of a blit after clipping, None where nothing is left."""
     sx0, sy0, sx1, sy1 = command.source
     dx0, dy0, dx1, dy1 = command.target
-    (read_width, read_height), (width, height) = read.size, drawn.size
+    (read_width, read_height), (width, height) = source.size, target.size
     left, bottom, right, top = 0, 0, width, height
     if command.scissor.enabled:
         box = command.scissor
@@ -121,30 +124,30 @@ def rectangles_of(command: BlitFramebuffer, read: Framebuffer, drawn: Framebuffe
     rows = _clipped((sy0, sy1), (dy0, dy1), read_height, bottom, top)
     if columns is None or rows is None:
         return None
-    cut = (columns, rows) != ((dx0, dx1), (dy0, dy1))
-    if drawn.flipped:
+    is_cut = (columns, rows) != ((dx0, dx1), (dy0, dy1))
+    if target.flipped:
         dy0, dy1, rows = height - dy0, height - dy1, (height - rows[0], height - rows[1])
-    if read.flipped:
+    if source.flipped:
         sy0, sy1 = read_height - sy0, read_height - sy1
     if dx0 > dx1:
         dx0, dx1, sx0, sx1 = dx1, dx0, sx1, sx0
     if dy0 > dy1:
         dy0, dy1, sy0, sy1 = dy1, dy0, sy1, sy0
-    box_of = (min(columns), min(rows), max(columns), max(rows))
-    return Rectangles((sx0, sy0, sx1, sy1), (dx0, dy0, dx1, dy1), box_of, cut, read.name == DEFAULT)
+    written_box = (min(columns), min(rows), max(columns), max(rows))
+    return Rectangles((sx0, sy0, sx1, sy1), (dx0, dy0, dx1, dy1), written_box, is_cut, source.name == DEFAULT)
 
 
 Span = tuple[int, int]
 
 
 def _clipped(source: Span, target: Span, read_end: int, first: int, end: int) -> Span | None:
-    """Return what is left of the target's span when both are clipped (Mesa, _mesa_clip_blit)."""
+    """Return the rest of the target's span after both are clipped, None for nothing (Mesa, _mesa_clip_blit)."""
     for span, low, high in ((target, first, end), (source, 0, read_end)):
         if span[0] == span[1] or low >= high or max(span) <= low or min(span) >= high:
             return None
     source, target = _cut_above(source, target, end)
     source, target = _cut_below(source, target, first)
-    if source[0] == source[1]:  # rounded to nothing: no more is cut off, and outside of the source Mesa divides by 0
+    if source[0] == source[1]:  # empty after rounding: outside of the source, Mesa would divide by 0
         inside = source[0] <= read_end and (source[0] >= 0 or target[0] < target[1])
         return target if inside else None
     target, source = _cut_above(target, source, read_end)
@@ -171,20 +174,20 @@ def _cut_below(follows: Span, cut: Span, first: int) -> tuple[Span, Span]:
 
 
 def _part(cut: int, whole: int, length: int) -> int:
-    """Return the rounded part of a length that belongs to the part `cut` of `whole`, in float32."""
+    """Return ``length * cut / whole``, computed in float32 and rounded."""
     return int(F32(cut) / F32(whole) * F32(length) + (HALF if length > 0 else -HALF))
 
 
 # -- drawing -----------------------------------------------------------------------------------------------------------
 def nearest_texels(source: Image, target: Image, rectangles: Rectangles, draw: DrawFunction) -> tuple[tuple, tuple]:
-    """Return which pixels (rows, columns) of the target are written, and the texels (rows, columns) they get."""
-    numbers = Image.new(FORMATS[gl.GL_RGBA32F], source.width, source.height)
-    numbers.view[..., 0], numbers.view[..., 1] = np.arange(source.height)[:, None], np.arange(source.width)
-    made = Image.new(FORMATS[gl.GL_RGBA32F], target.width, target.height)
-    made.view[...] = -1
-    draw_image(numbers, made, rectangles, gl.GL_NEAREST, draw)
-    where = np.nonzero(made.view[..., 0] >= 0)
-    rows, columns = (made.view[where][:, channel].astype(np.intp) for channel in (0, 1))
+    """Return the pixels (rows, columns) of the target that are written, and their texels (rows, columns)."""
+    texel_numbers = Image.new(FORMATS[gl.GL_RGBA32F], source.width, source.height)
+    texel_numbers.view[..., 0], texel_numbers.view[..., 1] = np.arange(source.height)[:, None], np.arange(source.width)
+    looked_up = Image.new(FORMATS[gl.GL_RGBA32F], target.width, target.height)
+    looked_up.view[...] = -1
+    draw_image(texel_numbers, looked_up, rectangles, gl.GL_NEAREST, draw)
+    where = np.nonzero(looked_up.view[..., 0] >= 0)
+    rows, columns = (looked_up.view[where][:, channel].astype(np.intp) for channel in (0, 1))
     return where, (rows, columns)
 
 
@@ -224,12 +227,12 @@ def draw_image(source: Image, target: Image, rectangles: Rectangles, texture_fil
 def _padded(image: Image) -> Image:
     """Return an image with its last texels repeated until the sizes are powers of two.
 
-    Dividing by such a size and multiplying by it loses no bit, so that coordinates are what they are in texels.
+    Dividing by such a size and multiplying by it is exact, so coordinates in texels keep all bits.
     """
     width, height = (1 << (size - 1).bit_length() for size in (image.width, image.height))
-    made = Image.new(image.format, width, height, image.internal_format)
-    made.view[...] = np.pad(image.view, ((0, height - image.height), (0, width - image.width), (0, 0)), "edge")
-    return made
+    padded = Image.new(image.format, width, height, image.internal_format)
+    padded.view[...] = np.pad(image.view, ((0, height - image.height), (0, width - image.width), (0, 0)), "edge")
+    return padded
 
 
 def _spread(corners: tuple[int, int, int, int], image: Image, scale: np.float32, shift: np.float32) -> list[np.float32]:

@@ -1,6 +1,6 @@
-"""glClear:
+"""glClear: colour, depth and stencil under their masks, inside the scissor box.
 
-Colour under its mask, depth under its mask, stencil under the front write mask, all inside the scissor box.
+The stencil mask is that of front faces.
 """
 
 from __future__ import annotations
@@ -36,14 +36,14 @@ def clear(command: Clear, storage: Storage) -> None:
             for channel in np.flatnonzero(written):
                 image.cells[where][..., channel] = value[channel]
     if command.mask & gl.GL_DEPTH_BUFFER_BIT and target.depth is not None and state.depth.write:
-        drawn = is_drawn(state, target, command.mask) and target.depth.format != EXACT_DEPTH
-        value_of = drawn_clear_depth if drawn else clear_depth
-        write_everywhere(target.depth, region, value_of(state.depth.clear, target.depth))
+        by_drawing = clears_by_drawing(state, target, command.mask) and target.depth.format != EXACT_DEPTH
+        value_of = drawn_clear_depth if by_drawing else clear_depth
+        write_region(target.depth, region, value_of(state.depth.clear, target.depth))
     if command.mask & gl.GL_STENCIL_BUFFER_BIT and target.stencil is not None:
         largest = target.stencil.format.largest
         mask = state.stencil.front.write_mask & largest
         if mask == largest:
-            write_everywhere(target.stencil, region, state.stencil.clear & mask)
+            write_region(target.stencil, region, state.stencil.clear & mask)
         else:
             cells = target.stencil.cells[where]
             cells[:] = (cells & (largest ^ mask)) | (state.stencil.clear & mask)
@@ -51,8 +51,8 @@ def clear(command: Clear, storage: Storage) -> None:
         accumulation.buffer_of(target)[where] = accumulation.clear_value(state.color.clear_accum)
 
 
-def write_everywhere(image: Image, region: Region, value: float) -> None:
-    """Write a value to a region of depth or stencil cells; where that is all of them, the image knows what it holds."""
+def write_region(image: Image, region: Region, value: float) -> None:
+    """Write a value to a region of depth or stencil cells; a clear of all cells gets a version token of the value."""
     if (region.left, region.right, region.first_row, region.end_row) == (0, image.width, 0, image.height):
         cell = np.array(value, image.format.dtype)
         image.write_later(0, np.broadcast_to(cell, image.shape), (cell.tobytes(), image.format, image.shape))
@@ -66,8 +66,8 @@ def clear_depth(value: float, depth: Image) -> float:
     return float(stored_units(np.rint(clamped * depth.format.largest))) if depth.format.largest else clamped
 
 
-def is_drawn(state: State, target: Framebuffer, mask: int) -> bool:
-    """Return whether llvmpipe clears depth by drawing a rectangle: a scissor box or a stencil mask cuts the clear."""
+def clears_by_drawing(state: State, target: Framebuffer, mask: int) -> bool:
+    """Return whether llvmpipe clears depth by drawing a rectangle: a scissor box or a stencil mask limits the clear."""
     box, (width, height) = state.scissor, target.size
     inside = box.x > 0 or box.y > 0 or box.x + box.width < width or box.y + box.height < height
     if box.enabled and inside:
@@ -79,7 +79,7 @@ def is_drawn(state: State, target: Framebuffer, mask: int) -> bool:
 
 
 def drawn_clear_depth(value: float, depth: Image) -> float:
-    """Return the depth of that rectangle in buffer units: clip space and back costs the last bits of float32."""
+    """Return the depth of that rectangle in buffer units: the way through clip space costs the last bits of float32."""
     clip = np.float32(min(max(value, 0.0), 1.0) * 2 - 1)
     z = clip * np.float32(0.5) + np.float32(0.5)
     return float(quantized_depth(np.array([z], np.float32), depth.format)[0])

@@ -1,7 +1,7 @@
 """Mipmap generation: each level is the one above it, sampled by a rectangle of half the size, as llvmpipe draws it.
 
-Where both sides are even that is the mean of 2x2 texels, rounded up per axis in 8 bits. Where a side is odd, the linear
-filter's weights vary from texel to texel, and float formats show every bit of the interpolated coordinates: they are
+Where both sides are even, a texel is the mean of 2x2 texels, in 8 bits rounded up per axis. Where a side is odd, the
+weights of the linear filter vary from texel to texel, and float formats keep every bit of the interpolated coordinates:
 those of two triangles that share the diagonal from the first texel to the last.
 
 References: GL 2.1 sec. 3.8.8 (automatic mipmap generation); u_gen_mipmap.c of Mesa 22.3 (a blit per level).
@@ -16,10 +16,10 @@ import numpy as np
 from softshadow.framebuffer import Storage
 from softshadow.image import Image
 from softshadow.pipeline.commands import GenerateMipmaps
+from softshadow.pipeline.constants import HALF, ONE
 from softshadow.pixels import quantized_depth, sampled_depth
 
-HALF, ONE = np.float32(0.5), np.float32(1.0)
-STEPS = 256  # weights of the filter in 8 bits
+STEPS = 256  # of the filter weights in 8 bits
 
 
 def generate_mipmaps(command: GenerateMipmaps, storage: Storage) -> None:
@@ -34,8 +34,8 @@ def generate_mipmaps(command: GenerateMipmaps, storage: Storage) -> None:
             images[face, level] = next_level(images[face, level - 1])
         model = images[command.faces[0], level]
         for face in texture.faces:
-            present = images.get((face, level))
-            if present is None or not present.is_laid_out_as(model):
+            old_image = images.get((face, level))
+            if old_image is None or not old_image.is_laid_out_as(model):
                 images[face, level] = Image.new(model.format, model.width, model.height, model.internal_format)
             storage.reattach(command.texture, face, level, images[face, level])
 
@@ -58,11 +58,11 @@ def next_level(image: Image) -> Image:
     return level
 
 
-def centers(count: int, other: int, from_far_end: bool) -> np.ndarray:
-    """Return the interpolated coordinates (count,) of texel centres, `other` being the number on the other axis."""
-    step = np.float32(other) * (ONE / np.float32(count * other))
-    start = ONE - step * (np.float32(count) - HALF) if from_far_end else step * HALF
-    return np.arange(count, dtype=np.float32) * step + start
+def centers(n: int, n_other: int, from_far_end: bool) -> np.ndarray:
+    """Return the interpolated coordinates (n,) of texel centres; the other axis has `n_other` texels."""
+    step = np.float32(n_other) * (ONE / np.float32(n * n_other))
+    start = ONE - step * (np.float32(n) - HALF) if from_far_end else step * HALF
+    return np.arange(n, dtype=np.float32) * step + start
 
 
 def halved_in_8_bits(texels: np.ndarray, width: int, height: int) -> np.ndarray:
@@ -90,13 +90,13 @@ def halved_in_float(texels: np.ndarray, width: int, height: int) -> np.ndarray:
     """Return texels (h, w, channels) float32 filtered to (height, width, channels)."""
     first, second, weight = texels_and_weights(centers(width, height, True), texels.shape[1])
     rows = weight[:, np.newaxis] * (texels[:, second] - texels[:, first]) + texels[:, first]
-    of_triangles: list[Any] = []
+    triangle_values: list[Any] = []
     for from_far_end in (False, True):
         first, second, weight = texels_and_weights(centers(height, width, from_far_end), texels.shape[0])
-        of_triangles.append(weight[:, np.newaxis, np.newaxis] * (rows[second] - rows[first]) + rows[first])
+        triangle_values.append(weight[:, np.newaxis, np.newaxis] * (rows[second] - rows[first]) + rows[first])
     y, x = np.indices((height, width))
     upper = (2 * y + 1) * width > (2 * x + 1) * height
-    return np.where(upper[..., np.newaxis], of_triangles[1], of_triangles[0])
+    return np.where(upper[..., np.newaxis], triangle_values[1], triangle_values[0])
 
 
 def texels_and_weights(coordinates: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

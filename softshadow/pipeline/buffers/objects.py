@@ -1,4 +1,4 @@
-"""Texture, framebuffer and renderbuffer objects: made, filled with images, attached and deleted."""
+"""Create, fill, attach and delete texture, framebuffer and renderbuffer objects."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ from softshadow.texture import Texture
 
 
 def create_texture(command: CreateTexture, storage: Storage) -> None:
-    """Make a texture object without images."""
+    """Create a texture object without images."""
     storage.textures[command.texture] = Texture(command.texture, command.target)
 
 
 def define_image(command: DefineImage, storage: Storage) -> None:
-    """Give a level of a texture a new image; framebuffers that the level is attached to get it, too."""
+    """Give a level of a texture a new image, also in the framebuffers that it is attached to."""
     image = Image.new(command.format, command.width, command.height, command.internal_format)
     if command.cells is not None:
         image.view[:] = command.cells
@@ -60,7 +60,7 @@ def delete_textures(command: DeleteTextures, storage: Storage) -> None:
 
 
 def create_framebuffer(command: CreateFramebuffer, storage: Storage) -> None:
-    """Make a framebuffer object without attachments."""
+    """Create a framebuffer object without attachments."""
     storage.framebuffers[command.framebuffer] = Framebuffer(command.framebuffer)
 
 
@@ -72,7 +72,7 @@ def delete_framebuffers(command: DeleteFramebuffers, storage: Storage) -> None:
 
 
 def define_renderbuffer(command: DefineRenderbuffer, storage: Storage) -> None:
-    """Give a renderbuffer a new image of zeros; framebuffers that it is attached to get it, too."""
+    """Give a renderbuffer a new image of zeros, also in the framebuffers that it is attached to."""
     image = Image.new(command.format or NOTHING, command.width, command.height, command.internal_format)
     storage.renderbuffers[command.renderbuffer] = image
     for target in storage.framebuffers.values():
@@ -88,7 +88,7 @@ def delete_renderbuffers(command: DeleteRenderbuffers, storage: Storage) -> None
 
 
 def attach_texture(command: AttachTexture, storage: Storage) -> None:
-    """Attach a level of a texture to a framebuffer, or detach what is there (texture 0)."""
+    """Attach a level of a texture to a framebuffer; texture 0 detaches."""
     attachments = storage.framebuffers[command.framebuffer].attachments
     if command.texture == 0:
         attachments.pop(command.attachment, None)
@@ -100,7 +100,7 @@ def attach_texture(command: AttachTexture, storage: Storage) -> None:
 
 
 def attach_renderbuffer(command: AttachRenderbuffer, storage: Storage) -> None:
-    """Attach a renderbuffer to a framebuffer, or detach what is there (renderbuffer 0)."""
+    """Attach a renderbuffer to a framebuffer; renderbuffer 0 detaches."""
     attachments = storage.framebuffers[command.framebuffer].attachments
     if command.renderbuffer == 0:
         attachments.pop(command.attachment, None)

@@ -17,7 +17,7 @@ from softshadow.jit import kernel
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.records import Geometry, Spans
 from softshadow.pipeline.shade.blend import FOUR_BYTES
-from softshadow.pipeline.shade.color_writes import as_pixels, pack_bytes, taken_bits, write_pixels
+from softshadow.pipeline.shade.color_writes import as_pixels, pack_bytes, writable_bits, write_pixels
 from softshadow.pipeline.shade.interpolate import AttributePlanes, interpolate
 from softshadow.pipeline.shade.shading import attribute_planes_of
 from softshadow.programs.filtering import gather_texels, sources_of, texels_of, wraps_of
@@ -52,12 +52,12 @@ def shadow_map_shader(state: State, target: Framebuffer, geometry: Geometry) -> 
     texels = texels_of(image, map_.sampler, real)
     sizes_and_wraps = (image.width, image.height, *wraps_of(map_.sampler, map_.images.get((0, 0)) or image))
     ambient, bias = np.array(geometry.uniforms["ambient"], real), real.type(geometry.uniforms["bias"])
-    taken, pixels = taken_bits(state, color), as_pixels(color.cells)
+    writable, pixels = writable_bits(state, color), as_pixels(color.cells)
 
     def shade_part(spans: Spans, planes: AttributePlanes) -> None:
         shade_and_write_spans(
             planes.values, planes.place, *spans, planes.coordinates, geometry.flat, *texels, sources, sizes_and_wraps,
-            ambient, bias, taken, pixels,
+            ambient, bias, writable, pixels,
         )  # fmt: skip
 
     def shade(spans: Spans) -> None:
@@ -81,7 +81,7 @@ def _is_plain(texture: Texture) -> bool:
 @kernel
 def shade_and_write_spans(
     planes, place, rows, lefts, triangles, starts, coordinates, flat, cells, border, unit, sources, sizes_and_wraps,
-    ambient, bias, taken, pixels,
+    ambient, bias, writable, pixels,
 ):  # fmt: skip
     """Interpolate, look up the map, compare, and write the spans' pixels (H, pitch) of 32 bits.
 
@@ -121,4 +121,4 @@ def shade_and_write_spans(
         )
         compare(inputs, projected, stored, ambient, bias, shaded)
         pack_bytes(shaded, packed[:n])
-        write_pixels(where[0], where[1], where[2], packed[:n].view(np.uint32), taken, pixels)
+        write_pixels(where[0], where[1], where[2], packed[:n].view(np.uint32), writable, pixels)

@@ -12,23 +12,23 @@ from typing import SupportsIndex
 import numpy as np
 
 SMALLEST = 1 << 16  # bytes; below, the allocator reuses memory by itself
-POOLED = 128 << 20  # bytes that are pooled for each thread that draws
+POOLED = 128 << 20  # bytes in the pool of each thread that draws
 _unused = [np.empty(0, np.uint8)]
-UNUSED = sys.getrefcount(_unused[0])  # references to a block not in use: the list, and this call
+UNUSED_REFERENCES = sys.getrefcount(_unused[0])  # to a block that is not in use: the list, and this call
 
 
 class _Blocks(threading.local):
-    """The blocks of memory of this thread, by their size, a power of two."""
+    """The memory blocks of one thread by size, a power of two."""
 
     def __init__(self) -> None:
         self.of_size: dict[int, list[np.ndarray]] = {}
 
 
-_own = _Blocks()
+_thread_blocks = _Blocks()
 
 
 def scratch(shape: SupportsIndex | tuple[SupportsIndex, ...], dtype: np.typing.DTypeLike) -> np.ndarray:
-    """Return an array like that of ``np.empty``, if possible in pooled memory.
+    """Return an uninitialised array, like ``np.empty``, if possible in pooled memory.
 
     A block is reused once its last reference is gone.
     """
@@ -37,9 +37,9 @@ def scratch(shape: SupportsIndex | tuple[SupportsIndex, ...], dtype: np.typing.D
     if not SMALLEST <= size <= POOLED // 2:
         return np.empty(shape, kind)
     whole = 1 << (size - 1).bit_length()  # pages that are never written take no memory
-    blocks = _own.of_size.setdefault(whole, [])
-    for n in range(len(blocks)):  # a name for the block would be one more reference
-        if sys.getrefcount(blocks[n]) == UNUSED:
+    blocks = _thread_blocks.of_size.setdefault(whole, [])
+    for n in range(len(blocks)):  # no variable for the block: it would be one more reference
+        if sys.getrefcount(blocks[n]) == UNUSED_REFERENCES:
             return blocks[n][:size].view(kind).reshape(shape)
     _make_room(whole)
     blocks.append(np.empty(whole, np.uint8))
@@ -47,8 +47,8 @@ def scratch(shape: SupportsIndex | tuple[SupportsIndex, ...], dtype: np.typing.D
 
 
 def _make_room(size: int) -> None:
-    """Empty the pool if one more block would be too many; blocks in use live until their last reference is gone."""
-    of_size = _own.of_size
+    """Empty the pool if one more block does not fit; blocks in use live until their last reference is gone."""
+    of_size = _thread_blocks.of_size
     if size + sum(each * len(blocks) for each, blocks in of_size.items()) > POOLED:
         for blocks in of_size.values():
             blocks.clear()

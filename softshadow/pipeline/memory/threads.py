@@ -13,17 +13,17 @@ from typing import TypeVar, cast
 
 Result = TypeVar("Result")
 
-PART = 1 << 15  # vertices or triangles; some tenths of a millisecond
+PART_SIZE = 1 << 15  # vertices or triangles; they take some tenths of a millisecond
 
 VARIABLE = "SOFTSHADOW_THREADS"
 
 _threads = [0]
 _pool: dict[int, ThreadPoolExecutor] = {}
-_making = Lock()
+_pool_lock = Lock()
 
 
 def set_threads(n: int) -> None:
-    """Set how many threads a draw may use, in this process. Results do not depend on it.
+    """Set how many threads a draw may use in this process; results do not depend on it.
 
     Raises
     ------
@@ -36,7 +36,7 @@ def set_threads(n: int) -> None:
 
 
 def threads() -> int:
-    """Return how many threads a draw may use: what was set, else SOFTSHADOW_THREADS, else as many as there are cores.
+    """Return how many threads a draw may use: the number set, else SOFTSHADOW_THREADS, else the number of cores.
 
     Raises
     ------
@@ -45,31 +45,31 @@ def threads() -> int:
     """
     if _threads[0]:
         return _threads[0]
-    given = os.environ.get(VARIABLE, "").strip()
-    if not given:
+    text = os.environ.get(VARIABLE, "").strip()
+    if not text:
         return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    if not given.isdecimal() or int(given) < 1:
-        raise ValueError(f"{VARIABLE}={given!r}: expected a number of threads, 1 or more")
-    return int(given)
+    if not text.isdecimal() or int(text) < 1:
+        raise ValueError(f"{VARIABLE}={text!r}: expected a number of threads, 1 or more")
+    return int(text)
 
 
-def share(work: Callable[[int], Result], count: int) -> list[Result]:
-    """Return ``[work(0), ..., work(count - 1)]``, each called on the thread that is idle next."""
-    most = threads()
-    n = min(most, count)
-    if n <= 1:
-        return [work(number) for number in range(count)]
-    numbers, results = iter(range(count)), [cast(Result, None)] * count
+def share(work: Callable[[int], Result], n_pieces: int) -> list[Result]:
+    """Return ``[work(0), ..., work(n_pieces - 1)]``; the next idle thread takes the next piece."""
+    limit = threads()
+    n_threads = min(limit, n_pieces)
+    if n_threads <= 1:
+        return [work(number) for number in range(n_pieces)]
+    numbers, results = iter(range(n_pieces)), [cast(Result, None)] * n_pieces
 
     def until_none_is_left() -> None:
         for number in numbers:  # the threads share the iterator: each number is handed out once
             results[number] = work(number)
 
-    with _making:
-        if n > 1 and most not in _pool:
-            _pool[most] = ThreadPoolExecutor(most, thread_name_prefix="softshadow")
+    with _pool_lock:
+        if limit not in _pool:
+            _pool[limit] = ThreadPoolExecutor(limit, thread_name_prefix="softshadow")
     # the caller is the first thread; the others get its context (NumPy's error state, use_short_cuts)
-    others = [_pool[most].submit(copy_context().run, until_none_is_left) for _ in range(n - 1)]
+    others = [_pool[limit].submit(copy_context().run, until_none_is_left) for _ in range(n_threads - 1)]
     try:
         until_none_is_left()
     finally:
@@ -79,17 +79,18 @@ def share(work: Callable[[int], Result], count: int) -> list[Result]:
     return results
 
 
-def parts_of(count: int, size: int = PART) -> list[tuple[int, int]]:
-    """Return first and end of the parts of ``range(count)`` to share: one part for one thread, else of `size` each.
+def parts_of(n_items: int, size: int | None = None) -> list[tuple[int, int]]:
+    """Return first and end of parts of ``range(n_items)``: one part for one thread, else parts of `size` (PART_SIZE).
 
     A part should take longer than its hand-over to another thread.
     """
+    size = size or PART_SIZE
     if threads() == 1:
-        return [(0, count)]
-    return [(first, min(first + size, count)) for first in range(0, max(count, 1), size)]
+        return [(0, n_items)]
+    return [(first, min(first + size, n_items)) for first in range(0, max(n_items, 1), size)]
 
 
-def share_chunks(work: Callable[[int, int], None], count: int, size: int) -> None:
-    """Call ``work(first, end)`` for chunks of ``range(count)`` on the idle threads; one thread gets one chunk."""
-    size = size if threads() > 1 else max(count, 1)
-    share(lambda n: work(n * size, min(n * size + size, count)), -(-count // size))
+def share_chunks(work: Callable[[int, int], None], n_items: int, size: int) -> None:
+    """Call ``work(first, end)`` for chunks of ``range(n_items)`` on idle threads; one thread gets a single chunk."""
+    size = size if threads() > 1 else max(n_items, 1)
+    share(lambda n: work(n * size, min(n * size + size, n_items)), -(-n_items // size))

@@ -14,7 +14,7 @@ from softshadow.pipeline.memory.threads import share
 from softshadow.pipeline.raster.coverage import bounds
 from softshadow.pipeline.records import Region
 
-ROWS_LOG2 = 5  # rows of a band, 32: layers drawn over each other in a band stay in the cache
+BAND_ROWS_LOG2 = 5  # 32 rows: layers drawn over each other in a band stay in the cache
 
 
 class Bins(NamedTuple):
@@ -34,31 +34,31 @@ class Bins(NamedTuple):
         return first, min(first + (1 << self.rows_log2), region.end_row)
 
 
-def bands_of(region: Region, rows_log2: int = ROWS_LOG2) -> int:
-    """Return how many bands the rows of a region make."""
+def bands_of(region: Region, rows_log2: int = BAND_ROWS_LOG2) -> int:
+    """Return the number of bands of a region."""
     return ((region.end_row - region.first_row - 1) >> rows_log2) + 1
 
 
 def sort_into_bands(
-    corners: np.ndarray, parts: Sequence[tuple[int, int]], region: Region, rows_log2: int = ROWS_LOG2
+    corners: np.ndarray, parts: Sequence[tuple[int, int]], region: Region, rows_log2: int = BAND_ROWS_LOG2
 ) -> Bins:
-    """Return the bins of triangles for the bands of a region; `parts` are their first and end numbers, in order."""
+    """Return the bins of the triangles in `parts`, their first and end numbers in order, for the bands of a region."""
     base, end, bands = parts[0][0], parts[-1][1], bands_of(region, rows_log2)
-    met, marks = np.empty((end - base, 2), np.uint16), np.zeros((len(parts), 2, bands + 1), np.int64)
-    share(lambda n: find_bands(corners, *parts[n], region, rows_log2, base, met, marks[n]), len(parts))
+    band_ranges, marks = np.empty((end - base, 2), np.uint16), np.zeros((len(parts), 2, bands + 1), np.int64)
+    share(lambda n: write_band_ranges(corners, *parts[n], region, rows_log2, base, band_ranges, marks[n]), len(parts))
     counts = np.cumsum(marks[:, 0] - marks[:, 1], axis=1)[:, :-1]
-    # band after band, and in a band part after part: so the drawing order is kept
-    ends = np.cumsum(counts.T).reshape(counts.T.shape).T
-    places = np.ascontiguousarray(ends - counts)
-    starts = np.append(places[0], ends[-1, -1])
+    # sums over bands, and in a band over parts: so a band keeps the drawing order
+    end_places = np.cumsum(counts.T).reshape(counts.T.shape).T
+    first_places = np.ascontiguousarray(end_places - counts)
+    starts = np.append(first_places[0], end_places[-1, -1])
     numbers = np.empty(starts[-1], np.int32)
-    share(lambda n: write_numbers(*parts[n], base, met, places[n], numbers), len(parts))
+    share(lambda n: write_numbers(*parts[n], base, band_ranges, first_places[n], numbers), len(parts))
     return Bins(starts, numbers, rows_log2)
 
 
 @inlined
-def bands_met(corners, t, region, rows_log2):
-    """Return first and end band of a triangle (end exclusive); an empty range where it meets none."""
+def band_range(corners, t, region, rows_log2):
+    """Return first and end band of a triangle (end exclusive); the range is empty where it meets none."""
     first, end = bounds(corners, t)
     first, end = max(first, region.first_row), min(end, region.end_row)
     if first >= end:
@@ -67,27 +67,27 @@ def bands_met(corners, t, region, rows_log2):
 
 
 @kernel
-def find_bands(corners, begin, end, region, rows_log2, base, met, marks):
-    """Write first and end band of each triangle to `met`, beginning with triangle `base`; count both in `marks`.
+def write_band_ranges(corners, begin, end, region, rows_log2, base, band_ranges, marks):
+    """Write first and end band of each triangle to `band_ranges`, with `base` in row 0; count both in `marks`.
 
-    marks (2, bands + 1): how many triangles begin with a band, and how many end before it. That takes no loop over the
-    bands of a triangle, of which most have one.
+    marks (2, bands + 1): how many triangles begin with a band, and how many end before it. So no loop over the bands of
+    a triangle is needed; most triangles meet one band.
     """
     for number in range(begin, end):
         t = np.uint64(number)  # unsigned: no wrap-around of negative indices is compiled in
-        first_band, end_band = bands_met(corners, t, region, rows_log2)
+        first_band, end_band = band_range(corners, t, region, rows_log2)
         row = np.uint64(number - base)
-        met[row, 0], met[row, 1] = first_band, end_band
+        band_ranges[row, 0], band_ranges[row, 1] = first_band, end_band
         marks[0, np.uint64(first_band)] += 1
         marks[1, np.uint64(end_band)] += 1
 
 
 @kernel
-def write_numbers(begin, end, base, met, places, numbers):
-    """Write the number of each triangle where its bands go on; `places` (bands,) moves along."""
+def write_numbers(begin, end, base, band_ranges, places, numbers):
+    """Append the number of each triangle to its bands; `places` (bands,) is where each band continues."""
     for number in range(begin, end):
         row = np.uint64(number - base)
-        for band in range(int(met[row, 0]), int(met[row, 1])):
+        for band in range(int(band_ranges[row, 0]), int(band_ranges[row, 1])):
             place = places[np.uint64(band)]
             numbers[np.uint64(place)] = number
             places[np.uint64(band)] = place + 1

@@ -8,7 +8,7 @@ import numpy as np
 
 from softshadow.jit import kernel
 
-FARTHEST = np.int64(1 << 30)  # not a literal, for which `narrow` would be compiled once more
+FARTHEST = np.int64(1 << 30)  # typed: for a literal, `narrow` would be compiled a second time
 EXACT = 1 << 52  # whole numbers below twice this are floats, and so are their products and sums here
 
 
@@ -39,8 +39,8 @@ def extent(corners, begin, end):
 def edge(x0, y0, x1, y1, downwards):
     """Return (across, along, at) of the edge from corner 0 to corner 1.
 
-    Inside are the samples with ``at + along * 256 row - across * 256 column >= 0``: with the edge itself where it is
-    inclusive.
+    Inside are the samples with ``at + along * 256 row - across * 256 column >= 0``; those on the edge itself only where
+    it is inclusive.
     """
     across, along = int(y0) - int(y1), int(x0) - int(x1)
     inclusive = across < 0 or (across == 0 and ((along < 0) == (downwards == 1)))
@@ -123,13 +123,13 @@ def row_spans(corners, t, first, end, downwards, left, right, lefts, rights):
 
 @kernel
 def triangles_at(corners, column, row, downwards, numbers):
-    """Write the numbers of the triangles that cover one pixel to `numbers`; return how many there are."""
-    count = 0
+    """Write the numbers of the triangles that cover one pixel to `numbers`; return how many they are."""
+    n = 0
     for t in range(corners.shape[0]):
         first, end = bounds(corners, np.uint64(t))
         if first <= row < end:
             left, right = row_span(corners, np.uint64(t), row, downwards)
             if left <= column < right:
-                numbers[count] = t
-                count += 1
-    return count
+                numbers[n] = t
+                n += 1
+    return n

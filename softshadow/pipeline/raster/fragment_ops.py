@@ -1,7 +1,7 @@
 """The per-fragment operations: one textbook function in the order of the specification.
 
-It gets its state in two ways: as an argument (`raster/fill.py`), or compiled for plain numbers, so that the compiler
-folds the state away (`fast/specialize.py`). Called from Python it explains the history of a pixel.
+The state comes in two ways: as an argument (`raster/fill.py`), or as constants of a kernel compiled for one state, so
+that the compiler folds it away (`fast/specialize.py`). Called from Python it explains the history of a pixel.
 """
 
 from typing import NamedTuple
@@ -14,7 +14,7 @@ from softshadow.jit import kernel
 from softshadow.pipeline.records import ALPHA_FAILED, DEPTH_FAILED, PASSED, SCISSORED, STENCIL_FAILED
 from softshadow.state import State
 
-NO_ALPHA = np.int64(0)  # where alpha is not tested; a literal would have `process_fragment` compiled once more
+NO_ALPHA = np.int64(0)  # where alpha is not tested; for a literal, `process_fragment` would be compiled a second time
 
 NEVER, LESS, EQUAL, LEQUAL = gl.GL_NEVER, gl.GL_LESS, gl.GL_EQUAL, gl.GL_LEQUAL
 GREATER, NOTEQUAL, GEQUAL, ALWAYS = gl.GL_GREATER, gl.GL_NOTEQUAL, gl.GL_GEQUAL, gl.GL_ALWAYS

@@ -15,17 +15,19 @@ from softshadow.pipeline.records import Fragments, Region, Setup
 
 def list_fragments(triangles: Setup, region: Region) -> Fragments:
     """Return all fragments of the triangles inside the region, in drawing order, each row from left to right."""
-    nothing = np.empty(0, np.int32)
-    count = collect(triangles.corners, region, nothing, nothing, nothing)
-    fragments = Fragments(np.empty(count, np.int32), np.empty(count, np.int32), np.empty(count, np.int32))
+    no_room = np.empty(0, np.int32)
+    n_fragments = collect(triangles.corners, region, no_room, no_room, no_room)
+    fragments = Fragments(
+        np.empty(n_fragments, np.int32), np.empty(n_fragments, np.int32), np.empty(n_fragments, np.int32)
+    )
     collect(triangles.corners, region, *fragments)
     return fragments
 
 
 @kernel
 def collect(corners, region, rows, columns, numbers):
-    """Write the fragments where the arrays have room; return how many there are."""
-    count, room = 0, rows.shape[0]
+    """Write the fragments if the arrays have room; return the number of fragments."""
+    n_fragments, room = 0, rows.shape[0]
     for t in range(corners.shape[0]):
         first, end = bounds(corners, np.uint64(t))
         for row in range(max(first, region.first_row), min(end, region.end_row)):
@@ -33,11 +35,11 @@ def collect(corners, region, rows, columns, numbers):
             left, right = max(left, region.left), min(right, region.right)
             if room:
                 for column in range(left, right):
-                    rows[count], columns[count], numbers[count] = row, column, t
-                    count += 1
+                    rows[n_fragments], columns[n_fragments], numbers[n_fragments] = row, column, t
+                    n_fragments += 1
             else:
-                count += max(right - left, 0)
-    return count
+                n_fragments += max(right - left, 0)
+    return n_fragments
 
 
 @kernel
@@ -49,9 +51,10 @@ def fragment_depth(planes, t, row, column, depth_range, largest):
 
 @kernel
 def process_fragments(front, back, fragments, alpha, triangles, depth_range, columns, depth, stencil, verdicts):
-    """Process listed fragments in order: changes depth and stencil, writes the verdict of each to `verdicts` (n,).
+    """Process listed fragments in order; return how many stencil values changed.
 
-    `alpha` (n,) uint8; `columns` holds 0, 1, 2 ... in the precision of depth. Return how many stencil values changed.
+    Depth and stencil change; `verdicts` (n,) receives the verdict of each fragment. `alpha` (n,) uint8; `columns` holds
+    0, 1, 2 ... in the precision of depth.
     """
     changed = 0
     for n in range(fragments.row.shape[0]):

@@ -16,7 +16,7 @@ LAST, ONLY = 1, 2  # what `ids` receives of the triangles that pass at a pixel: 
 
 @inlined
 def id_after(writes_ids, passed, triangle, before):
-    """Return the id of a pixel after a fragment: the last triangle that passed, or SEVERAL where only one may."""
+    """Return the id of a pixel after a fragment: that of the last triangle that passed, or SEVERAL_TRIANGLES."""
     if writes_ids == ONLY:
         triangle = triangle if before == NO_TRIANGLE else SEVERAL_TRIANGLES
     return triangle if passed else before
@@ -40,7 +40,7 @@ def fill_span(ops, writes_ids, plane, depth_range, columns, row_at, left, right,
 
 @inlined
 def count_span(ops, plane, depth_range, columns, row_at, left, right, depth, stencil, counts):
-    """Count the verdicts of one row of fragments, before they are processed."""
+    """Count the verdicts of one row of fragments; called before they are processed."""
     for i in range(left, right):
         z = depth_at(plane[0], plane[1], plane[2], plane[3], columns[i], row_at)
         z = depth_units(z, depth_range, ops.depth_largest)

@@ -1,7 +1,7 @@
 """Blending and logic operations of single colours, and the bytes that the alpha test compares.
 
 Bytes are blended as bytes, floats as floats and never clamped, both in the order of operations of llvmpipe
-(lp_bld_blend.c), which takes short cuts where equal or complementary factors allow them.
+(lp_bld_blend.c), which has formulas of its own for equal and for complementary factors.
 """
 
 from typing import NamedTuple
@@ -28,8 +28,8 @@ COMPLEMENTS = (
 class BlendOps(NamedTuple):
     """Blend state as plain numbers: factors and equations of (rgb, alpha), constant colour, logic op or 0.
 
-    The constant colour is 0-255 for bytes, float32 for floats; `alone` says that the buffer has one channel, `shared`
-    that source and target have the same factor.
+    The constant colour is 0-255 for bytes, float32 for floats; `single_channel`: the buffer has one
+    channel; `same_factor`: source and target have equal factors.
     """
 
     src_rgb: int
@@ -43,8 +43,8 @@ class BlendOps(NamedTuple):
     blue: int | np.float32
     alpha: int | np.float32
     logic_op: int
-    alone: int
-    shared: int
+    single_channel: int
+    same_factor: int
 
 
 def to_unorm8(values: np.ndarray) -> np.ndarray:
@@ -60,7 +60,7 @@ def compared_alpha(state: State, color: Image | None, alpha: np.ndarray) -> tupl
     """Return alpha values (n,) uint8 and the reference that the alpha test compares them with.
 
     Both are 0-255 for a buffer of 8-bit RGB or RGBA. For every other one llvmpipe compares them unrounded: then 0, 1, 2
-    say whether an alpha is less than, equal to or greater than the reference, which is 1. NaN is compared as 1, though
+    stand for an alpha less than, equal to and greater than the reference, which is 1. NaN is compared as 1, though
     it is written as 0.
     """
     if color is not None and color.format.kind == "unorm8" and color.format.base in FOUR_BYTES:
@@ -73,7 +73,7 @@ def blend_ops(blend: Blend, format: Format) -> BlendOps:
     """Return the blend state as numbers for a buffer of this format.
 
     A logic op takes the place of blending (GL 2.1, sec. 4.1.10). GL_MIN and GL_MAX have no factors; a buffer without
-    alpha answers 1 for it, and is blended by the state of the colours alone.
+    alpha is read as alpha 1, and blended with the factors and the equation of the colours.
     """
     constant = np.array(blend.color, np.float32)
     red, green, blue, alpha = (int(c) for c in to_unorm8(constant)) if format.kind == "unorm8" else constant
@@ -83,10 +83,10 @@ def blend_ops(blend: Blend, format: Format) -> BlendOps:
     if not format.written[ALPHA]:
         colors = OF_ALPHA_ONE.get(colors[0], colors[0]), OF_ALPHA_ONE.get(colors[1], colors[1])
         alphas, equations = colors, (blend.equation_rgb, blend.equation_rgb)
-    shared = colors[0] == colors[1] and alphas[0] == alphas[1]
+    same_factor = colors[0] == colors[1] and alphas[0] == alphas[1]
     logic_op = blend.logic_op if blend.logic_enabled else 0
-    alone = int(format.base == gl.GL_RED)
-    return BlendOps(*colors, *alphas, *equations, red, green, blue, alpha, logic_op, alone, int(shared))
+    single_channel = int(format.base == gl.GL_RED)
+    return BlendOps(*colors, *alphas, *equations, red, green, blue, alpha, logic_op, single_channel, int(same_factor))
 
 
 def _factors(equation: int, source: int, target: int) -> tuple[int, int]:
@@ -102,7 +102,7 @@ def multiply(a, b):
 
 @kernel
 def factor(name, channel, source, target, source_alpha, target_alpha, constant, constant_alpha, one):
-    """Return a blend factor of one channel, (GL 2.1, table 4.2); `one` is 255 for bytes."""
+    """Return a blend factor of one channel (GL 2.1, table 4.2); `one` is 255 for bytes."""
     if name == gl.GL_ZERO:
         return one - one
     if name == gl.GL_ONE:
@@ -181,8 +181,8 @@ def logic(op, s, d):
 
 
 @inlined
-def mixed(weight, a, b):
-    """Return the byte between `a` and `b`, the third of three: what one channel alone is blended by."""
+def mix_bytes(weight, a, b):
+    """Return the byte between `a` and `b` by a weight of 0 to 255, as llvmpipe blends a buffer of one channel."""
     scaled = weight + (weight >> 7)
     return (a + ((scaled * (b - a) * 128 + 16384) >> 15)) & 255
 
@@ -192,7 +192,9 @@ def blend_fragment(ops, source, mask, target):
     """Blend a fragment of colour `source` (4,) with the bytes `target` (4,) under the colour mask (4,)."""
     # int() of a byte is unsigned once compiled, and unsigned and signed branches together become float64
     source_alpha, target_alpha = np.int64(source[ALPHA]), np.int64(target[ALPHA])
-    mixes = complement_of(ops.src_rgb, ops.dst_rgb) if ops.alone and ops.equation_rgb == gl.GL_FUNC_ADD else 0
+    complement = (
+        complement_of(ops.src_rgb, ops.dst_rgb) if ops.single_channel and ops.equation_rgb == gl.GL_FUNC_ADD else 0
+    )
     for c in range(4):
         if not mask[c]:
             continue
@@ -201,17 +203,17 @@ def blend_fragment(ops, source, mask, target):
             target[c] = logic(ops.logic_op, s, d)
             continue
         a, b = factors_of(ops, c, s, d, source_alpha, target_alpha, 255)
-        if mixes:
-            target[c] = mixed(a, d, s) if mixes > 0 else mixed(b, s, d)
+        if complement:
+            target[c] = mix_bytes(a, d, s) if complement > 0 else mix_bytes(b, s, d)
         else:
             target[c] = equation(ops.equation_rgb if c < ALPHA else ops.equation_alpha, s, d, a, b)
 
 
 @inlined
-def float_equation(name, s, d, a, b, shared, complement):
+def float_equation(name, s, d, a, b, same_factor, complement):
     """Return the blended float32 of one channel, never clamped.
 
-    `a` and `b` are the factors; `shared`: they are one factor, `complement`: see `complement_of`.
+    `a` and `b` are the factors; `same_factor`: they are equal; `complement`: see `complement_of`.
     """
     if name == gl.GL_MIN:
         return s if s < d else d
@@ -223,7 +225,7 @@ def float_equation(name, s, d, a, b, shared, complement):
         if name == gl.GL_FUNC_SUBTRACT:
             return (s + d) * a - d if complement > 0 else s - (s + d) * b
         return d - (s + d) * a if complement > 0 else (s + d) * b - s
-    if shared:
+    if same_factor:
         both = s + d if name == gl.GL_FUNC_ADD else s - d if name == gl.GL_FUNC_SUBTRACT else d - s
         return both * a
     if name == gl.GL_FUNC_ADD:
@@ -235,11 +237,11 @@ def float_equation(name, s, d, a, b, shared, complement):
 def blend_float_fragment(ops, source, mask, target):
     """Blend a fragment of colour `source` (4,) with the floats `target` (4,) under the colour mask (4,)."""
     target_alpha = target[ALPHA]
-    complement = complement_of(ops.src_rgb, ops.dst_rgb) if ops.alone else 0
+    complement = complement_of(ops.src_rgb, ops.dst_rgb) if ops.single_channel else 0
     for c in range(4):
         if not mask[c]:
             continue
         s, d = source[c], target[c]
         a, b = factors_of(ops, c, s, d, source[ALPHA], target_alpha, ONE)
         name = ops.equation_rgb if c < ALPHA else ops.equation_alpha
-        target[c] = float_equation(name, s, d, a, b, ops.shared, complement)
+        target[c] = float_equation(name, s, d, a, b, ops.same_factor, complement)

@@ -1,6 +1,6 @@
-"""Writing colours: rounding to 8 bits, and spans of pixels into the rows of a buffer under the colour mask.
+"""Write the colours of spans into a buffer: rounded to its format, blended, under the colour mask.
 
-Blended or not, fragments are written one after the other: without blending the last one of a pixel wins.
+Fragments are written one after the other: without blending, the last one of a pixel wins.
 """
 
 from collections.abc import Callable
@@ -31,7 +31,7 @@ GREEN, BLUE, UPPERMOST = np.int32(8), np.int32(16), np.int32(24)  # bits below t
 def color_writer(state: State, color: Image) -> Callable[[Spans, np.ndarray], None]:
     """Return the function that writes colours (n, 4) of spans into a buffer, in order, blended as the state says.
 
-    Floats have no logic operations: where one is on they are written as they are.
+    Float buffers have no logic operations: where one is enabled, colours are written as they are.
     """
     mask = np.array(state.color.mask) & np.array(color.format.written)
     ops, cells = blend_ops(state.blend, color.format), color.cells
@@ -39,58 +39,58 @@ def color_writer(state: State, color: Image) -> Callable[[Spans, np.ndarray], No
     if color.format.kind == "float":
 
         def write_float(spans: Spans, values: np.ndarray) -> None:
-            where, stored = (spans.row, spans.left, spans.start), np.ascontiguousarray(values, np.float32)
+            place, colors = (spans.row, spans.left, spans.start), np.ascontiguousarray(values, np.float32)
             if blends and not state.blend.logic_enabled:
-                blend_floats(ops, *where, stored, mask, cells)
+                blend_floats(ops, *place, colors, mask, cells)
             else:
-                write_floats(*where, stored, mask, cells)
+                write_floats(*place, colors, mask, cells)
 
         return write_float
-    pixels, taken = as_pixels(cells), taken_bits(state, color)
+    pixels, writable = as_pixels(cells), writable_bits(state, color)
 
     def write(spans: Spans, values: np.ndarray) -> None:
-        where, stored = (spans.row, spans.left, spans.start), written_unorm8(values, color.format)
+        place, colors = (spans.row, spans.left, spans.start), colors_to_bytes(values, color.format)
         if not blends:
-            write_pixels(*where, as_pixels(stored), taken, pixels)
-        elif adds(ops):
-            as_pixels(stored)[:] &= taken
-            add_bytes(*where, stored.reshape(-1), cells.reshape(len(cells), -1))
+            write_pixels(*place, as_pixels(colors), writable, pixels)
+        elif is_additive(ops):
+            as_pixels(colors)[:] &= writable
+            add_bytes(*place, colors.reshape(-1), cells.reshape(len(cells), -1))
         else:
-            blend_bytes(ops, *where, stored, mask, cells)
+            blend_bytes(ops, *place, colors, mask, cells)
 
     return write
 
 
-def taken_bits(state: State, color: Image) -> Any:
-    """Return a pixel of 32 bits: those are set that the colour mask and the format of the buffer let through."""
+def writable_bits(state: State, color: Image) -> Any:
+    """Return a pixel of 32 bits; the bits that the colour mask and the format of the buffer let through are set."""
     mask = np.array(state.color.mask) & np.array(color.format.written)
     return as_pixels(np.where(mask, np.uint8(255), np.uint8(0)))[()]
 
 
 def as_pixels(cells: np.ndarray) -> np.ndarray:
-    """Return cells (..., 4) of bytes as numbers (...) of 32 bits, a pixel each."""
+    """Return cells (..., 4) of bytes as a view of numbers (...) of 32 bits, one per pixel."""
     pixels: np.ndarray = cells.view(np.uint32)[..., 0]
     return pixels
 
 
-def written_unorm8(values: np.ndarray, format: Format) -> np.ndarray:
-    """Return colours (n, 4) of fragments as the bytes that are written: `to_unorm8`, but 0 from 2**31 / 255 on.
+def colors_to_bytes(values: np.ndarray, format: Format) -> np.ndarray:
+    """Return colours (n, 4) of fragments as bytes: `to_unorm8`, but 0 from 2**31 / 255 on.
 
-    llvmpipe makes them int32 before it clamps them, and what does not fit, infinity too, becomes the lowest integer
-    (cvtps2dq; lp_bld_conv.c). A colour is infinite where its triangle's 1/w is 0. An alpha that has no room in the
-    buffer, and only blends, is clamped first.
+    llvmpipe converts them to int32 before it clamps them; numbers that do not fit, infinity too, become the lowest
+    integer (cvtps2dq; lp_bld_conv.c). A colour is infinite where its triangle's 1/w is 0. An alpha without room in the
+    buffer, which only serves blending, is clamped first.
     """
     packed = np.empty(len(values), np.int32)
     pack_bytes(np.ascontiguousarray(values.T), packed)
-    written = packed.view(np.uint8).reshape(-1, 4)
+    cells = packed.view(np.uint8).reshape(-1, 4)
     if format.base not in FOUR_BYTES:
-        written[:, ALPHA] = to_unorm8(values[:, ALPHA])
-    return written
+        cells[:, ALPHA] = to_unorm8(values[:, ALPHA])
+    return cells
 
 
 @inlined
 def byte_of(value):
-    """Return what `written_unorm8` makes of one number."""
+    """Return one number as a byte, see `colors_to_bytes`."""
     v = value if value > ZERO and value * LARGEST_BYTE < INT32_END else ZERO
     return np.int32(np.rint((v if v < ONE else ONE) * LARGEST_BYTE))
 
@@ -99,7 +99,7 @@ def byte_of(value):
 def pack_bytes(columns, packed):
     """Write columns (4, n) as pixels (n,) of four bytes, red in the lowest.
 
-    One number per pixel is written: four bytes were 11 times as slow, as that loop is not vectorised.
+    One number per pixel is written: with four bytes the loop is not vectorised and takes 11 times as long.
     """
     for n in range(columns.shape[1]):
         red, green, blue, alpha = columns[0, n], columns[1, n], columns[2, n], columns[3, n]
@@ -108,54 +108,54 @@ def pack_bytes(columns, packed):
 
 
 @kernel
-def write_pixels(rows, lefts, starts, stored, taken, pixels):
-    """Write pixels (n,) of 32 bits into `pixels` (H, pitch); `taken` has the bits that the colour mask lets through."""
+def write_pixels(rows, lefts, starts, colors, writable, pixels):
+    """Write colours (n,) of 32 bits into `pixels` (H, pitch), where the bits of `writable` are set."""
     for r in range(rows.shape[0]):
-        source = stored[starts[r] : starts[r + 1]]
+        source = colors[starts[r] : starts[r + 1]]
         target = pixels[rows[r], lefts[r] : lefts[r] + source.shape[0]]
         for i in range(source.shape[0]):
-            target[i] = (target[i] & ~taken) | (source[i] & taken)
+            target[i] = (target[i] & ~writable) | (source[i] & writable)
 
 
 @kernel
-def write_floats(rows, lefts, starts, stored, mask, cells):
+def write_floats(rows, lefts, starts, colors, mask, cells):
     """Write colours (n, 4) into `cells` (H, pitch, 4) under the colour mask (4,)."""
     for r in range(rows.shape[0]):
         for n in range(starts[r], starts[r + 1]):
             target = cells[rows[r], lefts[r] + n - starts[r]]
             for c in range(4):
                 if mask[c]:
-                    target[c] = stored[n, c]
+                    target[c] = colors[n, c]
 
 
-def adds(ops: BlendOps) -> bool:
-    """Return whether blending is the clamped sum of bytes: light upon light."""
+def is_additive(ops: BlendOps) -> bool:
+    """Return whether blending is the clamped sum of source and target, as for adding light."""
     factors = (ops.src_rgb, ops.dst_rgb, ops.src_alpha, ops.dst_alpha)
     equations = (ops.equation_rgb, ops.equation_alpha)
     return factors == (gl.GL_ONE,) * 4 and equations == (gl.GL_FUNC_ADD,) * 2 and not ops.logic_op
 
 
 @kernel
-def add_bytes(rows, lefts, starts, stored, cells):
-    """`blend_bytes` of a state that `adds`: channels (4 n,) upon `cells` (H, 4 pitch); masked ones are 0 here."""
+def add_bytes(rows, lefts, starts, colors, cells):
+    """Add channels (4 n,) to `cells` (H, 4 pitch), clamped; equal to `blend_bytes` where masked channels are 0."""
     for r in range(rows.shape[0]):
-        source = stored[4 * starts[r] : 4 * starts[r + 1]]
+        source = colors[4 * starts[r] : 4 * starts[r + 1]]
         target = cells[rows[r], 4 * lefts[r] : 4 * lefts[r] + source.shape[0]]
         for i in range(source.shape[0]):
             target[i] = min(np.int32(target[i]) + np.int32(source[i]), np.int32(255))
 
 
 @kernel
-def blend_bytes(ops, rows, lefts, starts, stored, mask, cells):
+def blend_bytes(ops, rows, lefts, starts, colors, mask, cells):
     """Blend colours (n, 4) with `cells` (H, pitch, 4) of bytes under the colour mask (4,)."""
     for r in range(rows.shape[0]):
         for n in range(starts[r], starts[r + 1]):
-            blend_fragment(ops, stored[n], mask, cells[rows[r], lefts[r] + n - starts[r]])
+            blend_fragment(ops, colors[n], mask, cells[rows[r], lefts[r] + n - starts[r]])
 
 
 @kernel
-def blend_floats(ops, rows, lefts, starts, stored, mask, cells):
+def blend_floats(ops, rows, lefts, starts, colors, mask, cells):
     """Blend colours (n, 4) with `cells` (H, pitch, 4) of float32 under the colour mask (4,)."""
     for r in range(rows.shape[0]):
         for n in range(starts[r], starts[r + 1]):
-            blend_float_fragment(ops, stored[n], mask, cells[rows[r], lefts[r] + n - starts[r]])
+            blend_float_fragment(ops, colors[n], mask, cells[rows[r], lefts[r] + n - starts[r]])

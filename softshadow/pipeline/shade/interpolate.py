@@ -1,6 +1,6 @@
-"""Interpolation of what the vertex stage hands on: planes per triangle, values per fragment, perspective-correct.
+"""Perspective-correct interpolation of vertex outputs: plane equations per triangle, values per fragment.
 
-The values are kept by column: (k, n), of which programs see the transpose. A column is then as long as the batch, and
+Values are stored by column, (k, n), and programs see the transpose: a column is as long as the chunk of fragments, and
 loops over fragments are vectorised here and in the programs.
 """
 
@@ -15,13 +15,13 @@ from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.records import Setup, Spans
 
-LONG = 8  # fragments; a run of so many is worth a loop per column
-AT_A_TIME = 1 << 12  # triangles whose planes a thread makes in one go
+LONG_SPAN = 8  # fragments; from this length on, a loop per column pays
+TRIANGLES_PER_TASK = 1 << 12  # whose planes are computed by one thread in one go
 BLOCK = 2  # rows and columns of a block of pixels, which may reach over the edge
 
 
 class AttributePlanes(NamedTuple):
-    """The planes of visible triangles: values (P, 3, k + 1); `place` (T,): where among them each triangle's are.
+    """The planes of visible triangles: values (P, 3, k + 1); `place` (T,): the row of each triangle's planes.
 
     `coordinates` holds 0, 1, 2 ... in the precision of the values, as far as rows and columns go.
     """
@@ -32,36 +32,38 @@ class AttributePlanes(NamedTuple):
 
 
 @kernel
-def attribute_planes(window, values, back, vertices, front, seen, flat, provoking, ids, planes):
+def attribute_planes(window, values, back, vertices, front, needed, flat, provoking, ids, planes):
     """Fill planes (P, 3, k + 1): of value / w for each column, last of 1 / w; flat columns hold the value itself.
 
     The three numbers of a plane are its value at pixel (0, 0) and its steps to the next column and row. `vertices`
-    (T, 3) are vertex numbers in the order of positive area, as for depth, `front` (T,) facing, `seen` (P,) the
+    (T, 3) are vertex numbers in the order of positive area, as for depth, `front` (T,) facing, `needed` (P,) the
     triangles that are needed, ``provoking[ids[t]]`` the vertex that flat columns take.
     """
     k = values.shape[1]
-    for n in range(seen.shape[0]):
-        t, base, step, across = seen[n], planes[n, 0], planes[n, 1], planes[n, 2]
+    for n in range(needed.shape[0]):
+        t, at_origin, per_column, per_row = needed[n], planes[n, 0], planes[n, 1], planes[n, 2]
         v0, v1, v2 = vertices[t, 0], vertices[t, 1], vertices[t, 2]
         source = values if front[t] else back
         if v2 < 0:
-            line_or_point_planes(window, source, v0, v1, base, step, across)
+            line_or_point_planes(window, source, v0, v1, at_origin, per_column, per_row)
         else:
             x, y, w0, w1, w2 = window[v0, 0], window[v0, 1], window[v0, 3], window[v1, 3], window[v2, 3]
             dx01, dy01, dx20, dy20, over_area = edge_differences(window, np.uint64(v0), np.uint64(v1), np.uint64(v2))
             dx01, dy01, dx20, dy20 = dx01 * over_area, dy01 * over_area, dx20 * over_area, dy20 * over_area
             a0, a1, a2 = source[v0], source[v1], source[v2]
             for c in range(k):
-                base[c], step[c], across[c] = plane(x, y, dx01, dy01, dx20, dy20, a0[c] * w0, a1[c] * w1, a2[c] * w2)
-            base[k], step[k], across[k] = plane(x, y, dx01, dy01, dx20, dy20, w0, w1, w2)
+                at_origin[c], per_column[c], per_row[c] = plane(
+                    x, y, dx01, dy01, dx20, dy20, a0[c] * w0, a1[c] * w1, a2[c] * w2
+                )
+            at_origin[k], per_column[k], per_row[k] = plane(x, y, dx01, dy01, dx20, dy20, w0, w1, w2)
         for c in range(k):
             if flat[c]:
-                base[c] = source[provoking[ids[t]], c]
+                at_origin[c] = source[provoking[ids[t]], c]
 
 
 @inlined
-def line_or_point_planes(window, values, a, b, base, step, across):
-    """Fill the planes (k + 1,) of a line from vertex `a` to `b`, or of a point (`b` is -1): there all is constant."""
+def line_or_point_planes(window, values, a, b, at_origin, per_column, per_row):
+    """Fill the planes (k + 1,) of a line from vertex `a` to `b`, or of a point (`b` is -1), constant ones."""
     k = values.shape[1]
     is_point = b < 0
     b = a if is_point else b
@@ -71,9 +73,11 @@ def line_or_point_planes(window, values, a, b, base, step, across):
         value0 = values[a, c] * w0 if c < k else w0
         value1 = values[b, c] * w1 if c < k else w1
         if is_point:
-            base[c], step[c], across[c] = value0, ZERO, ZERO
+            at_origin[c], per_column[c], per_row[c] = value0, ZERO, ZERO
         else:
-            base[c], step[c], across[c] = line_plane(window[a, 0], window[a, 1], dx, dy, over_area, value0, value1)
+            at_origin[c], per_column[c], per_row[c] = line_plane(
+                window[a, 0], window[a, 1], dx, dy, over_area, value0, value1
+            )
 
 
 @kernel
@@ -85,26 +89,28 @@ def interpolate(planes, places, rows, lefts, triangles, starts, coordinates, fla
     k = flat.shape[0]
     for r in range(rows.shape[0]):
         first, end = starts[r], starts[r + 1]
-        of_triangle, j = planes[places[triangles[r]]], coordinates[rows[r]]
-        base, step, across = of_triangle[0], of_triangle[1], of_triangle[2]
+        triangle_planes, j = planes[places[triangles[r]]], coordinates[rows[r]]
+        at_origin, per_column, per_row = triangle_planes[0], triangle_planes[1], triangle_planes[2]
         columns = coordinates[lefts[r] : lefts[r] + end - first]
-        if end - first < LONG:
+        if end - first < LONG_SPAN:
             for n in range(end - first):
                 i, values = columns[n], out[:, first + n]
-                w_here = ONE / ((step[k] * i + base[k]) + across[k] * j)
+                w_here = ONE / ((per_column[k] * i + at_origin[k]) + per_row[k] * j)
                 for c in range(k):
-                    values[c] = base[c] if flat[c] else ((step[c] * i + base[c]) + across[c] * j) * w_here
+                    values[c] = (
+                        at_origin[c] if flat[c] else ((per_column[c] * i + at_origin[c]) + per_row[c] * j) * w_here
+                    )
             continue
-        w, at_0, per_column, of_row = out[k, first:end], base[k], step[k], across[k] * j
+        w, start, slope, row_term = out[k, first:end], at_origin[k], per_column[k], per_row[k] * j
         for n in range(end - first):
-            w[n] = ONE / ((per_column * columns[n] + at_0) + of_row)
+            w[n] = ONE / ((slope * columns[n] + start) + row_term)
         for c in range(k):
-            values, at_0, per_column, of_row = out[c, first:end], base[c], step[c], across[c] * j
+            values, start, slope, row_term = out[c, first:end], at_origin[c], per_column[c], per_row[c] * j
             if flat[c]:
-                values[:] = at_0
+                values[:] = start
                 continue
             for n in range(end - first):
-                values[n] = ((per_column * columns[n] + at_0) + of_row) * w[n]
+                values[n] = ((slope * columns[n] + start) + row_term) * w[n]
 
 
 def planes_of(
@@ -125,40 +131,40 @@ def planes_of(
     flat : (k,) bool
     provoking : (T,) int32, by the triangles that ``triangles.ids`` numbers
     """
-    place, seen = scratch(len(triangles.ids), np.int32), scratch(len(triangles.ids), np.int32)
+    place, needed = scratch(len(triangles.ids), np.int32), scratch(len(triangles.ids), np.int32)
     place[:] = -1
-    seen = seen[: number_in_order(spans.triangle, place, seen)]
-    planes = scratch((len(seen), 3, values.shape[1] + 1), window.dtype)
-    parts = parts_of(len(seen), AT_A_TIME)
+    needed = needed[: number_in_order(spans.triangle, place, needed)]
+    planes = scratch((len(needed), 3, values.shape[1] + 1), window.dtype)
+    parts = parts_of(len(needed), TRIANGLES_PER_TASK)
 
     def fill_part(n: int) -> None:
-        own = slice(*parts[n])
+        rows = slice(*parts[n])
         attribute_planes(
-            window, values, values if back is None else back, triangles.vertices, triangles.front, seen[own], flat,
-            provoking, triangles.ids, planes[own],
+            window, values, values if back is None else back, triangles.vertices, triangles.front, needed[rows], flat,
+            provoking, triangles.ids, planes[rows],
         )  # fmt: skip
 
     share(fill_part, len(parts))
-    furthest = max(spans.row.max(initial=0), (spans.left + np.diff(spans.start)).max(initial=0))
-    return AttributePlanes(planes, place, np.arange(furthest + BLOCK, dtype=window.dtype))
+    largest = max(spans.row.max(initial=0), (spans.left + np.diff(spans.start)).max(initial=0))
+    return AttributePlanes(planes, place, np.arange(largest + BLOCK, dtype=window.dtype))
 
 
 @kernel
-def number_in_order(triangles, place, seen):
-    """Number triangles in the order in which they are first seen, as spans will need their planes; returns how many.
+def number_in_order(triangles, place, needed):
+    """Number the triangles in the order of their first span; return how many they are.
 
-    `place` (T,) holds -1s and receives the numbers, `seen` the triangles.
+    `place` (T,) holds -1s and receives the numbers, `needed` the triangles.
     """
-    count = 0
+    n = 0
     for t in triangles:
         if place[t] < 0:
-            place[t], seen[count] = count, t
-            count += 1
-    return count
+            place[t], needed[n] = n, t
+            n += 1
+    return n
 
 
 def inputs_at(spans: Spans, planes: AttributePlanes, flat: np.ndarray) -> np.ndarray:
-    """Return what the fragment stage of a program gets: (n, k), one row per fragment, each column in one piece."""
+    """Return the inputs (n, k) of a program's fragment stage: a row per fragment, each column contiguous."""
     out = scratch((len(flat) + 1, spans.fragments), planes.values.dtype)
     interpolate(planes.values, planes.place, *spans, planes.coordinates, flat, out)
     return out[:-1].T

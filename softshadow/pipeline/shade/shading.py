@@ -1,7 +1,7 @@
 """Shading: from fragments to written colours, a chunk of fragments at a time.
 
-The values of a chunk stay in the cache from interpolation to the write. In one piece, the inputs of a full screen are
-100 MB of memory that is fresh each time.
+The values of a chunk stay in the cache from interpolation to the write. All fragments of a full screen at once would
+take 100 MB of fresh memory for every draw.
 """
 
 import numpy as np
@@ -38,8 +38,8 @@ def shade_and_write(state: State, target: Framebuffer, geometry: Geometry, spans
 
     Parameters
     ----------
-    ordered : several fragments may belong to one pixel, and are written one after the other. Otherwise chunks may be
-        written in any order, by several threads.
+    ordered : several fragments may belong to one pixel, and all are written in order. Otherwise several threads write
+        chunks in any order.
     """
     writers = [color_writer(state, image) for image in target.colors]
     if ordered:
@@ -60,19 +60,19 @@ def shade_and_write(state: State, target: Framebuffer, geometry: Geometry, spans
 
 
 def attribute_planes_of(geometry: Geometry, spans: Spans) -> AttributePlanes:
-    """Return the planes of what the vertex stage hands on, for the triangles of the spans."""
+    """Return the planes of the vertex outputs, for the triangles of the spans."""
     values = (geometry.values, geometry.back, geometry.flat, geometry.provoking)
     return planes_of(spans, geometry.triangles, geometry.window, *values)
 
 
 def _shade_chunk(geometry: Geometry, planes: AttributePlanes, spans: Spans) -> np.ndarray:
-    """Return colours (n, 4): interpolate, then call the program. Blocks that a chunk cuts are completed in both."""
-    own = None
+    """Return the colours (n, 4) of spans: interpolate, then call the program; cut 2x2 blocks are completed."""
+    places = None
     if geometry.program.blocks:
-        complete, own = in_blocks(fragments_of(spans))
+        complete, places = in_blocks(fragments_of(spans))
         spans = spans_of(complete)
     inputs = inputs_at(spans, planes, geometry.flat)
     out = scratch((4, len(inputs)), inputs.dtype).T
     with np.errstate(all="ignore"):  # set per thread
         geometry.program.shade(inputs, geometry.uniforms, out)
-    return out if own is None else out[own]
+    return out if places is None else out[places]

@@ -55,7 +55,7 @@ def test_chunks_leave_what_all_triangles_at_once_leave(seed, depth_format, count
     expected = all_at_once(seed, depth_format)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(depth_only, "CHUNK_TRIANGLES", size)
-        patch.setattr(pool, "PART", 1 + size // 3)
+        patch.setattr(pool, "PART_SIZE", 1 + size // 3)
         for name in ("WORTH_BANDS", "WORTH_BANDS_IN_TILES"):  # so small a window would not be divided
             patch.setattr(choose, name, 0)
         set_threads(count)

@@ -4,7 +4,7 @@ import pytest
 
 from softshadow.pipeline import set_threads, threads
 from softshadow.pipeline.memory import threads as pool
-from softshadow.pipeline.memory.threads import PART, VARIABLE, parts_of, share
+from softshadow.pipeline.memory.threads import PART_SIZE, VARIABLE, parts_of, share
 
 
 @pytest.fixture(params=[1, 3], ids="{} threads".format)
@@ -36,7 +36,7 @@ def test_what_a_piece_raises_reaches_the_caller(some_threads):
         share(fail, 20)
 
 
-@pytest.mark.parametrize("count", [0, 1, PART, PART + 1, 5 * PART - 1])
+@pytest.mark.parametrize("count", [0, 1, PART_SIZE, PART_SIZE + 1, 5 * PART_SIZE - 1])
 def test_parts_make_up_the_whole(some_threads, count):
     assert [n for first, end in parts_of(count) for n in range(first, end)] == list(range(count))
 

@@ -29,7 +29,7 @@ def test_bytes_are_added_as_the_blend_equation_adds_them():
     source, target = (a.astype(np.uint8).repeat(4, axis=1) for a in (np.arange(256)[:, None], np.arange(256)[:, None]))
     run = np.zeros(1, np.int32), np.zeros(1, np.int32), np.array([0, 256])
     state = blend.blend_ops(ADDING, Context(1, 1).storage.window.color.format)
-    assert color_writes.adds(state)
+    assert color_writes.is_additive(state)
     for shift in (0, 1, 2, 128, 255):
         expected, found = np.roll(target, shift, axis=0)[None].copy(), np.roll(target, shift, axis=0)[None].copy()
         color_writes.blend_bytes(state, *run, source, np.ones(4, bool), expected)

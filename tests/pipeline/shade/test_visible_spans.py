@@ -15,7 +15,7 @@ from softshadow.pipeline.records import Setup, Spans
 from softshadow.pipeline.shade import interpolate as interpolation
 from softshadow.pipeline.shade import visible_spans as visible_spans_module
 from softshadow.pipeline.shade.color_writes import color_writer
-from softshadow.pipeline.shade.interpolate import LONG, interpolate, planes_of
+from softshadow.pipeline.shade.interpolate import LONG_SPAN, interpolate, planes_of
 from softshadow.pipeline.shade.visible_spans import fragments_of, spans_of, visible_spans
 from softshadow.state import Blend, State
 
@@ -31,7 +31,7 @@ def some_ids(seed):
 
 def span_or_pixels(long):
     """Spans of one row and triangle: one long span, or the same pixels one by one."""
-    count = LONG + 5
+    count = LONG_SPAN + 5
     if long:
         row, left, start = np.array([3]), np.array([2]), np.array([0, count])
     else:
@@ -61,7 +61,7 @@ def on_threads(count, function, *arguments):
 
 @pytest.mark.parametrize("rows", [1, 3, SIZE])
 def test_parts_of_the_rows_together_have_the_spans_of_all(monkeypatch, rows):
-    monkeypatch.setattr(visible_spans_module, "ROWS", rows)
+    monkeypatch.setattr(visible_spans_module, "ROWS_PER_TASK", rows)
     for seed in range(20):
         whole, parts = (on_threads(count, visible_spans, some_ids(seed), 7) for count in (1, 3))
         assert all(np.array_equal(a, b) for a, b in zip(parts, whole, strict=True))
@@ -69,7 +69,7 @@ def test_parts_of_the_rows_together_have_the_spans_of_all(monkeypatch, rows):
 
 @pytest.mark.parametrize("at_a_time", [1, 2])
 def test_planes_are_the_same_in_parts(monkeypatch, at_a_time):
-    monkeypatch.setattr(interpolation, "AT_A_TIME", at_a_time)
+    monkeypatch.setattr(interpolation, "TRIANGLES_PER_TASK", at_a_time)
     rng, triangles = np.random.default_rng(1), 3
     window, values = rng.normal(size=(9, 4)).astype(np.float32), rng.normal(size=(9, 5)).astype(np.float32)
     vertices, flat = rng.permutation(9).reshape(triangles, 3).astype(np.int32), np.arange(5) == 2
@@ -110,13 +110,13 @@ def test_a_long_run_is_interpolated_like_its_pixels(real):
     planes, flat = rng.normal(size=(1, 3, 5)).astype(real), np.array([False, True, False, False])
     found = []
     for long in (True, False):
-        out = np.zeros((5, LONG + 5), real)
+        out = np.zeros((5, LONG_SPAN + 5), real)
         columns = np.arange(64, dtype=real)
         interpolate(planes, np.zeros(1, np.int32), *span_or_pixels(long), columns, flat, out)
         found.append(out[:4])
     assert np.array_equal(*found)
     assert (found[0][1] == planes[0, 0, 1]).all()
-    assert len(np.unique(found[0][0])) == LONG + 5
+    assert len(np.unique(found[0][0])) == LONG_SPAN + 5
 
 
 @pytest.mark.parametrize("internal", [gl.GL_RGBA8, gl.GL_RGB8, gl.GL_RGBA32F])
