@@ -1,4 +1,4 @@
-"""Draws made by hand, below the facade: triangles into a window under a given state."""
+"""Draws below the GL facade: triangles into a window under any state."""
 
 from dataclasses import replace
 from typing import Any
@@ -15,30 +15,30 @@ MIXING = replace(ADDING, src_rgb=gl.GL_SRC_ALPHA, dst_rgb=gl.GL_ONE_MINUS_SRC_AL
 
 
 def vertices(positions: Any, colors: Any = None) -> Vertices:
-    """Vertices of positions (V, 4) and colours (V, 4), white without."""
+    """Return vertices with positions (V, 4) and colours (V, 4), white by default."""
     positions = np.ascontiguousarray(positions, np.float32)
-    count = len(positions)
-    colors = np.ones((count, 4), np.float32) if colors is None else np.ascontiguousarray(colors, np.float32)
-    return Vertices(positions, colors, np.zeros((count, 3), np.float32), ())
+    n = len(positions)
+    colors = np.ones((n, 4), np.float32) if colors is None else np.ascontiguousarray(colors, np.float32)
+    return Vertices(positions, colors, np.zeros((n, 3), np.float32), ())
 
 
-def random_triangles(rng: np.random.Generator, count: int) -> Vertices:
-    """Triangles in clip space all around the frustum: some behind the eye, some with w = 0, some huge."""
-    positions = rng.normal(0, 1, (3 * count, 4)).astype(np.float32)
-    positions[:, 3] = rng.choice(np.float32([1, 1, 1, 0.5, 2, -1, 0, 0.01]), 3 * count)
-    return vertices(positions * np.float32(rng.choice([0.3, 1, 3])), rng.random((3 * count, 4)))
+def random_triangles(rng: np.random.Generator, n: int) -> Vertices:
+    """Return triangles in clip space in and around the frustum: some behind the eye, some with w = 0, some huge."""
+    positions = rng.normal(0, 1, (3 * n, 4)).astype(np.float32)
+    positions[:, 3] = rng.choice(np.float32([1, 1, 1, 0.5, 2, -1, 0, 0.01]), 3 * n)
+    return vertices(positions * np.float32(rng.choice([0.3, 1, 3])), rng.random((3 * n, 4)))
 
 
-def small_triangles(rng: np.random.Generator, count: int) -> Vertices:
-    """Triangles of up to a few pixels in a small window, some of them beyond its edges, all inside the near plane."""
-    positions = np.ones((count, 3, 4), np.float32)
-    positions[:, :, :3] = rng.uniform(-1.05, 1.05, (count, 1, 3))
-    positions[:, :, :3] += rng.normal(0, 1, (count, 3, 3)) * rng.choice([0.02, 0.1, 0.3], (count, 1, 1))
-    return vertices(positions.reshape(-1, 4), rng.random((3 * count, 4)))
+def small_triangles(rng: np.random.Generator, n: int) -> Vertices:
+    """Return triangles of up to a few pixels in a small window, some of them across its borders."""
+    positions = np.ones((n, 3, 4), np.float32)
+    positions[:, :, :3] = rng.uniform(-1.05, 1.05, (n, 1, 3))
+    positions[:, :, :3] += rng.normal(0, 1, (n, 3, 3)) * rng.choice([0.02, 0.1, 0.3], (n, 1, 1))
+    return vertices(positions.reshape(-1, 4), rng.random((3 * n, 4)))
 
 
 def random_state(rng: np.random.Generator, state: State) -> State:
-    """A state of tests, ops, masks, offset and culling drawn at random."""
+    """Return a state with random tests, operations, masks, offset and culling."""
 
     def func() -> int:
         return int(rng.integers(gl.GL_NEVER, gl.GL_ALWAYS + 1))
@@ -69,28 +69,28 @@ def random_state(rng: np.random.Generator, state: State) -> State:
 
 
 def draw(context: Context, state: State, triangles: Vertices, mode: int = gl.GL_TRIANGLES) -> None:
-    """Draw triangles, or what else the mode makes of the vertices, under a state, in the precision of the context."""
+    """Draw vertices as triangles, or in another mode, under a state and in the precision of the context."""
     context.state = state
     position, color, normal = (context.frozen(rows) for rows in (triangles.position, triangles.color, triangles.normal))
     context.draw(mode, Vertices(position, color, normal, ()))
 
 
 def same_window(a: Context, b: Context) -> bool:
-    """Whether colour, depth and stencil are equal to the last bit."""
+    """Return whether colour, depth and stencil are equal to the last bit."""
     windows = a.storage.window, b.storage.window
     return all(windows[0].attachments[k].image.same_as(windows[1].attachments[k].image) for k in windows[0].attachments)
 
 
 def surface_blended_twice(seed, func, blending, overlapping, precision="mesa"):
-    """A window after a surface, and after the same surface blended with it; `overlapping`: and more triangles."""
+    """Return a window after a surface and the same surface blended onto it; `overlapping`: then more triangles."""
     rng = np.random.default_rng(seed)
     context = Context(48, 40, "d24", precision=precision)
     state = replace(random_state(rng, context.state), alpha=replace(context.state.alpha, enabled=False))
     surface = replace(state, depth=replace(state.depth, enabled=True, func=gl.GL_LESS, write=True), blend=Blend())
-    again = replace(state, depth=replace(state.depth, enabled=True, func=func, write=False), blend=blending)
+    blended = replace(state, depth=replace(state.depth, enabled=True, func=func, write=False), blend=blending)
     triangles = random_triangles(rng, 6)
     draw(context, surface, triangles)
-    draw(context, again, triangles)
+    draw(context, blended, triangles)
     if overlapping:
-        draw(context, again, random_triangles(rng, 6))
+        draw(context, blended, random_triangles(rng, 6))
     return context

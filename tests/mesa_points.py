@@ -1,7 +1,7 @@
-"""What Mesa's shaders compute, to the last bit: a float colour per point, or the vertex stage's own outputs.
+"""Exact results of Mesa's shaders: a float colour per fragment, or the outputs of the vertex stage.
 
-`fragments_on_mesa` draws one point per pixel into a float buffer: a point's attributes are constant, so what arrives is
-the fragment stage of exactly the given inputs. `vertices_on_mesa` uses the feedback buffer of GL.
+`fragments_on_mesa` draws one point per pixel into a float buffer: a point's attributes are constant, so the colours are
+those of the fragment stage for exactly these inputs. `vertices_on_mesa` uses the feedback buffer of GL.
 """
 
 import ctypes
@@ -20,13 +20,13 @@ FEEDBACK_FLOATS = 13  # per point: token, x y z w, r g b a, s t r q
 Arrays = dict[str, np.ndarray]  # "vertex", "color", "texcoord" (N, 4), "normal" (N, 3); float32
 
 
-def pixel_centres() -> np.ndarray:
-    """Positions (POINTS, 2) of the pixel centres in clip coordinates."""
+def pixel_centers() -> np.ndarray:
+    """Return the pixel centres (POINTS, 2) in clip coordinates."""
     axis = (np.arange(SIDE) + 0.5) / SIDE * 2 - 1
     return np.stack(np.meshgrid(axis, axis), axis=-1).reshape(-1, 2)
 
 
-def array_of_points(gl: Any, arrays: Arrays) -> None:
+def draw_points(gl: Any, arrays: Arrays) -> None:
     """Draw all points of the arrays."""
     settings = {
         "vertex": (gl.GL_VERTEX_ARRAY, lambda a: gl.glVertexPointer(4, gl.GL_FLOAT, 0, a)),
@@ -47,7 +47,7 @@ def load(gl: Any, mode: int, matrix: np.ndarray) -> None:
 
 
 def fragments_on_mesa(setup: Callable[[Any], None], arrays: Arrays) -> np.ndarray:
-    """Return the colours (POINTS, 4) float32 of the fragments; "vertex" is added where the arrays have none."""
+    """Return the colours (POINTS, 4) float32 of the fragments; the array "vertex" is added if missing."""
 
     def program(gl: Any) -> np.ndarray:
         target = gl.glGenTextures(1)
@@ -59,8 +59,8 @@ def fragments_on_mesa(setup: Callable[[Any], None], arrays: Arrays) -> np.ndarra
         gl.glViewport(0, 0, SIDE, SIDE)
         setup(gl)
         vertex = np.zeros((POINTS, 4), np.float32)
-        vertex[:, :2], vertex[:, 3] = pixel_centres(), 1
-        array_of_points(gl, {"vertex": vertex, **arrays})
+        vertex[:, :2], vertex[:, 3] = pixel_centers(), 1
+        draw_points(gl, {"vertex": vertex, **arrays})
         return gl.glReadPixels(0, 0, SIDE, SIDE, gl.GL_RGBA, gl.GL_FLOAT)
 
     return run_on_mesa(program, (8, 8)).returned.reshape(-1, 4)
@@ -87,7 +87,7 @@ def vertices_on_mesa(
         floats = buffer.ctypes.data_as(ctypes.POINTER(ctypes.c_float))
         raw.glFeedbackBuffer(len(buffer), gl.GL_4D_COLOR_TEXTURE, floats)
         raw.glRenderMode(gl.GL_FEEDBACK)
-        array_of_points(gl, arrays)
+        draw_points(gl, arrays)
         assert raw.glRenderMode(gl.GL_RENDER) == len(buffer)
         return buffer
 

@@ -1,6 +1,6 @@
-"""What Hypothesis draws: strategies of the tests alone, one section for each block of the package.
+"""Hypothesis strategies for the tests, one section for each block of the package.
 
-Meshes, lights and scenes are drawn by `softshadow.testing.strategies`, which is for users, too.
+Those for meshes, lights and scenes are in `softshadow.testing.strategies`, which users have, too.
 """
 
 import numpy as np
@@ -20,11 +20,11 @@ from softshadow.testing.strategies import soups as open_meshes  # noqa: F401
 
 @st.composite
 def planes_and_lights(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray]:
-    """Return a plane (4,) with a normal of some length, and a homogeneous light (4,) off it."""
+    """Return a plane (4,) with a normal of any length, and a homogeneous light (4,) that is not in it."""
     normal = np.array(draw(st.tuples(*[coordinates(-2, 2)] * 3).filter(any)))
     light = np.array([*draw(st.tuples(*[coordinates(-4, 4)] * 3).filter(any)), draw(st.sampled_from([0.0, 1.0]))])
     plane = np.array([*normal, draw(coordinates(-3, 3))])
-    if abs(plane @ light) < 1 / 16:  # nearer to the plane, the matrix says nothing any more
+    if abs(plane @ light) < 1 / 16:  # too near to the plane for a well-conditioned matrix
         plane[:3] = light[:3]
         plane[3] = 1.0 if light[3] else 0.0
     return plane, light
@@ -38,7 +38,7 @@ STENCIL_OPS = ("GL_KEEP", "GL_ZERO", "GL_REPLACE", "GL_INCR", "GL_DECR", "GL_INV
 
 @st.composite
 def fragment_states(draw: st.DrawFn) -> dict:
-    """Per-fragment state as the oracle takes it: alpha, stencil and depth test or None, and whether it is scissored."""
+    """Return a per-fragment state of the oracle: scissored or not; alpha, stencil and depth test, or None for each."""
     func, op, byte = st.sampled_from(FUNCTIONS), st.sampled_from(STENCIL_OPS), st.integers(0, 255)
     bits = draw(st.sampled_from([8, 8, 1, 3]))
     return {
@@ -51,20 +51,19 @@ def fragment_states(draw: st.DrawFn) -> dict:
 
 @st.composite
 def window_fans(draw: st.DrawFn, size: int = 24) -> tuple[np.ndarray, np.ndarray]:
-    """A fan all round an inner point: positions (V, 2) on a grid of 1/8 pixel, triangles (T, 3) that share their
-    spokes.
+    """Return a closed fan around a point: positions (V, 2) on a grid of 1/8 pixel, triangles (T, 3).
 
-    Each rim vertex stays in the middle two thirds of its own sector, so the pieces never overlap. Corners often lie on
-    pixel centres, so that edges run through samples.
+    Each rim vertex stays in the middle two thirds of its own sector, so the triangles never overlap. Corners often lie
+    on pixel centres, so that edges pass through samples.
     """
-    step, corners = 8, draw(st.integers(4, 9))
-    sector = 360 / corners
-    turned = np.radians([sector * (i + draw(st.integers(-8, 8)) / 24) for i in range(corners)])
-    reach = np.array([draw(st.integers(3 * step, (size // 2 - 1) * step)) for _ in range(corners)])
-    middle = np.array([draw(st.integers(size // 2 * step - 4, size // 2 * step + 4)) for _ in range(2)])
-    rim = np.rint(np.stack([np.cos(turned), np.sin(turned)], axis=1) * reach[:, None])
-    positions = np.concatenate([middle[None], middle + rim]) / step
-    fan = [(0, 1 + i, 1 + (i + 1) % corners) for i in range(corners)]
+    step, n_corners = 8, draw(st.integers(4, 9))
+    sector = 360 / n_corners
+    angles = np.radians([sector * (i + draw(st.integers(-8, 8)) / 24) for i in range(n_corners)])
+    radii = np.array([draw(st.integers(3 * step, (size // 2 - 1) * step)) for _ in range(n_corners)])
+    center = np.array([draw(st.integers(size // 2 * step - 4, size // 2 * step + 4)) for _ in range(2)])
+    rim = np.rint(np.stack([np.cos(angles), np.sin(angles)], axis=1) * radii[:, None])
+    positions = np.concatenate([center[None], center + rim]) / step
+    fan = [(0, 1 + i, 1 + (i + 1) % n_corners) for i in range(n_corners)]
     return positions.astype(np.float32), np.array(fan, np.int32)
 
 
@@ -98,7 +97,7 @@ HINTS = ("GL_PERSPECTIVE_CORRECTION_HINT", "GL_FOG_HINT", "GL_GENERATE_MIPMAP_HI
 
 
 def state_calls() -> st.SearchStrategy[list[tuple]]:
-    """Return calls that set state, as (name, arguments), tokens by name; about one in ten is an error."""
+    """Return calls that set state: (name, arguments), tokens by name; about one in ten is an error."""
     real = st.sampled_from([0.0, 0.1, 0.25, 0.3, 0.5, 0.7, 1.0, 1.5, 2.5, -1.0, -0.5, 3.0, 1000.0])
     unit = st.sampled_from([0.0, 0.1, 0.3, 0.5, 0.7, 1.0, 1.5, -0.5])
     pixel = st.sampled_from([0, 1, 7, 64, -3, 20000, -40000])
@@ -217,14 +216,14 @@ def state_calls() -> st.SearchStrategy[list[tuple]]:
 
 
 def axes_and_angles() -> st.SearchStrategy[tuple[float, np.ndarray]]:
-    """Angles in degrees, and axes, coordinate axes among them."""
+    """Return an angle in degrees and an axis, often a coordinate axis."""
     axis = st.tuples(*[st.integers(-4, 4)] * 3).filter(any) | st.sampled_from([(1, 0, 0), (0, 1, 0), (0, 0, -1)])
     return st.tuples(st.integers(-720, 720).map(float), axis.map(lambda a: np.array(a, np.float64)))
 
 
 @st.composite
 def cameras(draw: st.DrawFn) -> tuple:
-    """An eye, a centre elsewhere and an up vector that is not along the view."""
+    """Return an eye, another point as centre, and an up vector that is not along the view."""
     point = st.tuples(*[coordinates(-4, 4)] * 3)
     eye, center, up = draw(point), draw(point), draw(st.tuples(*[st.integers(-3, 3)] * 3))
     if np.linalg.norm(np.cross(np.subtract(center, eye), up)) < 0.1:

@@ -1,1 +1,1 @@
-"""Independent answers: slow, plain, and free of the code under test."""
+"""Oracles: slow, plain reimplementations that share no code with the package."""

@@ -1,6 +1,6 @@
-"""Cube maps written again, one direction at a time in NumPy scalars: faces by GL's table, edges by geometry (float32).
+"""Cube maps, one direction at a time in NumPy scalars (float32): faces by GL's table, edges by geometry.
 
-Imports nothing of the package. The texel beyond an edge is found as the nearest one of another face, by distance.
+Imports nothing from the package. The texel beyond an edge is the nearest texel of another face.
 """
 
 from itertools import product
@@ -21,7 +21,7 @@ TABLE = (
 
 
 def on_face(direction: np.ndarray) -> tuple[int, np.float32, np.float32]:
-    """The face, s and t of a direction; of equal components z comes first, then y."""
+    """Return face, s and t of a direction; among equal components z comes first, then y."""
     axis = max((2, 1, 0), key=lambda i: abs(direction[i]))
     face = 2 * axis + int(np.signbit(direction[axis]))
     (s_axis, s_sign), (t_axis, t_sign), _ = TABLE[face]
@@ -30,15 +30,15 @@ def on_face(direction: np.ndarray) -> tuple[int, np.float32, np.float32]:
 
 
 def point(face: int, s: float, t: float) -> np.ndarray:
-    """The point of the cube with sides from -1 to 1 at a place of a face."""
-    made = np.zeros(3)
+    """Return the position of a face's (s, t) on the cube from -1 to 1."""
+    position = np.zeros(3)
     for (axis, sign), value in zip(TABLE[face], (2 * s - 1, 2 * t - 1, 1), strict=True):
-        made[axis] = sign * value
-    return made
+        position[axis] = sign * value
+    return position
 
 
 def beyond(face: int, x: int, y: int, size: int) -> tuple[int, int, int]:
-    """The texel of another face that touches the edge where texel (x, y), one beyond it, would be."""
+    """Return (face, x, y) of the texel on another face that is next to texel (x, y), one beyond the edge."""
     edge = point(face, *(min(max((i + 0.5) / size, 0), 1) for i in (x, y)))
     others = [(f, i, j) for f, j, i in product(range(6), range(size), range(size)) if f != face]
     distances = [np.linalg.norm(point(f, (i + 0.5) / size, (j + 0.5) / size) - edge) for f, i, j in others]
@@ -46,7 +46,7 @@ def beyond(face: int, x: int, y: int, size: int) -> tuple[int, int, int]:
 
 
 def sample_seamlessly(cells: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """The linear filter over cells (6, n, n, channels); not for places that reach beyond a corner."""
+    """Return the linear filter over cells (6, n, n, channels); not for texels beyond a corner."""
     face, s, t = on_face(direction)
     size = cells.shape[1]
     u, v = s * F(size) - HALF, t * F(size) - HALF
@@ -65,6 +65,6 @@ def lerp(weight: np.float32, a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def reaches_a_corner(direction: np.ndarray, size: int) -> bool:
-    """Whether the linear filter at a direction would need a texel beyond a corner."""
+    """Return whether the linear filter at a direction needs a texel beyond a corner."""
     _, s, t = on_face(direction)
     return all(not HALF <= place * F(size) < F(size) - HALF for place in (s, t))

@@ -1,6 +1,6 @@
-"""One fragment, written again from the text of the specification: lists and names instead of kernels.
+"""The per-fragment operations for one fragment, written from the specification.
 
-GL 2.1, sec. 4.1.2 (scissor), 4.1.4 (alpha), 4.1.5 (stencil), 4.1.6 (depth). Imports nothing of the pipeline.
+GL 2.1, sec. 4.1.2 (scissor), 4.1.4 (alpha), 4.1.5 (stencil), 4.1.6 (depth). Imports nothing from the pipeline.
 """
 
 import operator
@@ -18,7 +18,7 @@ TESTS = {
 
 
 def stencil_after(op: str, stored: int, ref: int, bits: int) -> int:
-    """The value that an operation makes of `stored`, before the write mask."""
+    """Return the stencil value after an operation, before the write mask."""
     largest = 2**bits - 1
     return {
         "GL_KEEP": stored,
@@ -56,10 +56,10 @@ def fragment(state: dict, alpha: int, z: float, stored_z: float, stored: int) ->
     if state["stencil"]:
         _, _, _, sfail, zfail, zpass, write, bits = state["stencil"]
         op = {"stencil failed": sfail, "depth failed": zfail, "passed": zpass}[verdict]
-        made = stencil_after(op, stored, ref, bits)
+        new = stencil_after(op, stored, ref, bits)
         for bit in range(bits):
             if write >> bit & 1:
-                stored = (stored & ~(1 << bit)) | (made & (1 << bit))
+                stored = (stored & ~(1 << bit)) | (new & (1 << bit))
     if verdict == "passed" and state["depth"] and state["depth"][1]:
         stored_z = z
     return verdict, stored, stored_z

@@ -1,6 +1,6 @@
-"""Texture sampling written again, one coordinate at a time in NumPy scalars, from the rules of the sampler (float32).
+"""Texture sampling, one coordinate at a time in NumPy scalars (float32), from the rules of the sampler.
 
-Imports nothing of the package. Texels are looked up with plain indices; one outside the image is the border colour.
+Imports nothing from the package. Texels outside the image have the border colour.
 """
 
 import numpy as np
@@ -10,7 +10,7 @@ HALF, ONE = F(0.5), F(1)
 
 
 def nearest(s: np.float32, size: int, wrap: str) -> int:
-    """The texel of one axis; -1 or `size` stand for the border."""
+    """Return the texel on one axis; -1 and `size` are the border."""
     if wrap == "GL_REPEAT":
         if bin(size).count("1") == 1:
             return int(np.floor(s * F(size))) % size
@@ -30,7 +30,7 @@ def mirror(s: np.float32) -> np.float32:
 
 
 def pair(s: np.float32, size: int, wrap: str) -> tuple[int, int, np.float32]:
-    """The two texels of one axis and the weight of the second."""
+    """Return the two texels on one axis and the weight of the second."""
     power_of_two = bin(size).count("1") == 1
     if wrap == "GL_REPEAT":
         u = (s if power_of_two else s - np.floor(s)) * F(size) - HALF
@@ -52,7 +52,7 @@ def pair(s: np.float32, size: int, wrap: str) -> tuple[int, int, np.float32]:
 
 
 def fixed_pair(s: np.float32, size: int, wrap: str) -> tuple[int, int, int]:
-    """The two texels of one axis and the weight of the second in 1/256."""
+    """Return the two texels on one axis and the weight of the second in 1/256."""
     if wrap == "GL_REPEAT" and bin(size).count("1") != 1:
         k = int(np.rint((s - np.floor(s)) * F(size) * F(256))) - 128
     else:
@@ -73,7 +73,7 @@ def lerp(weight: np.float32, a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def sample(image: np.ndarray, s: np.float32, t: np.float32, wraps: tuple[str, str], linear: bool, border: np.ndarray):
-    """The channels (C,) of a float32 image (H, W, C) at one coordinate."""
+    """Return the channels (C,) of a float32 image (H, W, C) at one coordinate."""
     height, width = image.shape[:2]
     if not linear:
         return texel(image, nearest(s, width, wraps[0]), nearest(t, height, wraps[1]), border)
@@ -84,7 +84,7 @@ def sample(image: np.ndarray, s: np.float32, t: np.float32, wraps: tuple[str, st
 
 
 def sample_fixed(image: np.ndarray, s: np.float32, t: np.float32, wraps: tuple[str, str]) -> np.ndarray:
-    """The channels (C,) uint8 of a uint8 image (H, W, C), filtered in integers."""
+    """Return the channels (C,) uint8 of a uint8 image (H, W, C), filtered in integers."""
     i0, i1, x = fixed_pair(s, image.shape[1], wraps[0])
     j0, j1, y = fixed_pair(t, image.shape[0], wraps[1])
 
@@ -111,7 +111,7 @@ def compare(
     depths: np.ndarray, s: np.float32, t: np.float32, r: np.float32, wraps: tuple[str, str], linear: bool, func: str,
     border: np.float32,
 ) -> np.float32:  # fmt: skip
-    """The share of the texels that pass: depths (H, W) float32 in [0, 1]."""
+    """Return the weighted share of texels that pass the comparison; depths (H, W) float32 in [0, 1]."""
     height, width = depths.shape
     r = min(max(r, F(0)), F(1))
 

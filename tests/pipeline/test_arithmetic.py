@@ -1,4 +1,4 @@
-"""float32 stays float32: the types that Numba infers inside the kernels."""
+"""float32 stays float32: checked on the types that Numba infers inside the kernels."""
 
 import os
 import subprocess
@@ -8,8 +8,8 @@ from pathlib import Path
 import numba
 import pytest
 
-# Numba knows the types of what it compiles, not of what it reads from its cache: this runs in a process without one.
-# The truth and the geometry of scenes count in double precision on purpose and are not looked at.
+# Numba knows the types of code that it compiles, not of code from its cache: this runs in a process with an empty one.
+# The truth and the geometry of scenes compute in double precision on purpose and are not checked.
 TYPES = """
 import importlib, pkgutil, sys
 sys.path.insert(0, {tests!r})
@@ -24,7 +24,7 @@ for depth_format in ("d24", "d32f"):
     context = Context(32, 32, depth_format)
     for _ in range(4):
         draw(context, random_state(rng, context.state), random_triangles(rng, 4))
-seen = set()
+kernels = set()
 for block in (softshadow.pipeline, softshadow.programs):
     for module in pkgutil.walk_packages(block.__path__, block.__name__ + "."):
         for function in vars(importlib.import_module(module.name)).values():
@@ -34,11 +34,11 @@ for block in (softshadow.pipeline, softshadow.programs):
                 name = f"{{function.py_func.__module__}}.{{function.py_func.__name__}}"
                 if "float64" in str(signature):  # the "exact" precision is float64 from its arguments on
                     continue
-                seen.add(name)
+                kernels.add(name)
                 for line in str(compiled.type_annotation).splitlines():
                     if "float64" in line:
                         print(name, line.strip(), file=sys.stderr)
-print(len(seen))
+print(len(kernels))
 """
 
 
@@ -46,6 +46,6 @@ print(len(seen))
 def test_no_kernel_contains_float64_outside_exact(tmp_path):
     code = TYPES.format(tests=str(Path(__file__).parents[1]))
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
-    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
-    assert not done.stderr
-    assert int(done.stdout) > 10
+    process = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    assert not process.stderr
+    assert int(process.stdout) > 10

@@ -1,4 +1,4 @@
-"""Every way that a draw can go leaves the same buffers, and says why it was chosen."""
+"""A draw leaves the same buffers whichever way it goes, and tells why it went that way."""
 
 import subprocess
 import sys
@@ -14,12 +14,12 @@ SIZE = (64, 48)
 
 
 def arrays(run: ss.Run) -> list[np.ndarray]:
-    """The buffers and maps after every step."""
+    """Return the buffers and maps after every step."""
     return [array for step in run.steps for array in (*step.buffers, *step.maps.values())]
 
 
 def same_run(a: ss.Run, b: ss.Run) -> bool:
-    """Whether two runs have equal buffers and maps after every step."""
+    """Return whether two runs have equal buffers and maps after every step."""
     return all(np.array_equal(one, other) for one, other in zip(arrays(a), arrays(b), strict=True))
 
 
@@ -48,7 +48,7 @@ np.save(sys.argv[1], run.image)
 """
 
 
-def test_the_textbook_draws_without_the_folder_of_short_cuts(tmp_path):
+def test_the_textbook_works_without_the_folder_of_short_cuts(tmp_path):
     file = tmp_path / "image.npy"
     subprocess.run([sys.executable, "-c", WITHOUT_THE_FOLDER, str(file)], check=True)
     assert np.array_equal(np.load(file), ss.run("volume-zfail", "boxes", SIZE).image)
@@ -68,7 +68,7 @@ def draw_triangle() -> None:
     gl.glFinish()
 
 
-def test_the_way_of_a_draw_is_told_with_its_reasons():
+def test_explain_paths_lists_the_way_of_each_draw_and_its_reasons():
     with gl.create_context(*SIZE), explain_paths() as paths:
         draw_triangle()
         gl.glEnable(gl.GL_ALPHA_TEST)
@@ -93,7 +93,7 @@ def test_always_compiles_the_state_of_every_draw():
     assert [path.fill for path in paths] == ["specialized"]
 
 
-def test_outside_of_the_block_nothing_is_collected():
+def test_draws_outside_the_block_are_not_listed():
     with explain_paths() as paths:
         pass
     with gl.create_context(*SIZE):

@@ -16,13 +16,13 @@ pytestmark = pytest.mark.interpreted
 
 
 def nearest_only(state: State) -> State:
-    """Depth of the nearest surface, nothing else."""
+    """Return a state that draws the depth of the nearest surface, and nothing else."""
     depth = replace(state.depth, enabled=True, func=gl.GL_LESS, write=True, clamp=False)
     return replace(State(), viewport=state.viewport, depth=depth)
 
 
 def marks_equal(state: State) -> State:
-    """Count in the stencil where depth is equal."""
+    """Return a state that counts the fragments of equal depth in the stencil buffer."""
     face = replace(state.stencil.front, zpass=gl.GL_INCR)
     depth = replace(state.depth, enabled=True, func=gl.GL_EQUAL, write=False, clamp=False)
     return replace(
@@ -39,7 +39,7 @@ def test_equal_passes_where_a_surface_is_drawn_again(seed, depth_format, precisi
     context = Context(40, 30, depth_format, precision=precision)
     triangles = random_triangles(rng, 5)
     draw(context, nearest_only(context.state), triangles)
-    # another state, blending and an alpha test: another path through the pipeline, the same depth
+    # another state, blending, flat shading: another path through the pipeline, the same depth
     second = marks_equal(context.state)
     second = replace(
         second,
@@ -51,9 +51,9 @@ def test_equal_passes_where_a_surface_is_drawn_again(seed, depth_format, precisi
     window = context.storage.window
     assert window.depth is not None
     assert window.stencil is not None
-    cleared = window.depth.format.largest or 1.0
-    drawn = window.depth.view != cleared
-    assert (window.stencil.view[drawn] >= 1).all()
+    clear_value = window.depth.format.largest or 1.0
+    covered = window.depth.view != clear_value
+    assert (window.stencil.view[covered] >= 1).all()
 
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from(["d24", "d32f"]))

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mesa_points import POINTS, fragments_on_mesa, load, pixel_centres, same_bits
+from mesa_points import POINTS, fragments_on_mesa, load, pixel_centers, same_bits
 from softshadow import programs
 from softshadow import tokens as gl
 from softshadow.errors import StateError
@@ -22,7 +22,7 @@ def points(seed: int) -> VertexInputs:
     """One vertex per pixel, under the identity."""
     rng = np.random.default_rng(seed)
     position = np.ones((POINTS, 4), np.float32)
-    position[:, :2], position[:, 2] = pixel_centres(), rng.uniform(-1, 1, POINTS)
+    position[:, :2], position[:, 2] = pixel_centers(), rng.uniform(-1, 1, POINTS)
     normal = rng.normal(size=(POINTS, 3)).astype(np.float32)
     return VertexInputs(position, rng.random((POINTS, 4), np.float32), normal, (), IDENTITY, IDENTITY, (), {})
 

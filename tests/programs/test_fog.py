@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mesa_points import POINTS, fragments_on_mesa, load, pixel_centres, same_bits
+from mesa_points import POINTS, fragments_on_mesa, load, pixel_centers, same_bits
 from softshadow import tokens as gl
 from softshadow.errors import StateError
 from softshadow.programs import VertexInputs, fixed_function
@@ -39,7 +39,7 @@ def test_fogged_fragments_are_mesas(mode):
     modelview = np.eye(4, dtype=np.float32)
     modelview[2] = (0.1, 0.2, 1.3, -4)
     position, colors = np.ones((POINTS, 4), np.float32), rng.random((POINTS, 4), np.float32)
-    position[:, :2], position[:, 2] = pixel_centres(), rng.normal(0, 2, POINTS)
+    position[:, :2], position[:, 2] = pixel_centers(), rng.normal(0, 2, POINTS)
 
     def setup(on: Any) -> None:
         load(on, on.GL_MODELVIEW, modelview)

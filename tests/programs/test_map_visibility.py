@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from test_builtin import D24, IDENTITY, depth_map, texture_of
 
-from mesa_points import POINTS, fragments_on_mesa, load, pixel_centres, same_bits
+from mesa_points import POINTS, fragments_on_mesa, load, pixel_centers, same_bits
 from softshadow import programs
 from softshadow import tokens as gl
 from softshadow.programs import VertexInputs
@@ -50,7 +50,7 @@ def on_mesa(name: str, placed: np.ndarray, uniforms: dict[str, Any], setup: Any)
                 (on.glUniform1i if isinstance(value, int) else on.glUniform1f)(location, value)
 
     vertex = np.ones((POINTS, 4), np.float32)
-    vertex[:, :2] = pixel_centres()
+    vertex[:, :2] = pixel_centers()
     return fragments_on_mesa(use_program, {"vertex": vertex, "texcoord": placed})
 
 

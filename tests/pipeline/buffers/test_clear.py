@@ -1,4 +1,4 @@
-"""glClear of depth: rounded in double, but as a drawn rectangle where a scissor box or a stencil mask cuts it."""
+"""glClear of depth: rounded in double precision, or drawn as a rectangle under a scissor box or a stencil mask."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ DEPTHS = (0.0, 0.1, 0.3, 0.5, 0.7, 1 / 3, 0.123456789, 0.999999, 1e-5, 0.2500000
 BOXES = {"whole": (0, 0, 16, 12), "inner": (3, 4, 9, 5), "around": (-2, -1, 100, 100)}
 
 
-def test_a_drawn_clear_is_one_unit_off_at_most():
+def test_clearing_by_drawing_is_at_most_one_unit_off():
     image = Image.new(D24, 1, 1)
     values = np.random.default_rng(1).random(500).tolist()
     assert {drawn_clear_depth(v, image) - clear_depth(v, image) for v in values} == {-1, 0, 1}
@@ -22,9 +22,9 @@ def test_a_drawn_clear_is_one_unit_off_at_most():
 @pytest.mark.mesa
 @pytest.mark.parametrize("box", [None, *BOXES])
 @pytest.mark.parametrize("stencil_mask", [0xFF, 0x01, 0x00])
-def test_cleared_depth_is_mesas(box, stencil_mask):
+def test_cleared_depth_is_that_of_mesa(box, stencil_mask):
     def program(gl: Any) -> list[np.ndarray]:
-        found = []
+        depths = []
         if box:
             gl.glEnable(gl.GL_SCISSOR_TEST)
             gl.glScissor(*BOXES[box])
@@ -33,8 +33,8 @@ def test_cleared_depth_is_mesas(box, stencil_mask):
             gl.glClearDepth(depth)
             for buffers in (gl.GL_DEPTH_BUFFER_BIT, gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT):
                 gl.glClear(buffers)
-                found.append(gl.glReadPixels(0, 0, 16, 12, gl.GL_DEPTH_COMPONENT, gl.GL_UNSIGNED_INT))
-        return found
+                depths.append(gl.glReadPixels(0, 0, 16, 12, gl.GL_DEPTH_COMPONENT, gl.GL_UNSIGNED_INT))
+        return depths
 
     comparison = compare(program, (16, 12))
     assert comparison, str(comparison)

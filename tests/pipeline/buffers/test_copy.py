@@ -19,7 +19,7 @@ coordinate = st.integers(-12, 12)
 
 
 def random_image(internal: int, width: int, height: int, seed: int = 0) -> Image:
-    """An image whose cells are random over their whole range."""
+    """Return an image with random cells over their whole range."""
     rng = np.random.default_rng(seed)
     image = Image.new(storage_format(internal), width, height, internal)
     largest = image.format.largest or 1
@@ -29,12 +29,12 @@ def random_image(internal: int, width: int, height: int, seed: int = 0) -> Image
 
 
 def offscreen(image: Image) -> Framebuffer:
-    """A framebuffer object around one image."""
+    """Return a framebuffer object with one image."""
     return Framebuffer(1, {POINTS[image.format.kind]: Attachment(image)})
 
 
-def copied(source: Framebuffer, image: Image, *arguments: int) -> np.ndarray:
-    """The texture's cells after glCopyTexSubImage2D(x_offset, y_offset, x, y, width, height)."""
+def copied_texels(source: Framebuffer, image: Image, *arguments: int) -> np.ndarray:
+    """Return the texels after glCopyTexSubImage2D(x_offset, y_offset, x, y, width, height)."""
     texture = Texture(5, gl.GL_TEXTURE_2D, images={(0, 0): image})
     storage = Storage({source.name: source}, {5: texture})
     copy_to_texture(CopyToTexture(source.name, 5, 0, 0, *arguments), storage)
@@ -63,10 +63,10 @@ def test_clipping_keeps_exactly_the_pixels_inside(x, y, width, height, total_wid
     assert not inside_y or y + moved_y == inside_y[0]
 
 
-def test_depth_of_an_object_is_copied_plainly():
+def test_depth_of_a_framebuffer_object_is_copied_unchanged():
     source = random_image(gl.GL_DEPTH_COMPONENT24, 40, 30)
     image = Image.new(source.format, 40, 30)
-    assert (copied(offscreen(source), image, 0, 0, 0, 0, 40, 30) == source.view).all()
+    assert (copied_texels(offscreen(source), image, 0, 0, 0, 0, 40, 30) == source.view).all()
 
 
 def test_depth_of_the_window_goes_through_float():
@@ -75,20 +75,20 @@ def test_depth_of_the_window_goes_through_float():
     window.depth.view[:] = random_image(gl.GL_DEPTH_COMPONENT24, 60, 50).view
     image = Image.new(window.depth.format, 60, 50)
     expected = np.rint((window.depth.view[::-1] * DEPTH_STEP) * np.float32(16777215))
-    found = copied(window, image, 0, 0, 0, 0, 60, 50)
-    assert (found == expected).all()
-    assert (found != window.depth.view[::-1]).any()
+    texels = copied_texels(window, image, 0, 0, 0, 0, 60, 50)
+    assert (texels == expected).all()
+    assert (texels != window.depth.view[::-1]).any()
 
 
-def test_pixels_outside_the_framebuffer_leave_their_texels():
+def test_pixels_outside_the_framebuffer_leave_their_texels_unchanged():
     source = random_image(gl.GL_RGBA8, 4, 3)
     image = random_image(gl.GL_RGBA8, 10, 10, seed=1)
     before = image.view.copy()
     before[4:7, 3:7] = source.view
-    assert (copied(offscreen(source), image, 1, 2, -2, -2, 9, 8) == before).all()
+    assert (copied_texels(offscreen(source), image, 1, 2, -2, -2, 9, 8) == before).all()
 
 
-def test_stencil_goes_along_with_packed_depth():
+def test_stencil_is_copied_with_packed_depth():
     source = random_image(gl.GL_DEPTH24_STENCIL8, 5, 4)
     assert source.stencil is not None
     source.stencil.view[:] = np.arange(20).reshape(4, 5)
@@ -96,18 +96,18 @@ def test_stencil_goes_along_with_packed_depth():
         1, {gl.GL_DEPTH_ATTACHMENT: Attachment(source), gl.GL_STENCIL_ATTACHMENT: Attachment(source.stencil)}
     )
     image = Image.new(source.format, 5, 4, gl.GL_DEPTH24_STENCIL8)
-    copied(framebuffer, image, 0, 0, 0, 0, 5, 4)
+    copied_texels(framebuffer, image, 0, 0, 0, 0, 5, 4)
     assert image.same_as(source)
 
 
 @pytest.mark.parametrize("internal", [gl.GL_RGB8, gl.GL_LUMINANCE8, gl.GL_RGBA32F])
-def test_colours_are_copied_as_the_texture_keeps_them(internal):
+def test_colors_are_converted_to_the_format_of_the_texture(internal):
     source = random_image(gl.GL_RGBA8, 3, 2)
-    found = copied(offscreen(source), Image.new(FORMATS[internal], 3, 2), 0, 0, 0, 0, 3, 2)
+    texels = copied_texels(offscreen(source), Image.new(FORMATS[internal], 3, 2), 0, 0, 0, 0, 3, 2)
     rgba = source.view
     if internal == gl.GL_RGBA32F:
-        assert (found == rgba * (np.float32(1) / np.float32(255))).all()
+        assert (texels == rgba * (np.float32(1) / np.float32(255))).all()
     else:
-        assert (found[..., 0] == rgba[..., 0]).all()
-        assert (found[..., 3] == 255).all()
-        assert (found[..., 1] == rgba[..., 1 if internal == gl.GL_RGB8 else 0]).all()
+        assert (texels[..., 0] == rgba[..., 0]).all()
+        assert (texels[..., 3] == 255).all()
+        assert (texels[..., 1] == rgba[..., 1 if internal == gl.GL_RGB8 else 0]).all()

@@ -1,4 +1,4 @@
-"""Draws without colours, a few triangles at a time, leave the bits of the draw with all of them at once."""
+"""Draws without colours, in chunks of triangles, leave the bits of drawing all triangles at once."""
 
 from dataclasses import replace
 
@@ -22,8 +22,8 @@ from softshadow.state import ClipPlanes
 seeds = st.integers(0, 2**32 - 1)
 
 
-def colorless(seed: int, depth_format: str) -> Context:
-    """A window after draws that change depth and stencil alone, of triangles in and around the frustum."""
+def draw_without_colors(seed: int, depth_format: str) -> Context:
+    """Return a window after draws of triangles, in and around the frustum, that change only depth and stencil."""
     rng = np.random.default_rng(seed)
     context = Context(48, 40, depth_format)
     plane = ClipPlanes((True,) + (False,) * 5, ((1.0, 0.3, 0.1, 0.2),) + ((0.0,) * 4,) * 5)
@@ -45,36 +45,36 @@ def colorless(seed: int, depth_format: str) -> Context:
 
 def all_at_once(seed: int, depth_format: str) -> Context:
     with use_short_cuts(False):
-        return colorless(seed, depth_format)
+        return draw_without_colors(seed, depth_format)
 
 
 @pytest.mark.interpreted
 @given(seeds, st.sampled_from(["d24", "d32f"]), st.sampled_from([1, 3]), st.sampled_from([1, 7, 16]))
-def test_chunks_leave_what_all_triangles_at_once_leave(seed, depth_format, count, size):
+def test_chunks_leave_the_bits_of_all_triangles_at_once(seed, depth_format, n_threads, size):
     before = threads()
     expected = all_at_once(seed, depth_format)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(depth_only, "CHUNK_TRIANGLES", size)
         patch.setattr(pool, "PART_SIZE", 1 + size // 3)
-        for name in ("WORTH_BANDS", "WORTH_BANDS_IN_TILES"):  # so small a window would not be divided
+        for name in ("WORTH_BANDS", "WORTH_BANDS_IN_TILES"):  # so that a small window is divided, too
             patch.setattr(choose, name, 0)
-        set_threads(count)
+        set_threads(n_threads)
         try:
-            assert same_window(colorless(seed, depth_format), expected)
+            assert same_window(draw_without_colors(seed, depth_format), expected)
         finally:
             set_threads(before)
 
 
 @given(seeds)
 def test_a_chunk_has_the_rows_and_the_area_of_its_triangles(seed):
-    context = colorless(seed, "d24")
+    context = draw_without_colors(seed, "d24")
     for command in context.frame.commands:
         if not isinstance(command, Draw):
             continue
-        whole = region_of(command.state, context.storage.window)
+        target_region = region_of(command.state, context.storage.window)
         for triangles, ranges, region, fragments in chunks_of(command, context.storage.window):
             extents = [extent(triangles.corners, first, end) for first, end in ranges]
             assert fragments == sum(area for *_, area in extents) >> 8
             for first_row, end_row, _ in extents:
-                first_row, end_row = max(first_row, whole.first_row), min(end_row, whole.end_row)
+                first_row, end_row = max(first_row, target_region.first_row), min(end_row, target_region.end_row)
                 assert first_row >= end_row or region.first_row <= first_row < end_row <= region.end_row

@@ -1,4 +1,4 @@
-"""The textbook fill and its short cuts leave the same bits: compiled for the state, in bands, interpreted, in order."""
+"""The textbook fill leaves the bits of all its variants: compiled for a state, in bands, interpreted, in order."""
 
 import os
 import subprocess
@@ -21,14 +21,14 @@ from softshadow.pipeline.choose import Policy
 from softshadow.pipeline.raster import fill
 
 WIDTH, HEIGHT = 48, 40
-# each of these compiles code of its own: a fixed sample, so that the cache on disk has them from the second run on
+# each of these compiles its own code: a fixed sample, so that later test runs find them in the cache on disk
 SPECIALIZED_SEEDS = [0, 1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(2, 6))]
 
 
-def drawn(seed: int, depth_format: str = "d24", precision: str = "mesa", ordered: bool = False) -> Context:
-    """A window after a few random draws; `ordered` adds an alpha test that every fragment passes.
+def draw_at_random(seed: int, depth_format: str = "d24", precision: str = "mesa", ordered: bool = False) -> Context:
+    """Return a window after a few random draws; `ordered` adds an alpha test that every fragment passes.
 
-    The depth format "d32", 32-bit integers, is one of framebuffer objects only; here the window has it.
+    "d32", 32-bit integers, is otherwise a depth format of framebuffer objects only.
     """
     rng = np.random.default_rng(seed)
     context = Context(WIDTH, HEIGHT, "d24" if depth_format == "d32" else depth_format, precision=precision)
@@ -51,14 +51,14 @@ def drawn(seed: int, depth_format: str = "d24", precision: str = "mesa", ordered
 @pytest.mark.parametrize("depth_format", ["d24", "d32f", "d32"])
 def test_specialized_draws_what_the_textbook_draws(seed, depth_format):
     with use_short_cuts(False):
-        expected = drawn(seed, depth_format)
+        expected = draw_at_random(seed, depth_format)
     with use_short_cuts("always"):
-        assert same_window(drawn(seed, depth_format), expected)
+        assert same_window(draw_at_random(seed, depth_format), expected)
 
 
 @given(st.integers(0, 2**32 - 1), st.booleans(), st.sampled_from([0.5, 4.0, 9.0, 15.0, 64.0, 300.0]))
-def test_boxes_at_the_end_of_the_buffers_draw_what_the_textbook_draws(seed, scissored, pixels):
-    """In 128 columns, the buffers have no padding after the last box; a pixel processed twice counts twice."""
+def test_small_triangles_at_the_end_of_the_buffers_are_drawn_as_by_the_textbook(seed, scissored, pixels):
+    """In 128 columns, buffers have no padding after the last box; the stencil buffer shows pixels processed twice."""
 
     def window(policy: Policy) -> Context:
         rng, context = np.random.default_rng(seed), Context(128, 70)
@@ -79,7 +79,7 @@ def test_boxes_at_the_end_of_the_buffers_draw_what_the_textbook_draws(seed, scis
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from(["d24", "d32f", "d32"]))
 def test_ordered_path_draws_what_the_opaque_path_draws(seed, depth_format):
-    assert same_window(drawn(seed, depth_format, ordered=True), drawn(seed, depth_format))
+    assert same_window(draw_at_random(seed, depth_format, ordered=True), draw_at_random(seed, depth_format))
 
 
 @pytest.mark.interpreted
@@ -88,16 +88,16 @@ def test_results_do_not_depend_on_the_number_of_threads_or_the_bands(seed, at_a_
     before = threads()
     with pytest.MonkeyPatch.context() as patch:
         set_threads(1)
-        expected = drawn(seed)
-        for name in ("WORTH_BANDS", "WORTH_BANDS_IN_TILES"):  # so small a window would not be divided
+        expected = draw_at_random(seed)
+        for name in ("WORTH_BANDS", "WORTH_BANDS_IN_TILES"):  # so that a small window is divided, too
             patch.setattr(choose, name, 0)
         patch.setattr(fill, "AT_A_TIME", at_a_time)
         try:
             set_threads(3)
-            assert same_window(drawn(seed), expected)
+            assert same_window(draw_at_random(seed), expected)
             set_threads(1)
             patch.setattr(choose, "LAYERS", 0)
-            assert same_window(drawn(seed), expected)
+            assert same_window(draw_at_random(seed), expected)
         finally:
             set_threads(before)
 
@@ -105,10 +105,10 @@ def test_results_do_not_depend_on_the_number_of_threads_or_the_bands(seed, at_a_
 DIGESTS = """
 import hashlib, sys
 sys.path[:0] = {path!r}
-from test_specialize import drawn
+from test_specialize import draw_at_random
 for seed in range(4):
     for depth_format, precision in (("d24", "mesa"), ("d32f", "mesa"), ("d32", "mesa"), ("d24", "exact")):
-        window = drawn(seed, depth_format, precision).storage.window
+        window = draw_at_random(seed, depth_format, precision).storage.window
         print(hashlib.sha256(b"".join(a.image.view.tobytes() for a in window.attachments.values())).hexdigest())
 """
 
@@ -127,7 +127,7 @@ def test_interpreted_draws_what_compiled_draws():
         for disabled in ("0", "1")
     ]
     assert digests[0] == digests[1]
-    assert len(set(digests[0].split())) > 8  # not sixteen empty windows
+    assert len(set(digests[0].split())) > 8  # the windows are not all empty
 
 
 @pytest.mark.parametrize("bad", [0, -1, 1.5, True, "2"])

@@ -1,4 +1,4 @@
-"""Draws that only count, tile by tile: the bits of the fill that processes every fragment."""
+"""Stencil-only draws filled by tiles leave the bits of the fill that processes every fragment."""
 
 from contextlib import contextmanager
 
@@ -31,8 +31,8 @@ LARGEST = {"d16": 2**16 - 1, "d24": 2**24 - 1, "d32": 2**32 - 1, "d32f": 0, "exa
 seeds = st.integers(0, 2**32 - 1)
 
 
-def counting_state(rng: np.random.Generator, depth_format: str) -> tuple[FragmentOps, FragmentOps]:
-    """Two order-independent facings, more often than not with the classical pair of operations."""
+def order_independent_state(rng: np.random.Generator, depth_format: str) -> tuple[FragmentOps, FragmentOps]:
+    """Return two order-independent facings, mostly with the usual pair of increment and decrement."""
     bits = int(rng.integers(1, 9))
     largest = 2**bits - 1
     op = int(rng.choice(OPS))
@@ -51,24 +51,24 @@ def counting_state(rng: np.random.Generator, depth_format: str) -> tuple[Fragmen
     return front, facing() if rng.random() < 0.5 else front
 
 
-def large_and_small(rng: np.random.Generator, count: int, downwards: bool) -> tuple[Setup, np.ndarray]:
-    """Triangles from less than a pixel to more than the window, some slivers, some level, some with equal depth."""
-    size = rng.choice([2.0, 20.0, 200.0, 1000.0], (count, 1, 1))
-    window = np.ones((count, 3, 4), np.float32)
-    middle = rng.uniform(-20, [WIDTH + 20, HEIGHT + 20], (count, 2))[:, None]
-    window[:, :, :2] = middle + rng.uniform(-0.5, 0.5, (count, 3, 2)) * size
-    slivers = rng.random(count) < 0.2
+def large_and_small(rng: np.random.Generator, n: int, downwards: bool) -> tuple[Setup, np.ndarray]:
+    """Return triangles smaller than a pixel to larger than the window, some slivers, some of constant depth."""
+    extent = rng.choice([2.0, 20.0, 200.0, 1000.0], (n, 1, 1))
+    window = np.ones((n, 3, 4), np.float32)
+    center = rng.uniform(-20, [WIDTH + 20, HEIGHT + 20], (n, 2))[:, None]
+    window[:, :, :2] = center + rng.uniform(-0.5, 0.5, (n, 3, 2)) * extent
+    slivers = rng.random(n) < 0.2
     window[slivers, 2, :2] = (window[slivers, 0, :2] + window[slivers, 1, :2]) / 2 + rng.uniform(-1, 1, 2)
-    on_samples = rng.random(count) < 0.3
+    on_samples = rng.random(n) < 0.3
     window[on_samples, :, :2] = np.rint(window[on_samples, :, :2]) + 0.5
-    window[:, :, 2] = rng.uniform(0, 1, (count, 1)) + rng.uniform(-0.5, 0.5, (count, 3)) * rng.choice([0, 0.05, 1])
-    corners = np.arange(3 * count, dtype=np.int32).reshape(count, 3)
+    window[:, :, 2] = rng.uniform(0, 1, (n, 1)) + rng.uniform(-0.5, 0.5, (n, 3)) * rng.choice([0, 0.05, 1])
+    corners = np.arange(3 * n, dtype=np.int32).reshape(n, 3)
     offset = Offset(MAX_SLOPE, np.float32(0), np.float32(0), 1)
     return set_up(window.reshape(-1, 4), corners, Cull(), offset, downwards), window
 
 
 def buffers(rng: np.random.Generator, depth_format: str, stencil_largest: int) -> tuple[np.ndarray, np.ndarray]:
-    """A depth buffer of a few planes and steps, with some noise; any stencil values."""
+    """Return a depth buffer with a slope, a step and some noise, and a buffer of random stencil values."""
     row, column = np.mgrid[:HEIGHT, :PITCH]
     z = rng.uniform(0, 1) + rng.uniform(-0.5, 0.5) * row / HEIGHT + rng.uniform(-0.5, 0.5) * column / PITCH
     z[:, int(rng.integers(WIDTH)) :] = rng.choice([0.0, 0.5, 1.0])
@@ -82,9 +82,9 @@ def buffers(rng: np.random.Generator, depth_format: str, stencil_largest: int) -
 
 
 def buffers_after(seed: int, depth_format: str) -> tuple[np.ndarray, np.ndarray]:
-    """The buffers after a draw that is order-independent."""
+    """Return the buffers after an order-independent draw."""
     rng = np.random.default_rng(seed)
-    front, back = counting_state(rng, depth_format)
+    front, back = order_independent_state(rng, depth_format)
     assert order_independent(front, back)
     downwards = int(rng.integers(2))
     triangles, _ = large_and_small(rng, 24, bool(downwards))
@@ -109,7 +109,7 @@ def any_state_in_tiles(ops, facing, triangles, numbers, region, depth_range, buf
 
 @contextmanager
 def in_tiles():
-    """Inside, tiles are filled by a kernel for any state: compiling each state would take seconds."""
+    """Within the block, fill tiles by one kernel for all states: compiling each state would take seconds."""
     with pytest.MonkeyPatch.context() as patch, use_short_cuts("always"):
         patch.setattr(specialize, "specialize_in_tiles", lambda code: any_state_in_tiles)
         patch.setattr(specialize, "compiled", {})
@@ -117,43 +117,43 @@ def in_tiles():
         yield patch
 
 
-def one_by_one(seed: int, depth_format: str) -> tuple[np.ndarray, np.ndarray]:
-    """The same, every fragment processed in drawing order."""
+def buffers_of_the_textbook(seed: int, depth_format: str) -> tuple[np.ndarray, np.ndarray]:
+    """Return the same, with every fragment processed in drawing order."""
     with use_short_cuts(False):
         return buffers_after(seed, depth_format)
 
 
-def assert_same(found: tuple[np.ndarray, np.ndarray], expected: tuple[np.ndarray, np.ndarray]) -> None:
-    for a, b in zip(found, expected, strict=True):
+def assert_same(actual: tuple[np.ndarray, np.ndarray], expected: tuple[np.ndarray, np.ndarray]) -> None:
+    for a, b in zip(actual, expected, strict=True):
         np.testing.assert_array_equal(a, b)
 
 
 @given(seeds, st.sampled_from(sorted(LARGEST)))
-def test_tiles_leave_the_bits_of_fragments_one_by_one(seed, depth_format):
+def test_tiles_leave_the_bits_of_the_textbook(seed, depth_format):
     with in_tiles():
-        assert_same(buffers_after(seed, depth_format), one_by_one(seed, depth_format))
+        assert_same(buffers_after(seed, depth_format), buffers_of_the_textbook(seed, depth_format))
 
 
 @pytest.mark.parametrize(
-    ("seed", "depth_format"),  # each compiles code of its own, some seconds
+    ("seed", "depth_format"),  # each compiles its own code, which takes seconds
     [(0, "d24"), (1, "d32f")]
     + [pytest.param(*case, marks=pytest.mark.slow) for case in ((1, "d24"), (2, "d24"), (0, "d32f"), (2, "d32f"))],
 )
 def test_specialized_tiles_leave_the_same_bits(seed, depth_format):
     with use_short_cuts("always"):
-        found = buffers_after(seed, depth_format)
-    assert_same(found, one_by_one(seed, depth_format))
+        specialized = buffers_after(seed, depth_format)
+    assert_same(specialized, buffers_of_the_textbook(seed, depth_format))
 
 
 @given(seeds)
-def test_tiles_of_any_bands_leave_the_same_bits(seed):
+def test_tiles_in_bands_leave_the_same_bits(seed):
     before = threads()
     with in_tiles() as patch:
         patch.setattr(fill_stage, "AT_A_TIME", 7)
         patch.setattr(choose, "WORTH_BANDS_IN_TILES", 0)
         try:
             set_threads(3)
-            assert_same(buffers_after(seed, "d24"), one_by_one(seed, "d24"))
+            assert_same(buffers_after(seed, "d24"), buffers_of_the_textbook(seed, "d24"))
         finally:
             set_threads(before)
 
@@ -162,11 +162,11 @@ def test_tiles_of_any_bands_leave_the_same_bits(seed):
 @pytest.mark.parametrize("seed", range(2))
 def test_interpreted_tiles_leave_the_same_bits(seed):
     with in_tiles():
-        assert_same(buffers_after(seed, "d24"), one_by_one(seed, "d24"))
+        assert_same(buffers_after(seed, "d24"), buffers_of_the_textbook(seed, "d24"))
 
 
 def facing(**changes: int) -> FragmentOps:
-    """Count up what fails, in 8 bits."""
+    """Return the state that counts fragments failing the depth test, in 8 bits."""
     keep, up, always = gl.GL_KEEP, gl.GL_INCR_WRAP, gl.GL_ALWAYS
     ops = FragmentOps(0, always, 1, always, keep, up, keep, 255, 1, gl.GL_LESS, 0, 2**24 - 1, 0, 0, 255, 255)
     return ops._replace(**changes)
@@ -180,7 +180,7 @@ def test_counting_up_and_down_is_order_independent():
 @pytest.mark.parametrize(
     "changes",
     [
-        {"zfail": gl.GL_DECR},  # stops at 0: up and down is another value than down and up
+        {"zfail": gl.GL_DECR},  # stops at 0: up, then down is not the same as down, then up
         {"zpass": gl.GL_INVERT},
         {"stencil_func": gl.GL_EQUAL},  # the value decides about the next fragment
         {"depth_write": 1},
@@ -188,29 +188,29 @@ def test_counting_up_and_down_is_order_independent():
         {"alpha_test": 1},
     ],
 )
-def test_updates_that_depend_on_the_order_are_told(changes):
+def test_updates_that_depend_on_the_order_are_not_order_independent(changes):
     assert not order_independent(facing(), facing(**changes))
 
 
-def test_two_references_depend_on_the_order():
+def test_replacing_by_two_references_is_not_order_independent():
     assert not order_independent(facing(zfail=gl.GL_REPLACE, ref=1), facing(zfail=gl.GL_REPLACE, ref=2))
 
 
 @pytest.mark.interpreted
 @given(st.sampled_from(OPS), st.integers(1, 8), st.integers(0, 600), st.integers(0, 255), st.integers(0, 255))
-def test_n_updates_at_once_are_n_updates(op, bits, n, s, ref):
+def test_n_updates_at_once_equal_n_single_updates(op, bits, n, s, ref):
     largest = np.uint8(2**bits - 1)
     s, ref = np.uint8(s) & largest, np.uint8(ref) & largest
     expected = s
     for _ in range(n):
         expected = np.uint8(stencil_op(op, expected, ref, largest))
-    counted = -n if op == gl.GL_DECR_WRAP else n
-    assert advance(op, s, counted, ref, largest) == expected
+    net_count = -n if op == gl.GL_DECR_WRAP else n
+    assert advance(op, s, net_count, ref, largest) == expected
 
 
 @pytest.mark.interpreted
 @given(st.sampled_from(FUNCS), st.lists(st.integers(0, 3), min_size=4, max_size=4))
-def test_a_decision_is_true_of_every_pair_of_depths(func, values):
+def test_a_decision_holds_for_every_pair_of_depths(func, values):
     low, high, stored_low, stored_high = *sorted(values[:2]), *sorted(values[2:])
     outcome = decide(func, low, high, stored_low, stored_high)
     passed = {compare(func, z, stored) for z in range(low, high + 1) for stored in range(stored_low, stored_high + 1)}
@@ -218,7 +218,7 @@ def test_a_decision_is_true_of_every_pair_of_depths(func, values):
 
 
 @pytest.mark.interpreted
-def test_bounds_are_those_of_the_tile_and_nothing_is_known_of_nan():
+def test_depth_bounds_are_those_of_the_tile_and_infinite_with_nan():
     depth = np.arange(100, dtype=np.float32).reshape(10, 10)
     scratch = np.empty((3, 64), np.float32)
     assert find_bounds(depth, 2, 5, 3, 7, scratch) == (23, 46)
@@ -228,7 +228,7 @@ def test_bounds_are_those_of_the_tile_and_nothing_is_known_of_nan():
 
 @pytest.mark.interpreted
 @given(seeds, st.booleans(), st.sampled_from([8, 12, 20, 28]))
-def test_rows_at_once_are_the_rows_one_by_one(seed, downwards, bits):
+def test_row_spans_equal_row_span_in_every_row(seed, downwards, bits):
     rng = np.random.default_rng(seed)
     corners = large_and_small(rng, 8, downwards)[0].corners
     corners[::2] += rng.integers(-(1 << bits), 1 << bits, corners[::2].shape, dtype=np.int32)

@@ -21,10 +21,10 @@ def test_there_are_files():
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_first_line_names_a_twin_and_an_agreement_test(file):
     head = (ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) or "").splitlines()[0]
-    named = HEAD.search(head)
-    assert named, f"{file.name}: {head!r} does not end in 'equals `room.file.function`, see fast/test_NAME.py.'"
-    module, function = f"softshadow.pipeline.{named['twin']}".rsplit(".", 1)
+    match = HEAD.search(head)
+    assert match, f"{file.name}: {head!r} does not end in 'equals `room.file.function`, see fast/test_NAME.py.'"
+    module, function = f"softshadow.pipeline.{match['twin']}".rsplit(".", 1)
     assert not module.startswith("softshadow.pipeline.fast")
     assert callable(getattr(importlib.import_module(module), function))
-    text = (TESTS / named["test"]).read_text(encoding="utf-8")
+    text = (TESTS / match["test"]).read_text(encoding="utf-8")
     assert "use_short_cuts(False)" in text, "the test does not draw without short cuts"

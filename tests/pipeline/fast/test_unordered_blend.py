@@ -18,21 +18,21 @@ from softshadow.pipeline import explain_paths, use_short_cuts
     st.booleans(),
     st.sampled_from(["mesa", "exact"]),
 )
-def test_draws_without_overlaps_blend_as_in_order(seed, func, blending, overlapping, precision):
+def test_draws_without_overlaps_are_blended_as_in_order(seed, func, blending, overlapping, precision):
     window = surface_blended_twice(seed, func, blending, overlapping, precision)
     with use_short_cuts(False):
         assert same_window(window, surface_blended_twice(seed, func, blending, overlapping, precision))
 
 
-def test_light_added_upon_a_surface_is_drawn_as_opaque():
+def test_light_added_onto_a_surface_is_drawn_as_opaque():
     context = Context(8, 8, "d24")
     depth = replace(context.state.depth, enabled=True)
     square = vertices([[-1, -1, 0, 1], [1, -1, 0, 1], [1, 1, 0, 1], [-1, -1, 0, 1], [1, 1, 0, 1], [-1, 1, 0, 1]])
     draw(context, replace(context.state, depth=depth), square)
-    again = replace(context.state, depth=replace(depth, func=gl.GL_EQUAL, write=False), blend=ADDING)
+    added_light = replace(context.state, depth=replace(depth, func=gl.GL_EQUAL, write=False), blend=ADDING)
     twice = vertices([*square.position, *square.position])
     with explain_paths() as paths:
-        draw(context, again, square)
-        draw(context, again, twice)
+        draw(context, added_light, square)
+        draw(context, added_light, twice)
     assert [path.way for path in paths] == ["opaque", "in order"]
     assert "a dry run found overlapping fragments" in paths[1].reasons

@@ -1,8 +1,8 @@
-"""The specialized fill is vectorised: its compiled code tests many pixels by one instruction.
+"""The specialized fill is vectorised: its machine code tests many pixels with one instruction.
 
-A branch in the wrong place, or an index that may be negative, makes the compiler fall back to one pixel at a time, and
-nothing but the time would tell. So we look into the machine code for what a vectorised loop over pixels cannot do
-without: a comparison of packed depths, and packed arithmetic on stencil values that are bytes.
+With a branch in the wrong place, or an index that may be negative, the compiler falls back to one pixel at a time, and
+only timings would show it. So the machine code is searched for instructions that every vectorised loop over pixels has:
+comparisons of packed depths, and packed arithmetic on stencil values, which are bytes.
 """
 
 import platform
@@ -16,7 +16,7 @@ from softshadow import gl
 from softshadow.pipeline import use_short_cuts
 from softshadow.pipeline.fast import specialize
 
-# of AVX and AVX-512 on registers of 32 or 64 bytes; plain SSE has the same names without the v
+# in AVX and AVX-512, with registers of 32 or 64 bytes; SSE has the same names without the v
 PACKED_FLOATS_COMPARED = re.compile(r"\bv?cmp\w*ps\b[^\n]*%[xyz]mm|\bv?(?:min|max)ps\b[^\n]*%[xyz]mm")
 PACKED_BYTES_COUNTED = re.compile(r"\bv?p(?:add|sub)b\b[^\n]*%[xyz]mm")
 
@@ -28,24 +28,24 @@ pytestmark = [
 ]
 
 
-def machine_code_of_what_draws(monkeypatch: pytest.MonkeyPatch, draw) -> str:
-    """Return the assembly of all fills that a draw is specialized to, compiled anew: the cache has no text of it."""
-    compiled: dict = {}
-    monkeypatch.setattr(specialize, "compiled", compiled)
+def machine_code_of_fills(monkeypatch: pytest.MonkeyPatch, draw) -> str:
+    """Return the assembly of the specialized fills of a draw, recompiled since the cache has no text of it."""
+    kernels: dict = {}
+    monkeypatch.setattr(specialize, "compiled", kernels)
     with gl.create_context(64, 48), use_short_cuts("always"):
         draw()
         gl.glFinish()
-    assert compiled
+    assert kernels
     text = ""
-    for fill in compiled.values():
-        anew = numba.njit(nogil=True, error_model="numpy")(fill.py_func)
+    for fill in kernels.values():
+        recompiled = numba.njit(nogil=True, error_model="numpy")(fill.py_func)
         for signature in fill.signatures:
-            anew.compile(signature)
-        text += "".join(anew.inspect_asm().values())
+            recompiled.compile(signature)
+        text += "".join(recompiled.inspect_asm().values())
     return text
 
 
-def test_a_loop_that_ends_early_has_no_such_instructions():
+def test_a_loop_that_ends_early_has_no_packed_instructions():
     @numba.njit
     def first_nearer(depth, stencil, z):
         for i in range(depth.shape[0]):
@@ -74,7 +74,7 @@ def test_depths_are_compared_many_at_a_time(monkeypatch):
         gl.glColorMask(False, False, False, False)
         draw_quad()
 
-    assert PACKED_FLOATS_COMPARED.search(machine_code_of_what_draws(monkeypatch, draw))
+    assert PACKED_FLOATS_COMPARED.search(machine_code_of_fills(monkeypatch, draw))
 
 
 @pytest.mark.parametrize("operation", ["GL_INCR_WRAP", "GL_DECR"])
@@ -88,4 +88,4 @@ def test_stencil_values_are_counted_many_at_a_time(monkeypatch, operation):
         gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, getattr(gl, operation))
         draw_quad()
 
-    assert PACKED_BYTES_COUNTED.search(machine_code_of_what_draws(monkeypatch, draw))
+    assert PACKED_BYTES_COUNTED.search(machine_code_of_fills(monkeypatch, draw))

@@ -1,4 +1,4 @@
-"""The visibility cache changes no buffer, whatever happens between equal draws."""
+"""The visibility cache makes no difference to buffers, whatever happens between equal draws."""
 
 from dataclasses import replace
 
@@ -15,32 +15,32 @@ from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.fast import visibility_cache
 from softshadow.pipeline.fast.visibility_cache import clear_visibility_cache
 
-SIZE = 24  # of window and framebuffer object
+SIZE = 24  # of the window and the framebuffer object
 DEPTH_TEXTURE, FRAMEBUFFER = 1, 1
 
 
 def frame(seed: int, kinds: list[str], meshes: int = 2) -> tuple[Context, int]:
-    """A context after calls of these kinds, and how many of its draws were only shaded.
+    """Return a context after calls of these kinds, and how many of its draws were only shaded.
 
-    Draws are of few meshes under few states, so that many of them are equal.
+    There are few meshes and few states, so that many draws are equal.
     """
     rng = np.random.default_rng(seed)
     context = gl.create_context(SIZE, SIZE)
-    drawn = [meshed(context, rng) for _ in range(meshes)]
+    random_meshes = [random_mesh(context, rng) for _ in range(meshes)]
     gl.glEnable(gl.GL_DEPTH_TEST)
     gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
-    new_depths(context, rng, drawn)
+    new_depths(context, rng, random_meshes)
     make_framebuffer()
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
     with explain_paths() as paths:
         for kind in kinds:
-            CALLS[kind](context, rng, drawn)
+            CALLS[kind](context, rng, random_meshes)
         gl.glFinish()
     return context, sum("an equal draw over the same depths was filled before: only shaded" in p.reasons for p in paths)
 
 
 def make_framebuffer() -> None:
-    """A framebuffer object of the bound texture and colours of its own."""
+    """Create a framebuffer object with the bound depth texture and a colour renderbuffer."""
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, gl.glGenFramebuffers(1))
     for point in (gl.GL_DEPTH_ATTACHMENT, gl.GL_STENCIL_ATTACHMENT):
         gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, point, gl.GL_TEXTURE_2D, DEPTH_TEXTURE, 0)
@@ -52,18 +52,18 @@ def make_framebuffer() -> None:
 
 
 def depths(rng) -> np.ndarray:
-    """Depths and stencil values of the texture, packed."""
+    """Return random depths and stencil values of the texture, packed."""
     return rng.integers(0, 1 << 32, (SIZE, SIZE), np.uint32)
 
 
-def meshed(context: Context, rng) -> Vertices:
+def random_mesh(context: Context, rng) -> Vertices:
     mesh = random_triangles(rng, 4)
     return Vertices(*(context.frozen(rows) for rows in (mesh.position, mesh.color, mesh.normal)), ())
 
 
 def draw(context, rng, meshes) -> None:
     mesh = meshes[rng.integers(len(meshes))]
-    colors = context.frozen(rng.random(mesh.color.shape))  # what is seen is the same, but not its colour
+    colors = context.frozen(rng.random(mesh.color.shape))  # equal visible triangles in other colours
     context.draw(gl.GL_TRIANGLES, replace(mesh, color=colors))
 
 
@@ -76,7 +76,7 @@ def clear_stencil(context, rng, meshes) -> None:
     gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
 
 
-def clear_a_box(context, rng, meshes) -> None:
+def clear_box(context, rng, meshes) -> None:
     gl.glEnable(gl.GL_SCISSOR_TEST)
     gl.glScissor(3, 4, 9, int(rng.choice([8, 100])))
     gl.glClearDepth(float(rng.random()))
@@ -84,14 +84,14 @@ def clear_a_box(context, rng, meshes) -> None:
     gl.glDisable(gl.GL_SCISSOR_TEST)
 
 
-def draw_in_a_box(context, rng, meshes) -> None:
+def draw_in_box(context, rng, meshes) -> None:
     gl.glEnable(gl.GL_SCISSOR_TEST)
     gl.glScissor(3, 4, int(rng.choice([9, 10])), 8)
     draw(context, rng, meshes)
     gl.glDisable(gl.GL_SCISSOR_TEST)
 
 
-def draw_depths_alone(context, rng, meshes) -> None:
+def draw_depth_only(context, rng, meshes) -> None:
     gl.glColorMask(False, False, False, False)
     gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
     gl.glPolygonOffset(float(rng.normal()), 0.0)
@@ -113,7 +113,7 @@ def draw_with_offset(context, rng, meshes) -> None:
     gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
 
 
-def draw_counting(context, rng, meshes) -> None:
+def draw_counting_in_stencil(context, rng, meshes) -> None:
     gl.glEnable(gl.GL_STENCIL_TEST)
     gl.glStencilFunc(gl.GL_GEQUAL, int(rng.integers(3)), 255)
     gl.glStencilOp(gl.GL_KEEP, gl.GL_INCR, gl.GL_INCR_WRAP)
@@ -127,7 +127,7 @@ def draw_without_depth_test(context, rng, meshes) -> None:
     gl.glEnable(gl.GL_DEPTH_TEST)
 
 
-def draw_and_count(context, rng, meshes) -> None:
+def draw_with_query(context, rng, meshes) -> None:
     query = gl.glGenQueries(1)
     gl.glBeginQuery(gl.GL_SAMPLES_PASSED, query)
     draw(context, rng, meshes)
@@ -162,16 +162,16 @@ def read(context, rng, meshes) -> None:
     gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT)
 
 
-def forget(context, rng, meshes) -> None:
+def clear_cache(context, rng, meshes) -> None:
     clear_visibility_cache(context.storage)
 
 
 CALLS = {
     call.__name__: call
     for call in (
-        draw, clear, clear_stencil, clear_a_box, draw_in_a_box, draw_depths_alone, draw_without_writing_depth,
-        draw_with_offset, draw_counting, draw_without_depth_test, draw_and_count, upload_depths, new_depths,
-        copy_depths, blit_depths, other_framebuffer, read, forget,
+        draw, clear, clear_stencil, clear_box, draw_in_box, draw_depth_only, draw_without_writing_depth,
+        draw_with_offset, draw_counting_in_stencil, draw_without_depth_test, draw_with_query, upload_depths, new_depths,
+        copy_depths, blit_depths, other_framebuffer, read, clear_cache,
     )
 }  # fmt: skip
 SAMPLES = ["clear", "draw", "draw"] * 8
@@ -179,7 +179,7 @@ KINDS = st.lists(st.sampled_from(["clear", "draw", "draw", "other_framebuffer", 
 
 
 def buffers(context: Context) -> list:
-    """All buffers of a context, as bytes."""
+    """Return all buffers of a context as bytes."""
     return [
         attachment.image.cells.tobytes()
         for target in context.storage.framebuffers.values()
@@ -203,8 +203,8 @@ def test_buffers_are_those_without_the_cache(seed, kinds):
 
 @pytest.mark.parametrize("other", [False, True])
 @pytest.mark.parametrize("between", CALLS)
-def test_whatever_happens_between_equal_draws_buffers_are_those_without_the_cache(between, other):
-    changes = ["upload_depths"] * (not other)  # of the texture: what is copied from it is never the same
+def test_no_call_between_equal_draws_makes_a_difference(between, other):
+    changes = ["upload_depths"] * (not other)  # of the texture: copies of it always differ
     kinds = [*["clear", "draw"] * 2, *["clear", "draw", *changes, between, "draw"] * 3]
     assert_cache_makes_no_difference(3, ["other_framebuffer"] * other + kinds, meshes=1)
 
@@ -214,9 +214,9 @@ def test_equal_draws_over_cleared_depths_are_only_shaded():
     assert frame(3, SAMPLES, meshes=1)[1] == 10
 
 
-@pytest.mark.parametrize("between", ["clear_a_box", "blit_depths", "draw_depths_alone", "draw_counting", "read"])
+@pytest.mark.parametrize("between", ["clear_box", "blit_depths", "draw_depth_only", "draw_counting_in_stencil", "read"])
 @pytest.mark.parametrize("other", [False, True])
-def test_a_draw_over_depths_that_something_else_has_touched_is_filled(between, other):
+def test_a_draw_over_depths_that_another_call_changed_or_read_is_filled(between, other):
     kinds = ["other_framebuffer"] * other + ["clear", "draw"] * 3
     hits = frame(3, [*kinds, "clear"], meshes=1)[1]
     assert hits == 1
@@ -225,7 +225,7 @@ def test_a_draw_over_depths_that_something_else_has_touched_is_filled(between, o
 
 
 @pytest.mark.parametrize("between", ["upload_depths", "new_depths", "copy_depths"])
-def test_a_draw_over_depths_that_a_texture_was_given_is_filled(between):
+def test_a_draw_over_new_depths_of_a_texture_is_filled(between):
     kinds = ["other_framebuffer", *["clear", "draw"] * 3]
     assert frame(3, [*kinds, "clear", between, "draw"], meshes=1)[1] == 1
 
@@ -236,7 +236,7 @@ def test_entries_evicted_without_a_hit_are_not_cached_again():
     cache = context.storage.visibility_cache
     cache.entries.clear()
     rng = np.random.default_rng(5)
-    mesh = meshed(context, rng)
+    mesh = random_mesh(context, rng)
     for _ in range(2):
         clear(context, rng, [])
         draw(context, rng, [mesh, mesh])
@@ -249,5 +249,5 @@ def test_entries_evicted_without_a_hit_are_not_cached_again():
 
 def test_the_cache_stays_within_its_bytes(monkeypatch):
     monkeypatch.setattr(visibility_cache, "CACHE_BYTES", 5000)
-    context, _ = frame(4, ["clear", "draw", "draw", "draw_in_a_box", "draw_with_offset"] * 6)
+    context, _ = frame(4, ["clear", "draw", "draw", "draw_in_box", "draw_with_offset"] * 6)
     assert sum(entry.bytes for entry in context.storage.visibility_cache.entries.values()) <= 5000

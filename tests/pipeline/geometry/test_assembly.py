@@ -9,7 +9,7 @@ from softshadow.pipeline.mesa.quad_cuts import in_clipped_segment
 
 
 @pytest.mark.parametrize(
-    ("mode", "count", "corners", "provoking"),
+    ("mode", "n_vertices", "corners", "provoking"),
     [
         (gl.GL_TRIANGLES, 7, [[0, 1, 2], [3, 4, 5]], [2, 5]),
         (gl.GL_TRIANGLE_STRIP, 5, [[0, 1, 2], [2, 1, 3], [2, 3, 4]], [2, 3, 4]),
@@ -19,39 +19,39 @@ from softshadow.pipeline.mesa.quad_cuts import in_clipped_segment
         (gl.GL_POLYGON, 5, [[1, 2, 0], [2, 3, 0], [3, 4, 0]], [0, 0, 0]),
     ],
 )
-def test_vertices_make_triangles_in_the_order_of_the_specification(mode, count, corners, provoking):
-    made = assemble(mode, count)
-    assert made.corners.tolist() == corners
-    assert made.provoking.tolist() == provoking
+def test_vertices_make_triangles_in_the_order_of_the_specification(mode, n_vertices, corners, provoking):
+    triangles = assemble(mode, n_vertices)
+    assert triangles.corners.tolist() == corners
+    assert triangles.provoking.tolist() == provoking
 
 
-def test_quads_of_a_batch_that_is_clipped_are_cut_along_the_other_diagonal():
+def test_quads_of_a_clipped_segment_are_cut_along_the_other_diagonal():
     outside = np.zeros(12, bool)
     outside[9] = True
     assert in_clipped_segment(gl.GL_QUADS, outside, None).tolist() == [True] * 3
-    made = assemble(gl.GL_QUADS, 8, np.array([False, True]))
-    assert made.corners.tolist() == [[0, 1, 2], [0, 2, 3], [4, 5, 7], [5, 6, 7]]
+    triangles = assemble(gl.GL_QUADS, 8, np.array([False, True]))
+    assert triangles.corners.tolist() == [[0, 1, 2], [0, 2, 3], [4, 5, 7], [5, 6, 7]]
 
 
-def test_vertices_that_complete_no_quad_do_not_clip_a_batch():
+def test_vertices_that_complete_no_quad_do_not_clip_a_segment():
     outside = np.array([False] * 4 + [True])
     assert in_clipped_segment(gl.GL_QUADS, outside, None).tolist() == [False]
 
 
-def test_batches_end_after_4096_vertices():
+def test_segments_end_after_4096_vertices():
     outside = np.zeros(8192, bool)
     outside[4096] = True
     clipped = in_clipped_segment(gl.GL_QUADS, outside, None)
     assert clipped.tolist() == [False] * 1024 + [True] * 1024
 
 
-def test_indices_with_a_short_range_take_its_unnamed_vertices_along():
+def test_a_short_range_of_indices_includes_vertices_that_no_index_names():
     outside = np.array([False] * 4 + [True] + [False] * 4)
     assert in_clipped_segment(gl.GL_QUADS, outside, np.array([0, 1, 2, 3, 5, 6, 7, 8, 0, 1, 2, 3])).all()
     assert not in_clipped_segment(gl.GL_QUADS, outside, np.array([0, 1, 2, 8])).any()
 
 
 @pytest.mark.parametrize("mode", range(gl.GL_TRIANGLES, gl.GL_POLYGON + 1))
-@pytest.mark.parametrize("count", [0, 1, 2])
-def test_too_few_vertices_make_no_triangle(mode, count):
-    assert len(assemble(mode, count).corners) == 0
+@pytest.mark.parametrize("n_vertices", [0, 1, 2])
+def test_too_few_vertices_make_no_triangle(mode, n_vertices):
+    assert len(assemble(mode, n_vertices).corners) == 0

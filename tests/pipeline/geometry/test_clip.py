@@ -1,4 +1,4 @@
-"""Clipping: pieces stay inside, cover what the triangle covers, and untouched triangles keep their vertices."""
+"""Clipping: the pieces are inside and cover the same as the triangle; triangles inside keep their vertices."""
 
 import numpy as np
 import pytest
@@ -10,12 +10,12 @@ from softshadow.pipeline.geometry.clip import FRUSTUM, Clipped, clip_triangles, 
 pytestmark = pytest.mark.interpreted
 
 NO_PLANES = np.empty((0, 4), np.float32)
-# a new vertex is a rounded float32 interpolation of its two ends: it may miss its plane by a few last places of them
+# a new vertex is interpolated in float32 and rounded: it may miss its plane by a few last places of the two ends
 LAST_PLACES = 8 * np.finfo(np.float32).eps
 
 
 def clip_one(clip: np.ndarray, depth_clamp: bool = False, planes: np.ndarray = NO_PLANES) -> Clipped:
-    values = np.eye(3, dtype=np.float32)  # barycentric coordinates: what each new vertex is made of
+    values = np.eye(3, dtype=np.float32)  # barycentric coordinates of the vertices
     codes = outcodes(clip, depth_clamp, planes)
     return clip_triangles(clip, values, np.array([[0, 1, 2]], np.int32), codes, planes)
 
@@ -30,50 +30,52 @@ def random_clip(seed: int) -> np.ndarray:
 @given(st.integers(0, 2**32 - 1))
 def test_pieces_lie_inside_the_frustum(seed):
     clip = random_clip(seed)
-    made = clip_one(clip)
-    corners = made.clip[made.triangles.ravel()]
+    clipped = clip_one(clip)
+    corners = clipped.clip[clipped.triangles.ravel()]
     assert (corners @ FRUSTUM.T >= -LAST_PLACES * np.abs(clip).max()).all()
 
 
 @given(st.integers(0, 2**32 - 1))
-def test_values_are_cut_at_the_same_place_as_positions(seed):
+def test_values_are_interpolated_like_positions(seed):
     clip = random_clip(seed)
-    made = clip_one(clip)
-    used = np.unique(made.triangles)
-    np.testing.assert_allclose(made.values[used] @ clip, made.clip[used], atol=6 * LAST_PLACES * np.abs(clip).max())
+    clipped = clip_one(clip)
+    vertices = np.unique(clipped.triangles)
+    np.testing.assert_allclose(
+        clipped.values[vertices] @ clip, clipped.clip[vertices], atol=6 * LAST_PLACES * np.abs(clip).max()
+    )
 
 
 @given(st.integers(0, 2**32 - 1))
 def test_a_point_of_the_triangle_inside_the_frustum_is_in_one_piece(seed):
     rng = np.random.default_rng(seed)
     clip = random_clip(seed)
-    made = clip_one(clip)
+    clipped = clip_one(clip)
     weights = rng.dirichlet(np.ones(3))
     margin = (weights @ clip @ FRUSTUM.T).min()
     if abs(margin) < 1e-3:  # nearer to a plane, rounding decides
         return
-    holding = 0
-    for piece in made.triangles:
+    n_pieces = 0
+    for piece in clipped.triangles:
         try:
-            inner = np.linalg.solve(made.values[piece].T.astype(np.float64), weights)
+            piece_weights = np.linalg.solve(clipped.values[piece].T.astype(np.float64), weights)
         except np.linalg.LinAlgError:
             continue
-        if np.abs(inner).min() < 1e-4 and margin > 0:  # on the seam between two pieces
+        if np.abs(piece_weights).min() < 1e-4 and margin > 0:  # on the seam between two pieces
             return
-        holding += (inner >= 0).all()
-    assert holding == (margin > 0)
+        n_pieces += (piece_weights >= 0).all()
+    assert n_pieces == (margin > 0)
 
 
 @given(st.integers(0, 2**32 - 1))
-def test_a_triangle_inside_keeps_its_very_vertices(seed):
+def test_a_triangle_inside_keeps_its_vertices_unchanged(seed):
     clip = random_clip(seed)
     clip[:, 3] = np.abs(clip[:, :3]).max() + 1
-    made = clip_one(clip)
-    assert made.clip is clip
-    assert made.triangles.tolist() == [[0, 1, 2]]
+    clipped = clip_one(clip)
+    assert clipped.clip is clip
+    assert clipped.triangles.tolist() == [[0, 1, 2]]
 
 
-def test_the_boundary_is_inside():
+def test_vertices_on_the_boundary_are_inside():
     clip = np.array([[-1, -1, -1, 1], [1, -1, 1, 1], [-1, 1, 0, 1]], np.float32)
     assert clip_one(clip).triangles.tolist() == [[0, 1, 2]]
 
@@ -83,12 +85,12 @@ def test_a_triangle_outside_one_plane_is_dropped():
     assert len(clip_one(clip).triangles) == 0
 
 
-def test_behind_the_eye_and_at_infinity_are_outside():
+def test_vertices_behind_the_eye_and_at_infinity_are_outside():
     clip = np.array([[0, 0, 0, -1], [1, 0, 0, 0], [0, 1, -1, 0]], np.float32)
     assert len(clip_one(clip).triangles) == 0
 
 
-def test_depth_clamp_leaves_near_and_far_alone():
+def test_with_depth_clamp_near_and_far_do_not_clip():
     clip = np.array([[0, 0, -3, 1], [0.5, 0, 3, 1], [0, 0.5, 0, 1]], np.float32)
     assert clip_one(clip, depth_clamp=True).triangles.tolist() == [[0, 1, 2]]
     assert len(clip_one(clip).clip) > 3
@@ -96,23 +98,23 @@ def test_depth_clamp_leaves_near_and_far_alone():
 
 def test_a_user_plane_cuts_like_a_frustum_plane():
     clip = np.array([[-0.5, -0.5, 0, 1], [0.5, -0.5, 0, 1], [0, 0.5, 0, 1]], np.float32)
-    made = clip_one(clip, planes=np.array([[1, 0, 0, 0]], np.float32))
-    assert (made.clip[made.triangles.ravel(), 0] >= 0).all()
+    clipped = clip_one(clip, planes=np.array([[1, 0, 0, 0]], np.float32))
+    assert (clipped.clip[clipped.triangles.ravel(), 0] >= 0).all()
 
 
-def test_pieces_know_the_triangle_they_come_from():
+def test_source_is_the_triangle_of_each_piece():
     clip = np.array(
         [[0, 0, 0, 1], [3, 0, 0, 1], [0, 3, 0, 1], [5, 5, 0, 1], [0.1, 0, 0, 1], [0, 0.1, 0, 1]], np.float32
     )
     triangles = np.array([[0, 4, 5], [1, 3, 2], [0, 1, 2]], np.int32)
-    made = clip_triangles(clip, np.empty((6, 0), np.float32), triangles, outcodes(clip, False, NO_PLANES), NO_PLANES)
-    assert made.source[0] == 0
-    assert set(made.source) <= {0, 1, 2}
-    assert (np.diff(made.source) >= 0).all()
+    clipped = clip_triangles(clip, np.empty((6, 0), np.float32), triangles, outcodes(clip, False, NO_PLANES), NO_PLANES)
+    assert clipped.source[0] == 0
+    assert set(clipped.source) <= {0, 1, 2}
+    assert (np.diff(clipped.source) >= 0).all()
 
 
 @pytest.mark.parametrize("column", range(4))
-def test_a_vertex_that_is_no_number_is_outside(column):
+def test_a_vertex_with_nan_is_outside(column):
     vertex = np.array([[0.1, 0.2, 0.3, 1.0]], np.float32)
     assert outcodes(vertex, False, NO_PLANES)[0] == 0
     vertex[0, column] = np.nan

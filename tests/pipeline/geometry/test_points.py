@@ -1,4 +1,4 @@
-"""Points: squares of whole pixels, all or nothing at the edge of the view."""
+"""Points: squares of whole pixels; those with their centre outside the view are not drawn."""
 
 import numpy as np
 import pytest
@@ -10,11 +10,11 @@ from softshadow import gl
 pytestmark = pytest.mark.interpreted
 
 SIZE = 24
-places = st.floats(8, 16)
+coordinates = st.floats(8, 16)
 
 
-def drawn(x: float, y: float, size: float) -> np.ndarray:
-    """The pixels (SIZE, SIZE) that a point at window position x, y covers, row 0 at the bottom."""
+def covered_pixels(x: float, y: float, size: float) -> np.ndarray:
+    """Return the pixels (SIZE, SIZE) that a point at window position x, y covers, row 0 at the bottom."""
     with gl.create_context(SIZE, SIZE):
         gl.glPointSize(size)
         gl.glBegin(gl.GL_POINTS)
@@ -23,28 +23,28 @@ def drawn(x: float, y: float, size: float) -> np.ndarray:
         return gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)[:, :, 0] > 0
 
 
-@given(places, places, st.integers(1, 7))
-def test_a_point_of_size_n_is_a_square_of_n_pixels_around_its_place(x, y, size):
-    covered = drawn(x, y, size)
+@given(coordinates, coordinates, st.integers(1, 7))
+def test_a_point_of_size_n_is_a_square_of_n_pixels_around_its_position(x, y, size):
+    covered = covered_pixels(x, y, size)
     rows, columns = np.flatnonzero(covered.any(axis=1)), np.flatnonzero(covered.any(axis=0))
     assert covered.sum() == size * size
     assert len(rows) == len(columns) == size
-    # within half a pixel of the place, and a rounding of it to 1/256 pixel
+    # within half a pixel of the position, rounded to 1/256 pixel
     assert abs(columns.mean() + 0.5 - x) <= 0.5 + 1 / 256
     assert abs(rows.mean() + 0.5 - y) <= 0.5 + 1 / 256
 
 
 @pytest.mark.parametrize(("size", "pixels"), [(0.3, 1), (1.5, 1), (1.6, 4), (2.5, 4), (3.4, 9)])
-def test_the_size_is_rounded_to_whole_pixels_and_a_half_down(size, pixels):
-    assert drawn(12.3, 12.3, size).sum() == pixels
+def test_the_size_is_rounded_to_whole_pixels_with_a_half_rounded_down(size, pixels):
+    assert covered_pixels(12.3, 12.3, size).sum() == pixels
 
 
-def test_a_point_whose_centre_is_outside_the_view_is_not_drawn_at_all():
-    assert drawn(-0.5, 12, 5).sum() == 0
-    assert drawn(0.5, 12.5, 5).sum() == 15
+def test_a_point_whose_center_is_outside_the_view_is_not_drawn():
+    assert covered_pixels(-0.5, 12, 5).sum() == 0
+    assert covered_pixels(0.5, 12.5, 5).sum() == 15
 
 
-def test_nothing_culls_points_and_the_front_stencil_state_is_theirs():
+def test_points_are_never_culled_and_use_the_front_stencil_state():
     with gl.create_context(SIZE, SIZE):
         gl.glEnable(gl.GL_CULL_FACE)
         gl.glCullFace(gl.GL_FRONT_AND_BACK)
@@ -58,6 +58,6 @@ def test_nothing_culls_points_and_the_front_stencil_state_is_theirs():
 
 
 @pytest.mark.parametrize(("height", "row"), [(12 - 1 / 512, 11), (12 - 1 / 1024, 12), (12 + 1 / 512, 12)])
-def test_a_place_halfway_between_two_subpixels_goes_the_way_of_mesa(height, row):
-    # stored rows run downwards: half a subpixel below an edge is rounded away from the top, the lower row keeps it
-    assert np.flatnonzero(drawn(12.5, height, 1).any(axis=1)).tolist() == [row]
+def test_a_position_halfway_between_subpixels_is_rounded_as_in_mesa(height, row):
+    # stored rows grow downwards: half a subpixel below the border is rounded away from the top, into the lower row
+    assert np.flatnonzero(covered_pixels(12.5, height, 1).any(axis=1)).tolist() == [row]

@@ -1,4 +1,4 @@
-"""The vertex stage: parts give what the whole gives, and what NumPy gives."""
+"""The vertex stage: the same in parts as in one piece, and the same as in NumPy."""
 
 import numpy as np
 import pytest
@@ -7,31 +7,29 @@ from hypothesis import strategies as st
 
 from softshadow.pipeline import set_threads, threads
 from softshadow.pipeline.geometry.clip import FRUSTUM, outcodes
-from softshadow.pipeline.geometry.vertex import VERTICES_PER_SPARE, process_vertices, to_clip, to_window, append_rows
-from softshadow.pipeline.memory import threads as bands
+from softshadow.pipeline.geometry.vertex import VERTICES_PER_SPARE, append_rows, process_vertices, to_clip, to_window
+from softshadow.pipeline.memory import threads as pool
 from softshadow.state import Viewport
 
 pytestmark = pytest.mark.interpreted
 VIEWPORT = Viewport(x=3, y=5, width=37, height=23, near=0.25, far=0.75)
 
 
-def random_positions(rng: np.random.Generator, count: int, real: type) -> np.ndarray:
-    """Homogeneous positions inside, outside and on the frustum, some of them infinite, NaN, or with a w near 0."""
-    odd = [0, 1, -1, np.inf, -np.inf, np.nan, 1e38, 1e-40]
-    return np.where(rng.random((count, 4)) < 0.2, rng.choice(odd, (count, 4)), rng.normal(0, 1, (count, 4))).astype(
-        real
-    )
+def random_positions(rng: np.random.Generator, n: int, real: type) -> np.ndarray:
+    """Return homogeneous positions inside, outside and on the frustum, some infinite, NaN, or with w near 0."""
+    special = [0, 1, -1, np.inf, -np.inf, np.nan, 1e38, 1e-40]
+    return np.where(rng.random((n, 4)) < 0.2, rng.choice(special, (n, 4)), rng.normal(0, 1, (n, 4))).astype(real)
 
 
 @pytest.mark.parametrize("real", [np.float32, np.float64])
 @given(seed=st.integers(0, 2**32 - 1), flipped=st.booleans(), clamp=st.booleans(), planes=st.integers(0, 3))
-def test_parts_of_the_vertices_give_what_all_at_once_give(real, seed, flipped, clamp, planes):
+def test_vertices_in_parts_are_processed_as_all_at_once(real, seed, flipped, clamp, planes):
     rng = np.random.default_rng(seed)
     matrix, positions = rng.normal(0, 1, (4, 4)).astype(real), random_positions(rng, 20, real)
     user_planes = rng.normal(0, 1, (planes, 4)).astype(np.float32)
     before = threads()
     with np.errstate(all="ignore"), pytest.MonkeyPatch.context() as patch:
-        patch.setattr(bands, "PART_SIZE", 7)
+        patch.setattr(pool, "PART_SIZE", 7)
         set_threads(2)
         try:
             clip, codes, window = process_vertices(matrix, positions, user_planes, clamp, VIEWPORT, 40, flipped)
@@ -58,7 +56,7 @@ def test_a_vertex_has_a_bit_for_each_plane_that_it_is_not_inside_of(seed, planes
 
 
 @given(seed=st.integers(0, 2**32 - 1))
-def test_window_positions_are_quotients_scaled_and_shifted_with_tiny_reciprocals_flushed(seed):
+def test_window_positions_are_scaled_and_shifted_quotients_with_denormal_1_over_w_flushed(seed):
     clip = random_positions(np.random.default_rng(seed), 20, np.float32)
     with np.errstate(all="ignore"):
         window = to_window(clip, VIEWPORT, 40, False)
@@ -69,13 +67,13 @@ def test_window_positions_are_quotients_scaled_and_shifted_with_tiny_reciprocals
         np.testing.assert_array_equal(window, np.hstack([(clip[:, :3] * over_w) * scale + shift, over_w]))
 
 
-@pytest.mark.parametrize("more", [0, 1, 2, 3])
-def test_rows_are_appended_whether_or_not_there_is_room(more):
+@pytest.mark.parametrize("n_rows", [0, 1, 2, 3])
+def test_rows_are_appended_whether_or_not_there_is_room(n_rows):
     positions = np.random.default_rng(0).normal(0, 1, (17, 4)).astype(np.float32)
     matrix = np.eye(4, dtype=np.float32)
     window = process_vertices(matrix, positions, np.empty((0, 4), np.float32), False, VIEWPORT, 40, False)[2]
-    rows = np.arange(4 * more, dtype=np.float32).reshape(more, 4)
+    rows = np.arange(4 * n_rows, dtype=np.float32).reshape(n_rows, 4)
     expected = np.concatenate([window, rows])
-    whole = append_rows(window, rows)
-    np.testing.assert_array_equal(whole, expected)
-    assert np.shares_memory(whole, window) == (more <= 17 // VERTICES_PER_SPARE)
+    extended = append_rows(window, rows)
+    np.testing.assert_array_equal(extended, expected)
+    assert np.shares_memory(extended, window) == (n_rows <= 17 // VERTICES_PER_SPARE)

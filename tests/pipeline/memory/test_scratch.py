@@ -21,37 +21,37 @@ def test_memory_is_reused_once_nothing_refers_to_it():
     part = first[1, 5:]
     del first
     other = scratch((2, LARGE), np.int32)
-    assert not np.shares_memory(other, part)  # a view is enough to keep it
+    assert not np.shares_memory(other, part)  # a view keeps the block in use
     del part
     assert address(scratch((2, LARGE), np.int32)) == where
 
 
-def test_it_has_the_shape_and_type_that_were_asked_for():
+def test_a_scratch_array_has_the_requested_shape_and_type():
     for shape in (0, 3, (4, 5), LARGE, np.int64(LARGE), (3, np.int64(LARGE)), (LARGE, 0)):
         for kind in (np.uint8, np.int32, np.float64):
-            made = scratch(shape, kind)
-            assert made.dtype == kind
-            assert made.shape == np.empty(shape, kind).shape
-            assert made.flags.c_contiguous
-            assert made.flags.writeable
-            assert made.flags.aligned
+            array = scratch(shape, kind)
+            assert array.dtype == kind
+            assert array.shape == np.empty(shape, kind).shape
+            assert array.flags.c_contiguous
+            assert array.flags.writeable
+            assert array.flags.aligned
 
 
 @given(st.lists(st.tuples(st.integers(SMALLEST // 4, SMALLEST), st.booleans()), max_size=30))
 def test_arrays_in_use_never_share_memory(requests):
-    kept = []
+    in_use = []
     for number, (size, keep) in enumerate(requests):
-        made = scratch(size, np.int32)
-        made[:] = number
+        array = scratch(size, np.int32)
+        array[:] = number
         if keep:
-            kept.append((number, made))
-    for number, array in kept:
+            in_use.append((number, array))
+    for number, array in in_use:
         assert (array == number).all()
 
 
 def test_pooled_memory_is_bounded_and_arrays_in_use_survive():
     half = POOLED // 8
-    arrays = [scratch(half // 4, np.int32) for _ in range(9)]  # more than is kept
+    arrays = [scratch(half // 4, np.int32) for _ in range(9)]  # more than the pool holds
     for n, array in enumerate(arrays):
         array[:100] = n
     assert [int(array[0]) for array in arrays] == list(range(9))

@@ -1,4 +1,4 @@
-"""Threads: each piece of work is done once, and what goes wrong in one is told."""
+"""Threads: each piece of work is done once, and an exception in one reaches the caller."""
 
 import pytest
 
@@ -15,19 +15,19 @@ def some_threads(request):
     set_threads(before)
 
 
-@pytest.mark.parametrize("count", [0, 1, 2, 100])
-def test_each_piece_is_done_once(some_threads, count):
+@pytest.mark.parametrize("n", [0, 1, 2, 100])
+def test_each_piece_is_done_once(some_threads, n):
     done: list[int] = []
 
     def work(number: int) -> int:
         done.append(number)
         return number**2
 
-    assert share(work, count) == [number**2 for number in range(count)]
-    assert sorted(done) == list(range(count))
+    assert share(work, n) == [number**2 for number in range(n)]
+    assert sorted(done) == list(range(n))
 
 
-def test_what_a_piece_raises_reaches_the_caller(some_threads):
+def test_an_exception_in_a_piece_reaches_the_caller(some_threads):
     def fail(number: int) -> None:
         if number == 7:
             raise RuntimeError("piece 7")
@@ -36,36 +36,36 @@ def test_what_a_piece_raises_reaches_the_caller(some_threads):
         share(fail, 20)
 
 
-@pytest.mark.parametrize("count", [0, 1, PART_SIZE, PART_SIZE + 1, 5 * PART_SIZE - 1])
-def test_parts_make_up_the_whole(some_threads, count):
-    assert [n for first, end in parts_of(count) for n in range(first, end)] == list(range(count))
+@pytest.mark.parametrize("n", [0, 1, PART_SIZE, PART_SIZE + 1, 5 * PART_SIZE - 1])
+def test_parts_make_up_the_whole(some_threads, n):
+    assert [item for first, end in parts_of(n) for item in range(first, end)] == list(range(n))
 
 
 @pytest.fixture
-def nothing_set(monkeypatch):
+def no_threads_set(monkeypatch):
     monkeypatch.setattr(pool, "_threads", [0])
     return monkeypatch
 
 
-def test_the_environment_says_how_many_threads_unless_set(nothing_set):
-    nothing_set.setenv(VARIABLE, "3")
+def test_the_environment_sets_the_number_of_threads_until_set_threads_does(no_threads_set):
+    no_threads_set.setenv(VARIABLE, "3")
     assert threads() == 3
     set_threads(2)
     assert threads() == 2
 
 
-def test_without_any_word_there_are_as_many_threads_as_cores(nothing_set):
-    nothing_set.setenv(VARIABLE, "")
-    nothing_set.setattr(pool.os, "sched_getaffinity", lambda process: {0, 1, 5}, raising=False)
+def test_by_default_there_are_as_many_threads_as_cores(no_threads_set):
+    no_threads_set.setenv(VARIABLE, "")
+    no_threads_set.setattr(pool.os, "sched_getaffinity", lambda process: {0, 1, 5}, raising=False)
     assert threads() == 3
 
 
 @pytest.mark.parametrize("value", ["0", "-1", "two", "1.5"])
-def test_a_number_of_threads_that_is_none_is_told(nothing_set, value):
-    nothing_set.setenv(VARIABLE, value)
+def test_an_invalid_number_of_threads_in_the_environment_is_refused(no_threads_set, value):
+    no_threads_set.setenv(VARIABLE, value)
     with pytest.raises(ValueError, match=f"{VARIABLE}='{value}': expected a number of threads, 1 or more"):
         threads()
 
 
-def test_work_inside_of_work_is_done(some_threads):
+def test_work_can_share_work(some_threads):
     assert share(lambda outer: sum(share(lambda inner: outer * inner, 5)), 6) == [10 * n for n in range(6)]

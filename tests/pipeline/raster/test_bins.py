@@ -1,4 +1,4 @@
-"""Bins: every triangle in every band that it meets, in drawing order."""
+"""Bins: a band has all triangles that meet it, in drawing order."""
 
 import numpy as np
 import pytest
@@ -12,20 +12,20 @@ from softshadow.pipeline.records import Region
 pytestmark = pytest.mark.interpreted
 
 
-def random_corners(seed: int, count: int) -> np.ndarray:
-    """Corners of triangles around and beyond 100 rows, the small ones first turned so that their area is positive."""
+def random_corners(seed: int, n: int) -> np.ndarray:
+    """Return corners of triangles of positive area, in and around 100 rows."""
     rng = np.random.default_rng(seed)
-    corners = rng.integers(-5000, 30000, (count, 1, 2)) + rng.integers(-3000, 3000, (count, 3, 2))
-    turned = np.linalg.det((corners[:, 1:] - corners[:, :1]).astype(float)) < 0
-    corners[turned] = corners[turned][:, ::-1]
+    corners = rng.integers(-5000, 30000, (n, 1, 2)) + rng.integers(-3000, 3000, (n, 3, 2))
+    clockwise = np.linalg.det((corners[:, 1:] - corners[:, :1]).astype(float)) < 0
+    corners[clockwise] = corners[clockwise][:, ::-1]
     return np.ascontiguousarray(corners.reshape(-1, 6), np.int32)
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(0, 40), st.integers(0, 50), st.integers(1, 90), st.integers(3, 7))
-def test_a_band_has_the_triangles_that_meet_it_in_drawing_order(seed, count, first_row, rows, rows_log2):
-    corners = random_corners(seed, count)
+def test_a_band_has_the_triangles_that_meet_it_in_drawing_order(seed, n, first_row, rows, rows_log2):
+    corners = random_corners(seed, n)
     region = Region(0, 100, first_row, first_row + rows, 1)
-    parts = [(count // 4, count // 3), (count // 2, count - count // 5)]
+    parts = [(n // 4, n // 3), (n // 2, n - n // 5)]
     bins = sort_into_bands(corners, parts, region, rows_log2)
     assert bands_of(region, rows_log2) == len(bins.starts) - 1
     for band in range(bands_of(region, rows_log2)):
@@ -37,17 +37,17 @@ def test_a_band_has_the_triangles_that_meet_it_in_drawing_order(seed, count, fir
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 40))
-def test_the_extent_has_all_rows_and_the_area_of_all_triangles(seed, count):
-    corners = random_corners(seed, count)
-    first, end, area = extent(corners, 0, count)
-    spans = [bounds(corners, t) for t in range(count)]
+def test_extent_has_the_rows_and_the_area_of_all_triangles(seed, n):
+    corners = random_corners(seed, n)
+    first, end, area = extent(corners, 0, n)
+    spans = [bounds(corners, t) for t in range(n)]
     assert (first, end) == (min(a for a, _ in spans), max(b for _, b in spans))
     points = corners.reshape(-1, 3, 2) / 256
     exact = np.abs(np.linalg.det(points[:, 1:] - points[:, :1])).sum() / 2
-    assert exact - count / 256 <= area / 256 <= exact + 1e-6  # each is cut to 1/256
+    assert exact - n / 256 <= area / 256 <= exact + 1e-6  # each area is rounded down to 1/256
 
 
-def test_no_triangles_have_no_rows():
+def test_the_extent_of_no_triangles_is_empty():
     first, end, area = extent(np.empty((0, 6), np.int32), 0, 0)
     assert first >= end
     assert area == 0

@@ -1,4 +1,4 @@
-"""Coverage in integers: fill rules, shared edges, invariances."""
+"""Coverage in integers: the fill rule, shared edges, invariances."""
 
 import numpy as np
 import pytest
@@ -26,16 +26,16 @@ def set_up_in_window(positions: np.ndarray, triangles: np.ndarray, flipped: bool
 
 
 def coverage(positions: np.ndarray, triangles: np.ndarray, flipped: bool = True, size: int = SIZE) -> np.ndarray:
-    """How many triangles cover each pixel, (size, size)."""
-    made = set_up_in_window(positions, triangles, flipped)
-    fragments = list_fragments(made, Region(0, size, 0, size, int(flipped)))
+    """Return how many triangles cover each pixel, (size, size)."""
+    setup = set_up_in_window(positions, triangles, flipped)
+    fragments = list_fragments(setup, Region(0, size, 0, size, int(flipped)))
     counts = np.zeros((size, size), int)
     np.add.at(counts, (fragments.row, fragments.column), 1)
     return counts
 
 
 def oracle(corners: np.ndarray, flipped: bool) -> np.ndarray:
-    """Fill rule of one triangle with snapped corners, by the sides of its edges in GL's orientation (y upwards)."""
+    """Return the coverage of one triangle, by the fill rule and its edges in GL's orientation (y upwards)."""
     points = np.rint((corners.astype(np.float64) - 0.5) * 256).astype(int)
     if flipped:
         points[:, 1] *= -1
@@ -110,16 +110,16 @@ def test_every_sample_of_a_triangulated_grid_is_covered_once(seed):
 
 @given(window_fans(SIZE), st.integers(0, SIZE - 1), st.integers(0, SIZE - 1))
 def test_triangles_at_a_pixel_are_those_that_cover_it(fan, column, row):
-    made = set_up_in_window(*fan)
-    fragments = list_fragments(made, Region(0, SIZE, 0, SIZE, 1))
-    found = np.empty(len(made.ids), np.int64)
-    count = triangles_at(made.corners, column, row, 1, found)
+    setup = set_up_in_window(*fan)
+    fragments = list_fragments(setup, Region(0, SIZE, 0, SIZE, 1))
+    numbers = np.empty(len(setup.ids), np.int64)
+    n = triangles_at(setup.corners, column, row, 1, numbers)
     here = (fragments.row == row) & (fragments.column == column)
-    assert found[:count].tolist() == fragments.triangle[here].tolist()
+    assert numbers[:n].tolist() == fragments.triangle[here].tolist()
 
 
 @given(window_fans(SIZE), st.booleans())
-def test_the_sides_of_a_pixel_say_what_the_spans_say(fan, downwards):
+def test_edge_functions_agree_with_row_spans(fan, downwards):
     corners = set_up_in_window(*fan).corners
     for t, (x0, y0, x1, y1, x2, y2) in enumerate(corners.tolist()):
         first_column, end_column = columns_of(corners, t)
@@ -135,7 +135,7 @@ def test_the_sides_of_a_pixel_say_what_the_spans_say(fan, downwards):
 
 
 @given(window_fans(SIZE), st.booleans(), st.integers(0, 2**16 - 1), st.integers(0, 2**16 - 1))
-def test_edges_of_boxes_are_the_edges_in_32_bits(fan, downwards, column, row):
+def test_edge_functions_in_32_bits_agree_with_those_in_64_bits(fan, downwards, column, row):
     corners = set_up_in_window(*fan).corners + np.tile([column << 8, row << 8], 3).astype(np.int32)
     for x0, y0, x1, y1, *_ in corners:
         across, along, at = edge(x0, y0, x1, y1, downwards)

@@ -1,4 +1,4 @@
-"""The textbook function against the specification written again, on random state."""
+"""`process_fragment` agrees with an oracle written from the specification, on random states."""
 
 from dataclasses import replace
 
@@ -19,7 +19,7 @@ pytestmark = pytest.mark.interpreted
 
 
 def state_of(spec: dict) -> State:
-    """The same state as the package's own value."""
+    """Return the state of the oracle as a `State`."""
     state = State()
     if spec["alpha"]:
         func, ref = spec["alpha"]
@@ -47,7 +47,7 @@ def state_of(spec: dict) -> State:
      "stencil": ("GL_ALWAYS", 7, 1, "GL_KEEP", "GL_KEEP", "GL_REPLACE", 0xFF, 8)},
     0, 0, 0, 0,
 )  # fmt: skip
-def test_process_fragment_is_the_specification(spec, alpha, z, stored_z, stored):
+def test_process_fragment_follows_the_specification(spec, alpha, z, stored_z, stored):
     bits = spec["stencil"][-1] if spec["stencil"] else 8
     window = default_framebuffer(1, 1, stencil_bits=bits)
     stored &= 2**bits - 1
@@ -65,9 +65,8 @@ def test_reference_is_masked_before_it_is_compared(func):
     ops = fragment_ops(state_of(spec), window.depth, window.stencil, front=True)
     zero = np.float32(0)
     _, stencil, _ = process_fragment(ops, True, 0, zero, zero, np.uint8(0x81))
-    assert stencil == (
-        0xF1 if TESTS[func](1, 1) else 0
-    )  # 0xF1 & 0x0F against 0x81 & 0x0F; REPLACE writes the whole ref
+    # 0xF1 & 0x0F is compared with 0x81 & 0x0F; GL_REPLACE writes the whole reference
+    assert stencil == (0xF1 if TESTS[func](1, 1) else 0)
 
 
 def test_missing_buffers_pass_their_tests_and_are_not_written():

@@ -1,4 +1,4 @@
-"""Blending of single fragments: factors, equations, and the short cuts that llvmpipe takes."""
+"""Blending of single fragments: factors, equations, and the special cases of llvmpipe."""
 
 from dataclasses import replace
 
@@ -18,7 +18,7 @@ SOURCE, TARGET = (0.25, 2.0, -1.5, 0.5), (1.0, -3.0, 0.75, 4.0)
 
 
 def blended(internal, source=SOURCE, target=TARGET, **blend):
-    """The cell (4,) of a buffer that held `target` after a fragment of colour `source`."""
+    """Return the cell (4,) of a buffer that held `target` after a fragment of colour `source`."""
     image = Image.new(FORMATS[internal], 1, 1, internal)
     image.cells[0, 0] = target
     state = replace(State(), blend=Blend(enabled=True, **blend))
@@ -59,21 +59,21 @@ def test_factors_of_floats_may_leave_0_to_1(source, target, expected):
     assert blended(gl.GL_RGBA32F, color=(-10.0, 0.0, -3.0, 2.0), **func(source, target)) == expected
 
 
-def test_a_minimum_has_no_factors():
+def test_the_minimum_ignores_factors():
     assert blended(gl.GL_RGBA32F, equation_rgb=gl.GL_MIN, **func(gl.GL_ZERO, gl.GL_ZERO))[:3] == [0.25, -3.0, -1.5]
 
 
-def test_a_logic_operation_leaves_floats_as_they_are_drawn():
+def test_floats_are_written_unchanged_under_a_logic_operation():
     assert blended(gl.GL_RGBA32F, logic_enabled=True, logic_op=gl.GL_XOR) == list(SOURCE)
 
 
-def test_a_buffer_without_alpha_answers_one_for_it():
+def test_a_buffer_without_alpha_is_read_as_alpha_one():
     assert blended(gl.GL_RGB32F, target=(1.0, 1.0, 1.0, 1.0), **func(gl.GL_ONE, gl.GL_DST_ALPHA))[:3] == [1.25, 3, -0.5]
     ops = blend_ops(Blend(src_rgb=gl.GL_ONE_MINUS_DST_ALPHA, dst_alpha=gl.GL_DST_ALPHA), FORMATS[gl.GL_RGB8])
     assert (ops.src_rgb, ops.src_alpha, ops.dst_alpha) == (gl.GL_ZERO, gl.GL_ZERO, gl.GL_ZERO)
 
 
-def test_one_channel_alone_is_interpolated_in_one_step():
+def test_a_single_channel_is_interpolated_in_one_step():
     over = func(gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
     source, target = (0.1, 0.0, 0.0, 0.3), (0.7, 0.0, 0.0, 1.0)
     assert blended(gl.GL_R32F, source, target, **over)[0] == F32(0.7) + F32(0.3) * (F32(0.1) - F32(0.7))

@@ -1,4 +1,4 @@
-"""Shading in chunks leaves the bits of shading in one piece."""
+"""Shading in chunks gives the same bits as shading all fragments at once."""
 
 import numpy as np
 import pytest
@@ -14,12 +14,12 @@ from softshadow.pipeline.shade import blend, color_writes, shading
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from([gl.GL_LEQUAL, gl.GL_ALWAYS]), st.sampled_from([1, 3]))
 def test_results_do_not_depend_on_chunks(seed, func, thread_count):
-    whole, before = surface_blended_twice(seed, func, MIXING, True), threads()
+    at_once, before = surface_blended_twice(seed, func, MIXING, True), threads()
     try:
         set_threads(thread_count)
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(shading, "CHUNK", 37)
-            assert same_window(whole, surface_blended_twice(seed, func, MIXING, True))
+            assert same_window(at_once, surface_blended_twice(seed, func, MIXING, True))
     finally:
         set_threads(before)
 
@@ -27,11 +27,11 @@ def test_results_do_not_depend_on_chunks(seed, func, thread_count):
 @pytest.mark.interpreted
 def test_bytes_are_added_as_the_blend_equation_adds_them():
     source, target = (a.astype(np.uint8).repeat(4, axis=1) for a in (np.arange(256)[:, None], np.arange(256)[:, None]))
-    run = np.zeros(1, np.int32), np.zeros(1, np.int32), np.array([0, 256])
+    span = np.zeros(1, np.int32), np.zeros(1, np.int32), np.array([0, 256])
     state = blend.blend_ops(ADDING, Context(1, 1).storage.window.color.format)
     assert color_writes.is_additive(state)
     for shift in (0, 1, 2, 128, 255):
-        expected, found = np.roll(target, shift, axis=0)[None].copy(), np.roll(target, shift, axis=0)[None].copy()
-        color_writes.blend_bytes(state, *run, source, np.ones(4, bool), expected)
-        color_writes.add_bytes(*run, source.reshape(-1), found.reshape(1, -1))
-        assert np.array_equal(found, expected)
+        expected, added = np.roll(target, shift, axis=0)[None].copy(), np.roll(target, shift, axis=0)[None].copy()
+        color_writes.blend_bytes(state, *span, source, np.ones(4, bool), expected)
+        color_writes.add_bytes(*span, source.reshape(-1), added.reshape(1, -1))
+        assert np.array_equal(added, expected)

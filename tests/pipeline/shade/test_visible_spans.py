@@ -1,4 +1,4 @@
-"""Spans of fragments: how they are found, cut into chunks, interpolated and written."""
+"""Spans of fragments: found in ids, cut into chunks, interpolated and written."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -23,36 +23,36 @@ pytestmark = pytest.mark.interpreted
 SIZE = 24
 
 
-def some_ids(seed):
-    """Triangles 0 to 2, and -1 for none, in pieces of a few pixels."""
+def random_ids(seed):
+    """Return ids of triangles 0 to 2, and -1 for none, in pieces of a few pixels."""
     rng = np.random.default_rng(seed)
     return np.repeat(rng.integers(-1, 3, (5, SIZE // 2), dtype=np.int32), rng.integers(1, 4, SIZE // 2), axis=1)
 
 
 def span_or_pixels(long):
-    """Spans of one row and triangle: one long span, or the same pixels one by one."""
-    count = LONG_SPAN + 5
+    """Return one long span of a triangle, or the same pixels as spans of one pixel each."""
+    n = LONG_SPAN + 5
     if long:
-        row, left, start = np.array([3]), np.array([2]), np.array([0, count])
+        row, left, start = np.array([3]), np.array([2]), np.array([0, n])
     else:
-        row, left, start = np.full(count, 3), np.arange(2, 2 + count), np.arange(count + 1)
+        row, left, start = np.full(n, 3), np.arange(2, 2 + n), np.arange(n + 1)
     return Spans(row.astype(np.int32), left.astype(np.int32), np.zeros(len(row), np.int32), start)
 
 
 @given(st.integers(0, 2**32 - 1))
-def test_runs_are_the_visible_pixels(seed):
-    ids = some_ids(seed)
+def test_spans_are_the_visible_pixels(seed):
+    ids = random_ids(seed)
     spans = visible_spans(ids, 7)
     row, column, triangle = fragments_of(spans)
     assert np.array_equal(np.stack([row - 7, column]), np.nonzero(ids >= 0))
     assert np.array_equal(triangle, ids[row - 7, column])
-    again = spans_of(fragments_of(spans))
-    assert all(np.array_equal(a, b) for a, b in zip(spans, again, strict=True))
+    spans_again = spans_of(fragments_of(spans))
+    assert all(np.array_equal(a, b) for a, b in zip(spans, spans_again, strict=True))
 
 
-def on_threads(count, function, *arguments):
+def on_threads(n, function, *arguments):
     before = threads()
-    set_threads(count)
+    set_threads(n)
     try:
         return function(*arguments)
     finally:
@@ -60,15 +60,15 @@ def on_threads(count, function, *arguments):
 
 
 @pytest.mark.parametrize("rows", [1, 3, SIZE])
-def test_parts_of_the_rows_together_have_the_spans_of_all(monkeypatch, rows):
+def test_parts_of_the_rows_have_the_same_spans_as_all_rows(monkeypatch, rows):
     monkeypatch.setattr(visible_spans_module, "ROWS_PER_TASK", rows)
     for seed in range(20):
-        whole, parts = (on_threads(count, visible_spans, some_ids(seed), 7) for count in (1, 3))
-        assert all(np.array_equal(a, b) for a, b in zip(parts, whole, strict=True))
+        at_once, in_parts = (on_threads(n, visible_spans, random_ids(seed), 7) for n in (1, 3))
+        assert all(np.array_equal(a, b) for a, b in zip(in_parts, at_once, strict=True))
 
 
 @pytest.mark.parametrize("at_a_time", [1, 2])
-def test_planes_are_the_same_in_parts(monkeypatch, at_a_time):
+def test_planes_are_the_same_when_computed_in_parts(monkeypatch, at_a_time):
     monkeypatch.setattr(interpolation, "TRIANGLES_PER_TASK", at_a_time)
     rng, triangles = np.random.default_rng(1), 3
     window, values = rng.normal(size=(9, 4)).astype(np.float32), rng.normal(size=(9, 5)).astype(np.float32)
@@ -80,16 +80,16 @@ def test_planes_are_the_same_in_parts(monkeypatch, at_a_time):
         np.array([1, 0, 1], np.uint8),
         np.array([2, 0, 1], np.int32),
     )
-    provoking, spans = np.array([4, 8, 1], np.int32), visible_spans(some_ids(5), 0)
+    provoking, spans = np.array([4, 8, 1], np.int32), visible_spans(random_ids(5), 0)
     arguments = spans, setup, window, values, -values, flat, provoking
-    whole, parts = (on_threads(count, planes_of, *arguments) for count in (1, 3))
-    assert len(whole.values) == triangles
-    assert all(np.array_equal(a, b) for a, b in zip(parts, whole, strict=True))
+    at_once, in_parts = (on_threads(n, planes_of, *arguments) for n in (1, 3))
+    assert len(at_once.values) == triangles
+    assert all(np.array_equal(a, b) for a, b in zip(in_parts, at_once, strict=True))
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 30))
-def test_chunks_are_all_spans_one_after_the_other(seed, size):
-    spans = visible_spans(some_ids(seed), 0)
+def test_the_parts_of_all_chunks_make_up_the_spans(seed, size):
+    spans = visible_spans(random_ids(seed), 0)
     parts = [spans.part(first, end) for first, end in pairwise(spans.chunks(size))]
     together = [np.concatenate(fields) for fields in zip(*map(fragments_of, parts), strict=True)] if parts else []
     assert all(np.array_equal(a, b) for a, b in zip(together, fragments_of(spans), strict=bool(parts)))
@@ -98,31 +98,31 @@ def test_chunks_are_all_spans_one_after_the_other(seed, size):
 
 
 def test_no_fragments_have_no_spans():
-    nothing = visible_spans(np.full((2, 3), -1, np.int32), 0)
-    assert nothing.fragments == 0
-    assert len(nothing.chunks(10)) == 1
-    assert spans_of(fragments_of(nothing)).fragments == 0
+    spans = visible_spans(np.full((2, 3), -1, np.int32), 0)
+    assert spans.fragments == 0
+    assert len(spans.chunks(10)) == 1
+    assert spans_of(fragments_of(spans)).fragments == 0
 
 
 @pytest.mark.parametrize("real", [np.float32, np.float64])
-def test_a_long_run_is_interpolated_like_its_pixels(real):
+def test_a_long_span_is_interpolated_like_its_pixels(real):
     rng = np.random.default_rng(1)
     planes, flat = rng.normal(size=(1, 3, 5)).astype(real), np.array([False, True, False, False])
-    found = []
+    values = []
     for long in (True, False):
         out = np.zeros((5, LONG_SPAN + 5), real)
         columns = np.arange(64, dtype=real)
         interpolate(planes, np.zeros(1, np.int32), *span_or_pixels(long), columns, flat, out)
-        found.append(out[:4])
-    assert np.array_equal(*found)
-    assert (found[0][1] == planes[0, 0, 1]).all()
-    assert len(np.unique(found[0][0])) == LONG_SPAN + 5
+        values.append(out[:4])
+    assert np.array_equal(*values)
+    assert (values[0][1] == planes[0, 0, 1]).all()
+    assert len(np.unique(values[0][0])) == LONG_SPAN + 5
 
 
 @pytest.mark.parametrize("internal", [gl.GL_RGBA8, gl.GL_RGB8, gl.GL_RGBA32F])
 @pytest.mark.parametrize("adding", [False, True])
 @pytest.mark.parametrize("mask", [(True,) * 4, (True, False, True, False), (False,) * 4])
-def test_a_run_is_written_under_the_color_mask(mask, adding, internal):
+def test_a_span_is_written_under_the_color_mask(mask, adding, internal):
     rng = np.random.default_rng(2)
     image = Image.new(FORMATS[internal], 32, 4, internal)
     image.cells[..., :3] = rng.integers(0, 256, image.cells[..., :3].shape)
@@ -131,14 +131,14 @@ def test_a_run_is_written_under_the_color_mask(mask, adding, internal):
     state = replace(State(), blend=ones, color=replace(State().color, mask=mask))
     colors = rng.uniform(-1, 2, (spans.fragments, 4)).astype(np.float32)
     color_writer(state, image)(spans, colors)
-    drawn = colors
+    source = colors
     if image.format.kind == "unorm8":
-        drawn = np.rint(colors.clip(0, 1) * np.float32(255))
-    expected, place = before.copy(), np.s_[3, 2 : 2 + spans.fragments]
-    blended = drawn + before[place] if adding else drawn
+        source = np.rint(colors.clip(0, 1) * np.float32(255))
+    expected, pixels = before.copy(), np.s_[3, 2 : 2 + spans.fragments]
+    blended = source + before[pixels] if adding else source
     if image.format.kind == "unorm8":
         blended = blended.clip(0, 255)
-    taken = np.array(mask) & np.array(image.format.written)
-    expected[place] = np.where(taken, blended, before[place])
+    written_channels = np.array(mask) & np.array(image.format.written)
+    expected[pixels] = np.where(written_channels, blended, before[pixels])
     assert np.array_equal(image.cells, expected)
     assert np.array_equal(before, expected) != any(mask)
