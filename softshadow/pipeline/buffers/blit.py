@@ -109,7 +109,7 @@ def _has_stencil_bits(target: Framebuffer) -> bool:
     return target.name == DEFAULT or (target.depth is not None and target.depth.stencil is not None)
 
 
-# -- where -------------------------------------------------------------------------------------------------------------
+# -- rectangles --------------------------------------------------------------------------------------------------------
 def rectangles_of(command: BlitFramebuffer, source: Framebuffer, target: Framebuffer) -> Rectangles | None:
     """Return the rectangles of a blit after clipping, None where nothing is left."""
     sx0, sy0, sx1, sy1 = command.source
