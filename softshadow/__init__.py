@@ -1,11 +1,9 @@
 """Real-time shadow algorithms on a software rasterizer, step by step.
 
-Names are looked up when they are first used, so that importing the package costs next to nothing: no NumPy, no Numba.
+Names are loaded when they are first used, so that importing the package is fast: it loads neither NumPy nor Numba.
 """
 
 import importlib
-import sys
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -30,10 +28,10 @@ if TYPE_CHECKING:
         UnweldedMesh,
         Warning,
     )
-    from softshadow.failures import GALLERY as failures
+    from softshadow.gallery import GALLERY as failures
     from softshadow.inspection.pictures import stencil_palette
     from softshadow.pipeline import explain_paths, set_threads, use_short_cuts
-    from softshadow.run import Run, load_run, run
+    from softshadow.runs import Run, load_run, run
     from softshadow.scene import Camera, Light, Material, Mesh, Scene, SceneObject, scene_names
     from softshadow.techniques import describe
     from softshadow.techniques import names as technique_names
@@ -81,7 +79,7 @@ __all__ = [
 ]
 
 _MODULES = ("gl", "testing")
-_RENAMED = {"failures": ("softshadow.failures", "GALLERY"), "technique_names": ("softshadow.techniques", "names")}
+_RENAMED = {"failures": ("softshadow.gallery", "GALLERY"), "technique_names": ("softshadow.techniques", "names")}
 _HOMES = {
     "softshadow.errors": (
         "CounterSaturated", "DegenerateFaces", "FarFromOrigin", "InsideOutMesh", "LightInsideCaster", "MeshError",
@@ -90,7 +88,7 @@ _HOMES = {
     ),
     "softshadow.inspection.pictures": ("stencil_palette",),
     "softshadow.pipeline": ("explain_paths", "set_threads", "use_short_cuts"),
-    "softshadow.run": ("Run", "load_run", "run"),
+    "softshadow.runs": ("Run", "load_run", "run"),
     "softshadow.scene": ("Camera", "Light", "Material", "Mesh", "Scene", "SceneObject", "scene_names"),
     "softshadow.techniques": ("describe",),
 }  # fmt: skip
@@ -102,22 +100,11 @@ def __getattr__(name: str) -> Any:
         return importlib.import_module(f"softshadow.{name}")
     if name not in _HOME:
         raise AttributeError(f"module 'softshadow' has no attribute {name!r}")
-    module, there = _HOME[name]
-    value = getattr(importlib.import_module(module), there)
+    module, name_there = _HOME[name]
+    value = getattr(importlib.import_module(module), name_there)
     globals()[name] = value
     return value
 
 
 def __dir__() -> list[str]:
     return sorted({*globals(), *__all__})
-
-
-class _Package(ModuleType):
-    """The package itself: importing its modules `run` and `failures` must not hide what has their names."""
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        if name not in ("run", "failures") or not isinstance(value, ModuleType):
-            super().__setattr__(name, value)
-
-
-sys.modules[__name__].__class__ = _Package

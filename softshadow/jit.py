@@ -10,7 +10,9 @@ import os
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -18,6 +20,7 @@ from typing import Any
 import numba
 import numpy as np
 from numba.core import event
+from numba.core.dispatcher import Dispatcher
 
 # all files with kernels, and all files these import: constants become part of the compiled code
 KERNEL_SOURCES = (
@@ -117,6 +120,53 @@ class _PauseCollection(event.Listener):
 
 
 event.register("numba:compile", _PauseCollection())
+
+
+class _Nesting(threading.local):
+    depth = 0
+
+
+# a kernel and the types of its arguments, in the order of the first calls
+Kernels = dict[tuple[Any, tuple[Any, ...]], None]
+
+
+@contextmanager
+def rehearsing() -> Iterator[Kernels]:
+    """Inside the block, run kernels that are not compiled yet as plain Python, and note which ones are called.
+
+    Calls between kernels are not noted. ``kernel.compile(types)`` compiles a noted one, or finds it in the cache.
+    """
+    kernels: Kernels = {}
+    nesting = _Nesting()
+    dispatcher: Any = Dispatcher
+    compile_for_args = dispatcher._compile_for_args
+
+    def note_call(kernel: Any, *arguments: Any) -> Callable[..., Any]:
+        if nesting.depth == 0:
+            kernels.setdefault((kernel, tuple(map(kernel.typeof_pyval, arguments))))
+
+        def interpret(*arguments: Any) -> Any:
+            nesting.depth += 1
+            try:
+                result = kernel.py_func(*arguments)
+            finally:
+                nesting.depth -= 1
+            return result if nesting.depth else _python_value(result)
+
+        return interpret  # which Numba calls in place of the compiled kernel
+
+    dispatcher._compile_for_args = note_call
+    try:
+        yield kernels
+    finally:
+        dispatcher._compile_for_args = compile_for_args
+
+
+def _python_value(result: Any) -> Any:
+    """Return the result of an interpreted kernel as a compiled one returns it: numbers are Python's own."""
+    if type(result) is tuple:
+        return tuple(map(_python_value, result))
+    return result.item() if isinstance(result, np.generic) else result
 
 
 def read_only(array: np.ndarray) -> np.ndarray:

@@ -11,7 +11,7 @@ from softshadow.cli.arguments import Size, as_json, force
 from softshadow.cli.console import print_json, say, say_if_compiling, table
 
 if TYPE_CHECKING:
-    from softshadow.failures import Failure
+    from softshadow.gallery import Failure
 
 
 @click.command(epilog="Examples:  softshadow failures  |  softshadow failures mask-1 -o mask-1.png")
@@ -113,10 +113,12 @@ def _write(failure: Failure, output: str, force: bool) -> None:
     from softshadow.inspection.files import write_whole
 
     if Path(output).suffix.lower() == ".png":
+        import numpy as np
+
         from softshadow.inspection.pictures import save_png
 
-        write_whole(Path(output), partial(save_png, failure.picture()), force)
+        write_whole(Path(output), partial(save_png, np.asarray(failure.picture())), force)
     else:
-        from softshadow.report.failure import write
+        from softshadow.gallery.failure_page import write_page
 
-        write_whole(Path(output), partial(write, failure), force)
+        write_whole(Path(output), partial(write_page, failure), force)

@@ -126,8 +126,7 @@ def _counts(stencil: np.ndarray) -> dict[str, int]:
 
 def _refuse(target: str, force: bool) -> None:
     """Make sure before the drawing that the pictures may be written."""
-    from softshadow.inspection.files import refuse_foreign
-    from softshadow.inspection.saving import is_folder
+    from softshadow.inspection.files import is_folder, refuse_foreign
 
     if is_folder(target):
         return
@@ -140,14 +139,13 @@ def _write(target: str, result: ProgramResult, force: bool) -> None:
     """Write the three buffers side by side into one picture, or each into a folder, which is made."""
     from functools import partial
 
-    from softshadow.inspection.files import refuse_foreign, write_whole
-    from softshadow.inspection.pictures import color_picture, contact_sheet, depth_picture, save_png, stencil_picture
-    from softshadow.inspection.saving import is_folder
+    from softshadow.inspection.files import is_folder, refuse_foreign, write_whole
+    from softshadow.inspection.pictures import contact_sheet, depth_picture, save_png
 
     pictures = {
-        "image": color_picture(result.color[::-1, :, :3]),
+        "image": result.color[::-1, :, :3],
         "depth": depth_picture(result.depth[::-1], clear=2**24 - 1),
-        "stencil": stencil_picture(result.stencil[::-1]),
+        "stencil": result.stencil[::-1],
     }
     if is_folder(target):
         folder = Path(target)

@@ -32,7 +32,7 @@ def warmup(as_json: bool) -> None:
     from softshadow.errors import Warning as SoftShadowWarning
     from softshadow.jit import cache_folder
     from softshadow.pipeline import use_short_cuts
-    from softshadow.run import run
+    from softshadow.runs import run
 
     start = time.perf_counter()
     with warnings.catch_warnings():

@@ -11,11 +11,11 @@ from softshadow.cli.arguments import as_json, chosen_scene, force, parsed_option
 from softshadow.cli.console import named_warnings, print_json, say, say_if_compiling, table
 
 if TYPE_CHECKING:
-    from softshadow.run import Run
+    from softshadow.runs import Run
 
 
 def _run(technique: str, size: tuple[int, int], given: tuple[str, ...], **where: Any) -> Run:
-    from softshadow.run import run
+    from softshadow.runs import run
 
     options = parsed_options(technique, given)
     with named_warnings():
@@ -51,10 +51,10 @@ def render(
     given: tuple[str, ...], output: str | None, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Draw a scene with a technique, and write the picture, the report, or all buffers."""
-    from softshadow.inspection.saving import refuse
+    from softshadow.runs.saving import check_path
 
     target = output or f"{technique}.png"
-    refuse(target, force)
+    check_path(target, force)
     made = _run(technique, size, given, scene=scene, mesh=mesh, light=light)
     written = made.save(target, force=force)
     if as_json:

@@ -1,6 +1,6 @@
-"""Looking at a recorded frame: buffers after any step, the history of any pixel, counts and differences.
+"""Inspecting a recorded frame: the buffers after any step, the history of any pixel, fragment counts, differences.
 
-Everything here plays the recorded commands again with the functions of the pipeline itself; no kernel knows of it.
+All of it comes from replaying the recorded commands with the pipeline's own functions; the kernels hold no extra code.
 """
 
 from softshadow.inspection.comparison import Comparison, compare

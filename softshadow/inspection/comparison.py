@@ -1,4 +1,4 @@
-"""Comparing visibilities: a run with another run, or with what ray casting finds."""
+"""Comparing a visibility with that of another run, or with ray casting."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-WRONG = 0.1  # an error that is seen as wrong, not as rough
+WRONG = 0.1  # a larger error looks wrong, a smaller one only rough
 
 
 @dataclass(frozen=True)
-class Part:
-    """The error over some pixels: how many, largest and root mean square, and how many are off by more than 0.1."""
+class ErrorSummary:
+    """The error over some pixels: their number, its maximum and root mean square, and how many exceed 0.1."""
 
     pixels: int
     max: float
@@ -31,7 +31,7 @@ class Comparison:
     against : str                name of the reference
     error : (H, W) float32       visibility minus reference, row 0 on top; 0 where one of them is not defined
     compared : (H, W) bool       where both are defined
-    band : (H, W) bool           the boundary band: a pixel whose neighbourhood is not all of one reference value
+    band : (H, W) bool           the boundary band: the reference differs between the pixel and its neighbours
     lit, umbra, penumbra : (H, W) bool   compared pixels off the band, by the reference: 1, 0, in between
     """
 
@@ -43,17 +43,19 @@ class Comparison:
     umbra: np.ndarray
     penumbra: np.ndarray
 
-    def part(self, where: np.ndarray) -> Part:
+    def part(self, where: np.ndarray) -> ErrorSummary:
         """Return the error over the pixels `where` (H, W) bool."""
         errors = self.error[where].astype(np.float64)
         if not len(errors):
-            return Part(0, 0.0, 0.0, 0)
+            return ErrorSummary(0, 0.0, 0.0, 0)
         size = np.abs(errors)
-        return Part(len(errors), float(size.max()), float(np.sqrt(np.mean(errors**2))), int((size > WRONG).sum()))
+        return ErrorSummary(
+            len(errors), float(size.max()), float(np.sqrt(np.mean(errors**2))), int((size > WRONG).sum())
+        )
 
     @property
     def max(self) -> float:
-        """The largest error over all compared pixels, as a size."""
+        """The largest absolute error over all compared pixels."""
         return self.part(self.compared).max
 
     @property
@@ -62,8 +64,8 @@ class Comparison:
         return self.part(self.compared).rms
 
     @property
-    def parts(self) -> dict[str, Part]:
-        """The error over everything compared, over lit, umbra and penumbra off the band, and on the band."""
+    def parts(self) -> dict[str, ErrorSummary]:
+        """The error over all compared pixels, over lit, umbra and penumbra off the band, and on the band."""
         places = {"all": self.compared, "lit": self.lit, "umbra": self.umbra, "penumbra": self.penumbra}
         return {name: self.part(where) for name, where in (places | {"band": self.band}).items()}
 
@@ -74,20 +76,20 @@ class Comparison:
 def compare(
     visibility: np.ndarray, valid: np.ndarray, reference: np.ndarray, reference_valid: np.ndarray, against: str
 ) -> Comparison:
-    """Return how a visibility differs from a reference, both (H, W) with bool (H, W) of where they are defined."""
+    """Return how a visibility (H, W) differs from a reference; each has a bool (H, W) of where it is defined."""
     compared = valid & reference_valid
     error = np.where(compared, visibility - reference, 0).astype(np.float32)
     band = compared & ~uniform(np.where(reference_valid, reference, np.float32(-1)))
     inner = compared & ~band
     lit, umbra = inner & (reference == 1), inner & (reference == 0)
-    made = Comparison(against, error, compared, band, lit, umbra, inner & ~lit & ~umbra)
-    for array in (error, compared, band, lit, umbra, made.penumbra):
+    penumbra = inner & ~lit & ~umbra
+    for array in (error, compared, band, lit, umbra, penumbra):
         array.setflags(write=False)
-    return made
+    return Comparison(against, error, compared, band, lit, umbra, penumbra)
 
 
 def uniform(values: np.ndarray) -> np.ndarray:
-    """Return where a pixel and its eight neighbours are alike, (H, W) bool: nothing projects an edge within a pixel."""
+    """Return where a pixel and its eight neighbours have the same value, (H, W) bool: no edge passes within a pixel."""
     height, width = values.shape
     framed = np.pad(values, 1, mode="edge")
     shifted = [framed[y : y + height, x : x + width] == values for y in range(3) for x in range(3)]

@@ -1,4 +1,4 @@
-"""What changed between two moments of a frame."""
+"""The pixels that changed between two steps."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from softshadow.inspection.replay import Buffers
 
 @dataclass(frozen=True, eq=False)
 class Difference:
-    """Where two moments differ: bool (H, W) per buffer, row 0 on top."""
+    """Where the buffers after two steps differ: bool (H, W) per buffer, row 0 on top."""
 
     image: np.ndarray
     depth: np.ndarray
@@ -28,11 +28,11 @@ class Difference:
         return {name: int(np.count_nonzero(getattr(self, name))) for name in ("image", "depth", "stencil")}
 
     def __str__(self) -> str:
-        return ", ".join(f"{name}: {count} pixels" for name, count in self.counts.items())
+        return ", ".join(f"{name}: {pixels} pixels" for name, pixels in self.counts.items())
 
 
 def difference(before: Buffers, after: Buffers) -> Difference:
-    """Return where two moments of one window differ; depth and stencil to the last bit, of colours red, green, blue."""
+    """Return where buffers differ: depth and stencil in any bit, colours in red, green or blue (alpha is ignored)."""
     return Difference(
         (before.color[..., :3] != after.color[..., :3]).any(axis=-1),
         before.depth != after.depth,

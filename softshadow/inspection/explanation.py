@@ -1,10 +1,8 @@
-"""One sentence about a pixel: lit, shaded or dark, and the fragment that decided it."""
+"""One sentence about a pixel: lit, in shadow or background, and the fragment that decided it."""
 
 from __future__ import annotations
 
 from softshadow.inspection.history import CLEARED, CULLED, HistoryRow, PixelHistory
-
-FAILED = ("stencil failed", "alpha failed", "depth failed")
 
 
 def explain(history: PixelHistory, visibility: float | None, valid: bool) -> str:
@@ -12,8 +10,8 @@ def explain(history: PixelHistory, visibility: float | None, valid: bool) -> str
 
     Parameters
     ----------
-    visibility : float or None   1 lit to 0 in shadow; None when the technique has not said
-    valid : bool                 whether the visibility is defined there
+    visibility : float or None   1 lit to 0 in shadow; None when the technique has no visibility map
+    valid : bool                 whether the visibility is defined at the pixel
     """
     drawn = [row for row in history.rows if row.verdict == "passed" and row.object]
     if not any(row.verdict not in (CLEARED, CULLED) for row in history.rows):
@@ -21,14 +19,14 @@ def explain(history: PixelHistory, visibility: float | None, valid: bool) -> str
     if not valid or visibility is None:
         if not drawn:
             return f"{history.heading} shows no surface: no fragment passed its tests there."
-        told = _told(_last_colored(history) or drawn[-1])
-        return f"{history.heading} is where the technique says nothing about the light: {told}."
+        row = _last_colored(history) or drawn[-1]
+        return f"{history.heading} has no defined visibility in this technique: {_described(row)}."
     if visibility >= 1:
-        decided = _last_colored(history) or drawn[-1]
-        return f"{history.heading} is lit: {_told(decided)}."
+        row = _last_colored(history) or drawn[-1]
+        return f"{history.heading} is lit: {_described(row)}."
     word = "in shadow" if visibility <= 0 else f"partly lit ({visibility:.2g} of the light)"
-    decided = _left_out(history) or _last_colored(history) or drawn[-1]
-    return f"{history.heading} is {word}: {_told(decided)}."
+    row = _rejected_light(history) or _last_colored(history) or drawn[-1]
+    return f"{history.heading} is {word}: {_described(row)}."
 
 
 def _last_colored(history: PixelHistory) -> HistoryRow | None:
@@ -39,20 +37,21 @@ def _last_colored(history: PixelHistory) -> HistoryRow | None:
     return None
 
 
-def _left_out(history: PixelHistory) -> HistoryRow | None:
-    """Return the fragment of the visible surface that a test kept from adding light.
+def _rejected_light(history: PixelHistory) -> HistoryRow | None:
+    """Return the fragment of the visible surface that the stencil or alpha test kept from adding light.
 
-    It is of the object and triangle that coloured the pixel last, later than that, and failed in stencil or alpha test.
+    It belongs to the object and triangle that coloured the pixel last, and comes after that colour.
     """
     colored = _last_colored(history)
     if colored is None:
         return None
     for row in history.rows[history.rows.index(colored) + 1 :]:
-        if row.verdict in FAILED[:2] and (row.object, row.triangle) == (colored.object, colored.triangle):
+        same_surface = (row.object, row.triangle) == (colored.object, colored.triangle)
+        if same_surface and row.verdict in ("stencil failed", "alpha failed"):
             return row
     return None
 
 
-def _told(row: HistoryRow) -> str:
+def _described(row: HistoryRow) -> str:
     object = f"{row.object}, triangle {row.triangle}" if row.object else f"draw {row.draw}, triangle {row.triangle}"
     return f"in step {row.title!r} ({object}), {row.reason}"

@@ -1,4 +1,4 @@
-"""Writing files: whole or not at all, and never over a file that this package has not written."""
+"""Writing files whole or not at all, and never over a file that this package did not write."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from pathlib import Path
 
 from softshadow.errors import SoftShadowError
 
-MARK = "made by softshadow"  # every writer puts it at the start of its files, or they count as foreign the next time
-DESCRIPTION = "softshadow.json"  # the member of an npz that says what the others are
-START = 4096  # bytes in which the mark of a PNG, HTML or text file must stand
+MARK = "made by softshadow"  # stands at the start of every file; without it a file counts as foreign
+DESCRIPTION = "softshadow.json"  # the member of an npz that describes the others
+START = 4096  # bytes; the mark of a PNG, HTML or text file must stand within them
 
 
 def own(path: Path) -> bool:
-    """Return whether this package has written a file: its mark stands at the start, or as a member of an npz."""
+    """Return whether this package wrote a file: its mark stands at the start, or an npz has its description."""
     if path.suffix == ".npz":
         try:
             with zipfile.ZipFile(path) as archive:
@@ -27,12 +27,21 @@ def own(path: Path) -> bool:
         return MARK.encode() in file.read(START)
 
 
+def is_folder(path: str | os.PathLike[str]) -> bool:
+    """Return whether a path names a folder: one that exists, or a path that ends in a slash.
+
+    A `Path` drops the slash at its end, so a `Path` without an extension that does not exist yet counts as a folder.
+    """
+    slash_dropped = isinstance(path, Path) and not path.suffix and not path.exists()
+    return slash_dropped or str(path).endswith(("/", os.sep)) or Path(path).is_dir()
+
+
 def refuse_foreign(path: Path, force: bool) -> None:
-    """Make sure that a file may be written.
+    """Raise an error unless a file may be written.
 
     Raises
     ------
-    SoftShadowError              it exists and is not ours, is a folder, or its folder does not exist
+    SoftShadowError              the file exists and is not ours, it is a folder, or its folder does not exist
     """
     if path.is_dir():
         raise SoftShadowError(f"{path}: is a folder, expected the name of a file")
@@ -43,11 +52,15 @@ def refuse_foreign(path: Path, force: bool) -> None:
 
 
 def write_whole(path: Path, write: Callable[[Path], object], force: bool = False) -> Path:
-    """Let `write` make the file under another name in the same folder, then give it its name at once.
+    """Write a temporary file, then rename it atomically.
+
+    Parameters
+    ----------
+    write : callable             writes the file that it is given the path of
 
     Raises
     ------
-    SoftShadowError              see `refuse_foreign`, or the folder cannot be written
+    SoftShadowError              see `refuse_foreign`; or the folder cannot be written
     """
     refuse_foreign(path, force)
     try:
@@ -58,7 +71,7 @@ def write_whole(path: Path, write: Callable[[Path], object], force: bool = False
     temporary = Path(name)
     try:
         write(temporary)
-        temporary.chmod(0o666 & ~_umask())  # mkstemp's files are for the owner only
+        temporary.chmod(0o666 & ~_umask())  # mkstemp creates files that only the owner can read
         temporary.replace(path)
     except OSError as error:
         raise SoftShadowError(f"{path}: cannot be written ({error.strerror or error})") from None

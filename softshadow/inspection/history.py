@@ -1,7 +1,7 @@
-"""The history of a pixel: every fragment that met it, in order, with the test that decided about it.
+"""The history of a pixel: every fragment generated there, in order, with the test that decided its fate.
 
-The recorded commands are played again, and at the one pixel every fragment is shaded, tested and blended by the same
-functions that draw the picture. So the last row is what the buffers hold.
+The recorded commands are replayed, and at the pixel every fragment is shaded, tested and blended by the same functions
+that draw the picture. The last row therefore equals the buffers.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -38,10 +38,9 @@ from softshadow.pixels import depth_as_float
 
 CULLED, CLEARED, WRITTEN = "culled", "clear", "written"
 NO_FRAGMENT = {"draw": None, "object": "", "triangle": None, "front_facing": None, "z": None}
-Moment = tuple[tuple[int, int, int], float, int]  # red, green and blue; window z; stencil
 
-# commands that neither read nor write the window's pixels; a kind that is not named here counts as doing both
-APART = (
+# commands that neither read nor write the window's pixels; all others are assumed to do both
+INDEPENDENT_OF_WINDOW = (
     commands.DefineImage, commands.UpdateImage, commands.CreateTexture, commands.SetSampler, commands.DeleteTextures,
     commands.CreateFramebuffer, commands.DeleteFramebuffers, commands.DefineRenderbuffer, commands.DeleteRenderbuffers,
     commands.AttachTexture, commands.AttachRenderbuffer, commands.SelectBuffers,
@@ -50,12 +49,12 @@ APART = (
 
 @dataclass(frozen=True)
 class HistoryRow:
-    """What one fragment, one clear, or one culled triangle meant to the pixel.
+    """The effect of one fragment, one clear, or one culled triangle on the pixel.
 
-    `step` is the number of the step and `title` its title; `draw` counts the draws of the frame from 0, `triangle`
-    those of the draw as they were handed in; a clear has neither. `z` and `stored_z` are window z in [0, 1]; `verdict`
-    is one of passed, scissor, alpha failed, stencil failed, depth failed, culled, clear, written; `color_after` is red,
-    green, blue, 0-255.
+    `step` is the index of the step and `title` its title. `draw` is the index of the draw in the frame, and `triangle`
+    that of the triangle in the draw, before clipping; a clear has neither. `z` and `stored_z` are window z in [0, 1].
+    `verdict` is one of passed, scissor, alpha failed, stencil failed, depth failed, culled, clear, written.
+    `color_after` is red, green, blue, 0-255.
     """
 
     step: int
@@ -77,7 +76,7 @@ class HistoryRow:
 
 @dataclass(frozen=True)
 class PixelHistory:
-    """All rows of one pixel, in order. x counts from the left, y from the top; GL's own y from the bottom."""
+    """All rows of one pixel, in order; x counts from the left, y from the top, and `gl_y` from the bottom."""
 
     x: int
     y: int
@@ -143,54 +142,64 @@ def pixel_history(frame: Frame, x: int, y: int) -> PixelHistory:
     for name, value, end in (("x", x, width), ("y", y, height)):
         if isinstance(value, bool) or not isinstance(value, int | np.integer) or not 0 <= value < end:
             raise ValueError(f"{name}={value!r}: expected a whole number from 0 to {end - 1}")
-    return PixelHistory(int(x), int(y), height - 1 - int(y), tuple(_play(frame, int(y), int(x))))
+    return PixelHistory(int(x), int(y), height - 1 - int(y), tuple(_replay(frame, int(y), int(x))))
 
 
-def _play(frame: Frame, row: int, column: int) -> Iterator[HistoryRow]:
-    """Play the frame and yield the pixel's rows.
+def _replay(frame: Frame, row: int, column: int) -> Iterator[HistoryRow]:
+    """Replay the frame and yield the pixel's rows.
 
-    Commands of the window are played at this pixel only, except those before the last one that reads the window's
-    pixels: its result may come back as a texture.
+    Draws and clears of the window are carried out at this pixel only. Those before the last command that reads the
+    window are carried out in full as well, because its result may be used as a texture.
     """
     storage = frame.fresh_storage()
     pixel = Pixel(storage.window, row, column)
     ends = [end for _, end in frame.steps]
-    readers = [i for i, command in enumerate(frame.commands) if not _of_window(command) and not _apart(command)]
+    readers = [
+        i for i, command in enumerate(frame.commands) if not _draws_to_window(command) and not _ignores_window(command)
+    ]
     last_reader = readers[-1] if readers else -1
     draws = 0
     for index, command in enumerate(frame.commands):
         step = bisect_right(ends, index)
         where = (step, frame.steps[step][0] if step < len(ends) else "")
-        if _of_window(command):
-            before = pixel.read()
+        if _draws_to_window(command):
+            cells = pixel.read()
             if isinstance(command, Draw):
                 yield from _draw_rows(command, storage, pixel, where, draws)
             elif isinstance(command, Clear):
                 yield _clear_row(command, storage, pixel, where)
             if index < last_reader:
-                pixel.write(before)
+                pixel.write(cells)
                 execute(command, storage)
         else:
-            standing = pixel.moment()
+            before = pixel.values()
             execute(command, storage)
-            if pixel.moment() != standing:
-                yield pixel.row(where, standing, WRITTEN, type(command).__name__)
+            if pixel.values() != before:
+                yield pixel.row(where, before, WRITTEN, type(command).__name__)
         draws += isinstance(command, Draw)
 
 
-def _of_window(command: Command) -> bool:
+def _draws_to_window(command: Command) -> bool:
     return isinstance(command, Draw | Clear) and command.state.draw_framebuffer == DEFAULT
 
 
-def _apart(command: Command) -> bool:
-    """Return whether a command has nothing to do with the window's pixels."""
+def _ignores_window(command: Command) -> bool:
+    """Return whether a command neither reads nor writes the window's pixels, or is a draw or clear elsewhere."""
     if isinstance(command, commands.CopyToTexture):
         return command.framebuffer != DEFAULT
-    return isinstance(command, (*APART, Draw, Clear))
+    return isinstance(command, (*INDEPENDENT_OF_WINDOW, Draw, Clear))
+
+
+class PixelValues(NamedTuple):
+    """What the window's buffers hold at a pixel: red, green and blue 0-255, window z, stencil."""
+
+    color: tuple[int, int, int]
+    z: float
+    stencil: int
 
 
 class Pixel:
-    """One pixel of the window: reads and writes its cells, and makes rows of them."""
+    """One pixel of the window: reads and writes its cells, and creates its rows."""
 
     def __init__(self, window: Framebuffer, row: int, column: int) -> None:
         color = window.image(gl.GL_COLOR_ATTACHMENT0)
@@ -212,29 +221,32 @@ class Pixel:
         """Return window z of a depth in buffer units."""
         return window_z(units, self.depth)
 
-    def moment(self) -> Moment:
-        """Return red, green and blue, window z and stencil."""
+    def values(self) -> PixelValues:
+        """Return colour, window z and stencil."""
         color, depth, stencil = self.read()
         red, green, blue = (int(channel) for channel in color[:3])
-        return (red, green, blue), self.z(depth), int(stencil)
+        return PixelValues((red, green, blue), self.z(depth), int(stencil))
 
-    def row(self, where: tuple[int, str], before: Moment, verdict: str, reason: str, **fragment: Any) -> HistoryRow:
-        """Return the row of what has just happened to the pixel; `fragment` is what else there is to say of it."""
-        color, depth, stencil = self.moment()
+    def row(
+        self, where: tuple[int, str], before: PixelValues, verdict: str, reason: str, **fragment: Any
+    ) -> HistoryRow:
+        """Return the row of a change that has just been carried out; `fragment` has the row's other fields."""
+        after = self.values()
         step, title = where
         return HistoryRow(
-            step=step, title=title, stored_z=before[1], verdict=verdict, stencil_before=before[2],
-            stencil_after=stencil, depth_after=depth, color_after=color, reason=reason, **(NO_FRAGMENT | fragment),
+            step=step, title=title, stored_z=before.z, verdict=verdict, stencil_before=before.stencil,
+            stencil_after=after.stencil, depth_after=after.z, color_after=after.color, reason=reason,
+            **(NO_FRAGMENT | fragment),
         )  # fmt: skip
 
 
 def window_z(units: Any, depth: Image) -> float:
-    """Return window z as the depth read-out delivers it."""
+    """Return the window z that glReadPixels returns for a depth in buffer units."""
     return float(depth_as_float(np.array([units], depth.format.dtype), depth.format)[0])
 
 
 def _clear_row(command: Clear, storage: Storage, pixel: Pixel, where: tuple[int, str]) -> HistoryRow:
-    before = pixel.moment()
+    before = pixel.values()
     if not _inside(command.state, pixel):
         return pixel.row(where, before, VERDICTS[SCISSORED], f"glClear: {outside(command.state.scissor)}")
     execute(command, storage)
@@ -250,7 +262,7 @@ def _inside(state: Any, pixel: Pixel) -> bool:
 def _draw_rows(
     command: Draw, storage: Storage, pixel: Pixel, where: tuple[int, str], draw: int
 ) -> Iterator[HistoryRow]:
-    """Yield a row for every triangle of a draw that covers the pixel, and change the pixel as its fragments do."""
+    """Yield a row for every triangle of a draw that covers the pixel, and carry out its fragments there."""
     with np.errstate(all="ignore"):  # as in pipeline.draw
         geometry = process_geometry(command, pixel.window, storage, replace(command.state.cull, enabled=False))
         if not len(geometry.triangles.ids):
@@ -269,8 +281,8 @@ def _draw_rows(
         front = geometry.facing(t)
         ops = fragment_ops(state, window.depth, window.stencil, bool(triangles.front[t]))
         z = real(fragment_depth(triangles.depth, t, real(row), real(column), depth_range, ops.depth_largest))
-        before, (_, stored_z, s) = pixel.moment(), pixel.read()
-        about: dict[str, Any] = {
+        before, (_, stored_z, s) = pixel.values(), pixel.read()
+        fragment: dict[str, Any] = {
             "draw": draw,
             "object": object_of(command),
             "triangle": int(geometry.source[triangles.ids[t]]),
@@ -278,7 +290,7 @@ def _draw_rows(
             "z": pixel.z(z),
         }
         if front is not None and culled & (CULL_FRONT if front else CULL_BACK):
-            yield pixel.row(where, before, CULLED, culled_reason(front, state), **about)
+            yield pixel.row(where, before, CULLED, culled_reason(front, state), **fragment)
             continue
         compared, alpha_ref = compared_alpha(state, window.color, colors[n : n + 1, 3])
         ops, alpha = ops._replace(alpha_ref=alpha_ref), int(compared[0])
@@ -289,14 +301,14 @@ def _draw_rows(
         written = verdict == PASSED and colored
         for image in window.colors if written else ():
             color_writer(state, image)(spans_of(Fragments(*(part[n : n + 1] for part in fragments))), colors[n : n + 1])
-        z_pair, s_pair = (about["z"], before[1]), (before[2], int(s_after))
+        z_pair, s_pair = (fragment["z"], before.z), (before.stencil, int(s_after))
         reason = fragment_reason(state, ops, verdict, z_pair, s_pair, alpha, colored)
-        yield pixel.row(where, before, VERDICTS[verdict], reason, color_written=written, **about)
+        yield pixel.row(where, before, VERDICTS[verdict], reason, color_written=written, **fragment)
 
 
 def _fragments_at(geometry: Geometry, pixel: Pixel) -> Fragments:
     """Return the fragments of all triangles at the pixel, in drawing order."""
     row, column = pixel.place
-    found = np.empty(len(geometry.triangles.ids), np.int32)
-    count = triangles_at(geometry.triangles.corners, column, row, int(pixel.window.flipped), found)
-    return Fragments(np.full(count, row, np.int32), np.full(count, column, np.int32), found[:count].copy())
+    triangles = np.empty(len(geometry.triangles.ids), np.int32)
+    n = triangles_at(geometry.triangles.corners, column, row, int(pixel.window.flipped), triangles)
+    return Fragments(np.full(n, row, np.int32), np.full(n, column, np.int32), triangles[:n].copy())

@@ -1,4 +1,4 @@
-"""Counting: draws, triangles, fragments by verdict and stencil updates of every step."""
+"""Number of draws, triangles, fragments by verdict and stencil updates in every step."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from softshadow.pipeline.execute import execute
 from softshadow.pipeline.geometry.draw_primitives import primitive_count
 from softshadow.pipeline.records import SCISSORED, VERDICTS, FragmentCounts
 
-# rasterization ends at the scissor box: outside it there is no fragment to count
+# the rasterizer creates no fragments outside the scissor box
 COUNTED = tuple(verdict for verdict in VERDICTS if verdict != VERDICTS[SCISSORED])
 
 
 @dataclass
 class Counts:
-    """What one step cost.
+    """The work of one step.
 
-    `triangles` are those handed in, before clipping and culling, lines and points among them; `fragments` has one count
-    per verdict but the scissor's, outside whose box none are made; a stencil update is a stencil value that changed.
-    Draws into framebuffer objects count, too. `passes` has the names of the objects drawn, pass by pass: a pass ends
-    with the step, with the framebuffer, and where an object comes again after another.
+    `triangles` are counted before clipping and culling; lines and points are included. `fragments` has a number for
+    each verdict, except for those outside the scissor box, where no fragments are created. A stencil update is a
+    stencil value that changed. Draws into framebuffer objects are included. `passes` has the names of the objects of
+    each pass; a new pass begins with a step, with another framebuffer, and when an object is drawn again after another.
     """
 
     title: str
@@ -40,7 +40,7 @@ class Counts:
 
 @dataclass(frozen=True)
 class Ledger:
-    """The counts of every step, in order, and their sum."""
+    """The work of every step, in order, and the sum."""
 
     steps: tuple[Counts, ...]
 
@@ -85,8 +85,8 @@ class Ledger:
 
 
 def ledger_of(frame: Frame) -> Ledger:
-    """Return the counts of a recorded frame: it is played once more, counting, without short cuts."""
-    storage, counted, first = frame.fresh_storage(), [], 0
+    """Return the work of a recorded frame: it is replayed without short cuts, and counted."""
+    storage, steps, first = frame.fresh_storage(), [], 0
     for title, end in frame.steps:
         counts, fragments = Counts(title), FragmentCounts.zero()
         for command in frame.commands[first:end]:
@@ -100,13 +100,13 @@ def ledger_of(frame: Frame) -> Ledger:
         counts.fragments = {verdict: by_verdict[verdict] for verdict in COUNTED}
         counts.stencil_updates = int(fragments.stencil_updates[0])
         counts.passes = passes_of([command for command in frame.commands[first:end] if isinstance(command, Draw)])
-        counted.append(counts)
+        steps.append(counts)
         first = end
-    return Ledger(tuple(counted))
+    return Ledger(tuple(steps))
 
 
 def passes_of(draws: list[Draw]) -> list[tuple[str, ...]]:
-    """Return the passes of a step, each as the names of its objects; draws of one object in a row are one."""
+    """Return the passes of a step, each as the names of its objects; consecutive draws of an object count once."""
     passes: list[list[str]] = []
     target = None
     for command in draws:

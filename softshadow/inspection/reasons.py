@@ -1,4 +1,4 @@
-"""The fate of a fragment in words: the tests that decided it, in GL's terms, with the numbers they compared."""
+"""Why a fragment passed or failed, in words: the tests in GL's terms, with the numbers they compared."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ def fragment_reason(
     alpha: int,
     colored: bool,
 ) -> str:
-    """Return why a fragment met its verdict, and what it did to the pixel.
+    """Return which tests led to a fragment's verdict, and what it wrote to the pixel.
 
     Parameters
     ----------
-    z : window z of the fragment, and the stored one
-    stencil : before and after
-    alpha : 0-255
-    colored : whether the draw writes colours
+    z : (float, float)           window z of the fragment, and the stored one
+    stencil : (int, int)         stored value before and after
+    alpha : int                  0-255
+    colored : bool               whether the draw writes colours
     """
     if verdict == SCISSORED:
         return outside(state.scissor)
@@ -48,20 +48,20 @@ def fragment_reason(
         tests.append(_stencil_test(ops, stencil[0], verdict != STENCIL_FAILED))
     if ops.depth_test and verdict != STENCIL_FAILED:
         tests.append(_test("depth test", ops.depth_func, *z, verdict != DEPTH_FAILED))
-    said = "; ".join(tests)
+    reason = "; ".join(tests)
     if ops.stencil_test:
         event, op = {STENCIL_FAILED: ("sfail", ops.sfail), DEPTH_FAILED: ("zfail", ops.zfail)}.get(
             verdict, ("zpass", ops.zpass)
         )
-        said += f"{', so ' if said else ''}{event} {_short(op, STENCIL_OPS)}: {_stencil_change(ops, *stencil)}"
+        reason += f"{', so ' if reason else ''}{event} {_short(op, STENCIL_OPS)}: {_stencil_change(ops, *stencil)}"
     if verdict in (STENCIL_FAILED, DEPTH_FAILED):
-        return said if ops.stencil_test else f"{said}: discarded"
+        return reason if ops.stencil_test else f"{reason}: discarded"
     written = _written(state, colored, bool(ops.depth_write))
-    return f"{said}{'; ' if ops.stencil_test else ': '}{written}" if said else f"no test: {written}"
+    return f"{reason}{'; ' if ops.stencil_test else ': '}{written}" if reason else f"no test: {written}"
 
 
 def _written(state: State, colored: bool, depth: bool) -> str:
-    """Return what a fragment that passed writes, besides the stencil."""
+    """Return what a fragment that passed writes to colour and depth."""
     if colored and (state.blend.enabled or state.blend.logic_enabled):
         how = "combined bitwise" if state.blend.logic_enabled else "blended"
         return f"colour {how}, depth written" if depth else f"colour {how}"
@@ -70,7 +70,7 @@ def _written(state: State, colored: bool, depth: bool) -> str:
 
 
 def culled_reason(front: bool, state: State) -> str:
-    """Return why a triangle makes no fragments."""
+    """Return why a triangle is culled."""
     facing = "front" if front else "back"
     return f"{facing}-facing triangle, and GL_CULL_FACE is on with {token_name(state.cull.face)}: no fragment"
 
@@ -89,7 +89,7 @@ def clear_reason(command: Clear, window: Framebuffer) -> str:
         written.append(
             f"stencil {state.stencil.clear & largest}" + (f" under mask 0x{masked:02X}" if masked != largest else "")
         )
-    return "glClear: " + (", ".join(written) or "masks let nothing through")
+    return "glClear: " + (", ".join(written) or "nothing, because of the masks")
 
 
 def outside(box: Scissor) -> str:
@@ -123,7 +123,7 @@ def _stencil_change(ops: FragmentOps, before: int, after: int) -> str:
 
 
 def unlike(a: float, b: float) -> tuple[str, str]:
-    """Return two numbers with as many digits as it takes to tell them apart, six at least.
+    """Return two numbers with enough digits to tell them apart, at least six.
 
     Examples
     --------

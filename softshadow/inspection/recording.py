@@ -1,6 +1,6 @@
-"""A recording, a scene, any frozen value of this package as JSON and plain arrays, and back: no pickle.
+"""Recordings, scenes and other frozen values as JSON and plain arrays, and back, without pickle.
 
-What may be made from a file is listed in `KINDS`; a file can name nothing else.
+Only the classes in `KINDS` are created from a file; a file that names another one is refused.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ DTYPES = {name: getattr(np, name) for name in ("uint8", "float32", "float64")}
 
 def _of(module: Any, base: type = object) -> dict[str, type]:
     """Return the classes that a module or the modules of a package define, by name."""
-    found = {name: kind for name, kind in vars(module).items() if isinstance(kind, type) and issubclass(kind, base)}
-    return {name: kind for name, kind in found.items() if f"{kind.__module__}.".startswith(f"{module.__name__}.")}
+    classes = {name: kind for name, kind in vars(module).items() if isinstance(kind, type) and issubclass(kind, base)}
+    return {name: kind for name, kind in classes.items() if f"{kind.__module__}.".startswith(f"{module.__name__}.")}
 
 
 WARNINGS = _of(errors, errors.Warning)
@@ -35,20 +35,20 @@ NAMES = {kind: name for name, kind in KINDS.items()}
 
 
 class Packer:
-    """Turns values into JSON; arrays go to `arrays`, what is shared is stored once."""
+    """Converts values to JSON; arrays are collected in `arrays`, and a shared object is stored once."""
 
     def __init__(self) -> None:
         self.arrays: list[np.ndarray] = []
         self.objects: list[Any] = []
         self._seen: dict[int, dict[str, int]] = {}
-        self._alive: list[Any] = []  # an id is one only while its object lives
+        self._alive: list[Any] = []  # an id stays unique only while its object lives
 
     def pack(self, value: Any) -> Any:
         """Return the value as JSON.
 
         Raises
         ------
-        TypeError                    a kind of value that recordings do not have
+        TypeError                    recordings have no values of this type
         """
         if value is None or isinstance(value, bool | int | float | str):
             return value
@@ -73,25 +73,26 @@ class Packer:
             return {"array": len(self.arrays) - 1}
         if type(value) not in NAMES:
             raise TypeError(f"a {type(value).__name__} cannot be saved")
-        made = {each.name: self.pack(getattr(value, each.name)) for each in fields(value) if each.init}
-        self.objects.append([NAMES[type(value)], made])
+        packed = {each.name: self.pack(getattr(value, each.name)) for each in fields(value) if each.init}
+        self.objects.append([NAMES[type(value)], packed])
         return {"object": len(self.objects) - 1}
 
 
 class Unpacker:
-    """Makes the values again; arrays are read-only."""
+    """Recreates the values that a `Packer` packed; arrays are read-only."""
 
     def __init__(self, objects: list[Any], arrays: list[np.ndarray]) -> None:
         self.arrays = arrays
         for array in arrays:
             array.setflags(write=False)
         self.objects: list[Any] = []
-        for name, made in objects:  # in the order they were packed: parts before wholes
+        for name, packed in objects:  # in the order of packing: an object comes after its parts
             if name not in KINDS:
                 raise SoftShadowError(f"a recording has no {name!r}")
-            self.objects.append(KINDS[name](**{key: self.unpack(value) for key, value in made.items()}))
+            self.objects.append(KINDS[name](**{key: self.unpack(value) for key, value in packed.items()}))
 
     def unpack(self, value: Any) -> Any:
+        """Return the value that JSON stands for."""
         if not isinstance(value, dict):
             return value
         ((key, content), *_) = value.items()

@@ -1,4 +1,4 @@
-"""Playing a recorded frame again: the window's buffers after any step, kept while they fit into a number of bytes."""
+"""Replaying a recorded frame: the window's buffers after any step, cached up to a number of bytes."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from softshadow.image import Format
 from softshadow.pipeline.execute import execute
 from softshadow.pixels import depth_as_float
 
-BUDGET = 256 << 20  # bytes
+BUDGET = 256 << 20  # bytes of cached buffers
 
 
 class Buffers(NamedTuple):
-    """The window at one moment, row 0 on top, read-only.
+    """The window's buffers after a step, row 0 on top, read-only.
 
     color (H, W, 4) uint8; depth (H, W) float32, window z in [0, 1]; stencil (H, W) uint8.
     """
@@ -30,11 +30,11 @@ class Buffers(NamedTuple):
 
     @property
     def bytes(self) -> int:
-        return sum(plane.nbytes for plane in self)
+        return sum(buffer.nbytes for buffer in self)
 
 
 class Cells(NamedTuple):
-    """The window at one moment, copied as it is stored; it becomes `Buffers` when these are asked for."""
+    """The window's cells after a step in their stored format; they are converted to `Buffers` when needed."""
 
     color: np.ndarray
     depth: np.ndarray
@@ -42,11 +42,11 @@ class Cells(NamedTuple):
     depth_format: Format
 
     def buffers(self) -> Buffers:
-        """Return what a read-out delivers."""
-        made = Buffers(self.color, np.ascontiguousarray(depth_as_float(self.depth, self.depth_format)), self.stencil)
-        for plane in made:
-            plane.setflags(write=False)
-        return made
+        """Return the buffers as glReadPixels returns them, but row 0 on top."""
+        depth = np.ascontiguousarray(depth_as_float(self.depth, self.depth_format))
+        for buffer in (self.color, depth, self.stencil):
+            buffer.setflags(write=False)
+        return Buffers(self.color, depth, self.stencil)
 
     @property
     def bytes(self) -> int:
@@ -54,9 +54,9 @@ class Cells(NamedTuple):
 
 
 def copy_window(window: Framebuffer, before: Cells | None = None) -> Cells:
-    """Return the window's cells. It is stored top row first, so nothing is flipped.
+    """Return a copy of the window's cells. They are stored top row first, so nothing is flipped.
 
-    Planes that are as they were in `before` are shared with it: comparing takes a tenth of the time of fresh memory.
+    Buffers that equal those of `before` are shared with it: comparing takes a tenth of the time of new memory.
     """
     color, depth, stencil = window.image(gl.GL_COLOR_ATTACHMENT0), window.depth, window.stencil
     assert color is not None
@@ -74,28 +74,28 @@ def copy_window(window: Framebuffer, before: Cells | None = None) -> Cells:
 
 
 def shared_or_copied(now: np.ndarray, before: np.ndarray) -> np.ndarray:
-    """Return the earlier plane where nothing has changed, else a copy."""
+    """Return the earlier buffer if nothing has changed, else a copy of the present one."""
     return before if np.array_equal(now, before) else now.copy()
 
 
 class Replay:
-    """A recorded frame that can be played to any command, on storage of its own.
+    """A recorded frame that can be replayed up to any command, on its own storage.
 
     Parameters
     ----------
-    frame : Frame                the recording; not changed
-    budget : int                 bytes of buffers to keep; what does not fit is played again when asked for
+    frame : Frame                the recording; it is not changed
+    budget : int                 bytes of buffers to cache; the others are replayed when needed
     """
 
     def __init__(self, frame: Frame, budget: int = BUDGET) -> None:
         self.frame, self.budget = frame, budget
-        self._kept: OrderedDict[int, Buffers | Cells] = OrderedDict()
+        self._cache: OrderedDict[int, Buffers | Cells] = OrderedDict()  # by step, least recently used first
         self._last: Cells | None = None
-        self._storage: Storage | None = None  # made when something is played
-        self._played = 0
+        self._storage: Storage | None = None  # allocated by the first replay
+        self._played = 0  # number of commands
 
     def storage_after(self, commands: int) -> Storage:
-        """Return the storage as it was after the first `commands` commands; it is played on by the next call.
+        """Return the storage as it was after the first `commands` commands; the next call changes it.
 
         Raises
         ------
@@ -113,21 +113,21 @@ class Replay:
 
     def after_step(self, index: int) -> Buffers:
         """Return the window's buffers at the end of a step."""
-        if index not in self._kept:
-            self.keep_window(index, self.storage_after(self.frame.steps[index][1]).window)
-        kept = self._kept[index]
-        if isinstance(kept, Cells):
-            kept = self._kept[index] = kept.buffers()
-        self._kept.move_to_end(index)
-        return kept
+        if index not in self._cache:
+            self.cache_window(index, self.storage_after(self.frame.steps[index][1]).window)
+        buffers = self._cache[index]
+        if isinstance(buffers, Cells):
+            buffers = self._cache[index] = buffers.buffers()
+        self._cache.move_to_end(index)
+        return buffers
 
-    def keep_window(self, index: int, window: Framebuffer) -> None:
-        """Keep what the window holds at the end of a step."""
+    def cache_window(self, index: int, window: Framebuffer) -> None:
+        """Cache the window's present contents as those at the end of a step."""
         self._last = copy_window(window, self._last)
-        self.keep(index, self._last)
+        self.cache(index, self._last)
 
-    def keep(self, index: int, buffers: Buffers | Cells) -> None:
-        """Keep the buffers of a step; the longest unused ones make room for it."""
-        self._kept[index] = buffers
-        while len(self._kept) > 1 and sum(each.bytes for each in self._kept.values()) > self.budget:
-            self._kept.popitem(last=False)
+    def cache(self, index: int, buffers: Buffers | Cells) -> None:
+        """Cache the buffers of a step; the least recently used ones make room for them."""
+        self._cache[index] = buffers
+        while len(self._cache) > 1 and sum(each.bytes for each in self._cache.values()) > self.budget:
+            self._cache.popitem(last=False)

@@ -1,8 +1,8 @@
-"""The steps of a run: buffers, maps and GL state after each."""
+"""The steps of a run: the buffers, maps and GL state after each."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, overload
@@ -11,6 +11,7 @@ import numpy as np
 
 from softshadow.context import Frame
 from softshadow.errors import nearest
+from softshadow.inspection.pictures import contact_sheet, depth_picture, notebook_display
 from softshadow.inspection.replay import Buffers, Replay
 from softshadow.pipeline.commands import Clear, Command, Draw
 from softshadow.pipeline.geometry.draw_primitives import primitive_count
@@ -23,7 +24,7 @@ MODES = ("GL_POINTS", "GL_LINES", "GL_LINE_LOOP", "GL_LINE_STRIP", "GL_TRIANGLES
 
 @dataclass(frozen=True)
 class DrawSummary:
-    """One draw of a step: `draw` counts from 0 through the frame, `object` is the debug group it stands in."""
+    """One draw of a step: `draw` is its index in the frame, `object` the innermost debug group around it."""
 
     draw: int
     object: str
@@ -34,9 +35,9 @@ class DrawSummary:
 
 @dataclass(frozen=True, eq=False)
 class Step:
-    """One step: what the window held when it ended, and the commands that led there.
+    """One step: the window's buffers when it ended, and its commands.
 
-    `maps` are the named buffers that the technique handed out, row 0 on top.
+    `maps` are the named buffers that the technique yielded with it, row 0 on top.
     """
 
     index: int
@@ -78,7 +79,7 @@ class Step:
 
     @property
     def state(self) -> State:
-        """The state of the step's last draw (or clear); printed, it is the GL calls that make it."""
+        """The state of the last draw or clear up to the end of the step; printed, it is the GL calls that set it."""
         for command in reversed(self.frame.commands[: self.frame.steps[self.index][1]]):
             if isinstance(command, Draw | Clear):
                 return command.state
@@ -88,7 +89,7 @@ class Step:
     def draws(self) -> tuple[DrawSummary, ...]:
         """The draws of the step, in order."""
         first = sum(isinstance(command, Draw) for command in self.frame.commands[: self.first_command])
-        drawn = [command for command in self.commands if isinstance(command, Draw)]
+        draws = [command for command in self.commands if isinstance(command, Draw)]
         return tuple(
             DrawSummary(
                 first + i,
@@ -97,26 +98,31 @@ class Step:
                 primitive_count(command),
                 command.state.draw_framebuffer,
             )
-            for i, command in enumerate(drawn)
+            for i, command in enumerate(draws)
         )
 
     def __repr__(self) -> str:
         return f"Step({self.index}, {self.title!r}, {len(self.draws)} draws)"
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        """Return what a notebook shows: colour, depth and stencil after the step."""
-        from softshadow.inspection.pictures import sheet_of, shown
+        """Return what a notebook displays: colour, depth and stencil after the step."""
+        return notebook_display(repr(self), sheet_of([self]))
 
-        return shown(repr(self), sheet_of([self]))
+
+def sheet_of(steps: Iterable[Step]) -> np.ndarray:
+    """Return a contact sheet of steps: a picture with colour, depth and stencil after each."""
+    return contact_sheet(
+        [(f"{step.index}  {step.title}", (step.image, depth_picture(step.depth), step.stencil)) for step in steps]
+    )
 
 
 def object_of(command: Draw) -> str:
-    """Return the name of the object that a draw belongs to: the innermost debug group."""
+    """Return the name of the object that a draw belongs to: the innermost debug group around it."""
     return command.label.rsplit("/", 1)[-1]
 
 
 class Steps(Sequence[Step]):
-    """The steps of a run, by index or by title."""
+    """The steps of a run, by index or title."""
 
     def __init__(self, steps: Sequence[Step]) -> None:
         self._steps = tuple(steps)
@@ -131,6 +137,11 @@ class Steps(Sequence[Step]):
     def titles(self) -> list[str]:
         return [step.title for step in self._steps]
 
+    @property
+    def maps(self) -> dict[str, np.ndarray]:
+        """The named maps of all steps; if several steps have one of the same name, the last."""
+        return {name: array for step in self._steps for name, array in step.maps.items()}
+
     @overload
     def __getitem__(self, key: int | str) -> Step: ...
     @overload
@@ -142,7 +153,7 @@ class Steps(Sequence[Step]):
         ------
         KeyError                     no step has that title; the message has the nearest one
         IndexError                   there are fewer steps
-        TypeError                    neither a number nor a title
+        TypeError                    the key is neither a number nor a title
         """
         if isinstance(key, str):
             for step in self._steps:

@@ -1,11 +1,11 @@
-"""Tables as text and as HTML."""
+"""Tables as text and HTML."""
 
 from collections.abc import Sequence
 from html import escape
 
 
 def text_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return columns under their heads, numbers to the right, the last column as long as it is.
+    """Return aligned columns under their heads: text to the left, numbers to the right.
 
     Examples
     --------
@@ -31,7 +31,7 @@ def _is_number(cell: str) -> bool:
 
 
 def html_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return a plain HTML table; what stands in the cells is escaped."""
+    """Return a plain HTML table; the text of the cells is escaped."""
     head = "".join(f"<th>{escape(cell)}</th>" for cell in heads)
     body = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"

@@ -1,8 +1,26 @@
-"""Runs as pages to read: one self-contained file of one run, and the tour with its pictures beside it.
+"""Pages to read in a browser, made from records: one run, one failure, the tour.
 
-Pages load nothing from anywhere: styles, script and (in a single file) pictures are in them.
+Pages load nothing from the network: styles and script are in them, and pictures too, or in a folder beside the page.
 """
 
-from softshadow.report.page import write
+from softshadow.report.commands import options_spelled, scene_spelled
+from softshadow.report.failure_page import FailurePage, write_failure_page
+from softshadow.report.page import Section, folder_writer, named, sections
+from softshadow.report.run_page import RunPage, write_run_page
+from softshadow.report.tour_page import TourPage, Visit, write_tour_page
 
-__all__ = ["write"]
+__all__ = [
+    "FailurePage",
+    "RunPage",
+    "Section",
+    "TourPage",
+    "Visit",
+    "folder_writer",
+    "named",
+    "options_spelled",
+    "scene_spelled",
+    "sections",
+    "write_failure_page",
+    "write_run_page",
+    "write_tour_page",
+]

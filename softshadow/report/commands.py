@@ -1,19 +1,17 @@
-"""How a run is asked for again on the command line, as far as a run can know."""
+"""The command line that repeats a run, as far as the run determines it."""
 
 from __future__ import annotations
 
 import shlex
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import Any
 
 from softshadow import techniques
 from softshadow.scene import Scene, scene_names
 
-if TYPE_CHECKING:
-    from softshadow.run import Run
-
 
 def scene_spelled(scene: Scene, size: tuple[int, int]) -> str:
-    """Return the arguments for a scene and a size; a scene of a file, or one with lights of its own, is a placeholder.
+    """Return the arguments for a scene and a size; FILE stands for a scene that is not built in, or was changed.
 
     Examples
     --------
@@ -30,8 +28,8 @@ def _is_built_in(scene: Scene) -> bool:
     return lights == [light.position.tolist() for light in scene.lights]
 
 
-def options_spelled(run: Run) -> str:
-    """Return the arguments for the options of a run that are not the technique's defaults, each after a space."""
-    known = techniques.get(run.technique).options
-    changed = [(key, value) for key, value in run.options.items() if value != known[key].default]
+def options_spelled(technique: str, options: Mapping[str, Any]) -> str:
+    """Return the arguments for the options that differ from the technique's defaults, each after a space."""
+    declared = techniques.get(technique).options
+    changed = [(key, value) for key, value in options.items() if value != declared[key].default]
     return "".join(f" -O {shlex.quote(f'{key}={value}')}" for key, value in changed)

@@ -1,48 +1,41 @@
-"""The report of one run: every step's pictures, state and counts, and the exact values under the pointer."""
+"""What the pages have in common: templates, and the pictures, state and draws of each step."""
 
 from __future__ import annotations
 
 import base64
-import zlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 import softshadow
+from softshadow.inspection import Step, Steps
 from softshadow.inspection.files import MARK
 from softshadow.inspection.pictures import (
-    color_picture,
     depth_picture,
     is_visibility,
     map_pictures,
+    png,
     save_png,
     stencil_palette,
-    stencil_picture,
 )
-from softshadow.report.commands import options_spelled, scene_spelled
 
 if TYPE_CHECKING:
     from jinja2 import Environment
-    from PIL.Image import Image as Picture
 
-    from softshadow.inspection import Step
-    from softshadow.run import Run
-
-SHOWN_COUNTS = 8  # of a histogram; the rest is summed up
-Placed = Callable[["Picture", str], str]  # what puts a picture somewhere and returns the URL that shows it
+SHOWN_COUNTS = 8  # rows of a legend; the remaining counts are summed in one row
+PictureWriter = Callable[[np.ndarray, str], str]  # stores a picture under a name and returns its URL
 
 
 @dataclass(frozen=True)
 class Figure:
-    """A picture of a page: where it is, how large, what it shows in words, and a caption."""
+    """A picture of a page: its URL and size, a description, and a caption."""
 
     url: str
-    size: tuple[int, int]  # pixels: a page that knows them does not jump while pictures are loaded
+    size: tuple[int, int]  # pixels: with it the browser keeps the layout stable while pictures load
     alt: str
     caption: str
     counts: tuple[tuple[str, str, int], ...] = ()  # legend of a stencil picture: (count, colour, pixels)
@@ -61,30 +54,19 @@ class Section:
 
 @cache
 def environment() -> Environment:
-    """Return the templates; what they print is escaped."""
+    """Return the templates' environment; text that templates print is escaped."""
     from jinja2 import Environment, PackageLoader
 
-    made = Environment(loader=PackageLoader("softshadow.report"), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    made.globals.update(mark=MARK, version=softshadow.__version__)
-    return made
-
-
-def write(run: Run, path: Path) -> None:
-    """Write the report of a run as one file."""
-    page = (
-        environment()
-        .get_template("run.html")
-        .render(
-            run=run,
-            heading=f"{run.technique} on {run.scene.name}",
-            sections=sections(run, inline),
-            warnings=named(run.warnings),
-            ledger=run.ledger.to_dicts(),
-            again=scene_spelled(run.scene, run.size) + options_spelled(run),
-            buffers=[packed(step) for step in run.steps],
-        )
+    templates = Environment(
+        loader=PackageLoader("softshadow.report"), autoescape=True, trim_blocks=True, lstrip_blocks=True
     )
-    path.write_text(page, encoding="utf-8")
+    templates.globals.update(mark=MARK, version=softshadow.__version__)
+    return templates
+
+
+def write_page(path: Path, template: str, **values: Any) -> None:
+    """Write the page that a template gives with these values."""
+    path.write_text(environment().get_template(template).render(**values), encoding="utf-8")
 
 
 def named(warnings: Sequence[Warning]) -> list[str]:
@@ -92,51 +74,49 @@ def named(warnings: Sequence[Warning]) -> list[str]:
     return [f"{type(each).__name__}: {each}" for each in warnings]
 
 
-def inline(picture: Picture, name: str) -> str:
-    """Return a picture as a data URL."""
-    png = BytesIO()
-    picture.save(png, "PNG")
-    return f"data:image/png;base64,{base64.b64encode(png.getvalue()).decode()}"
+def data_url(picture: np.ndarray, name: str = "") -> str:
+    """Return a picture as a data URL (a `PictureWriter` that needs no file)."""
+    return f"data:image/png;base64,{base64.b64encode(png(picture)).decode()}"
 
 
-def beside(folder: Path) -> Placed:
-    """Return what writes pictures into a folder and gives their names back, relative to the page above it."""
+def folder_writer(folder: Path) -> PictureWriter:
+    """Return a function that writes pictures to a folder; their URLs are relative to the folder's parent."""
 
-    def place(picture: Picture, name: str) -> str:
+    def write(picture: np.ndarray, name: str) -> str:
         save_png(picture, folder / f"{name}.png")
         return f"{folder.name}/{name}.png"
 
-    return place
+    return write
 
 
-def sections(run: Run, place: Placed) -> list[Section]:
-    """Return the steps of a run with their pictures placed."""
+def sections(steps: Steps, write: PictureWriter) -> list[Section]:
+    """Return a section for each step; its pictures are written with `write`."""
     return [
         Section(
             step.index,
             step.title,
-            tuple(_figures(step, place)),
+            tuple(_figures(step, write)),
             str(step.state),
             tuple(f"{draw.object}: {draw.triangles} triangles" for draw in step.draws),
         )
-        for step in run.steps
+        for step in steps
     ]
 
 
-def _figures(step: Step, place: Placed) -> list[Figure]:
-    start = f"{step.index:02d}"
+def _figures(step: Step, write: PictureWriter) -> list[Figure]:
     after = f"after step {step.index}, {step.title}"
 
-    def figure(name: str, picture: Picture, alt: str, caption: str, **more: Any) -> Figure:
-        return Figure(place(picture, f"{start}-{name}"), picture.size, f"{alt} {after}", caption, **more)
+    def figure(name: str, picture: np.ndarray, alt: str, caption: str, **more: Any) -> Figure:
+        height, width = picture.shape[:2]
+        return Figure(write(picture, f"{step.index:02d}-{name}"), (width, height), f"{alt} {after}", caption, **more)
 
     figures = [
-        figure("colour", color_picture(step.image), "colour", "colour"),
+        figure("colour", step.image, "colour", "colour"),
         figure("depth", depth_picture(step.depth), "depth", depth_caption(step.depth)),
-        figure("stencil", stencil_picture(step.stencil), "stencil counts", "stencil", counts=legend(step.stencil)),
+        figure("stencil", step.stencil, "stencil counts", "stencil", counts=legend(step.stencil)),
     ]
     for number, (name, picture) in enumerate(map_pictures(step.maps).items()):
-        caption = f"map: {name}, {picture.width} x {picture.height}"
+        caption = f"map: {name}, {picture.shape[1]} x {picture.shape[0]}"
         if is_visibility(name):
             caption += "; white lit, black in shadow, blue where not defined"
         figures.append(figure(f"map{number}", picture, f"map {name}", caption))
@@ -150,20 +130,9 @@ def depth_caption(depth: np.ndarray) -> str:
 
 
 def legend(stencil: np.ndarray) -> tuple[tuple[str, str, int], ...]:
-    """Return (count, colour, pixels) for the counts of a stencil buffer."""
+    """Return (count, colour, number of pixels) for the counts of a stencil buffer."""
     palette = stencil_palette()
     counts, pixels = np.unique(stencil, return_counts=True)
     rows = [(str(c), "#{:02x}{:02x}{:02x}".format(*palette[c]), int(p)) for c, p in zip(counts, pixels, strict=True)]
     rest = sum(p for _, _, p in rows[SHOWN_COUNTS:])
     return (*rows[:SHOWN_COUNTS], *((("more", "transparent", rest),) if rest else ()))
-
-
-def packed(step: Step) -> dict[str, Any]:
-    """Return the exact buffers of a step, deflated, for the page's script: colour, depth (bytes shuffled), stencil."""
-    depth = np.ascontiguousarray(step.depth, np.float32)
-    shuffled = np.ascontiguousarray(depth.view(np.uint8).reshape(-1, 4).T)
-    planes = {"colour": step.image, "depth": shuffled, "stencil": step.stencil}
-    return {
-        name: base64.b64encode(zlib.compress(np.ascontiguousarray(plane).tobytes(), 9)).decode()
-        for name, plane in planes.items()
-    }

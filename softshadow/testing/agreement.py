@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softshadow.inspection.hard_truth import hard_counts, seen_faces
-from softshadow.run import Run
+from softshadow.runs import Run
 from softshadow.scene import Scene
 from softshadow.techniques.light_camera import light_camera
 

@@ -1,7 +1,6 @@
 """Bad input: one message that names the file, key or argument, exit code 3, and not a file more than before."""
 
 import errno
-import importlib
 import json
 from pathlib import Path
 
@@ -140,9 +139,8 @@ def test_value_is_refused_with_what_was_expected(words: list[str], said: str, he
 
 
 def test_size_that_does_not_fit_in_memory_is_refused_before_anything_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
-    home = importlib.import_module("softshadow.run")
-    monkeypatch.setattr(home, "memory", lambda: 1e6)
-    monkeypatch.setattr(home, "_draw", None)
+    monkeypatch.setattr("softshadow.runs.perform.memory", lambda: 1e6)
+    monkeypatch.setattr("softshadow.runs.perform._draw", None)
     for command in ("render", "steps"):
         assert "expected a smaller picture" in refused(command, "map", "--size", "640x480")
     assert "expected a smaller picture" in refused("tour", "--size", "640x480")
@@ -207,7 +205,7 @@ def test_full_disk_leaves_what_was_there(here: Path, monkeypatch: pytest.MonkeyP
         path.write_bytes(b"half of it")
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr("softshadow.inspection.saving.save_png", fill)
+    monkeypatch.setattr("softshadow.runs.saving.save_png", fill)
     assert refused(*asked) == "a.png: cannot be written (No space left on device)"
     assert content(here) == before
 
@@ -216,7 +214,7 @@ def test_interrupted_command_is_exit_code_130(monkeypatch: pytest.MonkeyPatch, h
     def interrupt(*arguments: object, **named: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(importlib.import_module("softshadow.run"), "run", interrupt)
+    monkeypatch.setattr("softshadow.runs.run", interrupt)
     answer = ask("render", "planar", "--size", "16x12")
     assert answer.exit_code == 130
     assert "interrupted" in answer.stderr

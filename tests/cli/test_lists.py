@@ -1,7 +1,5 @@
 """What techniques, scenes, versions and compiled kernels there are."""
 
-import importlib
-
 import pytest
 
 from cli.asking import as_json, done
@@ -52,8 +50,7 @@ def test_doctor_tells_versions_threads_and_extras() -> None:
 
 def test_warmup_draws_every_choice_of_every_technique_with_both_bindings(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn = []
-    home = importlib.import_module("softshadow.run")  # as an attribute of the package, `run` is the function
-    monkeypatch.setattr(home, "run", lambda name, *where, **options: drawn.append((name, *options.items())))
+    monkeypatch.setattr("softshadow.runs.run", lambda name, *where, **options: drawn.append((name, *options.items())))
     answer = as_json("warmup")
     assert answer["seconds"] >= 0
     assert {name for name, *_ in drawn} == set(techniques.names())

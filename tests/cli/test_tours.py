@@ -10,7 +10,7 @@ import pytest
 import softshadow as ss
 from cli.asking import as_json, ask, done, refused
 from paths import SCENES, shared_file
-from softshadow.report.tour import STOPS
+from softshadow.tour import STOPS
 
 SMALL = ("--size", "24x18")
 
@@ -72,7 +72,7 @@ def test_tour_that_ends_early_leaves_what_was_there(
             raise error
         return ss.run("planar", "boxes", (24, 18))
 
-    monkeypatch.setattr("softshadow.report.tour.run", stop_early)
+    monkeypatch.setattr("softshadow.tour.writing.run", stop_early)
     assert ask("tour", *SMALL).exit_code == (130 if error is KeyboardInterrupt else 3)
     assert names(here) == before
 
@@ -89,7 +89,7 @@ def test_tour_of_a_real_model_has_every_stop_that_is_for_it(model: str) -> None:
     assert f"--mesh {file}" in page
     # pairs of faces are too many for shadow polygons where there are tens of thousands of faces
     left_out = {"shadow-polygons"} if "bunny" in model else set()
-    assert ("Not on this scene" in page) == bool(left_out)
+    assert ("Techniques that cannot draw this scene" in page) == bool(left_out)
     for stop in STOPS:
         if stop.name not in left_out:
             run = ss.load_run(f"t/{stop.name}/run.npz")
@@ -102,7 +102,7 @@ def test_tour_that_is_ended_leaves_nothing_behind(here: Path, monkeypatch: pytes
         os.kill(os.getpid(), signal.SIGTERM)
         time.sleep(1)
 
-    monkeypatch.setattr("softshadow.report.tour.run", end)
+    monkeypatch.setattr("softshadow.tour.writing.run", end)
     before = signal.getsignal(signal.SIGTERM)
     assert ask("tour", *SMALL).exit_code == 143
     assert list(here.iterdir()) == []

@@ -35,7 +35,7 @@ def test_buffers_beyond_the_budget_are_drawn_again():
     generous, poor = Replay(frame), Replay(frame, budget=1)
     for index in (4, 0, 2, 2, 1, 4):
         assert poor.after_step(index).stencil.tobytes() == generous.after_step(index).stencil.tobytes()
-    assert len(poor._kept) == 1
+    assert len(poor._cache) == 1
 
 
 def test_replay_leaves_the_recorded_context_alone():

@@ -15,6 +15,6 @@ def test_built_in_scene_is_named_and_others_are_a_placeholder() -> None:
 
 
 def test_options_are_those_that_were_changed() -> None:
-    assert options_spelled(ss.run("map", "boxes", (8, 6))) == ""
+    assert options_spelled("map", ss.run("map", "boxes", (8, 6)).options) == ""
     changed = ss.run("map", "boxes", (8, 6), map_size=64, cull="front")
-    assert options_spelled(changed) == " -O map_size=64 -O cull=front"
+    assert options_spelled("map", changed.options) == " -O map_size=64 -O cull=front"

@@ -1,4 +1,4 @@
-// The exact values under the pointer: raw bytes, not the pictures. x, y count from the top left, GL's y from the bottom.
+// Shows the exact buffer values under the pointer (not those of the pictures); x and y from the top left, GL's y from the bottom.
 const [width, height] = size;
 const line = document.getElementById("values");
 const unpacked = new Map();
@@ -31,7 +31,7 @@ async function show(step, x, y) {
 }
 
 function remember() {
-  try { history.replaceState(null, "", `#step=${at.step}&x=${at.x}&y=${at.y}`); } catch { /* a page inside a page has no address */ }
+  try { history.replaceState(null, "", `#step=${at.step}&x=${at.x}&y=${at.y}`); } catch { /* a page in an iframe has no address */ }
 }
 
 for (const section of document.querySelectorAll("section[data-step]")) {
@@ -51,5 +51,5 @@ document.addEventListener("keydown", async e => {
   remember();
 });
 
-const asked = new URLSearchParams(location.hash.slice(1));
-if (asked.has("x")) show(Number(asked.get("step") ?? 0), Number(asked.get("x")), Number(asked.get("y")));
+const address = new URLSearchParams(location.hash.slice(1));
+if (address.has("x")) show(Number(address.get("step") ?? 0), Number(address.get("x")), Number(address.get("y")));

@@ -1,0 +1,124 @@
+"""Measures of failures: each takes a run and returns its wrong pixels, (H, W) bool, row 0 on top.
+
+Shadow edges are left out: within a pixel of them, ray casting and rasterization may differ.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from softshadow.gallery.expected import expected
+from softshadow.runs import Run
+from softshadow.techniques.planar import DARKNESS
+
+COUNTED = "pixels whose colour is not that of the lights they see"  # `wrong_colors` and its variants, in words
+NEARLY = 8  # levels of 255: two roundings in each channel, and highlights that are clamped
+ROUNDING = 2  # levels of 255: a sum of lights is rounded once, or once for each light and for the ambient light
+
+
+def wrong_colors(run: Run) -> np.ndarray:
+    """Return where the colour is not that of the lights that are visible by ray casting."""
+    truth = expected(run.scene, run.size)
+    return differ(run.image, truth.image) & differ(run.image, truth.added) & truth.sure
+
+
+def wrong_on_receivers(run: Run) -> np.ndarray:
+    """Return `wrong_colors` on receivers: planar shadows fall nowhere else."""
+    return wrong_colors(run) & expected(run.scene, run.size).receiver
+
+
+def wrong_inside_faces(run: Run) -> np.ndarray:
+    """Return `wrong_colors` off creases: there a texel of the map may see another face than the pixel."""
+    return wrong_colors(run) & expected(run.scene, run.size).inside_faces
+
+
+def wrong_flat_colors(run: Run) -> np.ndarray:
+    """Return where the colour is neither the surface's own in light nor its ambient share in shadow."""
+    truth = expected(run.scene, run.size, flat=True)
+    return differ(run.image, truth.image) & truth.sure & truth.inside_faces
+
+
+def wrong_flat_light(run: Run) -> np.ndarray:
+    """Return where a lit surface is darker than its own colour, or a shadowed one is not."""
+    truth = expected(run.scene, run.size, flat=True)
+    return (differ(run.image, truth.lit) != truth.shadow) & truth.sure & truth.inside_faces
+
+
+def grown_shadow(run: Run) -> np.ndarray:
+    """Return where lit receivers are darker than their own colour."""
+    truth = expected(run.scene, run.size, flat=True)
+    return differ(run.image, truth.lit) & ~truth.shadow & truth.receiver & truth.on_receivers
+
+
+def wrong_paint(run: Run) -> np.ndarray:
+    """Return where shadow is painted and no receiver is in shadow, or the reverse."""
+    truth = expected(run.scene, run.size)
+    painted = differ(run.image, truth.lit)
+    return (painted != (truth.shadow & truth.receiver)) & truth.on_receivers
+
+
+def wrong_paint_on_receivers(run: Run) -> np.ndarray:
+    """Return `wrong_paint` on receivers."""
+    return wrong_paint(run) & expected(run.scene, run.size).receiver
+
+
+def painted_lit(run: Run) -> np.ndarray:
+    """Return where shadow is painted on lit receivers."""
+    return wrong_paint_on_receivers(run) & ~expected(run.scene, run.size).shadow
+
+
+def painted_background(run: Run) -> np.ndarray:
+    """Return where shadow is painted on the background."""
+    truth = expected(run.scene, run.size)
+    return wrong_paint(run) & ~truth.seen
+
+
+def painted_casters(run: Run) -> np.ndarray:
+    """Return where shadow is painted over a nearer caster, off creases."""
+    truth = expected(run.scene, run.size)
+    return wrong_paint(run) & truth.seen & ~truth.receiver & truth.inside_faces
+
+
+def darkened_twice(run: Run) -> np.ndarray:
+    """Return where a shadow on a receiver is darker than one layer of shadow."""
+    truth = expected(run.scene, run.size)
+    one_layer = truth.lit * (1 - DARKNESS)
+    darker = (run.image < one_layer - ROUNDING).any(axis=-1)
+    return darker & truth.receiver & truth.on_receivers
+
+
+def share_of_light(run: Run, x: int, y: int, flat: bool) -> float:
+    """Return how much of the light a pixel shows, 0 to 1: its colour's place between those without and with light."""
+    truth = expected(run.scene, run.size, flat)
+    light = (truth.lit - truth.dark)[y, x].astype(float)
+    shown = (run.image - truth.dark)[y, x].astype(float)
+    if not light.any():
+        return 1.0
+    share = float(np.clip(shown @ light / (light @ light), 0, 1))
+    return round(share, 1) if abs(share - round(share)) * np.linalg.norm(light) <= NEARLY else share
+
+
+def differ(image: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Return where two pictures (H, W, 3) differ by more than rounding, (H, W) bool."""
+    return (np.abs(image.astype(np.int16) - other) > ROUNDING).any(axis=-1)
+
+
+def deepest(mask: np.ndarray) -> tuple[int, int]:
+    """Return x, y of the pixel that is farthest from the edge of a mask (H, W) bool; of several, the first.
+
+    Examples
+    --------
+    >>> mask = np.zeros((6, 8), bool)
+    >>> mask[1:4, 2:7] = True
+    >>> deepest(mask)
+    (3, 2)
+    """
+    remaining = mask
+    while True:
+        framed = np.pad(remaining, 1)
+        shifts = [framed[y : y + mask.shape[0], x : x + mask.shape[1]] for y in range(3) for x in range(3)]
+        inner = np.logical_and.reduce(shifts)
+        if not inner.any():
+            y, x = np.unravel_index(np.argmax(remaining), remaining.shape)
+            return int(x), int(y)
+        remaining = inner

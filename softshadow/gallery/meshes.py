@@ -1,0 +1,59 @@
+"""Failures of meshes: what a technique takes for granted of a solid, and a mesh is not."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from softshadow.gallery.failure import Failure, Setting
+from softshadow.gallery.measures import COUNTED, wrong_colors, wrong_on_receivers
+from softshadow.gallery.stencil import PARITY, altered
+from softshadow.scene import Material, Mesh, Scene, SceneObject
+from softshadow.scene.placement import placement
+
+HALF, RIDGE, EAVES, SPAN = 2.0, 1.4, 1.1, 0.8  # of the roof: half its length, two heights, half its width
+DROP = 0.06  # of the vertex that is in one side of the ridge only, 1.5 % of its length
+
+
+def roof(welded: bool) -> Scene:
+    """Return two slopes over a floor that meet in a ridge, which the front one divides; welded, both do."""
+    left, right = (-HALF, RIDGE, 0.0), (HALF, RIDGE, 0.0)
+    middle = (-0.3 * HALF, RIDGE if welded else RIDGE - DROP, 0.0)
+    (back_left, back_right), (front_left, front_right) = (((-HALF, EAVES, z), (HALF, EAVES, z)) for z in (-SPAN, SPAN))
+    front = [(left, front_left, middle), (middle, front_left, front_right), (middle, front_right, right)]
+    whole = [(left, right, back_right), (left, back_right, back_left)]
+    divided = [(left, middle, back_left), (middle, right, back_right), (middle, back_right, back_left)]
+    corners = np.array(front + (divided if welded else whole)).reshape(-1, 3)
+    mesh = Mesh(corners, np.arange(len(corners)).reshape(-1, 3), name="roof")
+    scene = Scene.named("boxes")
+    slopes = SceneObject(mesh, placement((-0.3, 0, 0), (25, 0, 1, 0)), Material((0.8, 0.35, 0.25)))
+    return replace(scene, name="a roof", objects=(*scene.receivers, slopes))
+
+
+FAILURES = (
+    Failure(
+        "t-junction-leak", "A vertex in one side of an edge only", "meshes", "E12, SK:250-257",
+        "An edge that one face divides and its neighbour does not is no common edge: where the vertex is off the line "
+        "there is a gap, and light falls through it.",
+        partial(roof, welded=True),
+        Setting("volume-zfail", make_scene=partial(roof, welded=False)),
+        Setting("volume-zfail"),
+        wrong_on_receivers, "pixels of the floor whose colour is not that of the lights they see",
+    ),
+    Failure(
+        "open-mesh-leak", "An open mesh has no far side", "meshes", "E27, SK:374-377",
+        "A map of the faces that look away from the light alone has holes where the mesh has none behind its lit ones.",
+        lambda: Scene.named("open-tube"),
+        Setting("map", {"cull": "front"}),
+        Setting("map"),
+        wrong_on_receivers, "pixels of the floor whose colour is not that of the lights they see",
+    ),
+    Failure(
+        "open-mesh-parity", "Every layer of an open mesh counts", "meshes", "E12, E13, E38",
+        "Of an open mesh all faces cast, turned towards the light, so that two walls make an even number.",
+        lambda: Scene.named("open-tube"),
+        altered("volume-zfail", *PARITY),
+        Setting("volume-zfail"),
+        wrong_colors, COUNTED,
+    ),
+)  # fmt: skip

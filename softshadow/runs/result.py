@@ -1,0 +1,222 @@
+"""A `Run`: the buffers, maps, warnings and recorded commands of a technique's drawing, and questions about them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from softshadow import errors
+from softshadow.context import Frame
+from softshadow.errors import StateError
+from softshadow.inspection import (
+    Comparison,
+    Difference,
+    Ledger,
+    PixelHistory,
+    Step,
+    Steps,
+    compare,
+    difference,
+    ledger_of,
+    pixel_history,
+)
+from softshadow.inspection.explanation import explain
+from softshadow.inspection.hard_truth import hard_visibility
+from softshadow.inspection.pictures import notebook_display
+from softshadow.inspection.step import sheet_of
+from softshadow.runs.archive import RunRecord, read_npz
+from softshadow.runs.saving import save
+from softshadow.scene import Scene
+
+
+@dataclass(frozen=True, eq=False)
+class RunLight:
+    """The name of a light, and its visibility (H, W) float32, row 0 on top."""
+
+    name: str
+    visibility: np.ndarray
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Run:
+    """A technique's drawing of a scene, step by step. Arrays are read-only, row 0 on top, indexed [y, x].
+
+    Attributes
+    ----------
+    technique : str
+    scene : Scene
+    size : (width, height)
+    options : dict               every option of the technique, with its default where none was passed
+    warnings : tuple             those of the scene and the technique
+    steps : Steps                by index or title, like ``run[2]`` and ``run["count back faces"]``
+    frame : Frame                the recording
+    """
+
+    technique: str
+    scene: Scene
+    size: tuple[int, int]
+    options: Mapping[str, Any]
+    warnings: tuple[errors.Warning, ...]
+    steps: Steps
+    frame: Frame
+
+    # -- buffers -------------------------------------------------------------------------------------------------------
+    @property
+    def image(self) -> np.ndarray:
+        """(H, W, 3) uint8: the picture."""
+        return self.steps[-1].image
+
+    @property
+    def depth(self) -> np.ndarray:
+        """(H, W) float32: window z, 1 where nothing was drawn."""
+        return self.steps[-1].depth
+
+    @property
+    def stencil(self) -> np.ndarray:
+        """(H, W) uint8."""
+        return self.steps[-1].stencil
+
+    # -- maps ----------------------------------------------------------------------------------------------------------
+    @cached_property
+    def maps(self) -> dict[str, np.ndarray]:
+        """The named maps of all steps; if several steps have one of the same name, the last."""
+        return self.steps.maps
+
+    @property
+    def visibility(self) -> np.ndarray:
+        """(H, W) float32: 1 lit to 0 in shadow, the mean over the lights; 1 where it is not defined."""
+        return self._map("visibility")
+
+    @property
+    def valid(self) -> np.ndarray:
+        """(H, W) bool: where the visibility is defined."""
+        return self._map("valid")
+
+    @cached_property
+    def shadow_mask(self) -> np.ndarray:
+        """(H, W) bool: where at least one light is hidden, fully or in part."""
+        mask = self.valid & (self.visibility < 1)
+        mask.setflags(write=False)
+        return mask
+
+    @property
+    def lights(self) -> tuple[RunLight, ...]:
+        """The visibility of each light, in the order of the scene."""
+        several = len(self.scene.lights) > 1
+        return tuple(
+            RunLight(light.name, self._map(f"visibility of {light.name}" if several else "visibility"))
+            for light in self.scene.lights
+        )
+
+    def _map(self, name: str) -> np.ndarray:
+        if name not in self.maps:
+            raise StateError(f"technique {self.technique!r} has no map {name!r} (it has: {', '.join(self.maps)})")
+        return self.maps[name]
+
+    # -- steps ---------------------------------------------------------------------------------------------------------
+    def __getitem__(self, key: int | str) -> Step:
+        """Return a step by its index or title."""
+        return self.steps[key]
+
+    def __len__(self) -> int:
+        return len(self.steps)
+
+    def __iter__(self) -> Iterator[Step]:
+        return iter(self.steps)
+
+    def diff(self, a: int | str, b: int | str) -> Difference:
+        """Return which pixels differ between the ends of two steps, each by index or title."""
+        return difference(self.steps[a].buffers, self.steps[b].buffers)
+
+    # -- questions -----------------------------------------------------------------------------------------------------
+    def pixel(self, x: int, y: int) -> PixelHistory:
+        """Return every fragment generated at a pixel of the window: x from the left, y from the top.
+
+        Raises
+        ------
+        ValueError                   the pixel is outside the picture
+        """
+        return pixel_history(self.frame, x, y)
+
+    def explain(self, x: int, y: int) -> str:
+        """Return one sentence that says why a pixel is lit or in shadow."""
+        history = self.pixel(x, y)
+        has_visibility = "visibility" in self.maps and "valid" in self.maps
+        valid = has_visibility and bool(self.valid[history.y, history.x])
+        return explain(history, float(self.visibility[history.y, history.x]) if has_visibility else None, valid)
+
+    @cached_property
+    def ledger(self) -> Ledger:
+        """Draws, triangles, fragments by verdict and stencil updates of every step; the frame is replayed for it."""
+        return ledger_of(self.frame)
+
+    def compare(self, other: Run | None = None, *, truth: str | None = None) -> Comparison:
+        """Return how the visibility differs from that of another run, or from ray casting.
+
+        Parameters
+        ----------
+        other : Run                  of the same size
+        truth : "hard"               rays from the visible points to the lights, in double precision
+
+        Raises
+        ------
+        TypeError                    neither a run nor a truth was passed, or both
+        ValueError                   the sizes differ, or the truth is unknown
+        """
+        if (other is None) == (truth is None) or not isinstance(other, Run | None):
+            raise TypeError('compare(): expected another run, or truth="hard"')
+        if other is not None:
+            if other.size != self.size:
+                raise ValueError(f"compare(): sizes differ, {self.size} and {other.size}; expected the same")
+            against = f"{other.technique} on {other.scene.name}"
+            return compare(self.visibility, self.valid, other.visibility, other.valid, against)
+        if truth == "soft":
+            raise ValueError('truth="soft": area lights are not part of this version; expected "hard"')
+        if truth != "hard":
+            raise ValueError(f'truth={truth!r}: expected "hard"')
+        visibilities, seen = hard_visibility(self.scene, self.size)
+        mean = np.asarray(np.mean(visibilities, axis=0, dtype=np.float32))
+        return compare(self.visibility, self.valid, mean, seen, "ray casting")
+
+    # -- files and display ---------------------------------------------------------------------------------------------
+    def save(self, path: str | os.PathLike[str], force: bool = False) -> Path:
+        """Write the run to a file or folder, and return the path.
+
+        ``.png`` is the picture, ``.npz`` everything (`load_run` reads it), ``.html`` the report; a folder gets
+        pictures of every step, the GL state of each, and the npz.
+
+        Raises
+        ------
+        ValueError                   another file name extension
+        SoftShadowError              a file exists that this package did not write (`force` overwrites it), or the place
+                                     cannot be written; no half-written file is left
+        """
+        record = RunRecord(self.technique, self.scene, self.options, self.warnings, self.steps, self.frame)
+        return save(record, path, force)
+
+    def __repr__(self) -> str:
+        width, height = self.size
+        return f"Run({self.technique!r}, scene {self.scene.name!r}, {width} x {height}, {len(self.steps)} steps)"
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        """Return what a notebook displays: the steps as a contact sheet."""
+        return notebook_display(f"{self!r}\n{self.steps!r}", sheet_of(self.steps))
+
+
+def load_run(path: str | os.PathLike[str]) -> Run:
+    """Return the run that `Run.save` wrote to an npz, with its recording: it answers all questions as before.
+
+    Raises
+    ------
+    SoftShadowError              the file does not exist, or is not a run of this package
+    """
+    record = read_npz(path)
+    return Run(
+        record.technique, record.scene, record.frame.size, record.options, record.warnings, record.steps, record.frame
+    )

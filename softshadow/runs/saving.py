@@ -1,0 +1,97 @@
+"""Saving a run: as a picture, as an npz, as a report, or as a folder of pictures."""
+
+from __future__ import annotations
+
+import os
+import re
+from functools import partial
+from pathlib import Path
+
+import softshadow
+from softshadow.errors import SoftShadowError
+from softshadow.inspection import ledger_of
+from softshadow.inspection.files import MARK, is_folder, refuse_foreign, write_whole
+from softshadow.inspection.pictures import depth_picture, map_pictures, save_png, visibility_picture
+from softshadow.inspection.step import sheet_of
+from softshadow.report import RunPage, write_run_page
+from softshadow.runs.archive import RunRecord, write_npz
+
+EXTENSIONS = (".png", ".npz", ".html")
+
+
+def save(run: RunRecord, path: str | os.PathLike[str], force: bool) -> Path:
+    """Write a run in the form that the path's extension names; see `Run.save`."""
+    target = Path(path)
+    if is_folder(path):
+        return save_folder(run, target, force)
+    check_path(path, force)
+    return write_whole(target, partial(write_file, run), force)
+
+
+def check_path(path: str | os.PathLike[str], force: bool) -> None:
+    """Raise an error if a run cannot be saved there; called before a long drawing.
+
+    Raises
+    ------
+    ValueError                   the extension is none of a run's
+    SoftShadowError              see `refuse_foreign`; the files of a folder are checked when it is written
+    """
+    if is_folder(path):
+        return
+    if Path(path).suffix.lower() not in EXTENSIONS:
+        raise ValueError(f"{path}: expected an ending of {', '.join(EXTENSIONS)}, or a folder (a path that ends in /)")
+    refuse_foreign(Path(path), force)
+
+
+def write_file(run: RunRecord, path: Path) -> None:
+    """Write one file in the form that its extension names."""
+    extension = path.suffix.lower()
+    if extension == ".png":
+        save_png(run.steps[-1].image, path)
+    elif extension == ".npz":
+        write_npz(run, path)
+    else:
+        ledger = ledger_of(run.frame)
+        write_run_page(
+            RunPage(run.technique, run.scene, run.frame.size, run.options, run.warnings, run.steps, ledger), path
+        )
+
+
+def save_folder(run: RunRecord, folder: Path, force: bool) -> Path:
+    """Write pictures of every step, their GL state as text, and the npz to a folder, which is created if missing."""
+    maps = run.steps.maps
+    pictures = {"image.png": run.steps[-1].image, "steps.png": sheet_of(run.steps)}
+    if "visibility" in maps:
+        pictures["visibility.png"] = visibility_picture(maps["visibility"], maps.get("valid"))
+    for step in run.steps:
+        start = f"{step.index:02d}-{file_name(step.title)}"
+        pictures[f"{start}-image.png"] = step.image
+        pictures[f"{start}-depth.png"] = depth_picture(step.depth)
+        pictures[f"{start}-stencil.png"] = step.stencil
+        for name, picture in map_pictures(step.maps).items():
+            pictures[f"{start}-{file_name(name)}.png"] = picture
+    text = f"{MARK} {softshadow.__version__}\n" + "\n".join(
+        f"\n# step {step.index}: {step.title}\n{step.state}" for step in run.steps
+    )
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise SoftShadowError(f"{folder}: the folder cannot be made ({error.strerror})") from None
+    for name in (*pictures, "state.txt", "run.npz"):  # check all of them before the first is written
+        refuse_foreign(folder / name, force)
+    for name, picture in pictures.items():
+        write_whole(folder / name, partial(save_png, picture), force)
+    write_whole(folder / "state.txt", lambda path: path.write_text(text + "\n", encoding="utf-8"), force)
+    write_whole(folder / "run.npz", partial(write_npz, run), force)
+    return folder
+
+
+def file_name(title: str) -> str:
+    """Return a title as a part of a file name.
+
+    Examples
+    --------
+    >>> file_name("add the light: lamp 1")
+    'add-the-light-lamp-1'
+    """
+    return re.sub(r"[^\w]+", "-", title).strip("-").lower()

@@ -1,0 +1,98 @@
+"""The second process of a tour that finds nothing compiled."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import softshadow
+from softshadow.jit import rehearsing
+from softshadow.tour import compilation
+from softshadow.tour.compilation import compiling_ahead
+
+TOUR = """
+import sys
+from pathlib import Path
+from numba.core import event
+
+class Watch(event.Listener):
+    def on_start(self, event):
+        function = event.data["dispatcher"].py_func
+        print(f"{function.__module__.split('.')[-1]}.{function.__qualname__}")
+
+    def on_end(self, event):
+        pass
+
+event.register("numba:compile", Watch())
+import softshadow
+from softshadow.tour import write_tour
+write_tour(softshadow.Scene.named("torus"), (64, 48), sys.argv[1])
+"""
+
+
+@pytest.fixture
+def started(monkeypatch: pytest.MonkeyPatch) -> list[subprocess.Popen]:
+    """The processes that are started, of which each sleeps, for draws of two threads."""
+    processes, start = [], subprocess.Popen
+
+    def sleep(*_: object, **options: object) -> subprocess.Popen:
+        processes.append(start([sys.executable, "-c", "import time; time.sleep(60)"], **options))
+        return processes[-1]
+
+    monkeypatch.setattr(subprocess, "Popen", sleep)
+    monkeypatch.setattr(compilation, "threads", lambda: 2)
+    return processes
+
+
+def test_the_second_process_ends_with_the_tour(started: list[subprocess.Popen]) -> None:
+    with compiling_ahead():
+        assert [helper.poll() for helper in started] == [None]
+    assert started[0].returncode
+
+
+def test_the_second_process_ends_with_a_tour_that_fails(started: list[subprocess.Popen]) -> None:
+    with pytest.raises(KeyboardInterrupt), compiling_ahead():
+        raise KeyboardInterrupt
+    assert started[0].returncode
+
+
+def test_with_one_thread_there_is_no_second_process(
+    started: list[subprocess.Popen], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(compilation, "threads", lambda: 1)
+    with compiling_ahead():
+        assert started == []
+
+
+def test_where_no_process_can_be_started_the_tour_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise OSError("no more processes")
+
+    monkeypatch.setattr(subprocess, "Popen", fail)
+    monkeypatch.setattr(compilation, "threads", lambda: 2)
+    visited = False
+    with compiling_ahead():
+        visited = True
+    assert visited
+
+
+def test_a_rehearsal_compiles_nothing_and_notes_every_kernel_once() -> None:
+    with rehearsing() as kernels:
+        run = softshadow.run("map", "boxes", (8, 6), map_size=8)
+    assert len(kernels) > 10
+    assert all(types for _, types in kernels)
+    fresh = softshadow.run("map", "boxes", (8, 6), map_size=8)
+    np.testing.assert_array_equal(run.image, fresh.image)
+
+
+@pytest.mark.slow
+def test_the_tour_compiles_nothing_that_was_compiled_ahead(tmp_path: Path) -> None:
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache"), "SOFTSHADOW_THREADS": "2"}
+    environment.pop("NUMBA_DISABLE_JIT", None)
+    subprocess.run([sys.executable, "-m", compilation.__name__], env=environment, check=True)
+    command = [sys.executable, "-c", TOUR, str(tmp_path / "tour")]
+    compiled = subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout.split()
+    assert compiled == []
