@@ -122,6 +122,17 @@ class _PauseCollection(event.Listener):
 event.register("numba:compile", _PauseCollection())
 
 
+def read_only(array: np.ndarray) -> np.ndarray:
+    """Return a view that cannot be written to.
+
+    Read-only arrays are a type of their own for the compiler. Users' arrays are read-only, so a kernel that gets them
+    must get all arrays read-only; otherwise it would be compiled twice.
+    """
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
 class _Nesting(threading.local):
     depth = 0
 
@@ -167,14 +178,3 @@ def _python_value(result: Any) -> Any:
     if type(result) is tuple:
         return tuple(map(_python_value, result))
     return result.item() if isinstance(result, np.generic) else result
-
-
-def read_only(array: np.ndarray) -> np.ndarray:
-    """Return a view that cannot be written to.
-
-    Read-only arrays are a type of their own for the compiler. Users' arrays are read-only, so a kernel that gets them
-    must get all arrays read-only; otherwise it would be compiled twice.
-    """
-    view = array.view()
-    view.flags.writeable = False
-    return view

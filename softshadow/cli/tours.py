@@ -41,16 +41,19 @@ def tour(
     force: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Draw a scene with every technique: pictures and buffers of every step, and a page to read them by."""
-    from softshadow.tour import STOPS, write_tour
     from softshadow.tour.compilation import compiling_ahead
 
     start = time.perf_counter()
     with named_warnings():
         drawn = chosen_scene(scene, mesh, light)
         ahead = compiling_ahead() if say_if_compiling() else nullcontext()
-        with ahead, _progress(len(STOPS)) as show:
+        with ahead:
+            from softshadow.tour.stops import STOPS
+            from softshadow.tour.writing import write_tour
+
             arguments = spelled(scene, mesh, light, size)
-            index = write_tour(drawn, size, output, force=force, progress=show, arguments=arguments)
+            with _progress(len(STOPS)) as show:
+                index = write_tour(drawn, size, output, force=force, progress=show, arguments=arguments)
     seconds = time.perf_counter() - start
     runs = len(list(index.parent.glob("*/run.npz")))
     say(f"{runs} runs in {seconds:.1f} s; open the page in a browser.")

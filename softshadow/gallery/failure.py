@@ -144,7 +144,7 @@ class Failure:
         return call_difference(self._wrong[1], self._cured[1])
 
     def explain(self) -> str:
-        """Return a text: the reason, the numbers of wrong pixels, the cure, and an explanation of `pixel` in both runs."""
+        """Return a text: reason, numbers of wrong pixels, cure, and an explanation of `pixel` in both runs."""
         remark = f" ({self.why_floor})" if self.number_cured and self.why_floor else ""
         return "\n".join(
             [

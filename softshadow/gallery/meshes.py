@@ -1,4 +1,4 @@
-"""Failures of meshes: what a technique takes for granted of a solid, and a mesh is not."""
+"""Failures of meshes: techniques that assume a closed solid, and meshes that are not."""
 
 from dataclasses import replace
 from functools import partial
@@ -12,11 +12,11 @@ from softshadow.scene import Material, Mesh, Scene, SceneObject
 from softshadow.scene.placement import placement
 
 HALF, RIDGE, EAVES, SPAN = 2.0, 1.4, 1.1, 0.8  # of the roof: half its length, two heights, half its width
-DROP = 0.06  # of the vertex that is in one side of the ridge only, 1.5 % of its length
+DROP = 0.06  # how far the vertex that only one slope has lies below the ridge: 1.5 % of the ridge's length
 
 
 def roof(welded: bool) -> Scene:
-    """Return two slopes over a floor that meet in a ridge, which the front one divides; welded, both do."""
+    """Return a roof over a floor; its ridge has an extra vertex in the front slope, and if welded in both slopes."""
     left, right = (-HALF, RIDGE, 0.0), (HALF, RIDGE, 0.0)
     middle = (-0.3 * HALF, RIDGE if welded else RIDGE - DROP, 0.0)
     (back_left, back_right), (front_left, front_right) = (((-HALF, EAVES, z), (HALF, EAVES, z)) for z in (-SPAN, SPAN))
@@ -32,25 +32,25 @@ def roof(welded: bool) -> Scene:
 
 FAILURES = (
     Failure(
-        "t-junction-leak", "A vertex in one side of an edge only", "meshes", "E12, SK:250-257",
-        "An edge that one face divides and its neighbour does not is no common edge: where the vertex is off the line "
-        "there is a gap, and light falls through it.",
+        "t-junction-leak", "A vertex on one side of an edge only", "meshes", "E12, SK:250-257",
+        "Two faces do not share an edge if only one of them has a vertex in the middle of it. Where this vertex is off "
+        "the line, there is a gap that lets light through.",
         partial(roof, welded=True),
         Setting("volume-zfail", make_scene=partial(roof, welded=False)),
         Setting("volume-zfail"),
-        wrong_on_receivers, "pixels of the floor whose colour is not that of the lights they see",
+        wrong_on_receivers, "floor pixels whose colour is not that of the lights they see",
     ),
     Failure(
         "open-mesh-leak", "An open mesh has no far side", "meshes", "E27, SK:374-377",
-        "A map of the faces that look away from the light alone has holes where the mesh has none behind its lit ones.",
+        "The map stores only faces that look away from the light, and an open mesh has none behind some lit faces.",
         lambda: Scene.named("open-tube"),
         Setting("map", {"cull": "front"}),
         Setting("map"),
-        wrong_on_receivers, "pixels of the floor whose colour is not that of the lights they see",
+        wrong_on_receivers, "floor pixels whose colour is not that of the lights they see",
     ),
     Failure(
         "open-mesh-parity", "Every layer of an open mesh counts", "meshes", "E12, E13, E38",
-        "Of an open mesh all faces cast, turned towards the light, so that two walls make an even number.",
+        "All faces of an open mesh cast shadows, as if facing the light, so two walls make an even number.",
         lambda: Scene.named("open-tube"),
         altered("volume-zfail", *PARITY),
         Setting("volume-zfail"),

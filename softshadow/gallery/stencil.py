@@ -1,4 +1,4 @@
-"""Failures of the state around the count: right volumes, and one call of the stencil, depth or culling state amiss."""
+"""Failures of stencil, depth and culling state: the volumes are right, but one call is wrong or missing."""
 
 from dataclasses import replace
 
@@ -17,16 +17,16 @@ PARITY = (
     ("glStencilOp(GL_KEEP, GL_INCR_WRAP, GL_KEEP)", "glStencilOp(GL_KEEP, GL_INVERT, GL_KEEP)"),
     ("glStencilOp(GL_KEEP, GL_DECR_WRAP, GL_KEEP)", "glStencilOp(GL_KEEP, GL_INVERT, GL_KEEP)"),
 )
-SHEETS = 256  # as many as make eight bits 0 again
+SHEETS = 256  # an 8-bit counter wraps to 0
 
 
 def altered(technique: str, *calls: tuple[str, str | None]) -> Setting:
-    """Return a technique with calls of it replaced, or left out."""
-    return Setting(technique, {}, tuple(AlteredCall(call, instead) for call, instead in calls))
+    """Return a technique with some of its calls replaced, or omitted (None)."""
+    return Setting(technique, {}, tuple(AlteredCall(call, replacement) for call, replacement in calls))
 
 
 def stack() -> Scene:
-    """Return a stack of sheets over a floor, as many as a counter of eight bits has values."""
+    """Return a stack of 256 sheets over a floor."""
     sheet = box(1.2, 0.003, 0.8)
     heights = np.repeat(np.linspace(0.5, 1.8, SHEETS), len(sheet.positions))
     mesh = Mesh(
@@ -43,7 +43,7 @@ def stack() -> Scene:
 FAILURES = (
     Failure(
         "parity-overlap", "Parity instead of a count", "stencil", "E38, CA:470",
-        "GL_INVERT knows odd and even: a point in two volumes has been inverted twice, and is lit.",
+        "GL_INVERT distinguishes odd and even only: in two volumes the bit is inverted twice, and the point is lit.",
         lambda: Scene.named("overlapping"),
         altered("volume-zfail", *PARITY),
         Setting("volume-zfail"),
@@ -51,7 +51,7 @@ FAILURES = (
     ),
     Failure(
         "mask-1", "The light pass tests one bit of the count", "stencil", "E38, CA:470, CA:482",
-        "The last bit of a count is its parity, and two volumes over each other read as none.",
+        "The lowest bit of a count is its parity, so two overlapping volumes look like none.",
         lambda: Scene.named("overlapping"),
         altered("volume-zfail", ("glStencilFunc(GL_EQUAL, 0, 255)", "glStencilFunc(GL_EQUAL, 0, 1)")),
         Setting("volume-zfail"),
@@ -59,7 +59,7 @@ FAILURES = (
     ),
     Failure(
         "counter-at-least-0", "Dark where the counter is at least 0", "stencil", "E20, SK:267-268",
-        "A counter is at least 0 everywhere; a point is in shadow where it is more.",
+        "A counter is at least 0 everywhere; a point is in shadow where it is greater than 0.",
         lambda: scene_of(STAGE, "two boxes"),
         as_listed("volume-counter", "E20", stage=STAGE),
         as_listed("volume-counter", stage=STAGE),
@@ -67,15 +67,15 @@ FAILURES = (
     ),
     Failure(
         "decr-before-incr", "GL_DECR before GL_INCR", "stencil", "E11, RO1:231",
-        "GL_DECR stops at 0, so that what is counted down before it was counted up is lost.",
+        "GL_DECR stops at 0, so decrements that come before the increments are lost.",
         lambda: scene_of(STAGE, "two boxes"),
         as_listed("volume-zpass-reversed", "E11", stage=STAGE),
         as_listed("volume-zpass-reversed", stage=STAGE),
         wrong_colors, COUNTED,
     ),
     Failure(
-        "overflow-256", "256 volumes around a point are none", "stencil", "E11, RO1:144-150",
-        "Eight bits count modulo 256, and GL_INCR_WRAP goes on after 255 with 0.",
+        "overflow-256", "256 volumes around a point count as none", "stencil", "E11, RO1:144-150",
+        "Eight bits count modulo 256: GL_INCR_WRAP continues with 0 after 255.",
         stack,
         Setting("volume-zpass"),
         Setting("volume-zpass", {"ops": "saturate"}),
@@ -83,7 +83,7 @@ FAILURES = (
     ),
     Failure(
         "stencil-test-forgotten", "The stencil test is never enabled", "stencil", "E1, RO1:199-250",
-        "With the test disabled nothing is written to the stencil buffer, and nothing is left out by it.",
+        "While the test is disabled, the stencil buffer is neither written nor tested, so all pixels are lit.",
         lambda: Scene.named("torus"),
         altered("volume-zpass", ("glEnable(GL_STENCIL_TEST)", None)),
         Setting("volume-zpass"),
@@ -91,7 +91,7 @@ FAILURES = (
     ),
     Failure(
         "culling-left-on", "The light pass keeps the culling of the count", "stencil", "E3, RO1:233-265",
-        "After the back faces of volumes were counted, front faces are still culled, those of the scene as well.",
+        "Counting the back faces of volumes leaves front faces culled, those of the scene included.",
         lambda: Scene.named("torus"),
         altered("volume-zpass", ("glDisable(GL_CULL_FACE)", None)),
         Setting("volume-zpass"),
@@ -99,7 +99,7 @@ FAILURES = (
     ),
     Failure(
         "less-in-lit-pass", "The light pass keeps GL_LESS", "stencil", "E2, RO1:265-277",
-        "The second drawing of a surface has the depth that is stored already, which is not less.",
+        "The second pass over a surface has the depth that is already stored, which is not less.",
         lambda: Scene.named("torus"),
         altered("volume-zpass", ("glDepthFunc(GL_LEQUAL)", "glDepthFunc(GL_LESS)")),
         Setting("volume-zpass"),
@@ -107,7 +107,7 @@ FAILURES = (
     ),
     Failure(
         "missing-clear", "The stencil buffer is not cleared for the second light", "stencil", "E17, E61, RO1:178",
-        "Only glClear sets a buffer back, so that the second light counts on from the shadows of the first.",
+        "Only glClear resets a buffer; without it the second light continues from the counts of the first.",
         lambda: Scene.named("two-lights"),
         altered("volume-zpass", ("glClear(GL_STENCIL_BUFFER_BIT)", None)),
         Setting("volume-zpass"),

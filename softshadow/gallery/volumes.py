@@ -1,4 +1,4 @@
-"""Failures of shadow volumes: where the count begins, where a volume ends, and what it is made of."""
+"""Failures of shadow volumes: where the count begins, where a volume ends, and whether it is closed."""
 
 from softshadow.gallery.course_stage import as_listed, scene_of
 from softshadow.gallery.failure import Failure, Setting
@@ -9,7 +9,7 @@ from softshadow.scene import Scene
 FAILURES = (
     Failure(
         "eye-in-shadow", "The eye stands in a shadow volume", "volumes", "E10, E40, RO1:173",
-        "Z-pass counts from the near plane on, and volumes that contain it are left without having been entered.",
+        "Z-pass counts from the near plane on; a ray that starts inside a volume leaves it without having entered it.",
         lambda: Scene.named("eye-in-shadow"),
         Setting("volume-zpass"),
         Setting("volume-zpass", {"start": "eye"}),
@@ -17,7 +17,7 @@ FAILURES = (
     ),
     Failure(
         "constant-eye-count", "One start value for a near rectangle that a volume cuts", "volumes", "E10, RO1:281-289",
-        "The number of volumes around the eye is right for the rays that begin in them, and these need not be all.",
+        "The number of volumes around the eye is right for rays that start inside them, which may not be all rays.",
         lambda: Scene.named("near-cut"),
         Setting("volume-zpass", {"start": "eye"}),
         Setting("volume-zpass", {"start": "near-plane"}),
@@ -25,8 +25,7 @@ FAILURES = (
     ),
     Failure(
         "missing-caps", "Z-fail on volumes without caps", "volumes", "E6, RO1:299-353",
-        "What is counted behind the surface must be a closed solid: where a ray leaves it through an end that is not "
-        "there, the count is one off.",
+        "Z-fail needs closed volumes: where a ray leaves through an open end, the count is off by one.",
         lambda: Scene.named("torus"),
         Setting("volume-zfail", {"closed": False}),
         Setting("volume-zfail"),
@@ -34,15 +33,15 @@ FAILURES = (
     ),
     Failure(
         "finite-far-plane", "The far plane cuts volumes open", "volumes", "E8, RO1:83",
-        "Z-fail counts what lies behind the surface, and what lies behind the far plane is not drawn.",
+        "Z-fail counts the faces behind the surface, and faces behind the far plane are clipped.",
         lambda: Scene.named("torus"),
         Setting("volume-zfail", {"far": "finite"}),
         Setting("volume-zfail"),
         wrong_colors, COUNTED,
     ),
     Failure(
-        "vertex-distance-cap", "The far cap's vertices are far, its plane is near", "volumes", "E7, RO1:77-82",
-        "A point of a flat cap is nearer to the light than its vertices are: behind it the volume has ended too early.",
+        "vertex-distance-cap", "The far cap's vertices are far, but the cap itself is near", "volumes", "E7, RO1:77-82",
+        "The middle of a flat cap is nearer to the light than its vertices, so the volume ends too early there.",
         lambda: scene_of(OVER_THE_TABLE, "lamp over a table"),
         as_listed("volume-far-side", "E7", stage=OVER_THE_TABLE),
         as_listed("volume-far-side", stage=OVER_THE_TABLE),

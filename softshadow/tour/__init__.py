@@ -1,6 +1,4 @@
-"""The tour: every technique on one scene, as a folder of pictures and buffers with a page to read."""
+"""The tour: every technique on one scene, as a folder of pictures and buffers with a page to read.
 
-from softshadow.tour.stops import STOPS, Stop
-from softshadow.tour.writing import write_tour
-
-__all__ = ["STOPS", "Stop", "write_tour"]
+The modules are imported one by one, because `compilation` must start its process before the others are loaded.
+"""

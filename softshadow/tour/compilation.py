@@ -1,4 +1,4 @@
-"""Compiling kernels in a second process while the first tour is drawn: Numba compiles one kernel at a time.
+"""Compiling kernels in a second process while the first tour is drawn: in one process Numba compiles one at a time.
 
 ``python -m softshadow.tour.compilation`` first rehearses one stop of each technique: it draws a tiny picture with all
 kernels as plain Python, and notes the types of their arguments. Then it compiles the kernels, the last one first, while
@@ -9,17 +9,13 @@ from __future__ import annotations
 
 import subprocess
 import sys
-import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 
-from softshadow import techniques
-from softshadow.jit import Kernels, rehearsing
 from softshadow.pipeline import threads
-from softshadow.runs import run
-from softshadow.tour.stops import STOPS
 
-SIZE, MAP_SIZE = (16, 12), 8
+SIZE, MAP_SIZE = (8, 6), 8
 
 
 @contextmanager
@@ -46,21 +42,30 @@ def compiling_ahead() -> Iterator[None]:
 
 
 def compile_backwards() -> None:
-    """Compile the kernels of the tour, those that it needs last first."""
-    for kernel, types in reversed(rehearsed_kernels()):
+    """Compile the kernels of the tour, beginning with those that the tour needs last."""
+    from softshadow.jit import rehearsing
+
+    with rehearsing() as kernels:
+        draw_tiny_pictures()
+    for kernel, types in reversed(kernels):
         kernel.compile(types)
 
 
-def rehearsed_kernels() -> Kernels:
-    """Return the kernels that one stop of each technique calls."""
-    with rehearsing() as kernels, warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        for stop in {stop.technique: stop for stop in STOPS}.values():
-            options = dict(stop.options)
-            if "map_size" in techniques.get(stop.technique).options:
-                options["map_size"] = MAP_SIZE
-            run(stop.technique, "boxes", SIZE, **options)
-    return kernels
+def draw_tiny_pictures() -> None:
+    """Draw one stop of each technique as a tiny picture of a scene with few triangles."""
+    from softshadow import techniques
+    from softshadow.runs import run
+    from softshadow.scene import Scene, shapes
+    from softshadow.tour.stops import STOPS
+
+    scene = Scene.named("torus")
+    torus = replace(scene.casters[0], mesh=shapes.torus(0.9, 0.33, segments=6, sides=4))
+    scene = replace(scene, objects=(*scene.receivers, torus))
+    for stop in {stop.technique: stop for stop in STOPS}.values():
+        options = dict(stop.options)
+        if "map_size" in techniques.get(stop.technique).options:
+            options["map_size"] = MAP_SIZE
+        run(stop.technique, scene, SIZE, **options)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ import pytest
 import softshadow as ss
 from cli.asking import as_json, ask, done, refused
 from paths import SCENES, shared_file
-from softshadow.tour import STOPS
+from softshadow.tour.stops import STOPS
 
 SMALL = ("--size", "24x18")
 

@@ -11,7 +11,8 @@ import softshadow as ss
 from report.pages import Page, read_page
 from softshadow import techniques
 from softshadow.report.commands import options_spelled
-from softshadow.tour import STOPS, Stop, write_tour
+from softshadow.tour.stops import STOPS, Stop
+from softshadow.tour.writing import write_tour
 
 SIZE = (64, 48)
 BY_NAME = {stop.name: stop for stop in STOPS}

@@ -6,7 +6,8 @@ import pytest
 
 import softshadow as ss
 from softshadow.errors import SoftShadowError
-from softshadow.tour import STOPS, write_tour
+from softshadow.tour.stops import STOPS
+from softshadow.tour.writing import write_tour
 
 
 @pytest.fixture(autouse=True)
