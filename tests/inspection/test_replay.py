@@ -1,4 +1,4 @@
-"""Playing a recording again."""
+"""Replaying a recording."""
 
 import numpy as np
 import pytest
@@ -26,8 +26,8 @@ def test_a_shorter_recording_left_what_replay_to_its_end_gives():
     replay = Replay(random_frame(7, draws=5).frame)
     for draws in (5, 2, 3, 1):  # forwards and backwards
         expected = copy_window(random_frame(7, draws=draws).storage.window).buffers()
-        for kept, plane in zip(replay.after_step(draws - 1), expected, strict=True):
-            np.testing.assert_array_equal(kept, plane)
+        for replayed, buffer in zip(replay.after_step(draws - 1), expected, strict=True):
+            np.testing.assert_array_equal(replayed, buffer)
 
 
 def test_buffers_beyond_the_budget_are_drawn_again():

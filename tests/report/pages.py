@@ -24,11 +24,11 @@ class Page(HTMLParser):
         super().__init__()
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        given = {name: value or "" for name, value in attrs}
-        self.urls += [(tag, name, value) for name, value in given.items() if name in LOADING]
-        self.ids |= {given["id"]} if "id" in given else set()
+        attributes = {name: value or "" for name, value in attrs}
+        self.urls += [(tag, name, value) for name, value in attributes.items() if name in LOADING]
+        self.ids |= {attributes["id"]} if "id" in attributes else set()
         if tag == "img":
-            self.images.append(given)
+            self.images.append(attributes)
         if tag not in VOID:
             self.within.append(tag)
 

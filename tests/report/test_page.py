@@ -88,8 +88,8 @@ def test_packed_buffers_are_the_exact_ones(run: ss.Run, page: Page) -> None:
     script = "".join(page.scripts)
     size, packed = re.search(r"const size = (\[.*?\]), packed = (\[.*?\]);\n", script, re.DOTALL).groups()
     assert json.loads(size) == list(SIZE)
-    for step, planes in zip(run.steps, json.loads(packed), strict=True):
-        raw = {name: zlib.decompress(base64.b64decode(text)) for name, text in planes.items()}
+    for step, buffers in zip(run.steps, json.loads(packed), strict=True):
+        raw = {name: zlib.decompress(base64.b64decode(text)) for name, text in buffers.items()}
         assert raw["colour"] == step.image.tobytes()
         assert raw["stencil"] == step.stencil.tobytes()
         bytes_of_depth = np.frombuffer(raw["depth"], np.uint8).reshape(4, -1).T

@@ -1,4 +1,4 @@
-"""`ss.run` and what a run answers: every technique, small."""
+"""`ss.run` and the questions that a run answers, for every technique in small pictures."""
 
 import warnings
 import zipfile
@@ -58,8 +58,8 @@ def test_replay_reproduces_every_step_bit_for_bit(run):
     replay = Replay(run.frame)
     for step in run.steps:
         again = copy_window(replay.storage_after(run.frame.steps[step.index][1]).window).buffers()
-        for kept, plane in zip(step.buffers, again, strict=True):
-            assert kept.tobytes() == plane.tobytes()
+        for drawn, replayed in zip(step.buffers, again, strict=True):
+            assert drawn.tobytes() == replayed.tobytes()
 
 
 def test_last_row_of_a_pixel_equals_the_buffers(run):
@@ -148,8 +148,8 @@ def test_ledger_has_the_counts_of_every_step(zfail):
 
 
 def test_explanations_are_sentences_that_agree_with_the_visibility(run):
-    said = {"is lit:": run.valid & (run.visibility == 1), "is in shadow:": run.valid & (run.visibility == 0)}
-    for words, where in said.items():
+    sentences = {"is lit:": run.valid & (run.visibility == 1), "is in shadow:": run.valid & (run.visibility == 0)}
+    for words, where in sentences.items():
         for y, x in np.argwhere(where)[::97]:
             sentence = run.explain(x, y)
             assert words in sentence
@@ -165,8 +165,8 @@ def test_shadow_of_a_volume_is_explained_by_the_count(zfail):
 # -- comparison --------------------------------------------------------------------------------------------------------
 @pytest.mark.parametrize("scene", ["boxes", "room", "staircase", "two-lights"])
 def test_z_fail_agrees_with_ray_casting_off_the_edges(scene):
-    found = ss.run("volume-zfail", scene, SIZE).compare(truth="hard")
-    assert {name: found.parts[name].wrong for name in ("lit", "umbra", "penumbra")} == dict.fromkeys(
+    comparison = ss.run("volume-zfail", scene, SIZE).compare(truth="hard")
+    assert {name: comparison.parts[name].wrong for name in ("lit", "umbra", "penumbra")} == dict.fromkeys(
         ("lit", "umbra", "penumbra"), 0
     )
 
@@ -197,9 +197,9 @@ def test_a_technique_of_ones_own_is_run_like_a_registered_one():
     options = {"stencil": Option(3, int, "what to clear to")}
     own = Technique("own", "Its own", "tests", "nowhere", steps, options)
     assert (ss.run(own, "torus", SIZE).stencil == 3).all()
-    made = ss.run(own, "torus", SIZE, stencil=5)
-    assert (made.technique, made.steps.titles) == ("own", ["clear"])
-    assert (made.stencil == 5).all()
+    run = ss.run(own, "torus", SIZE, stencil=5)
+    assert (run.technique, run.steps.titles) == ("own", ["clear"])
+    assert (run.stencil == 5).all()
     with pytest.raises(ValueError, match="technique 'own' has no option 'stencl': did you mean 'stencil'"):
         ss.run(own, "torus", SIZE, stencl=5)
 
