@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import softshadow
-from softshadow.jit import KERNEL_SOURCES
+from softshadow.kernel_cache import KERNEL_SOURCES
 
 PACKAGE = Path(softshadow.__file__).parent
 WATCH = """

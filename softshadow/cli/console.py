@@ -54,16 +54,16 @@ def named_warnings() -> Iterator[None]:
 
 def say_if_compiling() -> bool:
     """Say that the kernels have to be compiled, when nothing is in the cache yet; return whether they will be kept."""
-    from softshadow.jit import cache_folder
+    from softshadow.kernel_cache import cache_folder, is_empty
 
     folder = cache_folder()
     if folder is None:
         say("compiling kernels, each time (no cache folder can be written; NUMBA_CACHE_DIR names another) ...")
         return False
-    if any(folder.rglob("*.nbi")):
-        return False
-    say("compiling kernels, once ...")
-    return True
+    if is_empty(folder):
+        say("compiling kernels, once ...")
+        return True
+    return False
 
 
 def table(title: str, columns: list[str], rows: list[list[str]]) -> None:

@@ -30,7 +30,7 @@ def warmup(as_json: bool) -> None:
 
     from softshadow import techniques
     from softshadow.errors import Warning as SoftShadowWarning
-    from softshadow.jit import cache_folder
+    from softshadow.kernel_cache import cache_folder
     from softshadow.pipeline import use_short_cuts
     from softshadow.runs import run
 
@@ -70,7 +70,7 @@ def doctor(as_json: bool) -> None:
     import platform
 
     import softshadow
-    from softshadow.jit import cache_folder
+    from softshadow.kernel_cache import cache_folder
     from softshadow.pipeline import threads
     from softshadow.testing import EXPECTED_VERSION, mesa_available, mesa_reason, mesa_version
 

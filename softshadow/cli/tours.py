@@ -45,12 +45,12 @@ def tour(
 
     start = time.perf_counter()
     with named_warnings():
-        drawn = chosen_scene(scene, mesh, light)
         ahead = compiling_ahead() if say_if_compiling() else nullcontext()
         with ahead:
             from softshadow.tour.stops import STOPS
             from softshadow.tour.writing import write_tour
 
+            drawn = chosen_scene(scene, mesh, light)
             arguments = spelled(scene, mesh, light, size)
             with _progress(len(STOPS)) as show:
                 index = write_tour(drawn, size, output, force=force, progress=show, arguments=arguments)

@@ -3,29 +3,30 @@
 ``python -m softshadow.tour.compilation`` first rehearses one stop of each technique: it draws a tiny picture with all
 kernels as plain Python, and notes the types of their arguments. Then it compiles the kernels, the last one first, while
 the tour compiles them from the first one on. Each process finds the other's machine code in the cache folder.
+
+The package is imported inside functions, so that the first process can start the second before it loads Numba.
 """
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 
-from softshadow.pipeline import threads
-
 SIZE, MAP_SIZE = (8, 6), 8
 
 
 @contextmanager
 def compiling_ahead() -> Iterator[None]:
-    """Inside the block, let a second process compile, too, if draws may use two threads; the block ends it.
+    """Inside the block, let a second process compile, too, unless there is one core or SOFTSHADOW_THREADS is 1.
 
-    The cache folder must be writable (`cache_folder`).
+    The cache folder must be writable (`cache_folder`). The process is stopped when the block ends.
     """
     helper = None
-    if threads() > 1:
+    if cores() > 1 and os.environ.get("SOFTSHADOW_THREADS", "").strip() != "1":
         with suppress(OSError):  # without a second process this one compiles everything
             helper = subprocess.Popen(
                 [sys.executable, "-m", __name__],
@@ -39,6 +40,11 @@ def compiling_ahead() -> Iterator[None]:
         if helper is not None:
             helper.kill()
             helper.wait()
+
+
+def cores() -> int:
+    """Return how many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def compile_backwards() -> None:
@@ -59,7 +65,7 @@ def draw_tiny_pictures() -> None:
     from softshadow.tour.stops import STOPS
 
     scene = Scene.named("torus")
-    torus = replace(scene.casters[0], mesh=shapes.torus(0.9, 0.33, segments=6, sides=4))
+    torus = replace(scene.casters[0], mesh=shapes.torus(0.9, 0.33, segments=3, sides=3))
     scene = replace(scene, objects=(*scene.receivers, torus))
     for stop in {stop.technique: stop for stop in STOPS}.values():
         options = dict(stop.options)

@@ -65,10 +65,10 @@ def test_compiling_is_announced_when_nothing_is_in_the_cache(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
 ) -> None:
     for folder, said in ((tmp_path, "compiling kernels, once ...\n"), (None, "NUMBA_CACHE_DIR names another")):
-        monkeypatch.setattr("softshadow.jit.cache_folder", lambda found=folder: found)
+        monkeypatch.setattr("softshadow.kernel_cache.cache_folder", lambda found=folder: found)
         talk.say_if_compiling()
         assert said in capsys.readouterr().err
-    monkeypatch.setattr("softshadow.jit.cache_folder", lambda: tmp_path)
+    monkeypatch.setattr("softshadow.kernel_cache.cache_folder", lambda: tmp_path)
     (tmp_path / "fill.nbi").write_bytes(b"")
     talk.say_if_compiling()
     assert capsys.readouterr().err == ""

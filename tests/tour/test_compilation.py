@@ -50,7 +50,8 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[subprocess.Popen]:
         return processes[-1]
 
     monkeypatch.setattr(subprocess, "Popen", sleep)
-    monkeypatch.setattr(compilation, "threads", lambda: 2)
+    monkeypatch.setattr(compilation, "cores", lambda: 2)
+    monkeypatch.delenv("SOFTSHADOW_THREADS", raising=False)
     return processes
 
 
@@ -66,10 +67,12 @@ def test_the_second_process_ends_with_a_tour_that_fails(started: list[subprocess
     assert started[0].returncode
 
 
-def test_with_one_thread_there_is_no_second_process(
-    started: list[subprocess.Popen], monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("cores", "threads"), [(1, ""), (2, "1")])
+def test_with_one_core_or_thread_there_is_no_second_process(
+    cores: int, threads: str, started: list[subprocess.Popen], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(compilation, "threads", lambda: 1)
+    monkeypatch.setattr(compilation, "cores", lambda: cores)
+    monkeypatch.setenv("SOFTSHADOW_THREADS", threads)
     with compiling_ahead():
         assert started == []
 
@@ -79,7 +82,8 @@ def test_where_no_process_can_be_started_the_tour_goes_on(monkeypatch: pytest.Mo
         raise OSError("no more processes")
 
     monkeypatch.setattr(subprocess, "Popen", fail)
-    monkeypatch.setattr(compilation, "threads", lambda: 2)
+    monkeypatch.setattr(compilation, "cores", lambda: 2)
+    monkeypatch.delenv("SOFTSHADOW_THREADS", raising=False)
     visited = False
     with compiling_ahead():
         visited = True

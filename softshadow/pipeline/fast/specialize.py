@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.jit import cache_folder, inlined, kernel
+from softshadow.jit import inlined, kernel
+from softshadow.kernel_cache import cache_folder
 from softshadow.pipeline.fast.small_triangles import fill_small, is_small
 from softshadow.pipeline.fast.stencil_tiles import fill_in_tiles
 from softshadow.pipeline.raster.fill import FillKernel, fill_rows

@@ -1,0 +1,67 @@
+"""The folder that caches the machine code of kernels.
+
+Numba's cache does not notice changes of functions in other files. So the folder is named by a hash of all sources that
+can be part of a kernel: after an edit, everything is compiled again and no stale code is used.
+"""
+
+import hashlib
+import os
+import shutil
+import sys
+import tempfile
+from functools import cache
+from pathlib import Path
+
+# all files with kernels, and all files these import: constants become part of the compiled code
+KERNEL_SOURCES = (
+    "bench/plain_loops.py", "errors.py", "framebuffer.py", "image.py", "jit.py", "kernel_cache.py", "matrices.py",
+    "pixel_store.py", "pixels.py", "state", "texture.py", "tokens.py", "pipeline", "programs", "scene", "truth",
+)  # fmt: skip
+MAX_VERSIONS = 8
+
+
+@cache
+def source_hash() -> str:
+    """Return the hash of all kernel sources, 16 hex digits."""
+    root = Path(__file__).parent
+    digest = hashlib.blake2b(digest_size=8)
+    for block in KERNEL_SOURCES:
+        path = root / block
+        for file in [path] if path.is_file() else sorted(path.rglob("*.py")):
+            digest.update(str(file.relative_to(root)).encode())
+            digest.update(file.read_bytes())
+    return digest.hexdigest()
+
+
+@cache
+def cache_folder() -> Path | None:
+    """Return the cache folder for compiled kernels; None if it cannot be written, then nothing is cached."""
+    if "NUMBA_CACHE_DIR" in os.environ:
+        base = Path(os.environ["NUMBA_CACHE_DIR"])
+    elif sys.platform == "win32":
+        base = Path(os.environ.get("LOCALAPPDATA", Path.home() / "AppData" / "Local"))
+    elif sys.platform == "darwin":
+        base = Path.home() / "Library" / "Caches"
+    else:
+        base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    folder = base / "softshadow" / source_hash()
+    try:
+        if not folder.exists():
+            folder.mkdir(parents=True, exist_ok=True)
+            _delete_old_versions(folder.parent)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError:
+        return None
+
+
+def _delete_old_versions(folder: Path) -> None:
+    """Delete all but the most recently used versions: each edit and each upgrade makes a new folder."""
+    versions = sorted((entry for entry in folder.iterdir() if entry.is_dir()), key=lambda entry: entry.stat().st_mtime)
+    for version in versions[:-MAX_VERSIONS]:
+        shutil.rmtree(version, ignore_errors=True)
+
+
+def is_empty(folder: Path) -> bool:
+    """Return whether no compiled kernel is in the cache folder."""
+    return next(folder.rglob("*.nbi"), None) is None
