@@ -1,11 +1,11 @@
-"""The programs that come with the package: `load` puts them into the register, on the first use of any program."""
+"""The built-in programs; `load` registers them when a program is first used."""
 
 from functools import cache
 
 
 @cache
 def load() -> None:
-    """Register the built-in programs; their kernels compile where they are first drawn with."""
+    """Register the built-in programs; their kernels are compiled at the first draw that uses them."""
     from softshadow.programs import register
     from softshadow.programs.blinn_phong import BLINN_PHONG
     from softshadow.programs.blinn_phong_shadowed import BLINN_PHONG_SHADOWED, BLINN_PHONG_SHADOWED_5X5

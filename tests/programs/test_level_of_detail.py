@@ -18,12 +18,12 @@ from softshadow.texture import Sampler
 
 
 def block(step: float) -> np.ndarray:
-    """Coordinates (4, 3) of one block whose s grows by `step` per pixel."""
+    """Return the coordinates (4, 3) of a block whose s grows by `step` per pixel."""
     return np.float32([[0, 0, 0], [step, 0, 0], [0, 0, 0], [step, 0, 0]])
 
 
 def levels(step: float, sampler: Sampler, last: int = 3) -> Levels:
-    """What is selected in a texture of 8 x 8 where s grows by `step` per pixel."""
+    """Return the levels selected in an 8 x 8 texture if s grows by `step` per pixel."""
     return select_levels(squared_texels_per_pixel(block(step), 8, 8), sampler, last)
 
 
@@ -49,16 +49,16 @@ def test_the_nearest_level_is_selected():
 
 def test_two_levels_are_selected_with_the_weight_of_the_upper():
     sampler = Sampler(min_filter=gl.GL_LINEAR_MIPMAP_LINEAR, lod_bias=0.25)
-    found = [levels(texels / 8, sampler) for texels in (1, 2, 100)]
-    assert [(int(f.lower[0]), int(f.upper[0]), float(f.weight[0])) for f in found] == [
+    selected = [levels(texels / 8, sampler) for texels in (1, 2, 100)]
+    assert [(int(f.lower[0]), int(f.upper[0]), float(f.weight[0])) for f in selected] == [
         (0, 1, 0.25), (1, 2, 0.25), (3, 3, 0),
     ]  # fmt: skip
 
 
 def test_equal_limits_are_the_level():
     sampler = Sampler(min_filter=gl.GL_LINEAR_MIPMAP_LINEAR, min_lod=1.5, max_lod=1.5)
-    found = levels(0.001, sampler)
-    assert (int(found.lower[0]), int(found.upper[0]), float(found.weight[0])) == (1, 2, 0.5)
+    selected = levels(0.001, sampler)
+    assert (int(selected.lower[0]), int(selected.upper[0]), float(selected.weight[0])) == (1, 2, 0.5)
 
 
 def test_biases_count_in_steps_of_a_256th():
@@ -113,7 +113,7 @@ PARAMETERS = {
 
 
 def mipmapped(seed: int, internal: str = "GL_RGBA8") -> Any:
-    """A program that draws triangles with a texture of random levels, filters, wraps, limits and bias."""
+    """Return a GL program that draws triangles with random mipmap levels, filters, wraps, limits and bias."""
     rng = np.random.default_rng(seed)
     pick = lambda choices: choices[int(rng.integers(len(choices)))]  # noqa: E731
     width, height = SIDES[seed % len(SIDES)]

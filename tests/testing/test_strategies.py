@@ -1,4 +1,4 @@
-"""What is drawn for users: meshes and scenes of all the kinds that are promised; a clear word without Hypothesis."""
+"""The strategies generate all documented kinds of meshes and scenes; a clear error without Hypothesis."""
 
 import subprocess
 import sys
