@@ -39,15 +39,15 @@ def listings(
 
     It writes the buffers as an image, and prints the effect of the corrections.
     """
-    from softshadow import listings as register
+    from softshadow import listings as registry
     from softshadow import testing
 
     if name is None:
         if printed or on or output:
             raise click.UsageError("--printed, --on and --output: expected the NAME of a listing")
-        _list([register.get(each) for each in register.names()], as_json)
+        _list([registry.get(each) for each in registry.names()], as_json)
         return
-    listing = register.get(name)
+    listing = registry.get(name)
     target = output or f"{name}{'-printed' if printed else ''}.png"
     _refuse(target, force)
     say_if_compiling()

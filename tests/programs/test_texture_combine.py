@@ -46,13 +46,13 @@ def test_a_unit_without_texture_gives_zeros_to_others():
 
 def random_settings(rng: np.random.Generator) -> dict[int, float]:
     """Return a random value for every parameter; sources are those of two units."""
-    values: dict[int, float] = {pname: int(rng.choice(v)) for pname, (_, v) in texture_combiners.MODES.items()}
+    settings: dict[int, float] = {pname: int(rng.choice(v)) for pname, (_, v) in texture_combiners.MODES.items()}
     for pname, (_, _, values) in texture_combiners.ARGUMENTS.items():
         usable = [v for v in values if not gl.GL_TEXTURE1 < v <= gl.GL_TEXTURE7]
-        values[pname] = int(rng.choice(usable))
+        settings[pname] = int(rng.choice(usable))
     for pname in texture_combiners.SCALES:
-        values[pname] = float(rng.choice(texture_combiners.SCALE_VALUES))
-    return values
+        settings[pname] = float(rng.choice(texture_combiners.SCALE_VALUES))
+    return settings
 
 
 @pytest.mark.mesa

@@ -83,4 +83,4 @@ def test_without_hypothesis_an_error_says_what_to_install() -> None:
         "except ModuleNotFoundError as error:\n    print(error)"
     )
     said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout
-    assert "Hypothesis is missing; expected `pip install 'softshadow[properties]'`" in said
+    assert "needs Hypothesis: pip install 'softshadow[properties]'" in said
