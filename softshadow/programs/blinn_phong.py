@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from softshadow.jit import kernel
-from softshadow.programs import Program, Varyings, VertexInputs
 from softshadow.programs.inverse import inverse
 from softshadow.programs.llvmpipe_math import power
+from softshadow.programs.program import Program, Varyings, VertexInputs
 from softshadow.programs.texture_coordinates import transform
 
 ZERO, ONE = np.float32(0.0), np.float32(1.0)

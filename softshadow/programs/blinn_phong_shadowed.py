@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.programs import Program, Varyings, VertexInputs
 from softshadow.programs.blinn_phong import BLINN_PHONG, shade_visible
 from softshadow.programs.blinn_phong import vertex as blinn_phong_vertex
 from softshadow.programs.percentage_closer import count_lit
+from softshadow.programs.program import Program, Varyings, VertexInputs
 from softshadow.programs.sampling import divide
 from softshadow.programs.texture_coordinates import transform
 

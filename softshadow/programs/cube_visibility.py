@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.programs import Program
 from softshadow.programs.map_visibility import VERTEX, vertex
+from softshadow.programs.program import Program
 from softshadow.programs.sampling import sample
 from softshadow.programs.texture_coordinates import dot
 

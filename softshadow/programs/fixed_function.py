@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.programs import Program, Varyings, VertexInputs, needs_blocks
 from softshadow.programs.lighting import Colors, clamp_colors, eye_normals, light_vertices, needs_eye_position
+from softshadow.programs.program import Program, Varyings, VertexInputs, needs_blocks
 from softshadow.programs.texture_coordinates import (
     IN_EYE_SPACE,
     Normals,

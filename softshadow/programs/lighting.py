@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.programs import VertexInputs
 from softshadow.programs.inverse import inverse, is_length_preserving
 from softshadow.programs.llvmpipe_math import powers
+from softshadow.programs.program import VertexInputs
 from softshadow.programs.reflectances import Reflectances, vector
 from softshadow.programs.stale_registers import PRODUCTS, LightRegisters, stale_values
 from softshadow.programs.texture_coordinates import dot, normalize_rows, reciprocal_root, transform

@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.programs import Program, Varyings, VertexInputs
 from softshadow.programs.percentage_closer import count_lit
+from softshadow.programs.program import Program, Varyings, VertexInputs
 from softshadow.programs.sampling import divide, sample
 from softshadow.programs.texture_coordinates import transform
 from softshadow.texture import Texture

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from softshadow.jit import inlined, kernel
-from softshadow.programs import needs_blocks
 from softshadow.programs.filtering import CONSTANT_ZERO, RED, STEP_OF_23_BITS, fetch, sources_of, texels_of, wraps_of
+from softshadow.programs.program import needs_blocks
 from softshadow.programs.sampling import is_complete, sample
 from softshadow.programs.wrapping import nearest_texels
 from softshadow.texture import Texture

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.programs import VertexInputs
+from softshadow.programs.program import VertexInputs
 from softshadow.state import Lighting, LightState, MaterialState
 
 COLOR_MATERIAL: dict[int, tuple[str, ...]] = {

@@ -13,10 +13,11 @@ import numpy as np
 
 from softshadow.errors import StateError
 from softshadow.jit import kernel
-from softshadow.programs import cube_maps, needs_blocks
+from softshadow.programs import cube_maps
 from softshadow.programs.cube_filtering import HEAVIEST, LINEAR, NEAREST, PIXELS_OF_A_BLOCK, filter_cube
 from softshadow.programs.filtering import UNORM8_STEP, in_8_bits, sample_image, wraps_of
 from softshadow.programs.level_of_detail import FILTERS, Levels, select_levels, squared_texels_per_pixel
+from softshadow.programs.program import needs_blocks
 from softshadow.programs.wrapping import ONE
 from softshadow.texture import Texture
 from softshadow.tokens import GL_CLAMP_TO_EDGE, GL_LINEAR, GL_NONE, GL_TEXTURE_CUBE_MAP

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.jit import kernel
-from softshadow.programs import Program, Varyings, VertexInputs
+from softshadow.programs.program import Program, Varyings, VertexInputs
 from softshadow.programs.sampling import divide, sample
 from softshadow.programs.texture_coordinates import transform
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.jit import kernel, read_only
-from softshadow.programs import VertexInputs
+from softshadow.programs.program import VertexInputs
 from softshadow.state import TexGen, TextureUnit
 
 ONE, HALF = np.float32(1.0), np.float32(0.5)
