@@ -70,6 +70,16 @@ def test_the_coarse_logarithm_is_exact_at_powers_of_two():
     assert coarse_log2(np.float32([3])).tolist() == [1.5]
 
 
+def begin_with_texture(gl: Any) -> None:
+    """Clear the buffers, set the camera, and bind a new texture."""
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    gl.glMatrixMode(gl.GL_PROJECTION)
+    gl.gluPerspective(50, 1, 1, 20)
+    gl.glTranslatef(0, 0, -6)
+    gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
+
+
 @pytest.mark.mesa
 @pytest.mark.parametrize("seed", range(8))
 def test_two_filters_in_one_draw_are_mesas(seed):
@@ -80,12 +90,7 @@ def test_two_filters_in_one_draw_are_mesas(seed):
     bias = (0.0, 0.5, -1.25)[seed % 3]
 
     def program(gl: Any) -> None:
-        gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
-        gl.glEnable(gl.GL_DEPTH_TEST)
-        gl.glMatrixMode(gl.GL_PROJECTION)
-        gl.gluPerspective(50, 1, 1, 20)
-        gl.glTranslatef(0, 0, -6)
-        gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
+        begin_with_texture(gl)
         size = cells.shape[1], cells.shape[0]
         gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, *size, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, cells)
         gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, getattr(gl, names[0]))
@@ -135,12 +140,7 @@ def mipmapped(seed: int, internal: str = "GL_RGBA8") -> Any:
     compares = is_depth and seed % 2
 
     def program(gl: Any) -> None:
-        gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
-        gl.glEnable(gl.GL_DEPTH_TEST)
-        gl.glMatrixMode(gl.GL_PROJECTION)
-        gl.gluPerspective(50, 1, 1, 20)
-        gl.glTranslatef(0, 0, -6)
-        gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
+        begin_with_texture(gl)
         formats = (gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT) if is_depth else (gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
         for level, data in enumerate(cells):
             size = data.shape[1], data.shape[0]
