@@ -1,1 +1,1 @@
-"""Benchmarks: how long a program takes here, on Mesa, and against what the machine can do."""
+"""Benchmarks: how long programs take on softshadow and on Mesa, and how close that is to the limits of the machine."""

@@ -1,4 +1,4 @@
-"""Depth maps that are drawn from a light, for the programs that compare with them themselves."""
+"""Depth maps drawn from a light, for shading programs that do the depth comparison themselves."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ FACTOR, UNITS = 1.5, 4.0  # of the polygon offset
 
 
 class DepthMap:
-    """A depth texture and the framebuffer object it is drawn through; both stay for all frames.
+    """A depth texture and its framebuffer object; all frames use the same ones.
 
     Attributes
     ----------
-    texture : int                name of the texture, without GL's own comparison
-    world_to_map : (4, 4)        to s, t and depth of the map, each times q; set by `draw`
+    texture : int                name of the texture; GL's own comparison is off
+    world_to_map : (4, 4)        world space to homogeneous s, t and depth of the map; set by `draw`
     """
 
     def __init__(self, gl: Any, map_size: int) -> None:
@@ -35,7 +35,7 @@ class DepthMap:
         self.world_to_map = np.eye(4)
 
     def draw(self, gl: Any, scene: Scene, light: Light) -> None:
-        """Draw the casters from the light; leaves the map's framebuffer bound, viewport and matrices changed."""
+        """Draw the casters from the light; the framebuffer stays bound, and viewport and matrices stay changed."""
         camera = light_camera(scene, light)
         gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, self.framebuffer)
         gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)

@@ -1,7 +1,7 @@
-"""How the time of a frame grows with one amount: time = c amount^p, p by least squares of the logarithms.
+"""Growth of the frame time with one amount: time = c amount^p, with p fitted by least squares of the logarithms.
 
-The course's claims about cost are statements about p: a stencil fill grows with the pixels, shadow volumes with the
-silhouette and not with the triangles, every technique with the number of lights.
+The course's statements about cost are statements about p: the time of a stencil fill grows with the number of pixels,
+shadow volumes with the length of the silhouette and not with the number of triangles, every technique with the lights.
 """
 
 from __future__ import annotations
@@ -23,11 +23,12 @@ LIGHTS = (1, 2, 4, 8)
 
 @dataclass(frozen=True)
 class Growth:
-    """One series: what was varied, the frames' seconds, and the exponent for each renderer and number of threads.
+    """Results of a workload at several amounts, and the fitted exponent for each renderer and number of threads.
 
     Attributes
     ----------
-    amounts : one per result; for "kind" the words of `technique_frame.KINDS`, and there are no exponents
+    axis : one of `AXES`: the amount that varies
+    amounts : one per result; for axis "kind" strings of `technique_frame.KINDS`, without exponents
     exponents : {"softshadow@1": p ...}
     """
 
@@ -39,11 +40,11 @@ class Growth:
 
 
 def series(workload: Workload, axis: str) -> list[tuple[float | str, Workload]]:
-    """Return the workload at several amounts of one kind, the amount first.
+    """Return pairs of an amount and the workload with this amount, along one axis.
 
     Raises
     ------
-    ValueError      an unknown axis, or one that the workload does not have
+    ValueError                   the axis is unknown, or the workload does not have it
     """
     if axis not in AXES:
         raise ValueError(f"--scaling {axis}: {nearest(axis, AXES)}")
@@ -53,7 +54,7 @@ def series(workload: Workload, axis: str) -> list[tuple[float | str, Workload]]:
         numbers = [max(1, round(workload.amounts[axis] * share)) for share in SHARES]
         return [(number, workload.with_amounts(**{axis: number})) for number in numbers]
     if workload.prepare is technique_frame.prepare and axis == "lights":
-        return [(count, workload.with_amounts(lights=count, kind="outside")) for count in LIGHTS]
+        return [(number, workload.with_amounts(lights=number, kind="outside")) for number in LIGHTS]
     if workload.prepare is technique_frame.prepare and axis == "kind":
         return [(kind, workload.with_amounts(lights=1, kind=kind)) for kind in technique_frame.KINDS[1:]]
     own = [each for each in AXES if each == "resolution" or each in workload.amounts]
@@ -68,12 +69,12 @@ def _resolution(workload: Workload, share: float) -> tuple[float, Workload]:
 
 
 def growth(workload: str, axis: str, amounts: Sequence[float | str], results: Sequence[WorkloadResult]) -> Growth:
-    """Return a series with the exponents of all who took part in it."""
+    """Return the growth of a series of results, with an exponent for each peer."""
     exponents = {}
     if axis != "kind":
-        for one in results[0].peers:
-            seconds = [_median(result, one.renderer, one.threads) for result in results]
-            exponents[f"{one.renderer}@{one.threads}"] = exponent([float(a) for a in amounts], seconds)
+        for peer in results[0].peers:
+            seconds = [_median(result, peer.renderer, peer.threads) for result in results]
+            exponents[f"{peer.renderer}@{peer.threads}"] = exponent([float(a) for a in amounts], seconds)
     return Growth(workload, axis, tuple(amounts), tuple(results), exponents)
 
 
@@ -84,7 +85,7 @@ def _median(result: WorkloadResult, renderer: str, threads: int) -> float:
 
 
 def exponent(amounts: Sequence[float], seconds: Sequence[float]) -> float:
-    """Return p of seconds = c amounts^p, fitted.
+    """Return the exponent p of the fit seconds = c amounts^p.
 
     Examples
     --------

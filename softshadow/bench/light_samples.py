@@ -1,4 +1,4 @@
-"""Soft shadows by light samples: a hard shadow map per sample of an area light, all of them accumulated.
+"""Soft shadows from light samples: one hard shadow map for each sample of an area light, accumulated.
 
 References: Heckbert & Herf 1997, "Simulating soft shadows with graphics hardware".
 """
@@ -14,7 +14,7 @@ from softshadow.bench.meshes import torus_over_ground
 from softshadow.bench.shadow_map_shading import draw_under_map, location
 from softshadow.scene import Light
 from softshadow.techniques.drawing import set_camera
-from softshadow.testing.timing import Frame
+from softshadow.testing.timing import DrawFrame
 
 SAMPLES = 8
 TRIANGLES = 2_000
@@ -29,8 +29,8 @@ def prepare(
     samples: int = SAMPLES,
     triangles: int = TRIANGLES,
     map_size: int = MAP_SIZE,
-) -> Frame:
-    """A frame draws map and picture for every sample, and adds the pictures up in the accumulation buffer."""
+) -> DrawFrame:
+    """Prepare the scene; a frame draws a map and an image for each sample, and accumulates the images."""
     scene = torus_over_ground(triangles)
     lights = [Light(scene.lights[0].position[:3] + offset) for offset in offsets(samples)]
     depth_map = DepthMap(gl, map_size)
@@ -58,7 +58,7 @@ def prepare(
 
 
 def offsets(samples: int) -> np.ndarray:
-    """Return (samples, 3): points of the light round its middle, the R2 sequence, which is even for every number."""
-    root = 1.32471795724474602596  # the real root of x³ = x + 1: with it the points stay apart
+    """Return sample points (samples, 3) relative to the light's centre, from the R2 sequence (even for any number)."""
+    root = 1.32471795724474602596  # the real root of x³ = x + 1, which defines the R2 sequence
     fractions = (0.5 + np.arange(1, samples + 1)[:, None] / np.array([root, root**2])) % 1
     return SIDE * np.stack([fractions[:, 0] - 0.5, np.zeros(samples), fractions[:, 1] - 0.5], axis=1)

@@ -1,4 +1,4 @@
-"""The line that says what a report was measured on."""
+"""Description of the machine that a report was measured on."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from softshadow.testing import mesa_available, mesa_version
 
 
 def machine(with_mesa: bool) -> dict[str, Any]:
-    """Return processor, cores, load and versions; no name of the machine or its user."""
+    """Return processor, cores, load and versions, without the names of the machine and its user."""
     facts: dict[str, Any] = {
         "processor": processor(),
         "cores": os.cpu_count(),
@@ -29,7 +29,7 @@ def machine(with_mesa: bool) -> dict[str, Any]:
 
 
 def processor() -> str:
-    """Return the processor's name where the system tells it, else its architecture."""
+    """Return the name of the processor if the system reports it, else its architecture."""
     information = Path("/proc/cpuinfo")
     if information.exists():
         for line in information.read_text(encoding="utf-8", errors="replace").splitlines():

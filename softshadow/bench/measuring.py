@@ -1,4 +1,7 @@
-"""Measure workloads: buffers are compared first, then every peer draws a frame in turn, round after round."""
+"""Measure workloads: first compare the buffers of all peers, then time frames in rounds, one frame per peer and round.
+
+Peers are interleaved, so background load hits all equally.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.bench.counting import count_frame
+from softshadow.bench.frame_statistics import frame_statistics
 from softshadow.bench.peers import OWN, Peer
 from softshadow.bench.results import PeerTimes, Ratio, Summary, WorkloadResult, ratio_of
 from softshadow.bench.workload import Workload
@@ -19,26 +22,24 @@ ROUNDS = 7
 
 
 def measure(
-    workload: Workload, takes_part: list[Peer], rounds: int = ROUNDS, say: Callable[[str], Any] = lambda text: None
+    workload: Workload, peers: list[Peer], rounds: int = ROUNDS, say: Callable[[str], Any] = lambda text: None
 ) -> WorkloadResult:
-    """Return what a workload takes on each peer.
-
-    All peers stay ready and draw one frame each per round, so that what else the machine does meets all of them.
+    """Return the times of a workload on each peer, and the pixels at which their buffers differ.
 
     Parameters
     ----------
-    takes_part : peers, with softshadow among them
-    rounds : int                 frames of each peer that are timed, after two that are not counted
-    say : callable               gets a line of text per stage
+    peers : list of Peer         softshadow must be among them
+    rounds : int                 number of timed frames of each peer, after two frames that are not timed
+    say : callable               called with a line of text at each stage
 
     Raises
     ------
     MesaError                    Mesa is missing, or the program fails there
     """
     with ExitStack() as open_sessions:
-        say(f"{workload.name}: preparing {', '.join(map(str, takes_part))}")
+        say(f"{workload.name}: preparing {', '.join(map(str, peers))}")
         sessions: dict[Peer, Session] = {}
-        for peer in takes_part:
+        for peer in peers:
             sessions[peer] = peer.open(workload)
             open_sessions.callback(sessions[peer].close)
         first = {peer: session.time()[0] for peer, session in sessions.items()}
@@ -53,39 +54,39 @@ def measure(
     times = tuple(
         PeerTimes(
             peer.renderer, peer.threads, sessions[peer].prepared.wall, first[peer].wall,
-            Summary.of([each.wall for each in taken]), Summary.of([each.cpu for each in taken]),
+            Summary.of([each.wall for each in timings]), Summary.of([each.cpu for each in timings]),
         )
-        for peer, taken in frames.items()
+        for peer, timings in frames.items()
     )  # fmt: skip
     say(f"{workload.name}: counting fragments")
-    counts = count_frame(workload)
+    statistics = frame_statistics(workload)
     return WorkloadResult(
         workload.name, workload.size, dict(workload.amounts), workload.aim,
-        counts.draws, counts.triangles, counts.all_fragments, differing, times, tuple(ratios(frames)),
+        statistics.draws, statistics.triangles, statistics.all_fragments, differing, times, tuple(ratios(frames)),
     )  # fmt: skip
 
 
 def ratios(frames: dict[Peer, list[Timing]]) -> list[Ratio]:
-    """Return how every other renderer compares with softshadow with equally many threads."""
+    """Return the times of every other renderer relative to softshadow with the same number of threads."""
     return [
-        ratio_of(peer.renderer, peer.threads, frames[Peer(OWN, peer.threads)], taken)
-        for peer, taken in frames.items()
+        ratio_of(peer.renderer, peer.threads, frames[Peer(OWN, peer.threads)], timings)
+        for peer, timings in frames.items()
         if peer.renderer != OWN and Peer(OWN, peer.threads) in frames
     ]
 
 
 def differing_pixels(sessions: dict[Peer, Session]) -> dict[str, dict[str, int]]:
-    """Return how many pixels of each peer's buffers differ from those of the first softshadow."""
+    """Return for each renderer and buffer how many pixels differ from the first softshadow peer."""
     expected = next(session for peer, session in sessions.items() if peer.renderer == OWN).buffers()
-    found: dict[str, dict[str, int]] = {}
+    differing: dict[str, dict[str, int]] = {}
     for peer, session in sessions.items():
-        counts = {name: count_differing(expected[name], buffer) for name, buffer in session.buffers().items()}
-        before = found.get(peer.renderer, dict.fromkeys(counts, 0))
-        found[peer.renderer] = {name: max(count, before[name]) for name, count in counts.items()}
-    return found
+        pixels = {name: count_differing(expected[name], buffer) for name, buffer in session.buffers().items()}
+        before = differing.get(peer.renderer, dict.fromkeys(pixels, 0))
+        differing[peer.renderer] = {name: max(number, before[name]) for name, number in pixels.items()}
+    return differing
 
 
 def count_differing(ours: np.ndarray, theirs: np.ndarray) -> int:
-    """Return the number of pixels of (h, w[, c]) that differ."""
+    """Return the number of pixels at which two buffers (h, w[, c]) differ."""
     differs = ours != theirs
     return int(np.count_nonzero(differs.any(axis=-1) if differs.ndim == 3 else differs))

@@ -1,4 +1,4 @@
-"""The scene of the workloads with shadows: one closed mesh of any number of triangles over a ground."""
+"""The scene of the shadow workloads: a closed mesh with any number of triangles above a ground."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ TRIANGLES = 70_000
 
 
 def torus_over_ground(triangles: int = TRIANGLES) -> Scene:
-    """Return a scene with one torus of about that many triangles, a ground and a point light."""
+    """Return a scene with a torus of about `triangles` triangles, a ground and a point light."""
     sides = max(3, round((triangles / 4) ** 0.5))
     torus = shapes.torus(1.0, 0.4, segments=2 * sides, sides=sides)
     shiny = Material(np.array((0.8, 0.4, 0.2)), np.full(3, 0.5), 40)

@@ -1,4 +1,4 @@
-"""Who draws: softshadow or a driver of Mesa, each with a number of threads."""
+"""Renderers to measure: softshadow or a driver of Mesa, each with a number of threads."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Peer:
         return f"{self.renderer}@{self.threads}"
 
     def open(self, workload: Workload) -> Session:
-        """Return the workload prepared on this renderer; close it in the end.
+        """Return a session with the workload prepared on this renderer; the caller closes it.
 
         Raises
         ------
@@ -34,19 +34,19 @@ class Peer:
         return MesaSession(workload.program, workload.size, self.renderer, self.threads)
 
 
-def peers(against: list[str], thread_counts: list[int]) -> list[Peer]:
-    """Return who takes part: softshadow and each renderer named, with each number of threads.
+def peers_for(against: list[str], threads: list[int]) -> list[Peer]:
+    """Return the peers of a benchmark: softshadow and each renderer in `against`, with each number of threads.
 
-    softpipe knows one thread only.
+    softpipe always has one thread.
 
     Raises
     ------
-    ValueError                   unknown renderer; the message has the nearest
+    ValueError                   unknown renderer; the message suggests the nearest
     """
-    found = [Peer(OWN, threads) for threads in thread_counts]
+    peers = [Peer(OWN, number) for number in threads]
     for name in against:
         if name not in DRIVERS:
             raise ValueError(f"--against {name}: {nearest(name, DRIVERS)}, or a file of `softshadow bench --json`")
         driver = DRIVERS[name]
-        found += [Peer(driver, threads) for threads in ([1] if driver == "softpipe" else thread_counts)]
-    return list(dict.fromkeys(found))
+        peers += [Peer(driver, number) for number in ([1] if driver == "softpipe" else threads)]
+    return list(dict.fromkeys(peers))

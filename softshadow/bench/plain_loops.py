@@ -1,4 +1,4 @@
-"""The two loops that measure the machine (`limits`)."""
+"""The two loops that measure the limits of the machine (`limits`)."""
 
 from softshadow.jit import kernel
 
@@ -12,7 +12,7 @@ def triad(a, b, c, scale):
 
 @kernel
 def stencil_sweeps(depth, stencil, z, sweeps):
-    """Count up where z passes under GL_LESS, `sweeps` times over all pixels; z moves, so that no sweep is left out."""
+    """Increment stencil values where z passes GL_LESS, in several sweeps; z changes, so no sweep is optimised away."""
     for sweep in range(sweeps):
         z_now = z[sweep & 1]
         for i in range(len(depth)):

@@ -1,4 +1,4 @@
-"""A picture of a report: each workload's ratio to Mesa, and each growth as lines over doubly logarithmic axes."""
+"""Plots of a report: a bar chart of frame times, and growth as lines on logarithmic axes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def figure_class() -> Any:
 
     Raises
     ------
-    SoftShadowError      matplotlib is not installed; the message says how to get it
+    SoftShadowError              matplotlib is not installed; the message says how to install it
     """
     try:
         from matplotlib.figure import Figure
@@ -24,23 +24,23 @@ def figure_class() -> Any:
     return Figure
 
 
-def save_plot(path: str, report: Report, grown: Sequence[Growth] = ()) -> None:
-    """Write the picture, in the form that the ending of its name says.
+def save_plot(path: str, report: Report, growths: Sequence[Growth] = ()) -> None:
+    """Write a plot of the report; the file name's suffix sets the format.
 
     Raises
     ------
-    SoftShadowError      matplotlib is not installed
+    SoftShadowError              matplotlib is not installed
     """
-    figure = figure_class()(figsize=(7, 3.2 * (1 + len(grown))), layout="constrained")
-    panels = figure.subplots(1 + len(grown), squeeze=False)[:, 0]
+    figure = figure_class()(figsize=(7, 3.2 * (1 + len(growths))), layout="constrained")
+    panels = figure.subplots(1 + len(growths), squeeze=False)[:, 0]
     draw_times(panels[0], report)
-    for panel, each in zip(panels[1:], grown, strict=True):
-        draw_growth(panel, each)
+    for panel, growth in zip(panels[1:], growths, strict=True):
+        draw_growth(panel, growth)
     figure.savefig(path)
 
 
 def draw_times(panel: Any, report: Report) -> None:
-    """Draw a bar per workload and peer: milliseconds a frame, with their spread."""
+    """Draw a bar for each workload and peer: milliseconds per frame, with the spread."""
     labels = list(dict.fromkeys(f"{peer.renderer}@{peer.threads}" for each in report.workloads for peer in each.peers))
     height = 0.8 / max(1, len(labels))
     for number, label in enumerate(labels):
@@ -56,21 +56,21 @@ def draw_times(panel: Any, report: Report) -> None:
     panel.set_yticks(range(len(report.workloads)), [each.name for each in report.workloads])
     panel.invert_yaxis()
     panel.set_xscale("log")
-    panel.set_xlabel("milliseconds a frame")
+    panel.set_xlabel("milliseconds per frame")
     panel.legend()
 
 
-def draw_growth(panel: Any, grown: Growth) -> None:
-    """Draw milliseconds over the amount, a line per peer; the exponent stands in the legend."""
-    for one in grown.results[0].peers:
-        found = [result.times(one.renderer, one.threads) for result in grown.results]
-        label = f"{one.renderer}@{one.threads}"
-        power = grown.exponents.get(label)
-        named = label if power is None else f"{label}: exponent {power:.2f}"
-        panel.plot(grown.amounts, [1e3 * times.wall.median for times in found if times], marker="o", label=named)
-    if grown.exponents:
+def draw_growth(panel: Any, growth: Growth) -> None:
+    """Draw milliseconds per frame over the amount, a line for each peer; the legend shows the exponents."""
+    for peer in growth.results[0].peers:
+        times = [result.times(peer.renderer, peer.threads) for result in growth.results]
+        name = f"{peer.renderer}@{peer.threads}"
+        power = growth.exponents.get(name)
+        label = name if power is None else f"{name}: exponent {power:.2f}"
+        panel.plot(growth.amounts, [1e3 * each.wall.median for each in times if each], marker="o", label=label)
+    if growth.exponents:
         panel.set_xscale("log")
     panel.set_yscale("log")
-    panel.set_xlabel(f"{grown.axis} of {grown.workload}")
-    panel.set_ylabel("milliseconds a frame")
+    panel.set_xlabel(f"{growth.axis} of {growth.workload}")
+    panel.set_ylabel("milliseconds per frame")
     panel.legend()

@@ -1,4 +1,4 @@
-"""Whether a workload has become slower than it was in an earlier report, perhaps on a machine of another speed."""
+"""Comparison with an earlier report, which may come from a machine of another speed."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from dataclasses import dataclass
 from softshadow.bench.peers import OWN
 from softshadow.bench.results import Report, WorkloadResult
 
-TOLERANCE = 0.15  # between two runs of the same code on a quiet machine medians differ by up to a tenth
-SPREADS = 3.0  # a change within three times the spread of both measurements is not told from noise
+TOLERANCE = 0.15  # medians of the same code on an idle machine differ by up to a tenth
+SPREADS = 3.0  # a change within three times the spread of both measurements may be noise
 
 
 @dataclass(frozen=True)
-class Change:
-    """How a workload's time has changed.
+class TimeChange:
+    """Change of a workload's time between two reports.
 
     Attributes
     ----------
-    factor : float        time now / time then, after the machines' speeds have been divided out; above 1 is slower
-    allowed : float       up to this factor it counts as the same
+    factor : float               time now / time then, corrected for the speeds of the machines; above 1 is slower
+    allowed : float              the time counts as the same up to this factor
     verdict : "slower", "same" or "faster"
     """
 
@@ -35,16 +35,16 @@ class Change:
         return "faster" if self.factor < 1 / self.allowed else "same"
 
 
-def changes(now: Report, then: Report) -> list[Change]:
-    """Return the changes of all workloads that both reports have with the same size and amounts.
+def time_changes(now: Report, then: Report) -> list[TimeChange]:
+    """Return the time changes of all workloads that both reports contain with the same size and amounts.
 
-    Times are CPU times with one thread, where waiting for other processes does not count, and wall times with more.
-    They are compared after the speed of the machine, as the cache-resident stencil loop has it.
+    With one thread CPU times are compared, because they exclude waiting for other processes; with more threads, wall
+    times. Times are scaled by the speed of the machine, measured by the cache-resident stencil loop.
     """
-    return [change for workload in now.workloads for change in _changes(now, then, workload)]
+    return [change for workload in now.workloads for change in _time_changes(now, then, workload)]
 
 
-def _changes(now: Report, then: Report, workload: WorkloadResult) -> Iterator[Change]:
+def _time_changes(now: Report, then: Report, workload: WorkloadResult) -> Iterator[TimeChange]:
     same = [
         each
         for each in then.workloads
@@ -59,4 +59,4 @@ def _changes(now: Report, then: Report, workload: WorkloadResult) -> Iterator[Ch
         times = getattr(peer, clock), getattr(earlier, clock)
         factor = times[0].median * speed.stencil / (times[1].median * earlier_speed.stencil)
         allowed = 1 + max(TOLERANCE, SPREADS * (times[0].spread + times[1].spread))
-        yield Change(workload.name, peer.threads, factor, allowed)
+        yield TimeChange(workload.name, peer.threads, factor, allowed)

@@ -1,6 +1,6 @@
-"""What a benchmark found, as values that go into JSON and come back.
+"""Results of a benchmark, and their form in JSON.
 
-All times are seconds. A spread is half the distance between the quartiles, relative to the median.
+All times are in seconds. A spread is half the distance between the quartiles, relative to the median.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ SCHEMA = "softshadow/bench/1"
 
 @dataclass(frozen=True)
 class Summary:
-    """Median and spread of a few measurements."""
+    """Median and spread of several measurements."""
 
     median: float
     spread: float
 
     @classmethod
     def of(cls, values: Sequence[float]) -> Summary:
-        """Return the summary of at least one value.
+        """Return the median and spread of one or more values.
 
         Examples
         --------
@@ -40,13 +40,13 @@ class Summary:
 
 @dataclass(frozen=True)
 class PeerTimes:
-    """How long one peer took for a workload.
+    """Times of one peer for a workload.
 
     Attributes
     ----------
     renderer, threads            see `Peer`
-    prepare, first : float       what the program took to set up, and its first frame (of a process that is warm)
-    wall, cpu : Summary          a frame in the steady state
+    prepare, first : float       preparation, and the first frame (in a process that has drawn before)
+    wall, cpu : Summary          one frame in the steady state
     """
 
     renderer: str
@@ -59,10 +59,10 @@ class PeerTimes:
 
 @dataclass(frozen=True)
 class Ratio:
-    """How many times as long as softshadow another renderer takes, with equally many threads.
+    """Time of another renderer divided by softshadow's time, with the same number of threads.
 
-    Each is the median of the ratios of neighbouring frames: what else the machine does meets both. The ratio of CPU
-    times does not see waiting; it says how much work is done, not how soon.
+    Ratios are taken between consecutive frames, so background load hits both. The ratio of CPU times excludes waiting:
+    it compares the amount of work, not the time until the result.
     """
 
     renderer: str
@@ -73,13 +73,13 @@ class Ratio:
 
 @dataclass(frozen=True)
 class WorkloadResult:
-    """All that was found about a workload.
+    """All results for one workload.
 
     Attributes
     ----------
-    draws, triangles : int       of a frame, as handed in
-    fragments : int              of a frame, those that fail a test included
-    differing : pixels that differ from softshadow's, per renderer and buffer: {"llvmpipe": {"color": 0 ...}}
+    draws, triangles : int       numbers per frame, before clipping and culling
+    fragments : int              number per frame, including those that fail a test
+    differing : number of pixels that differ from softshadow's, by renderer and buffer: {"llvmpipe": {"color": 0 ...}}
     """
 
     name: str
@@ -95,21 +95,21 @@ class WorkloadResult:
 
     @property
     def equal(self) -> bool:
-        """Whether llvmpipe, whose bits softshadow follows, and other numbers of threads left the same buffers."""
-        followed = (self.differing.get(renderer, {}) for renderer in ("softshadow", "llvmpipe"))
-        return not any(count for buffers in followed for count in buffers.values())
+        """Whether llvmpipe, and softshadow with other numbers of threads, left the same buffers as softshadow."""
+        exact = (self.differing.get(renderer, {}) for renderer in ("softshadow", "llvmpipe"))
+        return not any(pixels for buffers in exact for pixels in buffers.values())
 
     def times(self, renderer: str, threads: int) -> PeerTimes | None:
-        """Return the times of one peer, or None where it did not take part."""
+        """Return the times of one peer, or None if it was not measured."""
         return next((each for each in self.peers if (each.renderer, each.threads) == (renderer, threads)), None)
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What the machine can do with a number of threads, measured in the same run.
+    """Limits of the machine with a number of threads.
 
-    triad : bytes a second       a = b + s c over arrays larger than every cache
-    stencil : fragments a second depth test and stencil update over planes that stay in the cache
+    triad : bytes a second       a = b + s c on arrays larger than every cache
+    stencil : fragments a second depth test and stencil update on buffers that stay in the cache
     """
 
     threads: int
@@ -119,7 +119,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class Report:
-    """A whole run of the benchmark."""
+    """All results of one benchmark."""
 
     machine: Mapping[str, Any]
     limits: tuple[Limits, ...]
@@ -131,7 +131,7 @@ class Report:
         return next((each for each in self.limits if each.threads == threads), None)
 
     def share(self, workload: WorkloadResult, threads: int) -> float | None:
-        """Return softshadow's fragments a second over those of the cache-resident stencil loop."""
+        """Return softshadow's fragments per second, relative to the cache-resident stencil loop."""
         times, limit = workload.times("softshadow", threads), self.limit(threads)
         return workload.fragments / times.wall.median / limit.stencil if times and limit else None
 
@@ -141,38 +141,38 @@ def to_json(report: Report) -> dict[str, Any]:
     return {"schema": SCHEMA, **asdict(report)}
 
 
-def from_json(found: Mapping[str, Any]) -> Report:
-    """Return the report that `to_json` was given.
+def from_json(contents: Mapping[str, Any]) -> Report:
+    """Return the report that `to_json` has converted.
 
     Raises
     ------
-    ValueError                   not a report, or one of another form
+    ValueError                   not a report, or a report of another schema
     """
-    if not isinstance(found, Mapping) or found.get("schema") != SCHEMA:
+    if not isinstance(contents, Mapping) or contents.get("schema") != SCHEMA:
         raise ValueError(f"expected a file of `softshadow bench --json` ({SCHEMA})")
     try:
         return Report(
-            found["machine"],
-            tuple(Limits(**each) for each in found["limits"]),
-            tuple(_workload(each) for each in found["workloads"]),
-            found["starts"],
+            contents["machine"],
+            tuple(Limits(**each) for each in contents["limits"]),
+            tuple(_workload(each) for each in contents["workloads"]),
+            contents["starts"],
         )
     except (KeyError, TypeError) as error:
-        raise ValueError(f"a report of {SCHEMA} that is not whole: {error}") from None
+        raise ValueError(f"incomplete report ({SCHEMA}): {error}") from None
 
 
-def _workload(found: Mapping[str, Any]) -> WorkloadResult:
-    peers = tuple(PeerTimes(**{**each, **_summaries(each)}) for each in found["peers"])
-    ratios = tuple(Ratio(**{**each, **_summaries(each)}) for each in found["ratios"])
-    return WorkloadResult(**{**found, "size": tuple(found["size"]), "peers": peers, "ratios": ratios})
+def _workload(contents: Mapping[str, Any]) -> WorkloadResult:
+    peers = tuple(PeerTimes(**{**each, **_summaries(each)}) for each in contents["peers"])
+    ratios = tuple(Ratio(**{**each, **_summaries(each)}) for each in contents["ratios"])
+    return WorkloadResult(**{**contents, "size": tuple(contents["size"]), "peers": peers, "ratios": ratios})
 
 
-def _summaries(found: Mapping[str, Any]) -> dict[str, Summary]:
-    return {key: Summary(**found[key]) for key in ("wall", "cpu")}
+def _summaries(contents: Mapping[str, Any]) -> dict[str, Summary]:
+    return {key: Summary(**contents[key]) for key in ("wall", "cpu")}
 
 
 def ratio_of(renderer: str, threads: int, ours: Sequence[Timing], theirs: Sequence[Timing]) -> Ratio:
-    """Return the ratio of frames that were drawn in turns."""
+    """Return the ratio of their times to ours, from interleaved frames."""
     pairs = list(zip(ours, theirs, strict=True))
     return Ratio(
         renderer,

@@ -1,6 +1,6 @@
-"""Shading: a mesh and a ground lit per pixel under a shadow map that is there already.
+"""Shading workload: a mesh and a ground, lit per pixel with a shadow map drawn beforehand.
 
-The time is that of the visible pixels: interpolation, map lookups, lighting.
+It measures the work per visible pixel: interpolation, map lookups, lighting.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ from softshadow.bench.depth_maps import DepthMap
 from softshadow.bench.meshes import TRIANGLES, torus_over_ground
 from softshadow.scene import Scene
 from softshadow.techniques.drawing import draw_mesh, object_space, set_camera
-from softshadow.testing.timing import Frame
+from softshadow.testing.timing import DrawFrame
 
 MAP_SIZE = 2048
 
 
 def prepare(
     gl: Any, size: tuple[int, int], *, program: str, triangles: int = TRIANGLES, map_size: int = MAP_SIZE
-) -> Frame:
-    """Draw the map; a frame clears the window and draws all objects with the program.
+) -> DrawFrame:
+    """Draw the shadow map; a frame clears the window and draws all objects with the program.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def prepare(
 
 
 def set_light(gl: Any, scene: Scene, texel: float) -> None:
-    """Set what the program needs to know of light and map; call it while the modelview matrix is the view."""
+    """Set the program's light and map uniforms; the modelview matrix must be the view matrix."""
     world_to_eye = np.asarray(gl.glGetDoublev(gl.GL_MODELVIEW_MATRIX)).T
     gl.glUniform4f(location(gl, "lightPosition"), *map(float, world_to_eye @ scene.lights[0].position))
     gl.glUniform3f(location(gl, "ambient"), *map(float, scene.ambient))
@@ -56,7 +56,7 @@ def set_light(gl: Any, scene: Scene, texel: float) -> None:
 
 
 def draw_under_map(gl: Any, scene: Scene, world_to_map: np.ndarray) -> None:
-    """Draw all objects, each with its own way into the map."""
+    """Draw all objects, each with its own matrix from object space to the map."""
     light_matrix = location(gl, "lightMatrix")
     for thing in scene.objects:
         object_to_map = np.ascontiguousarray((world_to_map @ thing.object_to_world).T, np.float32)

@@ -1,6 +1,6 @@
-"""Small triangles: a depth-only pass over a million triangles of a few pixels, as a dense mesh in a shadow map is.
+"""Small triangles workload: a depth-only pass of a million triangles of a few pixels, as a dense mesh in a shadow map.
 
-The time is that of vertex transform and triangle setup; the fragments hardly count.
+It measures vertex transform and triangle setup; fragments take little of the time.
 """
 
 from __future__ import annotations
@@ -11,18 +11,18 @@ import numpy as np
 
 from softshadow.scene import Mesh, shapes
 from softshadow.techniques.drawing import draw_triangles
-from softshadow.testing.timing import Frame
+from softshadow.testing.timing import DrawFrame
 
 TRIANGLES = 1_000_000
 
 
-def prepare(gl: Any, size: tuple[int, int], *, shape: str, triangles: int = TRIANGLES) -> Frame:
-    """A frame clears the depth buffer and draws the mesh once.
+def prepare(gl: Any, size: tuple[int, int], *, shape: str, triangles: int = TRIANGLES) -> DrawFrame:
+    """Prepare the mesh; a frame clears the depth buffer and draws the mesh once.
 
     Parameters
     ----------
     shape : "sphere" or "grid"
-    triangles : int              about how many
+    triangles : int              approximate number
     """
     mesh = sphere(triangles) if shape == "sphere" else displaced_grid(triangles)
     gl.glViewport(0, 0, *size)
@@ -43,13 +43,13 @@ def prepare(gl: Any, size: tuple[int, int], *, shape: str, triangles: int = TRIA
 
 
 def sphere(triangles: int) -> Mesh:
-    """Return a sphere that fills the view, twice as many segments as rings."""
+    """Return a sphere that fills the view, with twice as many segments as rings."""
     rings = max(2, round((triangles / 4) ** 0.5))
     return shapes.sphere(1.0, segments=max(3, 2 * rings), rings=rings)
 
 
 def displaced_grid(triangles: int) -> Mesh:
-    """Return a grid across the view, with hills."""
+    """Return a grid with hills that fills the view."""
     cells = max(1, round((triangles / 2) ** 0.5))
     across = np.linspace(-1.15, 1.15, cells + 1)
     x, y = np.meshgrid(across, across)

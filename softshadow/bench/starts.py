@@ -1,6 +1,6 @@
-"""How long the first frame takes in a process of its own: with nothing compiled, and with everything in the cache.
+"""Time of the first frame in a new process: with an empty kernel cache, and with a full one.
 
-Run as ``python -m softshadow.bench.starts WORKLOAD WxH`` it is that process, and prints its seconds as JSON.
+``python -m softshadow.bench.starts WORKLOAD WxH`` is this process; it prints its times in seconds as JSON.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ PARTS = ("process", "imports", "prepare", "first frame")
 
 
 def measure_starts(workload: Workload) -> dict[str, float]:
-    """Return seconds until the first frame is there.
+    """Return the seconds until the first frame is drawn.
 
     Returns
     -------
-    dict      "cold" (kernels have to be compiled) and "warm" (they are in the cache), each with the whole process and
-              with its parts: "cold process", "cold imports", "cold prepare", "cold first frame", "warm process" ...
+    dict                         "cold process", "cold imports", "cold prepare", "cold first frame", "warm process" ...:
+                                 the whole process and its parts, cold (kernels are compiled) and warm (from the cache)
 
     Raises
     ------
@@ -31,19 +31,19 @@ def measure_starts(workload: Workload) -> dict[str, float]:
     """
     width, height = workload.size
     command = [sys.executable, "-m", __name__, workload.name, f"{width}x{height}"]
-    found: dict[str, float] = {}
+    times: dict[str, float] = {}
     with tempfile.TemporaryDirectory() as folder:
         environment = {**os.environ, "NUMBA_CACHE_DIR": folder}
         for name in ("cold", "warm"):
             start = time.perf_counter()
-            answer = subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout
-            seconds = {"process": time.perf_counter() - start, **json.loads(answer.splitlines()[-1])}
-            found.update({f"{name} {part}": seconds[part] for part in PARTS})
-    return found
+            output = subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout
+            seconds = {"process": time.perf_counter() - start, **json.loads(output.splitlines()[-1])}
+            times.update({f"{name} {part}": seconds[part] for part in PARTS})
+    return times
 
 
 def main(name: str, size: str) -> None:
-    """Draw the first frame of a workload, and print what it took."""
+    """Draw the first frame of a workload, and print the times of its parts."""
     start = time.perf_counter()
     from softshadow import gl
     from softshadow.bench.workloads import get

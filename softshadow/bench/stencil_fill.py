@@ -1,6 +1,6 @@
-"""Stencil fill: large quads counted up and down over a finished depth buffer, as the sides of shadow volumes are.
+"""Stencil fill workload: large quads increment and decrement the stencil buffer, like the sides of shadow volumes.
 
-Nothing but the stencil buffer changes, so the time is that of coverage, depth test and stencil update.
+Only the stencil buffer changes, so it measures coverage, depth test and stencil update.
 """
 
 from __future__ import annotations
@@ -9,15 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.testing.timing import Frame
+from softshadow.testing.timing import DrawFrame
 
 QUADS = 400
 SEED = 1991  # of Heidmann's "Real shadows, real time"; any fixed number would do
 WALLS = 12
 
 
-def prepare(gl: Any, size: tuple[int, int], *, counting: str, depth_format: str, quads: int = QUADS) -> Frame:
-    """Fill the depth buffer; a frame clears the stencil buffer and counts all quads in two passes.
+def prepare(gl: Any, size: tuple[int, int], *, counting: str, depth_format: str, quads: int = QUADS) -> DrawFrame:
+    """Fill the depth buffer; a frame clears the stencil buffer and counts all quads into it in two passes.
 
     Parameters
     ----------
@@ -52,25 +52,25 @@ def prepare(gl: Any, size: tuple[int, int], *, counting: str, depth_format: str,
     return frame
 
 
-def tilted_quads(random: np.random.Generator, count: int) -> np.ndarray:
-    """Return (count, 4, 3) float32 plane quads in clip space, a fifth to a quarter of the screen each, either facing.
+def tilted_quads(random: np.random.Generator, n_quads: int) -> np.ndarray:
+    """Return planar quads (n_quads, 4, 3) float32 in clip space, with random facing.
 
-    Half the height of the screen and nearly half its width: what the side of a shadow volume that comes towards the
-    eye covers.
+    Each covers a fifth to a quarter of the screen, half its height and nearly half its width, like the side of a shadow
+    volume that extends towards the eye.
     """
-    width = random.uniform(0.8, 0.9, count)  # of clip space, which is 2 x 2
-    height = random.uniform(1.0, 1.1, count)
-    shear = random.uniform(-0.2, 0.2, count)
+    width = random.uniform(0.8, 0.9, n_quads)  # clip space is 2 x 2
+    height = random.uniform(1.0, 1.1, n_quads)
+    shear = random.uniform(-0.2, 0.2, n_quads)
     x = random.uniform(-0.95, 0.95 - width)
     y = random.uniform(-0.95, 0.95 - height)
     u, v = np.array([0.0, 1.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0, 1.0])
-    corners = np.empty((count, 4, 3))
+    corners = np.empty((n_quads, 4, 3))
     corners[:, :, 0] = np.clip(x[:, None] + u * width[:, None] + v * shear[:, None], -1, 1)
     corners[:, :, 1] = y[:, None] + v * height[:, None]
-    slopes = random.uniform(-0.6, 0.6, (count, 2))
-    middle = random.uniform(-0.3, 0.3, count)
+    slopes = random.uniform(-0.6, 0.6, (n_quads, 2))
+    middle = random.uniform(-0.3, 0.3, n_quads)
     corners[:, :, 2] = middle[:, None] + slopes[:, :1] * corners[:, :, 0] / 2 + slopes[:, 1:] * corners[:, :, 1] / 2
-    backs = random.random(count) < 0.5
+    backs = random.random(n_quads) < 0.5
     corners[backs] = corners[backs, ::-1]
     quads = corners.astype(np.float32)
     quads.setflags(write=False)
@@ -78,7 +78,7 @@ def tilted_quads(random: np.random.Generator, count: int) -> np.ndarray:
 
 
 def draw_quads(gl: Any, quads: np.ndarray) -> None:
-    """Draw (n, 4, 3) float32 quads."""
+    """Draw quads (n, 4, 3) float32."""
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
     gl.glVertexPointer(3, gl.GL_FLOAT, 0, quads)
     gl.glDrawArrays(gl.GL_QUADS, 0, 4 * len(quads))

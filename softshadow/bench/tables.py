@@ -1,4 +1,4 @@
-"""A report as tables of text: (columns, rows)."""
+"""Text tables of a report: (columns, rows)."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from softshadow.bench.growth import Growth
 from softshadow.bench.peers import OWN
-from softshadow.bench.regression import Change
+from softshadow.bench.regression import TimeChange
 from softshadow.bench.results import PeerTimes, Report, Summary, WorkloadResult
 
 Table = tuple[list[str], list[list[str]]]
@@ -14,7 +14,7 @@ NOTHING = "-"
 
 
 def limit_rows(report: Report) -> Table:
-    """Return the machine's limits per number of threads."""
+    """Return a row for each number of threads: the limits of the machine."""
     rows = [
         [str(each.threads), f"{each.triad / 1e9:.1f} GB/s", f"{each.stencil / 1e9:.2f} Gfrag/s"]
         for each in report.limits
@@ -23,10 +23,10 @@ def limit_rows(report: Report) -> Table:
 
 
 def result_rows(report: Report) -> Table:
-    """Return a row per workload and peer."""
+    """Return a row for each workload and peer."""
     columns = [
-        "workload", "size", "who", "threads", "wall ms", "CPU ms", "first ms", "Mfrag/s", "of limit", "x wall", "x CPU",
-        "aim", "equal",
+        "workload", "size", "renderer", "threads", "wall ms", "CPU ms", "first ms", "Mfrag/s", "of limit", "x wall",
+        "x CPU", "aim", "equal",
     ]  # fmt: skip
     return columns, [_row(report, each, times) for each in report.workloads for times in each.peers]
 
@@ -66,25 +66,25 @@ def milliseconds(summary: Summary) -> str:
 
 
 def growth_rows(growth: Growth) -> Table:
-    """Return a row per peer: milliseconds at each amount, and the exponent."""
+    """Return a row for each peer: milliseconds at each amount, and the exponent."""
     rows = []
-    for one in growth.results[0].peers:
-        found = [result.times(one.renderer, one.threads) for result in growth.results]
-        power = growth.exponents.get(f"{one.renderer}@{one.threads}")
-        cells = [milliseconds(times.wall) if times else NOTHING for times in found]
-        rows.append([one.renderer, str(one.threads), *cells, NOTHING if power is None else f"{power:.2f}"])
-    return ["who", "threads", *map(str, growth.amounts), "exponent"], rows
+    for peer in growth.results[0].peers:
+        times = [result.times(peer.renderer, peer.threads) for result in growth.results]
+        power = growth.exponents.get(f"{peer.renderer}@{peer.threads}")
+        cells = [milliseconds(each.wall) if each else NOTHING for each in times]
+        rows.append([peer.renderer, str(peer.threads), *cells, NOTHING if power is None else f"{power:.2f}"])
+    return ["renderer", "threads", *map(str, growth.amounts), "exponent"], rows
 
 
 def start_rows(report: Report) -> Table:
-    """Return a row per workload: the parts of a cold and of a warm start."""
+    """Return a row for each workload: the times of the parts of a cold and a warm start."""
     columns = list(next(iter(report.starts.values())))
     return ["workload", *columns], [
-        [name, *(f"{found[column]:.2f}" for column in columns)] for name, found in report.starts.items()
+        [name, *(f"{seconds[column]:.2f}" for column in columns)] for name, seconds in report.starts.items()
     ]
 
 
-def change_rows(changed: Sequence[Change]) -> Table:
-    """Return a row per workload that an earlier report has, too."""
-    rows = [[e.workload, str(e.threads), f"{e.factor:.2f}", f"{e.allowed:.2f}", e.verdict] for e in changed]
+def change_rows(changes: Sequence[TimeChange]) -> Table:
+    """Return a row for each time change since an earlier report."""
+    rows = [[e.workload, str(e.threads), f"{e.factor:.2f}", f"{e.allowed:.2f}", e.verdict] for e in changes]
     return ["workload", "threads", "time now / then", "allowed", "verdict"], rows

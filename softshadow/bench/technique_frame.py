@@ -1,4 +1,4 @@
-"""A frame of a technique of the register, with all that it reads back between its steps."""
+"""Technique workload: a frame of a technique, including what it reads back between its steps."""
 
 from __future__ import annotations
 
@@ -12,59 +12,59 @@ from softshadow import techniques
 from softshadow.errors import Warning as SoftShadowWarning
 from softshadow.errors import nearest
 from softshadow.scene import Light, Scene
-from softshadow.testing.timing import Frame
+from softshadow.testing.timing import DrawFrame
 
 AS_IN_SCENE = "as in the scene"
 KINDS = (AS_IN_SCENE, "at infinity", "outside", "inside")
-SPREAD = 2.4  # radians between two lights round the vertical through the scene's middle: never two in one direction
+SPREAD = 2.4  # radians between lights around the vertical axis; no two lights get the same direction
 
 
 def prepare(
     gl: Any, size: tuple[int, int], *, technique: str, scene: str, lights: int = 0, kind: str = AS_IN_SCENE
-) -> Frame:
-    """A frame runs all steps of the technique, with its default options.
+) -> DrawFrame:
+    """Prepare the scene; a frame draws all steps of the technique with its default options.
 
     Parameters
     ----------
-    technique, scene : names of the registers
-    lights : int              how many, turned about the scene; 0: those of the scene
-    kind : str                where the lights stand, see `KINDS`
+    technique, scene : str       names
+    lights : int                 number of lights around the scene; 0: the scene's own lights
+    kind : str                   where the lights are, see `KINDS`
     """
-    drawn = with_lights(Scene.named(scene), lights, kind)
+    lit_scene = with_lights(Scene.named(scene), lights, kind)
     entry = techniques.get(technique)
     options = entry.validate_options({})
 
     def frame() -> None:
         gl.glPushAttrib(gl.GL_ALL_ATTRIB_BITS)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", SoftShadowWarning)  # a light inside the scene is known to be one
-            for _ in entry.steps(gl, drawn, size=size, **options):
+            warnings.simplefilter("ignore", SoftShadowWarning)  # a light inside the scene is intended
+            for _ in entry.steps(gl, lit_scene, size=size, **options):
                 pass
         gl.glPopAttrib()
 
     return frame
 
 
-def with_lights(scene: Scene, count: int, kind: str) -> Scene:
-    """Return a scene with other lights: `count` of them, all of one kind, with the first light's brightness shared.
+def with_lights(scene: Scene, n_lights: int, kind: str) -> Scene:
+    """Return a scene with `n_lights` lights of one kind, which share the first light's brightness.
 
     Raises
     ------
-    ValueError      unknown kind; the message has the nearest
+    ValueError                   unknown kind; the message suggests the nearest
     """
     if kind not in KINDS:
         raise ValueError(f"kind={kind!r}: {nearest(kind, KINDS)}")
-    if not count and kind == AS_IN_SCENE:
+    if not n_lights and kind == AS_IN_SCENE:
         return scene
-    first = placed(scene, scene.lights[0], kind)
-    total = count or len(scene.lights)
+    first = place_light(scene, scene.lights[0], kind)
+    total = n_lights or len(scene.lights)
     color = scene.lights[0].color / total
-    lights = [Light(turned(scene, first, SPREAD * k), color, name=f"light {k}") for k in range(total)]
+    lights = [Light(rotate_about_casters(scene, first, SPREAD * k), color, name=f"light {k}") for k in range(total)]
     return replace(scene, lights=tuple(lights))
 
 
-def placed(scene: Scene, light: Light, kind: str) -> np.ndarray:
-    """Return the (4,) position of a light of a kind, in about the direction of the light there is."""
+def place_light(scene: Scene, light: Light, kind: str) -> np.ndarray:
+    """Return the position (4,) of a light of another kind, in about the direction of the scene's light."""
     middle, reach = bounds(scene)
     towards = light.position[:3] - light.position[3] * middle
     towards = towards / np.linalg.norm(towards)
@@ -77,17 +77,17 @@ def placed(scene: Scene, light: Light, kind: str) -> np.ndarray:
     return light.position
 
 
-def turned(scene: Scene, position: np.ndarray, angle: float) -> np.ndarray:
-    """Return a position turned about the vertical through the middle of the casters."""
+def rotate_about_casters(scene: Scene, position: np.ndarray, angle: float) -> np.ndarray:
+    """Return a position (4,) rotated about the vertical axis through the casters' centre."""
     middle, _ = bounds(scene)
     cosine, sine = np.cos(angle), np.sin(angle)
     turn = np.array([[cosine, 0, sine], [0, 1, 0], [-sine, 0, cosine]])
-    centre = position[3] * middle
-    return np.array([*(centre + turn @ (position[:3] - centre)), position[3]])
+    center = position[3] * middle
+    return np.array([*(center + turn @ (position[:3] - center)), position[3]])
 
 
 def bounds(scene: Scene) -> tuple[np.ndarray, float]:
-    """Return the middle of the casters and the half length of their diagonal."""
+    """Return the centre of the casters' bounding box and half the length of its diagonal."""
     vertices = np.concatenate([thing.world_positions for thing in scene.casters or scene.objects])
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     return (low + high) / 2, float(np.linalg.norm(high - low) / 2)

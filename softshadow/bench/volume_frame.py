@@ -1,6 +1,6 @@
-"""A whole frame with shadow volumes, z-fail: silhouette and extrusion, ambient pass, two counting passes, lit pass.
+"""Whole z-fail frame: silhouette and extrusion, ambient pass, two counting passes, lit pass.
 
-The technique's own functions, without what it reads back between the passes.
+It calls the technique's functions, without reading back buffers between the passes.
 """
 
 from __future__ import annotations
@@ -10,11 +10,11 @@ from typing import Any
 from softshadow.bench.meshes import TRIANGLES, torus_over_ground
 from softshadow.techniques import drawing
 from softshadow.techniques.shadow_volumes import draw_volumes, volumes_of
-from softshadow.testing.timing import Frame
+from softshadow.testing.timing import DrawFrame
 
 
-def prepare(gl: Any, size: tuple[int, int], *, triangles: int = TRIANGLES) -> Frame:
-    """A frame makes the volumes and draws everything, as if the light had moved."""
+def prepare(gl: Any, size: tuple[int, int], *, triangles: int = TRIANGLES) -> DrawFrame:
+    """Prepare the scene; a frame builds the volumes and draws everything, as after a movement of the light."""
     scene = torus_over_ground(triangles)
     light = scene.lights[0]
 

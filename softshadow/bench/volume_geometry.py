@@ -1,6 +1,6 @@
-"""The geometry of shadow volumes alone: silhouette, extrusion and caps of a large mesh, as if the light had moved.
+"""Shadow volume geometry: silhouette, extrusion and caps of a large mesh, as after a movement of the light.
 
-Nothing is drawn, so all renderers take the same time; what counts is seconds.
+Nothing is drawn, so the time is the same for all renderers.
 """
 
 from __future__ import annotations
@@ -9,13 +9,13 @@ from typing import Any
 
 from softshadow.bench.meshes import torus_over_ground
 from softshadow.techniques.shadow_volumes import volumes_of
-from softshadow.testing.timing import Frame
+from softshadow.testing.timing import DrawFrame
 
 TRIANGLES = 1_000_000
 
 
-def prepare(gl: Any, size: tuple[int, int], *, triangles: int = TRIANGLES) -> Frame:
-    """A frame makes the volumes of all casters; how the mesh hangs together is found out once, before."""
+def prepare(gl: Any, size: tuple[int, int], *, triangles: int = TRIANGLES) -> DrawFrame:
+    """Prepare the scene and the mesh topology; a frame builds the volumes of all casters."""
     scene = torus_over_ground(triangles)
 
     def frame() -> None:

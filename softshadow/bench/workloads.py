@@ -1,4 +1,4 @@
-"""The register of workloads: those of the performance targets, and each technique on each scene."""
+"""All workloads by name: those of the performance targets, and each technique on each scene."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ def _small_triangles(shape: str) -> Workload:
 
 def _shading(name: str, program: str, lookups: str) -> Workload:
     amounts = {"program": program, "triangles": 70_000, "map_size": shadow_map_shading.MAP_SIZE}
-    title = f"shading: Blinn-Phong per pixel under a shadow map, {lookups}"
+    title = f"shading: Blinn-Phong per pixel with a shadow map, {lookups}"
     return Workload(f"w3-{name}", title, shadow_map_shading.prepare, FULL_HD, amounts, aim=1.8)
 
 
-REGISTER = {
+WORKLOADS = {
     workload.name: workload
     for workload in (
         _stencil_fill("zpass", "d24"),
@@ -64,7 +64,7 @@ REGISTER = {
         ),
         Workload(
             "w5",
-            "soft shadow by light samples: a shadow map each, accumulated",
+            "soft shadow from light samples: one shadow map each, accumulated",
             light_samples.prepare,
             VGA,
             {"samples": light_samples.SAMPLES, "triangles": light_samples.TRIANGLES},
@@ -83,21 +83,21 @@ REGISTER = {
 
 def names() -> list[str]:
     """Return the names of all workloads: the numbered ones, then TECHNIQUE/SCENE."""
-    return [*REGISTER, *(f"{technique}/{scene}" for technique in techniques.names() for scene in scene_names())]
+    return [*WORKLOADS, *(f"{technique}/{scene}" for technique in techniques.names() for scene in scene_names())]
 
 
 def get(name: str) -> Workload:
-    """Return a workload by its name.
+    """Return the workload with this name.
 
     Raises
     ------
-    ValueError                   there is none of that name; the message has the nearest one
+    ValueError                   unknown name; the message suggests the nearest
     """
     technique, slash, scene = name.partition("/")
-    if name in REGISTER:
-        return REGISTER[name]
+    if name in WORKLOADS:
+        return WORKLOADS[name]
     if not slash:
-        raise ValueError(f"unknown workload {name!r}: {nearest(name, [*REGISTER, 'TECHNIQUE/SCENE'])}")
+        raise ValueError(f"unknown workload {name!r}: {nearest(name, [*WORKLOADS, 'TECHNIQUE/SCENE'])}")
     title = techniques.get(technique).title
     if scene not in scene_names():
         raise ValueError(f"workload {name!r}: unknown scene {scene!r}: {nearest(scene, scene_names())}")
@@ -105,23 +105,23 @@ def get(name: str) -> Workload:
     return Workload(name, f"{title}, scene {scene}", technique_frame.prepare, VGA, amounts)
 
 
-def chosen(patterns: list[str]) -> list[Workload]:
-    """Return the workloads that names ask for, each once.
+def select_workloads(patterns: list[str]) -> list[Workload]:
+    """Return the workloads that match names or patterns, each once.
 
-    A name may be the beginning of numbered ones ("w1", "w3-"), "all" for all of these, or "TECHNIQUE/all" for each
-    scene.
+    A pattern may be the beginning of numbered names ("w1", "w3-"), "all" for every workload in `WORKLOADS`, or
+    "TECHNIQUE/all" for a technique on each scene.
 
     Raises
     ------
     ValueError                   as `get`
     """
-    found: list[str] = []
+    matches: list[str] = []
     for pattern in patterns:
         technique, slash, scene = pattern.partition("/")
         if pattern == "all":
-            found += REGISTER
+            matches += WORKLOADS
         elif slash and scene == "all":
-            found += [f"{technique}/{each}" for each in scene_names()]
+            matches += [f"{technique}/{each}" for each in scene_names()]
         else:
-            found += [name for name in REGISTER if name.partition("-")[0] == pattern.rstrip("-")] or [pattern]
-    return [get(name) for name in dict.fromkeys(found)]
+            matches += [name for name in WORKLOADS if name.partition("-")[0] == pattern.rstrip("-")] or [pattern]
+    return [get(name) for name in dict.fromkeys(matches)]

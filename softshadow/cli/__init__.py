@@ -1,7 +1,7 @@
-"""The command line: ``softshadow COMMAND``. Data goes to stdout, talk to stderr.
+"""The command line: ``softshadow COMMAND``. Results go to stdout, messages to stderr.
 
-Exit codes: 0 done, 1 a check failed, 2 wrong usage, 3 bad input, 130 interrupted, 143 ended by SIGTERM. Whatever is
-slow to import is imported inside the commands, so that ``--help`` answers at once.
+Exit codes: 0 success, 1 a check failed, 2 wrong usage, 3 bad input, 130 interrupted, 143 ended by SIGTERM. Modules that
+are slow to import are imported inside the commands, so that ``--help`` is fast.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from typing import Any
 import click
 
 import softshadow
+from softshadow.cli.arguments import examples
 from softshadow.cli.bench import bench
 from softshadow.cli.failures import failures
 from softshadow.cli.listings import listings
@@ -26,12 +27,12 @@ from softshadow.cli.runs import pixel, render, steps
 from softshadow.cli.tours import tour
 from softshadow.errors import SoftShadowError
 
-BAD_INPUT, INTERRUPTED, ENDED = 3, 130, 143
-SPELLED_HERE = {"force=True": "--force"}  # what the package's messages call by the name of an argument
+BAD_INPUT, INTERRUPTED, TERMINATED = 3, 130, 143
+OPTION_NAMES = {"force=True": "--force"}  # Python arguments in error messages, and the options they correspond to
 
 
 class InputError(click.ClickException):
-    """Bad input, said in one line."""
+    """Bad input, reported in one line."""
 
     exit_code = BAD_INPUT
 
@@ -39,31 +40,31 @@ class InputError(click.ClickException):
         click.echo(f"error: {self.message}", err=True)
 
 
-class Commands(click.Group):
-    """The group of all commands: what a user's input can cause becomes one line and an exit code."""
+class CommandGroup(click.Group):
+    """The group of all commands; errors caused by the user's input become one line and an exit code."""
 
     def invoke(self, ctx: click.Context) -> Any:
         try:
-            with cleaning_up():
+            with exit_on_sigterm():
                 return super().invoke(ctx)
         except (SoftShadowError, ValueError, TypeError, OSError, MemoryError) as error:
-            # a pipe that was closed, as by head, is no mistake: click ends quietly
+            # EPIPE: the reader, such as head, has closed the pipe; click then ends silently
             if ctx.params.get("traceback") or getattr(error, "errno", None) == errno.EPIPE:
                 raise
-            raise InputError(_said(error)) from None
+            raise InputError(_message(error)) from None
         except KeyboardInterrupt:
             click.echo("interrupted", err=True)
             raise click.exceptions.Exit(INTERRUPTED) from None
 
 
 @contextmanager
-def cleaning_up() -> Iterator[None]:
-    """Inside, SIGTERM ends the command as Ctrl-C does: with nothing half-written left behind."""
+def exit_on_sigterm() -> Iterator[None]:
+    """Exit through Python's clean-up on SIGTERM, as on Ctrl-C, so that no file is left half-written."""
 
     def end(*_: Any) -> None:
-        sys.exit(ENDED)
+        sys.exit(TERMINATED)
 
-    if threading.current_thread() is not threading.main_thread():  # only that one may listen
+    if threading.current_thread() is not threading.main_thread():  # only the main thread may set signal handlers
         yield
         return
     before = signal.signal(signal.SIGTERM, end)
@@ -73,22 +74,22 @@ def cleaning_up() -> Iterator[None]:
         signal.signal(signal.SIGTERM, before)
 
 
-def _said(error: BaseException) -> str:
+def _message(error: BaseException) -> str:
     message = str(error) or type(error).__name__
-    for there, here in SPELLED_HERE.items():
-        message = message.replace(there, here)
+    for argument, option in OPTION_NAMES.items():
+        message = message.replace(argument, option)
     return message
 
 
 @click.group(
-    cls=Commands,
+    cls=CommandGroup,
     context_settings={"help_option_names": ["-h", "--help"]},
-    epilog="Examples:  softshadow tour  |  softshadow pixel volume-zfail 160 170 --size 320x240",
+    epilog=examples("softshadow tour", "softshadow pixel volume-zfail 160 170 --size 320x240"),
 )
 @click.version_option(softshadow.__version__, "-V", "--version", prog_name="softshadow")
-@click.option("--traceback", is_flag=True, help="Show where an error comes from, for a report of it.")
+@click.option("--traceback", is_flag=True, help="Show the Python traceback of an error, for a bug report.")
 def main(traceback: bool) -> None:
-    """Real-time shadow algorithms, step by step, on a software rasterizer whose every pixel explains itself."""
+    """Real-time shadow algorithms, step by step, on a software rasterizer that explains every pixel."""
 
 
 for command in (tour, render, steps, pixel, techniques, scenes, listings, failures, bench, warmup, doctor):

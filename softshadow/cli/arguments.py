@@ -1,4 +1,4 @@
-"""Arguments that several commands share: which scene, how large, which options."""
+"""Arguments that several commands share: scene, size, and options of the technique."""
 
 from __future__ import annotations
 
@@ -50,15 +50,22 @@ class Point(click.ParamType):
         return numbers
 
 
+def examples(*commands: str) -> str:
+    """Return the end of a help text with example commands, one in a line."""
+    return "\n  ".join(("\b\nExamples:", *commands))
+
+
 def scene_arguments(default_size: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return a decorator that adds --scene, --mesh, --light and --size."""
 
     def add(function: Callable[..., Any]) -> Callable[..., Any]:
+        size_help = "Image size in pixels."
+        light_help = "Replace the lights: X,Y,Z is a point, X,Y,Z,0 a direction."
         for option in (
-            click.option("--size", type=Size(), default=default_size, show_default=True, help="Of the picture."),
-            click.option("--light", type=Point(), help="Where the light is; X,Y,Z,0 is a light at infinity."),
-            click.option("--mesh", metavar="FILE", help="A model (OBJ, PLY, STL, OFF, GLB, glTF) on a floor."),
-            click.option("--scene", metavar="NAME|FILE.toml", help="A named scene, or a scene file.  [default: torus]"),
+            click.option("--size", type=Size(), default=default_size, show_default=True, help=size_help),
+            click.option("--light", type=Point(), help=light_help),
+            click.option("--mesh", metavar="FILE", help="Put a model (OBJ, PLY, STL, OFF, GLB, glTF) on a floor."),
+            click.option("--scene", metavar="NAME|FILE.toml", help="A scene name or scene file.  [default: torus]"),
         ):
             function = option(function)
         return function
@@ -66,57 +73,57 @@ def scene_arguments(default_size: str) -> Callable[[Callable[..., Any]], Callabl
     return add
 
 
-as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON.")
-force = click.option("--force", is_flag=True, help="Overwrite files that this program did not write.")
+as_json = click.option("--json", "as_json", is_flag=True, help="Print the result as JSON.")
+force = click.option("--force", is_flag=True, help="Also overwrite files that softshadow did not write.")
 technique_options = click.option(
-    "-O", "--option", "given", metavar="KEY=VALUE", multiple=True, help="An option of the technique; several times."
+    "-O", "--option", "options", metavar="KEY=VALUE", multiple=True, help="Set an option of the technique; repeatable."
 )
 
 
-def chosen_scene(scene: str | None, mesh: str | None, light: tuple[float, ...] | None, default: str = "torus") -> Scene:
-    """Return the scene that the arguments ask for."""
+def load_scene(scene: str | None, mesh: str | None, light: tuple[float, ...] | None, default: str = "torus") -> Scene:
+    """Return the scene that the arguments describe."""
     from dataclasses import replace
 
     from softshadow.scene import Light, Scene
 
     if scene and mesh:
-        raise click.UsageError("--scene and --mesh: expected one of them")
+        raise click.UsageError("--scene and --mesh: expected only one of them")
     if mesh:
         return Scene.from_mesh(mesh, light=light) if light else Scene.from_mesh(mesh)
     name = scene or default
     if Path(name).suffix.lower() in MODELS:
-        raise click.UsageError(f"--scene {name}: is the name of a model file; expected --mesh {name}")
-    made = Scene.load(name) if name.lower().endswith(".toml") else Scene.named(name)
-    return replace(made, lights=(Light(light),)) if light else made
+        raise click.UsageError(f"--scene {name}: this is a model file; expected --mesh {name}")
+    chosen = Scene.load(name) if name.lower().endswith(".toml") else Scene.named(name)
+    return replace(chosen, lights=(Light(light),)) if light else chosen
 
 
-def spelled(
+def scene_arguments_text(
     scene: str | None, mesh: str | None, light: tuple[float, ...] | None, size: tuple[int, int], default: str = "torus"
 ) -> str:
-    """Return the arguments that ask for the same scene and size again, as a shell takes them."""
+    """Return the command line arguments for a scene and size, quoted for a shell."""
     words = ["--mesh", mesh] if mesh else ["--scene", scene or default]
     if light:
         words += [f"--light={','.join(repr(number).removesuffix('.0') for number in light)}"]
     return shlex.join([*words, "--size", f"{size[0]}x{size[1]}"])
 
 
-def parsed_options(technique: str, given: tuple[str, ...]) -> dict[str, Any]:
-    """Return KEY=VALUE arguments as the technique's options take them; an unknown key is left to the register."""
+def parse_options(technique: str, texts: tuple[str, ...]) -> dict[str, Any]:
+    """Return KEY=VALUE arguments as the technique's options, converted to their types; unknown keys stay strings."""
     from softshadow import techniques
 
     known = techniques.get(technique).options
     options: dict[str, Any] = {}
-    for text in given:
+    for text in texts:
         key, equals, value = text.partition("=")
         if not equals:
             raise click.UsageError(f"--option {text!r}: expected KEY=VALUE")
         key = key.replace("-", "_")
         kind = known[key].kind if key in known else str
-        options[key] = _converted(key, value, kind, known[key].expected if key in known else "")
+        options[key] = _convert(key, value, kind, known[key].expected if key in known else "")
     return options
 
 
-def _converted(key: str, value: str, kind: type, expected: str) -> Any:
+def _convert(key: str, value: str, kind: type, expected: str) -> Any:
     if kind is bool:
         if value.lower() in YES + NO:
             return value.lower() in YES

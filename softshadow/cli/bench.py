@@ -1,4 +1,4 @@
-"""``softshadow bench``: how long workloads take here, on Mesa, and against an earlier report."""
+"""``softshadow bench``: measure workloads, compare with Mesa and with earlier reports."""
 
 from __future__ import annotations
 
@@ -8,21 +8,19 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from softshadow.cli.arguments import Size, as_json
-from softshadow.cli.console import named_warnings, print_json, say, table
+from softshadow.cli.arguments import Size, as_json, examples
+from softshadow.cli.console import CHECK_FAILED, print_json, print_warnings_once, say, table
 
 if TYPE_CHECKING:
     from softshadow.bench.growth import Growth
     from softshadow.bench.peers import Peer
-    from softshadow.bench.regression import Change
+    from softshadow.bench.regression import TimeChange
     from softshadow.bench.results import Report, WorkloadResult
     from softshadow.bench.workload import Workload
 
-WORSE = 1  # the exit code where buffers differ or a workload has become slower
-
 
 class Threads(click.ParamType):
-    """Numbers of threads, with commas between them."""
+    """Numbers of threads, separated by commas."""
 
     name = "N,N"
 
@@ -31,69 +29,69 @@ class Threads(click.ParamType):
             return value
         numbers = [int(part) for part in value.split(",") if part.strip().isdigit()]
         if len(numbers) != value.count(",") + 1 or min(numbers, default=0) < 1:
-            self.fail(f"{value!r}: expected numbers of threads from 1 on, as in 1,2", param, ctx)
+            self.fail(f"{value!r}: expected numbers of threads, at least 1, as in 1,2", param, ctx)
         return list(dict.fromkeys(numbers))
 
 
 @click.command(
-    epilog="Examples:  softshadow bench w4  |  softshadow bench volume-zfail/torus --scaling lights --threads 1"
+    epilog=examples("softshadow bench w4", "softshadow bench volume-zfail/torus --scaling lights --threads 1")
 )
 @click.argument("names", metavar="[WORKLOAD]...", nargs=-1)
 @click.option(
     "--against", metavar="mesa|softpipe|FILE.json", multiple=True,
-    help="Draw in turns with Mesa's llvmpipe or softpipe, or compare with an earlier --json; several times.",
+    help="Compare with Mesa's llvmpipe or softpipe, or with an earlier --json report; repeatable.",
 )  # fmt: skip
-@click.option("--threads", type=Threads(), default="1", show_default=True, help="Numbers of threads, of all sides.")
-@click.option("--rounds", type=click.IntRange(1), default=7, show_default=True, help="Frames that are timed, of each.")
-@click.option("--size", type=Size(), help="Of the window, instead of the workload's own.")
-@click.option("--scaling", metavar="AXIS", help="Measure growth over resolution, triangles, samples, lights or kind.")
-@click.option("--starts", is_flag=True, help="Measure the first frame of a new process, too: cold and warm.")
-@click.option("--plot", metavar="FILE", help="Write a picture (.png, .svg, .pdf); needs matplotlib.")
+@click.option("--threads", type=Threads(), default="1", show_default=True, help="Numbers of threads to measure.")
+@click.option("--rounds", type=click.IntRange(1), default=7, show_default=True, help="Number of timed frames.")
+@click.option("--size", type=Size(), help="Window size, instead of the workload's own.")
+@click.option("--scaling", metavar="AXIS", help="Vary resolution, triangles, samples, lights or kind (of light).")
+@click.option("--starts", is_flag=True, help="Also measure the first frame of a new process, cold and warm.")
+@click.option("--plot", metavar="FILE", help="Write a plot (.png, .svg, .pdf); needs matplotlib.")
 @as_json
 @click.pass_context
 def bench(
     context: click.Context, names: tuple[str, ...], against: tuple[str, ...], threads: list[int], rounds: int,
     size: tuple[int, int] | None, scaling: str | None, starts: bool, plot: str | None, as_json: bool,
 ) -> None:  # fmt: skip
-    """Time workloads, alone, against Mesa, or against an earlier report; without names, list them."""
-    from softshadow.bench.peers import peers
-    from softshadow.bench.regression import changes
-    from softshadow.bench.workloads import chosen
+    """Measure frame times of workloads, or list the workloads."""
+    from softshadow.bench.peers import peers_for
+    from softshadow.bench.regression import time_changes
+    from softshadow.bench.workloads import select_workloads
 
     if not names:
         _list(as_json)
         return
-    workloads = [each.resized(size) if size else each for each in chosen(list(names))]
+    workloads = [each.resized(size) if size else each for each in select_workloads(list(names))]
     files = [each for each in against if each.endswith(".json")]
     earlier = [_earlier(file) for file in files]
-    takes_part = peers([each for each in against if each not in files], threads)
+    peers = peers_for([each for each in against if each not in files], threads)
     if plot:
         from softshadow.bench.plot import figure_class
 
-        figure_class()  # said before minutes have gone by
-    report, grown = _measured(workloads, takes_part, threads, rounds, scaling, starts)
-    changed = [change for then in earlier for change in changes(report, then)]
+        figure_class()  # report a missing matplotlib before measuring for minutes
+    report, growths = _measure(workloads, peers, threads, rounds, scaling, starts)
+    changes = [change for then in earlier for change in time_changes(report, then)]
     if plot:
         from softshadow.bench.plot import save_plot
 
-        save_plot(plot, report, grown)
+        save_plot(plot, report, growths)
     if as_json:
-        _print_json(report, grown, changed)
+        _print_json(report, growths, changes)
     else:
-        _print(report, grown, changed)
-    if not all(each.equal for each in report.workloads) or any(each.verdict == "slower" for each in changed):
-        context.exit(WORSE)
+        _print(report, growths, changes)
+    if not all(each.equal for each in report.workloads) or any(each.verdict == "slower" for each in changes):
+        context.exit(CHECK_FAILED)
 
 
 def _list(as_json: bool) -> None:
     from softshadow.bench.workloads import get, names
 
-    found = [get(name) for name in names()]
+    workloads = [get(name) for name in names()]
     if as_json:
-        print_json("bench", workloads=[{"name": e.name, "title": e.title, "size": e.size} for e in found])
+        print_json("bench", workloads=[{"name": e.name, "title": e.title, "size": e.size} for e in workloads])
         return
-    rows = [[each.name, f"{each.size[0]}x{each.size[1]}", each.title] for each in found]
-    table("Workloads", ["name", "size", "what it draws"], rows)
+    rows = [[each.name, f"{each.size[0]}x{each.size[1]}", each.title] for each in workloads]
+    table("Workloads", ["name", "size", "description"], rows)
 
 
 def _earlier(file: str) -> Report:
@@ -105,9 +103,9 @@ def _earlier(file: str) -> Report:
         raise ValueError(f"{file}: {error}") from None
 
 
-def _measured(
+def _measure(
     workloads: list[Workload],
-    takes_part: list[Peer],
+    peers: list[Peer],
     threads: list[int],
     rounds: int,
     scaling: str | None,
@@ -124,48 +122,48 @@ def _measured(
     say("measuring the machine's limits ...")
     limits = tuple(measure_limits(number) for number in threads)
     results: list[WorkloadResult] = []
-    grown = []
-    with named_warnings():
+    growths = []
+    with print_warnings_once():
         if not scaling:
-            results = [measure(each, takes_part, rounds, say) for each in workloads]
+            results = [measure(each, peers, rounds, say) for each in workloads]
         for workload, steps in all_series:
-            measured = [measure(each, takes_part, rounds, say) for _, each in steps]
-            grown.append(growth(workload.name, str(scaling), [amount for amount, _ in steps], measured))
+            measured = [measure(each, peers, rounds, say) for _, each in steps]
+            growths.append(growth(workload.name, str(scaling), [amount for amount, _ in steps], measured))
             results += measured
     first_frames = {}
     for each in workloads if starts else []:
-        say(f"{each.name}: cold and warm start ...")
+        say(f"{each.name}: measuring cold and warm start ...")
         first_frames[each.name] = measure_starts(each)
-    with_mesa = any(peer.renderer != "softshadow" for peer in takes_part)
-    return Report(machine(with_mesa), limits, tuple(results), first_frames), grown
+    with_mesa = any(peer.renderer != "softshadow" for peer in peers)
+    return Report(machine(with_mesa), limits, tuple(results), first_frames), growths
 
 
-def _print_json(report: Report, grown: list[Growth], changed: list[Change]) -> None:
+def _print_json(report: Report, growths: list[Growth], changes: list[TimeChange]) -> None:
     from dataclasses import asdict
 
     from softshadow.bench.results import to_json
 
-    found = {key: value for key, value in to_json(report).items() if key != "schema"}
-    growths = [
+    contents = {key: value for key, value in to_json(report).items() if key != "schema"}
+    growth = [
         {"workload": each.workload, "axis": each.axis, "amounts": each.amounts, "exponents": each.exponents}
-        for each in grown
+        for each in growths
     ]
-    print_json("bench", **found, growth=growths, changes=[{**asdict(e), "verdict": e.verdict} for e in changed])
+    print_json("bench", **contents, growth=growth, changes=[{**asdict(e), "verdict": e.verdict} for e in changes])
 
 
-def _print(report: Report, grown: list[Growth], changed: list[Change]) -> None:
+def _print(report: Report, growths: list[Growth], changes: list[TimeChange]) -> None:
     from softshadow.bench.tables import change_rows, growth_rows, limit_rows, result_rows, start_rows
 
     facts = ", ".join(f"{key} {value}" for key, value in report.machine.items())
     say(facts)
     table("Limits of this machine", *limit_rows(report))
     table("Times", *result_rows(report))
-    for each in grown:
+    for each in growths:
         click.echo()
         table(f"{each.workload} over {each.axis}", *growth_rows(each))
     if report.starts:
         click.echo()
         table("First frame of a new process, seconds", *start_rows(report))
-    if changed:
+    if changes:
         click.echo()
-        table("Changes", *change_rows(changed))
+        table("Changes", *change_rows(changes))

@@ -1,4 +1,4 @@
-"""``softshadow failures``: what goes wrong in each algorithm of the course, and what one call makes of it."""
+"""``softshadow failures``: known failures of the course's algorithms, each next to its cure."""
 
 from __future__ import annotations
 
@@ -7,26 +7,26 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from softshadow.cli.arguments import Size, as_json, force
+from softshadow.cli.arguments import Size, as_json, examples, force
 from softshadow.cli.console import print_json, say, say_if_compiling, table
 
 if TYPE_CHECKING:
     from softshadow.gallery import Failure
 
 
-@click.command(epilog="Examples:  softshadow failures  |  softshadow failures mask-1 -o mask-1.png")
+@click.command(epilog=examples("softshadow failures", "softshadow failures mask-1 -o mask-1.png"))
 @click.argument("name", required=False)
-@click.option("--numbers", is_flag=True, help="Run all of them, and list how many pixels are wrong.")
-@click.option("--size", type=Size(), default="240x180", show_default=True, help="Of each picture.")
+@click.option("--numbers", is_flag=True, help="Draw all failures, and list the numbers of wrong pixels.")
+@click.option("--size", type=Size(), default="240x180", show_default=True, help="Size of each image in pixels.")
 @click.option(
-    "-o", "--output", metavar="OUT", help="Both pictures side by side (.png), or the story as a page (.html)."
+    "-o", "--output", metavar="OUT", help="Write both images side by side (.png), or the description as a page (.html)."
 )
 @force
 @as_json
 def failures(
     name: str | None, numbers: bool, size: tuple[int, int], output: str | None, force: bool, as_json: bool
 ) -> None:
-    """List the known failures of shadow algorithms, or show one beside its cure."""
+    """List known failures, or show one next to its cure."""
     from softshadow import failures as gallery
 
     if name is None:
@@ -47,7 +47,7 @@ def failures(
         say(f"written: {output}")
     if as_json:
         histories = {side: run.pixel(*failure.pixel).to_dicts() for side, run in _sides(failure)}
-        print_json("failures", written=output, size=size, history=histories, failures=[_measured(failure)])
+        print_json("failures", written=output, size=size, history=histories, failures=[_with_numbers(failure)])
         return
     click.echo(failure.explain())
     for side, run in _sides(failure):
@@ -58,21 +58,21 @@ def _sides(failure: Failure) -> list[tuple[str, Any]]:
     return [("with the failure", failure.wrong), ("with the cure", failure.cured)]
 
 
-def _list(found: list[Failure], numbers: bool, as_json: bool) -> None:
+def _list(failures: list[Failure], numbers: bool, as_json: bool) -> None:
     if numbers:
         say_if_compiling()
     if as_json:
-        print_json("failures", failures=[_measured(each) if numbers else _about(each) for each in found])
+        print_json("failures", failures=[_with_numbers(each) if numbers else _about(each) for each in failures])
         return
     columns = ["name", "family", "what goes wrong"]
     if numbers:
         columns[2:2] = ["wrong pixels", "cured"]
-    table("Failures", columns, [_row(each, numbers) for each in found])
+    table("Failures", columns, [_row(each, numbers) for each in failures])
 
 
 def _row(failure: Failure, numbers: bool) -> list[str]:
-    measured = [str(failure.number_wrong), str(failure.number_cured)] if numbers else []
-    return [failure.name, failure.family, *measured, failure.title]
+    pixels = [str(failure.number_wrong), str(failure.number_cured)] if numbers else []
+    return [failure.name, failure.family, *pixels, failure.title]
 
 
 def _about(failure: Failure) -> dict[str, Any]:
@@ -85,7 +85,7 @@ def _about(failure: Failure) -> dict[str, Any]:
     }
 
 
-def _measured(failure: Failure) -> dict[str, Any]:
+def _with_numbers(failure: Failure) -> dict[str, Any]:
     return _about(failure) | {
         "scene": failure.scene.name,
         "counted": failure.counted,
@@ -99,7 +99,7 @@ def _measured(failure: Failure) -> dict[str, Any]:
 
 
 def _refuse(output: str, force: bool) -> None:
-    """Make sure before the drawing that the file may be written."""
+    """Check before drawing that the output file may be written."""
     from softshadow.inspection.files import refuse_foreign
 
     if Path(output).suffix.lower() not in (".png", ".html"):

@@ -1,22 +1,22 @@
-"""``softshadow techniques`` and ``softshadow scenes``."""
+"""``softshadow techniques`` and ``softshadow scenes``: list what can be drawn."""
 
 from __future__ import annotations
 
 import click
 
-from softshadow.cli.arguments import as_json
+from softshadow.cli.arguments import as_json, examples
 from softshadow.cli.console import print_json, table
 
 
-@click.command(epilog="Examples:  softshadow techniques  |  softshadow techniques map")
+@click.command(epilog=examples("softshadow techniques", "softshadow techniques map"))
 @click.argument("name", required=False)
 @as_json
 def techniques(name: str | None, as_json: bool) -> None:
-    """List the techniques, or describe one with its options."""
-    from softshadow import techniques as register
+    """List the techniques, or describe one and its options."""
+    from softshadow import techniques as registry
 
-    names = [name] if name else register.names()
-    found = [register.get(each) for each in names]
+    names = [name] if name else registry.names()
+    entries = [registry.get(each) for each in names]
     if as_json:
         rows = [
             {
@@ -29,22 +29,22 @@ def techniques(name: str | None, as_json: bool) -> None:
                     for key, option in each.options.items()
                 },
             }
-            for each in found
+            for each in entries
         ]
         print_json("techniques", techniques=rows)
     elif name:
-        click.echo(register.describe(name))
+        click.echo(registry.describe(name))
     else:
-        table("Techniques", ["name", "title", "paper"], [[each.name, each.title, each.paper] for each in found])
+        table("Techniques", ["name", "title", "paper"], [[each.name, each.title, each.paper] for each in entries])
 
 
-@click.command(epilog="Examples:  softshadow scenes  |  softshadow scenes --json")
+@click.command(epilog=examples("softshadow scenes", "softshadow scenes --json"))
 @as_json
 def scenes(as_json: bool) -> None:
-    """List the named scenes and what each is for."""
+    """List the built-in scenes."""
     from softshadow.scene import Scene, scene_names
 
-    found = [Scene.named(name) for name in scene_names()]
+    scenes = [Scene.named(name) for name in scene_names()]
     if as_json:
         rows = [
             {
@@ -55,8 +55,8 @@ def scenes(as_json: bool) -> None:
                 "receivers": len(scene.receivers),
                 "triangles": sum(len(each.mesh.triangles) for each in scene.objects),
             }
-            for scene in found
+            for scene in scenes
         ]
         print_json("scenes", scenes=rows)
     else:
-        table("Scenes", ["name", "what it shows"], [[scene.name, scene.title] for scene in found])
+        table("Scenes", ["name", "description"], [[scene.name, scene.title] for scene in scenes])

@@ -1,4 +1,4 @@
-"""``softshadow warmup`` and ``softshadow doctor``: the machine this runs on."""
+"""``softshadow warmup`` and ``softshadow doctor``: compiled code and installed packages on this machine."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from softshadow.cli.arguments import as_json
+from softshadow.cli.arguments import as_json, examples
 from softshadow.cli.console import print_json, say, table
 
 PACKAGES = ("numpy", "numba", "llvmlite", "trimesh", "pillow", "imageio", "click", "rich", "pydantic", "jinja2")
@@ -22,10 +22,10 @@ EXTRAS = {
 WARM_SIZE = (64, 48)
 
 
-@click.command(epilog="Examples:  softshadow warmup  |  softshadow warmup --json")
+@click.command(epilog=examples("softshadow warmup", "softshadow warmup --json"))
 @as_json
 def warmup(as_json: bool) -> None:
-    """Compile the kernels, and the states that the techniques use, and keep the code on disk."""
+    """Compile the kernels of all techniques and cache them."""
     import warnings
 
     from softshadow import techniques
@@ -36,7 +36,7 @@ def warmup(as_json: bool) -> None:
 
     start = time.perf_counter()
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", SoftShadowWarning)  # of small pictures of scenes that nobody will see
+        warnings.simplefilter("ignore", SoftShadowWarning)  # the images are not used
         for name in techniques.names():
             for options in _option_sets(name):
                 text = ", ".join(f"{key}={value}" for key, value in options.items())
@@ -48,11 +48,13 @@ def warmup(as_json: bool) -> None:
     if as_json:
         print_json("warmup", seconds=seconds, cache_folder=cache_folder())
     else:
-        click.echo(f"ready in {seconds:.1f} s, code kept in {cache_folder() or 'no folder: none can be written'}")
+        folder = cache_folder()
+        where = f"compiled code is in {folder}" if folder else "not cached: no cache folder is writable"
+        click.echo(f"ready in {seconds:.1f} s, {where}")
 
 
 def _option_sets(name: str) -> list[dict[str, Any]]:
-    """Return the defaults of a technique, and each other choice and switch of it on its own."""
+    """Return the technique's default options, and one set for each other value of a choice or switch."""
     from softshadow import techniques
 
     sets: list[dict[str, Any]] = [{}]
@@ -62,10 +64,10 @@ def _option_sets(name: str) -> list[dict[str, Any]]:
     return sets
 
 
-@click.command(epilog="Examples:  softshadow doctor  |  softshadow doctor --json")
+@click.command(epilog=examples("softshadow doctor", "softshadow doctor --json"))
 @as_json
 def doctor(as_json: bool) -> None:
-    """Tell versions, cache folder, threads, and which extras are there."""
+    """Show versions, cache folder, threads and installed extras."""
     import importlib.util
     import platform
 
@@ -74,26 +76,27 @@ def doctor(as_json: bool) -> None:
     from softshadow.pipeline import threads
     from softshadow.testing import EXPECTED_VERSION, mesa_available, mesa_reason, mesa_version
 
-    found = {name: _version(name) for name in PACKAGES}
+    versions = {name: _version(name) for name in PACKAGES}
     extras = {name: importlib.util.find_spec(module) is not None for name, module in EXTRAS.items()}
-    mesa = f"{mesa_version()} (compared with {EXPECTED_VERSION})" if mesa_available() else f"no: {mesa_reason()}"
+    mesa = f"{mesa_version()} (softshadow reproduces {EXPECTED_VERSION})" if mesa_available() else mesa_reason()
     facts = {
         "softshadow": softshadow.__version__,
         "python": platform.python_version(),
         "system": f"{platform.system()} {platform.machine()}",
         "threads": threads(),
-        "cache folder": str(cache_folder() or "none can be written: kernels are compiled on every start"),
+        "cache folder": str(cache_folder() or "none is writable: kernels are compiled at every start"),
         "Mesa": mesa,
     }
     if as_json:
-        print_json("doctor", **{_key(name): fact for name, fact in facts.items()}, packages=found, extras=extras)
+        print_json("doctor", **{_key(name): fact for name, fact in facts.items()}, packages=versions, extras=extras)
         return
     rows = [[key, str(value)] for key, value in facts.items()]
-    rows += [[name, version] for name, version in found.items()]
+    rows += [[name, version] for name, version in versions.items()]
     rows += [
-        [f"extra {name}", "there" if there else f"pip install 'softshadow[{name}]'"] for name, there in extras.items()
+        [f"extra {name}", "installed" if installed else f"missing: pip install 'softshadow[{name}]'"]
+        for name, installed in extras.items()
     ]
-    table("softshadow doctor", ["what", "found"], rows)
+    table("softshadow doctor", ["item", "value"], rows)
 
 
 def _key(name: str) -> str:

@@ -1,4 +1,4 @@
-"""``softshadow render``, ``steps`` and ``pixel``: one technique on one scene."""
+"""``softshadow render``, ``steps`` and ``pixel``: draw a scene with one technique, and show the result."""
 
 from __future__ import annotations
 
@@ -7,36 +7,46 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from softshadow.cli.arguments import as_json, chosen_scene, force, parsed_options, scene_arguments, technique_options
-from softshadow.cli.console import named_warnings, print_json, say, say_if_compiling, table
+from softshadow.cli.arguments import (
+    as_json,
+    examples,
+    force,
+    load_scene,
+    parse_options,
+    scene_arguments,
+    technique_options,
+)
+from softshadow.cli.console import print_json, print_warnings_once, say, say_if_compiling, table
 
 if TYPE_CHECKING:
     from softshadow.runs import Run
 
 
-def _run(technique: str, size: tuple[int, int], given: tuple[str, ...], **where: Any) -> Run:
+def _draw(technique: str, size: tuple[int, int], options: tuple[str, ...], **scene_arguments: Any) -> Run:
     from softshadow.runs import run
 
-    options = parsed_options(technique, given)
-    with named_warnings():
-        scene = chosen_scene(**where)
+    values = parse_options(technique, options)
+    with print_warnings_once():
+        scene = load_scene(**scene_arguments)
         say_if_compiling()
-        return run(technique, scene, size, **options)
+        return run(technique, scene, size, **values)
 
 
-def _about(made: Run) -> dict[str, Any]:
+def _about(run: Run) -> dict[str, Any]:
     return {
-        "technique": made.technique,
-        "scene": made.scene.name,
-        "size": made.size,
-        "options": made.options,
-        "warnings": [{"name": type(each).__name__, "text": str(each)} for each in made.warnings],
+        "technique": run.technique,
+        "scene": run.scene.name,
+        "size": run.size,
+        "options": run.options,
+        "warnings": [{"name": type(each).__name__, "text": str(each)} for each in run.warnings],
     }
 
 
 @click.command(
-    epilog="Examples:  softshadow render volume-zfail -o torus.png  |  "
-    "softshadow render map --scene boxes --size 320x240 -O factor=0 -O units=0 -o acne.html"
+    epilog=examples(
+        "softshadow render volume-zfail -o torus.png",
+        "softshadow render map --scene boxes --size 320x240 -O factor=0 -O units=0 -o acne.html",
+    )
 )
 @click.argument("technique")
 @scene_arguments("640x480")
@@ -48,43 +58,47 @@ def _about(made: Run) -> dict[str, Any]:
 @as_json
 def render(
     technique: str, scene: str | None, mesh: str | None, light: tuple[float, ...] | None, size: tuple[int, int],
-    given: tuple[str, ...], output: str | None, force: bool, as_json: bool,
+    options: tuple[str, ...], output: str | None, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
-    """Draw a scene with a technique, and write the picture, the report, or all buffers."""
+    """Draw a scene with a technique and write the result.
+
+    The suffix of OUT selects the result: an image (.png), a report (.html), all buffers (.npz), or a folder with an
+    image of every step.
+    """
     from softshadow.runs.saving import check_path
 
     target = output or f"{technique}.png"
     check_path(target, force)
-    made = _run(technique, size, given, scene=scene, mesh=mesh, light=light)
-    written = made.save(target, force=force)
+    run = _draw(technique, size, options, scene=scene, mesh=mesh, light=light)
+    written = run.save(target, force=force)
     if as_json:
-        shadowed = float(made.shadow_mask.mean()) if "visibility" in made.maps else None
-        print_json("render", written=written, shadowed_share=shadowed, **_about(made))
+        shadowed = float(run.shadow_mask.mean()) if "visibility" in run.maps else None
+        print_json("render", written=written, shadowed_share=shadowed, **_about(run))
     else:
         click.echo(written)
 
 
 @click.command(
-    epilog="Examples:  softshadow steps volume-zpass  |  softshadow steps planar -O method=stencil -o planar-steps/"
+    epilog=examples("softshadow steps volume-zpass", "softshadow steps planar -O method=stencil -o planar-steps/")
 )
 @click.argument("technique")
 @scene_arguments("320x240")
 @technique_options
-@click.option("-o", "--output", metavar="FOLDER", help="Write pictures of every step and all buffers there, too.")
+@click.option("-o", "--output", metavar="FOLDER", help="Also write images of every step and all buffers.")
 @force
 @as_json
 def steps(
     technique: str, scene: str | None, mesh: str | None, light: tuple[float, ...] | None, size: tuple[int, int],
-    given: tuple[str, ...], output: str | None, force: bool, as_json: bool,
+    options: tuple[str, ...], output: str | None, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
-    """Count what every step of a technique does, and what it leaves in the stencil buffer."""
+    """Print statistics and stencil counts of every step."""
     import numpy as np
 
-    made = _run(technique, size, given, scene=scene, mesh=mesh, light=light)
-    counted = made.ledger.steps
-    histograms = [dict(zip(*np.unique(step.stencil, return_counts=True), strict=True)) for step in made.steps]
+    run = _draw(technique, size, options, scene=scene, mesh=mesh, light=light)
+    ledger = run.ledger.steps
+    histograms = [dict(zip(*np.unique(step.stencil, return_counts=True), strict=True)) for step in run.steps]
     if output:
-        say(f"written: {made.save(str(Path(output)) + '/', force=force)}")
+        say(f"written: {run.save(str(Path(output)) + '/', force=force)}")
     if as_json:
         rows = [
             {
@@ -95,9 +109,9 @@ def steps(
                 "stencil_updates": counts.stencil_updates,
                 "stencil_counts": {int(value): int(pixels) for value, pixels in histogram.items()},
             }
-            for counts, histogram in zip(counted, histograms, strict=True)
+            for counts, histogram in zip(ledger, histograms, strict=True)
         ]
-        print_json("steps", steps=rows, **_about(made))
+        print_json("steps", steps=rows, **_about(run))
         return
     columns = ["step", "title", "draws", "triangles", "fragments", "depth failed", "stencil updates", "stencil: pixels"]
     rows_of_text = [
@@ -106,13 +120,13 @@ def steps(
             str(counts.fragments["depth failed"]), str(counts.stencil_updates),
             "  ".join(f"{value}: {pixels}" for value, pixels in histogram.items()),
         ]
-        for index, (counts, histogram) in enumerate(zip(counted, histograms, strict=True))
+        for index, (counts, histogram) in enumerate(zip(ledger, histograms, strict=True))
     ]  # fmt: skip
-    table(repr(made), columns, rows_of_text)
+    table(repr(run), columns, rows_of_text)
 
 
 @click.command(
-    epilog="Examples:  softshadow pixel volume-zfail 160 170  |  softshadow pixel map 100 120 --scene boxes --json"
+    epilog=examples("softshadow pixel volume-zfail 160 170", "softshadow pixel map 100 120 --scene boxes --json")
 )
 @click.argument("technique")
 @click.argument("x", type=int)
@@ -122,15 +136,18 @@ def steps(
 @as_json
 def pixel(
     technique: str, x: int, y: int, scene: str | None, mesh: str | None, light: tuple[float, ...] | None,
-    size: tuple[int, int], given: tuple[str, ...], as_json: bool,
+    size: tuple[int, int], options: tuple[str, ...], as_json: bool,
 ) -> None:  # fmt: skip
-    """Tell why a pixel is lit, shaded or dark: every fragment that met it. X from the left, Y from the top."""
-    made = _run(technique, size, given, scene=scene, mesh=mesh, light=light)
-    history = made.pixel(x, y)
-    sentence = made.explain(x, y)
+    """Explain why a pixel is lit or in shadow.
+
+    Lists every fragment at the pixel. X counts from the left, Y from the top.
+    """
+    run = _draw(technique, size, options, scene=scene, mesh=mesh, light=light)
+    history = run.pixel(x, y)
+    sentence = run.explain(x, y)
     if as_json:
         print_json(
-            "pixel", x=x, y=y, gl_y=size[1] - 1 - y, explanation=sentence, fragments=history.to_dicts(), **_about(made)
+            "pixel", x=x, y=y, gl_y=size[1] - 1 - y, explanation=sentence, fragments=history.to_dicts(), **_about(run)
         )
     else:
         click.echo(history)

@@ -1,4 +1,4 @@
-"""Lighting per pixel by the half vector, with one light: what the fixed function does per vertex.
+"""Blinn-Phong lighting per pixel with one light; the fixed function computes the same per vertex.
 
 References: Blinn 1977, "Models of light reflection for computer synthesized pictures"; Phong 1975, "Illumination for
 computer generated pictures" (interpolated normals).
@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from softshadow.jit import kernel
-from softshadow.programs import Program, Varyings, VertexInputs
 from softshadow.programs.inverse import inverse
 from softshadow.programs.llvmpipe_math import power
+from softshadow.programs.program import Program, Varyings, VertexInputs
 from softshadow.programs.texture_coordinates import transform
 
 ZERO, ONE = np.float32(0.0), np.float32(1.0)
@@ -69,7 +69,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
 
 
 def shade_visible(inputs: np.ndarray, uniforms: Mapping[str, Any], visible: np.ndarray, out: np.ndarray) -> None:
-    """Fill `out` (N, 4) with the colours of pixels that see a share (N,) of the light."""
+    """Fill `out` (N, 4) with the lit colours; `visible` (N,) is the fraction of the light that each pixel sees."""
     names = ("lightPosition", "ambient", "diffuse", "specular")
     light, ambient, diffuse, specular = (tuple(map(inputs.dtype.type, uniforms[name])) for name in names)
     shininess = inputs.dtype.type(uniforms["shininess"])
@@ -78,7 +78,7 @@ def shade_visible(inputs: np.ndarray, uniforms: Mapping[str, Any], visible: np.n
 
 @kernel
 def dot(a, b):
-    """Return the dot product of 3-vectors as tuples, added from z to x as llvmpipe adds."""
+    """Return the dot product of two 3-tuples, summed from z to x as in llvmpipe."""
     return (a[2] * b[2] + a[1] * b[1]) + a[0] * b[0]
 
 
@@ -96,9 +96,10 @@ def mix_light(color, ambient, diffuse, specular, facing, highlight):
 
 @kernel
 def light_pixels(inputs, visible, light, ambient, diffuse, specular, shininess, out):
-    """Light pixels with inputs (10 or more, N): color, eye position, normal; `visible` (N,) is their share of light.
+    """Write the lit colours of pixels to `out` (4, N).
 
-    Each component lies by itself, so that the loop is vectorised.
+    `inputs` (10 or more, N) are color, eye position and normal; `visible` (N,) is the visible fraction of the light.
+    Each component is stored contiguously, so that the loop is vectorised.
     """
     w = light[3]
     for n in range(inputs.shape[1]):

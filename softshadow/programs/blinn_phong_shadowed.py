@@ -1,7 +1,7 @@
-"""Blinn-Phong lighting per pixel under a shadow map: one comparison, or the mean of 5x5 (percentage-closer filtering).
+"""Blinn-Phong lighting per pixel with a shadow map: one comparison, or the mean of 5x5 (percentage-closer filtering).
 
-The map is a depth texture that is sampled without GL's own comparison; both of its filters are to be the same. What is
-in shadow keeps its ambient light.
+The map is a depth texture sampled without GL's own comparison, with equal minification and magnification filters.
+Pixels in shadow keep their ambient light.
 
 References: Williams 1978, "Casting curved shadows on curved surfaces"; Reeves, Salesin & Cook 1987, "Rendering
 antialiased shadows with depth maps".
@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.programs import Program, Varyings, VertexInputs
 from softshadow.programs.blinn_phong import BLINN_PHONG, shade_visible
 from softshadow.programs.blinn_phong import vertex as blinn_phong_vertex
 from softshadow.programs.percentage_closer import count_lit
+from softshadow.programs.program import Program, Varyings, VertexInputs
 from softshadow.programs.sampling import divide
 from softshadow.programs.texture_coordinates import transform
 
@@ -81,17 +81,17 @@ def vertex(vertices: VertexInputs) -> Varyings:
 
 
 def shade_once(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
-    """Fill `out` (N, 4) with the lit colours, one comparison a pixel."""
+    """Fill `out` (N, 4) with the lit colours, with one comparison per pixel."""
     shade(inputs, uniforms, 0, out)
 
 
 def shade_5x5(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
-    """Fill `out` (N, 4) with the lit colours, 25 comparisons a pixel."""
+    """Fill `out` (N, 4) with the lit colours, with 25 comparisons per pixel."""
     shade(inputs, uniforms, 2, out)
 
 
 def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], radius: int, out: np.ndarray) -> None:
-    """Fill `out` (N, 4) with the lit colours; the map is compared at (2 radius + 1)² places round each pixel's own."""
+    """Fill `out` (N, 4) with the lit colours, with (2 radius + 1)² comparisons around each pixel's map position."""
     real = inputs.dtype.type
     projected = divide(inputs[:, 10:])
     true_depth = projected[:, 2] - real(uniforms["bias"])
@@ -101,7 +101,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], radius: int, out: np.
 
 
 def share(radius: int) -> float:
-    """Return the weight of one comparison, as the GLSL twin spells it."""
+    """Return the weight of one comparison, as written into the GLSL source."""
     return 1.0 / (2 * radius + 1) ** 2
 
 

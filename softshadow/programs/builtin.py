@@ -1,20 +1,19 @@
-"""The programs that come with the package: `load` puts them into the register, on the first use of any program."""
+"""The built-in programs; their kernels are compiled at the first draw that uses them."""
 
-from functools import cache
+from softshadow.programs.blinn_phong import BLINN_PHONG
+from softshadow.programs.blinn_phong_shadowed import BLINN_PHONG_SHADOWED, BLINN_PHONG_SHADOWED_5X5
+from softshadow.programs.cube_visibility import CUBE_VISIBILITY
+from softshadow.programs.map_visibility import MAP_VISIBILITY, MAP_VISIBILITY_BILINEAR
+from softshadow.programs.shadow_map import SHADOW_MAP
+from softshadow.programs.silhouette_visibility import SILHOUETTE_VISIBILITY
 
-
-@cache
-def load() -> None:
-    """Register the built-in programs; their kernels compile where they are first drawn with."""
-    from softshadow.programs import register
-    from softshadow.programs.blinn_phong import BLINN_PHONG
-    from softshadow.programs.blinn_phong_shadowed import BLINN_PHONG_SHADOWED, BLINN_PHONG_SHADOWED_5X5
-    from softshadow.programs.cube_visibility import CUBE_VISIBILITY
-    from softshadow.programs.map_visibility import MAP_VISIBILITY, MAP_VISIBILITY_BILINEAR
-    from softshadow.programs.shadow_map import SHADOW_MAP
-    from softshadow.programs.silhouette_visibility import SILHOUETTE_VISIBILITY
-
-    shadowed = BLINN_PHONG_SHADOWED, BLINN_PHONG_SHADOWED_5X5
-    visibility = MAP_VISIBILITY, MAP_VISIBILITY_BILINEAR, CUBE_VISIBILITY, SILHOUETTE_VISIBILITY
-    for program in (BLINN_PHONG, SHADOW_MAP, *shadowed, *visibility):
-        register(program)
+BUILTIN = (
+    BLINN_PHONG,
+    SHADOW_MAP,
+    BLINN_PHONG_SHADOWED,
+    BLINN_PHONG_SHADOWED_5X5,
+    MAP_VISIBILITY,
+    MAP_VISIBILITY_BILINEAR,
+    CUBE_VISIBILITY,
+    SILHOUETTE_VISIBILITY,
+)

@@ -1,8 +1,8 @@
-"""Filters of cube maps that 2-D filters cannot do: over the edges of faces, and chosen pixel by pixel; in float.
+"""Cube map filters that go beyond 2-D filters: across face edges, or with a filter chosen per pixel; in float.
 
-With GL_TEXTURE_CUBE_MAP_SEAMLESS the next face follows beyond an edge; at a corner only three faces meet, and their
-three texels share the weight of the fourth. llvmpipe shades 2x2 blocks, and what one pixel of a block needs decides how
-all four are computed: the rounding of a pixel beside a corner is that of a sum of four products.
+With GL_TEXTURE_CUBE_MAP_SEAMLESS a filter continues on the neighbouring face. At a corner only three faces meet, and
+their three texels share the weight of the missing fourth. llvmpipe shades 2x2 blocks: if one pixel of a block lies at a
+corner, all four are computed as a sum of four products, which rounds differently from nested interpolation.
 
 References: GL 3.2 sec. 3.8.8 (seamless cube map filtering); lp_build_sample_image_linear, lp_build_cube_new_coords and
 lp_build_sample_mipmap_both of Mesa 22.3.
@@ -15,18 +15,18 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.jit import kernel
-from softshadow.programs.filtering import CONSTANT_ZERO, in_unit_range, mix, passes, sources_of, texels_in_float
+from softshadow.programs.filtering import CONSTANT_ZERO, clamp_to_unit, mix, passes, sources_of, texels_in_float
 from softshadow.programs.wrapping import HALF, ONE, ZERO, linear_texels, nearest_texel, to_integer
 from softshadow.texture import Texture
 from softshadow.tokens import GL_CLAMP_TO_EDGE, GL_NONE
 
 THIRD = ONE / np.float32(3.0)
 PIXELS_OF_A_BLOCK = 4
-# how a pixel is filtered: its nearest texel, a linear filter, or a linear filter's heaviest texel with all the weight
+# filter of a pixel: nearest texel; linear; or linear with all the weight on the texel that would weigh most
 NEAREST, LINEAR, HEAVIEST = 0, 1, 2
 
-# beyond the edges x < 0, x > last, y < 0, y > last (rows) of the six faces: the face that follows, and x and y on it as
-# the first texel, the last, that along the edge, or that from the edge's other end
+# for the edges x < 0, x > last, y < 0, y > last (rows) of the six faces (columns): the neighbouring face, and x and y
+# on it: the first texel, the last, the position along the edge, or that position counted from the other end
 FIRST, LAST, ALONG, BACK = 0, 1, 2, 3
 BEYOND = np.array(
     [
@@ -39,11 +39,11 @@ BEYOND = np.array(
 )
 
 
-class Neighbours(NamedTuple):
+class Neighbors(NamedTuple):
     """The four texels of each pixel's filter: (x0, y0), (x1, y0), (x0, y1), (x1, y1).
 
-    texels (N, 4, 3) int32: face, x, y; weights (N, 2) of x1 and y1; corners (N,) int8: which of the four lies beyond a
-    corner of the cube, or -1.
+    texels (N, 4, 3) int32: face, x, y; weights (N, 2) of x1 and y1; corners (N,) int8: index of the texel that lies
+    beyond a corner of the cube, or -1.
     """
 
     texels: np.ndarray
@@ -54,11 +54,11 @@ class Neighbours(NamedTuple):
 def filter_cube(
     texture: Texture, levels: np.ndarray, faces: np.ndarray, places: np.ndarray, kinds: np.ndarray
 ) -> np.ndarray:
-    """Return the colours (N, 4) from one level for each pixel.
+    """Return the filtered colours (N, 4), each pixel from one mipmap level.
 
     Parameters
     ----------
-    levels : (N,) int32          absolute numbers of levels
+    levels : (N,) int32          mipmap levels, counted from 0 (not from the base level)
     faces, places : (N,), (N, 3) as `cube_maps.on_faces` returns them; pixels in complete 2x2 blocks
     kinds : (N,) int8            `NEAREST`, `LINEAR` or `HEAVIEST`
     """
@@ -66,20 +66,20 @@ def filter_cube(
     assert image is not None
     in_use, which = np.unique(levels, return_inverse=True)
     sides = np.array([texture.images[0, int(level)].width for level in in_use])[which]
-    count = len(places)
-    found = Neighbours(np.empty((count, 4, 3), np.int32), np.empty((count, 2), real), np.empty(count, np.int8))
-    find_neighbours(faces, places, sides, kinds, bool(sampler.seamless), found)
-    texels = gathered(texture, levels, found.texels, real)
-    sources, out = sources_of(image, sampler), np.empty((count, 4), real)
+    n = len(places)
+    neighbors = Neighbors(np.empty((n, 4, 3), np.int32), np.empty((n, 2), real), np.empty(n, np.int8))
+    find_neighbors(faces, places, sides, kinds, bool(sampler.seamless), neighbors)
+    texels = gather_texels_by_level(texture, levels, neighbors.texels, real)
+    sources, out = sources_of(image, sampler), np.empty((n, 4), real)
     if image.format.kind == "depth" and sampler.compare_mode != GL_NONE:
-        mix_compared(texels, places[:, 2], found, sampler.compare_func, image.format.largest > 0, sources, out)
+        mix_compared(texels, places[:, 2], neighbors, sampler.compare_func, image.format.largest > 0, sources, out)
     else:
-        mix_texels(texels, found, sources, out)
+        mix_texels(texels, neighbors, sources, out)
     return out
 
 
-def gathered(texture: Texture, levels: np.ndarray, texels: np.ndarray, real: np.dtype) -> np.ndarray:
-    """Return what texels (N, 4, 3) of the levels (N,) hold, (N, 4, channels) in [0, 1] units."""
+def gather_texels_by_level(texture: Texture, levels: np.ndarray, texels: np.ndarray, real: np.dtype) -> np.ndarray:
+    """Return the values (N, 4, channels), in [0, 1] units, of texels (N, 4, 3) in levels (N,)."""
     image = texture.base()
     assert image is not None
     of_texels = np.repeat(levels, 4).reshape(-1, 4)
@@ -112,14 +112,14 @@ def along_edge(place, along, last):
 
 @kernel
 def seamless_texels(coordinate, size):
-    """Return (first texel, weight of the second): -1 and `size` lie beyond the edges."""
+    """Return (first texel, weight of the second); texels -1 and `size` lie beyond the edges."""
     u = (coordinate if coordinate > ZERO else ZERO) * np.float32(size) - HALF
     return to_integer(np.floor(u)), u - np.floor(u)
 
 
 @kernel
 def seamless_texel(face, x, y, last):
-    """Return the texel (face, x, y) that follows beyond an edge; beyond a corner, that beyond the edge in x."""
+    """Return the texel (face, x, y) for a position that may lie beyond an edge; at a corner the edge in x decides."""
     if x < 0 or x > last:
         return on_next_face(0 if x < 0 else 1, face, min(max(y, 0), last), last)
     if y < 0 or y > last:
@@ -128,8 +128,8 @@ def seamless_texel(face, x, y, last):
 
 
 @kernel
-def find_neighbours(faces, places, sizes, kinds, seamless, found):
-    """Write the four texels of each pixel's filter, their weights, and which of them is beyond a corner."""
+def find_neighbors(faces, places, sizes, kinds, seamless, neighbors):
+    """Fill `neighbors` with each pixel's four texels, their weights, and the index of a texel beyond a corner."""
     for n in range(len(places)):
         face, size = int(faces[n]), int(sizes[n])
         last, corner = size - 1, -1
@@ -149,23 +149,23 @@ def find_neighbours(faces, places, sizes, kinds, seamless, found):
         if kinds[n] != LINEAR:
             x_weight = ONE if x_weight > HALF else ZERO
             y_weight = ONE if y_weight > HALF else ZERO
-        found.weights[n, 0], found.weights[n, 1] = x_weight, y_weight
-        found.corners[n] = corner
+        neighbors.weights[n, 0], neighbors.weights[n, 1] = x_weight, y_weight
+        neighbors.corners[n] = corner
         for i in range(4):
             texel = seamless_texel(face, x1 if i % 2 else x0, y1 if i > 1 else y0, last)
-            found.texels[n, i, 0], found.texels[n, i, 1], found.texels[n, i, 2] = texel
+            neighbors.texels[n, i, 0], neighbors.texels[n, i, 1], neighbors.texels[n, i, 2] = texel
 
 
 @kernel
 def corner_in_block(corners, n):
-    """Return whether one of the pixels of the block of pixel n has a texel beyond a corner."""
+    """Return whether a pixel in the 2x2 block of pixel n has a texel beyond a corner."""
     first = n - n % PIXELS_OF_A_BLOCK
     return corners[first : first + PIXELS_OF_A_BLOCK].max() >= 0
 
 
 @kernel
 def corner_weights(weights, corner):
-    """Return the weights of the four texels; that of the one beyond a corner goes to the others."""
+    """Return the weights of the four texels; the others share the weight of one beyond a corner."""
     x, y = weights
     w00, w01, w10, w11 = (ONE - x) * (ONE - y), x * (ONE - y), (ONE - x) * y, x * y
     if corner < 0:
@@ -180,11 +180,11 @@ def corner_weights(weights, corner):
 
 
 @kernel
-def mix_texels(texels, found, sources, out):
-    """Write the filtered colours `out` (N, 4) of texels (N, 4, channels)."""
+def mix_texels(texels, neighbors, sources, out):
+    """Write the filtered colours of texels (N, 4, channels) to `out` (N, 4)."""
     for n in range(len(out)):
-        by_sum = corner_in_block(found.corners, n)
-        w00, w01, w10, w11 = corner_weights(found.weights[n], found.corners[n])
+        by_sum = corner_in_block(neighbors.corners, n)
+        w00, w01, w10, w11 = corner_weights(neighbors.weights[n], neighbors.corners[n])
         for c in range(4):
             source = sources[c]
             if source >= CONSTANT_ZERO:
@@ -195,24 +195,24 @@ def mix_texels(texels, found, sources, out):
             if by_sum:
                 out[n, c] = ((w00 * a + w01 * b) + w10 * d) + w11 * e
             else:
-                x, y = found.weights[n]
+                x, y = neighbors.weights[n]
                 out[n, c] = mix(y, mix(x, a, b), mix(x, d, e))
 
 
 @kernel
-def mix_compared(texels, references, found, func, clamped, sources, out):
-    """Write the share of the texels (N, 4, 1) that pass the comparison with the references (N,)."""
+def mix_compared(texels, references, neighbors, func, clamped, sources, out):
+    """Write the weighted share of texels (N, 4, 1) that pass the comparison with the references (N,) to `out`."""
     for n in range(len(out)):
-        r = in_unit_range(references[n]) if clamped else references[n]
-        w00, w01, w10, w11 = corner_weights(found.weights[n], found.corners[n])
-        x, y = found.weights[n]
-        if not corner_in_block(found.corners, n):
+        r = clamp_to_unit(references[n]) if clamped else references[n]
+        w00, w01, w10, w11 = corner_weights(neighbors.weights[n], neighbors.corners[n])
+        x, y = neighbors.weights[n]
+        if not corner_in_block(neighbors.corners, n):
             w00, w01, w10, w11 = ONE - x, x, ONE - x, x
         lower = w00 if passes(func, r, texels[n, 0, 0]) else ZERO
         lower = (w01 if passes(func, r, texels[n, 1, 0]) else ZERO) + lower
         third = w10 if passes(func, r, texels[n, 2, 0]) else ZERO
         fourth = w11 if passes(func, r, texels[n, 3, 0]) else ZERO
-        if corner_in_block(found.corners, n):
+        if corner_in_block(neighbors.corners, n):
             lit = (lower + third) + fourth
         else:
             lit = mix(y, lower, third + fourth)

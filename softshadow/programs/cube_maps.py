@@ -1,7 +1,8 @@
-"""Cube maps: which face a direction meets, where on it, and how fast that place moves from pixel to pixel.
+"""Cube map coordinates: the face that a direction hits, the position on it, and its derivatives.
 
-A direction (s, t, r) meets the face of its largest component; on a face the place is a pair of 2-D coordinates. Each
-pixel has a face of its own, so steps between pixels are taken of the directions, and carried to the pixel's face.
+A direction (s, t, r) hits the face of its largest component; the position on the face is a pair of 2-D coordinates.
+Neighbouring pixels may hit different faces, so differences are taken between directions and projected onto the pixel's
+own face.
 
 References: GL 2.1 sec. 3.8.6 (table 3.21); lp_build_cube_lookup of Mesa 22.3.
 """
@@ -18,7 +19,7 @@ X, Y, Z = 0, 1, 2
 
 @kernel
 def major_axis(s, t, r):
-    """Return the axis of the largest component: of equal ones z, then y."""
+    """Return the axis of the largest component; among equal ones z wins over y, and y over x."""
     larger = abs(s) if abs(s) > abs(t) else abs(t)
     if abs(r) >= larger:
         return Z
@@ -32,7 +33,7 @@ def component(axis, s, t, r):
 
 @kernel
 def across(axis, negative, s, t, r):
-    """Return the two other components, turned as the axes of the face are."""
+    """Return the other two components, in the orientation of the face's axes."""
     if axis == X:
         return r if negative else -r, -t
     if axis == Y:
@@ -41,10 +42,10 @@ def across(axis, negative, s, t, r):
 
 
 def on_faces(coordinates: np.ndarray, by_reciprocal: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Return the face (N,) of each direction, 0 to 5 from +x to -z, and where on it (N, 3): s, t, reference.
+    """Return the face (N,) of each direction, 0 to 5 from +x to -z, and the position on it (N, 3): s, t, reference.
 
-    coordinates (N, 3) or (N, 4): s, t, r and the reference. `by_reciprocal` says how the direction is divided by its
-    largest component: llvmpipe multiplies by the reciprocal where it has that at hand for the level of detail.
+    coordinates (N, 3) or (N, 4): s, t, r and the reference. With `by_reciprocal` the direction is multiplied by the
+    reciprocal of its largest component instead of divided by it: llvmpipe does so if it computes a level of detail.
     """
     faces, places = np.empty(len(coordinates), np.int8), np.empty((len(coordinates), 3), coordinates.dtype)
     with np.errstate(all="ignore"):
@@ -53,7 +54,7 @@ def on_faces(coordinates: np.ndarray, by_reciprocal: bool) -> tuple[np.ndarray, 
 
 
 def squared_texels_per_pixel(coordinates: np.ndarray, size: int) -> np.ndarray:
-    """Return the larger of the squared steps (N,) to the right and to the next row from every pixel of 2x2 blocks."""
+    """Return each pixel's larger squared step (N,), in texels, to the next column or row of its 2x2 block."""
     squared = np.empty(len(coordinates), coordinates.dtype)
     with np.errstate(all="ignore"):
         write_squared_steps(coordinates, coordinates.dtype.type(size), squared)
@@ -62,7 +63,7 @@ def squared_texels_per_pixel(coordinates: np.ndarray, size: int) -> np.ndarray:
 
 @kernel
 def project_onto_faces(coordinates, by_reciprocal, faces, places):
-    """Write faces (N,) and places (N, 3) of directions, see `on_faces`."""
+    """Write faces (N,) and positions (N, 3) of directions, see `on_faces`."""
     for n in range(len(coordinates)):
         s, t, r = coordinates[n, 0], coordinates[n, 1], coordinates[n, 2]
         axis = major_axis(s, t, r)
@@ -81,7 +82,7 @@ def project_onto_faces(coordinates, by_reciprocal, faces, places):
 
 @kernel
 def squared_step(axis, negative, direction, left, right, size):
-    """Return the squared length in texels of the step from one direction to another, on the face of a third one."""
+    """Return the squared length, in texels, of the step from `left` to `right` on the face of `direction`."""
     s, t, r = direction
     reciprocal = ONE / component(axis, s, t, r)
     ds, dt, dr = right[0] - left[0], right[1] - left[1], right[2] - left[2]
@@ -95,7 +96,7 @@ def squared_step(axis, negative, direction, left, right, size):
 
 @kernel
 def write_squared_steps(coordinates, size, out):
-    """Write the larger of each pixel's squared steps to the right and to the next row: `out` (4 B,)."""
+    """Write each pixel's larger squared step, to the next column or the next row, to `out` (N,)."""
     for n in range(len(coordinates)):
         direction = coordinates[n, 0], coordinates[n, 1], coordinates[n, 2]
         axis = major_axis(direction[0], direction[1], direction[2])

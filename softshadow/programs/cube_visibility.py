@@ -1,7 +1,7 @@
-"""Whether each pixel sees a light that has six shadow maps, one to each side, in a cube map of depths.
+"""Visibility of a light by its cube shadow map: six depth maps, one per side.
 
-The texture coordinates are the way from the light. Their largest component chooses the face and is the distance along
-that face's view, from which the depth follows that a 90-degree projection gives it.
+The texture coordinates are the vector from the light. Its largest component selects the face and equals the eye-space
+distance in that face's view, which gives the window depth under a 90-degree projection.
 
 References: Gerasimov 2004, "Omnidirectional shadow mapping", in GPU Gems.
 """
@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.programs import Program
 from softshadow.programs.map_visibility import VERTEX, vertex
+from softshadow.programs.program import Program
 from softshadow.programs.sampling import sample
 from softshadow.programs.texture_coordinates import dot
 
@@ -31,7 +31,7 @@ void main()
 {
     vec3 away = texCoord.stp;
     float distance = max(max(abs(away.x), abs(away.y)), abs(away.z));
-    float depth = min(farthest - nearness / distance - bias, 1.0);  // beyond far as at far
+    float depth = min(farthest - nearness / distance - bias, 1.0);  // beyond the far plane as on it
     float visible = depth <= textureCube(shadowMap, away).r ? 1.0 : 0.0;
     float size = sqrt(dot(away, away));
     if (dot(away, axis) < cosine * size)
@@ -42,11 +42,11 @@ void main()
 
 
 def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
-    """Fill `out` (N, 4) with 1 where the light is seen and 0 in shadow."""
+    """Fill `out` (N, 4) with 1 where the light is visible and 0 in shadow."""
     real = inputs.dtype.type
     away = np.ascontiguousarray(inputs[:, :3])
     stored = np.empty_like(out)
-    with np.errstate(all="ignore"):  # at the light itself there is no way from it
+    with np.errstate(all="ignore"):  # the vector is 0 at the light itself
         sample(uniforms["shadowMap"], away, stored)
         depth = real(uniforms["farthest"]) - real(uniforms["nearness"]) / np.abs(away).max(axis=1)
         visible = np.minimum(depth - real(uniforms["bias"]), real(1)) <= stored[:, 0]

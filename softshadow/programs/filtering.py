@@ -1,8 +1,9 @@
-"""One image under one filter, for a batch of coordinates, bit for bit as llvmpipe samples.
+"""Sampling of one image with one filter at many coordinates, bit for bit as llvmpipe.
 
-`sample_image` picks the kernel: `gather_texels` (nearest), `filter_texels` (linear in float), `filter_fixed_point`
+`sample_image` selects the kernel: `gather_texels` (nearest), `filter_texels` (linear in float), `filter_fixed_point`
 (linear, 8-bit formats under GL_REPEAT and GL_CLAMP_TO_EDGE, which llvmpipe filters in 8-bit integers) or
-`compare_depth` (shadow maps). They take coordinates (3, N) and leave colours (k, N): by column, as programs have them.
+`compare_depth` (shadow maps). Kernels take coordinates (3, N) and write colours (k, N): column by column, as programs
+do.
 """
 
 from __future__ import annotations
@@ -29,12 +30,12 @@ from softshadow.texture import Sampler
 from softshadow.tokens import GL_ALWAYS, GL_EQUAL, GL_GEQUAL, GL_GREATER, GL_LEQUAL, GL_LESS, GL_NOTEQUAL
 
 UNORM8_STEP = ONE / np.float32(255.0)
-STEP_OF_23_BITS = ONE / np.float32(LARGEST_SAMPLED)  # of the 32 bits of a depth llvmpipe reads the upper 23
+STEP_OF_23_BITS = ONE / np.float32(LARGEST_SAMPLED)  # llvmpipe reads the upper 23 bits of a 32-bit depth
 
 FIRST_TEXEL = np.uint32(0)
-RED = np.int64(0)  # the first channel; a literal would make the compiler take `fetch` once more
+RED = np.int64(0)  # first channel; an int literal would have `fetch` compiled a second time
 
-# where R, G, B, A of the result come from: a channel of the cells, or a constant
+# source of R, G, B, A of the result: a channel of the cells, or a constant
 CONSTANT_ZERO, CONSTANT_ONE = 4, 5
 SOURCES = {
     gl.GL_RGBA: (0, 1, 2, 3),
@@ -50,7 +51,7 @@ DEPTH_SOURCES = {**SOURCES, gl.GL_ALPHA: (CONSTANT_ZERO, CONSTANT_ZERO, CONSTANT
 
 
 def wraps_of(sampler: Sampler, first: Image) -> tuple[int, int]:
-    """Return the wrap codes of all levels of a texture whose level 0 is `first`."""
+    """Return the wrap codes (s, t) for all levels of a texture whose level 0 is `first`."""
     return wrap_code(sampler.wrap_s, first.width), wrap_code(sampler.wrap_t, first.height)
 
 
@@ -62,7 +63,7 @@ def in_8_bits(image: Image, wraps: tuple[int, int]) -> bool:
 def sample_image(
     image: Image, sampler: Sampler, wraps: tuple[int, int], linear: bool, coordinates: np.ndarray, out: np.ndarray
 ) -> None:
-    """Fill `out` (N, k) from one image, with a linear or the nearest filter; coordinates (N, 3): s, t, reference."""
+    """Fill `out` (N, k) from one image with a linear or nearest filter; coordinates (N, 3) are s, t, reference."""
     sources = sources_of(image, sampler)
     places, channels = np.ascontiguousarray(coordinates.T), out.T
     if linear and in_8_bits(image, wraps):
@@ -81,17 +82,17 @@ def sample_image(
 
 
 def nearest_places(places: np.ndarray, image: Image, wraps: tuple[int, int]) -> np.ndarray:
-    """Return column and row (2, N) int32 of the nearest texels to places (2 or more, N)."""
-    found = np.empty((2, places.shape[1]), np.int32)
-    nearest_texels(places[0], image.width, wraps[0], found[0])
-    nearest_texels(places[1], image.height, wraps[1], found[1])
-    return found
+    """Return column and row (2, N) int32 of the nearest texels to coordinates (2 or more, N)."""
+    texels = np.empty((2, places.shape[1]), np.int32)
+    nearest_texels(places[0], image.width, wraps[0], texels[0])
+    nearest_texels(places[1], image.height, wraps[1], texels[1])
+    return texels
 
 
 def texels_of(image: Image, sampler: Sampler, real: np.dtype) -> tuple[np.ndarray, np.ndarray, Any]:
-    """Return (cells (H, pitch, channels), border colour, value of a cell unit), which `fetch` takes.
+    """Return the arguments of `fetch`: cells (H, pitch, channels), border colour, value of one cell unit.
 
-    `real` is the precision: float64 in "exact".
+    `real` is the float type: float64 in the "exact" precision.
     """
     cells = image.cells if image.cells.ndim == 3 else image.cells[:, :, np.newaxis]
     border = np.array(sampler.border_color, real)
@@ -100,24 +101,24 @@ def texels_of(image: Image, sampler: Sampler, real: np.dtype) -> tuple[np.ndarra
 
 
 def sources_of(image: Image, sampler: Sampler) -> np.ndarray:
-    """Return where R, G, B and A of the result come from."""
+    """Return the sources of R, G, B and A of the result, see `SOURCES`."""
     depth = image.format.kind == "depth"
     return np.array(DEPTH_SOURCES[sampler.depth_mode] if depth else SOURCES[image.format.base])
 
 
 def unit_of(format: Format, real: np.dtype) -> Any:
-    """Return what one cell unit of a format is worth, rounded to float32; see `fetch` for 32 bits."""
+    """Return the value of one cell unit of a format, rounded to float32; `fetch` treats 32-bit depths apart."""
     if format.largest == LARGEST_UINT:
         return real.type(STEP_OF_23_BITS)
     return real.type(ONE / np.float32(format.largest) if format.largest else ONE)
 
 
 def texels_in_float(cells: np.ndarray, format: Format, real: np.dtype) -> np.ndarray:
-    """Return what cells of a format are worth."""
+    """Return the values of cells of a format."""
     if format.largest == LARGEST_UINT:
         return sampled_depth(cells, format).astype(real)
-    worth: np.ndarray = cells.astype(real) * unit_of(format, real)
-    return worth
+    values: np.ndarray = cells.astype(real) * unit_of(format, real)
+    return values
 
 
 @kernel
@@ -145,7 +146,7 @@ def mix_fixed_point(weight, a, b):
 
 @kernel
 def gather_texels(columns, rows, cells, width, border, unit, sources, out):
-    """Sample with GL_NEAREST: the texels in columns and rows (N,); `unit` is the value of one cell unit."""
+    """Write the texels at columns and rows (N,) to `out` (GL_NEAREST); `unit` is the value of one cell unit."""
     places, texels = np.empty(len(columns), np.uint32), cells.reshape(-1)
     pitch, channels = np.uint32(cells.shape[1]), np.uint64(cells.shape[2])
     for c in range(out.shape[0]):
@@ -158,7 +159,8 @@ def gather_texels(columns, rows, cells, width, border, unit, sources, out):
                 out[c, n] = fetch(cells, width, border, unit, np.int64(columns[n]), np.int64(rows[n]), source)
             continue
         outside = border[source]
-        # as `fetch`, but without branches: a texel is read in any case. What is around the reading is vectorised
+        # same result as `fetch`, without branches: every pixel reads a texel, and the loops before and after the reads
+        # are vectorised
         for n in range(len(columns)):
             i, j = np.uint32(columns[n]), np.uint32(rows[n])
             inside = (i < np.uint32(width)) & (j < np.uint32(cells.shape[0]))
@@ -172,7 +174,7 @@ def gather_texels(columns, rows, cells, width, border, unit, sources, out):
 
 @kernel
 def filter_texels(coordinates, cells, width, wraps, border, unit, sources, out):
-    """Sample with GL_LINEAR in float; `unit` is the value of one cell unit."""
+    """Write linearly filtered texels to `out` (GL_LINEAR), in float; `unit` is the value of one cell unit."""
     height = cells.shape[0]
     for n in range(coordinates.shape[1]):
         i0, i1, x_weight = linear_texels(coordinates[0, n], width, wraps[0])
@@ -197,7 +199,7 @@ def filter_texels(coordinates, cells, width, wraps, border, unit, sources, out):
 
 @kernel
 def filter_fixed_point(coordinates, cells, width, wraps, sources, out):
-    """Sample with GL_LINEAR in 8-bit integers: x first, then y."""
+    """Write linearly filtered texels to `out` (GL_LINEAR), in 8-bit integers: x first, then y."""
     height = cells.shape[0]
     for n in range(coordinates.shape[1]):
         i0, i1, x_weight = fixed_point_texels(coordinates[0, n], width, wraps[0])
@@ -214,7 +216,7 @@ def filter_fixed_point(coordinates, cells, width, wraps, sources, out):
 
 @kernel
 def passes(func, reference, texel):
-    """Return whether `reference func texel`; with NaN only GL_NOTEQUAL and GL_ALWAYS hold."""
+    """Return whether `reference func texel` holds; with NaN only GL_NOTEQUAL and GL_ALWAYS do."""
     if func == GL_LEQUAL:
         return reference <= texel
     if func == GL_GEQUAL:
@@ -231,7 +233,7 @@ def passes(func, reference, texel):
 
 
 @inlined
-def in_unit_range(r):
+def clamp_to_unit(r):
     """Return a reference clamped to [0, 1]; NaN becomes 0."""
     r = r if r > ZERO else ZERO
     return r if r < ONE else ONE
@@ -239,11 +241,11 @@ def in_unit_range(r):
 
 @kernel
 def compare_depth(coordinates, cells, width, wraps, border, unit, linear, func, clamped, sources, out):
-    """Compare r with the depths: 0 or 1, or with GL_LINEAR the share of the 2x2 texels that pass (float weights)."""
+    """Write 0 or 1 for r compared with the depth; with GL_LINEAR the weighted share of the 2x2 texels that pass."""
     height = cells.shape[0]
     for n in range(coordinates.shape[1]):
         r = coordinates[2, n]
-        r = in_unit_range(r) if clamped else r
+        r = clamp_to_unit(r) if clamped else r
         if linear:
             i0, i1, x_weight = linear_texels(coordinates[0, n], width, wraps[0])
             j0, j1, y_weight = linear_texels(coordinates[1, n], height, wraps[1])

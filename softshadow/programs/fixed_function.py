@@ -1,7 +1,7 @@
 """GL's fixed function as a program: lighting and coordinates per vertex; texturing, specular sum and fog per fragment.
 
-Columns of the varyings: primary RGBA; secondary RGB where GL_SEPARATE_SPECULAR_COLOR keeps it apart; (s, t, r, q) of
-every texture unit in use; the fog distance last.
+Columns of the varyings: primary RGBA; secondary RGB with GL_SEPARATE_SPECULAR_COLOR; (s, t, r, q) of every texture unit
+in use; the fog distance.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.programs import Program, Varyings, VertexInputs, needs_blocks
-from softshadow.programs.lighting import Colors, clamped, eye_normals, light_vertices, needs_eye_position
+from softshadow.programs.lighting import Colors, clamp_colors, eye_normals, light_vertices, needs_eye_position
+from softshadow.programs.program import Program, Varyings, VertexInputs, needs_blocks
 from softshadow.programs.texture_coordinates import (
     IN_EYE_SPACE,
     Normals,
@@ -37,13 +37,13 @@ class Unit:
 
 
 def program(state: State, textures: Mapping[tuple[int, int], Texture]) -> Program:
-    """Return the fixed function under a state.
+    """Return the program that the fixed function is in a state.
 
     Parameters
     ----------
     textures : (unit, target) -> Texture
-        What is bound. A unit takes that of an enabled target, a cube map before a 2-D texture; incomplete ones count
-        as none.
+        The bound textures. A unit uses the one of its enabled target, a cube map before a 2-D texture, and ignores it
+        if it is incomplete.
     """
     units = units_in_use(state, textures)
 
@@ -64,7 +64,7 @@ def units_in_use(state: State, textures: Mapping[tuple[int, int], Texture]) -> l
         enabled = [textures[index, target] for target, on in by_priority if on and (index, target) in textures]
         if not enabled:
             continue
-        from softshadow.programs import sampling  # kernels: not for draws without texture
+        from softshadow.programs import sampling  # loads kernels that draws without textures do not need
 
         units += [Unit(index, texture) for texture in enabled if sampling.is_complete(texture)][:1]
     return units
@@ -83,7 +83,7 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
         )
         front, back = light_vertices(lighting, vertices, in_eye_space)
     else:
-        front = Colors(clamped(vertices.color), None)
+        front = Colors(clamp_colors(vertices.color), None)
     settings = [state.units[unit.index] for unit in units]
     normals: Normals | None = None
     if any(needs_normals(setting) for setting in settings):
@@ -93,31 +93,31 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
         rest.append(fog_distance(state, vertices)[:, np.newaxis])
     values = columns(front, rest, vertices.position.dtype)
     flat = np.zeros(values.shape[1], bool)
-    one_color = not lighting.enabled and vertices.color.strides[0] == 0  # Mesa does not interpolate what is constant
+    one_color = not lighting.enabled and vertices.color.strides[0] == 0  # Mesa does not interpolate a constant
     column = 7 if is_separate(state) else 4
     flat[:column] = lighting.shade_model == gl.GL_FLAT or one_color
     for unit in units:
         flat[column : column + 4] = has_one_coordinate(state, unit.index, vertices)
         column += 4
-    flat_input = lighting.shade_model == gl.GL_FLAT and not one_color and takes_color(state, units)
+    flat_input = lighting.shade_model == gl.GL_FLAT and not one_color and needs_vertex_color(state, units)
     return Varyings(values, flat, None if back is None else columns(back, rest, values.dtype), flat_input)
 
 
-def takes_color(state: State, units: list[Unit]) -> bool:
-    """Return whether the colours of fragments depend on those of the vertices."""
+def needs_vertex_color(state: State, units: list[Unit]) -> bool:
+    """Return whether the fragment colours depend on the vertex colours."""
     if not units or is_separate(state):
         return True
     from softshadow.programs.sampling import base_format
-    from softshadow.programs.vertex_color_use import uses_color
+    from softshadow.programs.vertex_color_use import uses_vertex_color
 
-    return uses_color([(state.units[unit.index], base_format(unit.texture)) for unit in units])
+    return uses_vertex_color([(state.units[unit.index], base_format(unit.texture)) for unit in units])
 
 
 def has_one_coordinate(state: State, unit: int, vertices: VertexInputs) -> bool:
-    """Return whether all vertices have the same coordinate in a unit, which Mesa then does not interpolate."""
-    given = vertices.texcoords[unit].strides[0] != 0  # a constant is spread with stride 0
-    made = any(gen.enabled for gen in state.units[unit].gen)
-    return not given and not made and np.array_equal(vertices.texture_matrices[unit], np.eye(4))
+    """Return whether all vertices have the same coordinate in a unit; Mesa then does not interpolate it."""
+    per_vertex = vertices.texcoords[unit].strides[0] != 0  # a constant is broadcast with stride 0
+    generated = any(gen.enabled for gen in state.units[unit].gen)
+    return not per_vertex and not generated and np.array_equal(vertices.texture_matrices[unit], np.eye(4))
 
 
 def columns(colors: Colors, rest: list[np.ndarray], real: np.dtype) -> np.ndarray:
@@ -126,14 +126,14 @@ def columns(colors: Colors, rest: list[np.ndarray], real: np.dtype) -> np.ndarra
 
 
 def fog_distance(state: State, vertices: VertexInputs) -> np.ndarray:
-    """Return |z| in eye space (V,), in the order of operations that Mesa's vertex program has at this point."""
+    """Return |z| in eye space (V,), computed in the order of Mesa's vertex program."""
     if state.lighting.enabled and needs_eye_position(state.lighting):
         return abs(transform(vertices.modelview, vertices.position)[:, 2])
     return abs(dot(vertices.position, np.asarray(vertices.modelview[2], vertices.position.dtype)))
 
 
 def shade_fragments(state: State, units: list[Unit], inputs: np.ndarray, out: np.ndarray) -> None:
-    """Fill `out` (N, 4) with the colours of fragments from their interpolated columns `inputs` (N, k)."""
+    """Fill `out` (N, 4) with the fragment colours, from interpolated inputs (N, k)."""
     out[:] = inputs[:, :4]
     column = 7 if is_separate(state) else 4
     if units:
@@ -142,7 +142,7 @@ def shade_fragments(state: State, units: list[Unit], inputs: np.ndarray, out: np
         from softshadow.programs.texture_environment import apply_environment
 
         texels = {}
-        for unit in units:  # all of them first: a unit may combine what another one has sampled
+        for unit in units:  # sample all units first: a unit may combine another unit's texel
             texels[unit.index] = np.empty_like(out)
             divide = project_with_reference if unit.texture.target == gl.GL_TEXTURE_CUBE_MAP else project
             sample(unit.texture, divide(inputs[:, column : column + 4]), texels[unit.index])

@@ -1,6 +1,6 @@
-"""Fog: the distance of a vertex, and the share of the fog's colour in a fragment.
+"""Fog: the fog factor of fragments, and the blend with the fog colour.
 
-References: GL 2.1 sec. 3.10. The factor is llvmpipe's 2^x (`approximations`), with constants folded as Mesa folds them.
+References: GL 2.1 sec. 3.10. The exponential is llvmpipe's 2^x (`llvmpipe_math`), with constants folded as in Mesa.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def exp2(x: np.ndarray) -> np.ndarray:
 
 
 def fog_factor(fog: Fog, distance: np.ndarray) -> np.ndarray:
-    """Return the share (N,) in [0, 1] of the fragment's own colour at distances (N,) from the eye."""
+    """Return the fog factor (N,), the share in [0, 1] of the fragment's own colour, at eye distances (N,)."""
     real = np.float32
     if fog.mode == gl.GL_LINEAR:
         slope = ONE if fog.end == fog.start else -ONE / (real(fog.end) - real(fog.start))
@@ -41,7 +41,7 @@ def fog_factor(fog: Fog, distance: np.ndarray) -> np.ndarray:
 
 
 def apply_fog(fragment: np.ndarray, fog: Fog, distance: np.ndarray) -> None:
-    """Mix the fog's colour into the RGB of fragments (N, 4) at distances (N,); alpha stays."""
+    """Blend the fog colour into the RGB of fragments (N, 4) at eye distances (N,); alpha is unchanged."""
     factor = fog_factor(fog, distance)[:, np.newaxis]
     color = np.array(fog.color[:3], np.float32).clip(ZERO, ONE)
     fragment[:, :3] = color * (ONE - factor) + fragment[:, :3] * factor

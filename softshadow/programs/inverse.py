@@ -1,8 +1,8 @@
-"""The inverse of a 4x4 matrix in float32, by the kind of the matrix, as Mesa inverts: for normals, planes and lights.
+"""Inverse of a 4x4 matrix in float32, with Mesa's formula for each kind of matrix: for normals, planes and lights.
 
-A rotation is transposed, a scale divided, and so on: other formulas give other last bits, and a generated texture
-coordinate carries them into a shadow comparison. The kind is what the calls that made the matrix say of it; that of
-loaded and multiplied matrices is read off the elements.
+A rotation is transposed, a scale is divided, and so on. Other formulas give other last bits, and generated texture
+coordinates carry these bits into shadow comparisons. The calls that built a matrix tell its kind; the kind of loaded
+and multiplied matrices is derived from their elements.
 
 References: m_matrix.c of Mesa 22.3 (analyse_from_scratch, analyse_from_flags and the inversion functions).
 """
@@ -13,10 +13,10 @@ from functools import lru_cache
 
 import numpy as np
 
-TOLERANCE = np.float32(1e-6) * np.float32(1e-6)  # on squares: what still counts as a rotation
+TOLERANCE = np.float32(1e-6) * np.float32(1e-6)  # for squared values: how far a matrix may be from a rotation
 SMALLEST_DETERMINANT = np.float32(1e-25)
 ONE = np.float32(1.0)
-# a matrix's kind: the sum of what may be in it; 0 is the identity
+# the kind of a matrix: flags for what it may contain; 0 is the identity
 ROTATION, TRANSLATION, UNIFORM_SCALE, GENERAL_SCALE, GENERAL_3D, GENERAL, UNKNOWN = (1 << i for i in range(7))
 LENGTH_PRESERVING = ROTATION | TRANSLATION
 ANGLE_PRESERVING = LENGTH_PRESERVING | UNIFORM_SCALE
@@ -25,7 +25,7 @@ AFFINE = ANGLE_PRESERVING | GENERAL_SCALE | GENERAL_3D
 
 
 def dot(a: np.ndarray, b: np.ndarray) -> np.float32:
-    """Return the sum of products, from left to right, each step rounded."""
+    """Return the dot product, summed from left to right, each step rounded."""
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
         total = total + x * y
@@ -49,19 +49,19 @@ def scales_only(m: np.ndarray) -> bool:
     return not (m[:3, :3] * (1 - np.eye(3, dtype=np.float32))).any()
 
 
-def lies_flat(m: np.ndarray) -> bool:
-    """Return whether an affine matrix leaves z alone."""
+def is_2d(m: np.ndarray) -> bool:
+    """Return whether an affine matrix leaves z unchanged (Mesa's MATRIX_2D)."""
     return bool((m[2] == (0, 0, 1, 0)).all() and (m[:2, 2] == 0).all())
 
 
 def scale_kind(m: np.ndarray) -> str:
     """Return "none", "uniform" or "general" for an affine matrix."""
     c1, c2, c3 = (m[:3, i] for i in range(3))
-    if lies_flat(m):
+    if is_2d(m):
         if scales_only(m):
             return "none" if m[0, 0] == 1 and m[1, 1] == 1 else "general"
-        kept = squared(dot(c1[:2], c1[:2]) - ONE) <= TOLERANCE and squared(dot(c2[:2], c2[:2]) - ONE) <= TOLERANCE
-        return "none" if kept else "general"
+        unit = squared(dot(c1[:2], c1[:2]) - ONE) <= TOLERANCE and squared(dot(c2[:2], c2[:2]) - ONE) <= TOLERANCE
+        return "none" if unit else "general"
     sizes = (m[0, 0], m[1, 1], m[2, 2]) if scales_only(m) else (dot(c1, c1), dot(c2, c2), dot(c3, c3))
     if squared(sizes[0] - sizes[1]) < TOLERANCE and squared(sizes[0] - sizes[2]) < TOLERANCE:
         return "uniform" if squared(sizes[0] - ONE) > TOLERANCE else "none"
@@ -73,7 +73,7 @@ def keeps_angles(m: np.ndarray) -> bool:
     if scales_only(m):
         return True
     c1, c2, c3 = (m[:3, i] for i in range(3))
-    if lies_flat(m):
+    if is_2d(m):
         return bool(squared(dot(c1[:2], c2[:2])) <= TOLERANCE)
     if squared(dot(c1, c2)) >= TOLERANCE:
         return False
@@ -82,7 +82,7 @@ def keeps_angles(m: np.ndarray) -> bool:
 
 
 def known_kind(matrix: np.ndarray, kind: int = UNKNOWN) -> int:
-    """Return the kind of a (4, 4) matrix: the given one, or where that says UNKNOWN, the one read off the elements."""
+    """Return `kind`, or the kind derived from the elements of the (4, 4) matrix if `kind` is UNKNOWN."""
     if not kind & UNKNOWN:
         return kind
     return _kind_of(np.asarray(matrix, np.float32).tobytes())
@@ -90,41 +90,41 @@ def known_kind(matrix: np.ndarray, kind: int = UNKNOWN) -> int:
 
 @lru_cache(maxsize=256)
 def _kind_of(elements: bytes) -> int:
-    """Return the kind that is read off the elements of a (4, 4) float32 matrix."""
+    """Return the kind derived from the elements of a (4, 4) float32 matrix."""
     m = np.frombuffer(elements, np.float32).reshape(4, 4)
     with np.errstate(all="ignore"):
         if not is_affine(m):
             return GENERAL
         scale = {"none": 0, "uniform": UNIFORM_SCALE, "general": GENERAL_SCALE}[scale_kind(m)]
-        moved = TRANSLATION if m[:3, 3].any() else 0
+        translation = TRANSLATION if m[:3, 3].any() else 0
         if scales_only(m):
-            return scale | moved
-        return scale | moved | (ROTATION if keeps_angles(m) else GENERAL_3D)
+            return scale | translation
+        return scale | translation | (ROTATION if keeps_angles(m) else GENERAL_3D)
 
 
 def is_length_preserving(matrix: np.ndarray, kind: int = UNKNOWN) -> bool:
-    """Return whether a (4, 4) float32 matrix is made of rotations and translations, as Mesa finds out."""
+    """Return whether Mesa regards a (4, 4) float32 matrix as composed of rotations and translations."""
     return not known_kind(matrix, kind) & ~LENGTH_PRESERVING
 
 
 def inverse(matrix: np.ndarray, kind: int = UNKNOWN) -> np.ndarray:
-    """Return the inverse of a (4, 4) matrix in float32; the identity where the matrix is singular, as Mesa has it."""
+    """Return the inverse of a (4, 4) matrix in float32; the identity if the matrix is singular, as in Mesa."""
     m = np.asarray(matrix, np.float32)
     kind = known_kind(m, kind)
     with np.errstate(all="ignore"):
         if kind & ~AFFINE:
-            found = inverse_of_general(m)
+            inverted = inverse_of_general(m)
         elif not kind & ~WITHOUT_ROTATION:
-            found = inverse_of_scale(m)
+            inverted = inverse_of_scale(m)
         elif not kind & ~ANGLE_PRESERVING:
-            found = inverse_of_rotation(m, bool(kind & UNIFORM_SCALE))
+            inverted = inverse_of_rotation(m, bool(kind & UNIFORM_SCALE))
         else:
-            found = inverse_of_affine(m)
-    return np.eye(4, dtype=np.float32) if found is None else found
+            inverted = inverse_of_affine(m)
+    return np.eye(4, dtype=np.float32) if inverted is None else inverted
 
 
 def with_translation(m: np.ndarray, linear: np.ndarray) -> np.ndarray:
-    """Return the affine inverse whose 3x3 part is known."""
+    """Return the inverse of an affine matrix, whose 3x3 part is `linear`."""
     out = np.eye(4, dtype=np.float32)
     out[:3, :3] = linear
     if m[:3, 3].any():
@@ -150,7 +150,7 @@ def inverse_of_rotation(m: np.ndarray, scaled: bool) -> np.ndarray | None:
 
 
 def inverse_of_affine(m: np.ndarray) -> np.ndarray | None:
-    """Return the inverse by cofactors; positive and negative terms of the determinant are summed apart."""
+    """Return the inverse by cofactors; positive and negative terms of the determinant are summed separately."""
     terms = [
         m[0, 0] * m[1, 1] * m[2, 2],
         m[1, 0] * m[2, 1] * m[0, 2],
@@ -193,7 +193,7 @@ def inverse_of_affine(m: np.ndarray) -> np.ndarray | None:
 
 
 def inverse_of_general(m: np.ndarray) -> np.ndarray | None:
-    """Return the inverse by Gaussian elimination; the pivot rises row by row, which is not a full search."""
+    """Return the inverse by Gaussian elimination; pivoting only swaps adjacent rows, from the bottom up."""
     rows = np.concatenate([m, np.eye(4, dtype=np.float32)], axis=1)
     for k in range(4):
         for i in range(3, k, -1):

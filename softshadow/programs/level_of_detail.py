@@ -1,7 +1,7 @@
-"""Level of detail of each 2x2 block of pixels, and the mipmap levels it selects, as llvmpipe decides it.
+"""Level of detail of each 2x2 block of pixels, and the mipmap levels it selects, as in llvmpipe.
 
-A block holds the coordinates of its four pixels: the first, the one right of it, the one in the next stored row, and
-the one right of that. The differences to the first tell how many texels a step of one pixel crosses.
+A block holds the coordinates of four pixels: the first, its right neighbour, and the two pixels of the next stored row.
+The differences to the first pixel tell how many texels lie between neighbouring pixels.
 
 References: GL 2.1 sec. 3.8.8, 3.8.9 (switch-over at level 0); lp_bld_sample.c of Mesa 22.3 (rho, level of detail).
 """
@@ -18,8 +18,8 @@ from softshadow.texture import Sampler
 
 HALF, ONE = np.float32(0.5), np.float32(1.0)
 EXPONENT_BIAS, MANTISSA_BITS, MANTISSA, ONE_BITS = 127, 23, 0x7FFFFF, 0x3F800000
-LARGEST_LEVEL = 15  # a larger GL_TEXTURE_MAX_LOD limits nothing
-BIAS_STEPS, LEAST_BIAS, LARGEST_BIAS = 256, -32.0, 31.0  # Mesa keeps biases in steps of 1/256
+LARGEST_LEVEL = 15  # a larger GL_TEXTURE_MAX_LOD has no effect
+BIAS_STEPS, LEAST_BIAS, LARGEST_BIAS = 256, -32.0, 31.0  # Mesa stores biases in steps of 1/256
 # minification filter: (filter within a level, filter between levels or GL_NONE)
 FILTERS = {
     gl.GL_NEAREST: (gl.GL_NEAREST, gl.GL_NONE),
@@ -32,8 +32,11 @@ FILTERS = {
 
 
 class Levels(NamedTuple):
-    """What the level of detail says of each block (B,): whether it is minified, then the level below its level of
-    detail and the one above, counted from the base level, and the weight of the one above (float32)."""
+    """Mipmap levels of each block (B,).
+
+    `minified` is whether the minification filter applies; `lower` and `upper` are the levels below and above the level
+    of detail, counted from the base level; `weight` (float32) is the weight of `upper`.
+    """
 
     minified: np.ndarray
     lower: np.ndarray
@@ -42,13 +45,13 @@ class Levels(NamedTuple):
 
 
 def squared_texels_per_pixel(coordinates: np.ndarray, width: int, height: int) -> np.ndarray:
-    """Return the larger of the squared steps (B,) to the right and to the next row; coordinates (4 B, 2 or more)."""
+    """Return each block's larger squared step (B,), in texels, to the next column or row; coordinates (4 B, 2+)."""
     blocks = coordinates[:, :2].reshape(-1, 4, 2)
     return squared_length((blocks[:, 1:3] - blocks[:, :1]), width, height)
 
 
 def squared_length(steps: np.ndarray, width: int, height: int) -> np.ndarray:
-    """Return the larger squared length (B,) in texels of two steps (B, 2, 2) in texture coordinates."""
+    """Return the larger squared length (B,), in texels, of two steps (B, 2, 2) in texture coordinates."""
     texels = steps * np.array((width, height), steps.dtype)
     texels = texels * texels
     larger: np.ndarray = (texels[..., 0] + texels[..., 1]).max(axis=1)
@@ -56,7 +59,7 @@ def squared_length(steps: np.ndarray, width: int, height: int) -> np.ndarray:
 
 
 def select_levels(squared: np.ndarray, sampler: Sampler, last: int) -> Levels:
-    """Return the levels of blocks whose pixels cross so many texels, squared (B,); `last` is the smallest level."""
+    """Return the mipmap levels of blocks with squared steps (B,), in texels; `last` is the smallest image's level."""
     squared = squared.astype(np.float32)
     between = FILTERS[sampler.min_filter][1]
     least, most, bias = max(sampler.min_lod, 0.0), sampler.max_lod, bias_of(sampler)
@@ -85,18 +88,18 @@ def _limits(least: float, most: float) -> bool:
 
 
 def bias_of(sampler: Sampler) -> float:
-    """Return the sum of the biases of the texture and of its unit, as they count."""
+    """Return the sum of the biases of the texture and of its unit, as Mesa applies them."""
     return quantized_bias(sampler.lod_bias) + quantized_bias(sampler.unit_lod_bias)
 
 
 def quantized_bias(bias: float) -> float:
-    """Return GL_TEXTURE_LOD_BIAS as it counts: limited, and rounded to steps of 1/256, halves away from zero."""
+    """Return GL_TEXTURE_LOD_BIAS as Mesa applies it: clamped, and rounded to steps of 1/256, halves away from zero."""
     steps = min(max(bias, LEAST_BIAS), LARGEST_BIAS) * BIAS_STEPS
     return math.copysign(math.floor(abs(steps) + 0.5), steps) / BIAS_STEPS
 
 
 def coarse_log2(x: np.ndarray) -> np.ndarray:
-    """Return the exponent plus the mantissa, less one: log2 at the powers of two, a straight line between them."""
+    """Return exponent + mantissa - 1: exact log2 at powers of two, linear between them."""
     bits = x.view(np.int32)
     mantissa = (bits & MANTISSA | ONE_BITS).view(np.float32)
     return ((bits >> MANTISSA_BITS) - (EXPONENT_BIAS + 1)).astype(np.float32) + mantissa

@@ -1,8 +1,9 @@
 """Fixed-function lighting, per vertex: GL's equation in the order of Mesa's vertex program.
 
-References: GL 2.1 sec. 2.14.1; ffvertex_prog.c, light.c of Mesa 22.3. One of Mesa's habits is kept because it changes
-bits: lights that are all directional are carried into object space when the modelview matrix only rotates and
-translates.
+Like Mesa, it works in object space if all lights are directional and the modelview matrix only rotates and translates,
+because that changes the last bits.
+
+References: GL 2.1 sec. 2.14.1; ffvertex_prog.c, light.c of Mesa 22.3.
 """
 
 from __future__ import annotations
@@ -14,12 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.programs import VertexInputs
 from softshadow.programs.inverse import inverse, is_length_preserving
 from softshadow.programs.llvmpipe_math import powers
+from softshadow.programs.program import VertexInputs
 from softshadow.programs.reflectances import Reflectances, vector
-from softshadow.programs.stale_registers import NAMES, Scratch, leftovers
-from softshadow.programs.texture_coordinates import dot, normalized_rows, reciprocal_root, transform
+from softshadow.programs.stale_registers import PRODUCTS, LightRegisters, stale_values
+from softshadow.programs.texture_coordinates import dot, normalize_rows, reciprocal_root, transform
 from softshadow.state import Lighting, LightState
 
 ZERO, ONE = np.float32(0.0), np.float32(1.0)
@@ -30,7 +31,7 @@ SMALLEST_SCALE = np.float32(1e-12)
 
 @dataclass(frozen=True)
 class Colors:
-    """primary (V, 4) and, where the specular part is kept apart, secondary (V, 3); clamped to [0, 1]."""
+    """Lit colours in [0, 1]: primary (V, 4), and secondary (V, 3) with GL_SEPARATE_SPECULAR_COLOR."""
 
     primary: np.ndarray
     secondary: np.ndarray | None
@@ -38,10 +39,10 @@ class Colors:
 
 @dataclass(frozen=True)
 class LightAtVertices:
-    """One light seen from the vertices, in the space of the normals.
+    """The vectors and factors of one light at the vertices, in the space of the normals.
 
-    direction (V, 3) or (3,) towards the light, half the same halfway to the eye, attenuation (V,) or None for 1; parts
-    are what the attenuation was made of: "distance", "spot", "inside" (V,).
+    direction (V, 3) or (3,) towards the light, half vector of the same shape, attenuation (V,) or None for 1; parts are
+    the factors of the attenuation: "distance", "spot", "inside" (V,).
     """
 
     light: LightState
@@ -52,13 +53,13 @@ class LightAtVertices:
 
 
 def power(x: np.ndarray, exponents: np.ndarray) -> np.ndarray:
-    raised = np.empty_like(x)
-    powers(x, exponents, raised)
-    return raised
+    result = np.empty_like(x)
+    powers(x, exponents, result)
+    return result
 
 
-def normalized(v: np.ndarray) -> np.ndarray:
-    """Return one vector (3,) of unit length, as Mesa's C code makes it; 0 stays 0."""
+def normalize(v: np.ndarray) -> np.ndarray:
+    """Return a vector (3,) normalized as in Mesa's C code; 0 stays 0."""
     squared = (v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]
     return v * (ONE / np.sqrt(squared)) if squared else v
 
@@ -68,7 +69,7 @@ def enabled_lights(lighting: Lighting) -> list[LightState]:
 
 
 def needs_eye_position(lighting: Lighting) -> bool:
-    """Return whether lighting computes the eye position of the vertices."""
+    """Return whether lighting needs the eye-space positions of the vertices."""
     lights = enabled_lights(lighting)
     return any(light.position[3] != 0 for light in lights) or (
         bool(lights) and lighting.local_viewer and has_highlights(lighting)
@@ -76,12 +77,12 @@ def needs_eye_position(lighting: Lighting) -> bool:
 
 
 def has_highlights(lighting: Lighting) -> bool:
-    """Return whether a shininess other than 0 is in use."""
+    """Return whether a material in use has a shininess other than 0."""
     return lighting.front.shininess != 0 or (lighting.two_side and lighting.back.shininess != 0)
 
 
 def in_object_space(lighting: Lighting, length_preserving: bool) -> bool:
-    """Return whether Mesa lights in object space as far as lighting goes: directional lights, infinite viewer."""
+    """Return whether the lighting state allows object space: directional lights only and an infinite viewer."""
     lights = enabled_lights(lighting)
     return (
         not lighting.local_viewer
@@ -94,19 +95,19 @@ def in_object_space(lighting: Lighting, length_preserving: bool) -> bool:
 def light_vertices(
     lighting: Lighting, vertices: VertexInputs, in_eye_space: bool = False
 ) -> tuple[Colors, Colors | None]:
-    """Return the colours of the vertices, and those of their back side under GL_LIGHT_MODEL_TWO_SIDE.
+    """Return the front colours of the vertices, and the back colours with GL_LIGHT_MODEL_TWO_SIDE.
 
     Parameters
     ----------
-    in_eye_space : bool          whether a texture unit generates coordinates in eye space: then lighting is there too
+    in_eye_space : bool          whether a texture unit generates coordinates in eye space: then lighting uses it, too
     """
     modelview = np.asarray(vertices.modelview, np.float32)
     length_preserving = is_length_preserving(modelview, vertices.modelview_kind)
     object_space = not in_eye_space and in_object_space(lighting, length_preserving)
     with np.errstate(all="ignore"):
         to_object = inverse(modelview, vertices.modelview_kind)
-        normal = transformed_normals(lighting, vertices.normal, to_object, object_space, length_preserving)
-        # x, y and z apart in memory, here and in the normals: loops over vertices, not over three numbers
+        normal = transform_normals(lighting, vertices.normal, to_object, object_space, length_preserving)
+        # x, y and z are stored apart, here and in the normals, so that loops run over vertices, not over three numbers
         eye = (
             np.asfortranarray(transform(modelview, vertices.position)[:, :3]) if needs_eye_position(lighting) else None
         )
@@ -117,8 +118,8 @@ def light_vertices(
         front = shade_side(lighting, front_side, vertices, normal, lights)
         if not lighting.two_side:
             return front, None
-        stray = stray_products(lighting, front_side, back_side, lights) if vertices.color.dtype == np.float32 else []
-        return front, shade_side(lighting, back_side, vertices, -normal, lights, stray)
+        stale = stale_products(lighting, front_side, back_side, lights) if vertices.color.dtype == np.float32 else []
+        return front, shade_side(lighting, back_side, vertices, -normal, lights, stale)
 
 
 def eye_normals(lighting: Lighting, vertices: VertexInputs) -> np.ndarray:
@@ -127,17 +128,17 @@ def eye_normals(lighting: Lighting, vertices: VertexInputs) -> np.ndarray:
     with np.errstate(all="ignore"):
         to_object = inverse(modelview, vertices.modelview_kind)
         length_preserving = is_length_preserving(modelview, vertices.modelview_kind)
-        return transformed_normals(lighting, vertices.normal, to_object, False, length_preserving)
+        return transform_normals(lighting, vertices.normal, to_object, False, length_preserving)
 
 
-def transformed_normals(
+def transform_normals(
     lighting: Lighting, normal: np.ndarray, to_object: np.ndarray, object_space: bool, length_preserving: bool
 ) -> np.ndarray:
-    """Return the normals (V, 3) in the space of lighting, normalized or rescaled."""
+    """Return the normals (V, 3) in eye or object space, normalized or rescaled."""
     if not object_space:
         normal = np.stack([dot(normal, to_object[:3, i]) for i in range(3)]).T
     if lighting.normalize:
-        return normalized_rows(normal)
+        return normalize_rows(normal)
     if lighting.rescale_normal and not object_space and not length_preserving:
         row = to_object[2, :3]
         squared = (row[0] * row[0] + row[1] * row[1]) + row[2] * row[2]
@@ -153,15 +154,15 @@ def at_vertices(
     to_object: np.ndarray,
     object_space: bool,
 ) -> LightAtVertices:
-    """Return direction, half vector and attenuation of a light at every vertex."""
+    """Return the direction, half vector and attenuation of a light at every vertex."""
     position, towards_eye = vector(light.position), TOWARDS_EYE
     if object_space:
         position = transform(to_object, position[np.newaxis])[0]
         towards_eye = modelview[2, :3]
     squared_distance: np.ndarray | None = None
     if light.position[3] == 0:
-        direction = normalized(position[:3])
-        half = normalized(direction + towards_eye)
+        direction = normalize(position[:3])
+        half = normalize(direction + towards_eye)
     else:
         assert eye is not None
         towards = position[:3] * (ONE / position[3]) - eye
@@ -170,36 +171,36 @@ def at_vertices(
         half = direction + towards_eye
     if lighting.local_viewer and has_highlights(lighting):
         assert eye is not None
-        half = normalized_rows(direction - normalized_rows(eye))
+        half = normalize_rows(direction - normalize_rows(eye))
     elif half.ndim == 2:
-        half = normalized_rows(half)
+        half = normalize_rows(half)
     return LightAtVertices(light, direction, half, *attenuation(light, direction, squared_distance))
 
 
 def attenuation(
     light: LightState, direction: np.ndarray, squared_distance: np.ndarray | None
 ) -> tuple[np.ndarray | None, dict[str, np.ndarray]]:
-    """Return the spot factor times the distance factor (V,) or (1,), and the parts of `LightAtVertices`.
+    """Return the attenuation, spot factor times distance factor, (V,) or (1,), and the parts of `LightAtVertices`.
 
-    The factor is None where both are 1 by their settings.
+    The attenuation is None if the light has none.
     """
     factor: np.ndarray | None = None
     parts: dict[str, np.ndarray] = {}
     if light.spot_cutoff != 180:
-        spot_direction = normalized(normalized(vector(light.spot_direction)))
+        spot_direction = normalize(normalize(vector(light.spot_direction)))
         cosine = max(ZERO, np.float32(math.cos(np.float32(np.float32(light.spot_cutoff) * math.pi / 180.0))))
         spot = dot(np.atleast_2d(-direction), spot_direction)
         inside = np.where(cosine < spot, ONE, ZERO)
-        raised = power(abs(spot), np.full_like(spot, light.spot_exponent))
-        factor = inside * raised
-        parts = {"spot": raised, "inside": inside}
+        spot_power = power(abs(spot), np.full_like(spot, light.spot_exponent))
+        factor = inside * spot_power
+        parts = {"spot": spot_power, "inside": inside}
     if squared_distance is not None:
         parts["distance"] = reciprocal_root(squared_distance)
     coefficients = (light.constant_attenuation, light.linear_attenuation, light.quadratic_attenuation)
     if coefficients != (1.0, 0.0, 0.0) and squared_distance is not None:
         constant, linear, quadratic = vector(coefficients)
         distance = np.sqrt(squared_distance)
-        one = reciprocal_root(squared_distance) * distance  # but for rounding: Mesa's first component is made so
+        one = reciprocal_root(squared_distance) * distance  # 1 up to rounding, as in Mesa
         polynomial = (quadratic * squared_distance + linear * distance) + constant * one
         by_distance = ONE / polynomial
         parts["distance"] = polynomial if factor is None else by_distance
@@ -207,27 +208,27 @@ def attenuation(
     return factor, parts
 
 
-def stray_products(
+def stale_products(
     lighting: Lighting, front: Reflectances, back: Reflectances, lights: list[LightAtVertices]
 ) -> list[dict[str, np.ndarray]]:
-    """Return what Mesa has in green and blue of the products of the back, where they vary, per light."""
+    """Return Mesa's stale green and blue of the varying back products, one mapping for each light."""
 
-    def scratch(source: LightAtVertices) -> Scratch:
+    def registers_of(source: LightAtVertices) -> LightRegisters:
         positional = source.light.position[3] != 0
-        makes_half = has_highlights(lighting) and (positional or lighting.local_viewer)
-        return Scratch(
+        half_per_vertex = has_highlights(lighting) and (positional or lighting.local_viewer)
+        return LightRegisters(
             direction=source.direction if positional else None,
             distance=source.parts.get("distance"),
             spot=source.parts.get("spot"),
             inside=source.parts.get("inside"),
             attenuation=source.attenuation,
-            half=source.half if makes_half else None,
-            front={name: front.product(name, source.light, {}) for name in NAMES if name in front.varying},
+            half=source.half if half_per_vertex else None,
+            front={name: front.product(name, source.light, {}) for name in PRODUCTS if name in front.varying},
         )
 
-    if not back.varying & set(NAMES):
+    if not back.varying & set(PRODUCTS):
         return []
-    return leftovers([scratch(source) for source in lights], back.varying, lighting.local_viewer)
+    return stale_values([registers_of(source) for source in lights], back.varying, lighting.local_viewer)
 
 
 def shade_side(
@@ -236,33 +237,33 @@ def shade_side(
     vertices: VertexInputs,
     normal: np.ndarray,
     lights: list[LightAtVertices],
-    stray: Sequence[Mapping[str, np.ndarray]] = (),
+    stale: Sequence[Mapping[str, np.ndarray]] = (),
 ) -> Colors:
     """Return the colours of one side: emission and ambient, then each light's ambient, diffuse and specular part."""
-    count, shininess = len(vertices.position), reflectance.shininess
-    # red, green and blue of all vertices, (3, V): loops over vertices, not over three numbers
+    n, shininess = len(vertices.position), reflectance.shininess
+    # red, green and blue are stored apart, (3, V), so that loops run over vertices, not over three numbers
     scene = (vector(lighting.model_ambient)[:3] * reflectance("ambient")[:, :3] + reflectance("emission")[:, :3]).T
-    rgb = np.broadcast_to(scene, (3, count))
+    rgb = np.broadcast_to(scene, (3, n))
     separate = lighting.color_control == gl.GL_SEPARATE_SPECULAR_COLOR
-    highlight = np.zeros((3, count), np.float32)
-    for number, source in enumerate(lights):
-        found = stray[number] if stray else {}
+    highlight = np.zeros((3, n), np.float32)
+    for index, source in enumerate(lights):
+        green_blue = stale[index] if stale else {}
         diffuse, specular = lit_factors(lighting, shininess, normal, source)
         factor = source.attenuation
-        ambient_part = reflectance.product("ambient", source.light, found).T
+        ambient_part = reflectance.product("ambient", source.light, green_blue).T
         if factor is not None:
             diffuse, specular = diffuse * factor, specular * factor
             ambient_part = factor * ambient_part
         rgb = ambient_part + rgb
-        rgb = diffuse * reflectance.product("diffuse", source.light, found).T + rgb
-        shine = specular * reflectance.product("specular", source.light, found).T
+        rgb = diffuse * reflectance.product("diffuse", source.light, green_blue).T + rgb
+        shine = specular * reflectance.product("specular", source.light, green_blue).T
         if separate:
             highlight = shine + highlight
         else:
             rgb = shine + rgb
-    primary = np.empty((4, count), np.float32)
+    primary = np.empty((4, n), np.float32)
     primary[:3], primary[3] = rgb, reflectance("diffuse")[:, 3]
-    return Colors(clamped(primary).T, clamped(highlight).T if separate else None)
+    return Colors(clamp_colors(primary).T, clamp_colors(highlight).T if separate else None)
 
 
 def lit_factors(
@@ -282,8 +283,8 @@ def lit_factors(
     return diffuse, np.where(towards_light <= 0, ZERO, raised)
 
 
-def clamped(colors: np.ndarray) -> np.ndarray:
+def clamp_colors(colors: np.ndarray) -> np.ndarray:
     """Return colours in [0, 1]; NaN becomes 0."""
-    given = colors[:1] if colors.strides[0] == 0 else colors  # one colour for all vertices
-    within: np.ndarray = np.fmin(np.fmax(given, ZERO), ONE)
-    return np.broadcast_to(within, colors.shape)
+    distinct = colors[:1] if colors.strides[0] == 0 else colors  # stride 0: one colour for all vertices
+    clamped: np.ndarray = np.fmin(np.fmax(distinct, ZERO), ONE)
+    return np.broadcast_to(clamped, colors.shape)

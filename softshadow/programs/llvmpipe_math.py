@@ -1,10 +1,11 @@
-"""log2, exp2 and pow as llvmpipe's shaders compute them: polynomials in float32, the same bits on every CPU.
+"""log2, exp2 and pow as in llvmpipe's shaders: polynomials in float32, with the same bits on every CPU.
 
-GL leaves these to the implementation. Here they are the same sums in the same order, so lighting and fog agree with
-Mesa to the last bit rather than to the last digit. Other functions need no imitation: llvmpipe's 1/x and 1/sqrt(x) are
-exactly rounded divisions and roots.
+GL does not specify how to compute them. The terms and their order are those of llvmpipe, so lighting and fog agree with
+Mesa to the last bit. Other functions need no emulation: llvmpipe's 1/x and 1/sqrt(x) are exactly rounded divisions and
+roots.
 
-Special values are chosen last and all integers are int32: so a loop over these is vectorised, 9 times as fast.
+Special values are selected last and all integers are int32, so that loops over these functions are vectorised (9 times
+as fast).
 
 References: lp_bld_arit.c of Mesa 22.3 (polynomial, exp2, log2_safe, pow).
 """
@@ -43,7 +44,7 @@ EXPONENT_BIAS, MANTISSA_BITS, MANTISSA, ONE_BITS = (np.int32(bits) for bits in (
 
 @inlined
 def exp2(x):
-    """Return 2^x, 0 below -126 and infinity from 128 on; NaN stays NaN."""
+    """Return 2^x: 0 below -126, infinity from 128 on, NaN for NaN."""
     limited = x if x > SMALLEST_EXPONENT else SMALLEST_EXPONENT
     limited = limited if limited < LARGEST_EXPONENT else LARGEST_EXPONENT
     whole = np.floor(limited)
@@ -57,7 +58,7 @@ def exp2(x):
 
 @inlined
 def log2(x):
-    """Return log2(x); -infinity at 0, NaN below."""
+    """Return log2(x): -infinity at 0, NaN below 0."""
     bits = np.float32(x).view(np.int32)
     exponent = np.float32((bits >> MANTISSA_BITS) - EXPONENT_BIAS)
     mantissa = np.int32(bits & MANTISSA | ONE_BITS).view(np.float32)
@@ -73,20 +74,20 @@ def log2(x):
 
 @inlined
 def power(x, exponent):
-    """Return x^exponent as 2^(log2(x) exponent); 0 wherever x is 0, even for the exponent 0."""
+    """Return x^exponent as 2^(log2(x) exponent); 0 if x is 0, even for exponent 0."""
     raised = exp2(log2(x if x != ZERO else ONE) * exponent)
     return raised if x != ZERO else ZERO
 
 
 @kernel
 def powers(x, exponents, out):
-    """Write x^exponent of each pair of (N,) arrays into `out` (N,)."""
+    """Write x^exponent to `out` (N,) for each pair of elements of two arrays (N,)."""
     for n in range(len(x)):
         out[n] = power(x[n], exponents[n])
 
 
 @kernel
 def exp2_of_all(x, out):
-    """Write 2^x of an array (N,) into `out` (N,)."""
+    """Write 2^x to `out` (N,) for each element of an array (N,)."""
     for n in range(len(x)):
         out[n] = exp2(x[n])

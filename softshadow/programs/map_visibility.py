@@ -1,9 +1,9 @@
-"""How much of a light each pixel sees by its shadow map: the share of comparisons that are lit, written as a colour.
+"""Visibility of a light by its shadow map: the share of depth comparisons that are lit, written as a colour.
 
-"map-visibility" takes the (2 radius + 1)² texels round a pixel's place, all with equal weight.
-"map-visibility-bilinear" moves that square along with the place, so that texels on its rim have the weight of their
-part of it and the share changes continuously: with radius 0 these are four texels, weighted as GL_LINEAR weights.
-Depths are never averaged, only answers (E46).
+"map-visibility" compares the (2 radius + 1)² texels around the pixel's map position, all with equal weight.
+"map-visibility-bilinear" centers a square of that size on the exact position and weights each texel by the part of it
+inside the square, so the visibility changes continuously; with radius 0 these are the four texels and weights of
+GL_LINEAR. Depths are never averaged, only the results of comparisons (E46).
 
 References: Reeves, Salesin & Cook 1987, "Rendering antialiased shadows with depth maps".
 """
@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.programs import Program, Varyings, VertexInputs
 from softshadow.programs.percentage_closer import count_lit
+from softshadow.programs.program import Program, Varyings, VertexInputs
 from softshadow.programs.sampling import divide, sample
 from softshadow.programs.texture_coordinates import transform
 from softshadow.texture import Texture
@@ -36,7 +36,7 @@ uniform sampler2D shadowMap;
 uniform float side;    // of the map, in texels
 uniform int radius;
 uniform float bias;
-uniform float behind;  // what is not before the light
+uniform float behind;  // visibility behind the light
 uniform float cone;    // squared radius of a spot light's disc in the map
 varying vec4 texCoord;
 
@@ -48,7 +48,7 @@ float share(vec2 place, float depth)
 void main()
 {
     vec3 projected = texCoord.stp / texCoord.q;
-    float visible = share(projected.st, min(projected.p - bias, 1.0));  // beyond far as at far
+    float visible = share(projected.st, min(projected.p - bias, 1.0));  // beyond the far plane as on it
     vec2 off = projected.st - 0.5;
     if (off.s * off.s + off.t * off.t > cone)
         visible = 0.0;
@@ -67,17 +67,17 @@ BOX = """
 
 BILINEAR = """
     float texel = 1.0 / side;
-    vec2 centres = place * side - 0.5;
-    vec2 first = floor(centres);
-    vec2 part = centres - first;
+    vec2 centers = place * side - 0.5;
+    vec2 first = floor(centers);
+    vec2 part = centers - first;
     int width = 2 * radius + 1;
     float lit = 0.0;
     for (int j = 0; j <= width; j++) {
         float row = 0.0;
         for (int i = 0; i <= width; i++) {
-            vec2 centre = (first + vec2(i - radius, j - radius) + 0.5) * texel;
+            vec2 center = (first + vec2(i - radius, j - radius) + 0.5) * texel;
             float weight = i == 0 ? 1.0 - part.s : (i == width ? part.s : 1.0);
-            row += depth <= texture2D(shadowMap, centre).r ? weight : 0.0;
+            row += depth <= texture2D(shadowMap, center).r ? weight : 0.0;
         }
         lit += (j == 0 ? 1.0 - part.t : (j == width ? part.t : 1.0)) * row;
     }
@@ -87,7 +87,7 @@ Share = Callable[[Texture, np.ndarray, np.ndarray, int, Any], np.ndarray]
 
 
 def vertex(vertices: VertexInputs) -> Varyings:
-    """Return texCoord: the texture coordinates of unit 0 under their matrix."""
+    """Return texCoord: the texture coordinates of unit 0, transformed by its texture matrix."""
     values = transform(vertices.texture_matrices[0], vertices.texcoords[0])
     return Varyings(values, np.zeros(4, bool))
 
@@ -109,7 +109,7 @@ def visibility_by(share: Share) -> Callable[[np.ndarray, Mapping[str, Any], np.n
 
 
 def box_share(texture: Texture, projected: np.ndarray, depth: np.ndarray, radius: int, side: Any) -> np.ndarray:
-    """Return the share (N,) of lit texels, all of equal weight."""
+    """Return the share (N,) of lit texels, all with equal weight."""
     real = projected.dtype.type
     lit = count_lit(texture, projected, depth, radius, real(1) / side)
     lit /= real((2 * radius + 1) ** 2)
@@ -117,11 +117,11 @@ def box_share(texture: Texture, projected: np.ndarray, depth: np.ndarray, radius
 
 
 def bilinear_share(texture: Texture, projected: np.ndarray, depth: np.ndarray, radius: int, side: Any) -> np.ndarray:
-    """Return the share (N,) of a square that moves with the place; `depth` is compared with each texel under it."""
+    """Return the share (N,) of lit texels, each weighted by its part inside the square around the position."""
     real, width = projected.dtype.type, 2 * radius + 1
-    centres = projected[:, :2] * side - real(0.5)
-    first = np.floor(centres)
-    part = centres - first
+    centers = projected[:, :2] * side - real(0.5)
+    first = np.floor(centers)
+    part = centers - first
     place, stored = projected.copy(), np.empty((len(projected), 1), projected.dtype)
     lit = np.zeros(len(projected), projected.dtype)
     weights = np.ones((width + 1, len(projected), 2), projected.dtype)

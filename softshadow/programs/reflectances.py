@@ -1,4 +1,4 @@
-"""Materials at the vertices: constant, given from vertex to vertex, or following the colour."""
+"""Materials at the vertices: constant, set per vertex, or tracking the colour (glColorMaterial)."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.programs import VertexInputs
+from softshadow.programs.program import VertexInputs
 from softshadow.state import Lighting, LightState, MaterialState
 
 COLOR_MATERIAL: dict[int, tuple[str, ...]] = {
@@ -24,11 +24,11 @@ def vector(values: tuple[float, ...]) -> np.ndarray:
 
 
 class Reflectances:
-    """The material of one side ("front" or "back") at the vertices.
+    """The material parameters of one side ("front" or "back") at the vertices.
 
     Attributes
     ----------
-    varying : set of str         parameters that may differ from vertex to vertex
+    varying : set of str         parameters that may differ between vertices
     shininess : (V,)
     """
 
@@ -38,25 +38,27 @@ class Reflectances:
         sides = gl.GL_FRONT_AND_BACK, gl.GL_FRONT if side == "front" else gl.GL_BACK
         follows = lighting.color_material and lighting.color_material_face in sides
         self._tracked = COLOR_MATERIAL[lighting.color_material_mode] if follows else ()
-        given = {name.partition(".")[2] for name in vertices.materials if name.startswith(side)}
-        carried = vertices.color.strides[0] != 0  # a constant is spread with stride 0
-        self.varying = given | (set(self._tracked) if carried else set())
+        per_vertex = {name.partition(".")[2] for name in vertices.materials if name.startswith(side)}
+        color_varies = vertices.color.strides[0] != 0  # a constant is broadcast with stride 0
+        self.varying = per_vertex | (set(self._tracked) if color_varies else set())
         constant = np.float32(self._material.shininess)
-        count = len(vertices.position)
-        self.shininess = np.broadcast_to(vertices.materials.get(f"{side}.shininess", constant), count)
+        shininess = vertices.materials.get(f"{side}.shininess", constant)
+        self.shininess = np.broadcast_to(shininess, len(vertices.position))
 
     def __call__(self, name: str) -> np.ndarray:
         """Return a parameter, (V, 4) or (1, 4)."""
         if name in self._tracked:
             return self._vertices.color
-        given = self._vertices.materials.get(f"{self._side}.{name}")
-        return vector(getattr(self._material, name))[np.newaxis] if given is None else np.asarray(given, np.float32)
+        per_vertex = self._vertices.materials.get(f"{self._side}.{name}")
+        if per_vertex is None:
+            return vector(getattr(self._material, name))[np.newaxis]
+        return np.asarray(per_vertex, np.float32)
 
-    def product(self, name: str, light: LightState, stray: Mapping[str, np.ndarray]) -> np.ndarray:
-        """Return RGB of light times material, (V, 3) or (1, 3), with what `stray` has in green and blue."""
-        made: np.ndarray = vector(getattr(light, name))[:3] * self(name)[:, :3]
-        if name not in stray:
-            return made
-        count = len(self._vertices.position)
-        red = np.broadcast_to(made, (count, 3))[:, :1]
-        return np.concatenate([red, np.broadcast_to(stray[name], (count, 2))], axis=1)
+    def product(self, name: str, light: LightState, stale: Mapping[str, np.ndarray]) -> np.ndarray:
+        """Return RGB of light times material, (V, 3) or (1, 3), with green and blue replaced by those in `stale`."""
+        product: np.ndarray = vector(getattr(light, name))[:3] * self(name)[:, :3]
+        if name not in stale:
+            return product
+        n = len(self._vertices.position)
+        red = np.broadcast_to(product, (n, 3))[:, :1]
+        return np.concatenate([red, np.broadcast_to(stale[name], (n, 2))], axis=1)

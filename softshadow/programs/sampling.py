@@ -1,7 +1,7 @@
-"""Texture sampling for a batch of coordinates, bit for bit as llvmpipe samples.
+"""Texture sampling at many coordinates, bit for bit as llvmpipe.
 
-`sample` is the door: it reads the texture's sampler, selects levels, and leaves the texture's RGBA. What one image
-gives is computed in `filtering`, which level by `level_of_detail`.
+`sample` is the entry: it reads the texture's sampler state, selects mipmap levels (`level_of_detail`), samples their
+images (`filtering`, `cube_filtering`) and writes RGBA.
 """
 
 from __future__ import annotations
@@ -13,20 +13,20 @@ import numpy as np
 
 from softshadow.errors import StateError
 from softshadow.jit import kernel
-from softshadow.programs import cube_maps, needs_blocks
-from softshadow.programs.cube_filtering import HEAVIEST, LINEAR, NEAREST, filter_cube
+from softshadow.programs import cube_maps
+from softshadow.programs.cube_filtering import HEAVIEST, LINEAR, NEAREST, PIXELS_OF_A_BLOCK, filter_cube
 from softshadow.programs.filtering import UNORM8_STEP, in_8_bits, sample_image, wraps_of
 from softshadow.programs.level_of_detail import FILTERS, Levels, select_levels, squared_texels_per_pixel
+from softshadow.programs.program import needs_blocks
 from softshadow.programs.wrapping import ONE
 from softshadow.texture import Texture
 from softshadow.tokens import GL_CLAMP_TO_EDGE, GL_LINEAR, GL_NONE, GL_TEXTURE_CUBE_MAP
 
-PIXELS_OF_A_BLOCK = 4
 WEIGHT_STEPS = np.float32(256.0)
 
 
 def base_format(texture: Texture) -> int:
-    """Return the base internal format that texture environments go by; that of a depth texture is its depth mode."""
+    """Return the base internal format used by texture environments; for a depth texture its depth mode."""
     image = texture.base()
     if image is None:
         raise StateError(f"texture {texture.name}: no image; define one with glTexImage2D")
@@ -34,10 +34,10 @@ def base_format(texture: Texture) -> int:
 
 
 def is_complete(texture: Texture) -> bool:
-    """Return whether the texture can be sampled.
+    """Return whether the texture is complete, so that it can be sampled.
 
-    Its base image exists, and all levels where the filter uses mipmaps; so do those of the other faces of a cube map.
-    Sizes fit, and all were made with the same internal format.
+    Its base image must exist, with a mipmap filter all its levels, and for a cube map all six faces of each. The sizes
+    must match, and all images must have the same internal format.
 
     References: GL 2.1 sec. 3.8.10.
     """
@@ -46,7 +46,7 @@ def is_complete(texture: Texture) -> bool:
 
 
 def is_mipmap_complete(texture: Texture) -> bool:
-    """Return whether all levels are there, whatever the filter: only then Mesa draws to one that is not the base."""
+    """Return whether all levels exist, whatever the filter; only then Mesa draws to a level other than the base."""
     return _has_levels(texture, texture.last_level())
 
 
@@ -57,7 +57,7 @@ def _has_levels(texture: Texture, last: int) -> bool:
     model = image
     for level in range(base, last + 1):
         images = [texture.images.get((face, level)) for face in texture.faces]
-        if not all(found is not None and found.is_laid_out_as(model) for found in images):
+        if not all(image is not None and image.is_laid_out_as(model) for image in images):
             return False
         model = replace(model, width=max(model.width // 2, 1), height=max(model.height // 2, 1))
     return last >= base
@@ -71,14 +71,14 @@ def project(coordinates: np.ndarray) -> np.ndarray:
 
 
 def project_with_reference(coordinates: np.ndarray) -> np.ndarray:
-    """Return (s, t, r, q) / q (N, 4): with a cube map the fixed function compares depths with q / q, about 1."""
+    """Return (s, t, r, q) / q (N, 4): on cube maps the fixed function compares depths with q / q, about 1."""
     with np.errstate(all="ignore"):
         projected: np.ndarray = coordinates * (ONE / coordinates[:, 3:])
     return projected
 
 
 class Lookup(NamedTuple):
-    """Places in the images of a texture: coordinates (N, 3) are s, t and the reference, faces (N,) or None for 2-D."""
+    """Positions in a texture's images: coordinates (N, 3) are s, t and the reference, faces (N,), or None for 2-D."""
 
     texture: Texture
     wraps: tuple[int, int]
@@ -87,10 +87,10 @@ class Lookup(NamedTuple):
 
 
 def divide(coordinates: np.ndarray) -> np.ndarray:
-    """Return (s, t, r) / q of coordinates (N, 4) as GLSL's operator does it: rounded once.
+    """Return (s, t, r) / q of coordinates (N, 4) as GLSL's division operator: rounded once.
 
-    It decides which texel a coordinate on the edge of two finds: `project` is what texture2DProj and the fixed function
-    do, and differs from this in the last bit of a quarter of all quotients.
+    texture2DProj and the fixed function use `project` instead, which differs in the last bit of a quarter of all
+    quotients. That bit selects the texel if a coordinate lies on the edge between two.
     """
     quotients = np.empty((3, len(coordinates)), coordinates.dtype)
     divide_all(np.ascontiguousarray(coordinates.T), quotients)
@@ -108,17 +108,17 @@ def divide_all(coordinates, quotients):
 def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
     """Fill `out` (N, k) with the first k channels of the texture's RGBA at coordinates.
 
+    If `needs_blocks` is True, the coordinates must be those of complete 2x2 blocks of pixels (see `Program.blocks`).
+
     Parameters
     ----------
-    coordinates : (N, 3)         s, t, and r for depth comparison; of a cube map (N, 3) or (N, 4): the direction s, t, r
+    coordinates : (N, 3)         s, t, and r for depth comparison; for a cube map (N, 3) or (N, 4): direction s, t, r
                                  and, for depth comparison, the reference
-    out : (N, k)                 of a cube map k is 4; an incomplete texture gives (0, 0, 0, 1), as programs see it
-
-    Where `needs_blocks` says so, the coordinates must be complete 2x2 blocks of pixels (see `Program.blocks`).
+    out : (N, k)                 k is 4 for a cube map; an incomplete texture gives (0, 0, 0, 1)
 
     Raises
     ------
-    StateError                   the fragments do not come in blocks
+    StateError                   blocks are needed, and the coordinates are not complete blocks
     """
     image, sampler = texture.base(), texture.sampler
     if image is None or not is_complete(texture):
@@ -126,8 +126,8 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
         return
     if needs_blocks(texture) and len(coordinates) % PIXELS_OF_A_BLOCK:
         raise StateError(
-            f"texture {texture.name}: GL_TEXTURE_MIN_FILTER and GL_TEXTURE_MAG_FILTER differ, which takes fragments in "
-            "blocks; set both to GL_NEAREST or both to GL_LINEAR"
+            f"texture {texture.name}: GL_TEXTURE_MIN_FILTER and GL_TEXTURE_MAG_FILTER differ, which needs fragments in "
+            "2x2 blocks; set both to GL_NEAREST or both to GL_LINEAR"
         )
     lookup = look_up(texture, coordinates)
     if filters_cube_in_float(texture):
@@ -139,7 +139,7 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
 
 
 def levels_of(texture: Texture, coordinates: np.ndarray) -> Levels:
-    """Return the levels of all pixels (N,), which llvmpipe decides by block; of a mipmapped cube map by pixel."""
+    """Return the mipmap levels of all pixels (N,), selected per block; for a mipmapped cube map per pixel."""
     image, sampler = texture.base(), texture.sampler
     assert image is not None
     if texture.target != GL_TEXTURE_CUBE_MAP:
@@ -152,31 +152,31 @@ def levels_of(texture: Texture, coordinates: np.ndarray) -> Levels:
 
 
 def look_up(texture: Texture, coordinates: np.ndarray) -> Lookup:
-    """Return the places at coordinates; wraps of cube maps are llvmpipe's: every face ends at its edge."""
+    """Return the lookup positions for coordinates; on cube maps every face is clamped to its edge, as in llvmpipe."""
     if texture.target != GL_TEXTURE_CUBE_MAP:
         first = texture.images.get((0, 0)) or texture.base()
         assert first is not None
         return Lookup(texture, wraps_of(texture.sampler, first), coordinates, None)
-    faces, places = cube_maps.on_faces(np.ascontiguousarray(coordinates), decides_by_derivatives(texture))
+    faces, places = cube_maps.on_faces(np.ascontiguousarray(coordinates), needs_level_of_detail(texture))
     return Lookup(texture, (GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE), places, faces)
 
 
-def decides_by_derivatives(texture: Texture) -> bool:
-    """Return whether llvmpipe computes a level of detail: a texture of one level needs none between its levels."""
+def needs_level_of_detail(texture: Texture) -> bool:
+    """Return whether llvmpipe computes a level of detail from derivatives."""
     sampler, within = texture.sampler, FILTERS[texture.sampler.min_filter][0]
-    decides = is_mipmapped(texture) or within != sampler.mag_filter
-    return decides and max(sampler.min_lod, 0.0) != sampler.max_lod
+    depends = is_mipmapped(texture) or within != sampler.mag_filter
+    return depends and max(sampler.min_lod, 0.0) != sampler.max_lod
 
 
 def is_mipmapped(texture: Texture) -> bool:
-    """Return whether llvmpipe filters between levels: not where level 0 is the only one."""
+    """Return whether llvmpipe filters between levels; it does not if level 0 is the only one."""
     sampler = texture.sampler
     only_level = texture.last_level() == 0 and sampler.max_lod > 0
     return FILTERS[sampler.min_filter][1] != GL_NONE and not only_level
 
 
 def filters_cube_in_float(texture: Texture) -> bool:
-    """Return whether the filter of a cube map crosses edges, or pixels of one block may take different filters."""
+    """Return whether a cube map's filter crosses face edges or may differ between the pixels of a block."""
     sampler, within = texture.sampler, FILTERS[texture.sampler.min_filter][0]
     crosses = sampler.seamless and GL_LINEAR in (within, sampler.mag_filter)
     by_pixel = is_mipmapped(texture) and within != sampler.mag_filter
@@ -184,7 +184,7 @@ def filters_cube_in_float(texture: Texture) -> bool:
 
 
 def sample_cube_in_float(lookup: Lookup, levels: Levels, out: np.ndarray) -> None:
-    """Fill `out` (N, 4) from a cube map whose filter `filters_cube_in_float`."""
+    """Fill `out` (N, 4) from a cube map for which `filters_cube_in_float` is True."""
     texture, sampler, faces = lookup.texture, lookup.texture.sampler, lookup.faces
     within, between = FILTERS[sampler.min_filter]
     assert faces is not None
@@ -217,19 +217,19 @@ def sample_level(lookup: Lookup, level: int, filter_name: int, out: np.ndarray) 
 
 
 def sample_levels(lookup: Lookup, levels: Levels, out: np.ndarray) -> None:
-    """Fill `out` (N, 4) from the levels that were selected for each pixel (N,)."""
+    """Fill `out` (N, 4) from the mipmap levels selected for each pixel."""
     texture = lookup.texture
     image, sampler = texture.base(), texture.sampler
     assert image is not None
     within, between = FILTERS[sampler.min_filter]
 
-    def fill(chosen: np.ndarray, which: np.ndarray, filter_name: int, into: np.ndarray) -> None:
-        for level in np.unique(which[chosen]):
-            pixels = np.nonzero(chosen & (which == level))[0]
+    def fill(selected: np.ndarray, pixel_levels: np.ndarray, filter_name: int, into: np.ndarray) -> None:
+        for level in np.unique(pixel_levels[selected]):
+            pixels = np.nonzero(selected & (pixel_levels == level))[0]
             part = np.empty((out.shape[1], len(pixels)), out.dtype).T
             faces = None if lookup.faces is None else lookup.faces[pixels]
-            chosen_lookup = lookup._replace(coordinates=lookup.coordinates[pixels], faces=faces)
-            sample_level(chosen_lookup, int(level), filter_name, part)
+            part_lookup = lookup._replace(coordinates=lookup.coordinates[pixels], faces=faces)
+            sample_level(part_lookup, int(level), filter_name, part)
             into[pixels] = part
 
     small = levels.minified if within != sampler.mag_filter else np.ones(len(out), bool)
@@ -251,7 +251,7 @@ def mix_in_float(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarray
 
 
 def mix_in_8_bits(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """Return the mixture of colours that are multiples of 1/255, as llvmpipe's 8-bit interpolation rounds it."""
+    """Return the interpolation of colours that are multiples of 1/255, rounded as llvmpipe's 8-bit interpolation."""
     lower, upper = (np.rint(c * np.float32(255)).astype(np.int32) for c in (a, b))
     steps = np.trunc(weight * WEIGHT_STEPS).astype(np.int32)
     mixed: np.ndarray = (lower + (((upper - lower) * steps * 128 + 16384) >> 15)).astype(np.float32) * UNORM8_STEP

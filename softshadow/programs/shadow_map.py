@@ -1,7 +1,7 @@
-"""The shadow map lookup of the course, per pixel: project, compare the depth, choose the lit or the shaded colour.
+"""The course's shadow map lookup per pixel: project, compare the depth, and take the lit or the shadowed colour.
 
-Outside the light's frustum, and behind the light, a pixel counts as lit: there is no depth to compare with. The offset
-is either the polygon offset of the first pass or `bias` here, not both.
+Outside the light's frustum and behind the light a pixel is lit, because there is no depth to compare with. The depth
+offset is either the polygon offset of the first pass or `bias` here, not both.
 
 References: Williams 1978, "Casting curved shadows on curved surfaces"; slides CA:577-637.
 """
@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.jit import kernel
-from softshadow.programs import Program, Varyings, VertexInputs
+from softshadow.programs.program import Program, Varyings, VertexInputs
 from softshadow.programs.sampling import divide, sample
 from softshadow.programs.texture_coordinates import transform
 
@@ -60,7 +60,7 @@ def vertex(vertices: VertexInputs) -> Varyings:
 
 
 def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
-    """Fill `out` (N, 4) with the lit or the shaded colour."""
+    """Fill `out` (N, 4) with the lit or the shadowed colours."""
     projected = divide(inputs[:, 4:])
     stored = np.empty((len(out), 1), out.dtype)
     sample(uniforms["shadowMap"], projected, stored)
@@ -70,7 +70,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
 
 @kernel
 def compare(inputs, projected, stored, ambient, bias, out):
-    """Choose the colours of pixels with inputs (8, N), projected coordinates (3, N) and stored depths (N,)."""
+    """Write the lit or shadowed colours to `out` (4, N) from inputs (8, N), projected (3, N) and stored depths (N,)."""
     lit = np.empty(len(stored), np.bool_)
     for n in range(len(stored)):
         s, t, true_depth = projected[0, n], projected[1, n], projected[2, n]

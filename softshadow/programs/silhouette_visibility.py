@@ -1,11 +1,12 @@
-"""Whether each pixel sees a light, by a shadow map whose edges are those of a piecewise linear silhouette.
+"""Visibility of a light by a shadow map whose shadow edges follow a piecewise linear silhouette.
 
-Four texel centres of the shadow map are the corners of a cell, and a cell has one point of the silhouette map, its
-middle where it stores none. Lines from the point to those of the four cells beside it cut the cell into four quarters,
-each with one corner, whose comparison holds for all of it. Where all four comparisons agree there is nothing to cut.
+Four adjacent texel centres of the shadow map are the corners of a cell. Each cell has one point: the point stored in
+the silhouette map, or the middle of the cell. Lines from this point to the points of the four neighbouring cells cut
+the cell into four quarters with one corner each, and the depth comparison at the corner holds for its whole quarter. If
+all four comparisons agree, the cell is not cut.
 
-The quarters never overlap, whatever points the cells hold: going round, a neighbour's direction cannot pass the next
-one's, since each stays on its own side of the cell.
+The quarters never overlap: each neighbour's point lies on its own side of the cell, so the directions to the four
+points keep their order.
 
 References: Sen, Cammarano & Hanrahan 2003, "Shadow silhouette maps".
 """
@@ -17,8 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.programs import Program
 from softshadow.programs.map_visibility import VERTEX, vertex
+from softshadow.programs.program import Program
 from softshadow.programs.sampling import divide, sample
 from softshadow.texture import Texture
 
@@ -84,7 +85,7 @@ NO_QUARTER = 4.0
 
 
 def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
-    """Fill `out` (N, 4): quarter 0 to 3 or 4 for none, 1 where the cell stores no point, 0, and the visibility."""
+    """Fill `out` (N, 4): quarter 0 to 3, or 4 for none; 1 if a cut cell stores no point; 0; the visibility."""
     real = inputs.dtype.type
     with np.errstate(all="ignore"):  # q = 0 gives infinities, as in GL
         projected = divide(inputs)
@@ -92,8 +93,8 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
         side = real(uniforms["side"])
         place = projected[:, :2] * side - real(0.5)
         cell = np.floor(place)
-        lit = np.array([depth <= looked_up(uniforms["shadowMap"], cell, side, *at)[:, 0] for at in CORNERS])
-        own, *beside = (looked_up(uniforms["silhouetteMap"], cell, side, *at) for at in ((0, 0), *BESIDE))
+        lit = np.array([depth <= look_up_texels(uniforms["shadowMap"], cell, side, *at)[:, 0] for at in CORNERS])
+        own, *beside = (look_up_texels(uniforms["silhouetteMap"], cell, side, *at) for at in ((0, 0), *BESIDE))
         ways = [
             point[:, :2] + np.array(at, inputs.dtype) - own[:, :2] for point, at in zip(beside, BESIDE, strict=True)
         ]
@@ -113,37 +114,37 @@ CORNERS = ((0, 0), (1, 0), (0, 1), (1, 1))
 BESIDE = ((1, 0), (0, 1), (-1, 0), (0, -1))
 
 
-def looked_up(texture: Texture, cell: np.ndarray, side: Any, i: int, j: int) -> np.ndarray:
-    """Return RGB (N, 3) of the texels i to the right of and j above those of the cells."""
+def look_up_texels(texture: Texture, cell: np.ndarray, side: Any, i: int, j: int) -> np.ndarray:
+    """Return RGB (N, 3) of the texels i columns to the right of and j rows above the cells' own."""
     real = cell.dtype.type
     coordinates = np.zeros((len(cell), 3), cell.dtype)
     coordinates[:, :2] = (cell + np.array([i + 0.5, j + 0.5], cell.dtype)) * (real(1) / side)
-    found = np.empty((4, len(cell)), cell.dtype).T  # by column, as all that is sampled
-    sample(texture, coordinates, found)
-    return found[:, :3]
+    texels = np.empty((4, len(cell)), cell.dtype).T  # stored column by column, as `sample` expects
+    sample(texture, coordinates, texels)
+    return texels[:, :3]
 
 
 def quarters(beside: Sequence[np.ndarray], way: np.ndarray) -> np.ndarray:
-    """Return which quarter (N,) a way from the cell's point leads into: that of the corner 0 to 3, as in `CORNERS`.
+    """Return the quarter (N,) that a direction from the cell's point leads into, by its corner in `CORNERS`.
 
     Parameters
     ----------
-    beside : four (N, 2)         the ways to the points of the cells in `BESIDE`
-    way : (N, 2)
+    beside : four (N, 2)         the directions to the points of the cells in `BESIDE`
+    way : (N, 2)                 the direction
     """
     right, above, left, below = beside
-    found = np.ones(len(way), np.int64)
-    found[between(left, below, way)] = 0
-    found[between(above, left, way)] = 2
-    found[between(right, above, way)] = 3
-    return found
+    quarter = np.ones(len(way), np.int64)
+    quarter[between(left, below, way)] = 0
+    quarter[between(above, left, way)] = 2
+    quarter[between(right, above, way)] = 3
+    return quarter
 
 
 def between(start: np.ndarray, end: np.ndarray, way: np.ndarray) -> np.ndarray:
-    """Return whether a way lies between two others, counter-clockwise from the first to the second."""
+    """Return whether a direction lies between two others, counter-clockwise from the first to the second."""
     after, before = cross(start, way) >= 0, cross(way, end) >= 0
-    inner: np.ndarray = np.where(cross(start, end) >= 0, after & before, after | before)
-    return inner
+    inside: np.ndarray = np.where(cross(start, end) >= 0, after & before, after | before)
+    return inside
 
 
 def cross(u: np.ndarray, v: np.ndarray) -> np.ndarray:

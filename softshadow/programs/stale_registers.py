@@ -1,29 +1,29 @@
-"""What stands in green and blue of the products of lights and back materials in Mesa's vertex program.
+"""Emulates registers that Mesa's back lighting reads uninitialised.
 
-Where a back material changes from vertex to vertex, Mesa 22.3 multiplies it with the light in red alone and reads green
-and blue of a register that it did not write (ffvertex_prog.c, build_lighting: a write mask of 1). Registers are handed
-out here in the same order, so that they hold the same: the product of the front, a direction, an attenuation; or
-nothing, which becomes NaN and then a colour of 0.
+If a back material changes between vertices, Mesa 22.3 multiplies it by the light in red only, and then reads green and
+blue from the same register, where an earlier value is left (ffvertex_prog.c, build_lighting: a write mask of 1). This
+module allocates registers in Mesa's order to find that value: a front product, a direction or an attenuation. A
+register that was never written holds NaN, which becomes a colour of 0.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 
 import numpy as np
 
-NAMES = ("ambient", "diffuse", "specular")
+PRODUCTS = ("ambient", "diffuse", "specular")
 GREEN_BLUE = slice(1, 3)
 UNWRITTEN = np.full((1, 2), np.nan, np.float32)
 
 
 @dataclass(frozen=True)
-class Scratch:
-    """What one light leaves in registers, in the order in which Mesa takes them; None where it takes none.
+class LightRegisters:
+    """Values that one light writes to registers, in Mesa's order of allocation; None for a register it does not use.
 
-    direction (V, 3) of a positional light, `half` (V, 3) where it is computed per vertex; distance, spot, inside and
-    attenuation (V,): what the two attenuations are made of; front: the products of the front side (V, 3) that vary.
+    direction (V, 3) of a positional light; half (V, 3) if it is computed per vertex; distance, spot, inside and
+    attenuation (V,): the attenuation and its factors; front: the varying products (V, 3) of the front side.
     """
 
     direction: np.ndarray | None
@@ -37,48 +37,53 @@ class Scratch:
 
 @dataclass
 class Registers:
-    """Temporary registers: the lowest free one is taken; green and blue (V, 2) stay when it is released."""
+    """Temporary registers, allocated from the lowest free one; a released register keeps its green and blue (V, 2)."""
 
-    taken: set[int] = field(default_factory=set)
+    in_use: set[int] = field(default_factory=set)
     contents: dict[int, np.ndarray] = field(default_factory=dict)
 
-    def take(self, written: np.ndarray | None = None) -> int:
-        """Take a register and write a vector (V, 3) or a number per vertex (V,) into it, or nothing."""
-        index = next(i for i in range(len(self.taken) + 1) if i not in self.taken)
-        self.taken.add(index)
-        if written is not None:
-            vectors = written.ndim == 2
-            self.contents[index] = written[:, GREEN_BLUE] if vectors else np.stack([written, written], axis=1)
+    def allocate(self, values: np.ndarray | None = None) -> int:
+        """Allocate a register, and write a vector (V, 3) or a scalar (V,) per vertex into it, if there is one."""
+        index = next(i for i in range(len(self.in_use) + 1) if i not in self.in_use)
+        self.in_use.add(index)
+        if values is not None:
+            vectors = values.ndim == 2
+            self.contents[index] = values[:, GREEN_BLUE] if vectors else np.stack([values, values], axis=1)
         return index
+
+    def release(self, indices: Iterable[int]) -> None:
+        self.in_use.difference_update(indices)
 
     def read(self, index: int) -> np.ndarray:
         return self.contents.get(index, UNWRITTEN)
 
 
-def leftovers(lights: Sequence[Scratch], varying: Set[str], local_viewer: bool) -> list[dict[str, np.ndarray]]:
-    """Return green and blue (V, 2) of the back products of each light, by the names of the materials that vary."""
-    registers, found = Registers(), []
+def stale_values(
+    lights: Sequence[LightRegisters], varying: Set[str], local_viewer: bool
+) -> list[dict[str, np.ndarray]]:
+    """Return for each light the stale green and blue (V, 2) of its varying back products, by name."""
+    registers, products = Registers(), []
     eye_position = eye_direction = False
     for light in lights:
         if light.direction is not None and not eye_position:
-            registers.take()
+            registers.allocate()
             eye_position = True
-        held = [registers.take(light.direction)] if light.direction is not None else []
-        freed = [registers.take(light.distance)] if light.distance is not None else []
+        until_next_light = [registers.allocate(light.direction)] if light.direction is not None else []
+        temporary = [registers.allocate(light.distance)] if light.distance is not None else []
         if light.spot is not None:
-            freed += [registers.take(light.spot), registers.take(light.inside)]
+            temporary += [registers.allocate(light.spot), registers.allocate(light.inside)]
         if light.attenuation is not None:
-            held.append(registers.take(light.attenuation))
-        registers.taken.difference_update(freed)
+            until_next_light.append(registers.allocate(light.attenuation))
+        registers.release(temporary)
         if light.half is not None:
             if local_viewer:
-                for known in (eye_position, eye_direction):
-                    if not known:
-                        registers.take()
+                for allocated in (eye_position, eye_direction):
+                    if not allocated:
+                        registers.allocate()
                 eye_position = eye_direction = True
-            held.append(registers.take(light.half))
-        registers.taken.difference_update([registers.take(light.front[name]) for name in NAMES if name in light.front])
-        products = {name: registers.take() for name in NAMES if name in varying}
-        found.append({name: registers.read(index) for name, index in products.items()})
-        registers.taken.difference_update([*products.values(), *held])
-    return found
+            until_next_light.append(registers.allocate(light.half))
+        registers.release([registers.allocate(light.front[name]) for name in PRODUCTS if name in light.front])
+        back = {name: registers.allocate() for name in PRODUCTS if name in varying}
+        products.append({name: registers.read(index) for name, index in back.items()})
+        registers.release([*back.values(), *until_next_light])
+    return products

@@ -1,7 +1,7 @@
-"""GL_COMBINE: a texture environment put together from sources, operands, a function and a scale, as Mesa computes it.
+"""GL_COMBINE: a texture environment defined by sources, operands, a function and a scale, as in Mesa.
 
 References: GL 2.1 sec. 3.8.13, tables 3.24 to 3.27 (and the crossbar: a source may be another unit's texture);
-ff_fragment_shader.cpp of Mesa 22.3 (order of operations, and where results are limited to [0, 1]).
+ff_fragment_shader.cpp of Mesa 22.3 (order of operations, and which results are clamped to [0, 1]).
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ INVERTED = (gl.GL_ONE_MINUS_SRC_COLOR, gl.GL_ONE_MINUS_SRC_ALPHA)
 
 @dataclass(frozen=True)
 class Sources:
-    """The colours (N, 4) that a unit's arguments can name; `texels` by unit, a unit without texture gives zeros."""
+    """The colours (N, 4) that the sources of a unit can be; `texels` by unit, zeros for a unit without texture."""
 
     unit: int
     texels: Mapping[int, np.ndarray]
@@ -42,34 +42,34 @@ class Sources:
 
 
 def combine(setting: Combine, sources: Sources) -> np.ndarray:
-    """Return the colours (N, 4) that a unit makes of its sources."""
+    """Return the combined colours (N, 4) of a unit."""
     out = np.empty_like(sources.previous)
-    whole = setting.mode_rgb == gl.GL_DOT3_RGBA
+    rgba = setting.mode_rgb == gl.GL_DOT3_RGBA
     rgb = _arguments(setting.sources_rgb, setting.operands_rgb, sources, slice(0, 3), setting.mode_rgb)
     value = _function(setting.mode_rgb, rgb)
-    out[:, :3] = _scaled(value, setting.rgb_scale, setting.mode_rgb)
-    if whole:
-        out[:, 3:] = _scaled(value, setting.alpha_scale, setting.mode_rgb)
+    out[:, :3] = _scale(value, setting.rgb_scale, setting.mode_rgb)
+    if rgba:
+        out[:, 3:] = _scale(value, setting.alpha_scale, setting.mode_rgb)
         return out
     alpha = _arguments(setting.sources_alpha, setting.operands_alpha, sources, slice(3, 4), setting.mode_alpha)
-    out[:, 3:] = _scaled(_function(setting.mode_alpha, alpha), setting.alpha_scale, setting.mode_alpha)
+    out[:, 3:] = _scale(_function(setting.mode_alpha, alpha), setting.alpha_scale, setting.mode_alpha)
     return out
 
 
 def _arguments(
     names: tuple[int, ...], operands: tuple[int, ...], sources: Sources, channels: slice, mode: int
 ) -> list[np.ndarray]:
-    made: list[np.ndarray] = []
+    arguments: list[np.ndarray] = []
     for name, operand in list(zip(names, operands, strict=True))[: ARGUMENTS.get(mode, 2)]:
         color = sources.color(name)
-        taken = color[:, 3:] if operand in (gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA) else color[:, channels]
-        if mode == gl.GL_ADD_SIGNED and not made:  # Mesa takes the half from the first argument, before the sum
-            made.append(HALF - taken if operand in INVERTED else taken - HALF)
+        value = color[:, 3:] if operand in (gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA) else color[:, channels]
+        if mode == gl.GL_ADD_SIGNED and not arguments:  # Mesa subtracts 1/2 from the first argument, before the sum
+            arguments.append(HALF - value if operand in INVERTED else value - HALF)
         else:
-            made.append(ONE - taken if operand in INVERTED else taken)
-    if mode == gl.GL_INTERPOLATE:  # the rest of the weight; of 1 - x that is x itself
-        made.append(taken if operand in INVERTED else ONE - taken)
-    return made
+            arguments.append(ONE - value if operand in INVERTED else value)
+    if mode == gl.GL_INTERPOLATE:  # one minus the weight; for the weight 1 - x this is x itself
+        arguments.append(value if operand in INVERTED else ONE - value)
+    return arguments
 
 
 def _function(mode: int, arguments: list[np.ndarray]) -> np.ndarray:
@@ -86,14 +86,14 @@ def _function(mode: int, arguments: list[np.ndarray]) -> np.ndarray:
     if mode == gl.GL_INTERPOLATE:
         return a * rest[1] + b * rest[2]
     a, b = a * TWO - ONE, b * TWO - ONE
-    if a.shape[1] == 1 or b.shape[1] == 1:  # Mesa takes a factor that is common to the products out of their sum
+    if a.shape[1] == 1 or b.shape[1] == 1:  # Mesa factors out a scalar
         factor, other = (a, b) if a.shape[1] == 1 else (b, a)
         x, y, z = (other[:, c : c + 1] for c in ((0, 1, 2) if other.shape[1] == 3 else (0, 0, 0)))
         return factor * ((z + y) + x)
     return ((a[:, 2:] * b[:, 2:]) + a[:, 1:2] * b[:, 1:2]) + a[:, :1] * b[:, :1]
 
 
-def _scaled(value: np.ndarray, scale: float, mode: int) -> np.ndarray:
+def _scale(value: np.ndarray, scale: float, mode: int) -> np.ndarray:
     if scale != 1:
         return (value * np.float32(scale)).clip(ZERO, ONE)
     return value if mode in UNLIMITED else value.clip(ZERO, ONE)

@@ -1,7 +1,7 @@
 """Texture coordinates of the fixed function, per vertex: generation (texgen) and texture matrices.
 
-Float32, in the order of Mesa's vertex program: a matrix times a vector adds columns from x to w, a dot product adds
-from the last component to the first. Shadow comparisons see every bit of this.
+All sums are in float32 and in the order of Mesa's vertex program: matrix times vector adds columns from x to w, a dot
+product adds from the last component to the first. Every bit matters in shadow comparisons.
 
 References: GL 2.1 sec. 2.11.2 (matrices) and 2.11.4 (texgen); ffvertex_prog.c of Mesa 22.3.
 """
@@ -14,7 +14,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.jit import kernel, read_only
-from softshadow.programs import VertexInputs
+from softshadow.programs.program import VertexInputs
 from softshadow.state import TexGen, TextureUnit
 
 ONE, HALF = np.float32(1.0), np.float32(0.5)
@@ -32,7 +32,7 @@ def transform(matrix: np.ndarray, vectors: np.ndarray) -> np.ndarray:
 
 @kernel
 def transform_rows(columns, vectors, result):
-    """Write what columns (k, n) make of vectors (V, k), `result` (V, n)."""
+    """Write the transformed vectors (V, k) to `result` (V, n); `columns` (k, n) are those of the matrix."""
     for v in range(len(vectors)):
         for i in range(columns.shape[1]):
             total = vectors[v, 0] * columns[0, i]
@@ -55,8 +55,8 @@ def reciprocal_root(x: np.ndarray) -> np.ndarray:
     return root
 
 
-def normalized_rows(v: np.ndarray) -> np.ndarray:
-    """Return rows (V, 3) of unit length, as Mesa's vertex program makes them; 0 becomes NaN."""
+def normalize_rows(v: np.ndarray) -> np.ndarray:
+    """Return rows (V, 3) normalized as in Mesa's vertex program; 0 becomes NaN."""
     with np.errstate(invalid="ignore"):
         unit: np.ndarray = v * reciprocal_root(dot(v, v))[:, np.newaxis]
     return unit
@@ -75,7 +75,7 @@ def needs_normals(unit: TextureUnit) -> bool:
 class Normals(NamedTuple):
     """The normals (V, 3) of the vertices in eye space, and whether a unit generates r by GL_REFLECTION_MAP.
 
-    The latter decides how Mesa adds up the z component that a sphere map needs.
+    In that case Mesa sums the z component for a sphere map in another order.
     """
 
     eye: np.ndarray
@@ -83,29 +83,29 @@ class Normals(NamedTuple):
 
 
 def reflections(position: np.ndarray, normal: np.ndarray) -> np.ndarray:
-    """Return the directions (V, 3) in which eye rays to eye positions (V, 3 or more) leave a mirror."""
+    """Return the reflection directions (V, 3) of eye rays to eye positions (V, 3 or more)."""
     turn, ray = turns_and_rays(position, normal)
     return turn + ray
 
 
 def turns_and_rays(position: np.ndarray, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return -2 (n . u) n and the eye rays u, of unit length; (V, 3) both."""
-    ray = normalized_rows(position[:, :3])
+    """Return -2 (n . u) n and the unit eye rays u; both (V, 3)."""
+    ray = normalize_rows(position[:, :3])
     cosine = dot(normal, ray)
     return -(cosine + cosine)[:, np.newaxis] * normal, ray
 
 
 def sphere_map(position: np.ndarray, normals: Normals) -> np.ndarray:
-    """Return where on GL's sphere map the reflections are found: x and y over twice the length of (x, y, z + 1)."""
+    """Return sphere map coordinates of reflections: x and y over twice the length of (x, y, z + 1), plus 1/2."""
     turn, ray = turns_and_rays(position, normals.eye)
     reflected = turn + ray
     half_way = reflected.copy()
     half_way[:, 2] = reflected[:, 2] + ONE if normals.reflects_r else (turn[:, 2] + ONE) + ray[:, 2]
-    place: np.ndarray = reflected * (reciprocal_root(dot(half_way, half_way)) * HALF)[:, np.newaxis] + HALF
-    return place
+    coordinates: np.ndarray = reflected * (reciprocal_root(dot(half_way, half_way)) * HALF)[:, np.newaxis] + HALF
+    return coordinates
 
 
-def generated(component: int, gen: TexGen, vertices: VertexInputs, normals: Normals | None) -> np.ndarray:
+def generate_coordinate(component: int, gen: TexGen, vertices: VertexInputs, normals: Normals | None) -> np.ndarray:
     """Return one generated coordinate (V,)."""
     real = vertices.position.dtype
     if gen.mode == gl.GL_OBJECT_LINEAR:
@@ -116,23 +116,23 @@ def generated(component: int, gen: TexGen, vertices: VertexInputs, normals: Norm
     assert normals is not None
     if gen.mode == gl.GL_NORMAL_MAP:
         return normals.eye[:, component]
-    made = sphere_map(eye, normals) if gen.mode == gl.GL_SPHERE_MAP else reflections(eye, normals.eye)
-    return made[:, component]
+    vectors = sphere_map(eye, normals) if gen.mode == gl.GL_SPHERE_MAP else reflections(eye, normals.eye)
+    return vectors[:, component]
 
 
 def texture_coordinates(
     index: int, unit: TextureUnit, vertices: VertexInputs, normals: Normals | None = None
 ) -> np.ndarray:
-    """Return the coordinates (V, 4) of texture unit `index`: given or generated, then through the texture matrix.
+    """Return the coordinates (V, 4) of texture unit `index`: specified or generated, times the texture matrix.
 
-    `normals` are needed by the modes of `WITH_NORMALS`.
+    The modes of `WITH_NORMALS` need `normals`.
     """
     coordinates = vertices.texcoords[index]
     if any(gen.enabled for gen in unit.gen):
         coordinates = coordinates.copy()
         for component, gen in enumerate(unit.gen):
             if gen.enabled:
-                coordinates[:, component] = generated(component, gen, vertices, normals)
+                coordinates[:, component] = generate_coordinate(component, gen, vertices, normals)
     matrix = vertices.texture_matrices[index]
     if (matrix == np.eye(4)).all():
         return coordinates

@@ -1,7 +1,7 @@
-"""Texture environments: how a texture's colour and the fragment's colour make one, by mode and base format.
+"""Texture environments: the texture functions that combine texel and fragment colour, by mode and base format.
 
-References: GL 2.1 sec. 3.8.13, tables 3.22 and 3.23. Where the tables leave a case undefined (GL_DECAL with other than
-RGB and RGBA) the fragment's colour stays, as in Mesa.
+References: GL 2.1 sec. 3.8.13, tables 3.22 and 3.23. In cases that the tables leave undefined (GL_DECAL with formats
+other than RGB and RGBA) the fragment's colour is unchanged, as in Mesa.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def mix(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarray:
 def apply_environment(
     fragment: np.ndarray, texel: np.ndarray, mode: int, base: int, env_color: tuple[float, float, float, float]
 ) -> None:
-    """Replace the fragments' RGBA (N, 4) by their combination with the texels' RGBA (N, 4)."""
+    """Apply a texture function to the fragments' RGBA (N, 4), in place, with the texels' RGBA (N, 4)."""
     constant = np.array(env_color, fragment.dtype).clip(ZERO, ONE)
     rgb, alpha = fragment[:, :3], fragment[:, 3]
     texel_rgb, texel_alpha = texel[:, :3], texel[:, 3]

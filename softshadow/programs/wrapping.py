@@ -1,6 +1,6 @@
-"""Texture coordinates to texels of one axis: GL's wrap modes, bit for bit as llvmpipe computes them.
+"""GL's wrap modes: from a texture coordinate to texel indices on one axis, bit for bit as llvmpipe.
 
-A texel index outside [0, size) stands for the border colour. All arithmetic is in the type of the coordinate.
+A texel index outside [0, size) means the border colour. All arithmetic is in the type of the coordinate.
 
 References: GL 2.1 sec. 3.8.7, 3.8.8; GL_TEXTURE_2D of llvmpipe 22.3 (wrap functions of its sampler).
 """
@@ -14,14 +14,14 @@ ZERO, ONE, HALF = np.float32(0.0), np.float32(1.0), np.float32(0.5)
 BELOW_ONE = np.float32(1.0) - np.float32(2.0**-24)
 INT_LIMIT = np.float32(2.0**31)
 FIXED_ONE = np.float32(256.0)
-OUT_OF_RANGE = -(2**31)  # what the CPU's float-to-integer conversion answers beyond 32 bits, and for NaN
+OUT_OF_RANGE = -(2**31)  # result of the CPU's float-to-integer conversion beyond 32 bits, and for NaN
 LOWEST_INT32, NO_TEXELS = np.int32(OUT_OF_RANGE), np.int32(0)
 
-# GL_REPEAT of a texture whose first level has a power of two as size: llvmpipe masks texel indices. All its levels go
-# by the first: the 4 texels below 9 repeat as 9 would.
+# GL_REPEAT of a texture whose level 0 has a power of two as size: llvmpipe masks texel indices. Level 0 decides for all
+# levels: a level of 4 texels below one of 9 is not masked.
 REPEAT_BY_MASK = 1
 FIXED_POINT_WRAPS = (GL_REPEAT, REPEAT_BY_MASK, GL_CLAMP_TO_EDGE)
-# modes as numbers of one type: of literals, each would have a `nearest_texel` compiled for itself
+# modes as int64 values: with literals, `nearest_texel` would be compiled once for each mode
 BY_MASK, REPEAT, TO_BORDER, MIRRORED, TO_EDGE = (
     np.int64(wrap) for wrap in (REPEAT_BY_MASK, GL_REPEAT, GL_CLAMP_TO_BORDER, GL_MIRRORED_REPEAT, GL_CLAMP_TO_EDGE)
 )
@@ -30,20 +30,20 @@ WRAPS = (GL_REPEAT, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_BORDER, GL_CLAMP, GL_MIRRORED_
 
 @kernel
 def to_integer(value):
-    """Return the value truncated to a 32-bit integer, as the CPU's vector instruction does it."""
+    """Return the value truncated to a 32-bit integer, as the CPU's vector instruction does."""
     if value >= -INT_LIMIT and value < INT_LIMIT:
         return int(value)
     return OUT_OF_RANGE
 
 
 def wrap_code(wrap: int, size: int) -> int:
-    """Return what the kernels take for a wrap mode of a texture whose first level has `size` texels on the axis."""
+    """Return the kernels' code for a wrap mode of a texture whose level 0 has `size` texels on this axis."""
     return REPEAT_BY_MASK if wrap == GL_REPEAT and size & (size - 1) == 0 else wrap
 
 
 @inlined
-def mirrored(coordinate):
-    """Return the distance in [0, 1] to the nearest even integer."""
+def mirror(coordinate):
+    """Return the distance of a coordinate to the nearest even integer, in [0, 1]."""
     half = coordinate * HALF
     part = half - np.rint(half)
     distance = abs(part + part)
@@ -52,7 +52,7 @@ def mirrored(coordinate):
 
 @kernel
 def to_int32(value):
-    """Return `to_integer` as 32 bits, of which a vector has twice as many."""
+    """Return `to_integer` as int32: twice as many values fit in a vector register."""
     return np.int32(value) if value >= -INT_LIMIT and value < INT_LIMIT else LOWEST_INT32
 
 
@@ -68,17 +68,16 @@ def nearest_texel(coordinate, size, wrap):
     if wrap == GL_CLAMP_TO_BORDER:
         return to_int32(np.floor(coordinate * length))
     if wrap == GL_MIRRORED_REPEAT:
-        return min(to_int32(mirrored(coordinate) * length), last)
-    return min(
-        max(to_int32(coordinate * length), NO_TEXELS), last
-    )  # GL_CLAMP too: half a border texel is never nearest
+        return min(to_int32(mirror(coordinate) * length), last)
+    # GL_CLAMP_TO_EDGE, and GL_CLAMP, where the border is never nearest
+    return min(max(to_int32(coordinate * length), NO_TEXELS), last)
 
 
 @kernel
 def nearest_texels(coordinates, size, wrap, texels):
     """Write `nearest_texel` of coordinates (N,) to `texels` (N,) int32.
 
-    A loop for each mode: with the choice inside, a loop is not vectorised and takes 20 times as long.
+    Each mode has its own loop: with the branch inside, the loop would not be vectorised and be 20 times as slow.
     """
     if wrap == REPEAT_BY_MASK:
         for n in range(len(coordinates)):
@@ -116,7 +115,7 @@ def linear_texels(coordinate, size, wrap):
         first = to_integer(u)
         return first, min(first + 1, last), u - np.floor(u)
     if wrap == GL_MIRRORED_REPEAT:
-        u = mirrored(coordinate) * length - HALF
+        u = mirror(coordinate) * length - HALF
         first = to_integer(np.floor(u))
         return max(first, 0), min(first + 1, last), u - np.floor(u)
     u = coordinate * length

@@ -1,12 +1,12 @@
-"""Run one GL program on softshadow and on Mesa, and say where they differ; compare runs with ray casting.
+"""Comparison of GL programs on softshadow and on Mesa, and of runs with ray casting.
 
-`softshadow.testing.strategies` draws scenes for Hypothesis; it is a module of its own because it needs that package.
+`softshadow.testing.strategies` generates scenes with Hypothesis; it is not imported here because it needs that package.
 """
 
 from softshadow.testing.agreement import Agreement, Truth, agreement, cast_truth
 from softshadow.testing.comparison import (
-    Comparison,
-    Difference,
+    BufferDifference,
+    ProgramComparison,
     compare,
     difference,
     differences,
@@ -30,10 +30,10 @@ from softshadow.testing.tracing import Divergence, diff_programs
 __all__ = [
     "EXPECTED_VERSION",
     "Agreement",
-    "Comparison",
-    "Difference",
+    "BufferDifference",
     "Divergence",
     "MesaError",
+    "ProgramComparison",
     "ProgramResult",
     "Truth",
     "agreement",

@@ -1,10 +1,11 @@
-"""How far a picture agrees with ray casting: off the boundary band it has to, on the band it may differ.
+"""Agreement of a run with ray casting: they must agree off the boundary band, and may differ on it.
 
-A rasterizer decides per sample, with edges snapped to a grid; a shadow map decides per texel. So nothing can be said
-about a pixel that an edge runs through, and everything about the others.
+A rasterizer decides per sample, with vertices snapped to a grid, and a shadow map decides per texel. So the result at a
+pixel crossed by an edge is uncertain, and at all other pixels it is known.
 """
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
@@ -13,26 +14,26 @@ from softshadow.runs import Run
 from softshadow.scene import Scene
 from softshadow.techniques.light_camera import light_camera
 
-SNAPPED = 1 / 128  # pixels: more than what snapping to 1/256 moves an edge by
-EDGE_ON = 1e-4  # cosine to the light: the side of a volume beside such a face is as deep as the face, to 24 bits
+SNAP_DISTANCE = 1 / 128  # pixels: snapping to 1/256 moves an edge by less
+EDGE_ON = 1e-4  # cosine to the light: such a face and a side of its volume have equal depths in 24 bits
 
 
 @dataclass(frozen=True, eq=False)
 class Truth:
-    """What rays find at the pixel centres of a scene; arrays with row 0 on top, read-only.
+    """Ray casting results at the pixel centres of a scene; read-only arrays with row 0 on top.
 
     Attributes
     ----------
     scene : Scene
-    objects : (H, W) int             number of the object that is seen, -1 where there is none
-    triangles : (H, W) int           and which of its triangles
-    points : (H, W, 3) float64       where, in world space
-    counts : tuple of (H, W) int32   per light: how many casting faces lie between it and the point. This is what a
-                                     stencil buffer holds after shadow volumes. The point's own face and those in its
-                                     plane are left out by number
-    unsure : tuple of (H, W) bool    per light: where the object or the count changes within 1/128 of a pixel, which no
-                                     neighbour need tell of a face smaller than a pixel; and faces edge-on to the light,
-                                     on which the sides of volumes lie
+    objects : (H, W) int             index of the visible object, -1 for none
+    triangles : (H, W) int           index of the visible triangle in this object
+    points : (H, W, 3) float64       the visible point in world space
+    counts : tuple of (H, W) int32   for each light: the number of casting faces between it and the point. This is the
+                                     stencil count that shadow volumes leave. The point's own face and the faces in its
+                                     plane are excluded by index
+    unsure : tuple of (H, W) bool    for each light: pixels where the object or the count changes within 1/128 of a
+                                     pixel (by a face too small to reach a neighbouring pixel), and pixels on faces that
+                                     are edge-on to the light, where the sides of volumes lie
     """
 
     scene: Scene
@@ -43,19 +44,19 @@ class Truth:
     unsure: tuple[np.ndarray, ...]
 
     def lit(self, light: int = 0) -> np.ndarray:
-        """Return (H, W) bool: where the count of a light is 0, within its cone if it is a spot light."""
+        """Return (H, W) bool: where the count of a light is 0 and, for a spot light, the point is in its cone."""
         return (self.counts[light] == 0) & self.scene.lights[light].shines_on(self.points)
 
     def band(self, light: int = 0, width: int = 1) -> np.ndarray:
-        """Return (H, W) bool: where the object, the count of a light or its cone changes within `width` pixels."""
+        """Return (H, W) bool: where the object, the count or the cone of a light changes within `width` pixels."""
         values = (self.objects, self.counts[light], self.lit(light))
         return np.any([self.unsure[light], *(changes_nearby(value, width) for value in values)], axis=0)
 
     def texel_band(self, light: int, map_size: int, width: int = 1) -> np.ndarray:
         """Return (H, W) bool: where the count of a light changes within `width` texels of its shadow map.
 
-        A point is moved on the plane of its own face to where the light's rays through the eight neighbouring texels
-        meet it; where they do not meet it before the light, the point belongs to the band, too.
+        Each point is moved, in the plane of its face, to the light's rays through the eight neighbouring texels. If
+        such a ray does not meet the plane in front of the light, the point belongs to the band as well.
         """
         lamp = self.scene.lights[light]
         camera = light_camera(self.scene, lamp)
@@ -64,7 +65,7 @@ class Truth:
         normals = world_normals(self.scene, objects, triangles)
         texel = 2 * camera.half / map_size * width
         along = np.broadcast_to(forward, points.shape) if camera.parallel else points - camera.eye
-        # the distance along the view: at distance 1 a texel of a perspective map is as wide as `half` says
+        # depth along the light's view: a texel of a perspective map has the width given by `half` at depth 1
         scale = np.ones(len(points)) if camera.parallel else along @ forward
         band = np.zeros(len(points), bool)
         for x, y in ((x, y) for y in (-1, 0, 1) for x in (-1, 0, 1) if x or y):
@@ -81,15 +82,15 @@ class Truth:
 
 
 def cast_truth(scene: Scene, size: tuple[int, int]) -> Truth:
-    """Return what rays find at the pixel centres of a picture of (width, height)."""
+    """Return the ray casting results at the pixel centres of an image of (width, height) pixels."""
     width, height = size
     objects, triangles, points = seen_faces(scene, size)
     counts = [hard_counts(scene, light, objects, triangles, points) for light in scene.lights]
     unsure = [np.zeros(len(objects), bool) for _ in scene.lights]
-    for aside in ((SNAPPED, SNAPPED), (-SNAPPED, SNAPPED), (SNAPPED, -SNAPPED), (-SNAPPED, -SNAPPED)):
-        beside = seen_faces(scene, size, aside)
+    for x, y in product((-SNAP_DISTANCE, SNAP_DISTANCE), repeat=2):
+        faces = seen_faces(scene, size, (x, y))
         for light, count, changes in zip(scene.lights, counts, unsure, strict=True):
-            changes |= (beside[0] != objects) | (hard_counts(scene, light, *beside) != count)
+            changes |= (faces[0] != objects) | (hard_counts(scene, light, *faces) != count)
     normals = world_normals(scene, objects, triangles)
     for light, changes in zip(scene.lights, unsure, strict=True):
         towards = light.position[:3] - light.position[3] * points
@@ -104,7 +105,7 @@ def cast_truth(scene: Scene, size: tuple[int, int]) -> Truth:
 
 
 def world_normals(scene: Scene, objects: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Return (N, 3) float64: the unit normals of triangles of objects, by number; (0, 0, 1) for object -1."""
+    """Return the unit normals (N, 3) float64 of triangles of objects, both by index; (0, 0, 1) for object -1."""
     normals = np.tile([0.0, 0.0, 1.0], (len(objects), 1))
     for number, thing in enumerate(scene.objects):
         here = objects == number
@@ -115,7 +116,7 @@ def world_normals(scene: Scene, objects: np.ndarray, triangles: np.ndarray) -> n
 
 
 def changes_nearby(values: np.ndarray, width: int) -> np.ndarray:
-    """Return (H, W) bool: where not all pixels within `width` have one value."""
+    """Return (H, W) bool: where the pixels within `width` have different values."""
     height, across = values.shape
     framed = np.pad(values, width, mode="edge")
     span = range(2 * width + 1)
@@ -124,14 +125,14 @@ def changes_nearby(values: np.ndarray, width: int) -> np.ndarray:
 
 @dataclass(frozen=True, eq=False)
 class Agreement:
-    """Where a run's visibility of one light is not that of ray casting.
+    """Comparison of a run's visibility of one light with ray casting.
 
     Attributes
     ----------
     light : str
-    band : (H, W) bool        the boundary band
-    wrong : (H, W) bool       lit and in shadow exchanged; only where both know an answer
-    compared : (H, W) bool    where both do; what a shadow map does not see, it does not know
+    band : (H, W) bool           the boundary band
+    wrong : (H, W) bool          compared pixels that are lit in one and in shadow in the other
+    compared : (H, W) bool       pixels where both are defined; a shadow map leaves pixels outside it undefined
     """
 
     light: str
@@ -141,12 +142,12 @@ class Agreement:
 
     @property
     def off_band(self) -> int:
-        """Wrong pixels off the band: 0 where the technique is right."""
+        """Number of wrong pixels off the band; 0 if the technique is right."""
         return int((self.wrong & ~self.band).sum())
 
     @property
     def on_band(self) -> int:
-        """Wrong pixels on the band."""
+        """Number of wrong pixels on the band."""
         return int((self.wrong & self.band).sum())
 
     def __str__(self) -> str:
@@ -155,35 +156,34 @@ class Agreement:
 
 
 def agreement(run: Run, truth: Truth | None = None, width: int = 1) -> list[Agreement]:
-    """Return for each light where a run agrees with ray casting.
+    """Return the agreement of a run with ray casting, for each light.
 
-    The band is where an edge of an object or of the shadow passes within `width` pixels; of a technique with option
-    `map_size` also where one passes within `width` texels of a map of that size that looks at all casters, as that of
-    `map` does.
+    The band is where an edge of an object or of its shadow passes within `width` pixels. For a technique with option
+    `map_size` it is also where one passes within `width` texels of a map of this size that covers all casters.
 
     Parameters
     ----------
-    truth : Truth      of the same scene and size, when it is there already
+    truth : Truth                of the run's scene and size, if it has been cast before
 
     Examples
     --------
     >>> import softshadow as ss
     >>> from softshadow.testing import agreement
-    >>> for found in agreement(ss.run("volume-zfail", "boxes", size=(64, 48))):
-    ...     print(found.light, found.off_band)
+    >>> for each in agreement(ss.run("volume-zfail", "boxes", size=(64, 48))):
+    ...     print(each.light, each.off_band)
     light 0
     """
-    known = cast_truth(run.scene, run.size) if truth is None else truth
-    if known.scene is not run.scene or known.objects.shape != run.depth.shape:
+    truth = cast_truth(run.scene, run.size) if truth is None else truth
+    if truth.scene is not run.scene or truth.objects.shape != run.depth.shape:
         raise ValueError("truth: expected that of the run's own scene and size")
-    found = []
+    agreements = []
     for index, seen in enumerate(run.lights):
-        band = known.band(index, width)
+        band = truth.band(index, width)
         if "map_size" in run.options:
-            band |= known.texel_band(index, run.options["map_size"], width)
-        several = f" of {seen.name}" if len(run.lights) > 1 else ""
-        unknown = run.maps.get(f"unknown{several}", np.zeros_like(run.valid))
-        compared = run.valid & ~unknown & (known.objects >= 0)
-        wrong = compared & ((seen.visibility == 1) != known.lit(index))
-        found.append(Agreement(seen.name, band, wrong, compared))
-    return found
+            band |= truth.texel_band(index, run.options["map_size"], width)
+        suffix = f" of {seen.name}" if len(run.lights) > 1 else ""
+        unknown = run.maps.get(f"unknown{suffix}", np.zeros_like(run.valid))
+        compared = run.valid & ~unknown & (truth.objects >= 0)
+        wrong = compared & ((seen.visibility == 1) != truth.lit(index))
+        agreements.append(Agreement(seen.name, band, wrong, compared))
+    return agreements

@@ -1,4 +1,4 @@
-"""Run one program here and on Mesa, or two programs here, and say where the first pixel differs."""
+"""Comparison of the buffers that GL programs leave, on softshadow and on Mesa: every difference and its first pixel."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from softshadow.testing.mesa import check, run_on_mesa
+from softshadow.testing.mesa import check_program, run_on_mesa
 from softshadow.testing.result import ProgramResult, read_result
 
 if TYPE_CHECKING:
@@ -14,18 +14,18 @@ if TYPE_CHECKING:
     from softshadow.inspection.history import PixelHistory
 
 WINDOW = ("color", "depth", "stencil")
-Program = Callable[[Any], Any]
+GLProgram = Callable[[Any], Any]
 
 
 @dataclass(frozen=True, eq=False)
-class Difference:
-    """Where two buffers of one name differ.
+class BufferDifference:
+    """The difference between two buffers with the same name.
 
     Attributes
     ----------
-    buffer : "color", "depth", "stencil", or "returned", "returned[2]", "returned['map']": what the program returned
-    count : int                  differing pixels (texels, elements)
-    x, y : int                   the first of them by rows from the bottom, as in GL
+    buffer : "color", "depth", "stencil", or a value the program returned: "returned", "returned[2]", "returned['map']"
+    count : int                  number of differing pixels (texels, elements)
+    x, y : int                   the first of them, row by row from the bottom, as in GL
     y_from_top : int             the same row in an image whose row 0 is on top
     ours, theirs : the two values there
     """
@@ -44,19 +44,19 @@ class Difference:
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison:
-    """Two results of a program and their differences; true where there are none.
+class ProgramComparison:
+    """The results of a program on softshadow and on Mesa; true if they are equal.
 
     Attributes
     ----------
-    ours, theirs : what the program left here and there
+    ours, theirs : ProgramResult       softshadow's and Mesa's result
     differences : one for each buffer that differs
-    history : PixelHistory or None     every fragment that met the first differing pixel of the window, here
+    history : PixelHistory or None     all fragments at the first differing pixel of the window, on softshadow
     """
 
     ours: ProgramResult
     theirs: ProgramResult
-    differences: tuple[Difference, ...]
+    differences: tuple[BufferDifference, ...]
     history: "PixelHistory | None" = None
 
     def __bool__(self) -> bool:
@@ -68,11 +68,11 @@ class Comparison:
         return "\n".join(map(str, [*self.differences, *([self.history] if self.history else [])]))
 
     def __repr__(self) -> str:
-        return f"<Comparison: {self}>"
+        return f"<ProgramComparison: {self}>"
 
 
-def difference(buffer: str, ours: np.ndarray, theirs: np.ndarray) -> Difference | None:
-    """Return where two arrays of shape (h, w[, c]) differ, or None; NaN equals NaN, and 0.0 differs from -0.0 never.
+def difference(buffer: str, ours: np.ndarray, theirs: np.ndarray) -> BufferDifference | None:
+    """Return the difference between two arrays (h, w[, c]), or None; NaN equals NaN, and 0.0 equals -0.0.
 
     Raises
     ------
@@ -88,27 +88,28 @@ def difference(buffer: str, ours: np.ndarray, theirs: np.ndarray) -> Difference 
         return None
     y, x = (int(index) for index in np.argwhere(pixels)[0])
     rows = [np.atleast_2d(array) if array.ndim < 3 else array for array in (ours, theirs)]
-    return Difference(buffer, count, x, y, pixels.shape[0] - 1 - y, rows[0][y, x].tolist(), rows[1][y, x].tolist())
+    return BufferDifference(
+        buffer, count, x, y, pixels.shape[0] - 1 - y, rows[0][y, x].tolist(), rows[1][y, x].tolist()
+    )
 
 
-def differences(ours: ProgramResult, theirs: ProgramResult) -> tuple[Difference, ...]:
-    """Return the differences of colour, depth, stencil and of the arrays that the two programs returned.
+def differences(ours: ProgramResult, theirs: ProgramResult) -> tuple[BufferDifference, ...]:
+    """Return the differences of colour, depth and stencil, and of the arrays that two programs returned.
 
     Raises
     ------
-    ValueError                   one program returned arrays that the other did not, or arrays of other shapes
+    ValueError                   only one program returned some array, or two arrays have different shapes
     """
     mine, other = returned_arrays(ours.returned), returned_arrays(theirs.returned)
     if mine.keys() != other.keys():
         raise ValueError(f"the programs returned {', '.join(mine) or 'no array'} and {', '.join(other) or 'no array'}")
     pairs = [(name, getattr(ours, name), getattr(theirs, name)) for name in WINDOW]
     pairs += [(name, mine[name], other[name]) for name in mine]
-    found = (difference(*pair) for pair in pairs)
-    return tuple(one for one in found if one is not None)
+    return tuple(each for pair in pairs if (each := difference(*pair)) is not None)
 
 
 def returned_arrays(returned: Any) -> dict[str, Any]:
-    """Return the arrays and numbers among what a program returned: itself, or the items of a list, tuple or dict.
+    """Return the arrays and numbers that a program returned, alone or in a list, tuple or dict, by name.
 
     Examples
     --------
@@ -124,45 +125,45 @@ def returned_arrays(returned: Any) -> dict[str, Any]:
     return {name: value for name, value in items if isinstance(value, np.ndarray | np.number | int | float)}
 
 
-def run_here(program: Program, size: tuple[int, int]) -> ProgramResult:
-    """Return the buffers that a program leaves in a fresh context of `softshadow.gl` of (width, height) pixels."""
+def run_here(program: GLProgram, size: tuple[int, int]) -> ProgramResult:
+    """Run a program in a new context of `softshadow.gl` of (width, height) pixels, and return its buffers."""
     return run_recorded(program, size)[0]
 
 
-def run_recorded(program: Program, size: tuple[int, int]) -> "tuple[ProgramResult, Frame]":
-    """Return the buffers that a program leaves here, and the recording of its calls, which knows the pixels' histories.
+def run_recorded(program: GLProgram, size: tuple[int, int]) -> "tuple[ProgramResult, Frame]":
+    """Run a program on softshadow, and return its buffers and the recording of its calls, for pixel histories.
 
     Raises
     ------
-    TypeError                    the program cannot be called, or the size is not a pair
+    TypeError                    the program is not callable, or the size is not a pair
     """
-    from softshadow import gl  # brings the kernels, which a Mesa worker has no use for
+    from softshadow import gl  # loads the kernels, which a Mesa worker does not need
 
-    check(program, size)
+    check_program(program, size)
     with gl.create_context(*size) as context:
         returned = program(gl)
         context.end_step(getattr(program, "__name__", "program"))
         return read_result(gl, size, returned), context.frame
 
 
-def history_of_first(frame: "Frame", found: tuple[Difference, ...]) -> "PixelHistory | None":
-    """Return the history of the window's first differing pixel; None where nothing of the window differs."""
+def history_of_first(frame: "Frame", differences: tuple[BufferDifference, ...]) -> "PixelHistory | None":
+    """Return the history of the window's first differing pixel, or None if the window does not differ."""
     from softshadow.inspection import pixel_history
 
-    first = next((each for each in found if each.buffer in WINDOW), None)
+    first = next((each for each in differences if each.buffer in WINDOW), None)
     return None if first is None else pixel_history(frame, first.x, first.y_from_top)
 
 
-def compare(program: Program, size: tuple[int, int] = (640, 480), driver: str = "llvmpipe") -> Comparison:
-    """Return what a program leaves here and on Mesa, and every difference.
+def compare(program: GLProgram, size: tuple[int, int] = (640, 480), driver: str = "llvmpipe") -> ProgramComparison:
+    """Run a program on softshadow and on Mesa, and return both results with their differences.
 
     Parameters
     ----------
     program : callable           ``program(gl)`` with PyOpenGL's names; arrays and numbers that it returns, alone or in
-        a list, tuple or dict, are compared, too
+        a list, tuple or dict, are compared as well
     size : (width, height) of the default framebuffer
     driver : "llvmpipe" or "softpipe"
     """
     (ours, frame), theirs = run_recorded(program, size), run_on_mesa(program, size, driver)
-    found = differences(ours, theirs)
-    return Comparison(ours, theirs, found, history_of_first(frame, found))
+    differing = differences(ours, theirs)
+    return ProgramComparison(ours, theirs, differing, history_of_first(frame, differing))

@@ -1,6 +1,6 @@
-"""Run a GL program on Mesa in a process beside this one, and bring its buffers back.
+"""GL programs on Mesa: run a program in a worker process and return its buffers.
 
-One worker process per driver is kept alive; it is replaced after `PROGRAMS_PER_WORKER` programs (a context costs
+Each driver has one worker, which stays alive. It is replaced after `PROGRAMS_PER_WORKER` programs (a context takes
 2.5 MiB and is never destroyed), after a crash and after a time-out. llvmpipe runs without fused multiply-add, so that
 its results do not depend on the CPU.
 """
@@ -24,16 +24,16 @@ from softshadow.errors import SoftShadowError, nearest
 from softshadow.testing.messages import read_message, write_message
 from softshadow.testing.result import ProgramResult
 
-EXPECTED_VERSION = "22.3.6"  # the one whose arithmetic softshadow follows
+EXPECTED_VERSION = "22.3.6"  # the version that softshadow reproduces
 DRIVERS = ("llvmpipe", "softpipe")
 PROGRAMS_PER_WORKER = 200
-START_TIMEOUT = 60.0  # seconds until a worker has imported PyOpenGL and made its first context
+START_TIMEOUT = 60.0  # seconds for a worker to import PyOpenGL and create its first context
 LARGEST_SIDE = 16384  # Mesa's own limit
 INSTALL = "install them with: apt install libosmesa6 libglu1-mesa; pip install 'softshadow[mesa]'"
 
 
 class MesaError(SoftShadowError):
-    """Mesa is missing, its process ended, or a program failed there; `err` is GL's code where it was a GL error."""
+    """Mesa is missing, its process has ended, or a program failed in it; `err` is GL's error code, if there is one."""
 
     def __init__(self, message: str, err: int | None = None) -> None:
         super().__init__(message)
@@ -41,7 +41,7 @@ class MesaError(SoftShadowError):
 
 
 class RemoteTraceback(Exception):
-    """Where in the worker a program failed: the cause of the exception that `run_on_mesa` raises."""
+    """The worker's traceback of a failed program: the cause of the exception that `run_on_mesa` raises."""
 
     def __str__(self) -> str:
         return f'\n"""\n{self.args[0]}"""'
@@ -49,36 +49,36 @@ class RemoteTraceback(Exception):
 
 @functools.cache
 def mesa_reason() -> str:
-    """Return why programs cannot run on Mesa here and how to change that; the empty string where they can."""
+    """Return why programs cannot run on Mesa here and what to install; the empty string if they can."""
     packages = {"OpenGL": "PyOpenGL", "cloudpickle": "cloudpickle"}
     missing = [f"Python package {name}" for key, name in packages.items() if importlib.util.find_spec(key) is None]
     missing += [f"library lib{name}" for name in ("OSMesa", "GLU") if ctypes.util.find_library(name) is None]
-    return f"Mesa is not available, not found: {', '.join(missing)} ({INSTALL})" if missing else ""
+    return f"Mesa is not available, missing: {', '.join(missing)} ({INSTALL})" if missing else ""
 
 
 def mesa_available() -> bool:
-    """Return whether programs can run on Mesa here; `mesa_reason` says why not."""
+    """Return whether programs can run on Mesa here; `mesa_reason` tells why not."""
     return not mesa_reason()
 
 
 def mesa_version(driver: str = "llvmpipe") -> str:
-    """Return Mesa's version, such as "22.3.6"; `EXPECTED_VERSION` is the one whose results softshadow reproduces."""
+    """Return Mesa's version, such as "22.3.6"; `EXPECTED_VERSION` is the version that softshadow reproduces."""
     with _lock:
         version = _worker(driver).introduction["version"]  # "4.5 (Compatibility Profile) Mesa 22.3.6"
     return version.rpartition("Mesa ")[2].split()[0]
 
 
 def mesa_gl() -> Any:
-    """Return Mesa's namespace (functions and tokens of GL and GLU) inside a program that `run_on_mesa` runs.
+    """Return Mesa's namespace (functions and tokens of GL and GLU), inside a program run by `run_on_mesa`.
 
     Raises
     ------
     RuntimeError                 in any other process: PyOpenGL is imported in Mesa's own process only
     """
-    door = sys.modules.get("softshadow.testing.opengl")
-    if door is None:
+    module = sys.modules.get("softshadow.testing.opengl")
+    if module is None:
         raise RuntimeError("mesa_gl() works inside a program given to softshadow.testing.run_on_mesa(program, size)")
-    return door.current()
+    return module.current()
 
 
 def run_on_mesa(
@@ -89,22 +89,22 @@ def run_on_mesa(
     raise_errors: bool = True,
     timeout: float = 60.0,
 ) -> ProgramResult:
-    """Return the buffers that a program leaves in a fresh context of Mesa.
+    """Run a program in a new context of Mesa, and return its buffers.
 
     Parameters
     ----------
-    program : callable           ``program(gl)`` gets PyOpenGL's names; what it returns must be picklable
+    program : callable           ``program(gl)`` with PyOpenGL's names; its return value must be picklable
     size : (width, height) of the default framebuffer (RGBA8, 24-bit depth, 8-bit stencil; cleared to 0, 1, 0)
     driver : "llvmpipe" or "softpipe"
-    raise_errors : bool          False: GL errors are recorded only, as in plain GL
+    raise_errors : bool          False: GL errors are only recorded, as in plain GL
     timeout : float              seconds
 
     Raises
     ------
-    MesaError                    Mesa is missing, crashed or took too long, or the program met a GL error (see `err`)
-    Exception                    whatever the program raised, with the worker's traceback as its cause
+    MesaError                    Mesa is missing, crashed or timed out, or the program caused a GL error (see `err`)
+    Exception                    the exception that the program raised, with the worker's traceback as its cause
     """
-    check(program, size)
+    check_program(program, size)
     width, height = size
     if not (1 <= width <= LARGEST_SIDE and 1 <= height <= LARGEST_SIDE):
         raise ValueError(f"size={size!r}: width and height must be between 1 and {LARGEST_SIDE}")
@@ -114,12 +114,12 @@ def run_on_mesa(
     return result
 
 
-def check(program: Any, size: Any) -> None:
-    """Make sure that this is a program and a size.
+def check_program(program: Any, size: Any) -> None:
+    """Check the arguments of the functions that run a program.
 
     Raises
     ------
-    TypeError                    it is not
+    TypeError                    the program is not callable, or the size is not a pair
     """
     if not callable(program):
         raise TypeError(f"program={program!r}: expected a function program(gl), not what it returned")
@@ -128,7 +128,7 @@ def check(program: Any, size: Any) -> None:
 
 
 def program_request(program: Callable[[Any], Any], size: tuple[int, int]) -> dict[str, Any]:
-    """Return what a request to a worker says about a program: itself, the window, where its modules are."""
+    """Return the part of a worker request that describes a program: its pickle, the window size and the import path."""
     return {"program": _pickled(program), "size": size, "path": [entry or os.getcwd() for entry in sys.path]}
 
 
@@ -139,29 +139,29 @@ def _pickled(program: Callable[[Any], Any]) -> bytes:
     while isinstance(function, functools.partial):
         function = inspect.unwrap(function.func)
     module = sys.modules.get(getattr(function, "__module__", None) or "")
-    # a user's module travels as it is now, not as the worker imported it some edits ago
-    travels = module is not None and module.__name__ != "__main__" and not module.__name__.startswith("softshadow")
+    # pickle a user's module by value: the worker may have imported an older version of it
+    by_value = module is not None and module.__name__ != "__main__" and not module.__name__.startswith("softshadow")
     try:
-        if travels:
+        if by_value:
             cloudpickle.register_pickle_by_value(module)
         return cloudpickle.dumps(program)
     except Exception as error:
         raise MesaError(f"program {program!r} cannot be sent to Mesa's process: {error}") from error
     finally:
-        if travels:
+        if by_value:
             cloudpickle.unregister_pickle_by_value(module)
 
 
 def _failure(failure: dict[str, Any]) -> Exception:
     error: Any = None
     if failure["type"] == "StateError" and "no current context" in failure["message"]:
-        # `from softshadow.gl import *`: on Mesa these names have no context
+        # `from softshadow.gl import *`: there is no softshadow context in the worker
         error = MesaError(
-            "the program calls softshadow.gl by itself; to run on Mesa, too, it has to call the namespace it is given: "
-            "gl.glBegin(gl.GL_TRIANGLES) in a function program(gl)"
+            "the program calls softshadow.gl directly; to run on Mesa it must call the namespace that it gets as its "
+            "argument: gl.glBegin(gl.GL_TRIANGLES) in a function program(gl)"
         )
     elif failure["exception"] is not None:
-        with contextlib.suppress(Exception):  # its class may exist in the worker only; then its text has to do
+        with contextlib.suppress(Exception):  # its class may exist only in the worker
             error = pickle.loads(failure["exception"])
     if not isinstance(error, Exception):
         error = MesaError(f"on Mesa: {failure['type']}: {failure['message']}", failure["err"])
@@ -170,7 +170,7 @@ def _failure(failure: dict[str, Any]) -> Exception:
 
 
 class Worker:
-    """One Mesa process and the pipes to it; `rasterizer_threads` 0: llvmpipe draws on the thread that calls it."""
+    """A Mesa process and the pipes to it; with `rasterizer_threads` 0 llvmpipe draws on the calling thread."""
 
     def __init__(self, driver: str, rasterizer_threads: int = 0) -> None:
         environment = {
@@ -184,7 +184,7 @@ class Worker:
         self.driver = driver
         self.programs = 0
         self.process = subprocess.Popen(
-            # -P: the current folder stays out of the import path, so that nobody's random.py is imported by numpy
+            # -P: keep the current folder out of the import path, so that numpy does not import a user's random.py
             [sys.executable, "-P", "-m", "softshadow.testing.mesa_worker"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -199,7 +199,7 @@ class Worker:
             raise MesaError(f"Mesa does not start ({INSTALL}):\n{self.introduction['failed']}")
 
     def ask(self, request: dict[str, Any], timeout: float) -> Any:
-        """Return the answer to a request; without one, end the process: a late answer would be taken for the next.
+        """Send a request and return the answer; after a time-out end the process, so that no late answer arrives.
 
         Raises
         ------
@@ -207,7 +207,7 @@ class Worker:
         """
         self.programs += 1
         assert self.process.stdin is not None
-        with contextlib.suppress(OSError):  # it has ended: the missing answer says so
+        with contextlib.suppress(OSError):  # the process has ended: `_receive` reports it
             write_message(self.process.stdin, pickle.dumps(request))
         answer = self._receive(timeout)
         if "failure" in answer:
@@ -219,8 +219,8 @@ class Worker:
             answer = self.answers.get(timeout=timeout)
         except queue.Empty:
             self.stop()
-            raise MesaError(f"Mesa ({self.driver}) gave no answer within {timeout:g} s and was ended") from None
-        except BaseException:  # Ctrl-C while waiting: the answer would come out of turn
+            raise MesaError(f"Mesa ({self.driver}) gave no answer within {timeout:g} s and was stopped") from None
+        except BaseException:  # Ctrl-C while waiting: the answer would arrive late
             self.stop()
             raise
         if answer is None:
@@ -244,7 +244,7 @@ class Worker:
         self.reader.join()
         for pipe in (self.process.stdin, self.process.stdout):
             assert pipe is not None
-            with contextlib.suppress(OSError):  # closing flushes what a dead process never read
+            with contextlib.suppress(OSError):  # closing flushes data that a dead process has not read
                 pipe.close()
 
     @property

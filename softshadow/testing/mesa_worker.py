@@ -1,8 +1,8 @@
-"""The Mesa worker: runs GL programs on OSMesa, one fresh context each, and sends the buffers back.
+"""The Mesa worker process: runs GL programs on OSMesa, each in a new context, and sends the buffers back.
 
-Started by `softshadow.testing.mesa` as ``python -m softshadow.testing.mesa_worker`` with Mesa's environment set.
-Requests come in on standard input, answers go out on what was standard output; what a program prints goes to standard
-error.
+`softshadow.testing.mesa` starts it as ``python -m softshadow.testing.mesa_worker`` with Mesa's environment variables.
+Requests arrive on standard input, and answers leave on standard output; output of the programs is redirected to
+standard error.
 """
 
 import os
@@ -30,18 +30,18 @@ ERROR_NAMES = {
     0x0506: "GL_INVALID_FRAMEBUFFER_OPERATION",
 }
 
-# contexts and the memory they draw into; a context is never destroyed (destroying one after another became current
-# crashes Mesa 22.3), the parent restarts the worker instead
+# contexts and their image memory; a context is never destroyed, because destroying one after another has become current
+# crashes Mesa 22.3; the parent restarts the worker instead
 _contexts: list[tuple[Any, np.ndarray]] = []
 
 
 def main() -> None:
-    """Say which Mesa this is, then answer requests until the parent closes the pipe."""
+    """Send Mesa's version, then answer requests until the parent closes the pipe."""
     requests = os.fdopen(os.dup(0), "rb")
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     os.dup2(2, 1)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's; it closes the pipe
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent handles Ctrl-C, and closes the pipe
     write_message(answers, pickle.dumps(introduction()))
     while (request := read_message(requests)) is not None:
         answer = answer_request(pickle.loads(request))
@@ -50,15 +50,15 @@ def main() -> None:
 
 
 def introduction() -> dict[str, str]:
-    """Return the version and renderer strings, or {"failed": why}."""
+    """Return the version and renderer strings, or the traceback as {"failed": traceback}."""
     try:
-        gl = fresh_context((1, 1), raise_errors=True)
+        gl = new_context((1, 1), raise_errors=True)
         return {"version": gl.glGetString(gl.GL_VERSION).decode(), "renderer": gl.glGetString(gl.GL_RENDERER).decode()}
     except Exception:
         return {"failed": traceback.format_exc()}
 
 
-def fresh_context(size: tuple[int, int], raise_errors: bool) -> Any:
+def new_context(size: tuple[int, int], raise_errors: bool) -> Any:
     """Return the namespace of a new context in GL's initial state: colour 0, depth 1, stencil 0."""
     from OpenGL import GL, osmesa
 
@@ -68,7 +68,7 @@ def fresh_context(size: tuple[int, int], raise_errors: bool) -> Any:
     context = osmesa.OSMesaCreateContextExt(osmesa.OSMESA_RGBA, 24, 8, 16, None)
     pixels = np.zeros((height, width, 4), np.uint8)
     if not context or not osmesa.OSMesaMakeCurrent(context, pixels, GL.GL_UNSIGNED_BYTE, width, height):
-        raise RuntimeError(f"OSMesa makes no context of {width} x {height} pixels")
+        raise RuntimeError(f"OSMesa cannot create a context of {width} x {height} pixels")
     _contexts.append((context, pixels))
     end_primitive()
     everything = GL.GL_COLOR_BUFFER_BIT | GL.GL_DEPTH_BUFFER_BIT | GL.GL_STENCIL_BUFFER_BIT | GL.GL_ACCUM_BUFFER_BIT
@@ -79,7 +79,7 @@ def fresh_context(size: tuple[int, int], raise_errors: bool) -> Any:
 
 
 def end_primitive() -> None:
-    """Leave a glBegin that a program has left open; PyOpenGL checks no errors between glBegin and glEnd."""
+    """End a primitive that a program has left open; PyOpenGL checks no errors between glBegin and glEnd."""
     from OpenGL import GL
 
     with suppress(GL.GLError):
@@ -87,7 +87,7 @@ def end_primitive() -> None:
 
 
 def answer_request(request: dict[str, Any]) -> bytes:
-    """Return the pickled answer: the task's result, or what the program raised."""
+    """Return the pickled answer: the result of the task, or a description of the exception."""
     import cloudpickle
 
     errors: list[tuple[str, int]] = []
@@ -96,7 +96,7 @@ def answer_request(request: dict[str, Any]) -> bytes:
         try:
             return cloudpickle.dumps({"result": result})
         except Exception as error:
-            raise TypeError(f"what the program returned cannot be brought back from Mesa's process: {error}") from error
+            raise TypeError(f"the program's return value cannot be sent back from Mesa's process: {error}") from error
     except BaseException as error:  # sys.exit() in a program ends the program, not the worker
         failure = {
             "type": type(error).__name__,
@@ -106,17 +106,17 @@ def answer_request(request: dict[str, Any]) -> bytes:
             "errors": errors,
         }
         failure["exception"] = None
-        if failure["err"] is None:  # a GLError holds pointers; the program's own exceptions may hold anything, too
+        if failure["err"] is None:  # a GLError holds pointers; other exceptions may be unpicklable as well
             with suppress(Exception):
                 failure["exception"] = cloudpickle.dumps(error)
         return pickle.dumps({"failure": failure})
 
 
-def run(request: dict[str, Any], errors: list[tuple[str, int]]) -> ProgramResult:
-    """Run a program in a fresh context and return its buffers; GL errors are appended to `errors`."""
+def run_program(request: dict[str, Any], errors: list[tuple[str, int]]) -> ProgramResult:
+    """Run a program in a new context, and return its buffers; GL errors are appended to `errors`."""
     sys.path[:] = request["path"]
     program: Callable[[Any], Any] = pickle.loads(request["program"])
-    gl = fresh_context(request["size"], request["raise_errors"])
+    gl = new_context(request["size"], request["raise_errors"])
     gl.errors = errors
     returned = program(gl)
     end_primitive()
@@ -126,35 +126,35 @@ def run(request: dict[str, Any], errors: list[tuple[str, int]]) -> ProgramResult
 
 
 # -- timed frames ------------------------------------------------------------------------------------------------------
-_frames: list[tuple[Any, Callable[[], Any]]] = []  # the namespace and the frame that tasks after "prepare" are about
+_frames: list[tuple[Any, Callable[[], Any]]] = []  # namespace and frame function from the last "prepare" task
 
 
 def prepare(request: dict[str, Any], errors: list[tuple[str, int]]) -> Timing:
-    """Call a program in a fresh context; what it returns draws the frames that follow."""
+    """Call a frame program in a new context; tasks that follow draw the frames."""
     sys.path[:] = request["path"]
     program: Callable[[Any], Any] = pickle.loads(request["program"])
-    gl = fresh_context(request["size"], raise_errors=True)
-    frame, taken = timed(gl, lambda: program(gl))
+    gl = new_context(request["size"], raise_errors=True)
+    frame, timing = timed(gl, lambda: program(gl))
     _frames[:] = [(gl, frame)]
-    return taken
+    return timing
 
 
 def time_frames(request: dict[str, Any], errors: list[tuple[str, int]]) -> list[Timing]:
-    """Draw frames, and return what each took."""
+    """Draw frames, and return their times."""
     gl, frame = _frames[0]
     return [timed(gl, frame)[1] for _ in range(request["repeats"])]
 
 
 def read_frame(request: dict[str, Any], errors: list[tuple[str, int]]) -> dict[str, np.ndarray]:
-    """Return the buffers of the framebuffer that is bound."""
+    """Return the buffers of the bound framebuffer."""
     return read_buffers(_frames[0][0], request["size"])
 
 
-TASKS = {"run": run, "prepare": prepare, "time": time_frames, "read": read_frame}
+TASKS = {"run": run_program, "prepare": prepare, "time": time_frames, "read": read_frame}
 
 
 def describe(error: BaseException) -> str:
-    """Return an exception's text; for PyOpenGL's GLError the call and GL's name of the error."""
+    """Return an exception's message; for PyOpenGL's GLError the call and GL's name for the error."""
     call = getattr(getattr(error, "baseOperation", None), "__name__", None)
     return str(error) if call is None else f"{call}: {ERROR_NAMES.get(getattr(error, 'err', 0), 'GL error')}"
 

@@ -1,14 +1,14 @@
-"""Mesa's side of a program: the names of OpenGL.GL and OpenGL.GLU with the read-out conventions of `softshadow.gl`.
+"""The GL namespace of programs on Mesa: PyOpenGL's names with the array conventions of `softshadow.gl`.
 
-The one door to PyOpenGL. Import it only in a Mesa worker: PyOpenGL chooses its platform when it is imported.
-What differs from plain PyOpenGL:
+Only this module imports PyOpenGL. Import it only in a Mesa worker: PyOpenGL selects its platform when it is imported.
+Differences from plain PyOpenGL:
 
 - glReadPixels and glGetTexImage return (h, w) or (h, w, channels), first row = bottom row, without row padding, and
-  know packed depth and stencil; images handed in are read without row padding too where they are too small for that of
-  GL_UNPACK_ALIGNMENT.
+  support packed depth and stencil. Uploaded images are read without row padding if they are too small for the padding
+  of GL_UNPACK_ALIGNMENT.
 - glGen* return a plain int for one name.
-- A GL error is raised as GL.GLError, and glGetError still answers its code afterwards, as in `softshadow.gl`.
-- `program(name)` compiles the GLSL twin of a softshadow program and returns a name for glUseProgram.
+- A GL error is raised as GL.GLError, and glGetError still returns its code afterwards, as in `softshadow.gl`.
+- `program(name)` compiles the GLSL source of a softshadow program and returns a name for glUseProgram.
 """
 
 import ctypes
@@ -23,9 +23,9 @@ from OpenGL.raw.GL.VERSION import GL_1_0 as raw
 
 from softshadow.pixel_store import PACKED_TYPES, PixelStore
 
-# unknown to PyOpenGL 3.1's image tables; one 32-bit word per pixel, or two
+# missing in PyOpenGL 3.1's image tables; one 32-bit word per pixel, or two
 images.TYPE_TO_ARRAYTYPE[GL.GL_UNSIGNED_INT_24_8] = GL.GL_UNSIGNED_INT
-images.TYPE_TO_ARRAYTYPE[GL.GL_FLOAT_32_UNSIGNED_INT_24_8_REV] = GL.GL_UNSIGNED_BYTE  # handed over as bytes
+images.TYPE_TO_ARRAYTYPE[GL.GL_FLOAT_32_UNSIGNED_INT_24_8_REV] = GL.GL_UNSIGNED_BYTE  # passed as bytes
 
 CHANNELS = {
     **dict.fromkeys((GL.GL_RED, GL.GL_GREEN, GL.GL_BLUE, GL.GL_ALPHA, GL.GL_LUMINANCE), 1),
@@ -45,9 +45,9 @@ DTYPES: dict[int, Any] = {
     GL.GL_FLOAT: np.float32,
     **PACKED_TYPES,
 }
-LARGEST_PIXEL = 16  # bytes; room for the read-out whose format or type GL is about to refuse
+LARGEST_PIXEL = 16  # bytes; enough for a read-out whose format or type GL will reject
 
-# PyOpenGL keeps the names with a suffix in a module per extension
+# PyOpenGL defines names with a suffix in a module for each extension
 EXTENSIONS = (
     "ARB.multitexture", "ARB.occlusion_query", "ARB.draw_buffers", "ARB.texture_cube_map", "ARB.texture_border_clamp",
     "ARB.texture_mirrored_repeat", "ARB.texture_env_combine", "ARB.texture_env_dot3", "ARB.depth_texture",
@@ -65,18 +65,18 @@ _current: "MesaGL | None" = None
 
 
 def current() -> "MesaGL":
-    """Return the namespace of the context that is current; RuntimeError where there is none."""
+    """Return the namespace of the current context; RuntimeError if there is none."""
     if _current is None:
         raise RuntimeError("no Mesa context is current")
     return _current
 
 
 class MesaGL:
-    """Every function and token of GL and GLU for one context.
+    """All functions and tokens of GL and GLU, for one context.
 
     Parameters
     ----------
-    raise_errors : bool          False: a GL error is only recorded, as plain GL does
+    raise_errors : bool          False: a GL error is only recorded, as in plain GL
 
     Attributes
     ----------
@@ -90,7 +90,7 @@ class MesaGL:
         self._programs: dict[str, int] = {}
 
     def make_current(self) -> None:
-        """Make this the namespace that `current` answers; its context is current already."""
+        """Make this the namespace that `current` returns; its context must be current already."""
         global _current
         _current = self
 
@@ -105,7 +105,7 @@ class MesaGL:
             raise AttributeError(f"OpenGL has no {name}")
         if callable(value) and name.startswith("gl"):
             value = self._recorded(name, value)
-        setattr(self, name, value)  # found directly from now on
+        setattr(self, name, value)  # later accesses do not call __getattr__
         return value
 
     def _recorded(self, name: str, function: Callable[..., Any]) -> Callable[..., Any]:
@@ -122,22 +122,22 @@ class MesaGL:
         return call
 
     def glGetError(self) -> int:
-        """Return the first error code since the last call; PyOpenGL has read it from GL already."""
+        """Return the first error code since the last call, including errors that PyOpenGL has raised."""
         code, self._pending = self._pending or int(GL.glGetError()), GL.GL_NO_ERROR
         return code
 
     def program(self, name: str) -> int:
-        """Return a GL program made from the GLSL twin of the softshadow program `name`, compiled once per context."""
+        """Return a GL program compiled from the GLSL of the softshadow program `name`, once per context."""
         if name not in self._programs:
-            from softshadow import programs  # its kernels are not needed by programs that have no use for it
+            from softshadow import programs  # loads kernels that most GL programs do not need
 
-            twin = programs.get(name)
-            self._programs[name] = link_program(name, twin.glsl_vertex, twin.glsl_fragment)
+            program = programs.get(name)
+            self._programs[name] = link_program(name, program.glsl_vertex, program.glsl_fragment)
         return self._programs[name]
 
 
 def _of_extension(name: str) -> Any:
-    """Return a name of one of the extensions that `softshadow.gl` knows, or None."""
+    """Return a name from one of the extensions that `softshadow.gl` supports, or None."""
     for extension in EXTENSIONS:
         value = getattr(importlib.import_module(f"OpenGL.GL.{extension}"), name, None)
         if value is not None:
@@ -146,7 +146,7 @@ def _of_extension(name: str) -> Any:
 
 
 def link_program(name: str, vertex_source: str, fragment_source: str) -> int:
-    """Return a linked GL program; ValueError with the compiler's log where GLSL refuses a source."""
+    """Return a linked GL program; ValueError with the compiler's log if a source does not compile."""
     program = GL.glCreateProgram()
     for kind, label, source in (
         (GL.GL_VERTEX_SHADER, "vertex", vertex_source),
@@ -169,7 +169,7 @@ def _text(log: bytes | str) -> str:
 
 
 def _image(width: int, height: int, pixel_format: int, pixel_type: int) -> np.ndarray:
-    """Return an empty image for a read-out; bytes enough for any pixel where GL will refuse the combination."""
+    """Return an image for a read-out; large enough for any pixel if GL will reject the format and type."""
     channels, dtype = CHANNELS.get(pixel_format), DTYPES.get(pixel_type)
     if channels is None or dtype is None:
         return np.zeros(max(0, width) * max(0, height) * LARGEST_PIXEL, np.uint8)
@@ -186,8 +186,8 @@ def _checked(array: np.ndarray, expected: np.ndarray, call: str) -> np.ndarray:
 
 
 @contextmanager
-def _tight_rows() -> Iterator[None]:
-    """Restore the pixel store state after a transfer (PyOpenGL's upload functions change the pack alignment, too)."""
+def _restored_alignment() -> Iterator[None]:
+    """Restore the alignments after a transfer; PyOpenGL's upload functions also change the pack alignment."""
     before = [(name, int(GL.glGetIntegerv(name))) for name in (GL.GL_PACK_ALIGNMENT, GL.GL_UNPACK_ALIGNMENT)]
     try:
         yield
@@ -202,7 +202,7 @@ def glReadPixels(
     """Return the pixels of a rectangle of the read buffer, first row = bottom row, or fill `array` with them."""
     expected = _image(width, height, format, type)
     out = expected if array is None else _checked(array, expected, "glReadPixels")
-    with _tight_rows():
+    with _restored_alignment():
         GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
         raw.glReadPixels(x, y, width, height, format, type, ctypes.c_void_p(out.ctypes.data))
     return out
@@ -214,20 +214,20 @@ def glGetTexImage(target: int, level: int, format: int, type: int, array: np.nda
     height = GL.glGetTexLevelParameteriv(target, level, GL.GL_TEXTURE_HEIGHT)
     expected = _image(int(width), int(height), format, type)
     out = expected if array is None else _checked(array, expected, "glGetTexImage")
-    with _tight_rows():
+    with _restored_alignment():
         GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
         raw.glGetTexImage(target, level, format, type, ctypes.c_void_p(out.ctypes.data))
     return out
 
 
-def _with_tight_rows(function: Callable[..., Any], size_at: int) -> Callable[..., Any]:
-    """Return an upload function that reads the image it is given without row padding, unless it has room for that.
+def _without_row_padding(function: Callable[..., Any], size_at: int) -> Callable[..., Any]:
+    """Return an upload function that reads images without row padding if they are too small to have it.
 
-    `size_at` is the place of the width among the arguments; format, type and image are the last ones.
+    `size_at` is the index of the width among the arguments; format, type and image are the last three.
     """
 
     def upload(*arguments: Any) -> Any:
-        with _tight_rows():
+        with _restored_alignment():
             if not _has_padding(*arguments[size_at : size_at + 2], *arguments[-3:]):
                 GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)
             image = arguments[-1]
@@ -239,7 +239,7 @@ def _with_tight_rows(function: Callable[..., Any], size_at: int) -> Callable[...
 
 
 def _has_padding(width: int, height: int, pixel_format: int, pixel_type: int, image: Any) -> bool:
-    """Return whether an image is large enough for rows at the alignment that GL_UNPACK_ALIGNMENT asks for."""
+    """Return whether an image is large enough for rows padded to GL_UNPACK_ALIGNMENT."""
     channels, dtype = CHANNELS.get(pixel_format), DTYPES.get(pixel_type)
     if channels is None or dtype is None or not isinstance(image, np.ndarray):
         return False
@@ -250,7 +250,7 @@ def _has_padding(width: int, height: int, pixel_format: int, pixel_type: int, im
 
 
 def _with_plain_names(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a glGen* function that answers an int for one name, an array for several."""
+    """Return a glGen* function that returns an int for one name, an array for several."""
 
     def generate(n: int) -> Any:
         names = np.atleast_1d(function(n))
@@ -260,7 +260,7 @@ def _with_plain_names(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _with_unknown_names(function: Callable[..., Any], ctype: Any) -> Callable[..., Any]:
-    """Return a glGet* function that lets GL itself refuse a name PyOpenGL has no size for."""
+    """Return a glGet* function that passes names unknown to PyOpenGL on to GL, which rejects them."""
     raw_function = getattr(raw, function.__name__, None) or function
 
     def get(name: int) -> Any:
@@ -275,9 +275,9 @@ def _with_unknown_names(function: Callable[..., Any], ctype: Any) -> Callable[..
 OWN: dict[str, Callable[..., Any]] = {
     "glReadPixels": glReadPixels,
     "glGetTexImage": glGetTexImage,
-    "glTexImage2D": _with_tight_rows(GL.glTexImage2D, size_at=3),
-    "glTexSubImage2D": _with_tight_rows(GL.glTexSubImage2D, size_at=4),
-    "glDrawPixels": _with_tight_rows(GL.glDrawPixels, size_at=0),
+    "glTexImage2D": _without_row_padding(GL.glTexImage2D, size_at=3),
+    "glTexSubImage2D": _without_row_padding(GL.glTexSubImage2D, size_at=4),
+    "glDrawPixels": _without_row_padding(GL.glDrawPixels, size_at=0),
     **{
         name: _with_plain_names(getattr(GL, name))
         for name in ("glGenTextures", "glGenFramebuffers", "glGenRenderbuffers", "glGenBuffers", "glGenQueries")

@@ -1,4 +1,4 @@
-"""What a GL program leaves behind, the same on every implementation of GL."""
+"""The result of a GL program, in the same form for every implementation of GL."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -8,13 +8,13 @@ import numpy as np
 
 @dataclass(frozen=True, eq=False)
 class ProgramResult:
-    """The default framebuffer after a program, first row = bottom row, and what the program returned.
+    """The default framebuffer after a program, first row = bottom row, and the program's return value.
 
     color : (h, w, 4) uint8
     depth : (h, w) uint32        in units of 1/(2^24 - 1)
     stencil : (h, w) uint8
     returned : object
-    errors : ((name of the call, GL error code), ...)   in order; on Mesa only, softshadow raises them
+    errors : ((name of the call, GL error code), ...)   in order; Mesa only, softshadow raises errors
     """
 
     color: np.ndarray
@@ -27,7 +27,7 @@ class ProgramResult:
 def read_result(
     gl: Any, size: tuple[int, int], returned: Any, errors: tuple[tuple[str, int], ...] = ()
 ) -> ProgramResult:
-    """Return the buffers of the current context's default framebuffer of (width, height) pixels."""
+    """Read the default framebuffer of the current context, of (width, height) pixels."""
     width, height = size
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
     color = gl.glReadPixels(0, 0, width, height, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)

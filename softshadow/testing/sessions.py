@@ -1,6 +1,6 @@
-"""A frame program that is kept ready, here or in a Mesa process of its own, so that its frames can be timed in turns.
+"""Sessions: a prepared frame program, here or in its own Mesa process, whose frames can be timed one by one.
 
-Timing happens where the program runs: no message and no read-out is part of it.
+Times are taken in the process that runs the program, so they include no messages and no read-outs.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ TIMEOUT = 600.0  # seconds; softpipe needs minutes where llvmpipe needs seconds
 
 
 class Session(Protocol):
-    """A frame program that has been called; `prepared` is what the call took."""
+    """A frame program that has been called; `prepared` is the time of this call."""
 
     prepared: Timing
 
     def time(self, repeats: int = 1) -> list[Timing]:
-        """Draw frames, and return what each took."""
+        """Draw frames, and return their times."""
         ...
 
     def warm_up(self) -> None:
-        """Draw a frame that is not timed, after which all code is compiled."""
+        """Draw a frame that is not timed, so that all code is compiled afterwards."""
         ...
 
     def buffers(self) -> dict[str, np.ndarray]:
@@ -38,7 +38,7 @@ class Session(Protocol):
         ...
 
     def close(self) -> None:
-        """Let go of everything."""
+        """Release everything."""
         ...
 
 
@@ -49,7 +49,7 @@ class OwnSession:
     ----------
     program : FrameProgram
     size : (width, height) of the window
-    draw_threads : int           how many threads its draws may use
+    draw_threads : int           number of threads for its draws
     """
 
     def __init__(self, program: FrameProgram, size: tuple[int, int], draw_threads: int = 1) -> None:
@@ -59,7 +59,7 @@ class OwnSession:
         self._frame, self.prepared = self._inside(lambda: timed(gl, lambda: program(gl)))
 
     def time(self, repeats: int = 1) -> list[Timing]:
-        """Draw frames, and return what each took; they are recorded, but the recording is not kept."""
+        """Draw frames, and return their times; the recording of each frame is discarded."""
         return [self._inside(lambda: timed(gl, self._frame))[1] for _ in range(repeats)]
 
     def warm_up(self) -> None:
@@ -73,11 +73,11 @@ class OwnSession:
         return result
 
     def close(self) -> None:
-        """Let go of the buffers."""
+        """Release the context and its buffers."""
         del self._context, self._frame
 
     def _inside(self, work: Callable[[], Any]) -> Any:
-        """Call a function with this session's context and number of threads; forget what was recorded."""
+        """Call a function with this session's context and number of threads, then discard the recording."""
         context, threads_before = make_current(self._context), threads()
         set_threads(self._threads)
         try:
@@ -90,18 +90,18 @@ class OwnSession:
 
 
 class MesaSession:
-    """A frame program on Mesa, in a process that is its own.
+    """A frame program on Mesa, in a process of its own.
 
     Parameters
     ----------
     program : FrameProgram       picklable
     size : (width, height) of the window
     driver : "llvmpipe" or "softpipe"
-    draw_threads : int           of llvmpipe; with 1 it draws on the thread that calls it
+    draw_threads : int           number of threads of llvmpipe; with 1 it draws on the calling thread
 
     Raises
     ------
-    MesaError                    Mesa is missing, or the program met a GL error
+    MesaError                    Mesa is missing, or the program caused a GL error
     """
 
     def __init__(
@@ -112,7 +112,7 @@ class MesaSession:
         if not mesa_available():
             raise MesaError(mesa_reason())
         self._size = size
-        # a rasterizer thread beside the calling one, as LP_NUM_THREADS=1 makes, would be two
+        # LP_NUM_THREADS=1 would add a rasterizer thread to the calling thread, which makes two
         self._worker = Worker(driver, rasterizer_threads=0 if draw_threads == 1 else draw_threads)
         try:
             self.prepared: Timing = self._ask("prepare", **program_request(program, size))
@@ -121,7 +121,7 @@ class MesaSession:
             raise
 
     def time(self, repeats: int = 1) -> list[Timing]:
-        """Draw frames, and return what each took."""
+        """Draw frames, and return their times."""
         timings: list[Timing] = self._ask("time", repeats=repeats)
         return timings
 

@@ -1,7 +1,7 @@
-"""What Hypothesis draws of scenes: meshes, lights, cameras and whole scenes, to test a renderer with.
+"""Hypothesis strategies to test a renderer: meshes, lights, cameras and whole scenes.
 
-All numbers lie on a coarse grid. An example that fails can then be read and typed, and edges, corners and planes meet
-often, which is where renderers go wrong.
+All numbers lie on a coarse grid. So a failing example is easy to read and type, and edges, corners and planes coincide
+often, which is where renderers fail.
 
 Examples
 --------
@@ -25,7 +25,7 @@ try:
     from hypothesis.extra.numpy import arrays
 except ModuleNotFoundError as error:
     raise ModuleNotFoundError(
-        "softshadow.testing.strategies: Hypothesis is missing; expected `pip install 'softshadow[properties]'`",
+        "softshadow.testing.strategies needs Hypothesis: pip install 'softshadow[properties]'",
         name=error.name,
     ) from None
 
@@ -61,7 +61,7 @@ def coordinates(low: float, high: float) -> st.SearchStrategy[float]:
 
 @st.composite
 def closed_meshes(draw: st.DrawFn) -> Mesh:
-    """Return a closed polyhedron, its vertices moved about on a grid: it may cross itself and have flat faces."""
+    """Return a closed polyhedron with vertices displaced on a grid; it may intersect itself and have flat faces."""
     solid = SOLIDS[draw(st.sampled_from(sorted(SOLIDS)))]
     topology = solid.topology
     grid = draw(st.sampled_from([1, 4, 1024]))
@@ -72,7 +72,7 @@ def closed_meshes(draw: st.DrawFn) -> Mesh:
 
 @st.composite
 def soups(draw: st.DrawFn) -> Mesh:
-    """Return triangles over few grid points: boundaries, edges of many faces, faces back to back."""
+    """Return random triangles over few grid points: with boundaries, edges of many faces, faces back to back."""
     points = draw(st.lists(st.tuples(*[st.integers(-3, 3)] * 3), min_size=4, max_size=9, unique=True))
     corner = st.integers(0, len(points) - 1)
     triangles = draw(st.lists(st.tuples(corner, corner, corner), min_size=1, max_size=14))
@@ -81,14 +81,14 @@ def soups(draw: st.DrawFn) -> Mesh:
 
 @st.composite
 def sheets(draw: st.DrawFn) -> Mesh:
-    """Return an open, consistently oriented sheet: a grid of up to 4 x 4 cells with heights, and holes in it."""
+    """Return an open, consistently oriented sheet: a height field of up to 4 x 4 cells, with holes."""
     columns, rows = draw(st.integers(1, 4)), draw(st.integers(1, 4))
     x, z = (axis.ravel() for axis in np.meshgrid(np.arange(columns + 1.0), np.arange(rows + 1.0)))
     heights = draw(arrays(np.int8, x.shape, elements=st.integers(-4, 4)))
     low = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
     high = low + columns + 1
-    kept = draw(arrays(np.bool_, low.shape).filter(np.any))
-    triangles = np.stack([low, high, high + 1, low, high + 1, low + 1], axis=1)[kept].reshape(-1, 3)
+    present = draw(arrays(np.bool_, low.shape).filter(np.any))
+    triangles = np.stack([low, high, high + 1, low, high + 1, low + 1], axis=1)[present].reshape(-1, 3)
     return Mesh(np.stack([x - columns / 2, heights / 8, z - rows / 2], axis=1) / 2, triangles, name="sheet")
 
 
@@ -100,7 +100,7 @@ def meshes() -> st.SearchStrategy[Mesh]:
 def _with_area(positions: np.ndarray, triangles: np.ndarray) -> Mesh:
     try:
         return Mesh(positions, triangles)
-    except MeshError:  # nothing but flat faces
+    except MeshError:  # all faces are flat
         reject()
 
 
@@ -108,7 +108,7 @@ def _with_area(positions: np.ndarray, triangles: np.ndarray) -> Mesh:
 
 
 def lights(kind: Literal["point", "directional", "any"] = "any") -> st.SearchStrategy[np.ndarray]:
-    """Return homogeneous lights (4,), often in the plane of a face or at a vertex; w = 0: a direction towards them."""
+    """Return homogeneous light positions (4,), often in a face's plane or at a vertex; w = 0 for a direction."""
     choices = {"point": [1.0], "directional": [0.0], "any": [0.0, 1.0]}
     if kind not in choices:
         raise ValueError(f"kind: expected one of {', '.join(choices)}, got {kind!r}")
@@ -118,7 +118,7 @@ def lights(kind: Literal["point", "directional", "any"] = "any") -> st.SearchStr
 
 @st.composite
 def cameras(draw: st.DrawFn, near: float = 0.5, far: float = 40) -> Camera:
-    """Return a camera above the plane y = 0, which looks to somewhere near the origin."""
+    """Return a camera above the plane y = 0 that looks near the origin."""
     target = draw(st.tuples(coordinates(-1, 1), coordinates(0, 1.5), coordinates(-1, 1)))
     around = np.radians(draw(st.integers(0, 359)))
     away, height = draw(coordinates(2, 8)), draw(coordinates(0.5, 6))
@@ -131,7 +131,7 @@ def cameras(draw: st.DrawFn, near: float = 0.5, far: float = 40) -> Camera:
 
 @st.composite
 def floor_scenes(draw: st.DrawFn, lights: int = 1) -> Scene:
-    """Return a floor with one to three closed solids over it, lit from above; the camera stands aside, in the light."""
+    """Return a floor with one to three closed solids above it, lit from above; the camera is outside all shadows."""
     return Scene(
         "drawn",
         Camera((4, 5, 7), (0, 0.7, 0), near=1, far=40),
@@ -142,11 +142,11 @@ def floor_scenes(draw: st.DrawFn, lights: int = 1) -> Scene:
 
 @st.composite
 def scenes(draw: st.DrawFn, lights: int = 1, casters: st.SearchStrategy[Mesh] | None = None) -> Scene:
-    """Return a floor with one to three casters over it, lit from above, seen from anywhere: also from within a shadow.
+    """Return a floor with one to three casters above it, lit from above; the camera may be inside a shadow.
 
     Parameters
     ----------
-    casters : strategy of Mesh      what may stand there, scaled to an extent of 1; by default `meshes`
+    casters : strategy of Mesh   the casters, which are scaled to an extent of 1; by default `meshes`
     """
     objects = [_floor()]
     for index, mesh in enumerate(draw(st.lists(meshes() if casters is None else casters, min_size=1, max_size=3))):
@@ -159,8 +159,9 @@ def scenes(draw: st.DrawFn, lights: int = 1, casters: st.SearchStrategy[Mesh] | 
 
 @st.composite
 def scenes_from_within(draw: st.DrawFn, lights: int = 1) -> Scene:
-    """Return a `floor_scenes` scene whose camera stands in or beside the shadow of a caster, often with a volume's side
-    through the near rectangle.
+    """Return a `floor_scenes` scene with the camera in or beside a shadow.
+
+    The side of a shadow volume often crosses the near rectangle.
     """
     scene = draw(floor_scenes(lights))
     caster, light = draw(st.sampled_from(scene.casters)), scene.lights[0].position
@@ -192,8 +193,8 @@ def _turn(draw: st.DrawFn) -> tuple[float, float, float, float]:
     return (draw(st.integers(0, 359)), *draw(st.sampled_from([(0, 1, 0), (1, 0, 0), (1, 2, 3)])))
 
 
-def _lights_above(count: int) -> st.SearchStrategy[tuple[Light, ...]]:
+def _lights_above(n_lights: int) -> st.SearchStrategy[tuple[Light, ...]]:
     place = st.tuples(coordinates(-3, 3), coordinates(4, 7), coordinates(-3, 1), st.sampled_from([0.0, 1.0]))
-    return st.tuples(*[place] * count).map(
+    return st.tuples(*[place] * n_lights).map(
         lambda places: tuple(Light(p, np.full(3, 0.4), f"light {index}") for index, p in enumerate(places))
     )

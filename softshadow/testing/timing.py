@@ -1,7 +1,7 @@
-"""How long frames take: the same clocks around the same calls, here and in Mesa's process.
+"""Frame times, measured in the same way on softshadow and in Mesa's process.
 
-A *frame program* is called once with a GL namespace, makes what the frames need, and returns the function that draws
-one frame. It touches nothing but that namespace, so it runs on softshadow and on Mesa unchanged.
+A *frame program* is called once with a GL namespace, prepares what the frames need, and returns a function that draws
+one frame. It uses only this namespace, so it runs unchanged on softshadow and on Mesa.
 """
 
 import time
@@ -10,19 +10,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-Frame = Callable[[], Any]
-FrameProgram = Callable[[Any], Frame]
+DrawFrame = Callable[[], Any]
+FrameProgram = Callable[[Any], DrawFrame]
 
 
 class Timing(NamedTuple):
-    """Seconds by the clock on the wall, and of the process on all its threads."""
+    """Wall time and CPU time (of all threads of the process), in seconds."""
 
     wall: float
     cpu: float
 
 
 def timed(gl: Any, work: Callable[[], Any]) -> tuple[Any, Timing]:
-    """Return what a function returns and how long it took, until everything that it drew is in the buffers."""
+    """Call a function that draws, and return its result and its time, which includes glFinish."""
     wall, cpu = time.perf_counter(), time.process_time()
     result = work()
     gl.glFinish()
@@ -30,13 +30,13 @@ def timed(gl: Any, work: Callable[[], Any]) -> tuple[Any, Timing]:
 
 
 def read_buffers(gl: Any, size: tuple[int, int]) -> dict[str, np.ndarray]:
-    """Return the buffers of the framebuffer that is bound, first row = bottom row.
+    """Return the buffers of the bound framebuffer, first row = bottom row.
 
     Returns
     -------
     dict      "color" (h, w, 4) float32, "depth" (h, w) float32, "stencil" (h, w) uint8
     """
-    # 32 bits from a buffer of 8 are exact, too, so one call serves both kinds of colour
+    # float is exact for 8-bit colours, too, so one call serves both kinds of colour buffer
     color = gl.glReadPixels(0, 0, *size, gl.GL_RGBA, gl.GL_FLOAT)
     depth = gl.glReadPixels(0, 0, *size, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT)
     stencil = gl.glReadPixels(0, 0, *size, gl.GL_STENCIL_INDEX, gl.GL_UNSIGNED_BYTE)

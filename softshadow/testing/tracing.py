@@ -1,4 +1,4 @@
-"""Find the call after which two programs have drawn different pixels."""
+"""Search for the first GL call after which the pixels of two programs differ."""
 
 import hashlib
 import sys
@@ -7,19 +7,19 @@ from dataclasses import dataclass
 from typing import Any
 
 from softshadow.errors import nearest
-from softshadow.testing.comparison import Difference, Program, differences, run_here
+from softshadow.testing.comparison import BufferDifference, GLProgram, differences, run_here
 from softshadow.testing.mesa import run_on_mesa
 from softshadow.testing.result import ProgramResult, read_result
 
 SIDES = ("softshadow", "mesa")
-# every call after which a pixel of the window can be another one
+# prefixes of all calls that can change a pixel of the window
 DRAWING = ("glEnd", "glDraw", "glClear", "glRect", "glCopyPixels", "glBlitFramebuffer", "glAccum", "glCallList")
 NOT_DRAWING = ("glDrawBuffer", "glDrawBuffers", "glClearColor", "glClearDepth", "glClearStencil", "glClearAccum")
 
 
 @dataclass(frozen=True)
 class TracedCall:
-    """A call that changed the window: its number among all GL calls, spelling, line in the program, the new pixels."""
+    """A call that changed the window: its number among all GL calls, text, line in the program, hash of the pixels."""
 
     number: int
     text: str
@@ -32,50 +32,50 @@ class TracedCall:
 
 @dataclass(frozen=True, eq=False)
 class Divergence:
-    """The first calls of two programs after which their pixels differ; None where a program has ended before."""
+    """The first calls of two programs after which their pixels differ; None for a program that has ended before."""
 
     a: TracedCall | None
     b: TracedCall | None
-    differences: tuple[Difference, ...]
+    differences: tuple[BufferDifference, ...]
 
     def __str__(self) -> str:
         lines = [f"{name}: {call or 'draws nothing more'}" for name, call in (("a", self.a), ("b", self.b))]
-        return "\n".join(lines + [str(found) for found in self.differences])
+        return "\n".join(lines + [str(each) for each in self.differences])
 
 
 class TracedProgram:
-    """A program that runs another one and returns its traced calls, or the buffers after one of them.
+    """A program that runs another program and returns its traced calls, or the buffers after one of them.
 
     Parameters
     ----------
     program : callable           the program to run
     size : (width, height) of the window
-    stop_at : int or None        run to the traced call of this index and return the buffers
+    stop_at : int or None        stop after the traced call with this index and return the buffers
     """
 
-    def __init__(self, program: Program, size: tuple[int, int], stop_at: int | None = None) -> None:
-        self.__wrapped__ = program  # where functools.wraps puts it
+    def __init__(self, program: GLProgram, size: tuple[int, int], stop_at: int | None = None) -> None:
+        self.__wrapped__ = program  # the attribute that functools.wraps sets
         self.size = size
         self.stop_at = stop_at
 
     def __call__(self, gl: Any) -> Any:
-        window = TracedNames(gl, self.size, self.stop_at)
+        window = TracedGL(gl, self.size, self.stop_at)
         try:
             self.__wrapped__(window)
-        except Reached as reached:
+        except StopReached as reached:
             return reached.buffers
         return window.calls if self.stop_at is None else window.buffers()
 
 
-class Reached(BaseException):  # a program's own `except Exception` must not hold it up
-    """The traced call that was looked for has been made."""
+class StopReached(BaseException):  # not an Exception, so that a program does not catch it
+    """The traced call to stop at has been made."""
 
     def __init__(self, buffers: ProgramResult) -> None:
         self.buffers = buffers
 
 
-class TracedNames:
-    """A GL namespace that looks at the window after each call that can change it."""
+class TracedGL:
+    """A GL namespace that reads the window after each call that can change it."""
 
     def __init__(self, gl: Any, size: tuple[int, int], stop_at: int | None) -> None:
         self._gl = gl
@@ -96,28 +96,28 @@ class TracedNames:
 
         def call(*arguments: Any) -> Any:
             self._number += 1
-            answer = function(*arguments)
+            result = function(*arguments)
             if draws:
-                self._look(name, arguments)
-            return answer
+                self._record_change(name, arguments)
+            return result
 
         return call
 
-    def _look(self, name: str, arguments: tuple[Any, ...]) -> None:
+    def _record_change(self, name: str, arguments: tuple[Any, ...]) -> None:
         buffers = self.buffers()
         pixels = digest(buffers)
         if pixels == self._digest:
             return
         self._digest = pixels
-        frame = sys._getframe(2)  # of the program, below the traced call
+        frame = sys._getframe(2)  # the program's stack frame, below `call`
         line = f"{frame.f_code.co_name} line {frame.f_lineno}"
-        spelled = ", ".join(f"{argument!r:.40}" for argument in arguments)
-        self.calls.append(TracedCall(self._number, f"{name}({spelled})", line, pixels))
+        texts = ", ".join(f"{argument!r:.40}" for argument in arguments)
+        self.calls.append(TracedCall(self._number, f"{name}({texts})", line, pixels))
         if self._stop_at == len(self.calls) - 1:
-            raise Reached(buffers)
+            raise StopReached(buffers)
 
     def buffers(self) -> ProgramResult:
-        """Return the window's buffers now; the framebuffers bound stay bound."""
+        """Return the current buffers of the window; the bindings of framebuffers do not change."""
         gl = self._gl
         bound = {
             target: gl.glGetIntegerv(binding)
@@ -133,26 +133,26 @@ class TracedNames:
 
 
 def digest(buffers: ProgramResult) -> str:
-    """Return a short name of the buffers' content."""
+    """Return a hash of the contents of the buffers."""
     content = hashlib.blake2b(digest_size=16)
-    for plane in (buffers.color, buffers.depth, buffers.stencil):
-        content.update(plane.tobytes())
+    for buffer in (buffers.color, buffers.depth, buffers.stencil):
+        content.update(buffer.tobytes())
     return content.hexdigest()
 
 
 def diff_programs(
-    a: Program, b: Program, size: tuple[int, int] = (640, 480), on: tuple[str, str] = ("softshadow", "softshadow")
+    a: GLProgram, b: GLProgram, size: tuple[int, int] = (640, 480), on: tuple[str, str] = ("softshadow", "softshadow")
 ) -> Divergence | None:
     """Return the first calls of two programs after which a pixel of their windows differs, or None.
 
-    The calls that change a pixel are compared in order: calls that only set state may differ in number and order.
+    Only calls that change a pixel are compared, in order; calls that only set state may differ in number and order.
 
     Parameters
     ----------
     a, b : callables             ``program(gl)``; they must draw the same each time
     size : (width, height) of the window
     on : where a and b run       "softshadow" or "mesa"; ``diff_programs(p, p, size, on=("softshadow", "mesa"))`` finds
-                                 where the two implementations part
+                                 the first call at which the two implementations differ
     """
     traces = [_run(TracedProgram(program, size), size, side) for program, side in zip((a, b), on, strict=True)]
     longest = max(map(len, traces))

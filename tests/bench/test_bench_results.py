@@ -1,32 +1,32 @@
-"""Reports: medians and spreads, ratios in turns, what JSON keeps, shares of the limit."""
+"""Reports: medians and spreads, ratios of interleaved frames, JSON, shares of the limit."""
 
 import json
 from dataclasses import replace
 
 import pytest
 
-from bench.made_up_reports import report, result
+from bench.sample_reports import report, result
 from softshadow.bench.results import Summary, from_json, ratio_of, to_json
 from softshadow.bench.tables import limit_rows, result_rows, start_rows
 from softshadow.testing.timing import Timing
 
 
 def test_report_comes_back_from_json_as_it_was() -> None:
-    made = report(result(), result("w5"))
-    assert from_json(json.loads(json.dumps(to_json(made)))) == made
+    original = report(result(), result("w5"))
+    assert from_json(json.loads(json.dumps(to_json(original)))) == original
 
 
-@pytest.mark.parametrize("found", [{}, [], {"schema": "softshadow/steps/1"}, None])
-def test_what_is_no_report_is_refused(found: object) -> None:
+@pytest.mark.parametrize("contents", [{}, [], {"schema": "softshadow/steps/1"}, None])
+def test_what_is_no_report_is_refused(contents: object) -> None:
     with pytest.raises(ValueError, match="expected a file of `softshadow bench --json`"):
-        from_json(found)  # type: ignore[arg-type]
+        from_json(contents)  # type: ignore[arg-type]
 
 
 def test_report_that_is_not_whole_is_refused() -> None:
-    found = to_json(report(result()))
-    del found["workloads"][0]["peers"][0]["wall"]
-    with pytest.raises(ValueError, match="not whole: 'wall'"):
-        from_json(found)
+    contents = to_json(report(result()))
+    del contents["workloads"][0]["peers"][0]["wall"]
+    with pytest.raises(ValueError, match=r"incomplete report .*: 'wall'"):
+        from_json(contents)
 
 
 def test_one_slow_frame_moves_neither_median_nor_spread_much() -> None:
@@ -42,9 +42,9 @@ def test_ratio_of_neighbouring_frames_does_not_see_what_slows_both() -> None:
 
 
 def test_share_is_fragments_a_second_over_those_of_the_plainest_loop() -> None:
-    made = report(result(seconds=0.05), speed=1e6)
-    assert made.share(made.workloads[0], 1) == pytest.approx(10_000 / 0.05 / 1e6)
-    assert made.share(made.workloads[0], 7) is None
+    original = report(result(seconds=0.05), speed=1e6)
+    assert original.share(original.workloads[0], 1) == pytest.approx(10_000 / 0.05 / 1e6)
+    assert original.share(original.workloads[0], 7) is None
 
 
 def test_softpipe_may_differ_but_llvmpipe_may_not() -> None:
@@ -56,8 +56,8 @@ def test_softpipe_may_differ_but_llvmpipe_may_not() -> None:
 
 
 def test_tables_have_a_cell_for_every_column() -> None:
-    made = report(result(), result("w5"))
-    for columns, rows in (limit_rows(made), result_rows(made), start_rows(made)):
+    original = report(result(), result("w5"))
+    for columns, rows in (limit_rows(original), result_rows(original), start_rows(original)):
         assert rows
         assert all(len(row) == len(columns) for row in rows)
-    assert "2.00" in result_rows(made)[1][2]
+    assert "2.00" in result_rows(original)[1][2]

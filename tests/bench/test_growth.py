@@ -1,11 +1,11 @@
-"""Series over one amount, and the exponent that is fitted to them."""
+"""Series over one amount, and their fitted exponents."""
 
 import sys
 from pathlib import Path
 
 import pytest
 
-from bench.made_up_reports import report, result
+from bench.sample_reports import report, result
 from softshadow.bench.growth import exponent, growth, series
 from softshadow.bench.plot import figure_class, save_plot
 from softshadow.bench.tables import growth_rows
@@ -44,7 +44,7 @@ def test_growth_has_an_exponent_for_each_peer() -> None:
     grown = growth("w4", "triangles", [1, 2, 4], [result(seconds=s) for s in (0.1, 0.2, 0.4)])
     assert grown.exponents == pytest.approx({"softshadow@1": 1, "softshadow@2": 1, "llvmpipe@1": 1})
     columns, rows = growth_rows(grown)
-    assert columns == ["who", "threads", "1", "2", "4", "exponent"]
+    assert columns == ["renderer", "threads", "1", "2", "4", "exponent"]
     assert rows[0][-1] == "1.00"
 
 

@@ -1,12 +1,12 @@
-"""Whether something became slower, judged on numbers that are made up."""
+"""Comparison of reports: slower, faster or the same, with invented numbers."""
 
-from bench.made_up_reports import report, result
-from softshadow.bench.regression import Change, changes
+from bench.sample_reports import report, result
+from softshadow.bench.regression import TimeChange, time_changes
 from softshadow.bench.results import Report
 
 
 def verdicts(now: Report, then: Report) -> list[str]:
-    return [change.verdict for change in changes(now, then)]
+    return [change.verdict for change in time_changes(now, then)]
 
 
 def test_half_the_speed_is_slower_and_twice_the_speed_is_faster() -> None:
@@ -30,12 +30,12 @@ def test_a_change_within_the_noise_counts_as_the_same() -> None:
 
 def test_only_the_same_size_and_amounts_are_compared() -> None:
     then = report(result("w4"), result("w5"))
-    assert changes(report(result("w4", size=(4, 3))), then) == []
-    assert [each.workload for each in changes(report(result("w5")), then)] == ["w5", "w5"]
-    assert changes(report(result("w3-pcf")), then) == []
+    assert time_changes(report(result("w4", size=(4, 3))), then) == []
+    assert [each.workload for each in time_changes(report(result("w5")), then)] == ["w5", "w5"]
+    assert time_changes(report(result("w3-pcf")), then) == []
 
 
 def test_change_tells_the_factor_it_was_judged_by() -> None:
-    (one, _) = changes(report(result(seconds=0.06)), report(result(seconds=0.05)))
+    (one, _) = time_changes(report(result(seconds=0.06)), report(result(seconds=0.05)))
     assert (one.workload, one.threads, round(one.factor, 6)) == ("w4", 1, 1.2)
-    assert Change("w4", 1, 1.14, 1.15).verdict == "same"
+    assert TimeChange("w4", 1, 1.14, 1.15).verdict == "same"

@@ -1,20 +1,20 @@
-"""The workloads: each draws something, the same in every frame and on Mesa; names, near names, and many at once."""
+"""Workloads: each draws something, the same in every frame and on Mesa; selection by name and pattern."""
 
 import numpy as np
 import pytest
 
 from bench.small_workloads import SIZE, small
 from softshadow import techniques
-from softshadow.bench.counting import count_frame
-from softshadow.bench.peers import Peer, peers
+from softshadow.bench.frame_statistics import frame_statistics
+from softshadow.bench.peers import Peer, peers_for
 from softshadow.bench.technique_frame import KINDS, with_lights
-from softshadow.bench.workloads import REGISTER, chosen, get, names
+from softshadow.bench.workloads import WORKLOADS, get, names, select_workloads
 from softshadow.scene import Scene
 from softshadow.testing.sessions import MesaSession, OwnSession
 
 WITHOUT_PICTURE = "silhouette"
 DRAWN = [
-    *(name for name in REGISTER if name != WITHOUT_PICTURE),
+    *(name for name in WORKLOADS if name != WITHOUT_PICTURE),
     *(f"{technique}/boxes" for technique in techniques.names()),
 ]
 
@@ -53,12 +53,12 @@ def test_results_do_not_depend_on_the_number_of_threads() -> None:
 
 
 def test_stencil_quads_cover_a_fifth_to_a_quarter_of_the_screen() -> None:
-    counted = count_frame(small("w1-zpass-d24").with_amounts(quads=60))
+    counted = frame_statistics(small("w1-zpass-d24").with_amounts(quads=60))
     assert 0.2 < counted.all_fragments / 60 / (SIZE[0] * SIZE[1]) < 0.25
 
 
 def test_amounts_decide_how_much_there_is() -> None:
-    few, many = (count_frame(small("w2-grid").with_amounts(triangles=n)).triangles for n in (200, 800))
+    few, many = (frame_statistics(small("w2-grid").with_amounts(triangles=n)).triangles for n in (200, 800))
     assert (few, many) == (200, 800)
 
 
@@ -72,17 +72,19 @@ def test_an_unknown_workload_names_the_nearest() -> None:
 
 
 def test_beginnings_of_names_ask_for_several_workloads_each_once() -> None:
-    assert [each.name for each in chosen(["w3", "w3-pcf", "w5"])] == ["w3-nearest", "w3-pcf", "w5"]
-    assert [each.name for each in chosen(["all"])] == list(REGISTER)
-    assert [each.name for each in chosen(["map/all"])] == [name for name in names() if name.startswith("map/")]
+    assert [each.name for each in select_workloads(["w3", "w3-pcf", "w5"])] == ["w3-nearest", "w3-pcf", "w5"]
+    assert [each.name for each in select_workloads(["all"])] == list(WORKLOADS)
+    assert [each.name for each in select_workloads(["map/all"])] == [
+        name for name in names() if name.startswith("map/")
+    ]
 
 
 def test_peers_have_the_same_numbers_of_threads_and_softpipe_has_one() -> None:
-    found = peers(["mesa", "softpipe"], [1, 2])
-    assert list(map(str, found)) == ["softshadow@1", "softshadow@2", "llvmpipe@1", "llvmpipe@2", "softpipe@1"]
-    assert peers(["mesa", "llvmpipe"], [1]) == [Peer("softshadow", 1), Peer("llvmpipe", 1)]
+    peers = peers_for(["mesa", "softpipe"], [1, 2])
+    assert list(map(str, peers)) == ["softshadow@1", "softshadow@2", "llvmpipe@1", "llvmpipe@2", "softpipe@1"]
+    assert peers_for(["mesa", "llvmpipe"], [1]) == [Peer("softshadow", 1), Peer("llvmpipe", 1)]
     with pytest.raises(ValueError, match="did you mean 'mesa'"):
-        peers(["masa"], [1])
+        peers_for(["masa"], [1])
 
 
 @pytest.mark.parametrize("kind", KINDS[1:])

@@ -1,4 +1,4 @@
-"""Bad input: one message that names the file, key or argument, exit code 3, and not a file more than before."""
+"""Bad input: one message that names the file, key or argument, exit code 3, and no new files."""
 
 import errno
 import json
@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from cli.asking import ask, refused
+from cli.invocation import error_of, invoke
 from paths import SCENES, shared_files
 
 CRATE = (SCENES / "crate.obj").read_text()
@@ -28,7 +28,7 @@ def gltf(buffer: str) -> str:
 
 @pytest.fixture(autouse=True)
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Work in a folder of a folder, with something secret beside it."""
+    """Work in a subfolder, with a secret file in the folder above."""
     (tmp_path / "secret.bin").write_bytes(bytes(36))
     folder = tmp_path / "here"
     folder.mkdir()
@@ -66,7 +66,7 @@ def test_model_is_refused_in_one_line_that_names_it(name: str, text: str | None,
     if text is not None:
         Path(name).write_text(text)
     before = content(here)
-    message = refused("render", "volume-zfail", "--mesh", name, "--size", "16x12", "-o", "out.png")
+    message = error_of("render", "volume-zfail", "--mesh", name, "--size", "16x12", "-o", "out.png")
     assert message.startswith(f"{name}: ")
     assert said in message
     assert "\n" not in message
@@ -75,7 +75,7 @@ def test_model_is_refused_in_one_line_that_names_it(name: str, text: str | None,
 
 def test_folder_and_unreadable_file_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
     Path("folder.obj").mkdir()
-    assert refused("render", "map", "--mesh", "folder.obj") == "folder.obj: is a folder; expected a model file"
+    assert error_of("render", "map", "--mesh", "folder.obj") == "folder.obj: is a folder; expected a model file"
     Path("crate.obj").write_text(CRATE)
     Path("lesson.toml").write_text("")
 
@@ -83,19 +83,19 @@ def test_folder_and_unreadable_file_are_named(monkeypatch: pytest.MonkeyPatch) -
         raise PermissionError(errno.EACCES, "Permission denied")
 
     monkeypatch.setattr(Path, "read_bytes", refuse)  # root, who may run the tests, can read every file
-    assert "crate.obj: cannot be read (Permission denied)" in refused("render", "map", "--mesh", "crate.obj")
-    assert "lesson.toml: cannot be read (Permission denied)" in refused("render", "map", "--scene", "lesson.toml")
+    assert "crate.obj: cannot be read (Permission denied)" in error_of("render", "map", "--mesh", "crate.obj")
+    assert "lesson.toml: cannot be read (Permission denied)" in error_of("render", "map", "--scene", "lesson.toml")
 
 
 @pytest.mark.parametrize("file", shared_files("bad"), ids=lambda file: file.name)
 def test_real_bad_model_is_refused_in_one_line_or_drawn_with_a_named_warning(file: Path, here: Path) -> None:
-    answer = ask("render", "volume-zfail", "--mesh", file, "--size", "24x18", "-o", "out.png")
+    answer = invoke("render", "volume-zfail", "--mesh", file, "--size", "24x18", "-o", "out.png")
     if answer.exit_code == 0:
         assert answer.stdout == "out.png\n"
         assert "warning: " in answer.stderr
         assert file.name in answer.stderr
     else:
-        message = refused("render", "volume-zfail", "--mesh", file, "--size", "24x18", "-o", "out.png")
+        message = error_of("render", "volume-zfail", "--mesh", file, "--size", "24x18", "-o", "out.png")
         assert message.startswith(f"{file}: ")
         assert "\n" not in message
         assert content(here) == {}
@@ -132,7 +132,7 @@ def test_real_bad_model_is_refused_in_one_line_or_drawn_with_a_named_warning(fil
     ],
 )
 def test_value_is_refused_with_what_was_expected(words: list[str], said: str, here: Path) -> None:
-    message = refused(*words)
+    message = error_of(*words)
     assert said in message
     assert "\n" not in message
     assert content(here) == {}
@@ -142,8 +142,8 @@ def test_size_that_does_not_fit_in_memory_is_refused_before_anything_is_drawn(mo
     monkeypatch.setattr("softshadow.runs.perform.memory", lambda: 1e6)
     monkeypatch.setattr("softshadow.runs.perform._draw", None)
     for command in ("render", "steps"):
-        assert "expected a smaller picture" in refused(command, "map", "--size", "640x480")
-    assert "expected a smaller picture" in refused("tour", "--size", "640x480")
+        assert "expected a smaller picture" in error_of(command, "map", "--size", "640x480")
+    assert "expected a smaller picture" in error_of("tour", "--size", "640x480")
 
 
 SCENE = """
@@ -160,7 +160,7 @@ move = [0, 1, 0]
 
 def test_camera_at_its_target_is_named() -> None:
     Path("lesson.toml").write_text(SCENE.replace("eye = [0, 2, 6]", "eye = [0, 0, 0]"))
-    message = refused("render", "map", "--scene", "lesson.toml")
+    message = error_of("render", "map", "--scene", "lesson.toml")
     assert message.startswith("lesson.toml")
     assert "camera" in message
     assert "target" in message
@@ -170,7 +170,7 @@ def test_all_mistakes_of_a_scene_file_are_named(here: Path) -> None:
     wrong = SCENE.replace("eye = [0, 2, 6]", 'eye = "here"').replace("torus", "tours").replace("position", "postion")
     Path("lesson.toml").write_text(wrong + 'mesh = "../secret.obj"\n')
     before = content(here)
-    message = refused("tour", "--scene", "lesson.toml")
+    message = error_of("tour", "--scene", "lesson.toml")
     for named in ("lesson.toml", "camera.eye", "light[0].postion", "did you mean 'position'?", "object[0]"):
         assert named in message
     assert content(here) == before
@@ -180,25 +180,25 @@ def test_all_mistakes_of_a_scene_file_are_named(here: Path) -> None:
 def test_foreign_file_is_overwritten_by_force_only(output: str) -> None:
     asked = ("render", "planar", "--size", "16x12", "-o", output)
     Path(output).write_text("my homework")
-    message = refused(*asked)
+    message = error_of(*asked)
     assert message == f"{output}: exists and was not written by softshadow; --force overwrites it"
     assert Path(output).read_text() == "my homework"
-    assert ask(*asked, "--force").exit_code == 0
-    assert ask(*asked).exit_code == 0  # now it is ours
+    assert invoke(*asked, "--force").exit_code == 0
+    assert invoke(*asked).exit_code == 0  # now it is ours
 
 
 def test_foreign_file_in_a_folder_keeps_the_folder_as_it_was(here: Path) -> None:
     Path("all").mkdir()
     Path("all/steps.png").write_text("my homework")
     before = content(here)
-    assert "--force" in refused("render", "planar", "--size", "16x12", "-o", "all/")
-    assert "--force" in refused("steps", "planar", "--size", "16x12", "-o", "all")
+    assert "--force" in error_of("render", "planar", "--size", "16x12", "-o", "all/")
+    assert "--force" in error_of("steps", "planar", "--size", "16x12", "-o", "all")
     assert content(here) == before
 
 
 def test_full_disk_leaves_what_was_there(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     asked = ("render", "planar", "--size", "16x12", "-o", "a.png")
-    assert ask(*asked).exit_code == 0
+    assert invoke(*asked).exit_code == 0
     before = content(here)
 
     def fill(picture: object, path: Path) -> None:
@@ -206,7 +206,7 @@ def test_full_disk_leaves_what_was_there(here: Path, monkeypatch: pytest.MonkeyP
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr("softshadow.runs.saving.save_png", fill)
-    assert refused(*asked) == "a.png: cannot be written (No space left on device)"
+    assert error_of(*asked) == "a.png: cannot be written (No space left on device)"
     assert content(here) == before
 
 
@@ -215,7 +215,7 @@ def test_interrupted_command_is_exit_code_130(monkeypatch: pytest.MonkeyPatch, h
         raise KeyboardInterrupt
 
     monkeypatch.setattr("softshadow.runs.run", interrupt)
-    answer = ask("render", "planar", "--size", "16x12")
+    answer = invoke("render", "planar", "--size", "16x12")
     assert answer.exit_code == 130
     assert "interrupted" in answer.stderr
     assert content(here) == {}
@@ -223,4 +223,4 @@ def test_interrupted_command_is_exit_code_130(monkeypatch: pytest.MonkeyPatch, h
 
 def test_traceback_is_shown_to_who_asks_for_it() -> None:
     with pytest.raises(ValueError, match="unknown technique 'nope'"):
-        ask("--traceback", "render", "nope")
+        invoke("--traceback", "render", "nope")

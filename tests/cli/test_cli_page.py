@@ -1,4 +1,4 @@
-"""docs/cli.md: what it shows runs, what it prints is printed. README.md: its picture is made as it says."""
+"""docs/cli.md: its commands run, and its outputs are true. README.md: its command draws its picture."""
 
 import re
 import shlex
@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from cli.asking import as_json, done
+from cli.invocation import invoke_ok, json_of
 from paths import ROOT, SCENES
 from softshadow.cli import main
 
@@ -45,7 +45,7 @@ def test_line_of_the_page_runs(line: str) -> None:
     assert program == "softshadow"
     # later sizes win; the pixels are those of the full size
     sized = command in ("tour", "render", "steps") or (command == "bench" and arguments)
-    done(command, *arguments, *(["--size", "48x36"] if sized else []))
+    invoke_ok(command, *arguments, *(["--size", "48x36"] if sized else []))
 
 
 def test_every_command_is_on_the_page() -> None:
@@ -54,8 +54,8 @@ def test_every_command_is_on_the_page() -> None:
 
 def test_printed_tables_and_sentences_are_what_is_printed() -> None:
     steps, sentence = PRINTED
-    assert done("steps", "volume-zfail").stdout == steps
-    assert done("pixel", "volume-zfail", 160, 170).stdout.endswith(sentence)
+    assert invoke_ok("steps", "volume-zfail").stdout == steps
+    assert invoke_ok("pixel", "volume-zfail", 160, 170).stdout.endswith(sentence)
 
 
 @pytest.mark.parametrize("command", ASKED)
@@ -63,7 +63,7 @@ def test_keys_of_the_json_are_those_of_the_page(command: str) -> None:
     row = re.search(rf"\| `softshadow/{command}/1` \| (.*) \|", PAGE)[1]
     keys, _, keys_of_rows = row.partition(": ")
     size = ["--size", "16x12"] if command in ("tour", "render", "steps", "pixel") else []
-    answer = as_json(command, *ASKED[command], *size)
+    answer = json_of(command, *ASKED[command], *size)
     shared = SHARED if command in ("render", "steps", "pixel") else {"schema"}
     assert set(answer) == shared | set(re.findall(r"`(.*?)`", keys))
     if keys_of_rows:
@@ -75,6 +75,6 @@ def test_picture_of_the_readme_is_made_by_the_command_beside_it() -> None:
     text = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
     command, name = re.search(r"Made by `softshadow (.*?)`, which writes it as `(.*?)`", text).groups()
     picture = re.search(r"!\[.*?\]\((docs/images/.*?)\)", text)[1]
-    done(*shlex.split(command))
-    with Image.open(name) as made, Image.open(ROOT / picture) as shown:
-        np.testing.assert_array_equal(np.asarray(made.convert("RGB")), np.asarray(shown.convert("RGB")))
+    invoke_ok(*shlex.split(command))
+    with Image.open(name) as drawn, Image.open(ROOT / picture) as shown:
+        np.testing.assert_array_equal(np.asarray(drawn.convert("RGB")), np.asarray(shown.convert("RGB")))

@@ -1,4 +1,4 @@
-"""Help: quick to come, and its examples run."""
+"""Help: it is fast, and its examples run."""
 
 import os
 import shlex
@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from cli.asking import ask, done
+from cli.invocation import invoke, invoke_ok
 from paths import SCENES
 from softshadow import __version__
 from softshadow.cli import main
@@ -26,7 +26,7 @@ HEAVY = ("numpy", "numba", "trimesh", "PIL", "pydantic", "jinja2", "rich")
 def examples(command: str) -> list[str]:
     """Return the command lines in the epilog of a command."""
     epilog = (main.commands[command] if command else main).epilog or ""
-    return [line.strip() for line in epilog.removeprefix("Examples:").split("|")]
+    return [line.strip() for line in epilog.partition("Examples:")[2].strip().splitlines()]
 
 
 def test_every_command_shows_two_examples() -> None:
@@ -46,15 +46,15 @@ def test_example_of_help_runs(line: str, tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.chdir(tmp_path)
     shutil.copy(SCENES / "crate.obj", "bunny.obj")
     _, command, *arguments = shlex.split(line)
-    done(command, *arguments, *SMALL.get(command, []))
+    invoke_ok(command, *arguments, *SMALL.get(command, []))
 
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_help_tells_what_the_command_does_and_its_options(command: str) -> None:
-    text = done(command, "--help").stdout
+    text = invoke_ok(command, "--help").stdout
     assert f"Usage: softshadow {command}" in text
     assert "--json" in text
-    assert text == done(command, "-h").stdout
+    assert text == invoke_ok(command, "-h").stdout
 
 
 def test_help_of_every_command_imports_nothing_slow() -> None:
@@ -73,7 +73,7 @@ print("imported:", sorted(set({HEAVY!r}) & set(sys.modules)))
 
 
 def test_version_is_told_and_nothing_else() -> None:
-    assert done("--version").stdout == f"softshadow, version {__version__}\n"
+    assert invoke_ok("--version").stdout == f"softshadow, version {__version__}\n"
 
 
 def test_module_is_the_program() -> None:
@@ -91,14 +91,14 @@ def test_module_is_the_program() -> None:
         (["render", "map", "--size", "axb"], "expected WIDTHxHEIGHT in pixels, as in 640x480"),
         (["render", "map", "--light", "1,2"], "expected X,Y,Z (a point)"),
         (["render", "map", "--light", "up"], "expected X,Y,Z (a point)"),
-        (["render", "map", "--scene", "boxes", "--mesh", "a.obj"], "--scene and --mesh: expected one of them"),
-        (["render", "map", "--scene", "duck.glb"], "is the name of a model file; expected --mesh duck.glb"),
+        (["render", "map", "--scene", "boxes", "--mesh", "a.obj"], "--scene and --mesh: expected only one of them"),
+        (["render", "map", "--scene", "duck.glb"], "this is a model file; expected --mesh duck.glb"),
         (["render", "map", "-O", "bias"], "--option 'bias': expected KEY=VALUE"),
         (["pixel", "map", "left", "3"], "'left' is not a valid integer"),
     ],
 )
 def test_wrong_usage_is_exit_code_2_and_says_what_was_expected(words: list[str], said: str) -> None:
-    answer = ask(*words)
+    answer = invoke(*words)
     assert answer.exit_code == 2
     assert said in answer.stderr
     assert answer.stdout == ""

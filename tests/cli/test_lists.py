@@ -1,15 +1,15 @@
-"""What techniques, scenes, versions and compiled kernels there are."""
+"""``softshadow techniques``, ``scenes``, ``doctor`` and ``warmup``."""
 
 import pytest
 
-from cli.asking import as_json, done
+from cli.invocation import invoke_ok, json_of
 from softshadow import techniques
 from softshadow.cli import machine
 from softshadow.scene import scene_names
 
 
 def test_techniques_are_listed_with_title_and_paper() -> None:
-    lines = done("techniques").stdout.splitlines()
+    lines = invoke_ok("techniques").stdout.splitlines()
     for name in techniques.names():
         line = next(line for line in lines if line.startswith(f"{name} "))
         assert techniques.get(name).title in line
@@ -17,21 +17,21 @@ def test_techniques_are_listed_with_title_and_paper() -> None:
 
 
 def test_json_of_techniques_has_the_options() -> None:
-    rows = as_json("techniques")["techniques"]
+    rows = json_of("techniques")["techniques"]
     assert [row["name"] for row in rows] == techniques.names()
     for row in rows:
         assert list(row["options"]) == list(techniques.get(row["name"]).options)
-    assert [row["name"] for row in as_json("techniques", "map")["techniques"]] == ["map"]
+    assert [row["name"] for row in json_of("techniques", "map")["techniques"]] == ["map"]
 
 
 @pytest.mark.parametrize("name", techniques.names())
 def test_one_technique_is_described_with_its_options(name: str) -> None:
-    assert done("techniques", name).stdout == techniques.describe(name) + "\n"
+    assert invoke_ok("techniques", name).stdout == techniques.describe(name) + "\n"
 
 
 def test_scenes_are_listed_with_titles_and_counts() -> None:
-    text = done("scenes").stdout
-    rows = as_json("scenes")["scenes"]
+    text = invoke_ok("scenes").stdout
+    rows = json_of("scenes")["scenes"]
     assert [row["name"] for row in rows] == list(scene_names())
     for row in rows:
         assert row["title"] in text
@@ -39,23 +39,23 @@ def test_scenes_are_listed_with_titles_and_counts() -> None:
 
 
 def test_doctor_tells_versions_threads_and_extras() -> None:
-    found = as_json("doctor")
-    assert {"softshadow", "python", "threads", "cache_folder", "mesa"} <= set(found)
-    assert "missing" not in found["packages"].values()
-    assert set(found["extras"]) == set(machine.EXTRAS)
-    text = done("doctor").stdout
-    for name, version in found["packages"].items():
+    facts = json_of("doctor")
+    assert {"softshadow", "python", "threads", "cache_folder", "mesa"} <= set(facts)
+    assert "missing" not in facts["packages"].values()
+    assert set(facts["extras"]) == set(machine.EXTRAS)
+    text = invoke_ok("doctor").stdout
+    for name, version in facts["packages"].items():
         assert any(line.split() == [name, version] for line in text.splitlines())
 
 
 def test_warmup_draws_every_choice_of_every_technique_with_both_bindings(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn = []
     monkeypatch.setattr("softshadow.runs.run", lambda name, *where, **options: drawn.append((name, *options.items())))
-    answer = as_json("warmup")
+    answer = json_of("warmup")
     assert answer["seconds"] >= 0
     assert {name for name, *_ in drawn} == set(techniques.names())
     for name in techniques.names():
         for key, option in techniques.get(name).options.items():
             others = [choice for choice in option.choices or () if choice != option.default]
             assert all(drawn.count((name, (key, choice))) == 2 for choice in others)
-    assert "ready in" in done("warmup").stdout
+    assert "ready in" in invoke_ok("warmup").stdout

@@ -1,4 +1,4 @@
-"""One technique on one scene: pictures, reports, tables and the history of a pixel."""
+"""``softshadow render``, ``steps`` and ``pixel``: images, reports, tables and the history of a pixel."""
 
 from pathlib import Path
 
@@ -7,9 +7,9 @@ import pytest
 from PIL import Image
 
 import softshadow as ss
-from cli.asking import as_json, done
+from cli.invocation import invoke_ok, json_of
 from paths import SCENES, shared_file
-from softshadow.cli.arguments import spelled
+from softshadow.cli.arguments import scene_arguments_text
 
 SIZE = (48, 36)
 SMALL = ("--size", "48x36")
@@ -27,14 +27,14 @@ def zfail() -> ss.Run:
 
 
 def test_picture_is_named_by_the_technique_and_its_path_is_printed(zfail: ss.Run) -> None:
-    assert done("render", "volume-zfail", *SMALL).stdout == "volume-zfail.png\n"
+    assert invoke_ok("render", "volume-zfail", *SMALL).stdout == "volume-zfail.png\n"
     with Image.open("volume-zfail.png") as picture:
         np.testing.assert_array_equal(np.asarray(picture), zfail.image)
 
 
 def test_ending_chooses_the_form(zfail: ss.Run, here: Path) -> None:
     for output in ("a.html", "a.npz", "a.png", "all/"):
-        done("render", "volume-zfail", *SMALL, "-o", output)
+        invoke_ok("render", "volume-zfail", *SMALL, "-o", output)
     assert (here / "a.html").read_text(encoding="utf-8").lstrip().startswith("<!doctype html>")
     np.testing.assert_array_equal(ss.load_run("a.npz").stencil, zfail.stencil)
     assert {"image.png", "steps.png", "visibility.png", "state.txt", "run.npz"} <= {
@@ -43,7 +43,7 @@ def test_ending_chooses_the_form(zfail: ss.Run, here: Path) -> None:
 
 
 def test_indices_of_the_stencil_pictures_are_the_counts(zfail: ss.Run) -> None:
-    done("render", "volume-zfail", *SMALL, "-o", "all/")
+    invoke_ok("render", "volume-zfail", *SMALL, "-o", "all/")
     pictures = sorted(Path("all").glob("*-stencil.png"))
     assert len(pictures) == len(zfail.steps)
     for path, step in zip(pictures, zfail.steps, strict=True):
@@ -54,7 +54,7 @@ def test_indices_of_the_stencil_pictures_are_the_counts(zfail: ss.Run) -> None:
 
 
 def test_json_of_render_tells_what_was_drawn_and_written(zfail: ss.Run) -> None:
-    answer = as_json("render", "volume-zfail", *SMALL, "-O", "two-sided=yes", "-o", "b.png")
+    answer = json_of("render", "volume-zfail", *SMALL, "-O", "two-sided=yes", "-o", "b.png")
     assert answer["written"] == "b.png"
     assert answer["size"] == list(SIZE)
     assert answer["scene"] == "torus"
@@ -63,55 +63,55 @@ def test_json_of_render_tells_what_was_drawn_and_written(zfail: ss.Run) -> None:
 
 
 def test_options_arrive_as_their_kinds() -> None:
-    given = ("-O", "map_size=64", "-O", "factor=2", "-O", "cull=front")
-    options = as_json("render", "map", *SMALL, *given, "-o", "map.npz")["options"]
+    arguments = ("-O", "map_size=64", "-O", "factor=2", "-O", "cull=front")
+    options = json_of("render", "map", *SMALL, *arguments, "-o", "map.npz")["options"]
     assert options == {**ss.load_run("map.npz").options}
     assert (options["map_size"], options["factor"], options["cull"]) == (64, 2.0, "front")
 
 
 def test_scene_may_be_named_a_file_or_a_model() -> None:
-    assert as_json("render", "map", *SMALL, "--scene", "boxes")["scene"] == "boxes"
-    assert as_json("render", "map", *SMALL, "--scene", SCENES / "lesson.toml")["scene"] == "lesson"
-    assert as_json("render", "map", *SMALL, "--mesh", SCENES / "crate.obj")["scene"] == "crate"
+    assert json_of("render", "map", *SMALL, "--scene", "boxes")["scene"] == "boxes"
+    assert json_of("render", "map", *SMALL, "--scene", SCENES / "lesson.toml")["scene"] == "lesson"
+    assert json_of("render", "map", *SMALL, "--mesh", SCENES / "crate.obj")["scene"] == "crate"
 
 
 def test_light_replaces_the_lights_of_a_scene() -> None:
-    done("render", "volume-zfail", *SMALL, "--light=-2,5,1,0", "-o", "a.npz")
+    invoke_ok("render", "volume-zfail", *SMALL, "--light=-2,5,1,0", "-o", "a.npz")
     assert ss.load_run("a.npz").scene.lights[0].position.tolist() == [-2, 5, 1, 0]
-    done("render", "volume-zfail", *SMALL, "--mesh", SCENES / "crate.obj", "--light", "0,9,0.5", "-o", "a.npz")
+    invoke_ok("render", "volume-zfail", *SMALL, "--mesh", SCENES / "crate.obj", "--light", "0,9,0.5", "-o", "a.npz")
     assert ss.load_run("a.npz").scene.lights[0].position.tolist() == [0, 9, 0.5, 1]
 
 
 def test_arguments_are_spelled_as_the_shell_takes_them() -> None:
-    assert spelled(None, None, None, (4, 3)) == "--scene torus --size 4x3"
-    assert spelled("boxes", None, (-1.0, 2.5, 3.0), (4, 3)) == "--scene boxes --light=-1,2.5,3 --size 4x3"
-    assert spelled(None, "my duck.glb", None, (4, 3)) == "--mesh 'my duck.glb' --size 4x3"
+    assert scene_arguments_text(None, None, None, (4, 3)) == "--scene torus --size 4x3"
+    assert scene_arguments_text("boxes", None, (-1.0, 2.5, 3.0), (4, 3)) == "--scene boxes --light=-1,2.5,3 --size 4x3"
+    assert scene_arguments_text(None, "my duck.glb", None, (4, 3)) == "--mesh 'my duck.glb' --size 4x3"
 
 
 def test_steps_are_counted_as_in_the_ledger(zfail: ss.Run) -> None:
-    rows = as_json("steps", "volume-zfail", *SMALL)["steps"]
+    rows = json_of("steps", "volume-zfail", *SMALL)["steps"]
     assert [row["title"] for row in rows] == zfail.steps.titles
     for row, counts, step in zip(rows, zfail.ledger.steps, zfail.steps, strict=True):
         assert (row["draws"], row["triangles"]) == (counts.draws, counts.triangles)
         assert row["fragments"] == counts.fragments
         assert sum(row["stencil_counts"].values()) == step.stencil.size
         assert row["stencil_counts"].get("1", 0) == np.count_nonzero(step.stencil == 1)
-    lines = done("steps", "volume-zfail", *SMALL).stdout.splitlines()
+    lines = invoke_ok("steps", "volume-zfail", *SMALL).stdout.splitlines()
     for step in zfail.steps:
         assert any(step.title in line for line in lines)
 
 
 def test_steps_are_written_when_a_folder_is_named(here: Path) -> None:
-    answer = done("steps", "volume-zpass", *SMALL, "-o", "pass")
+    answer = invoke_ok("steps", "volume-zpass", *SMALL, "-o", "pass")
     assert "written: pass" in answer.stderr
     np.testing.assert_array_equal(ss.load_run("pass/run.npz").stencil, ss.run("volume-zpass", "torus", SIZE).stencil)
 
 
 def test_pixel_is_told_as_by_the_run(zfail: ss.Run) -> None:
     y, x = np.argwhere(zfail.shadow_mask)[0]
-    text = done("pixel", "volume-zfail", x, y, *SMALL).stdout
+    text = invoke_ok("pixel", "volume-zfail", x, y, *SMALL).stdout
     assert text == f"{zfail.pixel(x, y)}\n{zfail.explain(x, y)}\n"
-    answer = as_json("pixel", "volume-zfail", x, y, *SMALL)
+    answer = json_of("pixel", "volume-zfail", x, y, *SMALL)
     assert (answer["x"], answer["y"], answer["gl_y"]) == (x, y, SIZE[1] - 1 - y)
     assert answer["explanation"] == zfail.explain(x, y)
     assert answer["fragments"][-1]["stencil_after"] == zfail.stencil[y, x]
@@ -120,7 +120,7 @@ def test_pixel_is_told_as_by_the_run(zfail: ss.Run) -> None:
 @pytest.mark.parametrize("model", ["stanford-bunny.obj", "Duck.glb"])
 @pytest.mark.parametrize("technique", ["volume-zfail", "map"])
 def test_real_model_is_drawn_with_a_shadow(model: str, technique: str) -> None:
-    answer = as_json("render", technique, "--mesh", shared_file(f"meshes/{model}"), "--size", "96x72", "-o", "a.png")
+    answer = json_of("render", technique, "--mesh", shared_file(f"meshes/{model}"), "--size", "96x72", "-o", "a.png")
     # a model of size 2 under a light from (2, 5, 3): its shadow and its dark side are a part of the picture, no more
     assert 0.01 < answer["shadowed_share"] < 0.5
     assert [warning["name"] for warning in answer["warnings"]] == (["OpenMesh"] if "bunny" in model else [])

@@ -1,4 +1,4 @@
-"""The tour from the command line: progress on stderr, the page's path on stdout, all of it or nothing."""
+"""``softshadow tour``: progress on stderr, the page's path on stdout, and no partial output."""
 
 import os
 import signal
@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import softshadow as ss
-from cli.asking import as_json, ask, done, refused
+from cli.invocation import error_of, invoke, invoke_ok, json_of
 from paths import SCENES, shared_file
 from softshadow.tour.stops import STOPS
 
@@ -26,21 +26,21 @@ def names(folder: Path) -> set[str]:
 
 
 def test_page_is_named_on_stdout_and_the_stops_on_stderr(here: Path) -> None:
-    answer = done("tour", *SMALL)
+    answer = invoke_ok("tour", *SMALL)
     assert answer.stdout == "softshadow-tour/index.html\n"
     assert [stop.title for stop in STOPS if stop.title not in answer.stderr.splitlines()] == []
     assert {path.name for path in here.iterdir()} == {"softshadow-tour"}
 
 
 def test_question_that_the_tour_suggests_is_answered() -> None:
-    answer = done("tour", *SMALL, "--scene", "boxes", "--light=-2,5,1")
+    answer = invoke_ok("tour", *SMALL, "--scene", "boxes", "--light=-2,5,1")
     suggested = answer.stderr.rsplit("softshadow ", 1)[1].split()
     assert suggested[-5:] == ["--scene", "boxes", "--light=-2,5,1", *SMALL]
-    done(*suggested)
+    invoke_ok(*suggested)
 
 
 def test_json_tells_where_the_page_is() -> None:
-    answer = as_json("tour", *SMALL, "-o", "t", "--scene", SCENES / "lesson.toml")
+    answer = json_of("tour", *SMALL, "-o", "t", "--scene", SCENES / "lesson.toml")
     assert (answer["index"], answer["scene"], answer["size"]) == ("t/index.html", "lesson", [24, 18])
     # the sun is a light at infinity, which has no inside: one stop is left out, and the page says so
     assert answer["runs"] == len(STOPS) - 1
@@ -50,9 +50,9 @@ def test_json_tells_where_the_page_is() -> None:
 def test_folder_of_somebody_else_needs_force_and_keeps_its_files() -> None:
     Path("thesis").mkdir()
     Path("thesis/text.tex").write_text("my homework")
-    assert refused("tour", *SMALL, "-o", "thesis").startswith("thesis: holds files that are not of a tour; --force")
+    assert error_of("tour", *SMALL, "-o", "thesis").startswith("thesis: holds files that are not of a tour; --force")
     assert names(Path("thesis")) == {"text.tex"}
-    done("tour", *SMALL, "-o", "thesis", "--force")
+    invoke_ok("tour", *SMALL, "-o", "thesis", "--force")
     assert Path("thesis/text.tex").read_text() == "my homework"
     assert Path("thesis/index.html").is_file()
 
@@ -63,7 +63,7 @@ def test_tour_that_ends_early_leaves_what_was_there(
     error: type[BaseException] | BaseException, earlier: bool, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if earlier:
-        done("tour", *SMALL)
+        invoke_ok("tour", *SMALL)
     before = names(here)
     stops = iter(STOPS[:3])
 
@@ -73,7 +73,7 @@ def test_tour_that_ends_early_leaves_what_was_there(
         return ss.run("planar", "boxes", (24, 18))
 
     monkeypatch.setattr("softshadow.tour.writing.run", stop_early)
-    assert ask("tour", *SMALL).exit_code == (130 if error is KeyboardInterrupt else 3)
+    assert invoke("tour", *SMALL).exit_code == (130 if error is KeyboardInterrupt else 3)
     assert names(here) == before
 
 
@@ -83,7 +83,7 @@ def test_tour_that_ends_early_leaves_what_was_there(
 )
 def test_tour_of_a_real_model_has_every_stop_that_is_for_it(model: str) -> None:
     file = shared_file(f"meshes/{model}")
-    answer = done("tour", *SMALL, "--mesh", file, "-o", "t")
+    answer = invoke_ok("tour", *SMALL, "--mesh", file, "-o", "t")
     assert ("warning: OpenMesh: " in answer.stderr) == ("bunny" in model)
     page = Path("t/index.html").read_text(encoding="utf-8")
     assert f"--mesh {file}" in page
@@ -104,6 +104,6 @@ def test_tour_that_is_ended_leaves_nothing_behind(here: Path, monkeypatch: pytes
 
     monkeypatch.setattr("softshadow.tour.writing.run", end)
     before = signal.getsignal(signal.SIGTERM)
-    assert ask("tour", *SMALL).exit_code == 143
+    assert invoke("tour", *SMALL).exit_code == 143
     assert list(here.iterdir()) == []
     assert signal.getsignal(signal.SIGTERM) is before

@@ -1,4 +1,4 @@
-"""The built-in programs: what they say by example, and their GLSL twins on Mesa, bit for bit."""
+"""The built-in programs: examples, and comparison with their GLSL on Mesa, bit for bit."""
 
 from dataclasses import replace
 from typing import Any
@@ -19,7 +19,7 @@ D24 = np.float32(2**24 - 1)
 
 
 def points(seed: int) -> VertexInputs:
-    """One vertex per pixel, under the identity."""
+    """Return one vertex for each pixel, with identity matrices."""
     rng = np.random.default_rng(seed)
     position = np.ones((POINTS, 4), np.float32)
     position[:, :2], position[:, 2] = pixel_centers(), rng.uniform(-1, 1, POINTS)
@@ -27,20 +27,20 @@ def points(seed: int) -> VertexInputs:
     return VertexInputs(position, rng.random((POINTS, 4), np.float32), normal, (), IDENTITY, IDENTITY, (), {})
 
 
-def shaded(name: str, given: VertexInputs, uniforms: dict[str, Any]) -> np.ndarray:
+def shaded(name: str, vertices: VertexInputs, uniforms: dict[str, Any]) -> np.ndarray:
     program = programs.get(name)
     uniforms = {**program.uniforms, **uniforms}
-    out = np.empty((4, len(given.position)), np.float32).T  # by column, as the pipeline hands them over
-    inputs = replace(given, uniforms=uniforms)
+    out = np.empty((4, len(vertices.position)), np.float32).T  # stored column by column, as in the pipeline
+    inputs = replace(vertices, uniforms=uniforms)
     program.shade(np.asfortranarray(program.vertex(inputs).values), uniforms, out)
     return out
 
 
-def shaded_on_mesa(name: str, given: VertexInputs, uniforms: dict[str, Any], setup: Any) -> np.ndarray:
+def shaded_on_mesa(name: str, vertices: VertexInputs, uniforms: dict[str, Any], setup: Any) -> np.ndarray:
     def use_program(on: Any) -> None:
         setup(on)
-        load(on, on.GL_MODELVIEW, given.modelview)
-        load(on, on.GL_PROJECTION, given.projection)
+        load(on, on.GL_MODELVIEW, vertices.modelview)
+        load(on, on.GL_PROJECTION, vertices.projection)
         program = on.program(name)
         on.glUseProgram(program)
         for uniform, value in uniforms.items():
@@ -52,7 +52,7 @@ def shaded_on_mesa(name: str, given: VertexInputs, uniforms: dict[str, Any], set
             elif isinstance(value, float):
                 on.glUniform1f(location, value)
 
-    arrays = {"vertex": given.position, "color": given.color, "normal": given.normal}
+    arrays = {"vertex": vertices.position, "color": vertices.color, "normal": vertices.normal}
     return fragments_on_mesa(use_program, arrays)
 
 
@@ -64,7 +64,7 @@ def depth_map(cells: np.ndarray, filter_name: int = gl.GL_NEAREST) -> Texture:
 
 
 def lit(texture_coordinate: tuple[float, ...], bias: float = 0.0) -> bool:
-    """Whether a point is lit that the light sees at (s, t, p, q); the map holds the depth 0.5."""
+    """Return whether the point at map coordinates (s, t, p, q) is lit; the map holds the depth 0.5."""
     white = np.ones((1, 4), np.float32)
     one = VertexInputs(np.float32([texture_coordinate]), white, white[:, :3], (), IDENTITY, IDENTITY, (), {})
     half = depth_map(np.full((1, 1), np.rint(D24 / 2), np.float32))
@@ -102,15 +102,15 @@ def texture_of(depths: np.ndarray, filter_name: int) -> Any:
 @pytest.mark.parametrize("filter_name", [gl.GL_NEAREST, gl.GL_LINEAR], ids=gl.token_name)
 def test_shadow_map_is_its_glsl_twin(filter_name):
     for seed in range(3):
-        rng, given = np.random.default_rng(seed), points(seed)
+        rng, vertices = np.random.default_rng(seed), points(seed)
         depths = rng.random((16, 16), np.float32)
         light_matrix = rng.normal(0, 0.5, (4, 4)).astype(np.float32)
         light_matrix[:, 3] += (0.5, 0.5, 0.5, 1.5)
 
         uniforms = {"lightMatrix": light_matrix, "bias": 0.01, "ambient": (0.3, 0.2, 0.1, 1.0)}
-        ours = shaded("shadow-map", given, {**uniforms, "shadowMap": depth_map(np.floor(depths * D24), filter_name)})
-        assert 0 < (ours != given.color).any(axis=1).mean() < 1
-        assert same_bits(ours, shaded_on_mesa("shadow-map", given, uniforms, texture_of(depths, filter_name)))
+        ours = shaded("shadow-map", vertices, {**uniforms, "shadowMap": depth_map(np.floor(depths * D24), filter_name)})
+        assert 0 < (ours != vertices.color).any(axis=1).mean() < 1
+        assert same_bits(ours, shaded_on_mesa("shadow-map", vertices, uniforms, texture_of(depths, filter_name)))
 
 
 @pytest.mark.mesa
@@ -119,9 +119,9 @@ def test_shadow_map_is_its_glsl_twin(filter_name):
 def test_blinn_phong_is_its_glsl_twin(light, shininess):
     colors = {"ambient": (0.1, 0.2, 0.3), "diffuse": (0.6, 0.5, 0.4), "specular": (0.3, 0.4, 0.5)}
     uniforms = {"lightPosition": light, "shininess": shininess, **colors}
-    given = points(7)
+    vertices = points(7)
     assert same_bits(
-        shaded("blinn-phong", given, uniforms), shaded_on_mesa("blinn-phong", given, uniforms, lambda on: None)
+        shaded("blinn-phong", vertices, uniforms), shaded_on_mesa("blinn-phong", vertices, uniforms, lambda on: None)
     )
 
 
@@ -130,24 +130,24 @@ def test_blinn_phong_is_its_glsl_twin(light, shininess):
 @pytest.mark.parametrize("filter_name", [gl.GL_NEAREST, gl.GL_LINEAR], ids=gl.token_name)
 def test_blinn_phong_under_a_shadow_map_is_its_glsl_twin(name, filter_name):
     for seed in range(3):
-        rng, given = np.random.default_rng(seed), points(seed)
+        rng, vertices = np.random.default_rng(seed), points(seed)
         depths = rng.random((16, 16), np.float32)
         light_matrix = rng.normal(0, 0.5, (4, 4)).astype(np.float32)
         light_matrix[:, 3] += (0.5, 0.5, 0.5, 1.5)
         colors = {"ambient": (0.1, 0.2, 0.3), "diffuse": (0.6, 0.5, 0.4), "specular": (0.3, 0.4, 0.5)}
         light = {"lightPosition": (1.0, 2.0, 3.0, 1.0), "shininess": 10.0}
         uniforms = {**colors, **light, "lightMatrix": light_matrix, "bias": 0.01, "texel": 1 / 16}
-        ours = shaded(name, given, {**uniforms, "shadowMap": depth_map(np.floor(depths * D24), filter_name)})
-        without = shaded("blinn-phong", given, {**colors, **light})
+        ours = shaded(name, vertices, {**uniforms, "shadowMap": depth_map(np.floor(depths * D24), filter_name)})
+        without = shaded("blinn-phong", vertices, {**colors, **light})
         assert 0 < (ours != without).any(axis=1).mean() < 1
-        assert same_bits(ours, shaded_on_mesa(name, given, uniforms, texture_of(depths, filter_name)))
+        assert same_bits(ours, shaded_on_mesa(name, vertices, uniforms, texture_of(depths, filter_name)))
 
 
 @pytest.mark.mesa
 @pytest.mark.parametrize("name", ["shadow-map", "blinn-phong-shadowed", "blinn-phong-shadowed-5x5"])
 @pytest.mark.parametrize("q", [1.1, 2.7, 4.3])
 def test_coordinates_on_edges_of_texels_find_the_texels_of_mesa(name, q):
-    rng, given = np.random.default_rng(5), points(5)
+    rng, vertices = np.random.default_rng(5), points(5)
     depths = rng.random((32, 32), np.float32)
     # s / q is k / 32 but for the last bit: pixel centres are edges of texels
     uniforms: dict[str, Any] = {"lightMatrix": np.eye(4, dtype=np.float32) * np.float32(q), "bias": 0.0}
@@ -156,16 +156,16 @@ def test_coordinates_on_edges_of_texels_find_the_texels_of_mesa(name, q):
         uniforms |= {"lightPosition": (1.0, 2.0, 3.0, 1.0), "shininess": 10.0, "specular": (0.3, 0.4, 0.5)}
     else:
         uniforms |= {"ambient": (0.3, 0.2, 0.1, 1.0)}
-    ours = shaded(name, given, {**uniforms, "shadowMap": depth_map(np.floor(depths * D24))})
-    assert same_bits(ours, shaded_on_mesa(name, given, uniforms, texture_of(depths, gl.GL_NEAREST)))
+    ours = shaded(name, vertices, {**uniforms, "shadowMap": depth_map(np.floor(depths * D24))})
+    assert same_bits(ours, shaded_on_mesa(name, vertices, uniforms, texture_of(depths, gl.GL_NEAREST)))
 
 
 def test_what_no_map_shadows_is_lit_as_without_one():
-    given = points(3)
+    vertices = points(3)
     light = {"lightPosition": (1.0, 2.0, 3.0, 1.0), "shininess": 10.0, "specular": (0.3, 0.4, 0.5)}
     far = depth_map(np.full((1, 1), D24, np.float32))
-    lit = shaded("blinn-phong-shadowed", given, {**light, "shadowMap": far, "bias": 1.0})
-    np.testing.assert_array_equal(lit, shaded("blinn-phong", given, light))
+    lit = shaded("blinn-phong-shadowed", vertices, {**light, "shadowMap": far, "bias": 1.0})
+    np.testing.assert_array_equal(lit, shaded("blinn-phong", vertices, light))
 
 
 def test_an_unknown_program_names_the_nearest():

@@ -27,18 +27,18 @@ def directions(seed: int, count: int, columns: int = 3) -> np.ndarray:
 # -- faces -------------------------------------------------------------------------------------------------------------
 @pytest.mark.interpreted
 def test_faces_and_places_are_the_oracles():
-    given = directions(1, 200, 4)
-    faces, places = cube_maps.on_faces(given, False)
-    for direction, face, place in zip(given, faces, places, strict=True):
+    vectors = directions(1, 200, 4)
+    faces, places = cube_maps.on_faces(vectors, False)
+    for direction, face, place in zip(vectors, faces, places, strict=True):
         assert (face, *place) == (*oracle.on_face(direction[:3]), direction[3])
 
 
 def test_a_direction_meets_its_place_on_the_cube():
-    given = directions(2, 200)
+    vectors = directions(2, 200)
     for by_reciprocal in (False, True):
-        faces, places = cube_maps.on_faces(given, by_reciprocal)
+        faces, places = cube_maps.on_faces(vectors, by_reciprocal)
         met = [oracle.point(face, s, t) for face, (s, t, _) in zip(faces, places, strict=True)]
-        assert np.allclose(met, given / abs(given).max(axis=1, keepdims=True), atol=1e-6)  # float32 against float64
+        assert np.allclose(met, vectors / abs(vectors).max(axis=1, keepdims=True), atol=1e-6)  # float32 against float64
 
 
 def test_equal_components_prefer_z_then_y():
@@ -53,7 +53,7 @@ def test_a_direction_of_length_0_is_in_the_middle_of_a_face():
 
 @pytest.mark.interpreted
 def test_a_step_is_measured_on_the_pixels_own_face():
-    """A block that looks along +z, each pixel a quarter of a face further right and a half further down."""
+    """Return a block of directions along +z; each pixel is a quarter of a face to the right and half a face down."""
     block = np.float32([[x, y, 1] for y in (0.0, -1.0) for x in (0.0, 0.5)])
     squared = cube_maps.squared_texels_per_pixel(block, 8)
     assert squared[0] == 4**2  # half a face of 8 texels
@@ -75,15 +75,15 @@ def test_the_texel_beyond_an_edge_is_the_one_that_touches_it(edge, face):
 @pytest.mark.interpreted
 def test_seamless_filters_are_the_oracles():
     cells = np.random.default_rng(4).integers(0, 256, (6, 3, 3, 4), dtype=np.uint8)
-    made = cube_map(cells, min_filter=gl.GL_LINEAR, mag_filter=gl.GL_LINEAR, seamless=1)
-    given = np.array([d for d in directions(5, 400) if not oracle.reaches_a_corner(d, 3)][:200])
+    cube_map = make_cube_map(cells, min_filter=gl.GL_LINEAR, mag_filter=gl.GL_LINEAR, seamless=1)
+    vectors = np.array([d for d in directions(5, 400) if not oracle.reaches_a_corner(d, 3)][:200])
     colors = cells.astype(np.float32) * (np.float32(1) / np.float32(255))
-    for direction, color in zip(given, sampled(made, given), strict=True):
+    for direction, color in zip(vectors, sampled(cube_map, vectors), strict=True):
         assert same_bits(color, oracle.sample_seamlessly(colors, direction))
 
 
-def cube_map(cells: np.ndarray, **parameters: Any) -> Texture:
-    """A cube map of one level, cells (6, n, n, 4)."""
+def make_cube_map(cells: np.ndarray, **parameters: Any) -> Texture:
+    """Return a cube map of one level with cells (6, n, n, 4)."""
     images = {}
     for face, texels in enumerate(cells):
         images[face, 0] = Image.new(FORMATS[gl.GL_RGBA8], texels.shape[1], texels.shape[0])
@@ -91,9 +91,9 @@ def cube_map(cells: np.ndarray, **parameters: Any) -> Texture:
     return Texture(1, gl.GL_TEXTURE_CUBE_MAP, Sampler(**parameters), images)
 
 
-def sampled(made: Texture, given: np.ndarray) -> np.ndarray:
-    out = np.empty((len(given), 4), np.float32)
-    sampling.sample(made, given, out)
+def sampled(cube_map: Texture, vectors: np.ndarray) -> np.ndarray:
+    out = np.empty((len(vectors), 4), np.float32)
+    sampling.sample(cube_map, vectors, out)
     return out
 
 
@@ -102,19 +102,19 @@ def test_a_seamless_filter_meets_in_the_middle_of_an_edge():
     cells[0] = 255
     edge = np.float32([[1, 0.1, 1]] * 4)  # between +x and +z
     for seamless, value in ((0, 0.0), (1, 0.5)):
-        made = cube_map(cells, min_filter=gl.GL_LINEAR, mag_filter=gl.GL_LINEAR, seamless=seamless)
-        assert sampled(made, edge)[0, 0] == value
+        cube_map = make_cube_map(cells, min_filter=gl.GL_LINEAR, mag_filter=gl.GL_LINEAR, seamless=seamless)
+        assert sampled(cube_map, edge)[0, 0] == value
 
 
 def test_a_corner_is_the_mean_of_three_texels():
     cells = np.zeros((6, 4, 4, 4), np.uint8)
     cells[0], cells[2], cells[4] = 255, 0, 0
-    made = cube_map(cells, min_filter=gl.GL_LINEAR, mag_filter=gl.GL_LINEAR, seamless=1)
-    assert np.isclose(sampled(made, np.float32([[1, 1, 1]] * 4))[0, 0], 1 / 3)
+    cube_map = make_cube_map(cells, min_filter=gl.GL_LINEAR, mag_filter=gl.GL_LINEAR, seamless=1)
+    assert np.isclose(sampled(cube_map, np.float32([[1, 1, 1]] * 4))[0, 0], 1 / 3)
 
 
 def test_cube_maps_are_complete_with_six_square_faces_of_one_size_and_format():
-    whole = cube_map(np.zeros((6, 2, 2, 4), np.uint8), min_filter=gl.GL_LINEAR)
+    whole = make_cube_map(np.zeros((6, 2, 2, 4), np.uint8), min_filter=gl.GL_LINEAR)
     assert sampling.is_complete(whole)
     for spoil in (
         lambda images: images.pop((3, 0)),
@@ -133,7 +133,7 @@ def test_the_biases_of_texture_and_unit_are_added_up():
 
 # -- Mesa --------------------------------------------------------------------------------------------------------------
 def upload(on: Any, rng: np.random.Generator, side: int, depths: bool = False) -> None:
-    """Give the bound cube map all its levels."""
+    """Define all levels of the bound cube map."""
     for face in FACES:
         target, size, level = getattr(on, f"GL_TEXTURE_CUBE_MAP_{face}"), side, 0
         while size:
@@ -152,7 +152,7 @@ def set_filters(on: Any, min_filter: str, mag_filter: str) -> None:
 
 
 def draw_triangles(on: Any, rng: np.random.Generator) -> None:
-    """Six triangles whose coordinates lie close together or on many faces."""
+    """Draw six triangles whose coordinates are close together or on many faces."""
     on.glBegin(on.GL_TRIANGLES)
     for number in range(18):
         if number % 3 == 0:
@@ -200,7 +200,7 @@ void main() { gl_FragColor = vec4(texture(cube, direction)); }
 
 
 def program_of(fragment: str) -> Program:
-    """A program that looks up a cube map, or compares the fourth coordinate with its depths."""
+    """Return a program that looks up a cube map, or compares the fourth coordinate with its depths."""
 
     def vertex(vertices: VertexInputs) -> Varyings:
         return Varyings(vertices.texcoords[0], np.zeros(4, bool))
@@ -208,8 +208,8 @@ def program_of(fragment: str) -> Program:
     def shade(inputs: np.ndarray, uniforms: Any, out: np.ndarray) -> None:
         sampling.sample(uniforms["cube"], inputs, out)
 
-    given = {"glsl_vertex": PASS_ON, "glsl_fragment": fragment}
-    return Program("cube", vertex, shade, samplers=("cube",), cube_samplers=("cube",), **given)
+    sources = {"glsl_vertex": PASS_ON, "glsl_fragment": fragment}
+    return Program("cube", vertex, shade, samplers=("cube",), cube_samplers=("cube",), **sources)
 
 
 @pytest.mark.mesa
@@ -238,7 +238,7 @@ def test_programs_look_cube_maps_up_as_on_mesa(fragment, min_filter):
 @pytest.mark.interpreted
 def test_a_block_is_filtered_without_its_neighbours():
     cells = np.random.default_rng(8).integers(0, 256, (6, 4, 4, 4), dtype=np.uint8)
-    made = cube_map(cells, min_filter=gl.GL_LINEAR, mag_filter=gl.GL_LINEAR, seamless=1)
-    given = directions(9, 40)
-    block_by_block = [sampled(made, given[4 * n : 4 * n + 4]) for n in range(10)]
-    assert same_bits(sampled(made, given), np.concatenate(block_by_block))
+    cube_map = make_cube_map(cells, min_filter=gl.GL_LINEAR, mag_filter=gl.GL_LINEAR, seamless=1)
+    vectors = directions(9, 40)
+    block_by_block = [sampled(cube_map, vectors[4 * n : 4 * n + 4]) for n in range(10)]
+    assert same_bits(sampled(cube_map, vectors), np.concatenate(block_by_block))

@@ -49,9 +49,9 @@ def test_without_texture_the_columns_are_the_clamped_colour():
 
 def test_units_and_fog_follow_the_colour():
     state = replace(units(ON, TextureUnit(), ON), fog=Fog(True))
-    given = replace(vertices(), texcoords=(*vertices().texcoords, np.full((3, 4), 3, np.float32)))
-    given = replace(given, texture_matrices=(IDENTITY,) * 3)
-    values = fixed_function.program(state, bound({0: white(), 2: white()})).vertex(given).values
+    inputs = replace(vertices(), texcoords=(*vertices().texcoords, np.full((3, 4), 3, np.float32)))
+    inputs = replace(inputs, texture_matrices=(IDENTITY,) * 3)
+    values = fixed_function.program(state, bound({0: white(), 2: white()})).vertex(inputs).values
     assert values.shape == (3, 4 + 4 + 4 + 1)
     assert (values[:, 4:8] == 1).all()
     assert (values[:, 8:12] == 3).all()

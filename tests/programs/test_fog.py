@@ -1,4 +1,4 @@
-"""Fog: the three modes by example, and the fragments' bits against Mesa."""
+"""Fog: examples of the three modes, and comparison of fragments with Mesa, bit for bit."""
 
 import math
 from typing import Any
@@ -52,7 +52,7 @@ def test_fogged_fragments_are_mesas(mode):
         on.glFogfv(on.GL_FOG_COLOR, fog.color)
 
     program = fixed_function.program(State(fog=fog), {})
-    given = VertexInputs(position, colors, position[:, :3], (), modelview, np.eye(4, dtype=np.float32), (), {})
+    inputs = VertexInputs(position, colors, position[:, :3], (), modelview, np.eye(4, dtype=np.float32), (), {})
     ours = np.empty_like(colors)
-    program.shade(program.vertex(given).values, {}, ours)
+    program.shade(program.vertex(inputs).values, {}, ours)
     assert same_bits(ours, fragments_on_mesa(setup, {"vertex": position, "color": colors}))

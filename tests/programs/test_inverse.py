@@ -1,4 +1,4 @@
-"""The inverse in float32: it inverts, and it has Mesa's bits for every kind of matrix."""
+"""The inverse in float32: it is the inverse, and has Mesa's bits for every kind of matrix."""
 
 from typing import Any
 
@@ -11,7 +11,7 @@ from softshadow.testing import run_on_mesa
 
 
 def rotation(rng: np.random.Generator) -> np.ndarray:
-    """A random rotation with a translation, (4, 4) float32."""
+    """Return a random rotation with a translation, (4, 4) float32."""
     q, _ = np.linalg.qr(rng.normal(size=(3, 3)))
     matrix = np.eye(4)
     matrix[:3, :3] = q * np.sign(np.linalg.det(q))
@@ -20,7 +20,7 @@ def rotation(rng: np.random.Generator) -> np.ndarray:
 
 
 def matrices(seed: int) -> dict[str, np.ndarray]:
-    """One matrix of each kind."""
+    """Return one matrix of each kind."""
     rng = np.random.default_rng(seed)
     affine = np.eye(4, dtype=np.float32)
     affine[:3] = rng.normal(size=(3, 4))
@@ -58,8 +58,8 @@ def test_a_singular_matrix_answers_the_identity():
 
 
 def test_rotations_and_translations_preserve_lengths():
-    kept = {kind for kind, matrix in matrices(1).items() if is_length_preserving(matrix)}
-    assert kept == {"identity", "rotation", "rotation about z"}
+    length_preserving = {kind for kind, matrix in matrices(1).items() if is_length_preserving(matrix)}
+    assert length_preserving == {"identity", "rotation", "rotation about z"}
 
 
 @pytest.mark.mesa

@@ -18,12 +18,12 @@ from softshadow.texture import Sampler
 
 
 def block(step: float) -> np.ndarray:
-    """Coordinates (4, 3) of one block whose s grows by `step` per pixel."""
+    """Return the coordinates (4, 3) of a block whose s grows by `step` per pixel."""
     return np.float32([[0, 0, 0], [step, 0, 0], [0, 0, 0], [step, 0, 0]])
 
 
 def levels(step: float, sampler: Sampler, last: int = 3) -> Levels:
-    """What is selected in a texture of 8 x 8 where s grows by `step` per pixel."""
+    """Return the levels selected in an 8 x 8 texture if s grows by `step` per pixel."""
     return select_levels(squared_texels_per_pixel(block(step), 8, 8), sampler, last)
 
 
@@ -49,16 +49,16 @@ def test_the_nearest_level_is_selected():
 
 def test_two_levels_are_selected_with_the_weight_of_the_upper():
     sampler = Sampler(min_filter=gl.GL_LINEAR_MIPMAP_LINEAR, lod_bias=0.25)
-    found = [levels(texels / 8, sampler) for texels in (1, 2, 100)]
-    assert [(int(f.lower[0]), int(f.upper[0]), float(f.weight[0])) for f in found] == [
+    selected = [levels(texels / 8, sampler) for texels in (1, 2, 100)]
+    assert [(int(f.lower[0]), int(f.upper[0]), float(f.weight[0])) for f in selected] == [
         (0, 1, 0.25), (1, 2, 0.25), (3, 3, 0),
     ]  # fmt: skip
 
 
 def test_equal_limits_are_the_level():
     sampler = Sampler(min_filter=gl.GL_LINEAR_MIPMAP_LINEAR, min_lod=1.5, max_lod=1.5)
-    found = levels(0.001, sampler)
-    assert (int(found.lower[0]), int(found.upper[0]), float(found.weight[0])) == (1, 2, 0.5)
+    selected = levels(0.001, sampler)
+    assert (int(selected.lower[0]), int(selected.upper[0]), float(selected.weight[0])) == (1, 2, 0.5)
 
 
 def test_biases_count_in_steps_of_a_256th():
@@ -68,6 +68,16 @@ def test_biases_count_in_steps_of_a_256th():
 def test_the_coarse_logarithm_is_exact_at_powers_of_two():
     assert coarse_log2(np.float32([0.25, 1, 2, 64])).tolist() == [-2, 0, 1, 6]
     assert coarse_log2(np.float32([3])).tolist() == [1.5]
+
+
+def begin_with_texture(gl: Any) -> None:
+    """Clear the buffers, set the camera, and bind a new texture."""
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    gl.glMatrixMode(gl.GL_PROJECTION)
+    gl.gluPerspective(50, 1, 1, 20)
+    gl.glTranslatef(0, 0, -6)
+    gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
 
 
 @pytest.mark.mesa
@@ -80,12 +90,7 @@ def test_two_filters_in_one_draw_are_mesas(seed):
     bias = (0.0, 0.5, -1.25)[seed % 3]
 
     def program(gl: Any) -> None:
-        gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
-        gl.glEnable(gl.GL_DEPTH_TEST)
-        gl.glMatrixMode(gl.GL_PROJECTION)
-        gl.gluPerspective(50, 1, 1, 20)
-        gl.glTranslatef(0, 0, -6)
-        gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
+        begin_with_texture(gl)
         size = cells.shape[1], cells.shape[0]
         gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, *size, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, cells)
         gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, getattr(gl, names[0]))
@@ -113,7 +118,7 @@ PARAMETERS = {
 
 
 def mipmapped(seed: int, internal: str = "GL_RGBA8") -> Any:
-    """A program that draws triangles with a texture of random levels, filters, wraps, limits and bias."""
+    """Return a GL program that draws triangles with random mipmap levels, filters, wraps, limits and bias."""
     rng = np.random.default_rng(seed)
     pick = lambda choices: choices[int(rng.integers(len(choices)))]  # noqa: E731
     width, height = SIDES[seed % len(SIDES)]
@@ -135,12 +140,7 @@ def mipmapped(seed: int, internal: str = "GL_RGBA8") -> Any:
     compares = is_depth and seed % 2
 
     def program(gl: Any) -> None:
-        gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
-        gl.glEnable(gl.GL_DEPTH_TEST)
-        gl.glMatrixMode(gl.GL_PROJECTION)
-        gl.gluPerspective(50, 1, 1, 20)
-        gl.glTranslatef(0, 0, -6)
-        gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
+        begin_with_texture(gl)
         formats = (gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT) if is_depth else (gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
         for level, data in enumerate(cells):
             size = data.shape[1], data.shape[0]

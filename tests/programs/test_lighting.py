@@ -49,7 +49,7 @@ def vertices(modelview: np.ndarray = IDENTITY, seed: int = 31) -> VertexInputs:
 
 
 def towards(lighting: Lighting, normal: tuple[float, float, float], position=(0, 0, 0, 1)) -> np.ndarray:
-    """The colour (4,) of one vertex."""
+    """Return the colour (4,) of one vertex."""
     one = VertexInputs(
         np.float32([position]), np.float32([[0.2, 0.4, 0.6, 0.8]]), np.float32([normal]), (), IDENTITY, IDENTITY, (), {}
     )
@@ -90,9 +90,9 @@ def test_outside_the_cone_of_a_spot_light_it_is_dark():
 
 def test_the_back_side_is_lit_with_the_opposite_normal():
     lighting = with_lights(*LIGHTS.values(), two_side=True, back=MATERIAL)
-    given = vertices()
-    _, back = light_vertices(lighting, given)
-    turned, _ = light_vertices(lighting, replace(given, normal=-given.normal))
+    inputs = vertices()
+    _, back = light_vertices(lighting, inputs)
+    turned, _ = light_vertices(lighting, replace(inputs, normal=-inputs.normal))
     assert back is not None
     assert same_bits(back.primary, turned.primary)
 
@@ -108,8 +108,8 @@ def test_a_separate_highlight_is_what_the_single_colour_has_more():
     assert np.allclose(np.minimum(apart.primary[:, :3] + apart.secondary, 1), single.primary[:, :3], atol=1e-6)
 
 
-def lit_on_mesa(lighting: Lighting, given: VertexInputs) -> np.ndarray:
-    """The primary colours (V, 4) of Mesa's vertex program; lights are placed under the identity."""
+def lit_on_mesa(lighting: Lighting, inputs: VertexInputs) -> np.ndarray:
+    """Return the primary colours (V, 4) of Mesa's vertex program; light positions are in eye space."""
 
     def setup(on: Any) -> None:
         load(on, on.GL_MODELVIEW, IDENTITY)
@@ -132,8 +132,8 @@ def lit_on_mesa(lighting: Lighting, given: VertexInputs) -> np.ndarray:
                 on.glColorMaterial(lighting.color_material_face, lighting.color_material_mode)
                 on.glEnable(capability)
 
-    arrays = {"vertex": given.position, "color": given.color, "normal": given.normal}
-    return vertices_on_mesa(setup, arrays, given.modelview)[0]
+    arrays = {"vertex": inputs.position, "color": inputs.color, "normal": inputs.normal}
+    return vertices_on_mesa(setup, arrays, inputs.modelview)[0]
 
 
 def set_light(on: Any, name: int, light: LightState) -> None:
@@ -183,9 +183,9 @@ VARIANTS: dict[str, Callable[..., Lighting]] = {
 @pytest.mark.parametrize("variant", VARIANTS)
 @pytest.mark.parametrize("kind", MODELVIEWS)
 def test_lighting_is_mesas(kind, variant):
-    given = vertices(MODELVIEWS[kind])
+    inputs = vertices(MODELVIEWS[kind])
     for lights in ([light] for light in LIGHTS.values()):
         lighting = VARIANTS[variant](*lights)
-        assert same_bits(light_vertices(lighting, given)[0].primary, lit_on_mesa(lighting, given)), lights
+        assert same_bits(light_vertices(lighting, inputs)[0].primary, lit_on_mesa(lighting, inputs)), lights
     lighting = VARIANTS[variant](*LIGHTS.values())
-    assert same_bits(light_vertices(lighting, given)[0].primary, lit_on_mesa(lighting, given))
+    assert same_bits(light_vertices(lighting, inputs)[0].primary, lit_on_mesa(lighting, inputs))

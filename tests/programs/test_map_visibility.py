@@ -1,4 +1,4 @@
-"""Programs that write visibility: shares of comparisons, by example, and their GLSL twins on Mesa, bit for bit."""
+"""Programs that write visibility: examples, and comparison with their GLSL on Mesa, bit for bit."""
 
 from typing import Any
 
@@ -16,7 +16,7 @@ SIDE = 16
 
 
 def coordinates(seed: int) -> np.ndarray:
-    """Homogeneous places (POINTS, 4) in and round a map, some of them behind the light."""
+    """Return homogeneous map coordinates (POINTS, 4), inside and outside the map, some behind the light."""
     rng = np.random.default_rng(seed)
     placed = rng.uniform(-0.2, 1.2, (POINTS, 4)).astype(np.float32)
     placed[:, 3] = rng.uniform(-0.2, 2, POINTS)

@@ -1,8 +1,8 @@
-"""Percentage-closer filtering: base and offsets find the texels that as many separate lookups find."""
+"""Percentage-closer filtering: one base and offsets select the same texels as separate lookups."""
 
 import numpy as np
 import pytest
-from test_sampling import SHAPES, WRAPS, bytes_of, coordinates, texture
+from test_sampling import SHAPES, WRAPS, bytes_of, coordinates, make_texture
 
 from softshadow.programs import percentage_closer, sampling
 
@@ -15,7 +15,7 @@ LARGEST = {"GL_DEPTH_COMPONENT16": 2**16 - 1, "GL_DEPTH_COMPONENT24": 2**24 - 1,
 
 @pytest.fixture(autouse=True)
 def quiet():
-    """What has no number is no warning, as inside a draw."""
+    """Ignore NumPy's warnings about invalid numbers, as inside a draw."""
     with np.errstate(all="ignore"):
         yield
 
@@ -28,10 +28,10 @@ def cells_of(internal, shape):
 
 
 def places():
-    """Some on the edges of texels, some nowhere."""
-    made = coordinates(3, 60)
-    made[-2:, :2] = np.nan, np.inf
-    return made
+    """Return coordinates, some on texel edges, some NaN or infinite."""
+    positions = coordinates(3, 60)
+    positions[-2:, :2] = np.nan, np.inf
+    return positions
 
 
 @pytest.mark.parametrize("radius", [1, 2])
@@ -39,9 +39,9 @@ def places():
 @pytest.mark.parametrize("wrap", WRAPS)
 @pytest.mark.parametrize("internal", FORMATS)
 def test_texels_round_a_place_are_those_of_separate_lookups(internal, wrap, shape, radius, monkeypatch):
-    made = texture(internal, cells_of(internal, shape), wrap_s=wrap, wrap_t=wrap)
-    arguments = made, places(), places()[:, 2].copy(), radius, np.float32(1 / 16)
-    assert percentage_closer.is_plain(made)
+    texture = make_texture(internal, cells_of(internal, shape), wrap_s=wrap, wrap_t=wrap)
+    arguments = texture, places(), places()[:, 2].copy(), radius, np.float32(1 / 16)
+    assert percentage_closer.is_plain(texture)
     together = percentage_closer.count_lit(*arguments)
     monkeypatch.setattr(percentage_closer, "is_plain", lambda _: False)
     assert np.array_equal(together, percentage_closer.count_lit(*arguments))
@@ -49,17 +49,18 @@ def test_texels_round_a_place_are_those_of_separate_lookups(internal, wrap, shap
 
 
 def test_texels_of_some_places_lie_side_by_side_and_of_some_outside(monkeypatch):
-    found, classify = [], percentage_closer.classify
+    kinds_seen, classify = [], percentage_closer.classify
 
     def listening(*arguments):
         classify(*arguments)
-        found.extend(arguments[-1])
+        kinds_seen.extend(arguments[-1])
 
     monkeypatch.setattr(percentage_closer, "classify", listening)
-    made = texture("GL_DEPTH_COMPONENT24", cells_of("GL_DEPTH_COMPONENT24", SQUARE), wrap_s="GL_CLAMP_TO_BORDER")
-    percentage_closer.count_lit(made, places(), places()[:, 2].copy(), 2, np.float32(1 / 16))
-    kinds = percentage_closer.SIDE_BY_SIDE, percentage_closer.OUTSIDE, percentage_closer.MIXED
-    assert set(found) == set(kinds)
+    cells = cells_of("GL_DEPTH_COMPONENT24", SQUARE)
+    texture = make_texture("GL_DEPTH_COMPONENT24", cells, wrap_s="GL_CLAMP_TO_BORDER")
+    percentage_closer.count_lit(texture, places(), places()[:, 2].copy(), 2, np.float32(1 / 16))
+    kinds = percentage_closer.ADJACENT, percentage_closer.OUTSIDE, percentage_closer.MIXED
+    assert set(kinds_seen) == set(kinds)
 
 
 @pytest.mark.parametrize(
@@ -72,16 +73,16 @@ def test_texels_of_some_places_lie_side_by_side_and_of_some_outside(monkeypatch)
     ],
 )
 def test_what_is_not_one_texel_as_it_is_takes_separate_lookups(parameters):
-    made = texture("GL_DEPTH_COMPONENT24", cells_of("GL_DEPTH_COMPONENT24", SHAPES[0]), **parameters)
-    assert not percentage_closer.is_plain(made)
+    texture = make_texture("GL_DEPTH_COMPONENT24", cells_of("GL_DEPTH_COMPONENT24", SHAPES[0]), **parameters)
+    assert not percentage_closer.is_plain(texture)
 
 
 @pytest.mark.parametrize("compare_mode", ["GL_NONE", "GL_COMPARE_R_TO_TEXTURE"])
 @pytest.mark.parametrize("min_filter", ["GL_NEAREST", "GL_LINEAR"])
 @pytest.mark.parametrize("internal", FORMATS)
 def test_a_lookup_of_one_channel_is_the_first_of_four(internal, min_filter, compare_mode):
-    made = texture(internal, cells_of(internal, SHAPES[0]), min_filter=min_filter, compare_mode=compare_mode)
+    texture = make_texture(internal, cells_of(internal, SHAPES[0]), min_filter=min_filter, compare_mode=compare_mode)
     four, one = np.empty((60, 4), np.float32), np.empty((60, 1), np.float32)
-    sampling.sample(made, places(), four)
-    sampling.sample(made, places(), one)
+    sampling.sample(texture, places(), four)
+    sampling.sample(texture, places(), one)
     assert np.array_equal(four[:, :1], one, equal_nan=True)

@@ -19,7 +19,7 @@ PREVIOUS, TEXEL = (0.5, 0.25, 0.75, 0.5), (1.0, 0.5, 0.25, 0.25)
 
 
 def combined(**fields: Any) -> list[float]:
-    """What one fragment becomes whose colour is `PREVIOUS` and whose texel is `TEXEL`."""
+    """Return the combined colour of a fragment with colour `PREVIOUS` and texel `TEXEL`."""
     previous, texel = np.float32([PREVIOUS]), np.float32([TEXEL])
     sources = Sources(0, {0: texel}, previous, previous, (0.5, 0.5, 0.5, 0.5))
     return [float(c) for c in combine(Combine(**fields), sources)[0]]
@@ -45,14 +45,14 @@ def test_a_unit_without_texture_gives_zeros_to_others():
 
 
 def random_settings(rng: np.random.Generator) -> dict[int, float]:
-    """A value for every parameter; sources are those of two units."""
-    made: dict[int, float] = {pname: int(rng.choice(v)) for pname, (_, v) in texture_combiners.MODES.items()}
+    """Return a random value for every parameter; sources are those of two units."""
+    settings: dict[int, float] = {pname: int(rng.choice(v)) for pname, (_, v) in texture_combiners.MODES.items()}
     for pname, (_, _, values) in texture_combiners.ARGUMENTS.items():
         usable = [v for v in values if not gl.GL_TEXTURE1 < v <= gl.GL_TEXTURE7]
-        made[pname] = int(rng.choice(usable))
+        settings[pname] = int(rng.choice(usable))
     for pname in texture_combiners.SCALES:
-        made[pname] = float(rng.choice(texture_combiners.SCALE_VALUES))
-    return made
+        settings[pname] = float(rng.choice(texture_combiners.SCALE_VALUES))
+    return settings
 
 
 @pytest.mark.mesa
@@ -82,10 +82,10 @@ def test_combined_units_are_mesas(seed):
     with gl.create_context(8, 8) as context:
         setup(gl)
         textures = {(unit, gl.GL_TEXTURE_2D): context.storage.textures[unit + 1] for unit in (0, 1)}
-        made = program(context.state, textures)
+        fixed_function = program(context.state, textures)
     second = np.broadcast_to(np.float32([0.3, 0.7, 0, 1]), (POINTS, 4))
     ours = np.empty_like(colors)
-    made.shade(np.concatenate([colors, texcoord, second], axis=1), {}, ours)
+    fixed_function.shade(np.concatenate([colors, texcoord, second], axis=1), {}, ours)
     names = [{token_name(p): v for p, v in each.items()} for each in settings]
     if seed in REARRANGED:
         assert np.abs(ours - theirs).max() <= LAST_BIT, names

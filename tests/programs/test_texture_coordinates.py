@@ -1,4 +1,4 @@
-"""Generated and transformed texture coordinates: by example, and bit for bit Mesa's."""
+"""Generated and transformed texture coordinates: examples, and the same bits as on Mesa."""
 
 from dataclasses import replace
 from typing import Any
@@ -54,7 +54,7 @@ def test_generated_coordinates_are_mesas(kind, mode):
     rng = np.random.default_rng(21)
     modelview, texture_matrix = modelviews(rng)[kind], rng.normal(size=(4, 4)).astype(np.float32)
     planes = rng.normal(size=(4, 4)).astype(np.float32)
-    given = vertices(rng, modelview, texture_matrix)
+    inputs = vertices(rng, modelview, texture_matrix)
 
     def setup(on: Any) -> None:
         load(on, on.GL_TEXTURE, texture_matrix)
@@ -71,18 +71,18 @@ def test_generated_coordinates_are_mesas(kind, mode):
     ]
     gens = [TexGen(True, mode, tuple(p), e) for p, e in zip(planes.tolist(), eye_planes, strict=True)]
     unit = TextureUnit(enabled_2d=True, gen=(gens[0], gens[1], gens[2], gens[3]))
-    arrays = {"vertex": given.position, "texcoord": given.texcoords[0]}
+    arrays = {"vertex": inputs.position, "texcoord": inputs.texcoords[0]}
     _, theirs = vertices_on_mesa(setup, arrays, modelview)
-    assert same_bits(texture_coordinates(0, unit, given), theirs)
+    assert same_bits(texture_coordinates(0, unit, inputs), theirs)
 
 
 def test_components_without_generation_keep_what_was_given():
-    given = vertices(np.random.default_rng(1), np.eye(4, dtype=np.float32), np.eye(4, dtype=np.float32))
+    inputs = vertices(np.random.default_rng(1), np.eye(4, dtype=np.float32), np.eye(4, dtype=np.float32))
     s, t, r, q = TextureUnit().gen
     unit = TextureUnit(gen=(replace(s, enabled=True, mode=gl.GL_OBJECT_LINEAR, object_plane=(0, 0, 0, 7)), t, r, q))
-    made = texture_coordinates(0, unit, given)
-    assert (made[:, 0] == 7).all()
-    assert (made[:, 1:] == given.texcoords[0][:, 1:]).all()
+    coordinates = texture_coordinates(0, unit, inputs)
+    assert (coordinates[:, 0] == 7).all()
+    assert (coordinates[:, 1:] == inputs.texcoords[0][:, 1:]).all()
 
 
 @pytest.mark.mesa
@@ -92,7 +92,7 @@ def test_components_without_generation_keep_what_was_given():
 def test_coordinates_from_normals_are_mesas(kind, normals, modes):
     rng = np.random.default_rng(22)
     modelview = modelviews(rng)[kind]
-    given = replace(vertices(rng, modelview, np.eye(4, dtype=np.float32)), normal=normals_of(rng))
+    inputs = replace(vertices(rng, modelview, np.eye(4, dtype=np.float32)), normal=normals_of(rng))
 
     def setup(on: Any) -> None:
         if normals != "plain":
@@ -104,10 +104,10 @@ def test_coordinates_from_normals_are_mesas(kind, normals, modes):
     lighting = Lighting(normalize=normals == "normalize", rescale_normal=normals == "rescale_normal")
     gens = [TexGen(True, mode) for mode in modes] + [TexGen()] * (4 - len(modes))
     unit = TextureUnit(enabled_2d=True, gen=(gens[0], gens[1], gens[2], gens[3]))
-    arrays = {"vertex": given.position, "texcoord": given.texcoords[0], "normal": given.normal}
+    arrays = {"vertex": inputs.position, "texcoord": inputs.texcoords[0], "normal": inputs.normal}
     _, theirs = vertices_on_mesa(setup, arrays, modelview)
     assert same_bits(
-        texture_coordinates(0, unit, given, Normals(eye_normals(lighting, given), reflects_r(unit))), theirs
+        texture_coordinates(0, unit, inputs, Normals(eye_normals(lighting, inputs), reflects_r(unit))), theirs
     )
 
 

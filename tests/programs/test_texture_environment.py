@@ -18,7 +18,7 @@ ENVIRONMENT = (0.125, 0.25, 0.5, 0.75)
 
 
 def combined(mode: int, base: int, texel: tuple[float, ...] = (0.5, 0.25, 0.125, 0.5)) -> list[float]:
-    """The colour of one fragment (0.8, 0.4, 0.2, 0.5) after the environment."""
+    """Return the colour of a fragment (0.8, 0.4, 0.2, 0.5) after the environment."""
     fragment = np.array([[0.8, 0.4, 0.2, 0.5]], np.float32)
     apply_environment(fragment, np.array([texel], np.float32), mode, base, ENVIRONMENT)
     return [round(float(c), 6) for c in fragment[0]]

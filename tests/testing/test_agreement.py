@@ -1,4 +1,4 @@
-"""Agreement with ray casting: exact off the band where the theory says so, and found where it is not."""
+"""Agreement with ray casting: exact off the band for techniques that are right, and errors of the others."""
 
 import re
 
@@ -20,12 +20,12 @@ def quietly(technique: str, scene: ss.Scene, **options: object) -> ss.Run:
 @pytest.mark.parametrize("name", ss.scene_names())
 @pytest.mark.parametrize("technique", ["planar", "shadow-polygons", "volume-zfail", "volume-zpass-plus"])
 def test_planar_shadows_and_counting_volumes_are_right_off_the_band(technique: str, name: str) -> None:
-    for found in agreement(quietly(technique, ss.Scene.named(name))):
-        assert (found.compared & ~found.band).sum() > 1000
-        assert found.off_band == 0
+    for result in agreement(quietly(technique, ss.Scene.named(name))):
+        assert (result.compared & ~result.band).sum() > 1000
+        assert result.off_band == 0
         # an edge runs through each of these: few samples lie on its other side when it is snapped; polygons computed
         # for all cameras at once have edges of their own
-        assert found.on_band <= 0.05 * found.band.sum()
+        assert result.on_band <= 0.05 * result.band.sum()
 
 
 @pytest.mark.parametrize("name", ss.scene_names())
@@ -33,10 +33,10 @@ def test_a_shadow_map_is_right_off_its_texels_and_pixels_band_on_what_does_not_c
     scene = ss.Scene.named(name)
     truth = cast_truth(scene, SIZE)
     casts = np.array([*(thing.casts for thing in scene.objects), False])[truth.objects]
-    for found in agreement(quietly("map", scene), truth):
+    for result in agreement(quietly("map", scene), truth):
         # casters touch themselves: there the offset, which is as deep as a texel is steep, moves edges further
-        assert not (found.wrong & ~found.band & ~casts).any()
-        assert found.off_band <= 0.02 * found.compared.sum()
+        assert not (result.wrong & ~result.band & ~casts).any()
+        assert result.off_band <= 0.02 * result.compared.sum()
 
 
 def test_a_coarser_map_has_a_wider_band_and_stays_right_off_it() -> None:
@@ -45,26 +45,26 @@ def test_a_coarser_map_has_a_wider_band_and_stays_right_off_it() -> None:
     floor = truth.objects == 0
     bands = []
     for map_size in (64, 32, 16):
-        (found,) = agreement(quietly("map", scene, map_size=map_size), truth)
-        assert not (found.wrong & ~found.band & floor).any()
-        bands.append((found.band & floor & found.compared).sum())
+        (result,) = agreement(quietly("map", scene, map_size=map_size), truth)
+        assert not (result.wrong & ~result.band & floor).any()
+        bands.append((result.band & floor & result.compared).sum())
     assert bands[0] < bands[1] < bands[2]
 
 
 def test_parity_is_wrong_off_the_band_where_volumes_overlap() -> None:
     scene = ss.Scene.named("overlapping")
     truth = cast_truth(scene, SIZE)
-    (found,) = agreement(quietly("volume-parity", scene), truth)
+    (result,) = agreement(quietly("volume-parity", scene), truth)
     even = (truth.counts[0] > 0) & (truth.counts[0] % 2 == 0)
-    assert found.off_band > 50
-    assert (found.wrong == even)[~found.band].all()
-    assert str(found).startswith(f"light: {found.off_band} of ")
+    assert result.off_band > 50
+    assert (result.wrong == even)[~result.band].all()
+    assert str(result).startswith(f"light: {result.off_band} of ")
 
 
 def test_every_light_has_its_own_agreement() -> None:
-    found = agreement(quietly("volume-zfail", ss.Scene.named("two-lights")))
-    assert [each.light for each in found] == ["warm", "cool"]
-    assert (found[0].band != found[1].band).any()
+    agreements = agreement(quietly("volume-zfail", ss.Scene.named("two-lights")))
+    assert [each.light for each in agreements] == ["warm", "cool"]
+    assert (agreements[0].band != agreements[1].band).any()
 
 
 def test_counts_of_the_truth_are_those_of_the_stencil_buffer() -> None:

@@ -1,9 +1,9 @@
-"""Differences are counted per pixel and located in both conventions."""
+"""Differences are counted per pixel, and located in both row orders."""
 
 import numpy as np
 import pytest
 
-from softshadow.testing import Comparison, ProgramResult, compare, difference, differences, run_here
+from softshadow.testing import ProgramComparison, ProgramResult, compare, difference, differences, run_here
 
 
 def result(**changed):
@@ -17,7 +17,7 @@ def result(**changed):
 
 def test_equal_buffers_have_no_difference():
     assert differences(result(), result()) == ()
-    comparison = Comparison(result(), result(), ())
+    comparison = ProgramComparison(result(), result(), ())
     assert comparison
     assert str(comparison) == "no pixel differs"
 
@@ -26,23 +26,23 @@ def test_a_pixel_counts_once_however_many_channels_differ():
     color = np.zeros((4, 6, 4), np.uint8)
     color[1, 2, :3] = 9
     color[3, 0, 1] = 1
-    (found,) = differences(result(color=color), result())
-    assert (found.buffer, found.count, found.x, found.y, found.y_from_top) == ("color", 2, 2, 1, 2)
-    assert (found.ours, found.theirs) == ([9, 9, 9, 0], [0, 0, 0, 0])
+    (first,) = differences(result(color=color), result())
+    assert (first.buffer, first.count, first.x, first.y, first.y_from_top) == ("color", 2, 2, 1, 2)
+    assert (first.ours, first.theirs) == ([9, 9, 9, 0], [0, 0, 0, 0])
 
 
 def test_a_difference_prints_both_rows_and_both_values():
     depth = np.zeros((4, 6), np.uint32)
     depth[0, 5] = 16777215
-    (found,) = differences(result(), result(depth=depth))
-    assert str(found) == "depth: 1 differ, first at x=5, y=0 (row 3 from the top): 0 and 16777215"
+    (first,) = differences(result(), result(depth=depth))
+    assert str(first) == "depth: 1 differ, first at x=5, y=0 (row 3 from the top): 0 and 16777215"
 
 
 def test_returned_arrays_are_compared_too():
     ours = result(returned=[np.zeros((2, 2), np.float32), "a word", np.array([1, 2, 3])])
     theirs = result(returned=[np.zeros((2, 2), np.float32), "another", np.array([1, 5, 3])])
-    (found,) = differences(ours, theirs)
-    assert (found.buffer, found.count, found.x, found.ours, found.theirs) == ("returned[2]", 1, 1, 2, 5)
+    (first,) = differences(ours, theirs)
+    assert (first.buffer, first.count, first.x, first.ours, first.theirs) == ("returned[2]", 1, 1, 2, 5)
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,7 @@ def test_returned_arrays_are_compared_too():
     ],
 )
 def test_what_is_returned_alone_or_in_a_dict_is_compared_too(ours, theirs, name):
-    assert [found.buffer for found in differences(result(returned=ours), result(returned=theirs))] == [name]
+    assert [each.buffer for each in differences(result(returned=ours), result(returned=theirs))] == [name]
 
 
 def test_arrays_that_only_one_program_returns_are_named():
@@ -85,11 +85,11 @@ def stencilled_triangle(gl):
 
 
 def test_a_program_runs_here_with_its_first_row_at_the_bottom():
-    found = run_here(stencilled_triangle, (6, 4))
-    assert found.stencil[0, 0] == 1
-    assert found.stencil[3, 5] == 0
-    np.testing.assert_array_equal(found.color[3, 5], [51, 102, 153, 204])
-    np.testing.assert_array_equal(found.returned[0], (found.depth[:1, :2] / (2**24 - 1)).astype(np.float32))
+    buffers = run_here(stencilled_triangle, (6, 4))
+    assert buffers.stencil[0, 0] == 1
+    assert buffers.stencil[3, 5] == 0
+    np.testing.assert_array_equal(buffers.color[3, 5], [51, 102, 153, 204])
+    np.testing.assert_array_equal(buffers.returned[0], (buffers.depth[:1, :2] / (2**24 - 1)).astype(np.float32))
 
 
 def test_a_context_that_was_current_is_current_again_after_a_program():
@@ -111,9 +111,9 @@ def test_a_program_that_asks_where_it_runs_is_caught():
         gl.glClearStencil(1 if b"Mesa" in gl.glGetString(gl.GL_VERSION) else 2)
         gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
 
-    found = compare(two_faced, (6, 4))
-    assert not found
-    first, _, history = str(found).partition("\n")
+    comparison = compare(two_faced, (6, 4))
+    assert not comparison
+    first, _, history = str(comparison).partition("\n")
     assert first == "stencil: 24 differ, first at x=0, y=0 (row 3 from the top): 2 and 1"
     assert history.endswith("glClear: stencil 2")
 
@@ -123,11 +123,11 @@ def test_comparison_tells_the_history_of_the_first_differing_pixel():
     def program(gl):
         gl.glRectf(-0.5, -0.5, 0.5, 0.5 if gl.__name__ == "softshadow.gl" else 0.4)
 
-    found = compare(program, (32, 32))
-    assert not found
-    assert found.history.gl_y == found.differences[0].y
-    assert [row.verdict for row in found.history][-1] == "passed"
-    assert str(found).endswith(str(found.history))
+    comparison = compare(program, (32, 32))
+    assert not comparison
+    assert comparison.history.gl_y == comparison.differences[0].y
+    assert [row.verdict for row in comparison.history][-1] == "passed"
+    assert str(comparison).endswith(str(comparison.history))
     assert compare(lambda gl: gl.glRectf(-1, -1, 1, 1), (32, 32)).history is None
 
 

@@ -1,4 +1,4 @@
-"""Mesa's process: what comes back, what goes wrong, and that one program cannot disturb the next."""
+"""Mesa's process: results, errors, and independence of successive programs."""
 
 import functools
 import importlib.util
@@ -230,11 +230,11 @@ def test_a_missing_package_is_named(monkeypatch):
 def test_program_that_calls_softshadow_itself_is_told_to_call_its_namespace():
     from softshadow.gl import GL_COLOR_BUFFER_BIT, glClear
 
-    with pytest.raises(MesaError, match="has to call the namespace it is given"):
+    with pytest.raises(MesaError, match="must call the namespace that it gets"):
         run_on_mesa(lambda gl: glClear(GL_COLOR_BUFFER_BIT), (8, 8))
 
 
 @pytest.mark.mesa
 def test_returned_value_that_cannot_travel_is_told():
-    with pytest.raises(TypeError, match="what the program returned cannot be brought back"):
+    with pytest.raises(TypeError, match="return value cannot be sent back"):
         run_on_mesa(lambda gl: (number for number in range(3)), (8, 8))

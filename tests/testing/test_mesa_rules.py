@@ -1,4 +1,4 @@
-"""Mesa is driven as intended: its coverage and depth are those of the written-down rules, without fused multiply-add.
+"""Mesa runs as intended: its coverage and depth follow the documented rules, without fused multiply-add.
 
 The rules (docs: exactness) are spelled here in NumPy float32, one operation after the other, for triangles inside the
 frustum in the default framebuffer, whose rows are computed from the top.

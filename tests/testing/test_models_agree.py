@@ -1,4 +1,4 @@
-"""Models of all kinds, real ones and ones made to be awkward, are right off the band, and what is odd is warned of."""
+"""Shadows of real and of degenerate models are right off the band, and defects of a model cause warnings."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -21,7 +21,7 @@ MODELS = [
 
 
 def off_the_band(scene: ss.Scene) -> dict[str, int]:
-    """How many pixels techniques that have to be right get wrong."""
+    """Return the number of wrong pixels off the band for each exact technique."""
     truth = cast_truth(scene, SIZE)
     assert (truth.counts[0] > 0).any()
     techniques = ("planar", "volume-zfail", "volume-zpass-plus")
@@ -40,7 +40,7 @@ def test_shadows_of_a_large_model_are_right_off_the_band(name: str) -> None:
 
 
 def written(path: Path, positions: np.ndarray, triangles: np.ndarray) -> Path:
-    """An OBJ file with the mesh."""
+    """Write a mesh to an OBJ file, and return its path."""
     lines = [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in np.asarray(positions)]
     lines += [f"f {a} {b} {c}" for a, b, c in np.asarray(triangles) + 1]
     path.write_text("\n".join(lines))
@@ -91,8 +91,8 @@ def test_a_closed_body_beside_an_open_one_is_right_for_parity_too(tmp_path: Path
     both = written(tmp_path / "pair.obj", np.concatenate([POINTS, sheet]), triangles)
     scene = ss.Scene.from_mesh(both)
     truth = cast_truth(scene, SIZE)
-    (found,) = agreement(ss.run("volume-parity", scene, size=SIZE), truth)
+    (result,) = agreement(ss.run("volume-parity", scene, size=SIZE), truth)
     # the ring casts once, not with both of its layers; only where it shades itself the count is even
-    assert (found.wrong == ((truth.counts[0] > 0) & (truth.counts[0] % 2 == 0)))[~found.band].all()
+    assert (result.wrong == ((truth.counts[0] > 0) & (truth.counts[0] % 2 == 0)))[~result.band].all()
     alone = cast_truth(ss.Scene.from_mesh(written(tmp_path / "alone.obj", POINTS, FACES)), SIZE)
     assert truth.counts[0].max() == alone.counts[0].max()

@@ -1,4 +1,4 @@
-"""The read-out conventions of the Mesa side are those of `softshadow.gl`."""
+"""Mesa's namespace follows the read-out conventions of `softshadow.gl`."""
 
 import numpy as np
 import pytest
@@ -44,13 +44,13 @@ def test_pixels_are_rows_from_the_bottom_returned_or_filled_in(pixel_format, pix
     def program(gl):
         draw_a_slope(gl)
         arguments = (1, 2, 3, 2, getattr(gl, pixel_format), getattr(gl, pixel_type))
-        given = np.zeros(shape, dtype)
-        assert gl.glReadPixels(*arguments, given) is given
-        return gl.glReadPixels(*arguments), given, gl.glGetIntegerv(gl.GL_PACK_ALIGNMENT)
+        array = np.zeros(shape, dtype)
+        assert gl.glReadPixels(*arguments, array) is array
+        return gl.glReadPixels(*arguments), array, gl.glGetIntegerv(gl.GL_PACK_ALIGNMENT)
 
-    returned, given, alignment = run_on_mesa(program, SIZE).returned
+    returned, array, alignment = run_on_mesa(program, SIZE).returned
     assert (returned.shape, returned.dtype) == (shape, dtype)
-    np.testing.assert_array_equal(returned, given)
+    np.testing.assert_array_equal(returned, array)
     assert returned.view(np.uint8).any()
     assert alignment == 4
 

@@ -1,4 +1,4 @@
-"""Frame programs that are kept ready: what stays between frames, and that nothing of it leaks out."""
+"""Sessions: state persists between frames, and does not leak out of a session."""
 
 from typing import Any
 
@@ -15,7 +15,7 @@ SIZE = (6, 4)
 
 
 def counting(on: Any) -> Any:
-    """A frame adds 1 to the stencil buffer by a quad over the window."""
+    """Return a frame function that adds 1 to the stencil buffer with a quad over the window."""
     on.glEnable(on.GL_STENCIL_TEST)
     on.glStencilOp(on.GL_KEEP, on.GL_KEEP, on.GL_INCR)
 
@@ -36,10 +36,10 @@ def test_frames_go_on_from_what_the_last_one_left() -> None:
 def test_frames_on_mesa_go_on_from_what_the_last_one_left() -> None:
     session = MesaSession(counting, SIZE, draw_threads=2)
     try:
-        taken = session.time(3)
+        timings = session.time(3)
         session.warm_up()
         assert (session.buffers()["stencil"] == 4).all()
-        assert all(each.wall > 0 for each in [session.prepared, *taken])
+        assert all(each.wall > 0 for each in [session.prepared, *timings])
     finally:
         session.close()
 

@@ -1,4 +1,4 @@
-"""What is drawn for users: meshes and scenes of all the kinds that are promised; a clear word without Hypothesis."""
+"""The strategies generate all documented kinds of meshes and scenes; a clear error without Hypothesis."""
 
 import subprocess
 import sys
@@ -83,4 +83,4 @@ def test_without_hypothesis_an_error_says_what_to_install() -> None:
         "except ModuleNotFoundError as error:\n    print(error)"
     )
     said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout
-    assert "Hypothesis is missing; expected `pip install 'softshadow[properties]'`" in said
+    assert "needs Hypothesis: pip install 'softshadow[properties]'" in said

@@ -1,4 +1,4 @@
-"""The first call after which two programs differ is found and named with its line."""
+"""`diff_programs` names the first call after which two programs differ, and its line."""
 
 import pytest
 
@@ -42,14 +42,14 @@ SIDES = [
 
 @pytest.mark.parametrize("on", SIDES)
 def test_the_first_call_with_other_pixels_is_named(on):
-    found = diff_programs(boxes, other_color, SIZE, on)
-    assert found.a.number == found.b.number == 7
-    assert found.a.text.startswith("glClear(")
-    assert found.a.line.startswith("boxes line ")
-    (difference,) = found.differences
+    divergence = diff_programs(boxes, other_color, SIZE, on)
+    assert divergence.a.number == divergence.b.number == 7
+    assert divergence.a.text.startswith("glClear(")
+    assert divergence.a.line.startswith("boxes line ")
+    (difference,) = divergence.differences
     assert (difference.buffer, difference.count, difference.x, difference.y) == ("color", 9, 4, 2)
     assert (difference.ours[0], difference.theirs[0]) == (51, 204)
-    assert "call 7" in str(found)
+    assert "call 7" in str(divergence)
 
 
 @pytest.mark.parametrize("on", SIDES)
@@ -59,11 +59,11 @@ def test_calls_that_only_set_state_may_differ(on):
 
 @pytest.mark.parametrize("on", SIDES)
 def test_a_program_that_ends_early_is_told(on):
-    found = diff_programs(boxes, fewer_boxes, SIZE, on)
-    assert found.b is None
-    assert found.a.number == 7
-    assert "b: draws nothing more" in str(found)
-    assert [difference.count for difference in found.differences] == [9]
+    divergence = diff_programs(boxes, fewer_boxes, SIZE, on)
+    assert divergence.b is None
+    assert divergence.a.number == 7
+    assert "b: draws nothing more" in str(divergence)
+    assert [difference.count for difference in divergence.differences] == [9]
 
 
 @pytest.mark.mesa

@@ -1,4 +1,4 @@
-"""Reports with numbers that nobody measured."""
+"""Reports with invented numbers."""
 
 from softshadow.bench.results import Limits, PeerTimes, Ratio, Report, Summary, WorkloadResult
 

@@ -1,4 +1,4 @@
-"""llvmpipe's log2, exp2 and pow: near the real ones, and right where the real ones are exact."""
+"""llvmpipe's log2, exp2 and pow: close to the exact values, and equal if these are representable."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""How much there is to do in a frame: draws, triangles, fragments."""
+"""The amount of work in a frame: numbers of draws, triangles and fragments."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from softshadow.bench.workload import Workload
 from softshadow.inspection.ledger import Counts, ledger_of
 
 
-def count_frame(workload: Workload) -> Counts:
-    """Return the counts of one frame, without those of its preparation."""
+def frame_statistics(workload: Workload) -> Counts:
+    """Return the numbers of draws, triangles and fragments of one frame, without its preparation."""
     with gl.create_context(*workload.size) as context:
         frame = workload.program(gl)
         context.end_step("preparation")
