@@ -13,9 +13,8 @@
 # %% [markdown]
 # # 1. Planar shadows
 #
-# The oldest trick that is still taught (Blinn 1988): flatten the caster onto the floor, and paint it dark. One matrix
-# does the flattening. Everything else is about *where* the flattened caster may leave its mark, and that is what the
-# stencil buffer is for.
+# The oldest technique that is still taught (Blinn 1988): flatten the caster onto the floor, and paint it dark. One
+# matrix flattens it. The stencil buffer decides *where* the flattened caster may change the picture.
 
 # %%
 import numpy as np
@@ -30,8 +29,8 @@ run.image.shape, run.depth.dtype, run.stencil.dtype
 # %% [markdown]
 # ## Step by step
 #
-# A run keeps every buffer after every step: arrays with row 0 on top, indexed `[y, x]`. Shown are colour, depth
-# (stretched over what was drawn) and stencil: 0 dark, 1 orange.
+# A run keeps every buffer after every step: arrays with row 0 at the top, indexed `[y, x]`. The pictures show colour,
+# depth (stretched over the range of the drawn depths) and stencil: 0 dark, 1 orange.
 
 # %%
 for step in run:
@@ -40,9 +39,9 @@ for step in run:
     print("pixels per stencil value:", dict(zip(values.tolist(), pixels.tolist(), strict=True)))
 
 # %% [markdown]
-# First the floor marks its pixels with 1. Then the flattened boxes are drawn with all colours masked, and take the
-# mark away where they land: off the floor there is none to take. Where the mark is gone, the floor is drawn again
-# without the light, and the boxes come last.
+# First, drawing the floor marks its pixels with 1. Then the flattened boxes are drawn with all colours masked; they
+# remove the mark from the pixels that they cover. Outside the floor there is no mark to remove. Where the mark is
+# gone, the floor is drawn again without the light. The boxes are drawn last.
 #
 # The state of a step prints as the GL calls that make it. This is the second step:
 
@@ -50,8 +49,8 @@ for step in run:
 print(run[1].state)
 
 # %% [markdown]
-# Buffers are arrays, so anything can be asked of them: here is a row of the stencil buffer through the shadow's edge,
-# and what changed from one step to the next.
+# Buffers are ordinary arrays. Here are a row of the stencil buffer across the shadow's edge, and the changes from one
+# step to the next.
 
 # %%
 rows, columns = np.nonzero(run.shadow_mask)
@@ -63,7 +62,8 @@ print(run.diff(0, 1))
 # %% [markdown]
 # ## Why is this pixel dark?
 #
-# Every pixel tells what arrived there, and what became of it. Take that one in the middle of the shadow.
+# For every pixel, the run lists the fragments that arrived there, with their results. Take the pixel in the middle of
+# the shadow.
 
 # %%
 print(run.explain(x, y))
@@ -72,8 +72,8 @@ run.pixel(x, y)
 # %% [markdown]
 # ## Two failures
 #
-# Without the stencil buffer the flattened caster keeps the depth test. But it lies exactly *in* the floor, and
-# rounding decides pixel by pixel who wins.
+# Without the stencil buffer, the flattened caster has to pass the depth test. But it lies exactly *in* the floor, so
+# rounding decides at each pixel which of the two is visible.
 
 # %%
 fighting = ss.failures["z-fighting"]
@@ -81,8 +81,8 @@ display(fighting)
 print(fighting.explain())
 
 # %% [markdown]
-# And if the shadow is blended, so that the floor shines through, every layer of the caster darkens once more: a
-# closed box has two.
+# If the shadow is blended, so that the floor shines through, every layer of the caster darkens the floor once more. A
+# closed box has two layers.
 
 # %%
 double = ss.failures["double-blending"]
@@ -92,8 +92,8 @@ print(double.diff)
 # %% [markdown]
 # ## A property
 #
-# The ray caster knows nothing of projections, stencil buffers or rounding to pixels. A shadow never leaves the floor,
-# and away from the edges of shadows both say the same.
+# The ray caster uses no projections, no stencil buffer and no rounding to pixels. Shadows lie on the floor only, and
+# away from the edges of shadows both methods agree.
 
 # %%
 assert not run.shadow_mask[~run.valid].any()
@@ -102,6 +102,6 @@ assert not comparison.error[~comparison.band].any()
 print(comparison)
 
 # %% [markdown]
-# Go on: another method (`"depth-off"`, `"offset"`, `"stencil-blend"`, `"texture"`), another scene
+# To go on, try another method (`"depth-off"`, `"offset"`, `"stencil-blend"`, `"texture"`), another scene
 # (`ss.scene_names()`), your own model (`ss.Scene.from_mesh("bunny.obj", light=(2, 5, 3))`), or the next notebook,
 # where casters shadow themselves.

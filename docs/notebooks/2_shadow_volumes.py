@@ -13,9 +13,9 @@
 # %% [markdown]
 # # 2. Shadow volumes
 #
-# What a caster hides from the light is a solid: it begins at the caster and goes on for ever (Crow 1977). A point is
-# in shadow when it lies in such a solid, and the stencil buffer can count, for all pixels at once, how many of them
-# it lies in (Heidmann 1991).
+# The points that a caster hides from the light form a solid, which begins at the caster and extends to infinity (Crow
+# 1977). A point is in shadow if it lies in such a solid. The stencil buffer can count, for all pixels at once, how
+# many solids contain the visible point (Heidmann 1991).
 
 # %%
 import numpy as np
@@ -30,8 +30,8 @@ run = ss.run("volume-zpass", scene, size=(320, 240))
 # ## Counting where the depth test passes
 #
 # A ray from the eye enters a volume through a front face, and leaves it through a back face. Front faces that are
-# nearer than the surface count up, back faces that are nearer count down. What is left at the surface is the number
-# of volumes it lies in: 0 dark, 1 orange, 2 blue in the pictures, and purple below 0.
+# nearer than the surface count +1, back faces that are nearer count −1. The sum is the number of volumes that contain
+# the surface point. In the pictures, 0 is dark, 1 orange, 2 blue, and values below 0 are purple.
 
 # %%
 for step in run:
@@ -40,8 +40,8 @@ for step in run:
     print("pixels per stencil value:", dict(zip(values.tolist(), pixels.tolist(), strict=True)))
 
 # %% [markdown]
-# Between the two counting passes the buffer is not a picture of the shadow yet: front faces are drawn everywhere
-# where they are seen. The state of a pass prints as the GL calls that make it.
+# Between the two counting passes, the buffer does not show the shadow yet: front faces have been counted wherever
+# they are visible. The state of a pass prints as the GL calls that make it.
 
 # %%
 print(run["count front faces"].state)
@@ -60,8 +60,8 @@ run.pixel(x, y)
 # %% [markdown]
 # ## Two failures
 #
-# Counting in front of the surface starts at the near rectangle. If the eye stands in a shadow, the volume's front
-# face is behind it, and the count is one too low from the beginning.
+# Counting in front of the surface starts at the near rectangle. If the eye is in a shadow, the volume's front face is
+# behind the eye, and the count is one too low from the beginning.
 
 # %%
 eye = ss.failures["eye-in-shadow"]
@@ -69,7 +69,7 @@ display(eye)
 print(eye.reason, f"{eye.number_wrong} pixels are wrong, with z-fail {eye.number_cured}.")
 
 # %% [markdown]
-# A listing of the course tests the lowest bit of the count only: two volumes over each other then read as light.
+# A listing of the course tests only the lowest bit of the count. Then points in two overlapping volumes read as lit.
 
 # %%
 parity = ss.failures["mask-1"]
@@ -79,9 +79,9 @@ print(parity.diff)
 # %% [markdown]
 # ## A property
 #
-# Counting *behind* the surface instead (z-fail) needs no start value, but volumes with a cap at both ends. Where the
-# near rectangle is not in shadow both counts are the same number at every pixel, and it is the number of faces that
-# stand between light and surface: the ray caster counts them, too.
+# Counting *behind* the surface instead (z-fail) needs no start value, but volumes with a cap at both ends. If the
+# near rectangle is not in shadow, both counts are equal at every pixel. They are the number of faces between the
+# light and the surface, which the ray caster counts, too.
 
 # %%
 other = ss.run("volume-zfail", scene, size=(320, 240))
@@ -91,12 +91,12 @@ assert not comparison.error[~comparison.band].any()
 print(comparison)
 
 # %% [markdown]
-# What a step costs, in draws, triangles, fragments and stencil updates:
+# The cost of each step, in draws, triangles, fragments and stencil updates:
 
 # %%
 other.ledger
 
 # %% [markdown]
-# Go on: the options of `ss.describe("volume-zfail")`, the scene `"eye-in-shadow"` with `start="eye"` and
+# To go on, try the options of `ss.describe("volume-zfail")`, the scene `"eye-in-shadow"` with `start="eye"` and
 # `start="near-plane"`, your own model (`ss.Scene.from_mesh("bunny.obj", light=(2, 5, 3))`), or the next notebook,
-# where a second depth buffer takes the place of geometry.
+# where a second depth buffer replaces the volumes.

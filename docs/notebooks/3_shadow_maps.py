@@ -13,8 +13,8 @@
 # %% [markdown]
 # # 3. Shadow maps
 #
-# Seen from the light there are no shadows. So draw the scene from the light, keep nothing but the depth buffer, and
-# ask for every pixel of the camera's picture: is it farther from the light than what is stored there? (Williams 1978)
+# Seen from the light there are no shadows. So draw the scene from the light, and keep only the depth buffer. Then
+# test every pixel of the camera's picture: is its point farther from the light than the stored depth? (Williams 1978)
 
 # %%
 import numpy as np
@@ -28,8 +28,8 @@ run = ss.run("map", scene, size=(320, 240), map_size=256)
 # %% [markdown]
 # ## Step by step
 #
-# The first step draws into a texture, so the window stays empty: what it makes is the map, under the name *ZS*. It is
-# a picture in its own right, and the first thing to look at when a shadow is wrong.
+# The first step draws into a texture, so the window stays empty. Its result is the map, with the name *ZS*. The map
+# is a picture, too. When a shadow is wrong, look at the map first.
 
 # %%
 import matplotlib.pyplot as plt
@@ -46,8 +46,8 @@ plt.title(
 plt.colorbar()
 
 # %% [markdown]
-# While the map is drawn, `glPolygonOffset` pushes everything a little away from the light: without it surfaces would
-# shadow themselves, as we shall see.
+# While the map is drawn, `glPolygonOffset` moves everything a little away from the light. Without it, surfaces would
+# shadow themselves, as shown below.
 
 # %%
 print(run[0].state)
@@ -65,8 +65,8 @@ run.pixel(x, y)
 # %% [markdown]
 # ## Two failures
 #
-# A texel stores one depth for a patch of a slanted surface; half of that patch is farther away than what is stored.
-# Without a bias it shadows itself.
+# A texel stores one depth for a patch of a sloping surface, but half of the patch is farther away than this depth.
+# Without a bias the surface shadows itself.
 
 # %%
 acne = ss.failures["acne"]
@@ -74,7 +74,7 @@ display(acne)
 print(acne.explain())
 
 # %% [markdown]
-# With too much of a bias the shadow comes off the foot of its caster.
+# If the bias is too large, the shadow is detached from the foot of its caster.
 
 # %%
 panning = ss.failures["peter-panning"]
@@ -84,14 +84,14 @@ print(panning.diff)
 # %% [markdown]
 # ## A property
 #
-# How much bias is enough? On a plane the stored depth is off by at most half a texel in each direction, so an offset
-# by the larger slope is enough: that is the first argument of `glPolygonOffset`, and 1 is its right value. Seen here
-# on a floor that the light strikes at an angle, with nothing that could cast a shadow on it but itself:
+# How much bias is enough? On a plane, the sample of the stored depth is at most half a texel away in each direction,
+# so an offset by the larger slope is enough. This is the first argument of `glPolygonOffset`, and 1 is its right
+# value. The example is a floor that the light strikes at an angle. Only the floor itself could cast a shadow on it:
 
 # %%
 import warnings
 
-warnings.simplefilter("ignore", ss.OpenMesh)  # a floor is one, and means to be
+warnings.simplefilter("ignore", ss.OpenMesh)  # a floor is an open mesh
 floor = ss.Scene(
     "floor alone",
     ss.Camera((2.6, 3.0, 4.8), (0, 0, 0)),
@@ -104,12 +104,13 @@ for factor in (0.0, 1.0):
 assert dark == 0
 
 # %% [markdown]
-# Unlike the stencil count the map does not depend on the camera: it is computed once for any number of views.
+# Unlike the stencil count, the map does not depend on the camera. It is drawn once for any number of views.
 
 # %%
 elsewhere = ss.Scene("from above", ss.Camera((0.5, 7, 1), (0, 0, 0)), scene.lights, scene.objects)
 assert (ss.run("map", elsewhere, size=(320, 240), map_size=256).maps["ZS"] == ZS).all()
 
 # %% [markdown]
-# Go on: `map_size`, `bias`, `cull` and the other options of `ss.describe("map")`; a light inside the scene
-# (`"room"`); and `run.compare(truth="hard")`, which tells how far the picture is from the truth, and where.
+# To go on, try `map_size`, `bias`, `cull` and the other options of `ss.describe("map")`, a light inside the scene
+# (`"room"`), and `run.compare(truth="hard")`, which shows where, and at how many pixels, the picture differs from ray
+# casting.

@@ -57,7 +57,7 @@ def test_every_correction_that_a_technique_or_a_failure_points_at_is_told() -> N
     told = set(re.findall(r"^\| (E\d+) \|", page("corrections.md"), re.MULTILINE))
     cited = {
         number
-        for block in ("techniques", "failures")
+        for block in ("techniques", "gallery")
         for file in (PACKAGE / block).glob("*.py")
         for number in re.findall(r"\bE\d+\b", file.read_text(encoding="utf-8"))
     }
