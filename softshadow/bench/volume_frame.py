@@ -1,6 +1,6 @@
 """Whole z-fail frame: silhouette and extrusion, ambient pass, two counting passes, lit pass.
 
-It calls the technique's functions, without reading back buffers between the passes.
+It makes the technique's GL calls, but does not read back buffers between the passes.
 """
 
 from __future__ import annotations
