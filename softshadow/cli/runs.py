@@ -54,28 +54,40 @@ def _about(run: Run) -> dict[str, Any]:
 @click.option(
     "-o", "--output", metavar="OUT", help="A .png, .html or .npz file, or a folder/.  [default: TECHNIQUE.png]"
 )
+@click.option(
+    "--explain-path", is_flag=True, help="Also print which way every draw went through the pipeline, and why."
+)
 @force
 @as_json
 def render(
     technique: str, scene: str | None, mesh: str | None, light: tuple[float, ...] | None, size: tuple[int, int],
-    options: tuple[str, ...], output: str | None, force: bool, as_json: bool,
+    options: tuple[str, ...], output: str | None, explain_path: bool, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Draw a scene with a technique and write the result.
 
     The suffix of OUT selects the result: an image (.png), a report (.html), all buffers (.npz), or a folder with an
     image of every step.
     """
+    from softshadow.pipeline import explain_paths
     from softshadow.runs.saving import check_path
 
     target = output or f"{technique}.png"
     check_path(target, force)
-    run = _draw(technique, size, options, scene=scene, mesh=mesh, light=light)
+    with explain_paths() as paths:
+        run = _draw(technique, size, options, scene=scene, mesh=mesh, light=light)
     written = run.save(target, force=force)
     if as_json:
         shadowed = float(run.shadow_mask.mean()) if "visibility" in run.maps else None
-        print_json("render", written=written, shadowed_share=shadowed, **_about(run))
-    else:
-        click.echo(written)
+        explained = {"paths": [vars(path) for path in paths]} if explain_path else {}
+        print_json("render", written=written, shadowed_share=shadowed, **explained, **_about(run))
+        return
+    if explain_path:
+        columns = ["object", "way", "fill", "shading", "why"]
+        rows = [
+            [path.label, path.way, path.fill or "-", path.shading or "-", "; ".join(path.reasons)] for path in paths
+        ]
+        table("draws", columns, rows)
+    click.echo(written)
 
 
 @click.command(

@@ -152,6 +152,8 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
         path.note(why)
     elif in_chunks:
         path.note("no colour is written or tested")
+    else:
+        path.note("neither blending nor alpha test: each visible pixel is shaded once")
     return Plan(in_order, writes_color, in_chunks, cached, try_unordered, front, back, path)
 
 
@@ -235,12 +237,12 @@ def _is_specialized(key: Any, fragments: int, path: DrawPath) -> bool:
         return True
     _drawn[key] = _drawn.get(key, 0) + fragments
     if _drawn[key] > PAYS_AFTER:
-        path.note(f"the state has drawn more than {PAYS_AFTER} fragments: compiling it pays")
+        path.note(f"the state has drawn more than {PAYS_AFTER:,} fragments: compiling it pays")
         return True
     if specialize.is_on_disk(key):
         path.note("the state was compiled before: its code is on disk")
         return True
-    path.note(f"the state is not compiled before it has drawn {PAYS_AFTER} fragments")
+    path.note(f"the state is not compiled before it has drawn {PAYS_AFTER:,} fragments")
     return False
 
 

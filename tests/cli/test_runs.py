@@ -53,6 +53,17 @@ def test_indices_of_the_stencil_pictures_are_the_counts(zfail: ss.Run) -> None:
     assert zfail[1].stencil.max() > 0
 
 
+def test_explain_path_tells_the_way_of_every_draw() -> None:
+    draws = len(ss.run("volume-zfail", "torus", SIZE).frame.commands)
+    paths = json_of("render", "volume-zfail", *SMALL, "--explain-path")["paths"]
+    assert 0 < len(paths) <= draws
+    assert {path["way"] for path in paths} >= {"opaque", "depth and stencil only, in chunks"}
+    assert all(path["reasons"] for path in paths)
+    printed = invoke_ok("render", "volume-zfail", *SMALL, "--explain-path", "--force").stdout
+    assert printed.count("no colour is written or tested") == sum("chunks" in path["way"] for path in paths)
+    assert printed.endswith("volume-zfail.png\n")
+
+
 def test_json_of_render_tells_what_was_drawn_and_written(zfail: ss.Run) -> None:
     answer = json_of("render", "volume-zfail", *SMALL, "-O", "two-sided=yes", "-o", "b.png")
     assert answer["written"] == "b.png"

@@ -83,7 +83,7 @@ def test_explain_paths_lists_the_way_of_each_draw_and_its_reasons():
     assert [path.shading for path in paths] == ["program", "program", "", ""]
     assert "the alpha test reads colours" in paths[1].reasons
     assert "no colour is written or tested" in paths[2].reasons
-    assert paths[3].reasons == ["short cuts are off"]
+    assert "short cuts are off" in paths[3].reasons
     assert paths[3].fill == "textbook"
 
 
