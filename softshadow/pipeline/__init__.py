@@ -25,16 +25,16 @@ import numpy as np
 from softshadow.errors import StateError
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.choose import (
-    DrawPath,
     Plan,
+    WithoutOverlaps,
     choose_fill,
     choose_shading,
-    explain_paths,
     plan_draw,
     tests_alpha,
     use_short_cuts,
 )
 from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.draw_path import DrawPath, explain_paths
 from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.memory.threads import set_threads, threads
 from softshadow.pipeline.raster.fill import fill, fill_buffers, no_ids
@@ -88,8 +88,9 @@ def draw(command: Draw, storage: Storage, counts: FragmentCounts | None = None) 
         raise StateError(f"framebuffer {target.name} has nothing attached to draw to")
     plan = plan_draw(command, target, counts is not None)
     with np.errstate(all="ignore"):  # infinities of vertices that clipping removes; interpreted kernels would warn
-        if plan.in_chunks:
-            _draw_in_chunks(plan, command, target)
+        if plan.chunks_of:
+            for triangles, ranges, region, fragments in plan.chunks_of(command, target):
+                _fill(plan, command.state, target, triangles, region, fragments, ranges=ranges)
             return
         geometry = process_geometry(command, target, storage)
         if not len(geometry.triangles.ids):
@@ -109,7 +110,7 @@ def _draw_opaque(
     counts: FragmentCounts | None,
 ) -> None:
     """Fill all triangles, then shade each visible pixel once."""
-    state, triangles = command.state, geometry.triangles
+    state, triangles, real = command.state, geometry.triangles, geometry.window.dtype.type
     region, fragments = covered(triangles, region_of(state, target))
     if region.first_row >= region.end_row:
         return
@@ -125,25 +126,15 @@ def _draw_opaque(
     if not plan.writes_color:
         fill_all(None)
         return
-    if plan.cached:
-        from softshadow.pipeline.fast.visibility_cache import FillInputs, cached_fill
-
-        depth_range = depth_range_of(state, geometry.window.dtype.type)
-        inputs = FillInputs(plan.front, plan.back, triangles, region, depth_range)
-        spans, was_cached = cached_fill(inputs, target, storage, visible)
+    if plan.cached_fill:
+        spans, was_cached = plan.cached_fill(
+            plan.front, plan.back, triangles, region, depth_range_of(state, real), target, storage, visible
+        )
         if was_cached:
             plan.path.note("an equal draw over the same depths was filled before: only shaded")
     else:
         spans = visible()
     choose_shading(plan, state, target, geometry)(spans)
-
-
-def _draw_in_chunks(plan: Plan, command: Draw, target: Framebuffer) -> None:
-    """Set up and fill some of the triangles at a time: nothing needs them after the fill."""
-    from softshadow.pipeline.fast.depth_only import chunks_of
-
-    for triangles, ranges, region, fragments in chunks_of(command, target):
-        _fill(plan, command.state, target, triangles, region, fragments, ranges=ranges)
 
 
 def _draw_in_order(
@@ -152,8 +143,8 @@ def _draw_in_order(
     """Test and write the fragments one by one, in drawing order."""
     state, triangles = command.state, geometry.triangles
     region, real = region_of(state, target), geometry.window.dtype
-    if plan.try_unordered:
-        spans = _spans_without_overlaps(plan, command, target, geometry)
+    if plan.without_overlaps:
+        spans = _spans_without_overlaps(plan, plan.without_overlaps, command, target, geometry)
         if spans is not None:
             choose_shading(plan, state, target, geometry)(spans)
             return
@@ -183,18 +174,19 @@ def _draw_in_order(
                 color_writer(state, image)(spans, colors[passed])
 
 
-def _spans_without_overlaps(plan: Plan, command: Draw, target: Framebuffer, geometry: Geometry) -> Spans | None:
+def _spans_without_overlaps(
+    plan: Plan, without_overlaps: WithoutOverlaps, command: Draw, target: Framebuffer, geometry: Geometry
+) -> Spans | None:
     """Return the spans of a blended draw where each pixel takes at most one fragment, or None."""
     triangles = geometry.triangles
     region, fragments = covered(triangles, region_of(command.state, target))
     if region.first_row >= region.end_row:
         return None
-    from softshadow.pipeline.fast.unordered_blend import triangles_without_overlaps
 
     def dry_run(ids: np.ndarray) -> None:
         _fill(plan, command.state, target, triangles, region, fragments, ids=ids, writes_ids=ONLY)
 
-    ids = triangles_without_overlaps(dry_run, region, padded_shape(target)[1])
+    ids = without_overlaps(dry_run, region, padded_shape(target)[1])
     plan.path.note("a dry run found overlapping fragments" if ids is None else "a dry run found no overlaps")
     if ids is None:
         return None
@@ -217,10 +209,10 @@ def _fill(
 ) -> None:
     """Fill the triangles; `fragments` is about how many they have, the other arguments are those of `fill`."""
     writes_ids = writes_ids if ids is not None else 0
-    drawn = len(triangles.ids) if ranges is None else sum(end - first for first, end in ranges)
-    choice = choose_fill(plan, drawn, fragments, region, writes_ids=writes_ids, counting=counts is not None)
+    n_triangles = len(triangles.ids) if ranges is None else sum(end - first for first, end in ranges)
+    choice = choose_fill(plan, n_triangles, fragments, region, writes_ids=writes_ids, counts=counts)
     real = triangles.depth.dtype
-    buffers = fill_buffers(*buffer_cells(target, real), real, region, ids, counts)
+    buffers = fill_buffers(*buffer_cells(target, real), real, region, ids)
     fill(
         choice.kernel, plan.front, plan.back, triangles, region, depth_range_of(state, real.type), buffers,
         writes_ids=bool(writes_ids), band_rows_log2=choice.band_rows_log2, ranges=ranges,

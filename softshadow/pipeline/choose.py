@@ -10,25 +10,38 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple
+
+import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.draw_path import DrawPath, begin_path
 from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.geometry.polygon_mode import is_filled
 from softshadow.pipeline.memory.threads import threads
 from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2
-from softshadow.pipeline.raster.fill import FillKernel, fill_triangles
+from softshadow.pipeline.raster.fill import FillKernel, textbook_kernel
 from softshadow.pipeline.raster.fragment_ops import FragmentOps, fragment_ops
-from softshadow.pipeline.records import Geometry, Region, Spans
+from softshadow.pipeline.records import FragmentCounts, Geometry, Region, Spans
 from softshadow.pipeline.shade.shading import shade_and_write
 from softshadow.state import State
 
-PAYS_AFTER = (
-    200_000_000  # fragments of one state; measured: `fill_triangles` fills them in the time that compiling takes
-)
+try:
+    from softshadow.pipeline.fast import specialize
+    from softshadow.pipeline.fast.depth_only import Chunk, chunks_of
+    from softshadow.pipeline.fast.hierarchical_z import order_independent
+    from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
+    from softshadow.pipeline.fast.unordered_blend import triangles_without_overlaps
+    from softshadow.pipeline.fast.visibility_cache import cached_fill
+
+    SHORT_CUTS_EXIST = True
+except ModuleNotFoundError:  # the folder can be deleted: the textbook draws everything
+    SHORT_CUTS_EXIST = False
+
+# a fill kernel that is not compiled for its state fills so many fragments in the time that compiling takes (measured)
+PAYS_AFTER = 200_000_000
 WORTH_BANDS = 1_000_000  # fragments from which sorting and the hand-over to threads are small against the work
 SMALL_TRIANGLE = 100  # fragments that take as long as a small triangle
 WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volumes are long and thin
@@ -36,10 +49,10 @@ BANDS_PER_THREAD = 4  # so that the other threads can make up for one that takes
 LAYERS = 4  # of fragments over each other, from which bands pay on one thread, too
 
 Policy = bool | Literal["always"]
+WithoutOverlaps = Callable[[Callable[[np.ndarray], None], Region, int], np.ndarray | None]
 
-_short_cuts: ContextVar[Policy] = ContextVar("short_cuts", default=True)  # each thread has its own
-_explained: ContextVar[list[DrawPath] | None] = ContextVar("explained", default=None)
-_drawn: dict[object, int] = {}  # fragments per state that is not compiled
+_short_cuts: ContextVar[Policy] = ContextVar("short_cuts", default=SHORT_CUTS_EXIST)  # each thread has its own
+_filled: dict[object, int] = {}  # fragments per state that is not compiled
 
 
 @contextmanager
@@ -55,7 +68,7 @@ def use_short_cuts(policy: Policy) -> Iterator[None]:
     Raises
     ------
     ValueError
-        `policy` is none of these.
+        `policy` is none of these, or the folder of short cuts was deleted.
 
     Examples
     --------
@@ -67,6 +80,8 @@ def use_short_cuts(policy: Policy) -> Iterator[None]:
     """
     if policy is not True and policy is not False and policy != "always":
         raise ValueError(f"use_short_cuts({policy!r}): expected True, False or 'always'")
+    if policy and not SHORT_CUTS_EXIST:
+        raise ValueError(f"use_short_cuts({policy!r}): softshadow.pipeline.fast is missing; expected False")
     token = _short_cuts.set(policy)
     try:
         yield
@@ -74,87 +89,49 @@ def use_short_cuts(policy: Policy) -> Iterator[None]:
         _short_cuts.reset(token)
 
 
-@dataclass
-class DrawPath:
-    """The way that one draw went.
-
-    Attributes
-    ----------
-    label : str              the debug groups of the draw ("step/torus")
-    mode : int               GL_POINTS ... GL_POLYGON
-    way, fill, shading : str which way it went; "" where nothing was filled or shaded
-    reasons : list of str    why, in the order of the decisions
-    """
-
-    label: str
-    mode: int
-    way: str = ""
-    fill: str = ""
-    shading: str = ""
-    reasons: list[str] = field(default_factory=list)
-
-    def note(self, reason: str) -> None:
-        """Add a reason, once."""
-        if reason not in self.reasons:
-            self.reasons.append(reason)
-
-
-@contextmanager
-def explain_paths() -> Iterator[list[DrawPath]]:
-    """Inside, the list in the with statement receives the way of every draw of this thread."""
-    paths: list[DrawPath] = []
-    token = _explained.set(paths)
-    try:
-        yield paths
-    finally:
-        _explained.reset(token)
-
-
 class Plan(NamedTuple):
     """What the state decides about a draw.
 
-    in_order: fragments are tested and written one by one; writes_color: colours may change; in_chunks: set up and fill
-    some triangles at a time; cached: look for an equal fill in the visibility cache; try_unordered: find out whether
-    blended fragments overlap; front, back: the per-fragment operations of each facing.
+    in_order: fragments are tested and written one by one; writes_color: colours may change; front, back: the
+    per-fragment operations of each facing. The short cuts to take, or None: chunks_of sets up some triangles at a time,
+    cached_fill looks for an equal fill, without_overlaps finds out whether blended fragments overlap.
     """
 
     in_order: bool
     writes_color: bool
-    in_chunks: bool
-    cached: bool
-    try_unordered: bool
     front: FragmentOps
     back: FragmentOps
     path: DrawPath
+    chunks_of: Callable[[Draw, Framebuffer], Iterator[Chunk]] | None = None
+    cached_fill: Callable[..., tuple[Spans, bool]] | None = None
+    without_overlaps: WithoutOverlaps | None = None
 
 
 def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
     """Return what the state decides about a draw; `counting`: its fragments are counted, so each is processed once."""
-    state, path = command.state, DrawPath(command.label, command.mode)
-    explained = _explained.get()
-    if explained is not None:
-        explained.append(path)
-    front, back = (fragment_ops(state, target.depth, target.stencil, facing) for facing in (True, False))
+    state, path = command.state, begin_path(command.label, command.mode)
+    front = fragment_ops(state, target.depth, target.stencil, True)
+    back = fragment_ops(state, target.depth, target.stencil, False)
     in_order, writes_color = needs_order(state), bool(target.colors) and any(state.color.mask)
-    short = bool(_short_cuts.get()) and not counting
-    in_chunks = short and not in_order and writes_no_colors(command, target)
-    try_unordered = (
-        short and in_order and writes_color and not tests_alpha(state) and keeps_depth_and_stencil(front, back)
-    )
-    cached = short and not in_order and writes_color
-    path.way = "in order" if in_order else "depth and stencil only, in chunks" if in_chunks else "opaque"
+    plan = Plan(in_order, writes_color, front, back, path)
+    path.way = "in order" if in_order else "opaque"
+    if not in_order:
+        path.note("neither blending nor alpha test: each visible pixel is shaded once")
+    else:
+        path.note("the alpha test reads colours" if tests_alpha(state) else "blending depends on the drawing order")
     if counting:
         path.note("fragments are counted: no short cut")
-    elif not short:
+    elif not _short_cuts.get():
         path.note("short cuts are off")
-    if in_order:
-        why = "the alpha test reads colours" if tests_alpha(state) else "blending or logic op depends on drawing order"
-        path.note(why)
-    elif in_chunks:
-        path.note("no colour is written or tested")
-    else:
-        path.note("neither blending nor alpha test: each visible pixel is shaded once")
-    return Plan(in_order, writes_color, in_chunks, cached, try_unordered, front, back, path)
+    elif in_order:
+        if writes_color and not tests_alpha(state) and keeps_depth_and_stencil(front, back):
+            return plan._replace(without_overlaps=triangles_without_overlaps)
+    elif writes_no_colors(command, target):
+        path.way, path.reasons = "depth and stencil only, in chunks", ["no colour is written or tested"]
+        return plan._replace(chunks_of=chunks_of)
+    elif writes_color:
+        return plan._replace(cached_fill=cached_fill)
+    return plan
 
 
 def needs_order(state: State) -> bool:
@@ -194,55 +171,60 @@ class FillChoice(NamedTuple):
 
 
 def choose_fill(
-    plan: Plan, triangles: int, fragments: int, region: Region, *, writes_ids: int = 0, counting: bool = False
+    plan: Plan,
+    n_triangles: int,
+    n_fragments: int,
+    region: Region,
+    *,
+    writes_ids: int = 0,
+    counts: FragmentCounts | None = None,
 ) -> FillChoice:
-    """Return how to fill so many triangles with about so many fragments; `writes_ids` is 0, LAST or ONLY."""
+    """Return how to fill triangles with about so many fragments.
+
+    Parameters
+    ----------
+    writes_ids : 0, LAST or ONLY
+    counts : receives the number of fragments by verdict, where they are counted
+    """
     front, back, path = plan.front, plan.back, plan.path
     two_sided, in_tiles = int(front != back), False
     kernel: FillKernel | None = None
-    if _short_cuts.get() and not counting:
-        # imported here: the textbook must work without the folder
-        from softshadow.pipeline.fast import specialize
-        from softshadow.pipeline.fast.hierarchical_z import order_independent
-
+    if _short_cuts.get() and counts is None:
         codes = (front.code(), back.code()) if two_sided else (front.code(),)
         if not writes_ids and order_independent(front, back):
-            in_tiles = all(_is_specialized(code, fragments, path) for code in codes)
+            in_tiles = all(_is_specialized(code, n_fragments, path) for code in codes)
             kernel = specialize.tiles_kernel(codes) if in_tiles else None
         key = (codes[0], codes[-1], two_sided, writes_ids)
-        if kernel is None and _is_specialized(key, fragments, path):
+        if kernel is None and _is_specialized(key, n_fragments, path):
             kernel = specialize.kernel_of(key)
     path.fill = "textbook" if kernel is None else "stencil tiles" if in_tiles else "specialized"
-    if kernel is None:
-
-        def kernel(front: FragmentOps, back: FragmentOps, *rest: object) -> None:
-            fill_triangles(front, back, two_sided, writes_ids, int(counting), *rest)
-
-    worth = fragments >= WORTH_BANDS_IN_TILES if in_tiles else fragments + SMALL_TRIANGLE * triangles >= WORTH_BANDS
-    if counting or not worth or not _bands_pay(region, fragments):
+    kernel = textbook_kernel(two_sided, writes_ids, counts) if kernel is None else kernel
+    if in_tiles:
+        bands_pay = n_fragments >= WORTH_BANDS_IN_TILES
+    else:
+        bands_pay = n_fragments + SMALL_TRIANGLE * n_triangles >= WORTH_BANDS
+    if counts is not None or not bands_pay or not _bands_pay(region, n_fragments):
         return FillChoice(kernel, 0)
     path.fill += " in bands"
-    return FillChoice(kernel, _band_rows_log2(region, fragments))
+    return FillChoice(kernel, _band_rows_log2(region, n_fragments))
 
 
-def _is_specialized(key: Any, fragments: int, path: DrawPath) -> bool:
+def _is_specialized(key: Any, n_fragments: int, path: DrawPath) -> bool:
     """Return whether to use the kernel compiled for a state: it is compiled already, or compiling it pays now."""
-    from softshadow.pipeline.fast import specialize
-
     if key in specialize.compiled:
         path.note("the state is compiled")
         return True
     if _short_cuts.get() == "always":
         path.note("the state is compiled, as asked for")
         return True
-    _drawn[key] = _drawn.get(key, 0) + fragments
-    if _drawn[key] > PAYS_AFTER:
-        path.note(f"the state has drawn more than {PAYS_AFTER:,} fragments: compiling it pays")
+    _filled[key] = _filled.get(key, 0) + n_fragments
+    if _filled[key] > PAYS_AFTER:
+        path.note("the state has filled so many fragments that compiling it pays")
         return True
     if specialize.is_on_disk(key):
         path.note("the state was compiled before: its code is on disk")
         return True
-    path.note(f"the state is not compiled before it has drawn {PAYS_AFTER:,} fragments")
+    path.note("the state has not filled enough fragments to be compiled")
     return False
 
 
@@ -270,8 +252,6 @@ def _band_rows_log2(region: Region, fragments: int) -> int:
 def choose_shading(plan: Plan, state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None]:
     """Return the function that shades spans of a draw without overlaps and writes their colours."""
     if _short_cuts.get():
-        from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
-
         shader = shadow_map_shader(state, target, geometry)
         if shader is not None:
             plan.path.shading = "shadow-map kernel"

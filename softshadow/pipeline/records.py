@@ -101,14 +101,13 @@ class FillBuffers(NamedTuple):
     """What the fill stage reads and writes, full rows with their padding.
 
     columns: 0, 1, 2 ... in the precision of depth; depth and stencil (H, pitch); ids (rows of the region, pitch) int32
-    receives the number of the triangle whose fragment passed last; counts: of the fragments, where they are counted.
+    receives the number of the triangle whose fragment passed last.
     """
 
     columns: np.ndarray
     depth: np.ndarray
     stencil: np.ndarray
     ids: np.ndarray
-    counts: FragmentCounts
 
 
 class Fragments(NamedTuple):

@@ -136,7 +136,14 @@ def clear_visibility_cache(storage: Storage) -> None:
 
 
 def cached_fill(
-    inputs: FillInputs, target: Framebuffer, storage: Storage, fill: Callable[[], Spans]
+    front: FragmentOps,
+    back: FragmentOps,
+    triangles: Setup,
+    region: Region,
+    depth_range: DepthRange,
+    target: Framebuffer,
+    storage: Storage,
+    fill: Callable[[], Spans],
 ) -> tuple[Spans, bool]:
     """Fill, or restore the result of an equal fill; return the visible spans, and whether they were cached.
 
@@ -144,6 +151,7 @@ def cached_fill(
     ----------
     fill : fills the buffers of `target` and returns the visible spans
     """
+    inputs = FillInputs(front, back, triangles, region, depth_range)
     cache = storage.visibility_cache = storage.visibility_cache or VisibilityCache()
     tokens = _version(target.depth), _version(target.stencil)
     before = tokens[0] if inputs.tests_depth else UNREAD, tokens[1] if inputs.tests_stencil else UNREAD

@@ -5,6 +5,7 @@ the same, for all triangles at once or for one band of rows after the other.
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -17,9 +18,7 @@ from softshadow.pipeline.raster.fragment_ops import FragmentOps
 from softshadow.pipeline.raster.spans import count_span, fill_span
 from softshadow.pipeline.records import NO_TRIANGLE, DepthRange, FillBuffers, FragmentCounts, Region, Setup
 
-AT_A_TIME = (
-    1 << 19
-)  # triangles that are sorted into bands in one go; bounds the memory where all of them meet all bands
+AT_A_TIME = 1 << 19  # triangles sorted into bands in one go; bounds the memory where all of them meet all bands
 
 # fill(front, back, triangles, numbers, region, depth_range, buffers) for the triangles with these numbers, in order
 FillKernel = Callable[..., None]
@@ -33,17 +32,11 @@ def no_ids(region: Region, pitch: int) -> np.ndarray:
 
 
 def fill_buffers(
-    depth: np.ndarray,
-    stencil: np.ndarray,
-    real: np.dtype,
-    region: Region,
-    ids: np.ndarray | None = None,
-    counts: FragmentCounts | None = None,
+    depth: np.ndarray, stencil: np.ndarray, real: np.dtype, region: Region, ids: np.ndarray | None = None
 ) -> FillBuffers:
-    """Return what the fill stage reads and writes; ids and counts that are not asked for have a stand-in."""
+    """Return what the fill stage reads and writes; without ids, an array that is not written stands in."""
     columns = np.arange(max(*depth.shape, region.right, region.end_row), dtype=real)
-    stand_in = np.empty((1, 1), np.int32)
-    return FillBuffers(columns, depth, stencil, stand_in if ids is None else ids, counts or FragmentCounts.zero())
+    return FillBuffers(columns, depth, stencil, np.empty((1, 1), np.int32) if ids is None else ids)
 
 
 def fill(
@@ -63,7 +56,7 @@ def fill(
 
     Parameters
     ----------
-    fill_kernel : `fill_triangles` bound to its flags, or a kernel of `fast/`
+    fill_kernel : `textbook_kernel`, or a kernel of `fast/`
     writes_ids : whether the ids of `buffers` are written
     band_rows_log2 : the binary logarithm of how many rows a band has, 0 for no bands
     ranges : the rows [first, end) of `triangles` to draw, all by default
@@ -94,9 +87,19 @@ def _chunks(count: int) -> Iterator[list[tuple[int, int]]]:
         yield [(begin + first, begin + end) for first, end in parts_of(min(AT_A_TIME, count - begin))]
 
 
+def textbook_kernel(two_sided: int, writes_ids: int, counts: FragmentCounts | None) -> FillKernel:
+    """Return `fill_triangles` with these flags; the fragments are counted where there are counts."""
+    counting, counts = int(counts is not None), counts or FragmentCounts.zero()
+
+    def fill_kernel(front: FragmentOps, back: FragmentOps, *rest: Any) -> None:
+        fill_triangles(front, back, two_sided, writes_ids, counting, counts, *rest)
+
+    return fill_kernel
+
+
 @kernel
 def fill_triangles(
-    front, back, two_sided, writes_ids, counting, triangles, numbers, region, depth_range, buffers
+    front, back, two_sided, writes_ids, counting, counts, triangles, numbers, region, depth_range, buffers
 ):  # fmt: skip
     """Process all fragments of the triangles with these numbers, in this order: the state is an argument.
 
@@ -107,7 +110,7 @@ def fill_triangles(
         t = int(numbers[n])
         ops = back if two_sided and not triangles.front[t] else front
         if counting:
-            count_rows(ops, triangles, t, region, depth_range, buffers)
+            count_rows(ops, triangles, t, region, depth_range, buffers, counts)
         fill_rows(
             ops, writes_ids, triangles.corners, triangles.depth, t, region, depth_range, buffers.columns,
             buffers.depth, buffers.stencil, buffers.ids,
@@ -134,7 +137,7 @@ def fill_rows(ops, writes_ids, corners, planes, t, region, depth_range, columns,
 
 
 @inlined
-def count_rows(ops, triangles, t, region, depth_range, buffers):
+def count_rows(ops, triangles, t, region, depth_range, buffers, counts):
     """Count the verdicts of the fragments of triangle `t`, before they are processed."""
     first, end = bounds(triangles.corners, np.uint64(t))
     plane = triangles.depth[t]
@@ -142,5 +145,5 @@ def count_rows(ops, triangles, t, region, depth_range, buffers):
         left, right = row_span(triangles.corners, np.uint64(t), row, region.downwards)
         count_span(
             ops, plane, depth_range, buffers.columns, buffers.columns[row], max(left, region.left),
-            min(right, region.right), buffers.depth[row], buffers.stencil[row], buffers.counts,
+            min(right, region.right), buffers.depth[row], buffers.stencil[row], counts,
         )  # fmt: skip

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from softshadow import tokens as gl
 from softshadow.jit import kernel
 from softshadow.pipeline import choose, set_threads, threads, use_short_cuts
-from softshadow.pipeline.choose import DrawPath, Plan, choose_fill
+from softshadow.pipeline.choose import Plan, choose_fill
+from softshadow.pipeline.draw_path import DrawPath
 from softshadow.pipeline.fast import specialize
 from softshadow.pipeline.fast.hierarchical_z import FAIL, MIXED, PASS, advance, decide, find_bounds, order_independent
 from softshadow.pipeline.fast.stencil_tiles import fill_in_tiles
@@ -95,7 +96,7 @@ def buffers_after(seed: int, depth_format: str) -> tuple[np.ndarray, np.ndarray]
     left, right = sorted(int(x) for x in rng.choice([0, 7, 64, 100, 128, WIDTH], 2, replace=False))
     first, end = sorted(int(y) for y in rng.choice([0, 5, 16, 40, HEIGHT], 2, replace=False))
     region = Region(left, right, first, end, downwards)
-    plan = Plan(False, False, False, False, False, front, back, DrawPath("", gl.GL_TRIANGLES))
+    plan = Plan(False, False, front, back, DrawPath("", gl.GL_TRIANGLES))
     choice = choose_fill(plan, len(triangles.ids), 10**6, region)
     depth_range, cells = DepthRange(real(0), real(1)), fill_buffers(depth, stencil, triangles.depth.dtype, region)
     fill(choice.kernel, front, back, triangles, region, depth_range, cells, band_rows_log2=choice.band_rows_log2)
