@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
+from functools import cache
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -34,6 +35,11 @@ def stencil_palette() -> np.ndarray:
     0 to 6 have Okabe & Ito's colours; higher counts repeat them, lighter each time. 254 and 255, which stand for -2 and
     -1 in a counter that wraps, have a hue of their own.
     """
+    return _palette().copy()
+
+
+@cache
+def _palette() -> np.ndarray:
     palette = np.empty((256, 3), np.uint8)
     for count in range(256):
         turn, base = divmod(count, len(OKABE_ITO))
@@ -94,7 +100,7 @@ def to_bytes(values: np.ndarray) -> np.ndarray:
 
 def colors_of(picture: np.ndarray) -> np.ndarray:
     """Return a picture as colours (H, W, 3): counts take those of the palette."""
-    return picture if picture.ndim == 3 else stencil_palette()[picture]
+    return picture if picture.ndim == 3 else _palette()[picture]
 
 
 # -- sheets ------------------------------------------------------------------------------------------------------------
@@ -154,7 +160,7 @@ def _palette_png(counts: np.ndarray, comment: Any) -> bytes:
     from PIL import Image
 
     picture = Image.fromarray(np.ascontiguousarray(counts))
-    picture.putpalette(stencil_palette().tobytes())  # changes the mode to P and leaves the pixels as they are
+    picture.putpalette(_palette().tobytes())  # changes the mode to P and leaves the pixels as they are
     file = BytesIO()
     picture.save(file, "PNG", pnginfo=comment)
     return file.getvalue()
