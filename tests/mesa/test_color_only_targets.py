@@ -7,6 +7,7 @@ their triangles; programs of fixed function do not get it. Texels whose borders 
 import numpy as np
 import pytest
 
+from combinations import sampled
 from softshadow.testing import compare
 
 pytestmark = pytest.mark.mesa
@@ -43,10 +44,14 @@ def target(gl, has_depth):
     gl.glClear(gl.GL_COLOR_BUFFER_BIT)
 
 
-@pytest.mark.parametrize("has_depth", [False, True])
-@pytest.mark.parametrize("order", ORDERS)
-@pytest.mark.parametrize("texture_filter", ["GL_NEAREST", "GL_LINEAR", ""])
-@pytest.mark.parametrize("box", [(-1, -1, 1, 1), (-0.7, -0.83, 0.91, 0.77), (-1.7, -1.2, 1.4, 3)])
+FILTERS = ("GL_NEAREST", "GL_LINEAR", "")  # "" stands for no texture
+BOXES = ((-1, -1, 1, 1), (-0.7, -0.83, 0.91, 0.77), (-1.7, -1.2, 1.4, 3))
+
+
+@pytest.mark.parametrize(
+    ("box", "texture_filter", "order", "has_depth"),
+    sampled(BOXES, FILTERS, ORDERS, [False, True]),
+)
 def test_rectangles_are_two_triangles_with_or_without_depth(box, texture_filter, order, has_depth):
     left, bottom, right, top = box
     mode, corners = ORDERS[order]
