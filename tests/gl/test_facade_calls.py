@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from facade_calls import CALLS, NAMED_AGAIN, World, attempts, prepare
-from gl_state import same, state_of
 
+from gl.facade_calls import CALLS, NAMED_AGAIN, World, attempts, prepare
+from gl.gl_state import same, state_of
 from softshadow import gl
 from softshadow.testing import run_on_mesa
 

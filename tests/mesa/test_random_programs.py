@@ -16,7 +16,7 @@ from softshadow.testing import EXPECTED_VERSION, compare, differences, mesa_vers
 
 pytestmark = pytest.mark.mesa
 
-SHORT_LANE = "14"  # programs of each of the 38 families: 532 in all
+SHORT_LANE = "6"  # programs of each of the 38 families: 228 in all
 LONG_LANE = "136"  # 5,168 in all
 
 

@@ -182,4 +182,4 @@ class Facade(ObjectRules):
 
 TestFacadeIsMesas = Facade.TestCase
 TestFacadeIsMesas.settings = settings(max_examples=40, stateful_step_count=25, derandomize=True)
-TestFacadeIsMesas.pytestmark = [pytest.mark.mesa]
+TestFacadeIsMesas.pytestmark = [pytest.mark.mesa]  # type: ignore[attr-defined]
