@@ -77,7 +77,7 @@ def test_depths_are_compared_many_at_a_time(monkeypatch):
     assert PACKED_FLOATS_COMPARED.search(machine_code_of_fills(monkeypatch, draw))
 
 
-@pytest.mark.parametrize("operation", ["GL_INCR_WRAP", "GL_DECR"])
+@pytest.mark.parametrize("operation", ["GL_INCR_WRAP", pytest.param("GL_DECR", marks=pytest.mark.slow)])
 def test_stencil_values_are_counted_many_at_a_time(monkeypatch, operation):
     def draw() -> None:
         gl.glEnable(gl.GL_DEPTH_TEST)
