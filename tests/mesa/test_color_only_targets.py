@@ -1,7 +1,7 @@
-"""Rectangles in framebuffer objects with and without depth, against Mesa.
+"""Rectangles in framebuffer objects have the bits of Mesa, with a depth buffer and without.
 
-llvmpipe has a rasterizer of its own for framebuffers without depth, in which rectangles have one plane for both of
-their triangles; programs of fixed function do not get it. Texels whose borders lie near the samples would show it.
+For framebuffers without depth llvmpipe has another rasterizer, which computes one plane equation for both triangles of
+a rectangle. Fixed-function programs do not use it. Texels whose borders lie near the samples would show it.
 """
 
 import numpy as np
@@ -28,7 +28,7 @@ ORDERS = {
 
 
 def target(gl, has_depth):
-    """A framebuffer object of RGBA8, a texture, and 24 bits of depth in a renderbuffer or none."""
+    """Create and bind a framebuffer object with an RGBA8 texture, and with 24 bits of depth or none."""
     texture = gl.glGenTextures(1)
     gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
     size = (SIDE, SIDE, 0)

@@ -1,8 +1,8 @@
 """Random GL programs leave the same colour, depth and stencil bits here and on Mesa.
 
 A failing program is shrunk and printed as code that can be pasted into a test. ``SOFTSHADOW_PROGRAMS=500`` runs the
-first 500 seeds of every family, ``SOFTSHADOW_PROGRAMS=300:500`` the 200 from 300 on. With ``-s`` a line is
-printed for each family: programs, those that differ, and those with a known difference.
+first 500 seeds of every family, ``SOFTSHADOW_PROGRAMS=300:500`` the 200 from 300 on. With ``-n 0 -s`` each family
+prints a line with the numbers of programs, of those that differ, and of those with a known difference.
 """
 
 import os

@@ -61,7 +61,7 @@ def test_three_triangles_are_left_out_as_on_mesa(shape, by, shading):
 
 
 @pytest.mark.parametrize("between", ["glFlush", "a debug group", "glLoadIdentity", "a line"])
-def test_what_ends_a_batch_of_triangles(between):
+def test_calls_between_triangles_end_a_draw_as_on_mesa(between):
     def program(gl):
         for number in range(3):
             gl.glBegin(gl.GL_TRIANGLES)
