@@ -16,7 +16,7 @@ from gl.gl_state import CAPABILITIES, NAMES, same, state_of
 from mesa.gl_calls import Call, as_code
 from mesa.object_rules import ObjectRules
 from softshadow import gl
-from softshadow.testing import run_on_mesa
+from softshadow.testing import run_on_mesa, stop_workers
 from strategies import ATTRIBUTE_BITS, state_calls
 
 SIZE = (10, 8)
@@ -180,6 +180,12 @@ class Facade(ObjectRules):
             compare_answers(self.calls)
 
 
+@pytest.fixture
+def own_process() -> None:
+    """Start a process of Mesa: wrong calls can make it crash, depending on what it drew before."""
+    stop_workers()
+
+
 TestFacadeIsMesas = Facade.TestCase
 TestFacadeIsMesas.settings = settings(max_examples=40, stateful_step_count=25, derandomize=True)
-TestFacadeIsMesas.pytestmark = [pytest.mark.mesa]  # type: ignore[attr-defined]
+TestFacadeIsMesas.pytestmark = [pytest.mark.mesa, pytest.mark.usefixtures("own_process")]  # type: ignore[attr-defined]
