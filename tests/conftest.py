@@ -1,7 +1,7 @@
-"""Which examples Hypothesis draws, and which lane runs.
+"""The lanes of the tests, and the examples that Hypothesis draws.
 
-The compiled kernels make the first call of a test slow, so no test has a deadline.  ``SOFTSHADOW_LANE=all`` runs what
-is marked ``slow`` too and draws ten times as many examples; ``CI`` draws the same examples on every run.
+Compilation makes the first call of a kernel slow, so no test has a deadline. ``SOFTSHADOW_LANE=all`` also runs the
+tests marked ``slow`` and draws ten times as many examples. With ``CI`` the same examples are drawn in every session.
 """
 
 import os
@@ -20,7 +20,7 @@ settings.load_profile("all" if ALL_LANES else "ci" if os.environ.get("CI") else 
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave the longer lane out, unless it was asked for by SOFTSHADOW_LANE or by an expression with -m."""
+    """Deselect the slow tests, unless SOFTSHADOW_LANE or an expression with -m asks for them."""
     if ALL_LANES or "slow" in config.getoption("markexpr"):
         return
     slow = [item for item in items if item.get_closest_marker("slow")]
@@ -29,6 +29,6 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:
-    """Skip what compares with Mesa where there is none."""
+    """Skip the tests that compare with Mesa where it is not installed."""
     if item.get_closest_marker("mesa") and not mesa_available():
         pytest.skip(mesa_reason())

@@ -11,14 +11,7 @@ from softshadow.cli.arguments import as_json, examples
 from softshadow.cli.console import print_json, say, table
 
 PACKAGES = ("numpy", "numba", "llvmlite", "trimesh", "pillow", "imageio", "click", "rich", "pydantic", "jinja2")
-EXTRAS = {
-    "mesa": "OpenGL",
-    "properties": "hypothesis",
-    "truth": "embreex",
-    "notebook": "anywidget",
-    "exr": "OpenEXR",
-    "video": "av",
-}
+EXTRAS = {"mesa": "OpenGL", "properties": "hypothesis", "truth": "embreex", "notebook": "ipykernel"}
 WARM_SIZE = (64, 48)
 
 

@@ -19,18 +19,22 @@ INT_STEP, UNSIGNED_INT_STEP = 1 / 4294967294.0, 1 / 4294967295.0
 
 
 def from_byte(b: int) -> float:
+    """Return the float that a byte represents: -128 is -1, 127 is 1."""
     return float((TWO * np.float32(c_byte(int(b)).value) + ONE) * BYTE_STEP)
 
 
 def from_unsigned_byte(b: int) -> float:
+    """Return the float that an unsigned byte represents: 255 is 1."""
     return float(np.float32(c_ubyte(int(b)).value) / np.float32(255))
 
 
 def from_short(s: int) -> float:
+    """Return the float that a short represents: -32768 is -1, 32767 is 1."""
     return float((TWO * np.float32(c_short(int(s)).value) + ONE) * SHORT_STEP)
 
 
 def from_unsigned_short(s: int) -> float:
+    """Return the float that an unsigned short represents: 65535 is 1."""
     return float(np.float32(c_ushort(int(s)).value) * SHORT_STEP)
 
 
@@ -40,6 +44,7 @@ def from_int(i: int) -> float:
 
 
 def from_unsigned_int(i: int) -> float:
+    """Return the float that an unsigned int represents: 2**32 - 1 is 1."""
     return float(np.float32(c_uint(int(i)).value * UNSIGNED_INT_STEP))
 
 

@@ -61,4 +61,5 @@ def readout_problem(format: int, image: Image) -> Problem | None:
 
 
 def described(stored: Format) -> str:
+    """Return the word for what an image of this format holds, for messages."""
     return {"depth": "depth", "stencil": "stencil values", "none": "no image"}.get(stored.kind, "colours")

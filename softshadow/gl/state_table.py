@@ -26,10 +26,12 @@ SIZES = (1.0, 255.0)  # of lines and points
 
 
 def drawn_to(c: Context) -> Framebuffer:
+    """Return the framebuffer that draws go to."""
     return c.storage.framebuffers[c.state.draw_framebuffer]
 
 
 def read_from(c: Context) -> Framebuffer:
+    """Return the framebuffer that pixels are read from."""
     return c.storage.framebuffers[c.state.read_framebuffer]
 
 
@@ -41,6 +43,8 @@ def bits(image: Image | None) -> int:
 
 
 def color_bits(channel: int) -> Read:
+    """Return the reader of the number of bits of a channel of the first colour buffer."""
+
     def read(c: Context) -> int:
         image = drawn_to(c).first_color
         if image is None or not image.format.written[channel]:
@@ -51,6 +55,8 @@ def color_bits(channel: int) -> Read:
 
 
 def draw_buffers() -> dict[str, Read]:
+    """Return the readers of GL_DRAW_BUFFERi by name."""
+
     def reader(index: int) -> Read:
         return lambda c: drawn_to(c).draw_buffer_at(index)
 
@@ -58,6 +64,7 @@ def draw_buffers() -> dict[str, Read]:
 
 
 def accumulation_bits(c: Context) -> int:
+    """Return the number of bits per channel of the accumulation buffer; only the window has one."""
     return 16 if c.state.draw_framebuffer == DEFAULT else 0
 
 
@@ -124,6 +131,7 @@ def client_array(name: str, token: int) -> dict[str, Read]:
 
 
 def pixel_store(name: str, store: Callable[[Context], PixelStore]) -> dict[str, Read]:
+    """Return the readers of GL_PACK_* or GL_UNPACK_* by name."""
     return {
         f"GL_{name}_ALIGNMENT": lambda c: store(c).alignment,
         f"GL_{name}_ROW_LENGTH": lambda c: store(c).row_length,

@@ -84,6 +84,7 @@ def dot(a, b):
 
 @kernel
 def normalize(v):
+    """Return a vector of length 1 in the same direction."""
     scale = ONE / np.sqrt(dot(v, v))
     return v[0] * scale, v[1] * scale, v[2] * scale
 

@@ -103,6 +103,7 @@ def on_next_face(edge, face, along, last):
 
 @kernel
 def along_edge(place, along, last):
+    """Return a texel coordinate on the neighbouring face: its first or last, or how far along the edge."""
     if place == FIRST:
         return 0
     if place == LAST:

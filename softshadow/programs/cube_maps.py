@@ -28,6 +28,7 @@ def major_axis(s, t, r):
 
 @kernel
 def component(axis, s, t, r):
+    """Return the component of (s, t, r) along an axis."""
     return s if axis == X else (t if axis == Y else r)
 
 

@@ -71,6 +71,7 @@ def units_in_use(state: State, textures: Mapping[tuple[int, int], Texture]) -> l
 
 
 def is_separate(state: State) -> bool:
+    """Return whether specular colour is a colour of its own, added after texturing."""
     return state.lighting.enabled and state.lighting.color_control == gl.GL_SEPARATE_SPECULAR_COLOR
 
 
@@ -121,6 +122,7 @@ def has_one_coordinate(state: State, unit: int, vertices: VertexInputs) -> bool:
 
 
 def columns(colors: Colors, rest: list[np.ndarray], real: np.dtype) -> np.ndarray:
+    """Return the columns of the colours followed by the rest."""
     parts = [colors.primary] if colors.secondary is None else [colors.primary, colors.secondary]
     return np.concatenate(parts + rest, axis=1, dtype=real)
 

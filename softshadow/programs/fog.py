@@ -18,6 +18,7 @@ ZERO, ONE = np.float32(0.0), np.float32(1.0)
 
 
 def exp2(x: np.ndarray) -> np.ndarray:
+    """Return two to the power of x, as llvmpipe approximates it."""
     raised = np.empty_like(x)
     exp2_of_all(x, raised)
     return raised

@@ -33,14 +33,17 @@ def dot(a: np.ndarray, b: np.ndarray) -> np.float32:
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return the cross product of two vectors, in float32."""
     return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]], np.float32)
 
 
 def squared(x: np.float32) -> np.float32:
+    """Return x times x."""
     return x * x
 
 
 def is_affine(m: np.ndarray) -> bool:
+    """Return whether the last row is (0, 0, 0, 1)."""
     return bool((m[3] == (0, 0, 0, 1)).all())
 
 
@@ -133,6 +136,7 @@ def with_translation(m: np.ndarray, linear: np.ndarray) -> np.ndarray:
 
 
 def inverse_of_scale(m: np.ndarray) -> np.ndarray | None:
+    """Return the inverse of a matrix that scales and translates; None if it has none."""
     sizes = np.diagonal(m)[:3]
     if (sizes == 0).any():
         return None
@@ -143,6 +147,7 @@ def inverse_of_scale(m: np.ndarray) -> np.ndarray | None:
 
 
 def inverse_of_rotation(m: np.ndarray, scaled: bool) -> np.ndarray | None:
+    """Return the inverse of a matrix that rotates and translates, and scales uniformly; None if it has none."""
     if not scaled:
         return with_translation(m, m[:3, :3].T)
     scale = dot(m[0, :3], m[0, :3])

@@ -53,6 +53,7 @@ class LightAtVertices:
 
 
 def power(x: np.ndarray, exponents: np.ndarray) -> np.ndarray:
+    """Return x to the power of the exponents, as llvmpipe approximates it."""
     result = np.empty_like(x)
     powers(x, exponents, result)
     return result
@@ -65,6 +66,7 @@ def normalize(v: np.ndarray) -> np.ndarray:
 
 
 def enabled_lights(lighting: Lighting) -> list[LightState]:
+    """Return the lights that are switched on."""
     return [light for light in lighting.lights if light.enabled]
 
 

@@ -20,6 +20,7 @@ COLOR_MATERIAL: dict[int, tuple[str, ...]] = {
 
 
 def vector(values: tuple[float, ...]) -> np.ndarray:
+    """Return values as a float32 array."""
     return np.array(values, np.float32)
 
 

@@ -246,6 +246,7 @@ def sample_levels(lookup: Lookup, levels: Levels, out: np.ndarray) -> None:
 
 
 def mix_in_float(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Return the mixture of float colours."""
     mixed: np.ndarray = weight * (b - a) + a
     return mixed
 

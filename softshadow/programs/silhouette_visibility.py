@@ -148,6 +148,7 @@ def between(start: np.ndarray, end: np.ndarray, way: np.ndarray) -> np.ndarray:
 
 
 def cross(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Return the cross products of vectors (N, 2): twice the signed areas of triangles."""
     product: np.ndarray = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
     return product
 

@@ -60,6 +60,8 @@ class _Table(BaseModel):
 
 
 class CameraTable(_Table):
+    """[camera] of a scene file."""
+
     eye: Triple
     target: Triple
     up: Triple = [0, 1, 0]
@@ -81,6 +83,8 @@ class CameraTable(_Table):
 
 
 class LightTable(_Table):
+    """[[light]] of a scene file."""
+
     name: str = ""
     position: Triple | None = None
     direction: Triple | None = None
@@ -108,6 +112,8 @@ class LightTable(_Table):
 
 
 class MaterialTable(_Table):
+    """[materials.NAME] of a scene file, or the material of an object."""
+
     color: Color = [0.8, 0.8, 0.8]
     specular: Color = [0, 0, 0]
     shininess: Annotated[float, Field(ge=0, le=128)] = 0
@@ -143,6 +149,8 @@ class _SceneObjectTable(_Table):
 
 
 class ObjectTable(_SceneObjectTable):
+    """[[object]] of a scene file."""
+
     shape: str | None = None
     parameters: dict[str, Any] = {}
     mesh: str | None = None
@@ -212,6 +220,8 @@ class ObjectTable(_SceneObjectTable):
 
 
 class ReceiverTable(_SceneObjectTable):
+    """[[receiver]] of a scene file."""
+
     corner: Triple
     across: Triple
     up: Triple
@@ -234,6 +244,8 @@ class ReceiverTable(_SceneObjectTable):
 
 
 class SceneTable(_Table):
+    """A whole scene file."""
+
     title: str = ""
     camera: CameraTable
     light: Annotated[list[LightTable], Field(min_length=1)]

@@ -16,6 +16,8 @@ BLEND_FACTORS = ("GL_ZERO", "GL_ONE")
 
 @dataclass(frozen=True)
 class AlphaTest:
+    """State of glAlphaFunc and GL_ALPHA_TEST."""
+
     enabled: bool = False
     func: int = gl.GL_ALWAYS
     ref: float = 0.0
@@ -96,6 +98,8 @@ class Depth:
 
 @dataclass(frozen=True)
 class Blend:
+    """State of blending and of the logical operation on colours."""
+
     enabled: bool = False
     src_rgb: int = gl.GL_ONE
     dst_rgb: int = gl.GL_ZERO

@@ -39,6 +39,8 @@ class LightState:
 
 @dataclass(frozen=True)
 class MaterialState:
+    """State of glMaterial for one side."""
+
     ambient: Color = (0.2, 0.2, 0.2, 1.0)
     diffuse: Color = (0.8, 0.8, 0.8, 1.0)
     specular: Color = BLACK
@@ -99,6 +101,8 @@ class Lighting:
 
 @dataclass(frozen=True)
 class Fog:
+    """State of glFog and GL_FOG."""
+
     enabled: bool = False
     mode: int = gl.GL_EXP
     density: float = 1.0

@@ -46,6 +46,8 @@ class Scissor:
 
 @dataclass(frozen=True)
 class Cull:
+    """State of face culling, and which winding is the front."""
+
     enabled: bool = False
     face: int = gl.GL_BACK
     front_face: int = gl.GL_CCW

@@ -19,8 +19,14 @@ DRAWN = [
 ]
 
 
+# each takes a process of Mesa's own; the techniques are compared in tests/techniques/test_techniques_on_mesa.py
+QUICK = ("w1-zpass-d24", "w3-pcf", "w5")
+
+
 @pytest.mark.mesa
-@pytest.mark.parametrize("name", DRAWN)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in DRAWN]
+)
 def test_workload_leaves_the_same_buffers_on_mesa(name: str) -> None:
     workload = small(name)
     here, there = OwnSession(workload.program, SIZE), MesaSession(workload.program, SIZE)

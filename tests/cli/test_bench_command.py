@@ -34,6 +34,7 @@ def test_growth_is_told_with_its_exponent() -> None:
     assert len(answer["workloads"]) == 4
 
 
+@pytest.mark.slow  # compiles all kernels once more
 def test_start_of_a_process_is_measured_cold_and_warm() -> None:
     (result,) = json_of("bench", "planar/boxes", "--starts", *TINY)["starts"].values()
     assert result["cold process"] > result["warm process"] > result["warm imports"] > 0

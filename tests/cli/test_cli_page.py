@@ -39,7 +39,17 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         shutil.copy(SCENES / name, name)
 
 
-@pytest.mark.parametrize("line", [line for line in LINES if line != "softshadow warmup"])  # that one takes its time
+MEASURES = "softshadow bench "  # compiles every state that it draws with
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        pytest.param(line, marks=pytest.mark.slow if line.startswith(MEASURES) else ())
+        for line in LINES
+        if line != "softshadow warmup"  # tests/cli/test_help.py runs it
+    ],
+)
 def test_line_of_the_page_runs(line: str) -> None:
     program, command, *arguments = shlex.split(line.split(" > ")[0])
     assert program == "softshadow"

@@ -15,7 +15,7 @@ from softshadow import __version__
 from softshadow.cli import main
 
 COMMANDS = list(main.commands)
-SLOW = ("warmup",)  # compiles every state of every technique
+SLOW = ("warmup", "bench")  # compile every state that they draw with
 SMALL = {
     **{command: ["--size", "48x36"] for command in ("tour", "render", "steps")},
     "bench": ["--size", "48x36", "--rounds", "1"],

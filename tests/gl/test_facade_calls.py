@@ -5,15 +5,21 @@ from typing import Any
 
 import numpy as np
 import pytest
-from facade_calls import CALLS, NAMED_AGAIN, World, attempts, prepare
-from gl_state import same, state_of
 
+from gl.facade_calls import CALLS, NAMED_AGAIN, World, attempts, prepare
+from gl.gl_state import same, state_of
 from softshadow import gl
-from softshadow.testing import run_on_mesa
+from softshadow.testing import run_on_mesa, stop_workers
 
 SIZE = (16, 12)
 GROUPS = 12  # each a program of its own on Mesa
 NAMES = sorted(CALLS)
+
+
+@pytest.fixture(autouse=True)
+def own_process() -> None:
+    """Start a process of Mesa per test: wrong calls can make it crash, depending on what it drew before."""
+    stop_workers()
 
 
 def attempt(namespace: Any, world: World, name: str, arguments: tuple[Any, ...]) -> str:

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from pasted_programs import PASTED
 
+from gl.pasted_programs import PASTED
 from softshadow.testing import compare
 
 SIZE = (96, 72)

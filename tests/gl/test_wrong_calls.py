@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wrong_calls import WRONG_CALLS, prepare
 
+from gl.wrong_calls import WRONG_CALLS, prepare
 from softshadow import gl
 from softshadow.context import Context
 from softshadow.testing import run_on_mesa

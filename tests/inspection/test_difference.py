@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from recorded_frames import random_frame
 
+from inspection.recorded_frames import random_frame
 from softshadow.inspection import Buffers, Replay, compare, difference
 
 pytestmark = pytest.mark.interpreted

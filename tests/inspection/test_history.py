@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from recorded_frames import ALL_BUFFERS, SIZE, covering, random_frame
 
 from draws import draw
+from inspection.recorded_frames import ALL_BUFFERS, SIZE, covering, random_frame
 from softshadow import gl as facade
 from softshadow import tokens as gl
 from softshadow.context import Context

@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 import pytest
-from recorded_frames import ALL_BUFFERS, SIZE, covering
 
 from draws import draw
+from inspection.recorded_frames import ALL_BUFFERS, SIZE, covering
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.inspection import ledger_of

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from recorded_frames import SIZE
 
 from draws import random_state, random_triangles, vertices
+from inspection.recorded_frames import SIZE
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.inspection import ledger_of, pixel_history
@@ -25,7 +25,8 @@ PIXELS = [(x, y) for y in range(SIZE[1]) for x in range(SIZE[0])]
 
 
 def draw(context: Context, mode: int, made: Vertices) -> None:
-    context.draw(mode, Vertices(*(context.frozen(rows) for rows in (made.position, made.color, made.normal)), ()))
+    position, color, normal = (context.frozen(rows) for rows in (made.position, made.color, made.normal))
+    context.draw(mode, Vertices(position, color, normal, ()))
 
 
 def random_frame(seed: int) -> Context:

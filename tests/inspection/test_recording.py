@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from recorded_frames import random_frame
 
+from inspection.recorded_frames import random_frame
 from softshadow.errors import OpenMesh, SoftShadowError
 from softshadow.inspection import Replay
 from softshadow.inspection.recording import Packer, Unpacker

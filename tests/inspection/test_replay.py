@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from recorded_frames import random_frame
 
 from draws import same_window
+from inspection.recorded_frames import random_frame
 from softshadow.errors import StateError
 from softshadow.inspection.replay import Replay, copy_window
 

@@ -1,4 +1,4 @@
-"""Integers in colour arrays stand for fractions: the same float32 as Mesa fetches, of every type."""
+"""Integer colours in arrays are converted to the float32 that Mesa converts them to, for every type."""
 
 import numpy as np
 import pytest

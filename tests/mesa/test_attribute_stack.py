@@ -1,4 +1,4 @@
-"""glPushAttrib and glPopAttrib leave what they leave on Mesa, where it is less than the specification asks for."""
+"""glPushAttrib and glPopAttrib restore what Mesa restores, which is less than the specification demands."""
 
 from collections.abc import Callable
 from contextlib import suppress
@@ -52,7 +52,7 @@ BITS = ("GL_CURRENT_BIT", "GL_LIGHTING_BIT", "GL_ENABLE_BIT", "GL_ALL_ATTRIB_BIT
 
 
 def left_by(bits: str, steps: tuple[str, ...], afterwards: tuple[str, ...] = ()) -> Callable[[Any], list[Any]]:
-    """Return a program that pushes, takes the steps, pops, takes more of them, and answers what state is left."""
+    """Return a program that pushes, makes the steps, pops, makes more steps, and returns the state."""
 
     def program(gl: Any) -> list[Any]:
         gl.glPushAttrib(getattr(gl, bits))
@@ -120,7 +120,7 @@ def test_random_steps_between_push_and_pop_leave_what_mesa_leaves():
 
 
 def popped_elsewhere(bits: str, pushed_in: int, popped_in: int, changes: tuple[str, ...]) -> Callable[[Any], list[Any]]:
-    """Return a program that pushes in one framebuffer and pops in another; it answers the codes and both buffers."""
+    """Return a program that pushes in one framebuffer and pops in another, and returns error codes and both buffers."""
 
     def program(gl: Any) -> list[Any]:
         objects = [0, *(int(name) for name in gl.glGenFramebuffers(2))]

@@ -1,8 +1,7 @@
-"""Back materials that change from vertex to vertex, against Mesa: colour material, glMaterial, all kinds of lights.
+"""Back materials that change from vertex to vertex give Mesa's colours, under all kinds of lights.
 
-What Mesa makes of registers that nothing was written to depends on its compiler: "unwritten registers" in
-known_differences.py. Among the programs here only those with plain lights, directional and without highlights, read
-such registers.
+What Mesa computes from registers that were never written depends on its compiler ("unwritten registers" in
+known_differences.py). Only the programs with plain lights (directional, without highlights) read such registers.
 """
 
 from typing import Any
@@ -36,7 +35,7 @@ def set_light(gl: Any, rng: np.random.Generator, light: int, plain: bool) -> Non
 
 
 def program_of(seed: int, plain: bool):
-    """A program with plain lights and materials of any faces, or with any lights and materials of both."""
+    """Return a program with plain lights and materials of any face, or with any lights and materials of both faces."""
     faces = FACES if plain else FACES[3:]
 
     def program(gl: Any) -> None:

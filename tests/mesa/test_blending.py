@@ -1,4 +1,4 @@
-"""Blending into colour buffers of every format: the same bits as Mesa, floats included."""
+"""Blending into colour buffers of every format, floats included, leaves the same bits as on Mesa."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ FORMATS = ["GL_RGBA32F", "GL_RGB32F", "GL_RG32F", "GL_R32F", "GL_RGBA8", "GL_RGB
 
 
 def image(gl, internal, texels):
-    """A new bound texture of these texels, sampled without interpolation."""
+    """Create and bind a texture of these texels, sampled without interpolation; return its name."""
     name = gl.glGenTextures(1)
     gl.glBindTexture(gl.GL_TEXTURE_2D, name)
     texel_type = gl.GL_FLOAT if texels.dtype == np.float32 else gl.GL_UNSIGNED_BYTE
@@ -33,7 +33,7 @@ def switch(gl, capability, enabled):
 
 
 def set_blending(gl, rng):
-    """Set random factors, equations and colour; in half of the cases factors that llvmpipe takes short cuts for."""
+    """Set random factors, equations and colour; half of the time factors for which llvmpipe has short cuts."""
 
     def factor():
         return getattr(gl, rng.choice(FACTORS))

@@ -1,4 +1,4 @@
-"""glBlitFramebuffer against Mesa: random rectangles between the window and objects, scaled, mirrored and cut."""
+"""glBlitFramebuffer leaves the bits of Mesa: random rectangles, scaled, mirrored and clipped."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def drawn(gl, rng, size):
 
 
 def framebuffer(gl, color, depth):
-    """A new bound framebuffer object with a colour and a depth (and stencil) renderbuffer."""
+    """Create and bind a framebuffer object with a colour and a depth (and stencil) renderbuffer; return its name."""
     name = gl.glGenFramebuffers(1)
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, name)
     packed = depth == gl.GL_DEPTH24_STENCIL8
@@ -43,7 +43,7 @@ def framebuffer(gl, color, depth):
 
 
 def corners(rng, size):
-    """A random rectangle, often mirrored or reaching out of the buffer, now and then all of it."""
+    """Return a random rectangle, often mirrored or partly outside the buffer, sometimes the whole buffer."""
     if rng.random() < 0.3:
         return [0, 0, *size]
     return rng.integers(-6, max(size) + 6, 4).tolist()

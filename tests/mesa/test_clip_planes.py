@@ -1,4 +1,4 @@
-"""User clip planes cut where Mesa cuts."""
+"""User clip planes cut triangles where Mesa cuts them."""
 
 from typing import Any
 

@@ -1,12 +1,13 @@
-"""Rectangles in framebuffer objects with and without depth, against Mesa.
+"""Rectangles in framebuffer objects have the bits of Mesa, with a depth buffer and without.
 
-llvmpipe has a rasterizer of its own for framebuffers without depth, in which rectangles have one plane for both of
-their triangles; programs of fixed function do not get it. Texels whose borders lie near the samples would show it.
+For framebuffers without depth llvmpipe has another rasterizer, which computes one plane equation for both triangles of
+a rectangle. Fixed-function programs do not use it. Texels whose borders lie near the samples would show it.
 """
 
 import numpy as np
 import pytest
 
+from combinations import sampled
 from softshadow.testing import compare
 
 pytestmark = pytest.mark.mesa
@@ -27,7 +28,7 @@ ORDERS = {
 
 
 def target(gl, has_depth):
-    """A framebuffer object of RGBA8, a texture, and 24 bits of depth in a renderbuffer or none."""
+    """Create and bind a framebuffer object with an RGBA8 texture, and with 24 bits of depth or none."""
     texture = gl.glGenTextures(1)
     gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
     size = (SIDE, SIDE, 0)
@@ -43,10 +44,14 @@ def target(gl, has_depth):
     gl.glClear(gl.GL_COLOR_BUFFER_BIT)
 
 
-@pytest.mark.parametrize("has_depth", [False, True])
-@pytest.mark.parametrize("order", ORDERS)
-@pytest.mark.parametrize("texture_filter", ["GL_NEAREST", "GL_LINEAR", ""])
-@pytest.mark.parametrize("box", [(-1, -1, 1, 1), (-0.7, -0.83, 0.91, 0.77), (-1.7, -1.2, 1.4, 3)])
+FILTERS = ("GL_NEAREST", "GL_LINEAR", "")  # "" stands for no texture
+BOXES = ((-1, -1, 1, 1), (-0.7, -0.83, 0.91, 0.77), (-1.7, -1.2, 1.4, 3))
+
+
+@pytest.mark.parametrize(
+    ("box", "texture_filter", "order", "has_depth"),
+    sampled(BOXES, FILTERS, ORDERS, [False, True]),
+)
 def test_rectangles_are_two_triangles_with_or_without_depth(box, texture_filter, order, has_depth):
     left, bottom, right, top = box
     mode, corners = ORDERS[order]

@@ -1,4 +1,4 @@
-"""Which framebuffer objects are complete on Mesa: one image is depth and stencil, all mipmaps are there for a level."""
+"""Framebuffer objects are complete where they are on Mesa: depth and stencil in one image, all mipmaps defined."""
 
 from typing import Any
 
@@ -16,9 +16,9 @@ Attached = tuple[str, str, int, int]  # kind, point, which object, level
 
 
 def status(objects: list[tuple[str, ...]], attached: list[Attached], levels: int = 1, last: int = 1000) -> Any:
-    """Return a program that makes renderbuffers and textures of formats, attaches them, and asks.
+    """Return a program that creates renderbuffers and textures, attaches them, and returns the status.
 
-    One name is a renderbuffer's format; three are a texture's internal format, format and type.
+    An object of one token is a renderbuffer of that format; three are a texture's internal format, format and type.
     """
 
     def program(gl: Any) -> list[np.ndarray]:

@@ -1,4 +1,4 @@
-"""A texture coordinate that vertices do not carry is one for all: Mesa does not interpolate it."""
+"""A texture coordinate that is not given per vertex is constant: Mesa does not interpolate it."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ def change_texture_matrix(gl, rng):
 
 
 def triangles(gl, rng):
-    """Coordinates on the borders of texels, where the last bit of an interpolation decides."""
+    """Draw with coordinates on the borders of texels, where the last bit of an interpolation decides."""
     gl.glTexCoord4f(*rng.integers(0, TEXELS, 2) / TEXELS, 0, rng.choice([1.0, 3.0, 0.7]))
     gl.glColor4f(*rng.choice(TIES, 4))
     if rng.random() < 0.3:

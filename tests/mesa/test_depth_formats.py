@@ -1,4 +1,4 @@
-"""Depth of 16, 24 and 32 bits and of floats against Mesa: cleared, drawn, offset, read, sampled, blitted."""
+"""Depth of 16, 24 and 32 bits and float depth have the bits of Mesa: cleared, drawn, offset, read, sampled, blitted."""
 
 from typing import Any
 

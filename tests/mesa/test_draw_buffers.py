@@ -1,4 +1,4 @@
-"""Several colour buffers at once against Mesa: draws, clears and blits into mixed formats, under random state."""
+"""Several colour buffers at once have the bits of Mesa: draws, clears and blits into mixed formats, random state."""
 
 from typing import Any
 
@@ -30,7 +30,7 @@ def attach(gl: Any, rng: np.random.Generator, count: int) -> list[str]:
 
 
 def choose(gl: Any, rng: np.random.Generator, count: int) -> None:
-    """Choose draw buffers in any order, with gaps; an attachment of which there is none is allowed."""
+    """Choose draw buffers in any order, with gaps; an attachment point without an image is allowed."""
     chosen = [gl.GL_COLOR_ATTACHMENT0 + int(i) for i in rng.permutation(count + 1)]
     gl.glDrawBuffers(len(chosen), [gl.GL_NONE if rng.random() < 0.2 else mode for mode in chosen])
 

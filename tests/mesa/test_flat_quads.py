@@ -1,4 +1,4 @@
-"""Flat-shaded quads are cut along the other diagonal, where their fragments take the colour: seen in a concave quad."""
+"""Quads whose fragments take a flat colour are cut along the other diagonal, as on Mesa; a concave quad shows it."""
 
 import itertools
 

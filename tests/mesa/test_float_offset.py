@@ -1,4 +1,4 @@
-"""Units of the polygon offset in a float depth buffer, against Mesa."""
+"""The units of the polygon offset in a float depth buffer are those of Mesa."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Facts about coverage, clipping, offset and textures that conformance tests check, asserted here and on Mesa."""
+"""Facts about coverage, clipping, offset and textures from conformance tests hold here and on Mesa."""
 
 from typing import Any
 

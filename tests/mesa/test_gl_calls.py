@@ -1,4 +1,4 @@
-"""Programs as data: replayed, printed, shrunk."""
+"""Programs as data are replayed, printed and shrunk."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ TRIANGLE = [("glBegin", ("GL_TRIANGLES",)), ("glVertex2f", (0.5, 1.0)), ("glEnd"
 
 
 class Recorder:
-    """A namespace whose functions answer their arguments and whose tokens are their own names."""
+    """A namespace whose functions return their first argument and whose tokens are their own names."""
 
     def __init__(self):
         self.calls = []

@@ -1,4 +1,4 @@
-"""Depth and stencil values in one object or two, against Mesa: completeness, sizes, packed pixels, copies and blits."""
+"""Depth and stencil in one object or two, as on Mesa: completeness, sizes, packed pixels, copies and blits."""
 
 from typing import Any
 
@@ -54,7 +54,7 @@ def new_object(gl: Any) -> int:
 
 
 def answer_or_error(gl: Any, call: Any) -> int:
-    """Return what a call answers, an error code below 0."""
+    """Return the result of a call, or its error code negated."""
     try:
         return int(call() or 0)
     except gl.GLError:
@@ -62,7 +62,7 @@ def answer_or_error(gl: Any, call: Any) -> int:
 
 
 def described(gl: Any) -> list[np.ndarray]:
-    """Return the status of the bound object and what it says of both points; of a complete one its bits, too."""
+    """Return the status of the bound object, what is attached to both points and, if it is complete, its bits."""
     status = int(gl.glCheckFramebufferStatus(gl.GL_FRAMEBUFFER))
     found = [status]
     for name in (gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME):

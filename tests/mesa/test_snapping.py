@@ -1,4 +1,4 @@
-"""Window coordinates that lie halfway between two steps of 1/256 pixel, against Mesa."""
+"""Window coordinates halfway between two steps of 1/256 pixel are rounded as on Mesa."""
 
 import random
 from typing import Any

@@ -1,7 +1,7 @@
-"""Any sequence of calls, right or wrong, answers here what it answers on Mesa: every error code and every query.
+"""Any sequence of calls, right or wrong, gives the error codes and query results of Mesa.
 
-The machine collects calls as data, with a model of the stacks and objects that says which calls are interesting next;
-when it ends, the calls run on both sides, each followed by glGetError, and all answers are compared.
+The state machine collects calls as data; its model of stacks and objects chooses which calls are interesting next. At
+the end the calls run on both sides, each followed by glGetError, and all results are compared.
 """
 
 from typing import Any
@@ -16,7 +16,7 @@ from gl.gl_state import CAPABILITIES, NAMES, same, state_of
 from mesa.gl_calls import Call, as_code
 from mesa.object_rules import ObjectRules
 from softshadow import gl
-from softshadow.testing import run_on_mesa
+from softshadow.testing import run_on_mesa, stop_workers
 from strategies import ATTRIBUTE_BITS, state_calls
 
 SIZE = (10, 8)
@@ -46,7 +46,7 @@ BEGUN: tuple[Call, ...] = (  # between glBegin and glEnd: allowed, not allowed, 
 
 
 def drawable(namespace: Any) -> bool:
-    """Return whether the draw framebuffer is complete: only then the number of its bits is defined."""
+    """Return whether the draw framebuffer is complete; otherwise the number of its bits is undefined."""
     status = namespace.glCheckFramebufferStatus(namespace.GL_DRAW_FRAMEBUFFER)
     return bool(status == namespace.GL_FRAMEBUFFER_COMPLETE)
 
@@ -54,7 +54,7 @@ def drawable(namespace: Any) -> bool:
 def answers_of(namespace: Any, calls: list[Call]) -> list[Any]:
     """Make the calls, tokens by name, and return (answer, error code) of each; an answer is None after an error.
 
-    From glBegin to glEnd nobody asks for errors, which would be one itself: the first comes with glEnd.
+    Between glBegin and glEnd, glGetError itself would be an error; so the first code is read after glEnd.
     """
     answers, begun = [], False
     for name, arguments in calls:
@@ -180,6 +180,12 @@ class Facade(ObjectRules):
             compare_answers(self.calls)
 
 
+@pytest.fixture
+def own_process() -> None:
+    """Start a process of Mesa: wrong calls can make it crash, depending on what it drew before."""
+    stop_workers()
+
+
 TestFacadeIsMesas = Facade.TestCase
 TestFacadeIsMesas.settings = settings(max_examples=40, stateful_step_count=25, derandomize=True)
-TestFacadeIsMesas.pytestmark = [pytest.mark.mesa]
+TestFacadeIsMesas.pytestmark = [pytest.mark.mesa, pytest.mark.usefixtures("own_process")]  # type: ignore[attr-defined]

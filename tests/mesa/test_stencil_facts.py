@@ -1,4 +1,4 @@
-"""Facts about stencil and depth that conformance tests check: the specification's answer here, and the same on Mesa."""
+"""Facts about stencil and depth from conformance tests hold here and on Mesa."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Every internal format of colours: uploads from, and read-outs to, every client format and type, as on Mesa."""
+"""Colour textures of every internal format are written from and read to every client format and type as on Mesa."""
 
 import numpy as np
 import pytest

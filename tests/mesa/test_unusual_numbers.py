@@ -1,4 +1,4 @@
-"""Vertices and coordinates at the limits of float32: NaN, infinity, 1/w too small to be normal."""
+"""Vertices and coordinates at the limits of float32 (NaN, infinity, a subnormal 1/w) give the bits of Mesa."""
 
 import itertools
 

@@ -1,4 +1,4 @@
-"""Triangles with an area after their corners are snapped to 1/256 pixel, and none before: their planes are NaN."""
+"""Triangles that have an area only after snapping to 1/256 pixel: their plane equations are NaN."""
 
 import numpy as np
 import pytest

@@ -1,7 +1,7 @@
-"""The buffer that Mesa collects vertices of immediate mode in: a primitive that does not fit in is drawn in parts.
+"""Mesa collects the vertices of immediate mode in a buffer; a primitive that does not fit is drawn in parts.
 
-What shows: a colour is one for all only where the vertices carry none, and the parts of a run of quads are clipped
-batches of their own.
+Two effects are visible: a colour is constant only if no vertex carries one, and each part of consecutive quads is
+clipped as a draw of its own.
 """
 
 import numpy as np
@@ -84,8 +84,8 @@ def test_attributes_anywhere_in_a_primitive_leave_the_same_bits(seed):
 
 @pytest.mark.parametrize("pairs", [1, 7])
 @pytest.mark.parametrize("first", [0, 1, 2, 3])
-def test_the_end_of_the_buffer_ends_a_batch_of_quads(pairs, first):
-    """Vertices of 84 bytes fill the 512 KB after about 6,240 of them; a batch of llvmpipe's is 4,096."""
+def test_the_end_of_the_buffer_ends_a_draw_of_quads(pairs, first):
+    """Vertices of 84 bytes fill the 512 KB after about 6,240 of them; llvmpipe draws 4,096 at a time."""
     quads = 5000
 
     def program(gl):

@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from test_builtin import D24, IDENTITY, depth_map, texture_of
 
 from mesa_points import POINTS, fragments_on_mesa, load, pixel_centers, same_bits
+from programs.test_builtin import D24, IDENTITY, depth_map, texture_of
 from softshadow import programs
 from softshadow import tokens as gl
 from softshadow.programs import VertexInputs

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from test_sampling import SHAPES, WRAPS, bytes_of, coordinates, make_texture
 
+from programs.test_sampling import SHAPES, WRAPS, bytes_of, coordinates, make_texture
 from softshadow.programs import percentage_closer, sampling
 
 pytestmark = pytest.mark.interpreted

@@ -2,6 +2,7 @@
 
 import warnings
 import zipfile
+from typing import Any
 
 import imageio.v3 as imageio
 import numpy as np
@@ -17,7 +18,7 @@ from softshadow.techniques import Option, Technique
 from strategies import floor_scenes
 
 SIZE = (64, 48)
-VARIANTS = [
+VARIANTS: list[tuple[str, dict[str, Any]]] = [
     *[("planar", {"method": method}) for method in ("depth-off", "offset", "stencil", "stencil-blend", "texture")],
     ("volume-zpass", {}),
     ("volume-zpass", {"generator": "per-polygon", "cap": "finite"}),

@@ -82,6 +82,7 @@ def texels_and_weights_in_8_bits(coordinates: np.ndarray, size: int) -> tuple[np
 
 
 def mix_in_8_bits(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Return the mixtures of bytes, rounded as llvmpipe's 8-bit interpolation rounds them."""
     mixed: np.ndarray = a + ((weight * (b - a) * 128 + 16384) >> 15)
     return mixed
 

@@ -133,6 +133,7 @@ def write_sides(triangles, codes, first, end, sides):
 
 @kernel
 def distance(plane, position):
+    """Return the distance of a position from a plane, times the length of the plane's normal."""
     return ((position[0] * plane[0] + position[1] * plane[1]) + position[2] * plane[2]) + position[3] * plane[3]
 
 

@@ -193,6 +193,7 @@ def snap_end(coordinate):
 
 @kernel
 def fraction(coordinate):
+    """Return the part of a coordinate after the decimal point, in [0, 1)."""
     return coordinate - np.floor(coordinate)
 
 

@@ -37,6 +37,7 @@ class Outlined(NamedTuple):
 
 
 def is_filled(state: State) -> bool:
+    """Return whether all polygons that are drawn are filled."""
     return effective_modes(state) == (gl.GL_FILL, gl.GL_FILL)
 
 

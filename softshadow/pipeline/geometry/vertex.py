@@ -112,11 +112,13 @@ def window_position(clip, v, scale, shift, window):
 
 @kernel
 def transform(matrix, positions, out):
+    """Write the clip position of every vertex to `out`."""
     for v in range(positions.shape[0]):
         clip_position(matrix, positions, v, out)
 
 
 @kernel
 def write_window(clip, scale, shift, window):
+    """Write the window position of every vertex to `window`."""
     for v in range(clip.shape[0]):
         window_position(clip, v, scale, shift, window)

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from combinations import with_quick
 from softshadow import tokens as gl
 from softshadow.jit import kernel
 from softshadow.pipeline import choose, set_threads, threads, use_short_cuts
@@ -137,8 +138,7 @@ def test_tiles_leave_the_bits_of_the_textbook(seed, depth_format):
 
 @pytest.mark.parametrize(
     ("seed", "depth_format"),  # each compiles its own code, which takes seconds
-    [(0, "d24"), (1, "d32f")]
-    + [pytest.param(*case, marks=pytest.mark.slow) for case in ((1, "d24"), (2, "d24"), (0, "d32f"), (2, "d32f"))],
+    with_quick([(0, "d24"), (1, "d24"), (2, "d24"), (0, "d32f"), (1, "d32f"), (2, "d32f")], [4]),
 )
 def test_specialized_tiles_leave_the_same_bits(seed, depth_format):
     with use_short_cuts("always"):

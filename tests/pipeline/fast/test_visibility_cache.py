@@ -58,7 +58,8 @@ def depths(rng) -> np.ndarray:
 
 def random_mesh(context: Context, rng) -> Vertices:
     mesh = random_triangles(rng, 4)
-    return Vertices(*(context.frozen(rows) for rows in (mesh.position, mesh.color, mesh.normal)), ())
+    position, color, normal = (context.frozen(rows) for rows in (mesh.position, mesh.color, mesh.normal))
+    return Vertices(position, color, normal, ())
 
 
 def draw(context, rng, meshes) -> None:

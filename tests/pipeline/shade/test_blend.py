@@ -13,7 +13,7 @@ from softshadow.pipeline.shade.visible_spans import Spans
 from softshadow.state import Blend, State
 
 F32 = np.float32
-FIRST_PIXEL = Spans(*np.zeros((3, 1), np.int32), np.arange(2))
+FIRST_PIXEL = Spans(*np.zeros((3, 1), np.int32), np.arange(2))  # type: ignore[call-arg]
 SOURCE, TARGET = (0.25, 2.0, -1.5, 0.5), (1.0, -3.0, 0.75, 4.0)
 
 

@@ -1,7 +1,7 @@
-"""Which glBegin ... glEnd pairs of quads are drawn as one: seen in how a concave quad is cut, the same as on Mesa.
+"""The same glBegin ... glEnd pairs of quads as on Mesa are joined to one draw, which decides how quads are cut.
 
-A dart is cut along its other diagonal when a vertex of its batch is clipped, or when it is flat shaded with a colour
-per vertex; either shows in its pixels.
+A dart (a concave quad) is cut along its other diagonal if a vertex of the same draw is clipped, or if it is flat shaded
+with a colour per vertex. Both show in its pixels.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ pytestmark = pytest.mark.mesa
 
 SIDE = 8
 DART = ((0, 0), (SIDE, 0), (0, SIDE), (2, 2))
-# what may stand between two pairs: some of it ends a batch, some does not
+# calls between two pairs: some end a draw, some do not
 BETWEEN = {
     "nothing": lambda gl: None,
     "colour": lambda gl: gl.glColor3f(1, 0.5, 0),
@@ -52,7 +52,7 @@ def window(gl, columns):
 
 
 def dart(gl, column, clipped, inside=lambda gl, corner: None):
-    """The vertices of a dart; `inside` is called before each. The fourth vertex of a clipped one is out of depth."""
+    """Send the vertices of a dart, `inside` before each; the fourth vertex of a clipped one is beyond the far plane."""
     for corner, (x, y) in enumerate(DART):
         inside(gl, corner)
         gl.glVertex3f(x + SIDE * column, y, 5 if clipped and corner == 3 else 0)
@@ -65,7 +65,7 @@ def pair(gl, column, clipped):
 
 
 @pytest.mark.parametrize("between", BETWEEN)
-def test_what_stands_between_two_pairs_ends_their_batch_or_not(between):
+def test_calls_between_two_pairs_end_a_draw_as_on_mesa(between):
     def program(gl):
         window(gl, 2)
         pair(gl, 0, clipped=True)
@@ -77,7 +77,7 @@ def test_what_stands_between_two_pairs_ends_their_batch_or_not(between):
 
 
 def random_calls(gl, rng):
-    """Pairs of random darts, random attributes in and between them, and random calls in between."""
+    """Draw pairs of random darts, with random attributes in and between them and random calls in between."""
     columns = 6
 
     def attribute(gl, corner=None):

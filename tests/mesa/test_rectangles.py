@@ -1,8 +1,9 @@
-"""Three triangles, the last of them level: llvmpipe leaves out all of them, and so do we, in one primitive or more."""
+"""Three triangles of which the last is level: llvmpipe draws none of them, and neither does softshadow."""
 
 import numpy as np
 import pytest
 
+from combinations import sampled
 from softshadow.testing import compare, run_here
 
 pytestmark = pytest.mark.mesa
@@ -32,9 +33,7 @@ def check(program):
     assert comparison, str(comparison)
 
 
-@pytest.mark.parametrize("shading", SHADING)
-@pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("by", [3, 9, 10000, "arrays", "elements"])
+@pytest.mark.parametrize(("by", "shape", "shading"), sampled([3, 9, 10000, "arrays", "elements"], SHAPES, SHADING))
 def test_three_triangles_are_left_out_as_on_mesa(shape, by, shading):
     corners = SHAPES[shape]
     is_flat, colored = SHADING[shading]
@@ -62,7 +61,7 @@ def test_three_triangles_are_left_out_as_on_mesa(shape, by, shading):
 
 
 @pytest.mark.parametrize("between", ["glFlush", "a debug group", "glLoadIdentity", "a line"])
-def test_what_ends_a_batch_of_triangles(between):
+def test_calls_between_triangles_end_a_draw_as_on_mesa(between):
     def program(gl):
         for number in range(3):
             gl.glBegin(gl.GL_TRIANGLES)

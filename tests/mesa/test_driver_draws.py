@@ -1,13 +1,14 @@
-"""glBegin ... glEnd pairs that Mesa hands to its driver together: the first triangle decides about their offset.
+"""glBegin ... glEnd pairs that Mesa joins to one draw of its driver: the first triangle decides about their offset.
 
-The mode of a triangle decides whether it has a polygon offset, but llvmpipe asks only the first triangle of a draw;
-pairs of one mode in a row are one draw, whether their vertices are joined or not. At the 64th pair all are drawn. Where
-the first of them is without vertices, Mesa draws none.
+Whether a triangle has a polygon offset depends on its polygon mode, but llvmpipe looks at the first triangle of a draw
+only. Consecutive pairs of one primitive mode are one draw, up to 64 pairs. If the first pair has no vertices, Mesa
+draws none of them.
 """
 
 import numpy as np
 import pytest
 
+from combinations import sampled, with_quick
 from softshadow.testing import compare
 
 pytestmark = pytest.mark.mesa
@@ -35,7 +36,7 @@ def array(gl):
 
 
 def outlined(gl):
-    """Front faces as lines, which have an offset, and back faces filled, which have none."""
+    """Draw front faces as lines, which have an offset, and back faces filled, which have none."""
     gl.glEnable(gl.GL_DEPTH_TEST)
     gl.glPolygonMode(gl.GL_FRONT, gl.GL_LINE)
     gl.glPolygonMode(gl.GL_BACK, gl.GL_FILL)
@@ -44,7 +45,7 @@ def outlined(gl):
 
 
 def pair(gl, mode, front, x=0.0, depth=0.2):
-    """A rectangle that is steep in depth, of which the fourth vertex is left out for triangles."""
+    """Draw a rectangle that is steep in depth; GL_TRIANGLES gets its first three corners only."""
     corners = [(-0.9, -0.9), (-0.4, -0.9), (-0.4, 0.8), (-0.9, 0.8)]
     if "STRIP" in mode:
         corners[2:] = corners[:1:-1]
@@ -60,9 +61,7 @@ def check(program, size=SIZE):
     assert comparison, str(comparison)
 
 
-@pytest.mark.parametrize("first", ["front", "back", "culled", "clipped"])
-@pytest.mark.parametrize("mode", MODES)
-@pytest.mark.parametrize("between", BETWEEN)
+@pytest.mark.parametrize(("between", "mode", "first"), sampled(BETWEEN, MODES, ["front", "back", "culled", "clipped"]))
 def test_the_first_triangle_of_pairs_in_a_row_decides_about_their_offset(between, mode, first):
     def program(gl):
         outlined(gl)
@@ -88,10 +87,14 @@ def test_a_vertex_at_infinity_decides_nothing():
     check(program)
 
 
-@pytest.mark.parametrize("before", [0, 61, 62, 63, 64, 65])
-@pytest.mark.parametrize("kind", ["strips", "empty strips", "points", "lines", "lines and points", "half triangles"])
+KINDS = ("strips", "empty strips", "points", "lines", "lines and points", "half triangles")
+LENGTHS = [(kind, before) for before in (63, 0, 61, 62, 64, 65) for kind in KINDS]
+
+
+# the quick lane has all kinds with 63 pairs, and all numbers of pairs with strips
+@pytest.mark.parametrize(("kind", "before"), with_quick(LENGTHS, [*range(6), *range(6, 36, 6)]))
 def test_the_64th_pair_ends_what_is_drawn_together(kind, before):
-    """A dart of quads is cut the other way if a vertex that is drawn with it is clipped."""
+    """A dart is cut along its other diagonal if a vertex of the same draw is clipped."""
 
     def dart(gl, column, depth):
         gl.glBegin(gl.GL_QUADS)
@@ -130,14 +133,25 @@ def test_the_64th_strip_ends_a_run(pairs):
     check(program)
 
 
-@pytest.mark.parametrize("before", [0, 1, 2, 3, 4])
-@pytest.mark.parametrize("mode", ["STRIP", "FAN"])
-@pytest.mark.parametrize(
-    "empty",
-    ["", "STRIP", "STRIP STRIP", "FAN", "FAN FAN", "FAN STRIP", "STRIP FAN", "S", "S S", "S STRIP", "S FAN", "STRIP S"],
+EMPTY = (
+    "",
+    "STRIP",
+    "STRIP STRIP",
+    "FAN",
+    "FAN FAN",
+    "FAN STRIP",
+    "STRIP FAN",
+    "S",
+    "S S",
+    "S STRIP",
+    "S FAN",
+    "STRIP S",
 )
+
+
+@pytest.mark.parametrize(("empty", "mode", "before"), sampled(EMPTY, ["STRIP", "FAN"], range(5), strength=1))
 def test_pairs_after_an_empty_one_of_their_mode_are_drawn_as_on_mesa(empty, mode, before):
-    """Nothing is drawn where the empty one follows another mode, and stands with vertices before it in the buffer."""
+    """An empty pair that follows vertices of another mode in the buffer makes Mesa draw nothing after it."""
 
     def program(gl):
         for name, count in ((mode, before), *((name, 0) for name in empty.split()), (mode, 4), (mode, 5)):
@@ -149,7 +163,7 @@ def test_pairs_after_an_empty_one_of_their_mode_are_drawn_as_on_mesa(empty, mode
     check(program)
 
 
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", with_quick([(seed,) for seed in range(30)], range(10)))
 def test_random_pairs_have_the_offset_that_they_have_on_mesa(seed):
     def program(gl):
         rng = np.random.default_rng(seed)

@@ -1,0 +1,95 @@
+"""The commands of CONTRIBUTING.md by name: `uv run --group tools nox -l` lists them; .ci/run uses them too."""
+
+import os
+import shutil
+import tarfile
+import tempfile
+from pathlib import Path
+
+import nox
+
+ROOT = Path(__file__).parent
+IN_THE_SDIST = (  # what the tests read, besides the package and themselves
+    "README.md", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "LICENSE", "constraints.txt", "pyproject.toml",
+    "benchmarks/baseline.json", "docs/conf.py", "tests/conftest.py", ".ci/constraints",
+)  # fmt: skip
+
+nox.options.default_venv_backend = "none"  # uv run has made the environment
+nox.options.sessions = ["lint", "types", "floors", "tests"]
+
+
+@nox.session
+def lint(session: nox.Session) -> None:
+    """Check style and format."""
+    session.run("ruff", "check")
+    session.run("ruff", "format", "--check")
+
+
+@nox.session
+def types(session: nox.Session) -> None:
+    """Check the types of the package and of the tests."""
+    session.run("mypy")
+
+
+@nox.session
+def floors(session: nox.Session) -> None:
+    """Check that imports go down the floors and in no circle."""
+    session.run("lint-imports")
+
+
+@nox.session
+def tests(session: nox.Session) -> None:
+    """Run the quick lane of the tests, or what is named after --."""
+    session.run("pytest", *session.posargs)
+
+
+@nox.session
+def long(session: nox.Session) -> None:
+    """Run all tests, with many more random programs."""
+    session.run("pytest", *session.posargs, env={"SOFTSHADOW_LANE": "all"})
+
+
+@nox.session
+def interpreted(session: nox.Session) -> None:
+    """Run the kernels as plain Python and report the lines that no test reached."""
+    data = {"COVERAGE_FILE": os.path.join(session.create_tmp(), "coverage")}
+    session.run("coverage", "erase", env=data)
+    environment = {"NUMBA_DISABLE_JIT": "1", **data}
+    session.run("coverage", "run", "-m", "pytest", "-q", "-m", "interpreted", *session.posargs, env=environment)
+    session.run("coverage", "combine", "--quiet", env=data)
+    session.run("coverage", "report", env=data)
+
+
+@nox.session
+def docs(session: nox.Session) -> None:
+    """Build the documentation; a warning is an error."""
+    session.run("sphinx-build", "-q", "-W", "--keep-going", "-b", "html", "docs", *(session.posargs or ["docs/_build"]))
+
+
+@nox.session
+def package(session: nox.Session) -> None:
+    """Build sdist and wheel, install the wheel and use it outside the checkout."""
+    uv = os.environ.get("UV") or shutil.which("uv") or str(ROOT / ".tools" / "bin" / "uv")
+    with tempfile.TemporaryDirectory() as folder:
+        work = Path(folder)
+        session.run(uv, "build", "--quiet", "--out-dir", folder)  # the wheel is built from the sdist
+        (sdist,), (wheel,) = work.glob("*.tar.gz"), work.glob("*.whl")
+        with tarfile.open(sdist) as archive:
+            names = {name.partition("/")[2] for name in archive.getnames()}
+        if missing := [name for name in IN_THE_SDIST if name not in names]:
+            session.error(f"the sdist has no {', '.join(missing)}")
+        environment = {"VIRTUAL_ENV": f"{folder}/installed", "PYTHONPATH": "", "NUMBA_CACHE_DIR": f"{folder}/kernels"}
+        session.run(uv, "venv", "--quiet", f"{folder}/installed")
+        session.run(uv, "pip", "install", "--quiet", "-c", "constraints.txt", str(wheel), env=environment)
+        bin = "Scripts" if os.name == "nt" else "bin"
+        python, softshadow = (f"{folder}/installed/{bin}/{name}" for name in ("python", "softshadow"))
+        (work / "elsewhere").mkdir()
+        with session.chdir(work / "elsewhere"):
+            where = "import softshadow; assert 'site-packages' in softshadow.__file__, softshadow.__file__"
+            session.run(python, "-c", where, env=environment)
+            session.run(softshadow, "--help", env=environment, silent=True)
+            session.run(softshadow, "tour", "-o", "tour", env=environment, silent=True)
+            session.run(softshadow, "render", "volume-zfail", "--scene", "torus", "-o", "x.png", env=environment)
+            for written in ("tour/index.html", "x.png"):
+                if not Path(written).stat().st_size:
+                    session.error(f"{written} is empty")
