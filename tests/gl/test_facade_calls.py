@@ -16,9 +16,9 @@ GROUPS = 12  # each a program of its own on Mesa
 NAMES = sorted(CALLS)
 
 
-@pytest.fixture(autouse=True)
+@pytest.fixture(autouse=True, scope="module")
 def own_process() -> None:
-    """Start a process of Mesa per test: wrong calls can make it crash, depending on what it drew before."""
+    """Start a process of Mesa for this file: wrong calls can make it crash, depending on what it drew before."""
     stop_workers()
 
 
