@@ -14,7 +14,15 @@ def shown(cell: dict) -> list[dict]:
     return [output["data"] for output in cell.get("outputs", []) if "data" in output]
 
 
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+# building the documentation runs all of them
+QUICK = NOTEBOOKS[:1]
+
+
+@pytest.mark.parametrize(
+    "path",
+    [pytest.param(path, marks=() if path in QUICK else pytest.mark.slow) for path in NOTEBOOKS],
+    ids=[path.stem for path in NOTEBOOKS],
+)
 def test_a_notebook_runs_and_shows_every_step_a_pixel_and_two_failures(path: Path) -> None:
     notebook = jupytext.read(path)
     nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3").execute()
