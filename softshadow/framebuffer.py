@@ -61,6 +61,7 @@ class Framebuffer:
     accumulation: np.ndarray | None = None
 
     def image(self, attachment: int) -> Image | None:
+        """Return the image at an attachment point, or None."""
         attached = self.attachments.get(attachment)
         return attached.image if attached else None
 
@@ -99,10 +100,12 @@ class Framebuffer:
 
     @property
     def depth(self) -> Image | None:
+        """The depth buffer, or None."""
         return self.image(gl.GL_DEPTH_ATTACHMENT)
 
     @property
     def stencil(self) -> Image | None:
+        """The stencil buffer, or None."""
         return self.image(gl.GL_STENCIL_ATTACHMENT)
 
     @property
@@ -171,6 +174,7 @@ class Storage:
 
     @property
     def window(self) -> Framebuffer:
+        """The default framebuffer."""
         return self.framebuffers[DEFAULT]
 
     def write_pending(self) -> None:

@@ -187,6 +187,7 @@ class Image:
         return self.cells[:, : self.width]
 
     def copy(self) -> Image:
+        """Return a copy with cells of its own."""
         stencil = self.stencil.copy() if self.stencil else None
         return Image(self.format, self.width, self.height, self.cells.copy(), self.internal_format, stencil)
 

@@ -79,4 +79,5 @@ class Texture:
         return Texture(self.name, self.target, sampler, self.images)
 
     def copy(self) -> Texture:
+        """Return a copy with images of its own."""
         return Texture(self.name, self.target, self.sampler, {k: i.copy() for k, i in self.images.items()})

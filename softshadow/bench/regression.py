@@ -30,6 +30,7 @@ class TimeChange:
 
     @property
     def verdict(self) -> str:
+        """Whether the workload is "slower", "faster" or the "same", within what is allowed."""
         if self.factor > self.allowed:
             return "slower"
         return "faster" if self.factor < 1 / self.allowed else "same"

@@ -37,6 +37,7 @@ class InputError(click.ClickException):
     exit_code = BAD_INPUT
 
     def show(self, file: Any = None) -> None:
+        """Print the message in the form of all other errors."""
         click.echo(f"error: {self.message}", err=True)
 
 
@@ -44,6 +45,7 @@ class CommandGroup(click.Group):
     """The group of all commands; errors caused by the user's input become one line and an exit code."""
 
     def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; print errors of this package as one line, with their exit code."""
         try:
             with exit_on_sigterm():
                 return super().invoke(ctx)

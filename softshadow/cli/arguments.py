@@ -22,6 +22,7 @@ class Size(click.ParamType):
     name = "WxH"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
+        """Return (width, height) of a text such as "640x480"."""
         if isinstance(value, tuple):
             return value
         width, times, height = value.lower().partition("x")
@@ -39,6 +40,7 @@ class Point(click.ParamType):
     name = "X,Y,Z"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
+        """Return the numbers of a text such as "2,5,3"."""
         if isinstance(value, tuple):
             return value
         try:

@@ -25,6 +25,7 @@ class Threads(click.ParamType):
     name = "N,N"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[int]:
+        """Return the numbers of a text such as "1,2"."""
         if isinstance(value, list):
             return value
         numbers = [int(part) for part in value.split(",") if part.strip().isdigit()]

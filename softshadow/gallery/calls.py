@@ -25,6 +25,7 @@ class Token(int):
     name: str
 
     def __new__(cls, value: int, name: str) -> Token:
+        """Return the value with the name of its token."""
         token = super().__new__(cls, value)
         token.name = name
         return token

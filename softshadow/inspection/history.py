@@ -98,6 +98,7 @@ class PixelHistory:
 
     @property
     def heading(self) -> str:
+        """The pixel in both row orders."""
         return f"pixel x={self.x} y={self.y} (GL y={self.gl_y})"
 
     def __str__(self) -> str:
@@ -215,6 +216,7 @@ class Pixel:
         return self.color.cells[self.place].copy(), self.depth.cells[self.place], self.stencil.cells[self.place]
 
     def write(self, values: tuple[np.ndarray, Any, Any]) -> None:
+        """Write the stored colour, depth in buffer units, and stencil."""
         self.color.cells[self.place], self.depth.cells[self.place], self.stencil.cells[self.place] = values
 
     def z(self, units: Any) -> float:

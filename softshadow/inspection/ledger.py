@@ -35,6 +35,7 @@ class Counts:
 
     @property
     def all_fragments(self) -> int:
+        """The number of fragments, whatever their verdict."""
         return sum(self.fragments.values())
 
 

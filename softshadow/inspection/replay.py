@@ -30,6 +30,7 @@ class Buffers(NamedTuple):
 
     @property
     def bytes(self) -> int:
+        """The size of the buffers in bytes."""
         return sum(buffer.nbytes for buffer in self)
 
 
@@ -50,6 +51,7 @@ class Cells(NamedTuple):
 
     @property
     def bytes(self) -> int:
+        """The size of the cells in bytes."""
         return self.color.nbytes + self.depth.nbytes + self.stencil.nbytes
 
 

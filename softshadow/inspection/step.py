@@ -70,6 +70,7 @@ class Step:
 
     @property
     def first_command(self) -> int:
+        """The index of the first command of the step."""
         return self.frame.steps[self.index - 1][1] if self.index else 0
 
     @property
@@ -135,6 +136,7 @@ class Steps(Sequence[Step]):
 
     @property
     def titles(self) -> list[str]:
+        """The titles of the steps, in order."""
         return [step.title for step in self._steps]
 
     @property

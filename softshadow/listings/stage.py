@@ -29,6 +29,7 @@ class Thing:
 
     @property
     def name(self) -> str:
+        """The name of the mesh."""
         return self.mesh.name
 
 
@@ -44,10 +45,12 @@ class Stage:
 
     @property
     def scene(self) -> tuple[Thing, ...]:
+        """The receiver and the occluders."""
         return self.receiver + self.occluder
 
     @property
     def emitter(self) -> tuple[Thing, ...]:
+        """A small box at the place of the light."""
         return (Thing(moved(box(0.2, name="lamp"), *self.light[:3]), (1.0, 1.0, 0.6)),)
 
 

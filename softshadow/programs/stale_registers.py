@@ -52,9 +52,11 @@ class Registers:
         return index
 
     def release(self, indices: Iterable[int]) -> None:
+        """Free registers; they keep their contents."""
         self.in_use.difference_update(indices)
 
     def read(self, index: int) -> np.ndarray:
+        """Return green and blue (V, 2) of a register; NaN where it was never written."""
         return self.contents.get(index, UNWRITTEN)
 
 

@@ -31,6 +31,7 @@ class Sources:
     constant: tuple[float, float, float, float]
 
     def color(self, source: int) -> np.ndarray:
+        """Return the colours (n, 4) of a source such as GL_PREVIOUS."""
         if source == gl.GL_PREVIOUS:
             return self.previous
         if source == gl.GL_PRIMARY_COLOR:

@@ -23,6 +23,7 @@ class AlphaTest:
     ref: float = 0.0
 
     def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
         return [switch("GL_ALPHA_TEST", self.enabled), f"glAlphaFunc({token_name(self.func)}, {self.ref:g})"]
 
 
@@ -39,6 +40,7 @@ class StencilFace:
     write_mask: int = ALL_BITS
 
     def calls(self, face: str = "") -> list[str]:
+        """Return the GL calls that make this state."""
         suffix, first = ("Separate", f"{face}, ") if face else ("", "")
         ops = ", ".join(token_name(op, STENCIL_OPS) for op in (self.sfail, self.zfail, self.zpass))
         return [
@@ -65,6 +67,7 @@ class Stencil:
     other_back: StencilFace = StencilFace()
 
     def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
         if self.two_side:
             both = ["glActiveStencilFaceEXT(GL_FRONT)", *self.front.calls()]
             both += ["glActiveStencilFaceEXT(GL_BACK)", *self.back.calls()]
@@ -87,6 +90,7 @@ class Depth:
     clamp: bool = False
 
     def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
         return [
             switch("GL_DEPTH_TEST", self.enabled),
             f"glDepthFunc({token_name(self.func)})",
@@ -112,6 +116,7 @@ class Blend:
     logic_op: int = gl.GL_COPY
 
     def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
         factors = (self.src_rgb, self.dst_rgb, self.src_alpha, self.dst_alpha)
         return [
             switch("GL_BLEND", self.enabled),
@@ -137,6 +142,7 @@ class ColorBuffer:
     multisample: bool = True
 
     def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
         return [
             f"glColorMask({', '.join('GL_TRUE' if on else 'GL_FALSE' for on in self.mask)})",
             f"glClearColor({numbers(*self.clear)})",

@@ -26,6 +26,7 @@ class LightState:
     quadratic_attenuation: float = 0.0
 
     def calls(self, index: int) -> list[str]:
+        """Return the GL calls that make this state."""
         name = f"GL_LIGHT{index}"
         calls = [switch(name, self.enabled)]
         for parameter in fields(self)[1:]:
@@ -48,6 +49,7 @@ class MaterialState:
     shininess: float = 0.0
 
     def calls(self, face: str) -> list[str]:
+        """Return the GL calls that make this state."""
         colors = ("ambient", "diffuse", "specular", "emission")
         calls = [f"glMaterialfv({face}, GL_{c.upper()}, ({numbers(*getattr(self, c))}))" for c in colors]
         return [*calls, f"glMaterialf({face}, GL_SHININESS, {self.shininess:g})"]
@@ -76,6 +78,7 @@ class Lighting:
     shade_model: int = gl.GL_SMOOTH
 
     def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
         calls = [switch("GL_LIGHTING", self.enabled), f"glShadeModel({token_name(self.shade_model)})"]
         for index, light in enumerate(self.lights):
             if light != INITIAL_LIGHTS[index]:
@@ -111,6 +114,7 @@ class Fog:
     color: Color = (0.0, 0.0, 0.0, 0.0)
 
     def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
         return [
             switch("GL_FOG", self.enabled),
             f"glFogi(GL_FOG_MODE, {token_name(self.mode)})",

@@ -21,6 +21,7 @@ class Viewport:
     far: float = 1.0
 
     def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
         return [
             f"glViewport({self.x}, {self.y}, {self.width}, {self.height})",
             f"glDepthRange({numbers(self.near, self.far)})",
@@ -38,6 +39,7 @@ class Scissor:
     height: int = 0
 
     def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
         return [
             switch("GL_SCISSOR_TEST", self.enabled),
             f"glScissor({self.x}, {self.y}, {self.width}, {self.height})",
@@ -53,6 +55,7 @@ class Cull:
     front_face: int = gl.GL_CCW
 
     def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
         return [
             switch("GL_CULL_FACE", self.enabled),
             f"glCullFace({token_name(self.face)})",
@@ -75,6 +78,7 @@ class Polygon:
     point_size: float = 1.0
 
     def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
         return [
             f"glPolygonMode(GL_FRONT, {token_name(self.mode_front)})",
             f"glPolygonMode(GL_BACK, {token_name(self.mode_back)})",
@@ -95,6 +99,7 @@ class ClipPlanes:
     equations: tuple[Color, ...] = ((0.0, 0.0, 0.0, 0.0),) * 6
 
     def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
         return [
             call
             for i, (on, plane) in enumerate(zip(self.enabled, self.equations, strict=True))

@@ -39,6 +39,7 @@ class Combine:
     alpha_scale: float = 1.0
 
     def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
         settings = [f"GL_COMBINE_RGB, {token_name(self.mode_rgb)}", f"GL_COMBINE_ALPHA, {token_name(self.mode_alpha)}"]
         for part in ("rgb", "alpha"):
             for kind in ("source", "operand"):
@@ -63,6 +64,7 @@ class TextureUnit:
     gen: tuple[TexGen, TexGen, TexGen, TexGen] = field(default_factory=_initial_gen)
 
     def calls(self, index: int) -> list[str]:
+        """Return the GL calls that make this state."""
         calls = [
             f"glActiveTexture(GL_TEXTURE{index})",
             switch("GL_TEXTURE_2D", self.enabled_2d),
@@ -94,4 +96,5 @@ class CubeMaps:
     seamless: bool = False
 
     def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
         return [switch("GL_TEXTURE_CUBE_MAP_SEAMLESS", self.seamless)]

@@ -249,6 +249,7 @@ class Worker:
 
     @property
     def usable(self) -> bool:
+        """Whether the process is alive and may draw another program."""
         return self.process.poll() is None and self.programs < PROGRAMS_PER_WORKER
 
 

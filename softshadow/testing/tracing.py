@@ -59,6 +59,7 @@ class TracedProgram:
         self.stop_at = stop_at
 
     def __call__(self, gl: Any) -> Any:
+        """Call the program with a traced `gl`."""
         window = TracedGL(gl, self.size, self.stop_at)
         try:
             self.__wrapped__(window)

@@ -82,6 +82,7 @@ class CacheEntry:
 
     @property
     def bytes(self) -> int:
+        """The size of the arrays in bytes."""
         arrays = (self.depth, self.stencil, *self.spans, *self.inputs.triangles)
         return sum(array.nbytes for array in arrays if array is not None)
 

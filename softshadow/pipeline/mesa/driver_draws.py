@@ -38,6 +38,7 @@ class JoinedPairs:
 
     @property
     def n_vertices(self) -> int:
+        """The number of vertices of all pairs."""
         return sum(len(vertices.position) for _, vertices in self.parts)
 
     @property
@@ -81,6 +82,7 @@ class CollectedPairs:
 
     @property
     def too_many(self) -> bool:
+        """Whether Mesa draws the collected pairs now."""
         return self.n_pairs >= MAX_PAIRS
 
 
