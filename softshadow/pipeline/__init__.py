@@ -12,8 +12,8 @@ An opaque draw is filled first; then each visible pixel is shaded once. A draw w
 fragments (alpha test, blending, logic op) lists them and tests them one by one; for the alpha test they are shaded
 before that. Rooms: `records` (what stages hand to each other), `geometry/`, `raster/`, `shade/`; `buffers/` (clears,
 copies, blits), `memory/` (scratch arrays, threads), `mesa/` (accidents of one driver), and `fast/`: short cuts that
-`choose` takes where they pay. Without them the buffers are the same (`use_short_cuts`). `execute` carries out any
-recorded command.
+`choose` takes where they pay. Without them the buffers are the same (`use_short_cuts`); `draw_path` tells which way a
+draw went. `execute` carries out any recorded command (`commands`).
 """
 
 from __future__ import annotations

@@ -116,7 +116,7 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
     plan = Plan(in_order, writes_color, front, back, path)
     path.way = "in order" if in_order else "opaque"
     if not in_order:
-        path.note("neither blending nor alpha test: each visible pixel is shaded once")
+        path.note("neither blending nor alpha test: fragments are tested before any is shaded")
     else:
         path.note("the alpha test reads colours" if tests_alpha(state) else "blending depends on the drawing order")
     if counting:
