@@ -21,6 +21,7 @@ from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Command, Draw, Vertices
 from softshadow.pipeline.execute import execute
+from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
 from softshadow.programs import Program
 from softshadow.programs.inverse import known_kind
@@ -104,7 +105,8 @@ class Context:
         if polygon_offset_unit not in ("mesa", "spec"):
             raise ValueError(f"polygon_offset_unit={polygon_offset_unit!r}: expected 'mesa' or 'spec'")
         self._frame = Frame((width, height), depth_format, stencil_bits, precision)
-        self.storage = self._frame.fresh_storage()  # collected vertices are not drawn to it yet: `flush` first
+        self.objects = self._frame.fresh_storage()
+        self._waiting = DrawQueue(self.objects)
         self.offset_slope, self.offset_unit = polygon_offset_slope, polygon_offset_unit
         self.raise_errors = raise_errors
         self.before: Context | None = None  # the context that a with statement restores
@@ -127,7 +129,7 @@ class Context:
         self.uniforms: dict[int, dict[str, Any]] = {}
         self.labels: list[str] = []
         self.primitive: Primitive | None = None  # between glBegin and glEnd
-        self.vertex_buffer = VertexBuffer(self._carry_out, self.storage)  # immediate mode
+        self.vertex_buffer = VertexBuffer(self._carry_out, self.objects)  # immediate mode
         self.arrays = ClientArrays()
         self.client_stack: list[Any] = []
         self.buffers: dict[int, BufferObject] = {}
@@ -153,6 +155,15 @@ class Context:
 
     def __exit__(self, *_: object) -> None:
         make_current(self.before)
+
+    @property
+    def storage(self) -> Storage:
+        """The storage, after all draws that wait; `objects` is the same before them, for what no draw changes.
+
+        Collected vertices of immediate mode are not drawn to it yet: `flush` first.
+        """
+        self._waiting.carry_out()
+        return self.objects
 
     @property
     def frame(self) -> Frame:
@@ -218,8 +229,14 @@ class Context:
             if self.pending.reset_due:
                 self.reset_attributes()
 
+    def finish(self) -> None:
+        """Draw the collected vertices, and carry out the draws that wait: then the buffers can be read."""
+        self.flush()
+        self._waiting.carry_out()
+
     def _carry_out(self, command: Command) -> None:
-        execute(command, self.storage)
+        if type(command) is not Draw or not self._waiting.add(command):
+            execute(command, self.storage)
         self._frame.commands.append(command)
 
     def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:

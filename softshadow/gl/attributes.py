@@ -63,7 +63,7 @@ def glPushAttrib(mask: int) -> None:
     touched = _changed_since_push(context)
     if mask & (gl.GL_CURRENT_BIT | gl.GL_LIGHTING_BIT):
         context.update_current()
-    framebuffers, state = context.storage.framebuffers, context.state
+    framebuffers, state = context.objects.framebuffers, context.state
     context.attribute_stack.append(
         SavedAttributes(
             mask=int(mask),
@@ -88,7 +88,7 @@ def _changed_since_push(context: Context) -> int:
 
 
 def _bound_samplers(context: Context) -> dict[tuple[int, int], Sampler]:
-    textures, samplers = context.storage.textures, {}
+    textures, samplers = context.objects.textures, {}
     for unit in context.state.units:
         for target, binding in BINDINGS.items():
             name = stored_name(target, getattr(unit, binding))
@@ -176,7 +176,7 @@ def _restore_materials(context: Context, saved: SavedAttributes) -> None:
 
 def _restore_samplers(context: Context, saved: SavedAttributes) -> None:
     for (target, name), sampler in saved.samplers.items():
-        texture = context.storage.textures.get(name)
+        texture = context.objects.textures.get(name)
         if texture is None and name > 0:  # deleted since the push: binding the name creates it again
             context.execute(CreateTexture(name, target))
         if sampler != (texture.sampler if texture is not None else Sampler()):
@@ -185,7 +185,7 @@ def _restore_samplers(context: Context, saved: SavedAttributes) -> None:
 
 def _sets_draw_buffer(context: Context, saved: SavedAttributes) -> bool:
     """Return whether Mesa sets the saved draw buffers: it compares them with the window's, whatever is bound."""
-    return saved.draw_buffers != _draw_buffers(context.storage.window)
+    return saved.draw_buffers != _draw_buffers(context.objects.window)
 
 
 def _draw_buffers(target: Framebuffer) -> tuple[int, ...]:

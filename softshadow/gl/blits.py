@@ -51,7 +51,7 @@ def _problem(context: Context, mask: int, filter: int) -> Problem | None:
         return gl.GL_INVALID_VALUE, f"mask=0x{mask:X}: expected only colour, depth and stencil bits"
     if mask & WITHOUT_FILTER and filter != gl.GL_NEAREST:
         return gl.GL_INVALID_OPERATION, "filter=GL_LINEAR: expected GL_NEAREST for depth and stencil"
-    source, target = (context.storage.framebuffers[name] for name in names)
+    source, target = (context.objects.framebuffers[name] for name in names)
     depths = {each.depth.format for each in (source, target) if each.depth is not None}
     if mask & gl.GL_DEPTH_BUFFER_BIT and len(depths) > 1:
         return gl.GL_INVALID_OPERATION, "the two depth buffers have different formats"

@@ -70,8 +70,8 @@ def glFinish() -> None:
     """Draw the collected vertices, and write the pending rows of all buffers."""
     context = outside_begin("glFinish")
     if context is not None:
-        context.flush()
-        context.storage.write_pending()
+        context.finish()
+        context.objects.write_pending()
 
 
 __all__ = spelled_like_gl(globals())

@@ -54,7 +54,7 @@ def glBindFramebuffer(target: int, framebuffer: int) -> None:
     name = int(framebuffer)
     if target not in BINDINGS:
         return fail(gl.GL_INVALID_ENUM, "glBindFramebuffer", f"target={token_name(target)}: {EXPECTED_TARGET}")
-    if name not in context.storage.framebuffers:
+    if name not in context.objects.framebuffers:
         reserve(context, "framebuffer", name)
         context.execute(CreateFramebuffer(name))
     context.set(**dict.fromkeys(BINDINGS[target], name))
@@ -69,7 +69,7 @@ def glDeleteFramebuffers(*arguments: Any) -> None:
     for binding in BINDINGS[gl.GL_FRAMEBUFFER]:
         if getattr(context.state, binding) in names:
             context.set(**{binding: DEFAULT})
-    existing = tuple(name for name in names if name in context.storage.framebuffers)
+    existing = tuple(name for name in names if name in context.objects.framebuffers)
     if existing:
         context.execute(DeleteFramebuffers(existing))
 
@@ -77,7 +77,7 @@ def glDeleteFramebuffers(*arguments: Any) -> None:
 def glIsFramebuffer(framebuffer: int) -> bool:
     """Return whether a framebuffer object of this name exists; the first glBindFramebuffer creates it."""
     context = outside_begin("glIsFramebuffer")
-    return context is not None and framebuffer != DEFAULT and int(framebuffer) in context.storage.framebuffers
+    return context is not None and framebuffer != DEFAULT and int(framebuffer) in context.objects.framebuffers
 
 
 def glFramebufferTexture2D(target: int, attachment: int, textarget: int, texture: int, level: int) -> None:
@@ -130,7 +130,7 @@ def attachment_problem(context: Context, target: int, attachment: int) -> Proble
 
 
 def _texture_problem(context: Context, textarget: int, name: int, level: int) -> Problem | None:
-    texture = context.storage.textures.get(name)
+    texture = context.objects.textures.get(name)
     if texture is None:
         return gl.GL_INVALID_OPERATION, f"texture={name}: expected a texture that has been bound before"
     faces = range(gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X, gl.GL_TEXTURE_CUBE_MAP_NEGATIVE_Z + 1)
@@ -150,7 +150,7 @@ def framebuffer_status(context: Context, framebuffer: int) -> int:
     """Return the completeness status of a framebuffer, as glCheckFramebufferStatus returns it."""
     if framebuffer == DEFAULT:
         return gl.GL_FRAMEBUFFER_COMPLETE
-    target = context.storage.framebuffers[framebuffer]
+    target = context.objects.framebuffers[framebuffer]
     attachments = target.attachments
     target.clamps = all(attachment.image.format.kind != "float" for attachment in attachments.values())
     if not all(_is_complete(context, point, attachment) for point, attachment in attachments.items()):
@@ -173,7 +173,7 @@ def _shares_depth_and_stencil(target: Framebuffer) -> bool:
 
 
 def _is_complete(context: Context, point: int, attachment: Attachment) -> bool:
-    image, texture = attachment.image, context.storage.textures.get(attachment.texture)
+    image, texture = attachment.image, context.objects.textures.get(attachment.texture)
     if not (image.width > 0 and image.height > 0):
         return False
     if texture is not None and attachment.level > texture.sampler.base_level and not is_mipmap_complete(texture):
@@ -205,9 +205,9 @@ def glGetFramebufferAttachmentParameteriv(target: int, attachment: int, pname: i
     if problem := attachment_problem(context, target, attachment):
         return fail(problem[0], operation, problem[1])
     both, bound = attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT, bound_framebuffer(context, target)
-    if both and not _shares_depth_and_stencil(context.storage.framebuffers[bound]):
+    if both and not _shares_depth_and_stencil(context.objects.framebuffers[bound]):
         return fail(gl.GL_INVALID_OPERATION, operation, "depth and stencil attachments are not the same object")
-    attached = context.storage.framebuffers[bound].attachments.get(gl.GL_DEPTH_ATTACHMENT if both else attachment)
+    attached = context.objects.framebuffers[bound].attachments.get(gl.GL_DEPTH_ATTACHMENT if both else attachment)
     kind = gl.GL_NONE if attached is None else gl.GL_TEXTURE if attached.texture else gl.GL_RENDERBUFFER
     answers = {gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE: kind, gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME: 0}
     texture_only = (gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL, gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_CUBE_MAP_FACE)
@@ -216,7 +216,7 @@ def glGetFramebufferAttachmentParameteriv(target: int, attachment: int, pname: i
     if attached is not None:
         answers[gl.GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME] = attached.texture or attached.renderbuffer
     if attached is not None and attached.texture:
-        cube = context.storage.textures[attached.texture].target == gl.GL_TEXTURE_CUBE_MAP
+        cube = context.objects.textures[attached.texture].target == gl.GL_TEXTURE_CUBE_MAP
         answers[gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL] = attached.level
         answers[gl.GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_CUBE_MAP_FACE] = (
             gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X + attached.face if cube else 0

@@ -28,7 +28,7 @@ def glDeleteQueries(*arguments: Any) -> None:
     if context is None:
         return
     for name in names_argument("glDeleteQueries", arguments):
-        if name and name == context.storage.active_query:
+        if name and name == context.objects.active_query:
             context.execute(BeginQuery(0))
         context.query_targets.pop(name, None)
 
@@ -45,8 +45,8 @@ def glBeginQuery(target: int, id: int) -> None:
     context, name = outside_begin("glBeginQuery"), int(id)
     if context is None or not is_one_of("glBeginQuery", "target", target, TARGETS, A_TARGET):
         return
-    if context.storage.active_query:
-        fail(gl.GL_INVALID_OPERATION, "glBeginQuery", f"query {context.storage.active_query} has not been ended")
+    if context.objects.active_query:
+        fail(gl.GL_INVALID_OPERATION, "glBeginQuery", f"query {context.objects.active_query} has not been ended")
     elif name <= 0:
         fail(gl.GL_INVALID_OPERATION, "glBeginQuery", f"id={id}: expected a name from glGenQueries")
     elif context.query_targets.get(name, target) != target:
@@ -63,7 +63,7 @@ def glEndQuery(target: int) -> None:
     context = outside_begin("glEndQuery")
     if context is None or not is_one_of("glEndQuery", "target", target, TARGETS, A_TARGET):
         return
-    active = context.storage.active_query
+    active = context.objects.active_query
     if not active or context.query_targets[active] != target:
         fail(gl.GL_INVALID_OPERATION, "glEndQuery", "there was no glBeginQuery with this target before it")
     else:
@@ -75,7 +75,7 @@ def glGetQueryiv(target: int, pname: int, params: Any = None) -> Any:
     context = outside_begin("glGetQueryiv")
     if context is None or not is_one_of("glGetQueryiv", "target", target, TARGETS, A_TARGET):
         return None
-    active = context.storage.active_query
+    active = context.objects.active_query
     current = active if active and context.query_targets[active] == target else 0
     answers = {gl.GL_CURRENT_QUERY: current, gl.GL_QUERY_COUNTER_BITS: COUNTER_BITS[int(target)]}
     expected = "GL_CURRENT_QUERY or GL_QUERY_COUNTER_BITS"
@@ -98,7 +98,7 @@ def _result(operation: str, id: int, pname: int, params: Any) -> Any:
     context, name = outside_begin(operation), int(id)
     if context is None:
         return None
-    if name not in context.query_targets or name == context.storage.active_query:
+    if name not in context.query_targets or name == context.objects.active_query:
         return fail(gl.GL_INVALID_OPERATION, operation, f"id={id}: expected a query that has been ended")
     n_passed = context.storage.queries[name]
     any_passed = context.query_targets[name] == gl.GL_ANY_SAMPLES_PASSED

@@ -74,14 +74,14 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
         return fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 or more")
     if problem := format_problem(format, type):
         return fail(problem[0], operation, problem[1])
-    source = context.storage.framebuffers[context.state.read_framebuffer]
+    source = context.objects.framebuffers[context.state.read_framebuffer]
     if framebuffer_status(context, source.name) != gl.GL_FRAMEBUFFER_COMPLETE:
         return fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, operation, f"framebuffer {source.name} is not complete")
     buffers = _buffers(source, kind_of(format))
     if buffers is None:
         missing = kind_of(format).replace("-", " or ").replace("color", "colour")
         return fail(gl.GL_INVALID_OPERATION, operation, f"framebuffer {source.name} has no {missing} buffer to read")
-    context.flush()
+    context.finish()
     rows, columns, left, bottom = clipped(source, int(x), int(y), int(width), int(height))
     cells = [bottom_up(source, buffer)[rows, columns] for buffer in buffers]
     answer, view = output_array(array, context.pack_store, width, height, format, type, operation)

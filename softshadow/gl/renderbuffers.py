@@ -36,12 +36,12 @@ def glFramebufferRenderbuffer(target: int, attachment: int, renderbuffertarget: 
             operation,
             f"renderbuffertarget={token_name(renderbuffertarget)}: expected GL_RENDERBUFFER",
         )
-    if name and name not in context.storage.renderbuffers:
+    if name and name not in context.objects.renderbuffers:
         return fail(gl.GL_INVALID_OPERATION, operation, f"renderbuffer={name}: expected one that has been bound before")
     if problem := attachment_problem(context, target, attachment):
         return fail(problem[0], operation, problem[1])
     if name and attachment == gl.GL_DEPTH_STENCIL_ATTACHMENT:
-        internal_format = context.storage.renderbuffers[name].internal_format
+        internal_format = context.objects.renderbuffers[name].internal_format
         if internal_format and internal_format not in WITH_STENCIL:
             message = f"renderbuffer={name}: expected depth and stencil, it is {token_name(internal_format)}"
             return fail(gl.GL_INVALID_OPERATION, operation, message)
@@ -62,7 +62,7 @@ def glBindRenderbuffer(target: int, renderbuffer: int) -> None:
     name = int(renderbuffer)
     if target != gl.GL_RENDERBUFFER:
         return fail(gl.GL_INVALID_ENUM, "glBindRenderbuffer", f"target={token_name(target)}: expected GL_RENDERBUFFER")
-    if name and name not in context.storage.renderbuffers:
+    if name and name not in context.objects.renderbuffers:
         reserve(context, "renderbuffer", name)
         context.execute(DefineRenderbuffer(name))
     context.renderbuffer = name
@@ -98,7 +98,7 @@ def glGetRenderbufferParameteriv(target: int, pname: int, params: Any = None) ->
         return None
     if context.renderbuffer == 0:
         return fail(gl.GL_INVALID_OPERATION, operation, "no renderbuffer is bound")
-    image = context.storage.renderbuffers[context.renderbuffer]
+    image = context.objects.renderbuffers[context.renderbuffer]
     answers = {
         gl.GL_RENDERBUFFER_WIDTH: image.width,
         gl.GL_RENDERBUFFER_HEIGHT: image.height,
@@ -118,12 +118,12 @@ def glDeleteRenderbuffers(*arguments: Any) -> None:
         return None
     names = [name for name in names_argument("glDeleteRenderbuffers", arguments) if name > 0]
     for framebuffer in {context.state.draw_framebuffer, context.state.read_framebuffer}:
-        for point, attachment in list(context.storage.framebuffers[framebuffer].attachments.items()):
+        for point, attachment in list(context.objects.framebuffers[framebuffer].attachments.items()):
             if attachment.renderbuffer in names:
                 context.execute(AttachRenderbuffer(framebuffer, point, 0))
     if context.renderbuffer in names:
         context.renderbuffer = 0
-    existing = tuple(name for name in names if name in context.storage.renderbuffers)
+    existing = tuple(name for name in names if name in context.objects.renderbuffers)
     if existing:
         context.execute(DeleteRenderbuffers(existing))
 
@@ -131,7 +131,7 @@ def glDeleteRenderbuffers(*arguments: Any) -> None:
 def glIsRenderbuffer(renderbuffer: int) -> bool:
     """Return whether a renderbuffer of this name exists; the first glBindRenderbuffer creates it."""
     context = outside_begin("glIsRenderbuffer")
-    return context is not None and int(renderbuffer) in context.storage.renderbuffers
+    return context is not None and int(renderbuffer) in context.objects.renderbuffers
 
 
 __all__ = spelled_like_gl(globals())

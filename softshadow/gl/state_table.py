@@ -27,12 +27,12 @@ SIZES = (1.0, 255.0)  # of lines and points
 
 def drawn_to(c: Context) -> Framebuffer:
     """Return the framebuffer that draws go to."""
-    return c.storage.framebuffers[c.state.draw_framebuffer]
+    return c.objects.framebuffers[c.state.draw_framebuffer]
 
 
 def read_from(c: Context) -> Framebuffer:
     """Return the framebuffer that pixels are read from."""
-    return c.storage.framebuffers[c.state.read_framebuffer]
+    return c.objects.framebuffers[c.state.read_framebuffer]
 
 
 def bits(image: Image | None) -> int:

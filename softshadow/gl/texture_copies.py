@@ -90,7 +90,7 @@ def _source_problem(context: Context) -> Problem | None:
 
 
 def _copy_problem(context: Context, stored: Format, with_stencil: bool) -> Problem | None:
-    source = context.storage.framebuffers[context.state.read_framebuffer]
+    source = context.objects.framebuffers[context.state.read_framebuffer]
     if stored.kind == "stencil":
         return gl.GL_INVALID_OPERATION, "this subset copies stencil values only into packed depth and stencil"
     missing = None

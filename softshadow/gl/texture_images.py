@@ -155,7 +155,7 @@ def glGenerateMipmap(target: int) -> None:
 
 
 def _base_problem(context: Context, target: int) -> Problem | None:
-    texture = context.storage.textures.get(bound_name(context, target))
+    texture = context.objects.textures.get(bound_name(context, target))
     bases = [texture.base(face) for face in texture.faces] if texture is not None else [None]
     first = bases[0]
     if first is None or any(base is None or base.view.shape != first.view.shape for base in bases):
@@ -190,7 +190,7 @@ def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = 
     problem = target_problem(context, target, faces=True) or level_problem(level) or format_problem(format, type)
     if problem:
         return fail(problem[0], operation, problem[1])
-    context.flush()
+    context.finish()
     image = image_at(context, target, level)
     if image is not None and (problem := readout_problem(format, image)):
         return fail(problem[0], operation, problem[1])
@@ -261,7 +261,7 @@ def channel_bits(image: Image, size: int) -> int:
 
 def image_at(context: Context, target: int, level: int) -> Image | None:
     """Return the image of a level of the bound texture, or None if it is not defined."""
-    texture = context.storage.textures.get(bound_name(context, target))
+    texture = context.objects.textures.get(bound_name(context, target))
     return texture.images.get((face_of(target), level)) if texture is not None else None
 
 

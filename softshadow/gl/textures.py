@@ -62,7 +62,7 @@ def glBindTexture(target: int, texture: int) -> None:
     if target not in BINDINGS:
         return fail(gl.GL_INVALID_ENUM, "glBindTexture", f"target={token_name(target)}: {EXPECTED_TARGET}")
     name = int(texture)
-    texture_object = context.storage.textures.get(name)
+    texture_object = context.objects.textures.get(name)
     if name and texture_object is not None and texture_object.target != target:
         return fail(
             gl.GL_INVALID_OPERATION,
@@ -82,7 +82,7 @@ def glDeleteTextures(*arguments: Any) -> None:
         return None
     names = [name for name in names_argument("glDeleteTextures", arguments) if name > 0]
     for framebuffer in {context.state.draw_framebuffer, context.state.read_framebuffer}:
-        attachments = context.storage.framebuffers[framebuffer].attachments
+        attachments = context.objects.framebuffers[framebuffer].attachments
         for point, attachment in list(attachments.items()):
             if attachment.texture in names:
                 context.execute(AttachTexture(framebuffer, point, 0))
@@ -90,7 +90,7 @@ def glDeleteTextures(*arguments: Any) -> None:
         unbound = {field: 0 for field in BINDINGS.values() if getattr(unit, field) in names}
         if unbound:
             set_unit(context, index, **unbound)
-    existing = tuple(name for name in names if name in context.storage.textures)
+    existing = tuple(name for name in names if name in context.objects.textures)
     if existing:
         context.execute(DeleteTextures(existing))
 
@@ -98,7 +98,7 @@ def glDeleteTextures(*arguments: Any) -> None:
 def glIsTexture(texture: int) -> bool:
     """Return whether a texture of this name exists; the first glBindTexture creates it."""
     context = outside_begin("glIsTexture")
-    return context is not None and texture > 0 and int(texture) in context.storage.textures
+    return context is not None and texture > 0 and int(texture) in context.objects.textures
 
 
 def set_unit(context: Context, index: int, **fields: Any) -> None:
@@ -122,9 +122,9 @@ def bound_name(context: Context, target: int) -> int:
 def bound_texture(context: Context, target: int) -> Texture:
     """Return the texture bound to a target; the default textures, named 0, are created at their first use."""
     name = bound_name(context, target)
-    if name not in context.storage.textures:
+    if name not in context.objects.textures:
         context.execute(CreateTexture(name, object_target(target)))
-    return context.storage.textures[name]
+    return context.objects.textures[name]
 
 
 def target_problem(context: Context, target: int, faces: bool = False) -> tuple[int, str] | None:
@@ -228,7 +228,7 @@ def glGetTexParameteriv(target: int, pname: int, params: Any = None) -> Any:
 
 def queried_color(context: Context, color: tuple[float, ...]) -> np.ndarray:
     """Return a texture colour as queries return it: clamped, unless the colour buffer is float."""
-    target = context.storage.framebuffers[context.state.draw_framebuffer].first_color
+    target = context.objects.framebuffers[context.state.draw_framebuffer].first_color
     values = np.array(color, np.float32)
     return values if target is not None and target.format.kind == "float" else values.clip(0, 1)
 
@@ -238,7 +238,7 @@ def _parameter(operation: str, target: int, pname: int, params: Any, dtype: type
         return None
     if problem := target_problem(context, target):
         return fail(problem[0], operation, problem[1])
-    known = context.storage.textures.get(bound_name(context, target))
+    known = context.objects.textures.get(bound_name(context, target))
     sampler = known.sampler if known is not None else Sampler()
     if pname == gl.GL_TEXTURE_BORDER_COLOR:
         color = queried_color(context, sampler.border_color)

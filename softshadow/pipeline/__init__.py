@@ -92,13 +92,24 @@ def draw(command: Draw, storage: Storage, counts: FragmentCounts | None = None) 
             for triangles, ranges, region, fragments in plan.chunks_of(command, target):
                 _fill(plan, command.state, target, triangles, region, fragments, ranges=ranges)
             return
-        geometry = process_geometry(command, target, storage)
-        if not len(geometry.triangles.ids):
-            return
-        if plan.in_order:
-            _draw_in_order(plan, command, target, geometry, counts)
-        else:
-            _draw_opaque(plan, command, target, storage, geometry, counts)
+        draw_geometry(plan, command, target, storage, process_geometry(command, target, storage), counts)
+
+
+def draw_geometry(
+    plan: Plan,
+    command: Draw,
+    target: Framebuffer,
+    storage: Storage,
+    geometry: Geometry,
+    counts: FragmentCounts | None = None,
+) -> None:
+    """Draw triangles in the window, under the state of a command."""
+    if not len(geometry.triangles.ids):
+        return
+    if plan.in_order:
+        _draw_in_order(plan, command, target, geometry, counts)
+    else:
+        _draw_opaque(plan, command, target, storage, geometry, counts)
 
 
 def _draw_opaque(

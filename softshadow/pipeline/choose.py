@@ -15,9 +15,9 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.framebuffer import Framebuffer
+from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.draw_path import DrawPath, begin_path
+from softshadow.pipeline.draw_path import DrawPath, begin_path, is_explained
 from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.geometry.polygon_mode import is_filled
 from softshadow.pipeline.memory.threads import threads
@@ -30,6 +30,8 @@ from softshadow.state import State
 
 try:
     from softshadow.pipeline.fast import specialize
+    from softshadow.pipeline.fast.batch.geometry import geometry_of
+    from softshadow.pipeline.fast.batch.table import Run, can_begin_run
     from softshadow.pipeline.fast.depth_only import Chunk, chunks_of
     from softshadow.pipeline.fast.hierarchical_z import order_independent
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
@@ -47,6 +49,10 @@ SMALL_TRIANGLE = 100  # fragments that take as long as a small triangle
 WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volumes are long and thin
 BANDS_PER_THREAD = 4  # so that the other threads can make up for one that takes longer
 LAYERS = 4  # of fragments over each other, from which bands pay on one thread, too
+
+MOST_DRAWS = 4096  # of a run
+MOST_VERTICES = 1 << 16  # of a run of several draws: more in one table gain nothing
+LONG_DRAW = 1 << 14  # vertices from which a draw without colours goes in chunks (fast.depth_only)
 
 Policy = bool | Literal["always"]
 WithoutOverlaps = Callable[[Callable[[np.ndarray], None], Region, int], np.ndarray | None]
@@ -132,6 +138,20 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
     elif writes_color:
         return plan._replace(cached_fill=cached_fill)
     return plan
+
+
+def begin_run(command: Draw, storage: Storage) -> Run | None:
+    """Return a run of draws that begins with this one: draws that may wait to be processed together. None: it may not.
+
+    Short cuts are on as usual, nobody asks how a draw went or how many fragments passed, and the draw cannot fail.
+    """
+    target = storage.framebuffers[command.state.draw_framebuffer]
+    if _short_cuts.get() is not True or is_explained() or storage.active_query or not can_begin_run(command, target):
+        return None
+    colorless = writes_no_colors(command, target) and not tests_alpha(command.state)
+    if colorless and len(command.vertices.position) >= LONG_DRAW:
+        return None
+    return Run(command, storage, not colorless)
 
 
 def needs_order(state: State) -> bool:

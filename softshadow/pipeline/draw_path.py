@@ -43,6 +43,11 @@ def begin_path(label: str, mode: int) -> DrawPath:
     return path
 
 
+def is_explained() -> bool:
+    """Return whether `explain_paths` collects the paths of draws."""
+    return _explained.get() is not None
+
+
 @contextmanager
 def explain_paths() -> Iterator[list[DrawPath]]:
     """Inside, the list in the with statement receives the `DrawPath` of every draw of this thread.

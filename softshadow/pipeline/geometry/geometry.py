@@ -61,7 +61,7 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull:
         clip_primitives = clip_points if command.mode == gl.GL_POINTS else clip_lines
         clipped = clip_primitives(clip, columns, primitives, codes, planes)
     else:
-        set_up_primitives = _filled if is_filled(state) else _outlined
+        set_up_primitives = filled_geometry if is_filled(state) else _outlined
         across = varyings.flat_input and (bool(target.colors) or state.alpha.enabled)  # else Mesa does not shade
         assembled = triangles_of(command, target, codes, planes, across)
         provoking = assembled.provoking
@@ -110,7 +110,7 @@ def has_float_units(command: Draw, target: Framebuffer) -> bool:
     return has_floats and offset_is_on(command.state.polygon)
 
 
-def _filled(geometry: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull) -> Geometry:
+def filled_geometry(geometry: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull) -> Geometry:
     """Return the geometry with its triangles set up."""
     window = geometry.window
     triangles = set_up(window, clipped.triangles, cull, filled_offset(command, target), target.flipped)

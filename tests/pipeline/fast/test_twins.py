@@ -9,7 +9,7 @@ import pytest
 
 from softshadow.pipeline import fast
 
-FILES = sorted(file for file in Path(fast.__file__).parent.glob("*.py") if file.name != "__init__.py")
+FILES = sorted(file for file in Path(fast.__file__).parent.rglob("*.py") if file.name != "__init__.py")
 TESTS = Path(__file__).parents[1]
 HEAD = re.compile(r"equals? (?:to )?`(?P<twin>[\w.]+)`, see (?P<test>fast/test_\w+\.py)\.$")
 

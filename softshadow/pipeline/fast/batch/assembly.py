@@ -1,0 +1,122 @@
+"""The triangles of many draws; equals `geometry.geometry.process_geometry`, see fast/test_batch.py.
+
+The patterns are those of `geometry.assembly`; how quads are cut depends on the clip codes of their segment
+(`mesa.quad_cuts`).
+"""
+
+from softshadow.jit import inlined, kernel
+from softshadow.pipeline.fast.batch.vertices import END, INDEX_END, INDEX_START, INDEXED, MODE, START
+from softshadow.pipeline.mesa.quad_cuts import INDEXED_SEGMENT, SEGMENT
+from softshadow.tokens import (
+    GL_POLYGON,
+    GL_QUAD_STRIP,
+    GL_QUADS,
+    GL_TRIANGLE_FAN,
+    GL_TRIANGLE_STRIP,
+    GL_TRIANGLES,
+)
+
+MODES = (GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN, GL_QUADS, GL_QUAD_STRIP, GL_POLYGON)
+
+
+def triangle_count(mode: int, n: int) -> int:
+    """Return the number of triangles that `n` vertices or indices make."""
+    if mode == GL_TRIANGLES:
+        return n // 3
+    if mode == GL_QUADS:
+        return n // 4 * 2
+    return max(n // 2 - 1, 0) * 2 if mode == GL_QUAD_STRIP else max(n - 2, 0)
+
+
+@inlined
+def vertex_at(numbers, indices, d, i):
+    """Return the row of the i-th vertex that a draw names."""
+    if numbers[d, INDEXED]:
+        return numbers[d, START] + indices[numbers[d, INDEX_START] + i]
+    return numbers[d, START] + i
+
+
+@inlined
+def write_triangle(numbers, indices, d, triangles, provoking, row, a, b, c, last):
+    """Write the triangle of three vertices of a draw; `last` gives the flat colours."""
+    triangles[row, 0] = vertex_at(numbers, indices, d, a)
+    triangles[row, 1] = vertex_at(numbers, indices, d, b)
+    triangles[row, 2] = vertex_at(numbers, indices, d, c)
+    provoking[row] = vertex_at(numbers, indices, d, last)
+
+
+@kernel
+def assemble_draws(numbers, indices, codes, triangles, provoking):
+    """Write the triangles (T, 3) of all draws in order and their provoking vertices (T,); return how many they are."""
+    row = 0
+    for d in range(numbers.shape[0]):
+        mode = numbers[d, MODE]
+        n = numbers[d, INDEX_END] - numbers[d, INDEX_START] if numbers[d, INDEXED] else (
+            numbers[d, END] - numbers[d, START]
+        )  # fmt: skip
+        if mode == GL_TRIANGLES:
+            for i in range(0, n - 2, 3):
+                write_triangle(numbers, indices, d, triangles, provoking, row, i, i + 1, i + 2, i + 2)
+                row += 1
+        elif mode == GL_TRIANGLE_STRIP:
+            for i in range(n - 2):
+                odd = i & 1
+                write_triangle(numbers, indices, d, triangles, provoking, row, i + odd, i + 1 - odd, i + 2, i + 2)
+                row += 1
+        elif mode == GL_TRIANGLE_FAN:
+            for i in range(1, n - 1):
+                write_triangle(numbers, indices, d, triangles, provoking, row, 0, i, i + 1, i + 1)
+                row += 1
+        elif mode == GL_POLYGON:
+            for i in range(1, n - 1):
+                write_triangle(numbers, indices, d, triangles, provoking, row, i, i + 1, 0, 0)
+                row += 1
+        else:
+            row = write_quads(numbers, indices, codes, d, mode, n, triangles, provoking, row)
+    return row
+
+
+@kernel
+def write_quads(numbers, indices, codes, d, mode, n, triangles, provoking, row):
+    """Write the triangles of the quads of one draw; return the row after them."""
+    is_strip = mode == GL_QUAD_STRIP
+    stride = 2 if is_strip else 4
+    n_quads = max(n // 2 - 1, 0) if is_strip else n // 4
+    if n_quads == 0:
+        return row
+    overlap = 4 - stride  # vertices that neighbouring segments of a strip share
+    n_used, step = n_quads * stride + overlap, (INDEXED_SEGMENT if numbers[d, INDEXED] else SEGMENT) - overlap
+    whole_range, range_is_clipped = False, False
+    if numbers[d, INDEXED] and n_used <= INDEXED_SEGMENT:
+        first, last = vertex_at(numbers, indices, d, 0), vertex_at(numbers, indices, d, 0)
+        for i in range(n):
+            v = vertex_at(numbers, indices, d, i)
+            first, last = min(first, v), max(last, v)
+        whole_range = last - first < n_used
+        if whole_range:
+            for v in range(first, last + 1):
+                range_is_clipped = range_is_clipped or codes[v] != 0
+    segment_end, is_clipped = 0, range_is_clipped
+    for quad in range(n_quads):
+        at = quad * stride
+        if at >= segment_end and not whole_range:
+            start = at // step * step
+            segment_end, is_clipped = start + step, False
+            for i in range(start, min(start + step + overlap, n_used)):
+                is_clipped = is_clipped or codes[vertex_at(numbers, indices, d, i)] != 0
+        one, two, three = at + 1, at + 2, at + 3
+        if is_strip:
+            if is_clipped:
+                write_triangle(numbers, indices, d, triangles, provoking, row, two, at, three, three)
+                write_triangle(numbers, indices, d, triangles, provoking, row + 1, at, one, three, three)
+            else:
+                write_triangle(numbers, indices, d, triangles, provoking, row, at, one, three, three)
+                write_triangle(numbers, indices, d, triangles, provoking, row + 1, two, at, three, three)
+        elif is_clipped or numbers[d, INDEXED]:
+            write_triangle(numbers, indices, d, triangles, provoking, row, at, one, three, three)
+            write_triangle(numbers, indices, d, triangles, provoking, row + 1, one, two, three, three)
+        else:
+            write_triangle(numbers, indices, d, triangles, provoking, row, at, one, two, three)
+            write_triangle(numbers, indices, d, triangles, provoking, row + 1, at, two, three, three)
+        row += 2
+    return row

@@ -1,0 +1,257 @@
+"""Lighting of the vertices of many draws; equals `geometry.geometry.process_geometry`, see fast/test_batch.py.
+
+One vertex after the other, with the operations of `softshadow.programs.lighting` in the same order. The state of each
+`Lighting` becomes rows of numbers once (`LightingRows`); what a draw adds, its matrices, is in `place_lights`.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.jit import inlined
+from softshadow.pipeline.constants import ONE, ZERO
+from softshadow.programs.lighting import (
+    LARGEST_SHININESS,
+    SMALLEST_SCALE,
+    enabled_lights,
+    has_highlights,
+    in_object_space,
+    needs_eye_position,
+    normalize,
+)
+from softshadow.programs.llvmpipe_math import power
+from softshadow.programs.reflectances import COLOR_MATERIAL, vector
+from softshadow.state import Lighting, LightState, MaterialState
+
+# columns of a light: colours, position, spot, attenuation
+AMBIENT, DIFFUSE, SPECULAR, POSITION, SPOT_DIRECTION, SPOT_EXPONENT, COSINE = 0, 3, 6, 9, 13, 16, 17
+CONSTANT, LINEAR, QUADRATIC, HAS_SPOT, HAS_POLYNOMIAL, LIGHT_COLUMNS = 18, 19, 20, 21, 22, 23
+# columns of a material; the last three are the light model's ambient colour
+MATERIAL_AMBIENT, MATERIAL_DIFFUSE, MATERIAL_SPECULAR, EMISSION, SHININESS, MODEL_AMBIENT = 0, 4, 8, 12, 16, 17
+# flags of a Lighting
+N_LIGHTS, LOCAL_VIEWER, NORMALIZES, RESCALES, HIGHLIGHTS, NEEDS_EYE, OBJECT_SPACE, FOLLOWS_FRONT, FOLLOWS_BACK = range(
+    9
+)
+FOLLOWS = {"ambient": 1, "diffuse": 2, "specular": 4, "emission": 8}
+# columns of a light of a draw: position or direction, half vector
+PLACED, HALF_VECTOR, PLACED_COLUMNS = 0, 3, 6
+
+
+class LightingRows(NamedTuple):
+    """A `Lighting` as numbers: lights (N, 23), the enabled ones; materials (2, 20), front and back; flags (9,)."""
+
+    lights: np.ndarray
+    materials: np.ndarray
+    flags: np.ndarray
+
+
+def lighting_rows(lighting: Lighting) -> LightingRows:
+    """Return the numbers that kernels read of a `Lighting`."""
+    enabled = enabled_lights(lighting)
+    lights = np.zeros((len(enabled), LIGHT_COLUMNS), np.float32)
+    for row, light in zip(lights, enabled, strict=True):
+        _fill_light(row, light)
+    materials = np.array([_material(side, lighting) for side in (lighting.front, lighting.back)], np.float32)
+    follows = [_followed(lighting, face) for face in (gl.GL_FRONT, gl.GL_BACK)]
+    flags = (
+        len(enabled), lighting.local_viewer, lighting.normalize, lighting.rescale_normal, has_highlights(lighting),
+        needs_eye_position(lighting), in_object_space(lighting, length_preserving=True), *follows,
+    )  # fmt: skip
+    return LightingRows(lights, materials, np.array(flags, np.int64))
+
+
+def _fill_light(row: np.ndarray, light: LightState) -> None:
+    row[AMBIENT:DIFFUSE], row[DIFFUSE:SPECULAR], row[SPECULAR:POSITION] = (
+        vector(color)[:3] for color in (light.ambient, light.diffuse, light.specular)
+    )
+    row[POSITION:SPOT_DIRECTION] = light.position
+    row[SPOT_DIRECTION:SPOT_EXPONENT] = normalize(normalize(vector(light.spot_direction)))
+    row[SPOT_EXPONENT], cutoff = light.spot_exponent, np.float32(light.spot_cutoff)
+    row[COSINE] = max(ZERO, np.float32(math.cos(np.float32(cutoff * math.pi / 180.0))))
+    coefficients = (light.constant_attenuation, light.linear_attenuation, light.quadratic_attenuation)
+    row[CONSTANT:HAS_SPOT], row[HAS_SPOT] = coefficients, light.spot_cutoff != 180
+    row[HAS_POLYNOMIAL] = coefficients != (1.0, 0.0, 0.0) and light.position[3] != 0
+
+
+def _material(material: MaterialState, lighting: Lighting) -> tuple[float, ...]:
+    colors = (*material.ambient, *material.diffuse, *material.specular, *material.emission)
+    return (*colors, material.shininess, *lighting.model_ambient[:3])
+
+
+def _followed(lighting: Lighting, face: int) -> int:
+    """Return the sum of `FOLLOWS` of the material colours of a face that follow glColor."""
+    if not lighting.color_material or lighting.color_material_face not in (gl.GL_FRONT_AND_BACK, face):
+        return 0
+    return sum(FOLLOWS[name] for name in COLOR_MATERIAL[lighting.color_material_mode])
+
+
+@inlined
+def root_of(x):
+    """Return 1 / sqrt(x), both rounded."""
+    return ONE / np.sqrt(x)
+
+
+@inlined
+def dot3(a, b, c, x, y, z):
+    """Return the dot product of two vectors, added from the last component to the first."""
+    return (c * z + b * y) + a * x
+
+
+@inlined
+def unit_of(x, y, z):
+    """Return a vector normalized as in Mesa's C code; 0 stays 0."""
+    squared = (x * x + y * y) + z * z
+    if squared == ZERO:
+        return x, y, z
+    factor = ONE / np.sqrt(squared)
+    return x * factor, y * factor, z * factor
+
+
+@inlined
+def positive(x):
+    """Return x, or 0 if it is negative or NaN."""
+    return x if x > ZERO else ZERO
+
+
+@inlined
+def place_lights(lights, n_lights, modelview, to_object, object_space, placed):
+    """Write the position or direction of each light in the space of the normals, and its half vector if it is one."""
+    for n in range(n_lights):
+        x, y, z, w = lights[n, POSITION], lights[n, POSITION + 1], lights[n, POSITION + 2], lights[n, POSITION + 3]
+        eye_x, eye_y, eye_z = ZERO, ZERO, ONE
+        if object_space:
+            m = to_object
+            x, y, z = (
+                ((m[0, 0] * x + m[0, 1] * y) + m[0, 2] * z) + m[0, 3] * w,
+                ((m[1, 0] * x + m[1, 1] * y) + m[1, 2] * z) + m[1, 3] * w,
+                ((m[2, 0] * x + m[2, 1] * y) + m[2, 2] * z) + m[2, 3] * w,
+            )
+            eye_x, eye_y, eye_z = modelview[2, 0], modelview[2, 1], modelview[2, 2]
+        if lights[n, POSITION + 3] == ZERO:
+            x, y, z = unit_of(x, y, z)
+            half_x, half_y, half_z = unit_of(x + eye_x, y + eye_y, z + eye_z)
+            placed[n, HALF_VECTOR], placed[n, HALF_VECTOR + 1], placed[n, HALF_VECTOR + 2] = half_x, half_y, half_z
+        else:
+            over_w = ONE / w
+            x, y, z = x * over_w, y * over_w, z * over_w
+        placed[n, PLACED], placed[n, PLACED + 1], placed[n, PLACED + 2] = x, y, z
+
+
+@inlined
+def lit_normal(flags, to_object, object_space, length_preserving, x, y, z):
+    """Return a normal in eye or object space, normalized or rescaled."""
+    m = to_object
+    if not object_space:
+        x, y, z = (
+            dot3(x, y, z, m[0, 0], m[1, 0], m[2, 0]),
+            dot3(x, y, z, m[0, 1], m[1, 1], m[2, 1]),
+            dot3(x, y, z, m[0, 2], m[1, 2], m[2, 2]),
+        )
+    if flags[NORMALIZES]:
+        factor = root_of(dot3(x, y, z, x, y, z))
+        return x * factor, y * factor, z * factor
+    if flags[RESCALES] and not object_space and not length_preserving:
+        squared = (m[2, 0] * m[2, 0] + m[2, 1] * m[2, 1]) + m[2, 2] * m[2, 2]
+        factor = ONE / np.sqrt(squared if squared >= SMALLEST_SCALE else ONE)
+        return x * factor, y * factor, z * factor
+    return x, y, z
+
+
+@inlined
+def reflectance(materials, side, follows, bit, column, color, channel):
+    """Return a channel of a material colour: the vertex colour's where the material follows it."""
+    return color[channel] if follows & bit else materials[side, column + channel]
+
+
+@inlined
+def light_vertex(
+    lights, materials, side, flags, placed, eye_x, eye_y, eye_z, nx, ny, nz, color, separate, out, highlight
+):
+    """Write the lit colour (4,) of a vertex with a normal to `out`, and the separate highlight (3,) to `highlight`.
+
+    `side` is 0 for the front material, 1 for the back material; `color` (4,) is the vertex colour.
+    """
+    follows = flags[FOLLOWS_BACK if side else FOLLOWS_FRONT]
+    for c in range(3):
+        ambient = reflectance(materials, side, follows, 1, MATERIAL_AMBIENT, color, c)
+        out[c] = materials[side, MODEL_AMBIENT + c] * ambient + reflectance(
+            materials, side, follows, 8, EMISSION, color, c
+        )
+        highlight[c] = ZERO
+    for n in range(flags[N_LIGHTS]):
+        x, y, z = placed[n, PLACED], placed[n, PLACED + 1], placed[n, PLACED + 2]
+        hx, hy, hz = placed[n, HALF_VECTOR], placed[n, HALF_VECTOR + 1], placed[n, HALF_VECTOR + 2]
+        is_positional, squared = lights[n, POSITION + 3] != ZERO, ZERO
+        if is_positional:
+            x, y, z = x - eye_x, y - eye_y, z - eye_z
+            squared = dot3(x, y, z, x, y, z)
+            over_distance = root_of(squared)
+            x, y, z = x * over_distance, y * over_distance, z * over_distance
+            hx, hy, hz = x, y, z + ONE
+        if flags[LOCAL_VIEWER] and flags[HIGHLIGHTS]:
+            factor = root_of(dot3(eye_x, eye_y, eye_z, eye_x, eye_y, eye_z))
+            hx, hy, hz = x - eye_x * factor, y - eye_y * factor, z - eye_z * factor
+        if is_positional or (flags[LOCAL_VIEWER] and flags[HIGHLIGHTS]):
+            factor = root_of(dot3(hx, hy, hz, hx, hy, hz))
+            hx, hy, hz = hx * factor, hy * factor, hz * factor
+        attenuates, attenuation = False, ONE
+        if lights[n, HAS_SPOT] != ZERO:
+            spot = dot3(
+                -x, -y, -z, lights[n, SPOT_DIRECTION], lights[n, SPOT_DIRECTION + 1], lights[n, SPOT_DIRECTION + 2]
+            )
+            inside = ONE if lights[n, COSINE] < spot else ZERO
+            attenuates, attenuation = True, inside * power(abs(spot), lights[n, SPOT_EXPONENT])
+        if lights[n, HAS_POLYNOMIAL] != ZERO:
+            distance = np.sqrt(squared)
+            one = root_of(squared) * distance
+            polynomial = (lights[n, QUADRATIC] * squared + lights[n, LINEAR] * distance) + lights[n, CONSTANT] * one
+            by_distance = ONE / polynomial
+            attenuation = by_distance * attenuation if attenuates else by_distance
+            attenuates = True
+        towards_light = dot3(nx, ny, nz, x, y, z)
+        diffuse, specular = positive(towards_light), ZERO
+        if flags[HIGHLIGHTS] or attenuates:
+            shininess = materials[side, SHININESS] if flags[HIGHLIGHTS] else towards_light
+            towards_half = dot3(nx, ny, nz, hx, hy, hz) if flags[HIGHLIGHTS] else towards_light
+            if not towards_light <= ZERO:
+                limited = -LARGEST_SHININESS if shininess < -LARGEST_SHININESS else shininess
+                limited = LARGEST_SHININESS if limited > LARGEST_SHININESS else limited
+                specular = power(positive(towards_half), limited)
+        elif towards_light > ZERO:
+            specular = ONE
+        if attenuates:
+            diffuse, specular = diffuse * attenuation, specular * attenuation
+        for c in range(3):
+            ambient_part = lights[n, AMBIENT + c] * reflectance(materials, side, follows, 1, MATERIAL_AMBIENT, color, c)
+            if attenuates:
+                ambient_part = attenuation * ambient_part
+            rgb = ambient_part + out[c]
+            rgb = (
+                diffuse
+                * (lights[n, DIFFUSE + c] * reflectance(materials, side, follows, 2, MATERIAL_DIFFUSE, color, c))
+                + rgb
+            )
+            shine = specular * (
+                lights[n, SPECULAR + c] * reflectance(materials, side, follows, 4, MATERIAL_SPECULAR, color, c)
+            )
+            if separate:
+                highlight[c] = shine + highlight[c]
+            else:
+                rgb = shine + rgb
+            out[c] = rgb
+    out[3] = reflectance(materials, side, follows, 2, MATERIAL_DIFFUSE, color, 3)
+    for c in range(4):
+        out[c] = clamped(out[c])
+    for c in range(3):
+        highlight[c] = clamped(highlight[c])
+
+
+@inlined
+def clamped(value):
+    """Return a number in [0, 1]; NaN becomes 0."""
+    value = value if value > ZERO else ZERO
+    return value if value < ONE else ONE

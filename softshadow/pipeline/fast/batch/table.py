@@ -1,0 +1,306 @@
+"""Draws that are processed together, as one table; equals `geometry.geometry.process_geometry`, see fast/test_batch.py.
+
+The draws of a run have the same state but for their lighting, so they share a viewport, a program of the fixed function
+and all that happens to fragments. Their matrices, vertices, current attributes and lights differ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import fields
+from typing import NamedTuple
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.jit import read_only
+from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.pipeline.fast.batch import lighting
+from softshadow.pipeline.fast.batch.assembly import MODES
+from softshadow.pipeline.fast.batch.vertices import (
+    COLOR,
+    END,
+    EYE_LINEAR,
+    FLOATS,
+    HAS_ARRAY,
+    INDEX_END,
+    INDEX_START,
+    INDEXED,
+    KIND,
+    LIGHTING,
+    MODE,
+    MODELVIEW,
+    NORMAL,
+    NUMBERS,
+    OBJECT_LINEAR,
+    PROJECTION,
+    START,
+    UNIT_COLUMNS,
+    UNIT_CONSTANT,
+    UNIT_IS_IDENTITY,
+    UNIT_MATRIX,
+    Layout,
+)
+from softshadow.pipeline.geometry.clip import NEAR_FAR
+from softshadow.pipeline.geometry.polygon_mode import is_filled
+from softshadow.pipeline.geometry.program import bound_textures
+from softshadow.pipeline.mesa.rectangles import start_of_last_nine
+from softshadow.programs.fixed_function import Unit, is_separate, units_in_use
+from softshadow.programs.inverse import UNKNOWN
+from softshadow.programs.texture_coordinates import IN_EYE_SPACE
+from softshadow.state import Lighting, State
+
+GENERATED = {gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR}
+GROUPS = tuple(group.name for group in fields(State) if group.name not in ("lighting", "read_framebuffer"))
+IDENTITY = np.eye(4, dtype=np.float32)
+
+
+class Arrays(NamedTuple):
+    """Which attributes of a draw are arrays, not constants: colour, normal, coordinates of each unit in use.
+
+    `identities` says of each unit whether its texture matrix is the identity.
+    """
+
+    color: bool
+    normal: bool
+    texcoords: tuple[bool, ...]
+    identities: tuple[bool, ...]
+
+
+class Run:
+    """What the draws of a run have in common.
+
+    Attributes
+    ----------
+    state : State            of the first draw; the others differ at most in lights and materials
+    command : Draw           the first draw
+    units : the texture units in use
+    writes_color : bool      else no colours are computed
+    arrays : Arrays          of all draws
+    """
+
+    def __init__(self, command: Draw, storage: Storage, writes_color: bool) -> None:
+        self.command, self.state, self.writes_color = command, command.state, writes_color
+        bound = bound_textures(self.state, storage) if writes_color else {}
+        self.units: list[Unit] = units_in_use(self.state, bound) if bound else []
+        self.arrays = self._arrays_of(command)
+        self._identities: dict[int, tuple[np.ndarray, bool]] = {}
+
+    def _arrays_of(self, command: Draw) -> Arrays:
+        vertices = command.vertices
+        numbers = [unit.index for unit in self.units]
+        return Arrays(
+            vertices.color.strides[0] != 0,
+            vertices.normal.strides[0] != 0,
+            tuple([vertices.texcoords[number].strides[0] != 0 for number in numbers]),
+            tuple([self._is_identity(command.texture_matrices[number]) for number in numbers]),
+        )
+
+    @staticmethod
+    def _is_identity(matrix: np.ndarray) -> bool:
+        return bool((matrix == IDENTITY).all())
+
+    @property
+    def lit(self) -> bool:
+        """Whether vertices are lit."""
+        return self.writes_color and self.state.lighting.enabled
+
+    def takes(self, command: Draw) -> bool:
+        """Return whether a draw of the same kind as the others continues the run."""
+        state, first = command.state, self.state
+        if state is not first and not _differ_in_lights_only(state, first):
+            return False
+        return self._arrays_of(command) == self.arrays and can_run(command)
+
+
+def _differ_in_lights_only(a: State, b: State) -> bool:
+    if a.lighting is not b.lighting and _structure(a.lighting) != _structure(b.lighting):
+        return False
+    one, other = a.__dict__, b.__dict__
+    return all([one[group] is other[group] or one[group] == other[group] for group in GROUPS])
+
+
+def _structure(lights: Lighting) -> tuple[object, ...]:
+    """Return what decides which columns the varyings have."""
+    return lights.enabled, lights.two_side, lights.color_control, lights.shade_model, lights.color_material
+
+
+def can_run(command: Draw) -> bool:
+    """Return whether a draw can be processed in a table, as far as its vertices and its primitives decide it."""
+    if command.mode not in MODES or command.program_name or command.linear or command.joined_positions is not None:
+        return False
+    vertices, lights = command.vertices, command.state.lighting
+    if vertices.materials or vertices.position.dtype != np.float32 or command.modelview_kind & UNKNOWN:
+        return False
+    if command.mode == gl.GL_TRIANGLES and command.indices is None and start_of_last_nine(len(vertices.position)) >= 0:
+        return False  # triangles that llvmpipe leaves out (mesa.rectangles)
+    if lights.shade_model == gl.GL_FLAT and command.mode == gl.GL_QUADS:
+        return False  # cut along the other diagonal where the colours differ
+    # Mesa's back materials that follow the colour of each vertex have stale products (programs.stale_registers)
+    return not (lights.enabled and lights.two_side and lights.color_material and vertices.color.strides[0])
+
+
+def can_begin_run(command: Draw, target: Framebuffer) -> bool:
+    """Return whether a draw can be processed in a table, as far as its state decides it."""
+    state = command.state
+    if not can_run(command) or not target.attachments or not is_filled(state) or any(state.clip_planes.enabled):
+        return False
+    modes = [gen.mode for unit in state.units for gen in unit.gen if gen.enabled]
+    return all(mode in GENERATED for mode in modes)
+
+
+class Table(NamedTuple):
+    """The draws of a run as arrays, see the columns in `batch.vertices`.
+
+    numbers (D, 8) int64; rows (D, 72), unit_rows (D, U, 21): matrices and constants; lights (L, N, 23), materials
+    (L, 2, 20), flags (L, 9): each distinct `Lighting`; generated (U, 5), planes (U, 4, 4): generation of coordinates;
+    positions (V, 4), colors (V, 4), normals (V, 3), texcoords (U, V, 4): of all draws one after the other, no rows
+    where they are constants; indices (I,) int32.
+    """
+
+    layout: Layout
+    numbers: np.ndarray
+    rows: np.ndarray
+    unit_rows: np.ndarray
+    lights: np.ndarray
+    materials: np.ndarray
+    flags: np.ndarray
+    generated: np.ndarray
+    planes: np.ndarray
+    positions: np.ndarray
+    colors: np.ndarray
+    normals: np.ndarray
+    texcoords: np.ndarray
+    indices: np.ndarray
+
+
+def table_of(run: Run, draws: Sequence[Draw]) -> Table:
+    """Return the draws of a run as arrays."""
+    state, arrays = run.state, run.arrays
+    generated, planes, in_eye_space = _generation(run)
+    layout = Layout(
+        lit=int(run.lit),
+        separate=int(run.lit and is_separate(state)),
+        two_side=int(run.lit and state.lighting.two_side),
+        fog=int(run.writes_color and state.fog.enabled),
+        colors=int(arrays.color),
+        normals=int(arrays.normal),
+        units=len(run.units),
+        in_eye_space=int(in_eye_space),
+        ignored=NEAR_FAR if state.depth.clamp else 0,
+    )
+    vertices = [draw.vertices for draw in draws]
+    rows = np.empty((len(draws), FLOATS), np.float32)
+    rows[:, MODELVIEW:PROJECTION] = np.array([draw.modelview for draw in draws]).reshape(-1, 16)
+    rows[:, PROJECTION:COLOR] = np.array([draw.projection for draw in draws]).reshape(-1, 16)
+    if not arrays.color:
+        rows[:, COLOR:NORMAL] = [each.color[0] for each in vertices]
+    if not arrays.normal:
+        rows[:, NORMAL : NORMAL + 3] = [each.normal[0] for each in vertices]
+    numbers, lightings = _numbers(draws, run.lit)
+    return Table(
+        layout,
+        numbers,
+        rows,
+        _unit_rows(run, draws),
+        *_lighting_arrays(lightings),
+        generated,
+        planes,
+        _joined([each.position for each in vertices], True),
+        _joined([each.color for each in vertices], arrays.color),
+        _joined([each.normal for each in vertices], arrays.normal and run.lit),
+        _texcoords(run, vertices, int(numbers[-1, END])),
+        _joined([draw.indices for draw in draws if draw.indices is not None], True, NO_INDICES),
+    )
+
+
+NO_ROWS, NO_INDICES = np.empty((0, 4), np.float32), np.empty(0, np.int32)
+
+
+def _joined(parts: list[np.ndarray], is_array: bool, nothing: np.ndarray = NO_ROWS) -> np.ndarray:
+    if not is_array or not parts:
+        return read_only(nothing)
+    joined = parts[0] if len(parts) == 1 else np.concatenate(parts)
+    return read_only(np.ascontiguousarray(joined))
+
+
+def _numbers(draws: Sequence[Draw], lit: bool) -> tuple[np.ndarray, list[Lighting]]:
+    """Return the numbers of each draw, and the distinct states of lighting."""
+    lightings: dict[int, tuple[int, Lighting]] = {}
+    table, start, index_start = [], 0, 0
+    for draw in draws:
+        end, lights = start + len(draw.vertices.position), draw.state.lighting
+        n_indices = 0 if draw.indices is None else len(draw.indices)
+        row = lightings.setdefault(id(lights), (len(lightings), lights))[0] if lit else 0
+        number = [0] * NUMBERS
+        number[START], number[END], number[MODE] = start, end, draw.mode
+        number[INDEX_START], number[INDEX_END] = index_start, index_start + n_indices
+        number[INDEXED], number[KIND], number[LIGHTING] = draw.indices is not None, draw.modelview_kind, row
+        table.append(number)
+        start, index_start = end, index_start + n_indices
+    distinct = [lights for _, lights in lightings.values()] or [draws[0].state.lighting]
+    return np.array(table, np.int64), distinct
+
+
+_rows_of: dict[int, tuple[Lighting, lighting.LightingRows]] = {}  # of the latest states of lighting, by id
+KNOWN_LIGHTINGS = 256
+
+
+def _rows(lights: Lighting) -> lighting.LightingRows:
+    known = _rows_of.get(id(lights))
+    if known is None or known[0] is not lights:
+        if len(_rows_of) >= KNOWN_LIGHTINGS:
+            _rows_of.clear()
+        known = _rows_of[id(lights)] = (lights, lighting.lighting_rows(lights))
+    return known[1]
+
+
+def _lighting_arrays(lightings: list[Lighting]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return lights, materials and flags of all states of lighting."""
+    rows = [_rows(each) for each in lightings]
+    if len(rows) == 1:
+        return rows[0].lights[np.newaxis], rows[0].materials[np.newaxis], rows[0].flags[np.newaxis]
+    most = max(len(each.lights) for each in rows)
+    lights = np.zeros((len(rows), most, lighting.LIGHT_COLUMNS), np.float32)
+    for row, each in zip(lights, rows, strict=True):
+        row[: len(each.lights)] = each.lights
+    materials = np.array([each.materials for each in rows])
+    flags = np.array([each.flags for each in rows])
+    return lights, materials, flags
+
+
+def _generation(run: Run) -> tuple[np.ndarray, np.ndarray, bool]:
+    """Return how the coordinates of each unit are generated, the planes, and whether that is in eye space."""
+    generated = np.zeros((len(run.units), 5), np.int64)
+    planes, in_eye_space = np.zeros((len(run.units), 4, 4), np.float32), False
+    for row, unit in enumerate(run.units):
+        generated[row, HAS_ARRAY] = run.arrays.texcoords[row]
+        for c, gen in enumerate(run.state.units[unit.index].gen):
+            if gen.enabled:
+                generated[row, c] = GENERATED[gen.mode]
+                planes[row, c] = gen.object_plane if gen.mode == gl.GL_OBJECT_LINEAR else gen.eye_plane
+                in_eye_space |= gen.mode in IN_EYE_SPACE
+    return generated, planes, in_eye_space
+
+
+def _unit_rows(run: Run, draws: Sequence[Draw]) -> np.ndarray:
+    rows = np.zeros((len(draws), len(run.units), UNIT_COLUMNS), np.float32)
+    for n, unit in enumerate(run.units):
+        matrices = [draw.texture_matrices[unit.index] for draw in draws]
+        rows[:, n, UNIT_MATRIX:UNIT_CONSTANT] = np.array(matrices).reshape(-1, 16)
+        rows[:, n, UNIT_IS_IDENTITY] = run.arrays.identities[n]
+        if not run.arrays.texcoords[n]:
+            rows[:, n, UNIT_CONSTANT:UNIT_IS_IDENTITY] = [draw.vertices.texcoords[unit.index][0] for draw in draws]
+    return rows
+
+
+def _texcoords(run: Run, vertices: Sequence[Vertices], n_vertices: int) -> np.ndarray:
+    """Return the arrays of coordinates (U, V, 4); those of a unit without one are not set."""
+    if len(run.units) == 1 and run.arrays.texcoords[0]:
+        return _joined([each.texcoords[run.units[0].index] for each in vertices], True)[np.newaxis]
+    texcoords = np.empty((len(run.units), n_vertices, 4), np.float32)
+    for n, unit in enumerate(run.units):
+        if run.arrays.texcoords[n]:
+            np.concatenate([each.texcoords[unit.index] for each in vertices], out=texcoords[n])
+    return read_only(texcoords)

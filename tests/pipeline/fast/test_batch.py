@@ -1,0 +1,255 @@
+"""Draws that wait and are processed together leave the bits of draws carried out one by one."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softshadow import gl
+from softshadow.context import Context
+from softshadow.pipeline import choose, queue, set_threads, threads, use_short_cuts
+from softshadow.pipeline.fast.batch import geometry
+from softshadow.pipeline.fast.batch.matrices import invert
+from softshadow.pipeline.memory import threads as pool
+from softshadow.programs import inverse
+
+SIZE = 32
+MODES = (
+    gl.GL_TRIANGLES, gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_QUADS, gl.GL_QUAD_STRIP, gl.GL_POLYGON, gl.GL_LINES
+)  # fmt: skip
+seeds = st.integers(0, 2**32 - 1)
+
+
+class Program:
+    """A random program: a few states, and under each of them draws that differ in what a run allows."""
+
+    def __init__(self, seed: int) -> None:
+        self.rng = np.random.default_rng(seed)
+
+    def draw(self, states: int = 3, draws: int = 5) -> Context:
+        """Carry the program out in a new context."""
+        context = gl.create_context(SIZE, SIZE, depth_format=str(self.rng.choice(["d24", "d32f"])))
+        self.make_texture()
+        gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
+        for _ in range(states):
+            self.set_state()
+            self.set_lighting()
+            self.set_textures()
+            for _ in range(draws):
+                self.set_matrices()
+                self.draw_something()
+        gl.glFinish()
+        return context
+
+    def chance(self, p: float = 0.5) -> bool:
+        return bool(self.rng.random() < p)
+
+    def switch(self, cap: int, p: float = 0.5) -> None:
+        (gl.glEnable if self.chance(p) else gl.glDisable)(cap)
+
+    def one_of(self, *values: int) -> int:
+        return int(self.rng.choice(values))
+
+    def numbers(self, n: int, low: float = -1, high: float = 1) -> list[float]:
+        return self.rng.uniform(low, high, n).tolist()
+
+    def make_texture(self) -> None:
+        gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_LINEAR)
+        image = self.rng.integers(0, 256, (8, 8, 4), np.uint8)
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 8, 8, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, image)
+
+    def set_state(self) -> None:
+        for cap, p in (
+            (gl.GL_DEPTH_TEST, 0.7), (gl.GL_CULL_FACE, 0.2), (gl.GL_BLEND, 0.3), (gl.GL_STENCIL_TEST, 0.3), (gl.GL_FOG, 0.3),
+            (gl.GL_ALPHA_TEST, 0.2), (gl.GL_POLYGON_OFFSET_FILL, 0.2), (gl.GL_DEPTH_CLAMP, 0.1), (gl.GL_CLIP_PLANE0, 0.05),
+        ):  # fmt: skip
+            self.switch(cap, p)
+        gl.glBlendFunc(self.one_of(gl.GL_ONE, gl.GL_SRC_ALPHA), self.one_of(gl.GL_ONE, gl.GL_ONE_MINUS_SRC_ALPHA))
+        gl.glStencilFunc(self.one_of(gl.GL_ALWAYS, gl.GL_EQUAL), self.one_of(0, 1), 255)
+        gl.glStencilOp(gl.GL_KEEP, self.one_of(gl.GL_KEEP, gl.GL_INVERT), self.one_of(gl.GL_INCR, gl.GL_DECR_WRAP))
+        gl.glAlphaFunc(gl.GL_GREATER, 0.4)
+        gl.glPolygonOffset(*self.numbers(2, -2, 2))
+        gl.glFogi(gl.GL_FOG_MODE, self.one_of(gl.GL_LINEAR, gl.GL_EXP))
+        gl.glColorMask(*[self.chance(0.9)] * 4)
+
+    def set_lighting(self) -> None:
+        self.switch(gl.GL_LIGHTING, 0.7)
+        for cap in (gl.GL_NORMALIZE, gl.GL_RESCALE_NORMAL, gl.GL_COLOR_MATERIAL):
+            self.switch(cap)
+        gl.glColorMaterial(
+            self.one_of(gl.GL_FRONT, gl.GL_BACK, gl.GL_FRONT_AND_BACK),
+            self.one_of(gl.GL_AMBIENT_AND_DIFFUSE, gl.GL_SPECULAR, gl.GL_EMISSION, gl.GL_DIFFUSE),
+        )
+        gl.glShadeModel(gl.GL_SMOOTH if self.chance(0.8) else gl.GL_FLAT)
+        for parameter in (gl.GL_LIGHT_MODEL_LOCAL_VIEWER, gl.GL_LIGHT_MODEL_TWO_SIDE):
+            gl.glLightModeli(parameter, int(self.chance(0.3)))
+        separate = gl.GL_SEPARATE_SPECULAR_COLOR if self.chance(0.3) else gl.GL_SINGLE_COLOR
+        gl.glLightModeli(gl.GL_LIGHT_MODEL_COLOR_CONTROL, separate)
+        for light in range(3):
+            self.set_light(gl.GL_LIGHT0 + light)
+
+    def set_light(self, light: int) -> None:
+        self.switch(light)
+        for parameter in (gl.GL_AMBIENT, gl.GL_DIFFUSE, gl.GL_SPECULAR):
+            gl.glLightfv(light, parameter, self.numbers(4, 0))
+        gl.glLightfv(light, gl.GL_POSITION, [*self.numbers(3, -2, 2), self.one_of(0, 0, 1, 2)])
+        gl.glLightfv(light, gl.GL_SPOT_DIRECTION, self.numbers(3))
+        gl.glLightf(light, gl.GL_SPOT_CUTOFF, self.one_of(180, 180, 80, 30))
+        gl.glLightf(light, gl.GL_SPOT_EXPONENT, self.one_of(0, 1, 7))
+        for parameter, low in ((gl.GL_CONSTANT_ATTENUATION, 1), (gl.GL_LINEAR_ATTENUATION, 0)):
+            gl.glLightf(light, parameter, low if self.chance() else 0.7)
+
+    def set_textures(self) -> None:
+        self.switch(gl.GL_TEXTURE_2D, 0.4)
+        for coordinate, cap in ((gl.GL_S, gl.GL_TEXTURE_GEN_S), (gl.GL_T, gl.GL_TEXTURE_GEN_T)):
+            self.switch(cap, 0.3)
+            mode = self.one_of(gl.GL_OBJECT_LINEAR, gl.GL_EYE_LINEAR, gl.GL_EYE_LINEAR, gl.GL_SPHERE_MAP)
+            gl.glTexGeni(coordinate, gl.GL_TEXTURE_GEN_MODE, mode)
+            gl.glTexGenfv(coordinate, gl.GL_EYE_PLANE, self.numbers(4))
+            gl.glTexGenfv(coordinate, gl.GL_OBJECT_PLANE, self.numbers(4))
+
+    def set_matrices(self) -> None:
+        if self.chance(0.7):
+            gl.glMatrixMode(gl.GL_PROJECTION)
+            gl.glLoadIdentity()
+            gl.gluPerspective(60, 1, 0.5, 10)
+            gl.glMatrixMode(gl.GL_MODELVIEW)
+            gl.glLoadIdentity()
+            gl.glTranslatef(0, 0, -2.5)
+        if self.chance():
+            gl.glRotatef(*self.numbers(1, -180, 180), *self.numbers(3))
+        if self.chance(0.4):
+            gl.glScalef(*([1.5] * 3 if self.chance() else self.numbers(3, 0.3, 2)))
+        if self.chance(0.1):
+            gl.glMultMatrixf(self.numbers(16))
+        if self.chance(0.2):
+            gl.glMatrixMode(gl.GL_TEXTURE)
+            gl.glTranslatef(*self.numbers(3))
+            gl.glMatrixMode(gl.GL_MODELVIEW)
+
+    def draw_something(self) -> None:
+        gl.glColor4f(*self.numbers(4, 0))
+        gl.glNormal3f(*self.numbers(3))
+        if self.chance(0.2):
+            side = self.one_of(gl.GL_FRONT, gl.GL_BACK, gl.GL_FRONT_AND_BACK)
+            gl.glMaterialfv(side, self.one_of(gl.GL_SPECULAR, gl.GL_DIFFUSE), self.numbers(4, 0))
+            gl.glMaterialf(side, gl.GL_SHININESS, self.one_of(0, 5, 100))
+        mode, n = self.one_of(*MODES), int(self.rng.integers(0, 14))
+        if self.chance(0.3):
+            gl.glBegin(mode)
+            for _ in range(n):
+                gl.glTexCoord2f(*self.numbers(2))
+                gl.glVertex3f(*self.numbers(3))
+            gl.glEnd()
+            return
+        arrays = (
+            (gl.GL_COLOR_ARRAY, gl.glColorPointer, 4, (4, gl.GL_FLOAT, 0), 0.3),
+            (gl.GL_NORMAL_ARRAY, gl.glNormalPointer, 3, (gl.GL_FLOAT, 0), 0.7),
+            (gl.GL_TEXTURE_COORD_ARRAY, gl.glTexCoordPointer, 2, (2, gl.GL_FLOAT, 0), 0.5),
+            (gl.GL_VERTEX_ARRAY, gl.glVertexPointer, 3, (3, gl.GL_FLOAT, 0), 1),
+        )
+        for array, point, width, arguments, p in arrays:
+            gl.glDisableClientState(array)
+            if self.chance(p):
+                gl.glEnableClientState(array)
+                point(*arguments, np.array(self.numbers(16 * width), np.float32).reshape(-1, width))
+        if self.chance():
+            indices = self.rng.integers(0, 16, n).astype(np.uint32)
+            gl.glDrawElements(mode, n, gl.GL_UNSIGNED_INT, indices)
+        else:
+            gl.glDrawArrays(mode, 0, n)
+
+
+def same_buffers(a: Context, b: Context) -> bool:
+    """Return whether colour, depth and stencil of two windows are equal, bit for bit."""
+    pairs = zip(a.storage.window.attachments.values(), b.storage.window.attachments.values(), strict=True)
+    return all(one.image.view.tobytes() == other.image.view.tobytes() for one, other in pairs)
+
+
+@pytest.mark.interpreted
+@given(seeds)
+def test_runs_of_draws_leave_the_bits_of_single_draws(seed):
+    with use_short_cuts(False):
+        expected = Program(seed).draw()
+    assert same_buffers(Program(seed).draw(), expected)
+
+
+@given(seeds)
+def test_threads_and_small_runs_make_no_difference(seed):
+    expected, before = Program(seed).draw(), threads()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pool, "PART_SIZE", 5)
+        patch.setattr(queue, "MOST_DRAWS", 3)
+        set_threads(3)
+        try:
+            assert same_buffers(Program(seed).draw(), expected)
+        finally:
+            set_threads(before)
+
+
+@given(seeds, st.sampled_from([1, 37]))
+def test_the_cut_of_quads_depends_on_their_segment(seed, n_clipped):
+    """Segments of 4096 vertices, of 1024 with indices: a clipped vertex in one of them decides how its quads are cut."""
+
+    def quads() -> Context:
+        rng = np.random.default_rng(seed)
+        context = gl.create_context(SIZE, SIZE)
+        positions = rng.uniform(-0.9, 0.9, (6000, 3)).astype(np.float32)
+        positions[rng.integers(0, 6000, n_clipped), 0] = 1.5
+        gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+        gl.glEnableClientState(gl.GL_COLOR_ARRAY)
+        gl.glVertexPointer(3, gl.GL_FLOAT, 0, positions)
+        gl.glColorPointer(4, gl.GL_FLOAT, 0, rng.random((6000, 4)).astype(np.float32))
+        mode = gl.GL_QUADS if rng.random() < 0.5 else gl.GL_QUAD_STRIP
+        gl.glDrawArrays(mode, 0, 6000)
+        gl.glDrawElements(mode, 2500, gl.GL_UNSIGNED_INT, rng.integers(0, 6000, 2500).astype(np.uint32))
+        return context
+
+    with use_short_cuts(False):
+        expected = quads()
+    assert same_buffers(quads(), expected)
+
+
+def test_many_small_draws_are_one_run(monkeypatch):
+    runs = []
+    geometry_of = geometry.geometry_of
+    monkeypatch.setattr(
+        queue, "geometry_of", lambda run, draws, *rest: runs.append(len(draws)) or geometry_of(run, draws, *rest)
+    )
+    gl.create_context(SIZE, SIZE)
+    gl.glEnable(gl.GL_LIGHTING)
+    gl.glEnable(gl.GL_COLOR_MATERIAL)
+    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.eye(3, dtype=np.float32))
+    for n in range(50):
+        gl.glColor3f(n / 50, 0, 0)
+        gl.glRotatef(n, 0, 1, 0)
+        gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
+    assert not runs
+    gl.glReadPixels(0, 0, 1, 1, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
+    assert runs == [50]
+
+
+def test_a_long_run_is_cut(monkeypatch):
+    monkeypatch.setattr(queue, "MOST_VERTICES", 10)
+    context = gl.create_context(SIZE, SIZE)
+    with use_short_cuts(False):
+        expected = Program(3).draw()
+    assert same_buffers(Program(3).draw(), expected)
+    assert choose.MOST_VERTICES > 10
+    assert not context.storage.active_query
+
+
+@given(seeds, st.sampled_from(range(64)))
+def test_inverses_are_those_of_the_textbook(seed, kind):
+    rng = np.random.default_rng(seed)
+    matrix = rng.choice(
+        np.float32([0, 0, 1, -1, 0.5, 3e-9, 7e8, np.nan]), (4, 4), p=[0.3, 0.1, 0.2, 0.1, 0.2, 0.04, 0.04, 0.02]
+    )
+    matrix[rng.random((4, 4)) < 0.3] = np.float32(rng.normal())
+    result = np.empty((4, 4), np.float32)
+    with np.errstate(all="ignore"):
+        invert(matrix, kind, result)
+        expected = inverse.inverse(matrix, kind)
+    np.testing.assert_array_equal(result, expected)
