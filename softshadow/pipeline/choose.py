@@ -30,7 +30,6 @@ from softshadow.state import State
 
 try:
     from softshadow.pipeline.fast import specialize
-    from softshadow.pipeline.fast.batch.geometry import geometry_of
     from softshadow.pipeline.fast.batch.table import Run, can_begin_run
     from softshadow.pipeline.fast.depth_only import Chunk, chunks_of
     from softshadow.pipeline.fast.hierarchical_z import order_independent

@@ -10,8 +10,14 @@ import numpy as np
 
 from softshadow import pipeline
 from softshadow.framebuffer import Storage
-from softshadow.pipeline.choose import MOST_DRAWS, MOST_VERTICES, Run, begin_run, geometry_of, plan_draw
+from softshadow.pipeline.choose import MOST_DRAWS, MOST_VERTICES, begin_run, plan_draw
 from softshadow.pipeline.commands import Draw
+
+try:
+    from softshadow.pipeline.fast.batch.geometry import geometry_of
+    from softshadow.pipeline.fast.batch.table import Run
+except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
+    pass
 
 
 class DrawQueue:

@@ -118,7 +118,7 @@ def _differ_in_lights_only(a: State, b: State) -> bool:
     if a.lighting is not b.lighting and _structure(a.lighting) != _structure(b.lighting):
         return False
     one, other = a.__dict__, b.__dict__
-    return all([one[group] is other[group] or one[group] == other[group] for group in GROUPS])
+    return all(one[group] is other[group] or one[group] == other[group] for group in GROUPS)
 
 
 def _structure(lights: Lighting) -> tuple[object, ...]:

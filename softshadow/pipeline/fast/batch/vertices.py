@@ -1,6 +1,6 @@
 """The vertex stage of many draws; equals `geometry.geometry.process_geometry`, see fast/test_batch.py.
 
-`prepare_draws` computes what the vertices of a draw share; `process_vertices` then walks over the vertices of all draws.
+`prepare_draws` computes what the vertices of a draw share; `process_vertices` walks over the vertices of all draws.
 """
 
 from typing import NamedTuple
@@ -109,9 +109,10 @@ def process_vertices(
             codes[v] = outcode(clip[v, 0], clip[v, 1], clip[v, 2], clip[v, 3]) & ~layout.ignored
             window_position(clip, v, scale, shift, window)
         if layout.lit:
+            lighting = numbers[d, LIGHTING]
             light_draw(
-                first, last, layout, numbers[d, KIND], row, lights[numbers[d, LIGHTING]], materials[numbers[d, LIGHTING]],
-                flags[numbers[d, LIGHTING]], placed[d], positions, colors, normals, values, back,
+                first, last, layout, numbers[d, KIND], row, lights[lighting], materials[lighting], flags[lighting],
+                placed[d], positions, colors, normals, values, back,
             )  # fmt: skip
         else:
             for vertex in range(first, last):
