@@ -24,6 +24,13 @@ def vector(values: tuple[float, ...]) -> np.ndarray:
     return np.array(values, np.float32)
 
 
+def followed(lighting: Lighting, side: str) -> tuple[str, ...]:
+    """Return the material colours of "front" or "back" that follow the vertex colour."""
+    sides = gl.GL_FRONT_AND_BACK, gl.GL_FRONT if side == "front" else gl.GL_BACK
+    follows = lighting.color_material and lighting.color_material_face in sides
+    return COLOR_MATERIAL[lighting.color_material_mode] if follows else ()
+
+
 class Reflectances:
     """The material parameters of one side ("front" or "back") at the vertices.
 
@@ -36,9 +43,7 @@ class Reflectances:
     def __init__(self, lighting: Lighting, vertices: VertexInputs, side: str) -> None:
         self._material: MaterialState = getattr(lighting, side)
         self._vertices, self._side = vertices, side
-        sides = gl.GL_FRONT_AND_BACK, gl.GL_FRONT if side == "front" else gl.GL_BACK
-        follows = lighting.color_material and lighting.color_material_face in sides
-        self._tracked = COLOR_MATERIAL[lighting.color_material_mode] if follows else ()
+        self._tracked = followed(lighting, side)
         per_vertex = {name.partition(".")[2] for name in vertices.materials if name.startswith(side)}
         color_varies = vertices.color.strides[0] != 0  # a constant is broadcast with stride 0
         self.varying = per_vertex | (set(self._tracked) if color_varies else set())

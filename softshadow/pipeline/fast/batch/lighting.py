@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from softshadow import tokens as gl
 from softshadow.jit import inlined
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.programs.lighting import (
@@ -24,7 +23,7 @@ from softshadow.programs.lighting import (
     normalize,
 )
 from softshadow.programs.llvmpipe_math import power
-from softshadow.programs.reflectances import COLOR_MATERIAL, vector
+from softshadow.programs.reflectances import followed, vector
 from softshadow.state import Lighting, LightState, MaterialState
 
 # columns of a light: colours, position, spot, attenuation
@@ -56,7 +55,7 @@ def lighting_rows(lighting: Lighting) -> LightingRows:
     for row, light in zip(lights, enabled, strict=True):
         _fill_light(row, light)
     materials = np.array([_material(side, lighting) for side in (lighting.front, lighting.back)], np.float32)
-    follows = [_followed(lighting, face) for face in (gl.GL_FRONT, gl.GL_BACK)]
+    follows = [sum(FOLLOWS[name] for name in followed(lighting, side)) for side in ("front", "back")]
     flags = (
         len(enabled), lighting.local_viewer, lighting.normalize, lighting.rescale_normal, has_highlights(lighting),
         needs_eye_position(lighting), in_object_space(lighting, length_preserving=True), *follows,
@@ -80,13 +79,6 @@ def _fill_light(row: np.ndarray, light: LightState) -> None:
 def _material(material: MaterialState, lighting: Lighting) -> tuple[float, ...]:
     colors = (*material.ambient, *material.diffuse, *material.specular, *material.emission)
     return (*colors, material.shininess, *lighting.model_ambient[:3])
-
-
-def _followed(lighting: Lighting, face: int) -> int:
-    """Return the sum of `FOLLOWS` of the material colours of a face that follow glColor."""
-    if not lighting.color_material or lighting.color_material_face not in (gl.GL_FRONT_AND_BACK, face):
-        return 0
-    return sum(FOLLOWS[name] for name in COLOR_MATERIAL[lighting.color_material_mode])
 
 
 @inlined

@@ -46,13 +46,16 @@ from softshadow.pipeline.geometry.clip import NEAR_FAR
 from softshadow.pipeline.geometry.polygon_mode import is_filled
 from softshadow.pipeline.geometry.program import bound_textures
 from softshadow.pipeline.mesa.rectangles import start_of_last_nine
+from softshadow.programs import reflectances
 from softshadow.programs.fixed_function import Unit, is_separate, units_in_use
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE
-from softshadow.state import Lighting, State
+from softshadow.state import Lighting, MaterialState, State
 
 GENERATED = {gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR}
 GROUPS = tuple(group.name for group in fields(State) if group.name not in ("lighting", "read_framebuffer"))
+LIGHT_MODEL = tuple(field.name for field in fields(Lighting) if field.name not in ("front", "back"))
+MATERIAL = tuple(field.name for field in fields(MaterialState))
 IDENTITY = np.eye(4, dtype=np.float32)
 
 
@@ -226,21 +229,37 @@ def _joined(parts: list[np.ndarray], is_array: bool, nothing: np.ndarray = NO_RO
 
 
 def _numbers(draws: Sequence[Draw], lit: bool) -> tuple[np.ndarray, list[Lighting]]:
-    """Return the numbers of each draw, and the distinct states of lighting."""
-    lightings: dict[int, tuple[int, Lighting]] = {}
-    table, start, index_start = [], 0, 0
+    """Return the numbers of each draw, and the states of lighting that kernels can tell apart."""
+    lightings = [draws[0].state.lighting]
+    table, start, index_start, row = [], 0, 0, 0
     for draw in draws:
         end, lights = start + len(draw.vertices.position), draw.state.lighting
         n_indices = 0 if draw.indices is None else len(draw.indices)
-        row = lightings.setdefault(id(lights), (len(lightings), lights))[0] if lit else 0
+        if lit and not _same_rows(lights, lightings[row]):
+            row = len(lightings)
+            lightings.append(lights)
         number = [0] * NUMBERS
         number[START], number[END], number[MODE] = start, end, draw.mode
         number[INDEX_START], number[INDEX_END] = index_start, index_start + n_indices
         number[INDEXED], number[KIND], number[LIGHTING] = draw.indices is not None, draw.modelview_kind, row
         table.append(number)
         start, index_start = end, index_start + n_indices
-    distinct = [lights for _, lights in lightings.values()] or [draws[0].state.lighting]
-    return np.array(table, np.int64), distinct
+    return np.array(table, np.int64), lightings
+
+
+def _same_rows(a: Lighting, b: Lighting) -> bool:
+    """Return whether two states of lighting have the same rows: a colour that follows glColor does not matter."""
+    if a is b:
+        return True
+    one, other = a.__dict__, b.__dict__
+    if any(one[name] is not other[name] and one[name] != other[name] for name in LIGHT_MODEL):
+        return False
+    for side in ("front", "back"):
+        followed = reflectances.followed(a, side)
+        x, y = one[side].__dict__, other[side].__dict__
+        if any(x[name] != y[name] for name in MATERIAL if name not in followed):
+            return False
+    return True
 
 
 _rows_of: dict[int, tuple[Lighting, lighting.LightingRows]] = {}  # of the latest states of lighting, by id
