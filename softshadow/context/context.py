@@ -19,7 +19,7 @@ from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import evolve
-from softshadow.pipeline.commands import Command, Draw, Vertices
+from softshadow.pipeline.commands import Clear, Command, Draw, Vertices
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
@@ -235,8 +235,12 @@ class Context:
         self._waiting.carry_out()
 
     def _carry_out(self, command: Command) -> None:
-        if type(command) is not Draw or not self._waiting.add(command):
+        if type(command) is not Draw:
+            if type(command) is not Clear:
+                self._waiting.forget()
             execute(command, self.storage)
+        elif not self._waiting.add(command):
+            execute(command, self.objects)
         self._frame.commands.append(command)
 
     def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:

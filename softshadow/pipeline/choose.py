@@ -139,13 +139,17 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
     return plan
 
 
-def begin_run(command: Draw, storage: Storage) -> Run | None:
-    """Return a run of draws that begins with this one: draws that may wait to be processed together. None: it may not.
+def may_wait(command: Draw, storage: Storage) -> bool:
+    """Return whether draws may wait: short cuts are on, and nobody asks how a draw went or counts its fragments."""
+    return _short_cuts.get() is True and not storage.active_query and not is_explained()
 
-    Short cuts are on as usual, nobody asks how a draw went or how many fragments passed, and the draw cannot fail.
+
+def begin_run(command: Draw, target: Framebuffer, storage: Storage) -> Run | None:
+    """Return a run of draws that begins with this one: they wait, and are processed together. None: it cannot.
+
+    Only draws that cannot fail wait, and of those without colours only short ones (`fast.depth_only`).
     """
-    target = storage.framebuffers[command.state.draw_framebuffer]
-    if _short_cuts.get() is not True or is_explained() or storage.active_query or not can_begin_run(command, target):
+    if not can_begin_run(command, target):
         return None
     colorless = writes_no_colors(command, target) and not tests_alpha(command.state)
     if colorless and len(command.vertices.position) >= LONG_DRAW:

@@ -10,14 +10,17 @@ import numpy as np
 
 from softshadow import pipeline
 from softshadow.framebuffer import Storage
-from softshadow.pipeline.choose import MOST_DRAWS, MOST_VERTICES, begin_run, plan_draw
+from softshadow.pipeline.choose import MOST_DRAWS, MOST_VERTICES, Plan, begin_run, may_wait, plan_draw
 from softshadow.pipeline.commands import Draw
 
 try:
-    from softshadow.pipeline.fast.batch.geometry import geometry_of
+    from softshadow.pipeline.fast.batch.geometry import Setting, geometry_of, setting_of
     from softshadow.pipeline.fast.batch.table import Run
 except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
     pass
+
+
+KNOWN_KINDS = 64
 
 
 class DrawQueue:
@@ -33,6 +36,10 @@ class DrawQueue:
         self._run: Run | None = None
         self._draws: list[Draw] = []
         self._n_vertices = 0
+        # kinds of runs by the identity of their state, each with what their geometry and their fragments depend on
+        self._known: dict[int, list[tuple[Run, Setting, Plan]]] = {}
+        self._setting: Setting | None = None
+        self._plan: Plan | None = None
 
     def add(self, command: Draw) -> bool:
         """Let a draw wait; return False if it must be carried out at once (all draws before it have been, then)."""
@@ -40,8 +47,7 @@ class DrawQueue:
         run = self._run
         if run is None or self._n_vertices + n_vertices > MOST_VERTICES or not run.takes(command):
             self.carry_out()
-            run = self._run = begin_run(command, self._storage)
-            if run is None:
+            if not self._begin_run(command):
                 return False
         self._draws.append(command)
         self._n_vertices += n_vertices
@@ -49,14 +55,37 @@ class DrawQueue:
             self.carry_out()
         return True
 
+    def _begin_run(self, command: Draw) -> bool:
+        if not may_wait(command, self._storage):
+            return False
+        known = self._known.get(id(command.state), [])
+        for kind in known:
+            if kind[0].state is command.state and kind[0].takes(command):
+                self._run, self._setting, self._plan = kind
+                return True
+        target = self._storage.framebuffers[command.state.draw_framebuffer]
+        run = begin_run(command, target, self._storage)
+        if run is None:
+            return False
+        kind = run, setting_of(run, target, self._storage), plan_draw(command, target, False)
+        if len(self._known) >= KNOWN_KINDS:
+            self._known.clear()
+        self._known.setdefault(id(command.state), []).append(kind)
+        self._run, self._setting, self._plan = kind
+        return True
+
+    def forget(self) -> None:
+        """Forget the kinds of runs, when a texture or a framebuffer object changes."""
+        self._known.clear()
+
     def carry_out(self) -> None:
         """Carry out the draws that wait."""
-        run, draws = self._run, self._draws
-        if run is None:
+        run, setting, plan, draws = self._run, self._setting, self._plan, self._draws
+        if run is None or setting is None or plan is None:
             return
         self._run, self._draws, self._n_vertices = None, [], 0
-        command, storage = run.command, self._storage
-        target = storage.framebuffers[command.state.draw_framebuffer]
+        storage = self._storage
+        target = storage.framebuffers[run.state.draw_framebuffer]
         with np.errstate(all="ignore"):  # as in pipeline.draw
-            geometry = geometry_of(run, draws, target, storage)
-            pipeline.draw_geometry(plan_draw(command, target, False), command, target, storage, geometry)
+            geometry = geometry_of(run, setting, draws, target)
+            pipeline.draw_geometry(plan, run.command, target, storage, geometry)

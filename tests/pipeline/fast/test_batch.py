@@ -12,6 +12,7 @@ from softshadow.context import Context
 from softshadow.pipeline import choose, queue, set_threads, threads, use_short_cuts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch import geometry
+from softshadow.pipeline.fast.batch.geometry import Setting
 from softshadow.pipeline.fast.batch.matrices import invert
 from softshadow.pipeline.fast.batch.table import Run
 from softshadow.pipeline.memory import threads as pool
@@ -187,6 +188,7 @@ def test_threads_and_small_runs_make_no_difference(seed):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(pool, "PART_SIZE", 5)
         patch.setattr(queue, "MOST_DRAWS", 3)
+        patch.setattr(geometry, "SMALL", 8)
         set_threads(3)
         try:
             assert same_buffers(Program(seed).draw(), expected)
@@ -219,11 +221,11 @@ def test_the_cut_of_quads_depends_on_their_segment(seed, n_clipped):
 
 def test_many_small_draws_are_one_run(monkeypatch):
     runs = []
-    geometry_of = geometry.geometry_of
+    geometry_of = queue.geometry_of
 
-    def count(run: Run, draws: list[Draw], *rest: Any) -> Geometry:
+    def count(run: Run, setting: Setting, draws: list[Draw], *rest: Any) -> Geometry:
         runs.append(len(draws))
-        return geometry_of(run, draws, *rest)
+        return geometry_of(run, setting, draws, *rest)
 
     monkeypatch.setattr(queue, "geometry_of", count)
     gl.create_context(SIZE, SIZE)

@@ -5,97 +5,161 @@ Vertices, lighting and assembly of all draws take three calls of kernels; clippi
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.jit import kernel, read_only
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.assembly import assemble_draws, triangle_count
 from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
-from softshadow.pipeline.fast.batch.table import Run, Table, table_of
+from softshadow.pipeline.fast.batch.table import Run, table_of
 from softshadow.pipeline.fast.batch.vertices import END, prepare_draws, process_vertices
 from softshadow.pipeline.geometry.clip import clip_triangles
-from softshadow.pipeline.geometry.geometry import filled_geometry, user_planes, window_transform
+from softshadow.pipeline.geometry.facing import snap_vertices
+from softshadow.pipeline.geometry.geometry import (
+    filled_geometry,
+    filled_offset,
+    has_float_units,
+    user_planes,
+    window_transform,
+)
 from softshadow.pipeline.geometry.program import program_of
-from softshadow.pipeline.geometry.triangle_setup import NO_TRIANGLES
+from softshadow.pipeline.geometry.triangle_setup import NO_TRIANGLES, Offset, set_up_triangles, stored_culling
 from softshadow.pipeline.geometry.vertex import VERTICES_PER_SPARE, append_rows, scale_and_shift, to_window
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
-from softshadow.pipeline.records import Geometry
+from softshadow.pipeline.records import Geometry, Setup
+from softshadow.programs import Program
+from softshadow.programs.fixed_function import is_separate
 
 REAL = np.dtype(np.float32)
+SMALL = 1 << 12  # vertices, and triangles, of a run that one kernel sets up
 
 
-def geometry_of(run: Run, draws: Sequence[Draw], target: Framebuffer, storage: Storage) -> Geometry:
+class Setting(NamedTuple):
+    """What the geometry of a run depends on besides its draws.
+
+    scale, shift (3,): the viewport transform; culled, positive_is_front, offset: see `triangle_setup.set_up_triangles`;
+    flat (k,): the columns of the varyings that are not interpolated.
+    """
+
+    scale: np.ndarray
+    shift: np.ndarray
+    culled: int
+    positive_is_front: int
+    offset: Offset
+    flat: np.ndarray
+    program: Program
+    uniforms: Mapping[str, Any]
+
+
+def setting_of(run: Run, target: Framebuffer, storage: Storage) -> Setting:
+    """Return what the geometry of a run depends on besides its draws."""
+    scale, shift = scale_and_shift(*window_transform(run.command, target), REAL)
+    facing = stored_culling(run.state.cull, target.flipped)
+    return Setting(
+        scale, shift, *facing, filled_offset(run.command, target), _flat_columns(run), *program_of(run.command, storage)
+    )
+
+
+def geometry_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Framebuffer) -> Geometry:
     """Return the triangles of all draws of a run, in drawing order, in the window of `target`."""
-    command = run.command
-    table = table_of(run, draws)
-    clip, codes, window, values, back = _process_vertices(run, table, command, target)
-    triangles, provoking = _assemble(table, draws, codes)
-    k = values.shape[1]
+    command, table = run.command, table_of(run, draws)
+    n, most = int(table.numbers[-1, END]), _most_triangles(draws)
+    k, is_small = len(setting.flat), n <= SMALL and most <= SMALL and not has_float_units(command, target)
+    clip, codes, values = scratch((n, 4), REAL), scratch(n, np.int32), scratch((n, k), REAL)
+    window = np.empty((n + n // VERTICES_PER_SPARE, 4), REAL)[:n]
+    back = scratch((n, k), REAL) if table.layout.two_side else None
+    placed = np.zeros((len(table.rows), table.lights.shape[1], PLACED_COLUMNS), REAL)
+    outputs = (clip, codes, window, values, values if back is None else back)
+    inputs = (
+        table.layout, table.numbers, table.rows, table.lights, table.materials, table.flags, placed, table.generated,
+        table.planes, table.unit_rows, table.positions, table.colors, table.normals, table.texcoords, setting.scale,
+        setting.shift,
+    )  # fmt: skip
+    triangles, provoking = np.empty((most, 3), np.int32), np.empty(most, np.int32)
+    unset = Geometry(
+        NO_TRIANGLES, window, values, back, setting.flat, provoking, provoking, setting.program, setting.uniforms
+    )
+    if is_small:
+        setup = Setup(
+            np.empty((most, 6), np.int32), np.empty((most, 3), np.int32), np.empty((most, 4), REAL),
+            np.empty(most, np.uint8), np.empty(most, np.int32),
+        )  # fmt: skip
+        n_triangles, n_drawn = set_up_run(
+            *inputs, *outputs, table.indices, triangles, read_only(triangles), provoking, np.empty((n, 2), np.int32),
+            setting.culled, setting.positive_is_front, setting.offset, *setup,
+        )  # fmt: skip
+        if n_drawn >= 0:
+            return unset._replace(triangles=Setup(*[array[:n_drawn] for array in setup]))
+    else:
+        prepare_draws(*inputs[:3], table.lights, table.flags, placed)
+        parts = parts_of(n)
+        share(lambda part: process_vertices(*parts[part], *inputs, *outputs), len(parts))
+        n_triangles = assemble_draws(table.numbers, table.indices, codes, triangles, provoking)
     columns = values if back is None else np.hstack([values, back])
-    clipped = clip_triangles(clip, columns, triangles, codes, user_planes(command))
-    if len(clipped.clip) > len(clip):  # the new vertices of clipping come last
-        window = append_rows(window, to_window(clipped.clip[len(clip) :], *window_transform(command, target)))
-    program, uniforms = program_of(command, storage)
-    geometry = Geometry(
-        NO_TRIANGLES,
-        window,
-        np.ascontiguousarray(clipped.values[:, :k]),
-        None if back is None else np.ascontiguousarray(clipped.values[:, k:]),
-        _flat_columns(run, k),
-        clipped.source,
-        provoking[clipped.source],
-        program,
-        uniforms,
+    clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, user_planes(command))
+    if len(clipped.clip) > n:  # the new vertices of clipping come last
+        window = append_rows(window, to_window(clipped.clip[n:], *window_transform(command, target)))
+    geometry = unset._replace(
+        window=window,
+        values=np.ascontiguousarray(clipped.values[:, :k]),
+        back=None if back is None else np.ascontiguousarray(clipped.values[:, k:]),
+        source=clipped.source,
+        provoking=provoking[clipped.source],
     )
     return filled_geometry(geometry, clipped, command, target, command.state.cull)
 
 
-def _process_vertices(
-    run: Run, table: Table, command: Draw, target: Framebuffer
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray | None]:
-    """Return clip positions, clip codes, window positions, and the varyings of front and back faces."""
-    layout, n = table.layout, int(table.numbers[-1, END])
-    k = (7 if layout.separate else 4) + 4 * layout.units + layout.fog
-    clip, codes, values = scratch((n, 4), REAL), scratch(n, np.int32), scratch((n, k), REAL)
-    window = np.empty((n + n // VERTICES_PER_SPARE, 4), REAL)[:n]
-    back = scratch((n, k), REAL) if layout.two_side else None
-    placed = np.zeros((len(table.rows), table.lights.shape[1], PLACED_COLUMNS), REAL)
-    prepare_draws(layout, table.numbers, table.rows, table.lights, table.flags, placed)
-    scale, shift = scale_and_shift(*window_transform(command, target), REAL)
-    parts = parts_of(n)
-    share(
-        lambda part: process_vertices(
-            *parts[part], layout, table.numbers, table.rows, table.lights, table.materials, table.flags, placed,
-            table.generated, table.planes, table.unit_rows, table.positions, table.colors, table.normals,
-            table.texcoords, scale, shift, clip, codes, window, values, values if back is None else back,
-        ),
-        len(parts),
+@kernel
+def set_up_run(
+    layout, numbers, rows, lights, materials, flags, placed, generated, planes, unit_rows, positions, colors, normals,
+    texcoords, scale, shift, clip, codes, window, values, back, indices, triangles, triangles_read, provoking, snapped,
+    culled, positive_is_front, offset, corners, vertices, depth, front, ids,
+):  # fmt: skip
+    """Process the vertices of all draws and set their triangles up, unless any of them must be clipped.
+
+    Return the numbers of triangles and of those that are drawn, the latter -1 where a vertex needs clipping.
+    `triangles_read` is `triangles`, read-only.
+    """
+    n = positions.shape[0]
+    prepare_draws(layout, numbers, rows, lights, flags, placed)
+    process_vertices(
+        0, n, layout, numbers, rows, lights, materials, flags, placed, generated, planes, unit_rows, positions, colors,
+        normals, texcoords, scale, shift, clip, codes, window, values, back,
     )  # fmt: skip
-    return clip, codes, window, values, back
+    n_triangles = assemble_draws(numbers, indices, codes, triangles, provoking)
+    any_code = 0
+    for v in range(n):
+        any_code |= codes[v]
+    if any_code:
+        return n_triangles, np.int64(-1)
+    snap_vertices(window, 0, n, snapped)
+    n_drawn, _ = set_up_triangles(
+        window, snapped, triangles_read, 0, n_triangles, culled, positive_is_front, offset, 0, corners, vertices, depth,
+        front, ids,
+    )  # fmt: skip
+    return n_triangles, np.int64(n_drawn)
 
 
-def _assemble(table: Table, draws: Sequence[Draw], codes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the triangles (T, 3) of all draws over the vertices of the table, and their provoking vertices (T,)."""
-    if len(draws) == 1 and draws[0].mode == gl.GL_TRIANGLES and draws[0].indices is not None:
-        indices = table.indices[: len(table.indices) // 3 * 3].reshape(-1, 3)
-        return indices, indices[:, 2]
-    most = sum(
-        triangle_count(draw.mode, len(draw.vertices.position) if draw.indices is None else len(draw.indices))
-        for draw in draws
+def _most_triangles(draws: Sequence[Draw]) -> int:
+    """Return how many triangles the draws have before clipping."""
+    return sum(
+        [
+            triangle_count(draw.mode, len(draw.vertices.position) if draw.indices is None else len(draw.indices))
+            for draw in draws
+        ]
     )
-    triangles, provoking = scratch((most, 3), np.int32), scratch(most, np.int32)
-    assemble_draws(table.numbers, table.indices, codes, triangles, provoking)
-    return triangles, provoking
 
 
-def _flat_columns(run: Run, k: int) -> np.ndarray:
+def _flat_columns(run: Run) -> np.ndarray:
     """Return which columns of the varyings are not interpolated (`programs.fixed_function.process_vertices`)."""
-    flat, lighting = np.zeros(k, bool), run.state.lighting
-    n_color = k - 4 * len(run.units) - int(run.writes_color and run.state.fog.enabled)
+    lighting, n_color = run.state.lighting, 7 if run.lit and is_separate(run.state) else 4
+    flat = np.zeros(n_color + 4 * len(run.units) + int(run.writes_color and run.state.fog.enabled), bool)
     one_color = not lighting.enabled and not run.arrays.color
     flat[:n_color] = lighting.shade_model == gl.GL_FLAT or one_color
     for n, unit in enumerate(run.units):
