@@ -30,15 +30,22 @@ def columns_of(corners, t):
 
 
 @inlined
-def is_small(corners, t, region, depth):
+def common_pitch(writes_ids, depth, stencil, ids):
+    """Return how many columns all arrays have that are written: attachments may differ in size, and so in padding."""
+    pitch = min(depth.shape[1], stencil.shape[1])
+    return min(pitch, ids.shape[1]) if writes_ids else pitch
+
+
+@inlined
+def is_small(corners, t, region, pitch):
     """Return whether `fill_box` can take triangle `t`: few columns and rows, no column cut off by the region.
 
-    All strips of a box must lie within the buffers.
+    All strips of a box must lie within the buffers, whose rows are `pitch` columns.
     """
     first, end = bounds(corners, t)
     left, right = columns_of(corners, t)
-    narrow = right - left <= WIDEST and depth.shape[1] >= WIDEST
-    fits = narrow or (right - left <= WIDEST_OF_STRIPS and left + WIDEST_OF_STRIPS <= depth.shape[1])
+    narrow = right - left <= WIDEST and pitch >= WIDEST
+    fits = narrow or (right - left <= WIDEST_OF_STRIPS and left + WIDEST_OF_STRIPS <= pitch)
     return fits and end - first <= TALLEST and left >= region.left and right <= region.right
 
 
@@ -52,17 +59,17 @@ def fill_small(
     triangles is separate so that the registers of one loop need not hold the values of the other: in one loop, it
     takes twice as long.
     """
-    flip = 0 if region.downwards else -1
+    flip, pitch = 0 if region.downwards else -1, common_pitch(writes_ids, depth, stencil, ids)
     while n < numbers.shape[0]:
         t = np.uint64(numbers[n])  # unsigned: no wrap-around of negative indices is compiled in
-        if not is_small(corners, t, region, depth) or (facing != EITHER and faces_front[t] != facing):
+        if not is_small(corners, t, region, pitch) or (facing != EITHER and faces_front[t] != facing):
             break
         first, end = bounds(corners, t)
         left, right = columns_of(corners, t)
         while left < right:
             fill_box(
                 ops, writes_ids, corners, planes, flip, left, max(first, region.first_row), min(end, region.end_row),
-                depth_range, t, depth, stencil, ids, region.first_row,
+                depth_range, t, pitch, depth, stencil, ids, region.first_row,
             )  # fmt: skip
             left += WIDEST
         n += 1
@@ -86,7 +93,7 @@ def edge_from(x0, y0, x1, y1, x, y, flip):
 
 @inlined
 def fill_box(
-    ops, writes_ids, corners, planes, flip, left, first, end, depth_range, t, depth, stencil, ids, first_of_ids
+    ops, writes_ids, corners, planes, flip, left, first, end, depth_range, t, pitch, depth, stencil, ids, first_of_ids
 ):  # fmt: skip
     """Process the fragments of triangle `t` in the rows [first, end) of a strip of its box, from column `left` on.
 
@@ -95,7 +102,7 @@ def fill_box(
     """
     z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
     x0, y0, x1, y1, x2, y2 = corners[t, 0], corners[t, 1], corners[t, 2], corners[t, 3], corners[t, 4], corners[t, 5]
-    start = np.int32(min(left, depth.shape[1] - WIDEST))
+    start = np.int32(min(left, pitch - WIDEST))
     x, y = np.int32(start << 8), np.int32(first << 8)
     at0, across0, along0 = edge_from(x0, y0, x1, y1, x, y, flip)
     at1, across1, along1 = edge_from(x1, y1, x2, y2, x, y, flip)

@@ -14,7 +14,7 @@ import numpy as np
 
 from softshadow.jit import inlined, kernel
 from softshadow.kernel_cache import cache_folder
-from softshadow.pipeline.fast.small_triangles import fill_small, is_small
+from softshadow.pipeline.fast.small_triangles import common_pitch, fill_small, is_small
 from softshadow.pipeline.fast.stencil_tiles import fill_in_tiles
 from softshadow.pipeline.raster.fill import FillKernel, fill_rows
 from softshadow.pipeline.raster.fragment_ops import FragmentOps
@@ -101,6 +101,7 @@ def specialize(front_code: FragmentOps, back_code: FragmentOps, two_sided: int, 
         corners, planes, faces_front = triangles.corners, triangles.depth, triangles.front
         columns, depth, stencil, ids = buffers.columns, buffers.depth, buffers.stencil, buffers.ids
         front_ops, back_ops, n = with_numbers(front_code, front), with_numbers(back_code, back), 0
+        pitch = common_pitch(writes_ids, depth, stencil, ids)
         while n < numbers.shape[0]:
             n = fill_small(
                 front_ops, FRONT, writes_ids, corners, planes, faces_front, numbers, n, region, depth_range, depth,
@@ -110,7 +111,7 @@ def specialize(front_code: FragmentOps, back_code: FragmentOps, two_sided: int, 
                 back_ops, BACK, writes_ids, corners, planes, faces_front, numbers, n, region, depth_range, depth,
                 stencil, ids,
             )  # fmt: skip
-            if n < numbers.shape[0] and not is_small(corners, np.uint64(numbers[n]), region, depth):
+            if n < numbers.shape[0] and not is_small(corners, np.uint64(numbers[n]), region, pitch):
                 t = int(numbers[n])
                 if faces_front[t]:
                     fill_rows(

@@ -22,7 +22,7 @@ from softshadow.pipeline.fast.hierarchical_z import (
     rows_of,
     tiles_of,
 )  # fmt: skip
-from softshadow.pipeline.fast.small_triangles import columns_of, fill_small
+from softshadow.pipeline.fast.small_triangles import columns_of, common_pitch, fill_small
 from softshadow.pipeline.raster.coverage import bounds, row_spans
 from softshadow.pipeline.raster.depth import depth_at, depth_units
 from softshadow.pipeline.raster.fragment_ops import DECR_WRAP, NO_ALPHA, process_fragment
@@ -68,7 +68,7 @@ def fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, buffers)
     corners, planes, faces_front = triangles.corners, triangles.depth, triangles.front
     columns, depth, stencil, ids = buffers.columns, buffers.depth, buffers.stencil, buffers.ids
     op, ref, largest = common_op(ops), np.uint8(ops.ref), np.uint8(ops.stencil_largest)
-    last_start = depth.shape[1] - CHUNK
+    last_start = common_pitch(0, depth, stencil, ids) - CHUNK
     tiles = tiles_of(region, columns.dtype)
     lows, highs, pending = tiles.low, tiles.high, tiles.pending
     scratch = np.empty((3, COLUMNS), columns.dtype)
