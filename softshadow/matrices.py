@@ -81,11 +81,16 @@ def _set_rotation(matrix: np.ndarray, i: int, j: int, cosine: np.floating, sine:
 
 
 def _sine_and_cosine(angle: float, real: Real) -> tuple[np.floating, np.floating]:
-    radians = float(real(angle)) * math.pi / 180
+    radians = _finite(float(real(angle)) * math.pi / 180)
     if real is np.float64:
         return np.float64(math.sin(radians)), np.float64(math.cos(radians))
     sinf, cosf = _single_precision_functions()
     return real(sinf(radians)), real(cosf(radians))
+
+
+def _finite(radians: float) -> float:
+    """Return a finite angle, or NaN: in C, sine and cosine of infinity are NaN; in Python they are an error."""
+    return radians if math.isfinite(radians) else math.nan
 
 
 @cache
@@ -131,7 +136,7 @@ def ortho(
 @silent
 def perspective(fov_y: float, aspect: float, near: float, far: float, real: Real = FLOAT) -> np.ndarray:
     """Return gluPerspective's matrix, computed in double precision and then rounded; `fov_y` in degrees."""
-    radians = fov_y / 2 * math.pi / 180
+    radians = _finite(fov_y / 2 * math.pi / 180)
     focal = math.cos(radians) / math.sin(radians)
     matrix = np.zeros((4, 4))
     matrix[0, 0], matrix[1, 1] = focal / aspect, focal

@@ -19,7 +19,7 @@ from softshadow.programs.inverse import GENERAL, TRANSLATION, UNKNOWN
 def gluPerspective(fovy: float, aspect: float, zNear: float, zFar: float) -> None:
     """Multiply by a perspective projection, `fovy` in degrees; do nothing for arguments that GLU ignores."""
     context = outside_begin("gluPerspective")
-    sine = math.sin(math.radians(fovy / 2))
+    sine = math.sin(math.radians(fovy / 2)) if math.isfinite(fovy) else math.nan
     if context is not None and zFar != zNear and sine != 0 and aspect != 0:
         projection = matrices.perspective(fovy, aspect, zNear, zFar, context.real)
         multiply_current(context, projection, GENERAL | UNKNOWN)
@@ -82,7 +82,9 @@ def gluUnProject(
     if any(argument is None for argument in (model, proj, view)) and outside_begin("gluUnProject") is None:
         return None
     model, proj, (left, bottom, width, height) = _current_or(model, proj, view)
-    ndc = [(winX - left) / width * 2 - 1, (winY - bottom) / height * 2 - 1, winZ * 2 - 1, 1.0]
+    with np.errstate(all="ignore"):  # a viewport without a side gives infinities, as in GLU
+        x, y = (np.float64(winX) - left) / width, (np.float64(winY) - bottom) / height
+        ndc = [x * 2 - 1, y * 2 - 1, winZ * 2 - 1, 1.0]
     try:
         x, y, z, w = np.linalg.solve(np.reshape(proj, (4, 4)).T @ np.reshape(model, (4, 4)).T, ndc).tolist()
     except np.linalg.LinAlgError:

@@ -74,8 +74,8 @@ def clamped_color(color: Callable[[Context], Any]) -> Read:
 
 
 def clamped(c: Context, *values: float) -> tuple[float, ...]:
-    """Return values clamped to [0, 1] if the draw framebuffer `clamps`, else unchanged."""
-    return tuple(min(max(v, 0.0), 1.0) for v in values) if drawn_to(c).clamps else values
+    """Return values clamped to [0, 1] if the draw framebuffer `clamps`, else unchanged; NaN is clamped to 0."""
+    return tuple(min(max(0.0, v), 1.0) for v in values) if drawn_to(c).clamps else values
 
 
 def stencil(prefix: str, face: Callable[[Context], StencilFace]) -> dict[str, Read]:

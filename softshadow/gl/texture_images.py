@@ -150,7 +150,9 @@ def glGenerateMipmap(target: int) -> None:
     if problem := target_problem(context, target) or _base_problem(context, target):
         return fail(problem[0], operation, problem[1])
     texture = bound_texture(context, target)
-    _generate(context, texture, texture.faces)
+    base = texture.base(texture.faces[0])
+    if base is not None and base.width and base.height:  # as in Mesa, an empty image gets no levels
+        _generate(context, texture, texture.faces)
     return None
 
 

@@ -41,13 +41,15 @@ def generate_mipmaps(command: GenerateMipmaps, storage: Storage) -> None:
 
 
 def half_of(side: int) -> int:
-    """Return the side of the next level."""
-    return max(side // 2, 1)
+    """Return the side of the next level: a side of 0 stays 0."""
+    return max(side // 2, min(side, 1))
 
 
 def next_level(image: Image) -> Image:
     """Return the image of the next level."""
     level = Image.new(image.format, half_of(image.width), half_of(image.height), image.internal_format)
+    if not level.width or not level.height:
+        return level
     if image.format.kind == "unorm8":
         level.view[:] = halved_in_8_bits(image.view, level.width, level.height)
     elif image.format.kind == "depth":

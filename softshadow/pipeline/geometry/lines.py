@@ -11,6 +11,7 @@ from softshadow import tokens as gl
 from softshadow.jit import kernel
 from softshadow.pipeline.constants import HALF, ONE, SUBPIXEL_BITS, SUBPIXELS, ZERO
 from softshadow.pipeline.geometry.clip import Clipped, all_clip_planes, distance
+from softshadow.pipeline.geometry.facing import REACH
 from softshadow.pipeline.geometry.triangle_setup import half_away, line_gradient, line_plane
 from softshadow.pipeline.records import NO_VERTEX, Setup
 
@@ -96,6 +97,11 @@ def cut_lines(lines, codes, planes, clip, values, n_vertices, pieces, source):
     return n_pieces, n_vertices
 
 
+def whole_width(width: float) -> int:
+    """Return the width in pixels that a line is drawn with: rounded, a half up, 1 to 255; NaN counts as 1, as in Mesa."""
+    return max(1, int(min(width + 0.5, WIDEST_LINE))) if width > 0 else 1
+
+
 def set_up_lines(window: np.ndarray, lines: np.ndarray, ids: np.ndarray, width: float) -> Setup:
     """Return the two triangles of each line that has an area.
 
@@ -104,9 +110,9 @@ def set_up_lines(window: np.ndarray, lines: np.ndarray, ids: np.ndarray, width: 
     window : (V, 4) window x, y (stored rows), z, 1/w
     lines : (L, 2) int32
     ids : (L,) int32, copied to the triangles
-    width : in pixels, rounded to a whole number, a half up
+    width : in pixels, see `whole_width`
     """
-    across = max(1, min(int(width + 0.5), WIDEST_LINE)) << SUBPIXEL_BITS
+    across = whole_width(width) << SUBPIXEL_BITS
     most_triangles = 2 * len(lines)
     setup = Setup(
         np.empty((most_triangles, 6), np.int32),
@@ -131,6 +137,8 @@ def line_triangles(window, lines, ids, across, corners, vertices, depth, triangl
         finite = True
         for k in range(3):
             finite = finite and np.isfinite(window[a, k]) and np.isfinite(window[b, k])
+        for k in range(2):  # farther away, numbers of 1/256 pixel have no room in 32 bits
+            finite = finite and abs(window[a, k]) < REACH and abs(window[b, k]) < REACH
         dx, dy, over_area = line_gradient(window, a, b)
         if not finite or not np.isfinite(over_area):
             continue

@@ -8,6 +8,7 @@ import numpy as np
 
 from softshadow.pipeline.constants import SUBPIXEL_BITS, SUBPIXELS
 from softshadow.pipeline.geometry.clip import Clipped
+from softshadow.pipeline.geometry.facing import REACH
 from softshadow.pipeline.geometry.triangle_setup import half_away
 from softshadow.pipeline.records import NO_VERTEX, Setup
 
@@ -31,12 +32,13 @@ def set_up_points(window: np.ndarray, points: np.ndarray, ids: np.ndarray, size:
     window : (V, 4) window x, y (stored rows), z, 1/w
     points : (P,) int32
     ids : (P,) int32, copied to the triangles
-    size : in pixels, rounded to a whole number, a half down
+    size : in pixels, rounded to a whole number, a half down; NaN counts as 1, as in Mesa
     """
     positions = window[points]
-    finite = np.isfinite(positions[:, :3]).all(axis=1)
+    finite = np.isfinite(positions[:, 2]) & (np.abs(positions[:, :2]) < REACH).all(axis=1)
     points, ids, positions = points[finite], ids[finite], positions[finite]
-    width = max(1, int(half_away(np.float32(min(size, LARGEST_SIZE)) * SUBPIXELS)) + PIXEL // 2 - 1 >> SUBPIXEL_BITS)
+    size = min(size, LARGEST_SIZE) if size > 0 else 1.0
+    width = max(1, int(half_away(np.float32(size) * SUBPIXELS)) + PIXEL // 2 - 1 >> SUBPIXEL_BITS)
     # on the border of two rows the upper one (in GL's sense) is covered, as along the edges of triangles
     snapped = half_away(positions[:, :2] * SUBPIXELS).astype(np.int64) - (0, int(flipped))
     center = snapped if width % 2 else snapped + PIXEL // 2

@@ -64,7 +64,7 @@ def fragment_ops(state: State, depth: Image | None, stencil: Image | None, front
     largest = stencil.format.largest if stencil is not None else 0
     stencil_ops = (face.func, face.sfail, face.zfail, face.zpass, largest)
     numbers = (max(0, min(face.ref, largest)), face.read_mask & largest, face.write_mask & largest)
-    alpha_ref = int(np.rint(np.float32(min(max(alpha.ref, 0.0), 1.0)) * np.float32(255)))
+    alpha_ref = int(np.rint(np.float32(max(0.0, min(1.0, alpha.ref))) * np.float32(255)))  # of NaN 255, as in Mesa
     depth_largest = depth.format.largest if depth is not None else 0
     return FragmentOps(
         *((1, alpha.func) if alpha_test else (0, ALWAYS)),

@@ -16,6 +16,7 @@ from softshadow.state import Blend, State
 
 ALPHA = 3
 FOUR_BYTES = (gl.GL_RGB, gl.GL_RGBA)  # the formats of 8-bit buffers that have room for an alpha
+PASSING = {gl.GL_LESS: 0, gl.GL_NOTEQUAL: 0, gl.GL_GREATER: 2}  # the alpha that passes a test against 1; else 1
 OF_ALPHA_ONE = {gl.GL_DST_ALPHA: gl.GL_ONE, gl.GL_ONE_MINUS_DST_ALPHA: gl.GL_ZERO}
 # a factor and its complement in pairs, the plain one first
 COMPLEMENTS = (
@@ -61,11 +62,15 @@ def compared_alpha(state: State, color: Image | None, alpha: np.ndarray) -> tupl
 
     Both are 0-255 for a buffer of 8-bit RGB or RGBA. For every other one llvmpipe compares them unrounded: then 0, 1, 2
     stand for an alpha less than, equal to and greater than the reference, which is 1. NaN is compared as 1, though
-    it is written as 0.
+    it is written as 0. A reference that is NaN is 255 for bytes; compared unrounded, every alpha passes.
     """
     if color is not None and color.format.kind == "unorm8" and color.format.base in FOUR_BYTES:
-        return to_unorm8(np.fmin(alpha, alpha.dtype.type(1))), int(to_unorm8(np.array(state.alpha.ref, np.float32)))
+        return to_unorm8(np.fmin(alpha, alpha.dtype.type(1))), int(
+            to_unorm8(np.fmin(np.float32(state.alpha.ref), np.float32(1)))
+        )
     ref = alpha.dtype.type(state.alpha.ref)
+    if np.isnan(ref):
+        return np.full(alpha.shape, PASSING.get(state.alpha.func, 1), np.uint8), 1
     return (alpha >= ref).astype(np.uint8) + (alpha > ref).astype(np.uint8), 1
 
 
