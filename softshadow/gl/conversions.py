@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-LARGEST_INT = 2**31 - 1
+SMALLEST_INT, LARGEST_INT = -(2**31), 2**31 - 1
 ONE, TWO = np.float32(1), np.float32(2)
 BYTE_STEP, SHORT_STEP = ONE / np.float32(255), ONE / np.float32(65535)
 INT_STEP, UNSIGNED_INT_STEP = 1 / 4294967294.0, 1 / 4294967295.0
@@ -55,8 +55,28 @@ def to_int(value: float) -> int:
 
 
 def nearest_int(value: float) -> int:
-    """Return the nearest int, halves away from zero, as C's lround: glGetIntegerv of other floats."""
-    return min(int(math.copysign(math.floor(abs(value) + 0.5), value)), LARGEST_INT)
+    """Return the nearest int, halves away from zero, as C's lround: glGetIntegerv of other floats.
+
+    As in Mesa on x86, too large numbers lose their upper bits; what has no place in 64 bits becomes 0.
+    """
+    if not abs(value) < 2.0**63:  # NaN, too
+        return 0
+    return c_int(int(math.copysign(math.floor(abs(value) + 0.5), value))).value
+
+
+def clamped_int(value: float) -> int:
+    """Return the nearest int of those that there are, halves away from zero; -(2**31) for NaN."""
+    return nearest_int(min(max(float(SMALLEST_INT), value), float(LARGEST_INT)))
+
+
+def truncated_int(value: float) -> int:
+    """Return a float without its fraction, -(2**31) where it has no place in 32 bits: C's cast on x86."""
+    return int(value) if SMALLEST_INT <= value <= LARGEST_INT else SMALLEST_INT
+
+
+def enum(value: float) -> int:
+    """Return the enum that a number stands for, -1 where it stands for none."""
+    return int(value) if math.isfinite(value) else -1
 
 
 # dtype that an array is converted to: PyOpenGL passes GL the type in the call's name
@@ -101,8 +121,17 @@ def vector(params: Any, length: int, convert: Callable[[Any], float] = float) ->
 
 
 def first(params: Any, convert: Callable[[Any], Any] = float) -> Any:
-    """Return the first number of a vector argument."""
-    return numbers(params, convert)[0].item()
+    """Return the first number of a vector argument.
+
+    Raises
+    ------
+    ValueError
+        The argument is empty.
+    """
+    values = numbers(params, convert)
+    if not len(values):
+        raise ValueError(f"params={params!r}: expected a number")
+    return values[0].item()
 
 
 def as_floats(value: Any) -> Any:

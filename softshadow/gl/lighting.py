@@ -12,7 +12,7 @@ from softshadow.context import Context
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.capabilities import LIGHTS, with_item
-from softshadow.gl.conversions import as_floats, as_ints, first, from_int, to_int, vector
+from softshadow.gl.conversions import as_floats, as_ints, enum, first, from_int, to_int, truncated_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.fragment_state import change, rounded
 
@@ -111,7 +111,7 @@ def glGetLightfv(light: int, pname: int) -> Any:
 
 def glGetLightiv(light: int, pname: int) -> Any:
     """Return a parameter of a light: an int, or an array int32; colours use the full range of int."""
-    return as_ints(_parameter("glGetLightiv", light, pname), to_int if pname in COLORS else int)
+    return as_ints(_parameter("glGetLightiv", light, pname), to_int if pname in COLORS else truncated_int)
 
 
 def _parameter(operation: str, light: int, pname: int) -> Any:
@@ -164,7 +164,7 @@ def _set_model(operation: str, pname: int, params: Any, color: Callable[[Any], f
         change(context, "lighting", **{MODEL_SWITCHES[pname]: bool(first(params, plain))})
     else:
         expected = "GL_SINGLE_COLOR or GL_SEPARATE_SPECULAR_COLOR"
-        control = int(first(params, plain))
+        control = enum(first(params, plain))
         if is_one_of(operation, "param", control, COLOR_CONTROLS, expected):
             change(context, "lighting", color_control=control)
 

@@ -10,6 +10,7 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
 from softshadow.frozen import evolve
 from softshadow.gl.calls import spelled_like_gl
+from softshadow.gl.conversions import nearest_int
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import format_problem, kind_of
@@ -53,7 +54,7 @@ def glPixelStorei(pname: int, param: int) -> None:
 
 def glPixelStoref(pname: int, param: float) -> None:
     """Set how the rows of client images are laid out in memory; the value is rounded."""
-    glPixelStorei(pname, round(param))
+    glPixelStorei(pname, nearest_int(param))
 
 
 def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int, array: Any = None) -> Any:

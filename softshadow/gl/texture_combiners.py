@@ -6,6 +6,7 @@ from typing import Any
 
 from softshadow import tokens as gl
 from softshadow.frozen import evolve
+from softshadow.gl.conversions import enum
 from softshadow.state import TEXTURE_UNITS, Combine
 from softshadow.tokens import token_name
 
@@ -44,14 +45,15 @@ def with_parameter(combine: Combine, pname: int, value: Any) -> tuple[Combine | 
             return evolve(combine, **{SCALES[pname]: float(value)}), ""
         return None, f"{token_name(pname)}={value}: expected 1, 2 or 4"
     values = MODES[pname][1] if pname in MODES else ARGUMENTS[pname][2]
-    if int(value) not in values:
+    chosen = enum(value)
+    if chosen not in values:
         expected = ", ".join(token_name(v) for v in values)
-        return None, f"{token_name(pname)}={token_name(int(value))}: expected one of {expected}"
+        return None, f"{token_name(pname)}={token_name(chosen)}: expected one of {expected}"
     if pname in MODES:
-        return evolve(combine, **{MODES[pname][0]: int(value)}), ""
+        return evolve(combine, **{MODES[pname][0]: chosen}), ""
     field, index, _ = ARGUMENTS[pname]
     old = getattr(combine, field)
-    changed: Any = (*old[:index], int(value), *old[index + 1 :])
+    changed: Any = (*old[:index], chosen, *old[index + 1 :])
     return evolve(combine, **{field: changed}), ""
 
 

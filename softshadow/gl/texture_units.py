@@ -11,7 +11,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.conversions import first, from_int, numbers, vector
+from softshadow.gl.conversions import enum, first, from_int, numbers, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.texture_combiners import COMBINE_PARAMETERS, SCALES, parameter_of, with_parameter
 from softshadow.gl.textures import queried_color, set_unit
@@ -97,7 +97,7 @@ def _set_environment(operation: str, target: int, pname: int, value: Any, is_vec
             return fail(gl.GL_INVALID_VALUE if pname in SCALES else gl.GL_INVALID_ENUM, operation, message)
         set_unit(context, context.active_unit, combine=combine)
         return None
-    mode = int(values[0])
+    mode = enum(values[0])
     if mode not in ENVIRONMENT_MODES:
         expected = ", ".join(token_name(m, MODE_NAMES) for m in ENVIRONMENT_MODES)
         return fail(
@@ -199,14 +199,15 @@ def _set_mode(operation: str, coord: int, pname: int, value: Any) -> None:
         return None
     if problem := _generation_problem(coord, pname, is_vector=False):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
-    if coord not in GEN_MODES.get(int(value), ()):
+    chosen = enum(value)
+    if coord not in GEN_MODES.get(chosen, ()):
         expected = ", ".join(token_name(mode) for mode, coordinates in GEN_MODES.items() if coord in coordinates)
         return fail(
             gl.GL_INVALID_ENUM,
             operation,
-            f"GL_TEXTURE_GEN_MODE={token_name(int(value))}: expected one of {expected} for {token_name(coord)}",
+            f"GL_TEXTURE_GEN_MODE={token_name(chosen)}: expected one of {expected} for {token_name(coord)}",
         )
-    _replace_generation(context, coord, mode=int(value))
+    _replace_generation(context, coord, mode=chosen)
     return None
 
 

@@ -11,7 +11,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.conversions import first, from_int, nearest_int, vector
+from softshadow.gl.conversions import clamped_int, enum, first, from_int, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, names_argument, reserve
 from softshadow.pipeline.commands import AttachTexture, CreateTexture, DeleteTextures, SetSampler
@@ -182,22 +182,22 @@ def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
     if problem := target_problem(context, target):
         return fail(problem[0], operation, problem[1])
     if pname in CHOICES:
-        field, choices = CHOICES[pname]
-        if int(value) not in choices:
+        (field, choices), chosen = CHOICES[pname], enum(value)
+        if chosen not in choices:
             expected = ", ".join(token_name(c) for c in choices)
             return fail(
                 gl.GL_INVALID_ENUM,
                 operation,
-                f"{token_name(pname)}={token_name(int(value))}: expected one of {expected}",
+                f"{token_name(pname)}={token_name(chosen)}: expected one of {expected}",
             )
-        _set_sampler(context, target, **{field: int(value)})
+        _set_sampler(context, target, **{field: chosen})
     elif pname in LEVELS:
-        level = nearest_int(value)
+        level = clamped_int(value)
         if level < 0:
             return fail(gl.GL_INVALID_VALUE, operation, f"{token_name(pname)}={value}: expected 0 or more")
         _set_sampler(context, target, **{LEVELS[pname]: level})
     elif pname in BOOLEANS:
-        _set_sampler(context, target, **{BOOLEANS[pname]: bool(nearest_int(value))})
+        _set_sampler(context, target, **{BOOLEANS[pname]: bool(clamped_int(value))})
     elif pname in NUMBERS:
         number = float(np.float32(value))
         limited = min(max(number, 0.0), 1.0) if pname == gl.GL_TEXTURE_PRIORITY else number
@@ -227,10 +227,10 @@ def glGetTexParameteriv(target: int, pname: int, params: Any = None) -> Any:
 
 
 def queried_color(context: Context, color: tuple[float, ...]) -> np.ndarray:
-    """Return a texture colour as queries return it: clamped, unless the colour buffer is float."""
+    """Return a texture colour as queries return it: clamped (NaN to 0), unless the colour buffer is float."""
     target = context.objects.framebuffers[context.state.draw_framebuffer].first_color
     values = np.array(color, np.float32)
-    return values if target is not None and target.format.kind == "float" else values.clip(0, 1)
+    return values if target is not None and target.format.kind == "float" else np.fmax(values, np.float32(0)).clip(0, 1)
 
 
 def _parameter(operation: str, target: int, pname: int, params: Any, dtype: type[np.generic]) -> Any:
@@ -245,7 +245,7 @@ def _parameter(operation: str, target: int, pname: int, params: Any, dtype: type
         answer = color if dtype == np.float32 else (color.astype(np.float64) * 2147483647.0).astype(np.int32)
     elif pname in FIELDS:
         value = getattr(sampler, FIELDS[pname])
-        answer = np.array([value], np.float32) if dtype == np.float32 else np.array([round(value)], np.int32)
+        answer = np.array([value], np.float32) if dtype == np.float32 else np.array([clamped_int(value)], np.int32)
     else:
         return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)}: expected a texture parameter")
     if params is not None:

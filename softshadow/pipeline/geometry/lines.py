@@ -98,7 +98,7 @@ def cut_lines(lines, codes, planes, clip, values, n_vertices, pieces, source):
 
 
 def whole_width(width: float) -> int:
-    """Return the width in pixels that a line is drawn with: rounded, a half up, 1 to 255; NaN counts as 1, as in Mesa."""
+    """Return the width of a drawn line in pixels: rounded, a half up, 1 to 255; NaN counts as 1, as in Mesa."""
     return max(1, int(min(width + 0.5, WIDEST_LINE))) if width > 0 else 1
 
 
