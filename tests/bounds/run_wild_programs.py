@@ -20,16 +20,22 @@ from typing import Any
 import numpy as np
 
 sys.path[:0] = [str(Path(__file__).parents[1])]
+from bounds.checked_arrays import check_kernels  # noqa: E402
 
-from bounds.wild_programs import wild_program
-from mesa.gl_calls import GENERATORS, OBJECT, Call
-from softshadow import gl
-from softshadow.errors import SoftShadowError
-from softshadow.pipeline import choose, use_short_cuts
+INTERPRETED = os.environ.get("NUMBA_DISABLE_JIT") == "1"
+if INTERPRETED:
+    check_kernels()  # before any kernel is made
+
+from bounds.wild_programs import wild_program  # noqa: E402
+from mesa.gl_calls import GENERATORS, OBJECT, Call  # noqa: E402
+from softshadow import gl  # noqa: E402
+from softshadow.errors import SoftShadowError  # noqa: E402
+from softshadow.pipeline import choose, use_short_cuts  # noqa: E402
 
 # compiled, only the states of few sequences are compiled for themselves: others find theirs compiled, or do without
-INTERPRETED = os.environ.get("NUMBA_DISABLE_JIT") == "1"
-POLICIES = ("always", "always", "always", False) if INTERPRETED else ("always", *[False, True, True, True, True, True] * 6)
+POLICIES = (
+    ("always", "always", "always", False) if INTERPRETED else ("always", *[False, True, True, True, True, True] * 6)
+)
 FORMATS = (("d24", "mesa"), ("d32f", "mesa"), ("d24", "mesa"), ("d24", "exact"))
 
 
@@ -38,6 +44,8 @@ def run(calls: list[Call], size: tuple[int, int], seed: int) -> list[dict[str, A
     objects: dict[str, int] = {}
 
     def value(argument: Any) -> Any:
+        if isinstance(argument, list) and argument and isinstance(argument[0], str):
+            return list(map(value, argument))
         if not isinstance(argument, str):
             return argument.copy() if isinstance(argument, np.ndarray) else argument
         if OBJECT.fullmatch(argument) is None:

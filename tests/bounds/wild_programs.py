@@ -34,6 +34,11 @@ DEPTHS = [
 ]  # fmt: skip
 POINTS = [*(f"GL_COLOR_ATTACHMENT{n}" for n in range(3)), "GL_DEPTH_ATTACHMENT", "GL_STENCIL_ATTACHMENT"]
 PLANES = ["GL_COLOR_BUFFER_BIT", "GL_DEPTH_BUFFER_BIT", "GL_STENCIL_BUFFER_BIT", "GL_ACCUM_BUFFER_BIT"]
+ASKED = [
+    "GL_LINE_WIDTH", "GL_POINT_SIZE", "GL_POLYGON_OFFSET_FACTOR", "GL_MODELVIEW_MATRIX", "GL_CURRENT_COLOR",
+    "GL_CURRENT_NORMAL", "GL_FOG_START", "GL_DEPTH_CLEAR_VALUE", "GL_ALPHA_TEST_REF", "GL_VIEWPORT", "GL_SCISSOR_BOX",
+    "GL_BLEND_COLOR", "GL_ACCUM_CLEAR_VALUE", "GL_LIGHT_MODEL_AMBIENT", "GL_STENCIL_REF", "GL_TEXTURE_BINDING_2D",
+]  # fmt: skip
 ARRAYS = {
     "GL_VERTEX_ARRAY": ("glVertexPointer", (2, 3, 4)),
     "GL_COLOR_ARRAY": ("glColorPointer", (3, 4)),
@@ -267,6 +272,47 @@ class WildWriter:
             if self.chance(0.9):
                 self.call("glDisableClientState", array)
 
+    def odd_arrays(self) -> None:
+        """Arrays of any type and stride, in client memory or in a buffer object, perhaps too short or empty."""
+        count, stride = self.pick([0, 1, 3, 12]), self.pick([0, 0, 16, 40])
+        if self.chance(0.4):
+            self.call("glBindBuffer", "GL_ARRAY_BUFFER", "buffer 0")
+            self.call(
+                "glBufferData", "GL_ARRAY_BUFFER", self.rng.integers(0, 256, count * 40, np.uint8), "GL_STATIC_DRAW"
+            )
+            pointers: list[Any] = [None, 0, 4, 400]
+        else:
+            kind = self.pick([np.float32, np.int16, np.float64])
+            pointers = [self.vertices(count).astype(np.float32).astype(kind) if self.chance(0.9) else []]
+        with_color = self.chance(0.5)
+        for array in ("GL_VERTEX_ARRAY", "GL_COLOR_ARRAY")[: 1 + with_color]:
+            self.call("glEnableClientState", array)
+            kind = self.pick(["GL_FLOAT", "GL_SHORT", "GL_DOUBLE", "GL_INT"])
+            self.call(ARRAYS[array][0], self.pick(ARRAYS[array][1]), kind, stride, self.pick(pointers))
+        self.call("glBindBuffer", "GL_ARRAY_BUFFER", 0)
+        mode = self.pick(MODES)
+        first, n = self.pick([0, 0, 1]), self.pick([0, 1, count])
+        self.pick([
+            lambda: self.call("glDrawArrays", mode, first, n),
+            lambda: self.call("glMultiDrawArrays", mode, [0, first], [n, 0], 2),
+            lambda: self.call("glDrawElements", mode, n, "GL_UNSIGNED_BYTE", np.arange(n, dtype=np.uint8)),
+            lambda: self.call("glDrawRangeElements", mode, 0, n, n, "GL_UNSIGNED_SHORT", np.arange(n, dtype=np.uint16)),
+        ])()  # fmt: skip
+        for array in ("GL_VERTEX_ARRAY", "GL_COLOR_ARRAY"):
+            self.call("glDisableClientState", array)
+
+    def delete(self) -> None:
+        """Delete an object that may be bound, attached or in use."""
+        kind = self.pick(["Textures", "Textures", "Framebuffers", "Renderbuffers", "Queries", "Buffers"])
+        singular = {"Queries": "query"}.get(kind, kind[:-1].lower())
+        number = self.pick([0, 0, 1, 3, 4])
+        self.call(f"glDelete{kind}", 1, [f"{singular} {number}"])
+
+    def ask(self) -> None:
+        """Ask for a value, also as another type than it has."""
+        kind = self.pick(["Floatv", "Integerv", "Doublev", "Booleanv"])
+        self.call(f"glGet{kind}", self.pick(ASKED))
+
     def clear(self) -> None:
         self.call("glClear", " | ".join(plane for plane in PLANES if self.chance(0.6)) or PLANES[0])
 
@@ -348,8 +394,11 @@ class WildWriter:
 
     def framebuffer(self) -> None:
         """A framebuffer object; its attachments differ in size and format, or are missing."""
-        self.call("glBindFramebuffer", self.pick(CHOICES["bound framebuffer"]), self.pick(["framebuffer 0"] * 2 +
-                                                                                         ["framebuffer 1"]))
+        self.call(
+            "glBindFramebuffer",
+            self.pick(CHOICES["bound framebuffer"]),
+            self.pick(["framebuffer 0"] * 2 + ["framebuffer 1"]),
+        )
         points = [point for point in POINTS if self.chance(0.5)]
         self.rng.shuffle(points)
         if self.chance(0.7):
@@ -420,12 +469,14 @@ class WildWriter:
         self.call(call, *(self.number() for _ in range(3)), *self.pick([(), (*matrices, view)]))
 
 
-ACTIONS = (
-    [WildWriter.state] * 14 + [WildWriter.immediate] * 6 + [WildWriter.arrays] * 3 + [WildWriter.boxes]
-    + [WildWriter.sane_view] * 2 + [WildWriter.scene] * 8 + [WildWriter.counting] * 2 + [WildWriter.plain] * 2 + [WildWriter.clear] + [WildWriter.texture] * 2
-    + [WildWriter.change_texture] + [WildWriter.framebuffer] * 2 + [WildWriter.blit] + [WildWriter.read]
-    + [WildWriter.listed] + [WildWriter.counted] + [WildWriter.unprojected]
-)  # fmt: skip
+OFTEN: dict[Callable[[WildWriter], None], int] = {
+    WildWriter.state: 14, WildWriter.immediate: 6, WildWriter.arrays: 3, WildWriter.boxes: 1, WildWriter.sane_view: 2,
+    WildWriter.scene: 8, WildWriter.counting: 2, WildWriter.plain: 2, WildWriter.clear: 1, WildWriter.texture: 2,
+    WildWriter.change_texture: 1, WildWriter.framebuffer: 2, WildWriter.blit: 1, WildWriter.read: 1,
+    WildWriter.odd_arrays: 2, WildWriter.delete: 1, WildWriter.ask: 1, WildWriter.listed: 1, WildWriter.counted: 1,
+    WildWriter.unprojected: 1,
+}  # fmt: skip
+ACTIONS = [action for action, often in OFTEN.items() for _ in range(often)]
 
 
 def wild_program(seed: int) -> tuple[list[Call], tuple[int, int]]:

@@ -12,12 +12,13 @@ import numpy as np
 # objects by kind and number ("query 0")
 Call = tuple[str, tuple[Any, ...]]
 
-OBJECT = re.compile(r"(texture|framebuffer|renderbuffer|query) (\d+)")
+OBJECT = re.compile(r"(texture|framebuffer|renderbuffer|query|buffer) (\d+)")
 GENERATORS = {
     "texture": "glGenTextures",
     "framebuffer": "glGenFramebuffers",
     "renderbuffer": "glGenRenderbuffers",
     "query": "glGenQueries",
+    "buffer": "glGenBuffers",
 }
 BITS = " | "  # between the tokens of a bit mask
 READS = ("glReadPixels", "glGet", "glIsEnabled", "glCheck")

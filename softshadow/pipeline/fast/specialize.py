@@ -7,6 +7,7 @@ compiled.
 
 import hashlib
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -44,7 +45,8 @@ def kernel_of(key: StateKey) -> FillKernel:
         compiled[key] = specialize_in_tiles(key) if isinstance(key, FragmentOps) else specialize(*key)
         marker = _marker(key)
         if marker is not None:
-            marker.touch()
+            with suppress(OSError):  # the folder was deleted meanwhile: the state is compiled for this process only
+                marker.touch()
     return compiled[key]
 
 
