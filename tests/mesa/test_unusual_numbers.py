@@ -131,3 +131,122 @@ def test_pixels_where_one_over_w_cancels_to_0_are_written_as_by_mesa():
 
     comparison = compare(program, (width, height))
     assert comparison, str(comparison)
+
+
+UNUSUAL = [np.nan, np.inf, 3e38, 1e-45, 0.49, 256.0]
+
+
+def same_answers(program, size=(16, 12)):
+    """Compare the buffers and answers of a program; answers that may be NaN are text."""
+    comparison = compare(program, size)
+    assert comparison, str(comparison)
+
+
+@pytest.mark.parametrize("size", UNUSUAL)
+def test_lines_and_points_of_unusual_sizes_cover_the_same_pixels(size):
+    def program(gl):
+        gl.glLineWidth(size)
+        gl.glPointSize(size)
+        answers = [str(float(gl.glGetFloatv(name))) for name in (gl.GL_LINE_WIDTH, gl.GL_POINT_SIZE)]
+        for mode in (gl.GL_LINES, gl.GL_POINTS):
+            gl.glClear(gl.GL_COLOR_BUFFER_BIT)
+            gl.glBegin(mode)
+            gl.glVertex2f(-0.9, -0.5)
+            gl.glVertex2f(0.9, 0.7)
+            gl.glEnd()
+            answers.append(gl.glReadPixels(0, 0, 16, 12, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE).tobytes())
+        return answers
+
+    same_answers(program)
+
+
+@pytest.mark.parametrize("far", [1e10, 1e20, 1e30, 1e36])
+def test_lines_to_far_places_cover_the_same_pixels(far):
+    rng = np.random.default_rng(0)
+    vertices = np.concatenate([rng.uniform(-1, 1, (40, 3)), np.ones((40, 1))], axis=1)
+    wild = rng.random((40, 3)) < 0.2
+    vertices[:, :3][wild] = rng.choice([far, -far, far / 3], int(wild.sum()))
+
+    def program(gl):
+        gl.glBegin(gl.GL_LINES)
+        for vertex in vertices.tolist():
+            gl.glVertex4f(*vertex)
+        gl.glEnd()
+
+    same_answers(program, (40, 30))
+
+
+@pytest.mark.parametrize("internal_format", ["GL_RGBA8", "GL_RGB8", "GL_R8", "GL_RGBA32F", "GL_R32F"])
+@pytest.mark.parametrize("reference", [np.nan, np.inf, -np.inf, 0.6])
+def test_alpha_references_that_are_no_numbers_let_the_same_fragments_pass(internal_format, reference):
+    def program(gl):
+        gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
+        image = (getattr(gl, internal_format), 4, 4, 0, gl.GL_RGBA, gl.GL_FLOAT, None)
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, *image)
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, gl.glGenFramebuffers(1))
+        gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, 1, 0)
+        gl.glEnable(gl.GL_ALPHA_TEST)
+        gl.glColor4f(1, 0.5, 0.2, 0.6)
+        answers = []
+        for function in ("LESS", "EQUAL", "LEQUAL", "GREATER", "NOTEQUAL", "GEQUAL", "NEVER"):
+            gl.glClear(gl.GL_COLOR_BUFFER_BIT)
+            gl.glAlphaFunc(getattr(gl, f"GL_{function}"), reference)
+            gl.glRectf(-1, -1, 1, 1)
+            answers.append(gl.glReadPixels(1, 1, 1, 1, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE).tobytes())
+        return [*answers, str(float(gl.glGetFloatv(gl.GL_ALPHA_TEST_REF)))]
+
+    same_answers(program)
+
+
+def test_images_with_a_side_of_0_get_the_mipmaps_that_mesa_makes():
+    def program(gl):
+        answers = []
+        for follows, (width, height) in itertools.product((0, 1), ((0, 0), (0, 4), (4, 0), (4, 4))):
+            gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
+            gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_GENERATE_MIPMAP, follows)
+            for level, size in ((2, (3, 3)), (0, (width, height))):
+                image = (gl.GL_RGBA8, *size, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, None)
+                gl.glTexImage2D(gl.GL_TEXTURE_2D, level, *image)
+            if not follows:
+                gl.glGenerateMipmap(gl.GL_TEXTURE_2D)
+            sides = itertools.product(range(4), (gl.GL_TEXTURE_WIDTH, gl.GL_TEXTURE_HEIGHT))
+            answers += [int(gl.glGetTexLevelParameteriv(gl.GL_TEXTURE_2D, *side)) for side in sides]
+        return answers
+
+    same_answers(program)
+
+
+def test_projections_of_infinite_angles_and_empty_viewports_are_those_of_glu():
+    views = [(0, 0, 16, 12), (0, 0, 0, 12), (3, 2, 0, 0), (0, 0, -5, 12), (1, 1, 2**31 - 1, 1)]
+    points = [(1.0, 2.0, 0.5), (np.nan, 1.0, 1.0), (0.0, 0.0, 0.0), (3.0, 2.0, 1.0), (np.inf, 1.0, 1.0)]
+
+    def program(gl):
+        answers = []
+        for angle, aspect in ((np.inf, 1.0), (-np.inf, 1.0), (np.nan, 1.0), (1e300, 1.0), (60.0, np.nan)):
+            gl.glLoadIdentity()
+            gl.gluPerspective(angle, aspect, 1.0, 2.0)
+            answers.append(str(np.asarray(gl.glGetFloatv(gl.GL_MODELVIEW_MATRIX)).tolist()))
+        for view, point in itertools.product(views, points):
+            for call in (gl.gluProject, gl.gluUnProject):
+                place = call(*point, np.eye(4), np.eye(4), np.array(view, np.int32))
+                answers.append(str([float(coordinate) for coordinate in place]))
+        return answers
+
+    same_answers(program)
+
+
+@pytest.mark.parametrize("number", [np.nan, np.inf, -np.inf, 3e38, -1e19, 2.0**31, -1e10, 2.5, -0.5])
+def test_numbers_without_a_place_in_an_int_are_answered_as_by_mesa(number):
+    def program(gl):
+        gl.glPolygonOffset(number, number)
+        gl.glFogf(gl.GL_FOG_START, number)
+        gl.glLightfv(gl.GL_LIGHT0, gl.GL_POSITION, [number] * 4)
+        gl.glTexParameterf(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_LOD, number)
+        gl.glTexParameterfv(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_BORDER_COLOR, [number] * 4)
+        answers = [gl.glGetIntegerv(name) for name in (gl.GL_POLYGON_OFFSET_FACTOR, gl.GL_FOG_START)]
+        answers.append(gl.glGetLightiv(gl.GL_LIGHT0, gl.GL_POSITION))
+        for name in (gl.GL_TEXTURE_MIN_LOD, gl.GL_TEXTURE_BORDER_COLOR):
+            answers.append(gl.glGetTexParameteriv(gl.GL_TEXTURE_2D, name))
+        return [np.ravel(answer).tolist() for answer in answers]
+
+    same_answers(program)

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from combinations import with_quick
 from draws import draw, random_state, random_triangles, same_window, small_triangles, vertices
+from softshadow import gl as gl_calls
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.framebuffer import Attachment
@@ -75,6 +76,50 @@ def test_small_triangles_at_the_end_of_the_buffers_are_drawn_as_by_the_textbook(
         return context
 
     assert same_window(window("always"), window(False))
+
+
+@pytest.mark.interpreted  # there an index beyond an array is an error
+@pytest.mark.parametrize("depth_first", [False, True])
+@pytest.mark.parametrize(("color_width", "depth_width"), [(30, 100), (100, 30), (64, 65)])
+def test_attachments_of_different_widths_are_drawn_as_by_the_textbook(color_width, depth_width, depth_first):
+    """Rows of the narrower one end within its padding, though chunks and strips go beyond the triangles."""
+    rng = np.random.default_rng(color_width)
+    shades = rng.uniform(-1, 1, (40, 1, 3)) + rng.normal(0, 1, (40, 3, 3)) * rng.choice([0.1, 0.4], (40, 1, 1))
+    volumes = rng.uniform(-3, 3, (10, 3, 3))
+
+    def buffers(policy: Policy) -> list[bytes]:
+        width, height = min(color_width, depth_width), 9
+        with use_short_cuts(policy), gl_calls.create_context(4, 4):
+            gl_calls.glBindFramebuffer(gl.GL_FRAMEBUFFER, gl_calls.glGenFramebuffers(1))
+            attachments = [
+                (gl.GL_COLOR_ATTACHMENT0, gl.GL_RGBA8, color_width, height),
+                (gl.GL_DEPTH_STENCIL_ATTACHMENT, gl.GL_DEPTH24_STENCIL8, depth_width, height + 3),
+            ]
+            for point, *image in attachments[:: -1 if depth_first else 1]:
+                name = gl_calls.glGenRenderbuffers(1)
+                gl_calls.glBindRenderbuffer(gl.GL_RENDERBUFFER, name)
+                gl_calls.glRenderbufferStorage(gl.GL_RENDERBUFFER, *image)
+                gl_calls.glFramebufferRenderbuffer(gl.GL_FRAMEBUFFER, point, gl.GL_RENDERBUFFER, name)
+            gl_calls.glViewport(0, 0, width, height)
+            gl_calls.glClear(gl.GL_DEPTH_BUFFER_BIT)
+            for capability in (gl.GL_DEPTH_TEST, gl.GL_STENCIL_TEST):
+                gl_calls.glEnable(capability)
+            gl_calls.glStencilOp(gl.GL_KEEP, gl.GL_INCR_WRAP, gl.GL_INCR_WRAP)
+            for triangles, visible in ((shades, True), (volumes, False)):
+                gl_calls.glColorMask(*[visible] * 4)
+                gl_calls.glDepthMask(visible)
+                gl_calls.glBegin(gl.GL_TRIANGLES)
+                for corner in triangles.reshape(-1, 3):
+                    gl_calls.glColor3d(*corner)
+                    gl_calls.glVertex3d(*corner)
+                gl_calls.glEnd()
+            kinds = [
+                (gl.GL_RGBA, gl.GL_UNSIGNED_BYTE), (gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT),
+                (gl.GL_STENCIL_INDEX, gl.GL_UNSIGNED_BYTE),
+            ]  # fmt: skip
+            return [gl_calls.glReadPixels(0, 0, width, height, *kind).tobytes() for kind in kinds]
+
+    assert buffers("always") == buffers(False)
 
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from(["d24", "d32f", "d32"]))
