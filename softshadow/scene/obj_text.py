@@ -4,10 +4,26 @@ trimesh's parser accepts index 0 and indices that are too large, counts negative
 instead of from the face's line, and opens whatever `mtllib` names. This module checks and resolves all of that first.
 """
 
+import re
+
+import numpy as np
+
 from softshadow.errors import MeshError, PartlyReadFile
-from softshadow.scene.polygon import triangulate
+from softshadow.scene.polygon import quads_are_fans, triangulate
 
 VERTEX_KEYS = ("v", "vt", "vn")
+INDEX = "[1-9][0-9]{0,17}"
+# the usual faces, whose indices count from the start and need no resolving: the keys of a corner's indices, the pattern
+USUAL_FACES = tuple(
+    (keys, re.compile(f"f(?: {corner}){{3,}}"))
+    for keys, corner in (
+        (("v",), INDEX),
+        (("v", "vt", "vn"), f"{INDEX}/{INDEX}/{INDEX}"),
+        (("v", "vn"), f"{INDEX}//{INDEX}"),
+        (("v", "vt"), f"{INDEX}/{INDEX}"),
+    )
+)
+Groups = dict[tuple[tuple[str, ...], int], list[int]]  # the usual faces by keys and number of corners
 
 
 def drawable_lines(text: str, name: str) -> tuple[str, list[PartlyReadFile]]:
@@ -24,12 +40,16 @@ def drawable_lines(text: str, name: str) -> tuple[str, list[PartlyReadFile]]:
     lines: list[str] = []
     totals = dict.fromkeys(VERTEX_KEYS, 0)
     corners: list[list[float]] = []
-    faces: list[tuple[int, list[list[int]]]] = []
+    faces: list[str] = []
+    face_lines: list[int] = []  # where they stand
+    usual: Groups = {}
+    others: dict[int, list[list[int]]] = {}  # the corners of all other faces
+    keys, pattern = USUAL_FACES[0]
     short_faces: list[int] = []
     notes: list[PartlyReadFile] = []
     joined = text.replace("\\\r\n", " ").replace("\\\n", " ")
     for number, line in enumerate(joined.splitlines(), 1):
-        key, *values = line.split("#", 1)[0].split() or [""]
+        key, *values = (line.split("#", 1)[0] if "#" in line else line).split() or [""]
         if key in VERTEX_KEYS:
             totals[key] += 1
             lines.append(f"{key} {' '.join(values)}")
@@ -38,7 +58,16 @@ def drawable_lines(text: str, name: str) -> tuple[str, list[PartlyReadFile]]:
         elif key == "f" and len(values) < 3:
             short_faces.append(number)
         elif key == "f":
-            faces.append((number, [_absolute(value, totals, name, number) for value in values]))
+            face = f"f {' '.join(values)}"
+            is_usual = pattern.fullmatch(face) is not None
+            if not is_usual and (form := next((form for form in USUAL_FACES if form[1].fullmatch(face)), None)):
+                (keys, pattern), is_usual = form, True
+            if is_usual:
+                usual.setdefault((keys, len(values)), []).append(len(faces))
+            else:
+                others[len(faces)] = [_absolute(value, totals, name, number) for value in values]
+            faces.append(face)
+            face_lines.append(number)
         elif key == "mtllib" and _leaves_folder(" ".join(values)):
             notes.append(
                 PartlyReadFile(f"{name}: line {number}: {' '.join(line.split())}: outside the folder, not read")
@@ -50,9 +79,48 @@ def drawable_lines(text: str, name: str) -> tuple[str, list[PartlyReadFile]]:
                 f"{name}: {faces_text} with fewer than 3 corners left out, the first in line {short_faces[0]}"
             )
         )
-    for number, face in faces:
-        lines += _triangles(face, totals, corners, name, number)
+    _cut_usual_faces(faces, usual, others, totals, corners)
+    for n, (face, number) in enumerate(zip(faces, face_lines, strict=True)):
+        if n in others:
+            lines += _triangles(others[n], totals, corners, name, number)
+        else:
+            lines.append(face)
     return "\n".join(lines), notes
+
+
+def _cut_usual_faces(
+    faces: list[str],
+    usual: Groups,
+    others: dict[int, list[list[int]]],
+    totals: dict[str, int],
+    corners: list[list[float]],
+) -> None:
+    """Cut the usual faces into triangles, many at a time; what is to be cut one by one becomes one of the others.
+
+    These are polygons that are no fans, and where an index is too large all faces: the error names the first of them.
+    """
+    indices = {}
+    for (keys, n_corners), members in usual.items():
+        text = "".join([faces[n][1:] for n in members]).replace("/", " ")
+        indices[keys, n_corners] = np.fromstring(text, np.int64, sep=" ").reshape(len(members), n_corners, len(keys))
+    too_large = any(
+        numbers[..., part].max() > totals[key]
+        for (keys, _), numbers in indices.items()
+        for part, key in enumerate(keys)
+    )
+    for (keys, n_corners), members in usual.items():
+        if n_corners == 3 and not too_large:
+            continue
+        is_fan = [False] * len(members)
+        if n_corners == 4 and not too_large:
+            is_fan = quads_are_fans(np.array(corners)[indices[keys, n_corners][..., 0] - 1]).tolist()
+        for n, fan in zip(members, is_fan, strict=True):
+            if fan:
+                _, a, b, c, d = faces[n].split(" ")
+                faces[n] = f"f {a} {b} {c}\nf {a} {c} {d}"
+            else:
+                words = faces[n].split(" ")[1:]
+                others[n] = [[int(index or "0") for index in word.split("/")] for word in words]
 
 
 def _numbers(values: list[str], name: str, line: int) -> list[float]:

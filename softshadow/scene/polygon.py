@@ -36,6 +36,29 @@ def triangulate(corners: Sequence[Sequence[float]]) -> list[tuple[int, int, int]
     return triangles
 
 
+def quads_are_fans(quads: np.ndarray) -> np.ndarray:
+    """Return for quadrilaterals (N, 4, 3) float64 whether `triangulate` cuts them into (0, 1, 2) and (0, 2, 3).
+
+    The same operations as there, for all at a time: corner 1 is an ear, the first that is tried.
+    """
+    with np.errstate(all="ignore"):
+        crosses = np.cross(quads, np.roll(quads, -1, axis=1))
+        normal = crosses[:, 0] + crosses[:, 1] + crosses[:, 2] + crosses[:, 3]
+        axis, row = np.abs(normal).argmax(axis=1), np.arange(len(quads))
+        sign = np.where(normal[row, axis] >= 0, 1.0, -1.0)
+        x, y = (np.take_along_axis(quads, ((axis + n) % 3)[:, None, None], axis=2)[..., 0] for n in (1, 2))
+
+        def turn(a: int, b: int, c: int) -> np.ndarray:
+            doubled = (x[:, b] - x[:, a]) * (y[:, c] - y[:, a]) - (y[:, b] - y[:, a]) * (x[:, c] - x[:, a])
+            return np.asarray(sign * doubled)
+
+        within = (turn(0, 1, 3) >= 0) & (turn(1, 2, 3) >= 0) & (turn(2, 0, 3) >= 0)
+        twice = ((x[:, 3:] == x[:, :3]) & (y[:, 3:] == y[:, :3])).any(axis=1)
+        # not `> 0`: where there is no ear at all, or areas are NaN, the same corner is cut off
+        first: np.ndarray = ~(turn(0, 1, 2) <= 0) & (~within | twice)
+    return first
+
+
 def _doubled_area(flat: np.ndarray, a: int, b: int, c: int) -> float:
     (ax, ay), (bx, by), (cx, cy) = flat[a], flat[b], flat[c]
     return float((bx - ax) * (cy - ay) - (by - ay) * (cx - ax))

@@ -8,11 +8,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from paths import shared_file, shared_files
 from softshadow.errors import MeshError, PartlyReadFile, SceneError
 from softshadow.scene import Scene, shapes
 from softshadow.scene.loading import load_mesh
+from softshadow.scene.obj_text import drawable_lines
+from softshadow.scene.polygon import quads_are_fans, triangulate
 
 CUBE_OBJ = (Path(__file__).parents[2] / "docs" / "scenes" / "crate.obj").read_text()
 
@@ -426,3 +430,33 @@ def test_ply_index_out_of_range_is_named(tmp_path: Path) -> None:
     rows = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 9\n"
     with pytest.raises(MeshError, match="a face uses vertex 9; expected 0 to 3"):
         load_mesh(write(tmp_path, "index.ply", PLY.format(vertex="", face="") + rows))
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_quadrilaterals_are_fans_where_ears_say_so(seed):
+    rng = np.random.default_rng(seed)
+    quads = rng.choice([0.0, 1.0, 2.0, 0.5, -1.0, np.nan], (50, 4, 3), p=[0.2, 0.2, 0.2, 0.2, 0.19, 0.01])
+    quads[::2] += rng.normal(0, 0.3, (25, 4, 3))
+    fans = quads_are_fans(quads)
+    for quad in quads[fans]:
+        assert triangulate(quad) == [(0, 1, 2), (0, 2, 3)]
+    convex = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]) + rng.uniform(-0.2, 0.2, (20, 4, 3))
+    assert quads_are_fans(convex).all()
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_faces_cut_many_at_a_time_are_those_cut_one_by_one(seed):
+    """Indices with a sign are resolved one by one."""
+    rng = np.random.default_rng(seed)
+    positions = rng.integers(-2, 3, (9, 3))
+    lines = [f"v {x} {y} {z}" for x, y, z in positions] + ["vt 0 0"] * 9 + ["vn 0 0 1"] * 9
+    forms = ["{0}", "{0}/{0}", "{0}//{0}", "{0}/{0}/{0}"]
+    faces = [
+        [str(rng.choice(forms)), *rng.permutation(9)[: rng.choice([3, 4, 4, 5])]] for _ in range(rng.integers(1, 9))
+    ]
+
+    def cut(first: int) -> str:
+        text = [*lines, *(f"f {' '.join(form.format(n + first) for n in corners)}" for form, *corners in faces)]
+        return drawable_lines("\n".join(text), "model.obj")[0]
+
+    assert cut(1) == cut(-9)
