@@ -61,7 +61,7 @@ def run(calls: list[Call], size: tuple[int, int], seed: int) -> list[dict[str, A
         use_short_cuts(POLICIES[seed % len(POLICIES)]),
         gl.create_context(*size, depth_format, bits, precision, raise_errors=False),
     ):
-        for number, (name, arguments) in enumerate(calls):
+        for number, (name, arguments) in enumerate([*calls, ("glFinish", ())]):  # draws may wait until then
             try:
                 getattr(gl, name)(*map(value, arguments))
             except SoftShadowError:
