@@ -1,4 +1,4 @@
-"""Vertex arrays and buffer objects: what the pointer calls have set."""
+"""Vertex arrays and buffer objects: what the pointer calls have set, and the caches of their contents."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ import numpy as np
 
 from softshadow import tokens as gl
 
-CACHE_BYTES = 256 << 20  # converted arrays with their sources: a few meshes of a million triangles
+CACHE_BYTES = 256 << 20  # of each cache: a few meshes of a million triangles
+CACHE_ENTRIES = 4096
 
 
 @dataclass(frozen=True)
@@ -22,56 +23,140 @@ class ArrayLayout:
     stride: int = 0
 
 
+class Cache:
+    """Values by key, each with its size in bytes; the oldest ones are evicted beyond the bounds."""
+
+    def __init__(self, bytes: int = CACHE_BYTES, entries: int = CACHE_ENTRIES) -> None:
+        self._bounds = bytes, entries
+        self._entries: dict[Hashable, tuple[Any, int]] = {}  # the oldest first
+        self.bytes = 0
+
+    def __len__(self) -> int:
+        return len(self._entries)
+
+    def get(self, key: Hashable) -> Any:
+        """Return the value of a key, or None."""
+        entry = self._entries.get(key)
+        return None if entry is None else entry[0]
+
+    def use(self, key: Hashable) -> Any:
+        """Return the value of a key, or None; it becomes the newest."""
+        entry = self._entries.pop(key, None)
+        if entry is None:
+            return None
+        self._entries[key] = entry
+        return entry[0]
+
+    def put(self, key: Hashable, value: Any, bytes: int) -> None:
+        """Set the value of a key; it stays until the next call even if it is larger than the bound."""
+        self.drop(key)
+        self._entries[key] = value, bytes
+        self.bytes += bytes
+        most_bytes, most_entries = self._bounds
+        while len(self._entries) > 1 and (self.bytes > most_bytes or len(self._entries) > most_entries):
+            self.drop(next(iter(self._entries)))
+
+    def drop(self, key: Hashable) -> None:
+        """Remove a key, if it is there."""
+        entry = self._entries.pop(key, None)
+        if entry is not None:
+            self.bytes -= entry[1]
+
+
+@dataclass(eq=False, slots=True)
+class RowSnapshot:
+    """The rows [first, end) of a vertex array at a draw, which never change.
+
+    Attributes
+    ----------
+    rows : (end - first, width)  as they are drawn, read-only
+    content : bytes or None      the source of a small array; None if nobody can change it
+    raw : ndarray or None        the source of a larger one, contiguous, with its address
+    drawn : dict                 `Vertices` with these positions, by range, other arrays and constant attributes
+    slices : dict                parts of `rows` by range
+    """
+
+    first: int
+    end: int
+    rows: np.ndarray
+    content: bytes | None = None
+    raw: np.ndarray | None = None
+    address: int = 0
+    drawn: dict[Any, Any] = field(default_factory=dict)
+    slices: dict[tuple[int, int], np.ndarray] = field(default_factory=dict)
+
+    @property
+    def bytes(self) -> int:
+        """The size in bytes, the copy of the source included."""
+        raw = 0 if self.raw is None or self.raw is self.rows else self.raw.nbytes
+        return self.rows.nbytes + raw + len(self.content or b"")
+
+
+@dataclass(eq=False, slots=True)
+class VertexArray:
+    """The array of one attribute as rows of numbers: the user's memory, a copy of it, or bytes of a buffer object.
+
+    Attributes
+    ----------
+    slot : int                   0 position, 1 colour, 2 normal, 3 ... texture coordinates
+    owner : object               the pointer argument; an id stays unique only while its object lives
+    is_fixed : bool              nobody writes to the rows
+    root : ndarray or None       what owns the memory of a fixed array of the user, who may make it writeable later
+    address, row_bytes : int     of contiguous rows; else `row_bytes` is 0
+    snapshot : RowSnapshot       the last one
+    """
+
+    slot: int
+    rows: np.ndarray
+    layout: ArrayLayout
+    owner: Any
+    is_fixed: bool
+    root: np.ndarray | None = None
+    address: int = 0
+    row_bytes: int = 0
+    snapshot: RowSnapshot | None = None
+
+
 @dataclass
 class BufferObject:
-    """The bytes of a buffer object, and its usage hint."""
+    """The bytes of a buffer object, and its usage hint.
+
+    `views` holds what has been read from the present contents; while it is empty, nobody else knows these bytes.
+    """
 
     content: np.ndarray = field(default_factory=lambda: np.zeros(0, np.uint8))
     usage: int = gl.GL_STATIC_DRAW
+    views: dict[Hashable, Any] = field(default_factory=dict)
 
-
-class ConvertedArrays:
-    """A cache of converted vertex arrays; beyond `CACHE_BYTES` the least recently drawn ones are evicted."""
-
-    def __init__(self) -> None:
-        self._cached: dict[Any, tuple[np.ndarray, np.ndarray]] = {}  # least recently used first
-        self._bytes = 0
-
-    def get(self, key: Hashable, root: np.ndarray, convert: Callable[[], np.ndarray]) -> np.ndarray:
-        """Return the converted array of a key; convert it if it is not cached.
-
-        `root` owns the memory that the key identifies. It is cached too, so that no other array can get its id.
-        """
-        if key in self._cached:
-            self._cached[key] = self._cached.pop(key)
-            return self._cached[key][0]
-        converted = convert()
-        self._cached[key] = converted, root
-        self._bytes += _bytes_of(converted, root)
-        while self._bytes > CACHE_BYTES and len(self._cached) > 1:
-            self._bytes -= _bytes_of(*self._cached.pop(next(iter(self._cached))))
-        return converted
-
-
-def _bytes_of(converted: np.ndarray, root: np.ndarray) -> int:
-    return int(converted.nbytes + root.nbytes)
+    def view(self, key: Hashable, make: Callable[[], Any]) -> Any:
+        """Return what was read under a key; read it if it is new."""
+        if key not in self.views:
+            if len(self.views) >= CACHE_ENTRIES:
+                self.views.clear()
+            self.views[key] = make()
+        return self.views[key]
 
 
 @dataclass
 class ClientArrays:
-    """Vertex arrays: which are enabled, the array or buffer of each, and the cache of converted arrays.
+    """Vertex arrays: which are enabled, the array or buffer of each, and what draws have read from them.
 
-    Names are "position", "color", "normal", "texcoord0" ...
+    Names are "position", "color", "normal", "texcoord0" ... `active` holds the arrays that a draw reads, position
+    first; None after a change. `constants` are the attributes without an array as the last draw had them.
     """
 
     enabled: set[str] = field(default_factory=set)
-    pointers: dict[str, np.ndarray] = field(default_factory=dict)
+    pointers: dict[str, VertexArray] = field(default_factory=dict)
     offsets: dict[str, tuple[int, int]] = field(default_factory=dict)  # (buffer object, byte) instead of an array
     array_buffer: int = 0
     element_buffer: int = 0
     layouts: dict[str, ArrayLayout] = field(default_factory=dict)
-    converted: ConvertedArrays = field(default_factory=ConvertedArrays)
     active_unit: int = 0
+    active: tuple[VertexArray, ...] | None = None
+    constants: Any = None
+    sources: Cache = field(default_factory=Cache)  # vertex arrays by the pointer argument
+    indices: Cache = field(default_factory=Cache)  # index arrays by the argument
+    snapshots: Cache = field(default_factory=Cache)  # of both, by their contents
 
     def layout(self, name: str) -> ArrayLayout:
         """Return the layout of an array; before its first pointer call, GL's initial one."""

@@ -1,4 +1,7 @@
-"""Draws from vertex arrays and buffer objects; `array_snapshots` makes the arrays that a recording stores."""
+"""Draws from vertex arrays and buffer objects.
+
+`array_snapshots` and `index_snapshots` make the arrays that a recording stores.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +13,10 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, current
-from softshadow.gl.array_snapshots import index_range, repeat_row, snapshot_indices, snapshot_rows
+from softshadow.context.arrays import ArrayLayout, BufferObject, VertexArray
+from softshadow.gl.array_snapshots import POSITION, slice_of, snapshot_rows
 from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.gl.conversions import (
     from_byte,
     from_int,
@@ -22,15 +27,16 @@ from softshadow.gl.conversions import (
 )
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
 from softshadow.gl.immediate import A_MODE, MODES, add_vertex, can_draw, consecutive_indices
+from softshadow.gl.index_snapshots import snapshot_indices
 from softshadow.gl.texture_coordinates import set_coordinate
-from softshadow.gl.vertex_arrays import TYPES, rows_of
+from softshadow.gl.vertex_arrays import DTYPES, SLOTS, rows_of
 from softshadow.gl.vertex_attributes import set_color, set_normal
-from softshadow.gl.vertex_format import REST
 from softshadow.pipeline.commands import Vertices
-from softshadow.state import TEXTURE_UNITS
 
 INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
 AN_INDEX_TYPE = "GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT or GL_UNSIGNED_INT"
+KEYS = tuple(SLOTS)  # names of the arrays by slot
+MOST_DRAWN = 4096  # ranges of one array with the vertices that were drawn
 NORMALIZED = ("color", "normal")  # integers represent 0 to 1 or -1 to 1
 CONVERSIONS: dict[type[np.generic], Callable[[Any], float]] = {  # by glArrayElement, as in glColor and glNormal
     np.int8: from_byte, np.uint8: from_unsigned_byte, np.int16: from_short, np.uint16: from_unsigned_short,
@@ -47,7 +53,8 @@ def glDrawArrays(mode: int, first: int, count: int) -> None:
     if context is None:
         return
     if not _refused("glDrawArrays", mode, count) and can_draw(context, "glDrawArrays"):
-        vertices = _vertices(context, "glDrawArrays", int(first), int(first) + int(count))
+        begin = int(first)
+        vertices = _vertices(context, "glDrawArrays", begin, begin, begin + int(count))
         _draw(context, int(mode), vertices, None)
 
 
@@ -77,7 +84,8 @@ def glMultiDrawArrays(mode: int, first: Any, count: Any, drawcount: int) -> None
         fail(gl.GL_INVALID_VALUE, operation, f"count={counts}, drawcount={drawcount}: expected 0 or more")
     elif is_one_of(operation, "mode", mode, MODES, A_MODE) and can_draw(context, operation):
         for begin, number in zip(firsts, counts, strict=True):
-            _draw(context, int(mode), _vertices(context, operation, int(begin), int(begin + number)), None)
+            start = int(begin)
+            _draw(context, int(mode), _vertices(context, operation, start, start, start + int(number)), None)
 
 
 def _draw_elements(operation: str, mode: int, count: int, type: int, indices: Any) -> None:
@@ -89,12 +97,11 @@ def _draw_elements(operation: str, mode: int, count: int, type: int, indices: An
         return
     if not is_one_of(operation, "type", type, INDEX_TYPES, AN_INDEX_TYPE) or not can_draw(context, operation):
         return
-    snapshot = snapshot_indices(context, operation, int(count), np.dtype(TYPES[type]), indices)
-    lowest, highest = index_range(snapshot)
-    if lowest < 0:
-        raise ValueError(f"{operation}: index {lowest} is negative")
-    vertices = _vertices(context, operation, 0, highest + 1)
-    _draw(context, int(mode), vertices, snapshot)
+    snapshot = snapshot_indices(context, operation, int(count), DTYPES[type], indices)
+    if snapshot.lowest < 0:
+        raise ValueError(f"{operation}: index {snapshot.lowest} is negative")
+    vertices = _vertices(context, operation, snapshot.lowest, 0, snapshot.highest + 1)
+    _draw(context, int(mode), vertices, snapshot.indices)
 
 
 def _refused(operation: str, mode: int, count: int) -> bool:
@@ -112,9 +119,10 @@ def glArrayElement(i: int) -> None:
     """Set the current attributes from one vertex of the enabled arrays; its position adds a vertex, as glVertex."""
     context = current()
     for key in sorted(context.arrays.enabled, key=lambda key: key == "position"):
-        rows = _rows_of_array(context, key)
-        if rows is None:
+        array = _array(context, key)
+        if array is None:
             continue
+        rows = array.rows
         if not 0 <= i < len(rows):
             raise ValueError(f"glArrayElement(i={i}): the array of {key}s has {len(rows)}")
         convert = CONVERSIONS.get(rows.dtype.type, float) if key in NORMALIZED else float
@@ -135,7 +143,7 @@ def _set_attribute(key: str, values: list[float]) -> None:
 
 def _draw(context: Context, mode: int, vertices: Vertices | None, indices: np.ndarray | None) -> None:
     """Draw now, or record the draw in the display list; its arrays are read now in either case."""
-    if vertices is None or not len(vertices.position):
+    if vertices is None:
         return
     compiled = context.compiled_list
     if compiled is not None:
@@ -145,8 +153,10 @@ def _draw(context: Context, mode: int, vertices: Vertices | None, indices: np.nd
         context.draw(mode, vertices, indices)
 
 
-def _vertices(context: Context, operation: str, first: int, end: int) -> Vertices | None:
-    """Return the vertices [first, end) of the enabled arrays; None without an array of positions.
+def _vertices(context: Context, operation: str, lowest: int, first: int, end: int) -> Vertices | None:
+    """Return the vertices [first, end) of the enabled arrays; None without vertices or an array of positions.
+
+    The same object is returned for the same contents and constant attributes. No index names vertices before `lowest`.
 
     Raises
     ------
@@ -155,39 +165,54 @@ def _vertices(context: Context, operation: str, first: int, end: int) -> Vertice
     """
     if first < 0:
         raise ValueError(f"{operation}: first={first}: expected 0 or more")
-    arrays, constants = context.arrays, context.current
-    if "position" not in arrays.enabled or _rows_of_array(context, "position") is None:
+    active = context.arrays.active
+    if active is None:
+        active = context.arrays.active = _active_arrays(context)
+    if not active or active[0].slot != POSITION:
         return None
+    for array in active:
+        if len(array.rows) < end:
+            key = KEYS[array.slot]
+            n_rows = len(array.rows)
+            raise ValueError(f"{operation}: vertex {end - 1} is outside the array of {key}s, which has {n_rows}")
+    if end <= first:
+        return None
+    position, *others = [snapshot_rows(array, first, lowest, end, context) for array in active]
+    constants = constant_attributes(context)
+    key = first, end, constants, *others  # a snapshot belongs to one slot
+    vertices: Vertices | None = position.drawn.get(key)
+    if vertices is None:
+        rows = [constant.rows(end - first) for constant in constants]
+        for array, snapshot in zip(active[1:], others, strict=True):
+            rows[array.slot - 1] = slice_of(snapshot, first, end)
+        if len(position.drawn) >= MOST_DRAWN:
+            position.drawn.clear()
+        vertices = Vertices(slice_of(position, first, end), rows[0], rows[1], tuple(rows[2:]))
+        position.drawn[key] = vertices
+    return vertices
 
-    def attribute(key: str, constant: tuple[float, ...]) -> np.ndarray:
-        rows = _rows_of_array(context, key) if key in arrays.enabled else None
-        if rows is None:
-            return repeat_row(np.array(constant, context.real), end - first)
-        if len(rows) < end:
-            raise ValueError(f"{operation}: vertex {end - 1} is outside the array of {key}s, which has {len(rows)}")
-        return snapshot_rows(rows, len(constant), context, key in NORMALIZED)[first:end]
 
-    texcoords = tuple(attribute(f"texcoord{unit}", constants.texcoords[unit]) for unit in range(TEXTURE_UNITS))
-    return Vertices(
-        attribute("position", REST),
-        attribute("color", constants.color),
-        attribute("normal", constants.normal),
-        texcoords,
-    )
+def _active_arrays(context: Context) -> tuple[VertexArray, ...]:
+    """Return the enabled arrays that a draw reads, positions first."""
+    arrays = (_array(context, key) for key in KEYS if key in context.arrays.enabled)
+    return tuple(array for array in arrays if array is not None)
 
 
-def _rows_of_array(context: Context, key: str) -> np.ndarray | None:
-    """Return the array of an attribute as rows: the user's array, or one in a buffer object."""
+def _array(context: Context, key: str) -> VertexArray | None:
+    """Return the array of an attribute: the user's array, or one in a buffer object; None without one."""
     arrays = context.arrays
     if key not in arrays.offsets:
         return arrays.pointers.get(key)
     name, offset = arrays.offsets[key]
-    layout = arrays.layout(key)
-    dtype = np.dtype(TYPES[layout.type])
-    content = np.ascontiguousarray(context.buffers[name].content[offset:])
-    return rows_of(
-        content.tobytes()[: len(content) // dtype.itemsize * dtype.itemsize], dtype, layout.size, layout.stride
-    )
+    bound, layout = context.buffers[name], arrays.layout(key)
+    return bound.view((key, offset, layout), lambda: _array_in(bound, key, offset, layout))  # type: ignore[no-any-return]
+
+
+def _array_in(bound: BufferObject, key: str, offset: int, layout: ArrayLayout) -> VertexArray:
+    """Return an array in a buffer object; bytes after the last whole number are left out."""
+    dtype, content = DTYPES[layout.type], bound.content[offset:]
+    values = content[: len(content) // dtype.itemsize * dtype.itemsize].view(dtype)
+    return VertexArray(SLOTS[key], rows_of(values, dtype, layout.size, layout.stride), layout, bound, is_fixed=True)
 
 
 __all__ = spelled_like_gl(globals())

@@ -1,77 +1,43 @@
-"""Snapshots of drawn arrays: indices and vertices that cannot change after they are recorded.
+"""Snapshots of vertex arrays: rows as they are drawn, which cannot change after they are recorded.
 
-Immutable arrays are recorded without a copy. Others are copied; arrays that need a conversion are converted once.
+Memory that nobody can write to is recorded without a copy. Other arrays are copied and converted once; at each draw,
+the rows that it reads are compared with the copy, and equal rows are not copied again.
 """
 
 from __future__ import annotations
 
-import hashlib
+import ctypes
+import os
 from typing import Any
 
 import numpy as np
 
 from softshadow.context import Context
-from softshadow.gl.buffers import content_from, offset_of
+from softshadow.context.arrays import ArrayLayout, RowSnapshot, VertexArray
 from softshadow.gl.vertex_format import REST
 
 LARGEST_FRACTION = (1 << 23) - 1  # llvmpipe fetches the upper 23 bits of an unsigned int
+SMALL = 4096  # bytes: up to here, `tobytes` and a comparison of bytes are faster than a call of memcmp
+CHUNK = 1 << 16  # rows that are compared at a time if they are not contiguous
+POSITION, COLOR, NORMAL, TEXCOORD = range(4)  # slots of the attributes; texture coordinates of the other units follow
+LARGEST_PART = 4  # a changed array is copied whole if a draw reads a fourth of it or more
+MOST_SLICES = 4096  # of one snapshot
+
+_memcmp = ctypes.CDLL("msvcrt" if os.name == "nt" else None).memcmp
+_memcmp.argtypes = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t)
+_memcmp.restype = ctypes.c_int
 
 
-def snapshot_indices(context: Context, operation: str, count: int, dtype: np.dtype, indices: Any) -> np.ndarray:
-    """Return immutable int32 indices: the caller's array itself if it is immutable and 32-bit, else a copy.
-
-    Raises
-    ------
-    ValueError
-        There are fewer than `count`.
-    """
-    if context.arrays.element_buffer:
-        indices = content_from(context, context.arrays.element_buffer, offset_of(indices), dtype)
-    elif isinstance(indices, bytes | bytearray | memoryview):
-        indices = np.frombuffer(indices, dtype)
-    numbers = np.ravel(indices)[:count]
-    if len(numbers) < count:
-        raise ValueError(f"{operation}(count={count}): got only {len(numbers)} indices")
-    if numbers.dtype in (np.int32, np.uint32) and _is_immutable(numbers):
-        return numbers.view(np.int32)
-    copy = np.array(numbers, np.int32)
-    copy.setflags(write=False)
-    return copy
+# -- arrays ------------------------------------------------------------------------------------------------------------
+def vertex_array(slot: int, rows: np.ndarray, layout: ArrayLayout, owner: Any) -> VertexArray:
+    """Return the user's array of an attribute; `rows` keeps its memory alive, so its address stays valid."""
+    root = _owner(rows) if is_immutable(rows) else None
+    if not rows.flags.c_contiguous or not rows.size:
+        return VertexArray(slot, rows, layout, owner, root is not None, root)
+    return VertexArray(slot, rows, layout, owner, root is not None, root, rows.ctypes.data, rows.strides[0])
 
 
-def index_range(indices: np.ndarray) -> tuple[int, int]:
-    """Return the smallest and the largest index; 0 and -1 without indices.
-
-    Every draw computes them anew: kernels do not check bounds, and the array's owner may have made it writeable.
-    """
-    return (int(indices.min()), int(indices.max())) if len(indices) else (0, -1)
-
-
-def snapshot_rows(rows: np.ndarray, width: int, context: Context, normalized: bool) -> np.ndarray:
-    """Return rows as read-only (V, width) in the context's precision; the same contents are converted only once."""
-    if not _is_immutable(rows):
-        content: Any = hashlib.blake2b(np.ascontiguousarray(rows).data, digest_size=16).digest()
-    elif rows.shape[1] == width and rows.dtype == context.real and rows.flags.c_contiguous:
-        return rows
-    else:
-        content = _memory_key(rows)
-    key = (content, rows.shape, rows.dtype, width, normalized)
-    return context.arrays.converted.get(key, _owner(rows), lambda: _converted(rows, width, context, normalized))
-
-
-def repeat_row(row: np.ndarray, count: int) -> np.ndarray:
-    """Return a read-only view of `count` equal rows: faster than `np.broadcast_to`, and each draw needs ten."""
-    rows = np.ndarray((count, len(row)), row.dtype, row, strides=(0, row.itemsize))
-    rows.flags.writeable = False
-    return rows
-
-
-def _memory_key(array: np.ndarray) -> tuple[Any, ...]:
-    """Return a key that identifies the memory of a read-only array for as long as its owner lives."""
-    return (id(_owner(array)), array.__array_interface__["data"][0], array.strides)
-
-
-def _is_immutable(array: np.ndarray) -> bool:
+def is_immutable(array: np.ndarray) -> bool:
     """Return whether nobody can write to the memory of an array; False if its owner is unknown."""
     owner = _owner(array)
     return not owner.flags.writeable and (owner.base is None or isinstance(owner.base, bytes))
@@ -84,13 +50,132 @@ def _owner(rows: np.ndarray) -> np.ndarray:
     return rows
 
 
-def _converted(rows: np.ndarray, width: int, context: Context, normalized: bool) -> np.ndarray:
-    """Return rows with `width` components: a missing fourth is 1, others 0."""
-    full = np.empty((len(rows), width), context.real)
-    full[:] = REST[:width]
-    with np.errstate(over="ignore"):
-        fractions = rows.dtype.kind in "iu" and normalized
-        full[:, : rows.shape[1]] = _fractions(rows, context.real) if fractions else rows
+# -- snapshots ---------------------------------------------------------------------------------------------------------
+def snapshot_rows(array: VertexArray, first: int, lowest: int, end: int, context: Context) -> RowSnapshot:
+    """Return a snapshot that has the rows [first, end) of an array; those from `lowest` on are as they are now.
+
+    Rows before `lowest` may be those of an earlier draw: no index of this draw names them.
+    """
+    if array.root is not None and array.root.flags.writeable:
+        array.is_fixed, array.root, array.snapshot = False, None, None
+    kept = array.snapshot
+    if kept is not None and kept.first <= first and end <= kept.end:
+        if array.is_fixed or is_unchanged(array, kept, lowest, end):
+            return kept
+        if (end - first) * LARGEST_PART >= kept.end - kept.first:
+            first, end = kept.first, kept.end
+    elif kept is not None:
+        first, end = _grown(kept, first, end, len(array.rows))
+    array.snapshot = _fixed(array, context) if array.is_fixed else _copied(array, first, end, context)
+    return array.snapshot
+
+
+def _grown(kept: RowSnapshot, first: int, end: int, length: int) -> tuple[int, int]:
+    """Return which rows to copy where a draw reads [first, end) and the last snapshot has not all of them.
+
+    Copies at least double, so that many draws of neighbouring parts copy an array only a few times; but a distant part
+    is copied alone.
+    """
+    size, low, high = kept.end - kept.first, min(first, kept.first), max(end, kept.end)
+    if high - low > LARGEST_PART * (size + end - first):
+        return first, end
+    return low, min(max(high, low + 2 * size), length)
+
+
+def is_unchanged(array: VertexArray, kept: RowSnapshot, lowest: int, end: int) -> bool:
+    """Return whether the rows [lowest, end) of an array have the bits of a snapshot that has them."""
+    if kept.content is not None:
+        if lowest == kept.first and end == kept.end:
+            rows = array.rows
+            if end - lowest != len(rows):
+                rows = rows[lowest:end]
+            return rows.tobytes() == kept.content
+        row_bytes = len(kept.content) // (kept.end - kept.first)
+        before = kept.content[(lowest - kept.first) * row_bytes : (end - kept.first) * row_bytes]
+        return array.rows[lowest:end].tobytes() == before
+    assert kept.raw is not None
+    if array.row_bytes:
+        start, row_bytes = lowest - kept.first, array.row_bytes
+        return same_memory(array.address + lowest * row_bytes, kept.address + start * row_bytes, (end - lowest) * row_bytes)
+    bits = f"u{array.rows.itemsize}"
+    now, before = array.rows.view(bits), kept.raw.view(bits)
+    return all(
+        np.array_equal(now[row : min(row + CHUNK, end)], before[row - kept.first : min(row + CHUNK, end) - kept.first])
+        for row in range(lowest, end, CHUNK)
+    )
+
+
+def same_memory(address: int, other: int, n_bytes: int) -> bool:
+    """Return whether two places in memory hold the same bytes."""
+    return bool(_memcmp(address, other, n_bytes) == 0)
+
+
+def _copied(array: VertexArray, first: int, end: int, context: Context) -> RowSnapshot:
+    """Return a snapshot with a copy of rows; an equal one of another array is used again."""
+    raw = array.rows[first:end].copy()
+    pool, key = context.arrays.snapshots, (array.slot, first, *_fingerprint(raw))
+    found: RowSnapshot | None = pool.use(key)
+    small = raw.nbytes <= SMALL
+    content = raw.tobytes() if small else None
+    address = 0 if small or not raw.size else raw.ctypes.data
+    if found is not None and (
+        content == found.content if small else same_memory(address, found.address, raw.nbytes)
+    ):
+        return found
+    raw.setflags(write=False)
+    rows = _converted(raw, array.slot, context)
+    snapshot = RowSnapshot(first, end, rows, content, None if small else raw, address)
+    pool.put(key, snapshot, snapshot.bytes)
+    return snapshot
+
+
+def _fingerprint(rows: np.ndarray) -> tuple[Any, ...]:
+    """Return a key by which equal rows are found: type, shape, and both ends of the content."""
+    ends = rows[:4].tobytes() + rows[-4:].tobytes()
+    return rows.dtype.char, rows.shape, ends
+
+
+def _fixed(array: VertexArray, context: Context) -> RowSnapshot:
+    """Return a snapshot of all rows of an array that nobody can change: the array itself, or a conversion."""
+    rows = array.rows
+    key = (array.slot, id(_owner(rows)), rows.__array_interface__["data"][0], rows.strides, rows.shape, rows.dtype.char)
+    found = context.arrays.snapshots.use(key)
+    if found is None:
+        snapshot = RowSnapshot(0, len(rows), _converted(rows, array.slot, context))
+        found = snapshot, _owner(rows)  # no other array can get the id of the owner
+        context.arrays.snapshots.put(key, found, snapshot.bytes + _owner(rows).nbytes)
+    return found[0]  # type: ignore[no-any-return]
+
+
+def slice_of(snapshot: RowSnapshot, first: int, end: int) -> np.ndarray:
+    """Return the rows [first, end) of an array from its snapshot; the same object for the same rows."""
+    if first == snapshot.first and end == snapshot.end:
+        return snapshot.rows
+    rows = snapshot.slices.get((first, end))
+    if rows is None:
+        if len(snapshot.slices) >= MOST_SLICES:
+            snapshot.slices.clear()
+        rows = snapshot.slices[first, end] = snapshot.rows[first - snapshot.first : end - snapshot.first]
+    return rows
+
+
+# -- conversion --------------------------------------------------------------------------------------------------------
+def _converted(rows: np.ndarray, slot: int, context: Context) -> np.ndarray:
+    """Return rows as read-only (V, width) in the context's precision: a missing fourth component is 1, others 0."""
+    width, real = 3 if slot == NORMAL else 4, context.real
+    fractions = slot in (COLOR, NORMAL) and rows.dtype.kind in "iu"  # integers represent 0 to 1 or -1 to 1
+    flags = rows.flags
+    if rows.shape[1] == width and rows.dtype == real and flags.c_contiguous and flags.aligned:
+        full = rows
+    else:
+        full = np.empty((len(rows), width), real)
+        if rows.shape[1] < width:
+            full[:, rows.shape[1] :] = REST[rows.shape[1] : width]
+        if rows.dtype == real:
+            full[:, : rows.shape[1]] = rows
+        else:
+            with np.errstate(over="ignore"):
+                full[:, : rows.shape[1]] = _fractions(rows, real) if fractions else rows
     full.setflags(write=False)
     return full
 

@@ -52,6 +52,7 @@ def glDeleteBuffers(*arguments: Any) -> None:
                 setattr(context.arrays, binding, 0)
         for key in [key for key, (buffer, _) in context.arrays.offsets.items() if buffer == name]:
             del context.arrays.offsets[key]
+        context.arrays.active = None
 
 
 def glIsBuffer(buffer: int) -> bool:
@@ -78,7 +79,7 @@ def glBufferData(target: int, size: Any, data: Any = None, usage: int | None = N
     elif is_one_of(operation, "usage", usage, USAGES, A_USAGE):
         if content is not None and len(content) < n_bytes:
             raise ValueError(f"glBufferData: size={n_bytes}, but data has {len(content)} bytes")
-        bound.content = np.zeros(n_bytes, np.uint8) if content is None else content[:n_bytes].copy()
+        _replace(context, bound, np.zeros(n_bytes, np.uint8) if content is None else content[:n_bytes].copy())
         bound.usage = int(usage)
 
 
@@ -90,8 +91,9 @@ def glBufferSubData(target: int, offset: int, size: Any = None, data: Any = None
     n_bytes = len(content) if size is None else int(size)
     context = outside_begin("glBufferSubData")
     bound = context and _bound(context, "glBufferSubData", target)
-    if bound and _is_inside("glBufferSubData", bound, int(offset), n_bytes):
-        bound.content = bound.content.copy()  # recorded arrays may share the old contents
+    if context and bound and _is_inside("glBufferSubData", bound, int(offset), n_bytes):
+        if bound.views:  # recorded arrays may share the old contents
+            _replace(context, bound, bound.content.copy())
         bound.content[offset : offset + n_bytes] = content[:n_bytes]
 
 
@@ -119,6 +121,11 @@ def glGetBufferParameteriv(target: int, pname: int, params: Any = None) -> Any:
     if params is not None:
         np.asarray(params)[:1] = answers[pname]
     return answers[pname]
+
+
+def _replace(context: Context, bound: BufferObject, content: np.ndarray) -> None:
+    bound.content, bound.views = content, {}
+    context.arrays.active = None
 
 
 def _bound(context: Context, operation: str, target: int) -> BufferObject | None:
@@ -154,12 +161,6 @@ def offset_of(pointer: Any) -> int:
     if isinstance(value, int | np.integer):
         return int(value)
     raise TypeError(f"pointer={pointer!r:.60}: a buffer object is bound, expected an offset (None, int, c_void_p)")
-
-
-def content_from(context: Context, name: int, offset: int, dtype: np.dtype) -> np.ndarray:
-    """Return a buffer object's contents from an offset on, as numbers; an incomplete last one is left out."""
-    content = context.buffers[name].content[offset:]
-    return np.frombuffer(content.tobytes(), dtype, len(content) // dtype.itemsize)
 
 
 __all__ = spelled_like_gl(globals())

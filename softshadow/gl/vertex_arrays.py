@@ -2,26 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
 from typing import Any
 
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import ArrayLayout, current
+from softshadow.context import ArrayLayout, ClientArrays, current
+from softshadow.context.arrays import VertexArray
 from softshadow.frozen import evolve
+from softshadow.gl.array_snapshots import COLOR, NORMAL, POSITION, TEXCOORD, vertex_array
 from softshadow.gl.buffers import offset_of
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.texture_coordinates import A_UNIT, UNITS
+from softshadow.state import TEXTURE_UNITS
 
 TYPES = {
     gl.GL_BYTE: np.int8, gl.GL_UNSIGNED_BYTE: np.uint8, gl.GL_SHORT: np.int16, gl.GL_UNSIGNED_SHORT: np.uint16,
     gl.GL_INT: np.int32, gl.GL_UNSIGNED_INT: np.uint32, gl.GL_FLOAT: np.float32, gl.GL_DOUBLE: np.float64,
 }  # fmt: skip
+DTYPES = {type: np.dtype(dtype) for type, dtype in TYPES.items()}
+SLOTS = {"position": POSITION, "color": COLOR, "normal": NORMAL}
+SLOTS |= {f"texcoord{unit}": TEXCOORD + unit for unit in range(TEXTURE_UNITS)}
 POSITION_TYPES = (gl.GL_SHORT, gl.GL_INT, gl.GL_FLOAT, gl.GL_DOUBLE)
 NORMAL_TYPES = (gl.GL_BYTE, *POSITION_TYPES)
 LARGEST_STRIDE = 2048  # Mesa's GL_MAX_VERTEX_ATTRIB_STRIDE
 ARRAYS = {gl.GL_VERTEX_ARRAY: "position", gl.GL_NORMAL_ARRAY: "normal", gl.GL_COLOR_ARRAY: "color"}
+CLIENT_STATES = (*ARRAYS, gl.GL_TEXTURE_COORD_ARRAY)
 # glInterleavedArrays: components of texture coordinate, colour (key of `COLORS`), normal and position
 INTERLEAVED = {
     gl.GL_V2F: (0, "", 0, 2), gl.GL_V3F: (0, "", 0, 3), gl.GL_C4UB_V2F: (0, "4ub", 0, 2),
@@ -48,10 +56,12 @@ def glDisableClientState(array: int) -> None:
 def _client_state(operation: str, array: int, on: bool) -> None:
     context = outside_begin(operation)
     expected = "GL_VERTEX_ARRAY, GL_NORMAL_ARRAY, GL_COLOR_ARRAY or GL_TEXTURE_COORD_ARRAY"
-    allowed = (*ARRAYS, gl.GL_TEXTURE_COORD_ARRAY)
-    if context is not None and is_one_of(operation, "array", array, allowed, expected):
-        key = ARRAYS.get(array, f"texcoord{context.arrays.active_unit}")
-        (context.arrays.enabled.add if on else context.arrays.enabled.discard)(key)
+    if context is not None and is_one_of(operation, "array", array, CLIENT_STATES, expected):
+        arrays = context.arrays
+        key = ARRAYS.get(array) or f"texcoord{arrays.active_unit}"
+        if (key in arrays.enabled) != on:
+            (arrays.enabled.add if on else arrays.enabled.discard)(key)
+            arrays.active = None
 
 
 def glClientActiveTexture(texture: int) -> None:
@@ -73,7 +83,7 @@ def glNormalPointer(type: int, stride: int, pointer: Any) -> None:
 
 def glColorPointer(size: int, type: int, stride: int, pointer: Any) -> None:
     """Set the array of colours: `size` 3 or 4 components per vertex; unsigned integers represent 0 to 1."""
-    _pointer("glColorPointer", "color", size, (3, 4), type, tuple(TYPES), stride, pointer)
+    _pointer("glColorPointer", "color", size, (3, 4), type, TYPES, stride, pointer)
 
 
 def glTexCoordPointer(size: int, type: int, stride: int, pointer: Any) -> None:
@@ -83,7 +93,7 @@ def glTexCoordPointer(size: int, type: int, stride: int, pointer: Any) -> None:
 
 
 def _pointer(
-    operation: str, key: str, size: int, sizes: tuple[int, ...], type: int, types: tuple[int, ...], stride: int,
+    operation: str, key: str, size: int, sizes: tuple[int, ...], type: int, types: Container[int], stride: int,
     pointer: Any,
 ) -> None:  # fmt: skip
     context = outside_begin(operation)
@@ -94,14 +104,32 @@ def _pointer(
     elif not 0 <= stride <= LARGEST_STRIDE:
         fail(gl.GL_INVALID_VALUE, operation, f"stride={stride}: expected 0 to {LARGEST_STRIDE}")
     else:
-        context.arrays.layouts[key] = ArrayLayout(int(size), int(type), int(stride))
         arrays = context.arrays
+        if not arrays.array_buffer and pointer is not None:
+            array = _array_of(arrays, key, pointer, size, type, stride)
+            if arrays.pointers.get(key) is not array:
+                arrays.pointers[key], arrays.layouts[key] = array, array.layout
+                arrays.offsets.pop(key, None)
+                arrays.active = None
+            return
+        arrays.layouts[key], arrays.active = ArrayLayout(int(size), int(type), int(stride)), None
         arrays.pointers.pop(key, None)
         arrays.offsets.pop(key, None)
         if arrays.array_buffer:
             arrays.offsets[key] = (arrays.array_buffer, offset_of(pointer))
-        elif pointer is not None:
-            arrays.pointers[key] = rows_of(pointer, np.dtype(TYPES[type]), size, stride)
+
+
+def _array_of(arrays: ClientArrays, key: str, pointer: Any, size: int, type: int, stride: int) -> VertexArray:
+    """Return the user's array, or a copy as it is now if GL could not read it in place."""
+    source = key, id(pointer), size, type, stride
+    known: VertexArray | None = arrays.sources.get(source)
+    if known is not None and known.owner is pointer and known.rows.dtype == getattr(pointer, "dtype", None):
+        return known
+    layout = ArrayLayout(int(size), int(type), int(stride))
+    array = vertex_array(SLOTS[key], rows_of(pointer, DTYPES[type], size, stride), layout, pointer)
+    if isinstance(pointer, np.ndarray) and pointer.dtype == array.rows.dtype and pointer.flags.c_contiguous:
+        arrays.sources.put(source, array, 3 * pointer.nbytes)  # with copy and conversion
+    return array
 
 
 def rows_of(pointer: Any, dtype: np.dtype, size: int, stride: int) -> np.ndarray:
@@ -150,9 +178,9 @@ def glInterleavedArrays(format: int, stride: int, pointer: Any) -> None:
 
 
 def _memory(pointer: Any) -> memoryview:
-    """Return an array as bytes, without conversion of its type: a layout may mix types."""
+    """Return the bytes of an array, without conversion of its type: a layout may mix types."""
     values = np.array(pointer, np.float32) if isinstance(pointer, list | tuple) else pointer
-    return memoryview(values if isinstance(values, bytes) else np.ascontiguousarray(values).tobytes())
+    return memoryview(values if isinstance(values, bytes) else np.ascontiguousarray(values).reshape(-1).view(np.uint8))
 
 
 def glPushClientAttrib(mask: int) -> None:
@@ -183,7 +211,7 @@ def glPopClientAttrib() -> None:
         return
     mask, arrays, pack_store, unpack_store = context.client_stack.pop()
     if mask & gl.GL_CLIENT_VERTEX_ARRAY_BIT:
-        context.arrays = evolve(arrays, converted=context.arrays.converted)
+        context.arrays = evolve(arrays, active=None)  # buffer objects may have changed
     if mask & gl.GL_CLIENT_PIXEL_STORE_BIT:
         context.pack_store, context.unpack_store = pack_store, unpack_store
 

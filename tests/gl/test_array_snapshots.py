@@ -1,10 +1,10 @@
-"""Immutable arrays are recorded without a copy; all others are copied."""
+"""Immutable arrays are recorded without a copy; all others are copied once for each of their contents."""
 
 import numpy as np
 import pytest
 
 from softshadow import gl
-from softshadow.gl import array_snapshots
+from softshadow.gl import constant_attributes
 
 CORNERS = np.array([(-1, -1, 0, 1), (3, -1, 0, 1), (-1, 3, 0, 1)], np.float32)
 
@@ -31,7 +31,25 @@ def test_read_only_arrays_are_not_copied(context):
     gl.glVertexPointer(4, gl.GL_FLOAT, 0, corners)
     gl.glDrawElements(gl.GL_TRIANGLES, 3, gl.GL_UNSIGNED_INT, indices)
     assert np.shares_memory(last_draw(context).vertices.position, corners)
-    assert np.shares_memory(last_draw(context).indices, indices)
+
+
+def test_recorded_indices_are_always_a_copy(context):
+    """Kernels do not check bounds, and the owner of a read-only array can make it writeable again."""
+    indices = frozen(np.array([0, 1, 2], np.uint32))
+    gl.glVertexPointer(4, gl.GL_FLOAT, 0, CORNERS)
+    gl.glDrawElements(gl.GL_TRIANGLES, 3, gl.GL_UNSIGNED_INT, indices)
+    assert not np.shares_memory(last_draw(context).indices, indices)
+
+
+def test_arrays_that_become_writeable_are_read_again(context):
+    corners = frozen(CORNERS)
+    gl.glVertexPointer(4, gl.GL_FLOAT, 0, corners)
+    gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
+    corners.setflags(write=True)
+    for x in (-0.5, 0.5):
+        corners[1, 0] = x
+        gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
+        assert (last_draw(context).vertices.position == corners).all()
 
 
 def test_recorded_arrays_do_not_change_with_the_callers_arrays(context):
@@ -75,7 +93,7 @@ def test_indices_are_checked_at_every_draw(context):
 @pytest.mark.parametrize("count", [0, 1, 5])
 def test_repeated_rows_share_their_memory(count):
     row = np.array([1, -0.0, np.nan], np.float32)
-    rows = array_snapshots.repeat_row(row, count)
+    rows = constant_attributes.repeat_row(row, count)
     expected = np.broadcast_to(row, (count, 3))
     assert rows.shape == expected.shape
     assert rows.tobytes() == expected.tobytes()

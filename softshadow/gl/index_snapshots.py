@@ -1,0 +1,124 @@
+"""Snapshots of index arrays: int32 copies that nobody can change, with the range of their indices.
+
+Kernels do not check bounds, so the range belongs to the copy. At each draw the caller's array is compared with it; an
+equal array is neither copied nor searched again.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from softshadow.context import Context
+from softshadow.gl.array_snapshots import SMALL, same_memory
+from softshadow.gl.buffers import offset_of
+
+BYTES_BEFORE = 64  # at both ends of the content; arrays with equal ones are compared
+
+
+@dataclass(eq=False, slots=True)
+class IndexSnapshot:
+    """The indices of a draw: (N,) int32, read-only, with the smallest and the largest; 0 and -1 without indices.
+
+    `content` is the source of a small array, `raw` that of a larger one, at `address`.
+    """
+
+    indices: np.ndarray
+    lowest: int
+    highest: int
+    content: bytes | None
+    raw: np.ndarray
+    address: int
+
+
+@dataclass(eq=False, slots=True)
+class IndexArray:
+    """An array of indices as the caller has passed it, and its last snapshot.
+
+    `flat` are its first numbers at `address`, or None if nobody can change them.
+    """
+
+    owner: Any
+    dtype: Any
+    flat: np.ndarray | None
+    address: int
+    snapshot: IndexSnapshot
+
+
+def snapshot_indices(context: Context, operation: str, count: int, dtype: np.dtype, indices: Any) -> IndexSnapshot:
+    """Return the first `count` indices of the caller's array or, at an offset, of the bound buffer object.
+
+    Raises
+    ------
+    ValueError
+        There are fewer than `count`.
+    """
+    arrays = context.arrays
+    if arrays.element_buffer:
+        bound, offset = context.buffers[arrays.element_buffer], offset_of(indices)
+        return bound.view(  # type: ignore[no-any-return]
+            (offset, count, dtype.char),
+            lambda: _taken(context, operation, count, _numbers_at(bound.content, offset, dtype)),
+        )
+    key = id(indices), count, dtype.char
+    known: IndexArray | None = arrays.indices.get(key)
+    if known is not None and known.owner is indices:
+        if known.flat is None:
+            return known.snapshot
+        if indices.dtype is known.dtype:
+            content = known.snapshot.content
+            if (
+                known.flat.tobytes() == content
+                if content is not None
+                else same_memory(known.address, known.snapshot.address, known.flat.nbytes)
+            ):
+                return known.snapshot
+    if isinstance(indices, bytes | bytearray | memoryview):
+        numbers = np.frombuffer(indices, dtype)[:count]
+    else:
+        numbers = np.ravel(indices)[:count]
+    snapshot = _taken(context, operation, count, numbers)
+    if isinstance(indices, np.ndarray) and indices.flags.c_contiguous and numbers.size:
+        flat = indices.reshape(-1)[:count]
+        entry = IndexArray(indices, indices.dtype, flat, flat.ctypes.data, snapshot)
+        arrays.indices.put(key, entry, indices.nbytes + 2 * snapshot.raw.nbytes)
+    elif isinstance(indices, bytes):
+        entry = IndexArray(indices, None, None, 0, snapshot)
+        arrays.indices.put(key, entry, len(indices) + 2 * snapshot.raw.nbytes)
+    return snapshot
+
+
+def _numbers_at(content: np.ndarray, offset: int, dtype: np.dtype) -> np.ndarray:
+    """Return the contents of a buffer object from an offset on, as numbers; an incomplete last one is left out."""
+    content = content[offset:]
+    return content[: len(content) // dtype.itemsize * dtype.itemsize].view(dtype)
+
+
+def _taken(context: Context, operation: str, count: int, numbers: np.ndarray) -> IndexSnapshot:
+    """Return a snapshot of numbers; an equal one of another array is used again."""
+    numbers = numbers[:count]
+    if len(numbers) < count:
+        raise ValueError(f"{operation}(count={count}): got only {len(numbers)} indices")
+    raw = numbers.copy()
+    raw.setflags(write=False)
+    as_bytes = raw.view(np.uint8) if raw.size else raw
+    pool = context.arrays.snapshots
+    key = "indices", raw.dtype.char, count, as_bytes[:BYTES_BEFORE].tobytes(), as_bytes[-BYTES_BEFORE:].tobytes()
+    content = raw.tobytes() if raw.nbytes <= SMALL else None
+    address = 0 if content is not None else raw.ctypes.data
+    found: IndexSnapshot | None = pool.use(key)
+    if found is not None and (
+        content == found.content if content is not None else same_memory(address, found.address, raw.nbytes)
+    ):
+        return found
+    if raw.dtype in (np.int32, np.uint32):
+        copy = raw.view(np.int32)
+    else:
+        copy = np.array(raw, np.int32)
+        copy.setflags(write=False)
+    lowest, highest = (int(copy.min()), int(copy.max())) if count else (0, -1)
+    snapshot = IndexSnapshot(copy, lowest, highest, content, raw, address)
+    pool.put(key, snapshot, raw.nbytes + copy.nbytes)
+    return snapshot
