@@ -96,7 +96,9 @@ def is_unchanged(array: VertexArray, kept: RowSnapshot, lowest: int, end: int) -
     assert kept.raw is not None
     if array.row_bytes:
         start, row_bytes = lowest - kept.first, array.row_bytes
-        return same_memory(array.address + lowest * row_bytes, kept.address + start * row_bytes, (end - lowest) * row_bytes)
+        return same_memory(
+            array.address + lowest * row_bytes, kept.address + start * row_bytes, (end - lowest) * row_bytes
+        )
     bits = f"u{array.rows.itemsize}"
     now, before = array.rows.view(bits), kept.raw.view(bits)
     return all(
@@ -118,9 +120,7 @@ def _copied(array: VertexArray, first: int, end: int, context: Context) -> RowSn
     small = raw.nbytes <= SMALL
     content = raw.tobytes() if small else None
     address = 0 if small or not raw.size else raw.ctypes.data
-    if found is not None and (
-        content == found.content if small else same_memory(address, found.address, raw.nbytes)
-    ):
+    if found is not None and (content == found.content if small else same_memory(address, found.address, raw.nbytes)):
         return found
     raw.setflags(write=False)
     rows = _converted(raw, array.slot, context)

@@ -85,11 +85,10 @@ class Arrays:
         call = (size, type, stride, pointer)
         gl.glNormalPointer(*call[1:]) if key == "normal" else POINTERS[key](*call)
         gl.glBindBuffer(gl.GL_ARRAY_BUFFER, 0)
-        live = numbers.view(np.uint8) if bind else np.array(pointer, dtype) if way in ("list", "bytes") else pointer
-        if way == "bytes":
-            live = numbers.copy()
-        if way == "reversed":
-            live = pointer.copy()
+        live = numbers.view(np.uint8) if bind else pointer
+        if way in ("list", "bytes", "reversed"):  # read by the pointer call, or nobody can change them
+            live = np.ascontiguousarray(numbers[::-1] if way == "reversed" else numbers).copy()
+            live.setflags(write=False)
         self.memory[key] = (live, dtype, size, stride, bind)
 
     def numbers(self, dtype: np.dtype, n: int) -> np.ndarray:
