@@ -172,9 +172,8 @@ def _vertices(context: Context, operation: str, lowest: int, first: int, end: in
         return None
     for array in active:
         if len(array.rows) < end:
-            key = KEYS[array.slot]
-            n_rows = len(array.rows)
-            raise ValueError(f"{operation}: vertex {end - 1} is outside the array of {key}s, which has {n_rows}")
+            name, n_rows = KEYS[array.slot], len(array.rows)
+            raise ValueError(f"{operation}: vertex {end - 1} is outside the array of {name}s, which has {n_rows}")
     if end <= first:
         return None
     position, *others = [snapshot_rows(array, first, lowest, end, context) for array in active]
@@ -205,7 +204,8 @@ def _array(context: Context, key: str) -> VertexArray | None:
         return arrays.pointers.get(key)
     name, offset = arrays.offsets[key]
     bound, layout = context.buffers[name], arrays.layout(key)
-    return bound.view((key, offset, layout), lambda: _array_in(bound, key, offset, layout))  # type: ignore[no-any-return]
+    array: VertexArray = bound.view((key, offset, layout), lambda: _array_in(bound, key, offset, layout))
+    return array
 
 
 def _array_in(bound: BufferObject, key: str, offset: int, layout: ArrayLayout) -> VertexArray:

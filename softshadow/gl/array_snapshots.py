@@ -95,14 +95,12 @@ def is_unchanged(array: VertexArray, kept: RowSnapshot, lowest: int, end: int) -
         return array.rows[lowest:end].tobytes() == before
     assert kept.raw is not None
     if array.row_bytes:
-        start, row_bytes = lowest - kept.first, array.row_bytes
-        return same_memory(
-            array.address + lowest * row_bytes, kept.address + start * row_bytes, (end - lowest) * row_bytes
-        )
+        then = kept.address + (lowest - kept.first) * array.row_bytes
+        return same_memory(array.address + lowest * array.row_bytes, then, (end - lowest) * array.row_bytes)
     bits = f"u{array.rows.itemsize}"
-    now, before = array.rows.view(bits), kept.raw.view(bits)
+    now, past = array.rows.view(bits), kept.raw.view(bits)
     return all(
-        np.array_equal(now[row : min(row + CHUNK, end)], before[row - kept.first : min(row + CHUNK, end) - kept.first])
+        np.array_equal(now[row : min(row + CHUNK, end)], past[row - kept.first : min(row + CHUNK, end) - kept.first])
         for row in range(lowest, end, CHUNK)
     )
 
@@ -144,7 +142,8 @@ def _fixed(array: VertexArray, context: Context) -> RowSnapshot:
         snapshot = RowSnapshot(0, len(rows), _converted(rows, array.slot, context))
         found = snapshot, _owner(rows)  # no other array can get the id of the owner
         context.arrays.snapshots.put(key, found, snapshot.bytes + _owner(rows).nbytes)
-    return found[0]  # type: ignore[no-any-return]
+    kept: RowSnapshot = found[0]
+    return kept
 
 
 def slice_of(snapshot: RowSnapshot, first: int, end: int) -> np.ndarray:

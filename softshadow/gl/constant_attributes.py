@@ -51,7 +51,7 @@ def constant_attributes(context: Context) -> tuple[ConstantAttribute, ...]:
     if kept is None:
         kept = context.arrays.constants = ConstantAttributes((), (), {}, {})
     elif all(map(is_, values, kept.values)):
-        return kept.attributes  # type: ignore[no-any-return]
+        return kept.attributes
     if len(kept.known) >= MOST_VALUES or len(kept.sets) >= MOST_VALUES:
         kept.known, kept.sets, kept.values, kept.attributes = {}, {}, (), ()
     found = []
@@ -65,7 +65,7 @@ def constant_attributes(context: Context) -> tuple[ConstantAttribute, ...]:
         found.append(attribute)
     attributes = tuple(found)
     kept.values, kept.attributes = values, kept.sets.setdefault(attributes, attributes)
-    return kept.attributes  # type: ignore[no-any-return]
+    return kept.attributes
 
 
 def repeat_row(row: np.ndarray, count: int) -> np.ndarray:

@@ -58,10 +58,11 @@ def snapshot_indices(context: Context, operation: str, count: int, dtype: np.dty
     arrays = context.arrays
     if arrays.element_buffer:
         bound, offset = context.buffers[arrays.element_buffer], offset_of(indices)
-        return bound.view(  # type: ignore[no-any-return]
+        stored: IndexSnapshot = bound.view(
             (offset, count, dtype.char),
             lambda: _taken(context, operation, count, _numbers_at(bound.content, offset, dtype)),
         )
+        return stored
     key = id(indices), count, dtype.char
     known: IndexArray | None = arrays.indices.get(key)
     if known is not None and known.owner is indices:

@@ -180,7 +180,9 @@ def glInterleavedArrays(format: int, stride: int, pointer: Any) -> None:
 def _memory(pointer: Any) -> memoryview:
     """Return the bytes of an array, without conversion of its type: a layout may mix types."""
     values = np.array(pointer, np.float32) if isinstance(pointer, list | tuple) else pointer
-    return memoryview(values if isinstance(values, bytes) else np.ascontiguousarray(values).reshape(-1).view(np.uint8))
+    if isinstance(values, bytes):
+        return memoryview(values)
+    return np.ascontiguousarray(values).reshape(-1).view(np.uint8).data
 
 
 def glPushClientAttrib(mask: int) -> None:

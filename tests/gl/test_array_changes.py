@@ -107,14 +107,14 @@ class Arrays:
             gl.glBindBuffer(gl.GL_ARRAY_BUFFER, bind)
             gl.glBufferSubData(gl.GL_ARRAY_BUFFER, place * dtype.itemsize, new)
             gl.glBindBuffer(gl.GL_ARRAY_BUFFER, 0)
-            for other, (content, *rest) in list(self.memory.items()):
+            for other, (_, *rest) in list(self.memory.items()):
                 if rest[-1] == bind:
                     self.memory[other] = (changed, *rest)
         elif live.flags.writeable:
             live[place] = new[0]
 
     def expected(self, key: str) -> np.ndarray:
-        live, dtype, size, stride, bind = self.memory[key]
+        live, dtype, size, stride, _ = self.memory[key]
         content = live.tobytes()
         values = np.frombuffer(content[: len(content) // dtype.itemsize * dtype.itemsize], dtype)
         return converted(rows_of(values, dtype, size, stride), key, self.real)
