@@ -12,6 +12,7 @@ if TYPE_CHECKING:
         CounterSaturated,
         DegenerateFaces,
         FarFromOrigin,
+        HistoryCut,
         InsideOutMesh,
         LightInsideCaster,
         MeshError,
@@ -43,6 +44,7 @@ __all__ = [
     "CounterSaturated",
     "DegenerateFaces",
     "FarFromOrigin",
+    "HistoryCut",
     "InsideOutMesh",
     "Light",
     "LightInsideCaster",
@@ -82,8 +84,8 @@ _MODULES = ("gl", "testing")
 _RENAMED = {"failures": ("softshadow.gallery", "GALLERY"), "technique_names": ("softshadow.techniques", "names")}
 _HOMES = {
     "softshadow.errors": (
-        "CounterSaturated", "DegenerateFaces", "FarFromOrigin", "InsideOutMesh", "LightInsideCaster", "MeshError",
-        "MisorientedMesh", "NearClipZPass", "NonManifoldMesh", "OpenMesh", "OutsideLightFrustum", "PartlyReadFile",
+        "CounterSaturated", "DegenerateFaces", "FarFromOrigin", "HistoryCut", "InsideOutMesh", "LightInsideCaster",
+        "MeshError", "MisorientedMesh", "NearClipZPass", "NonManifoldMesh", "OpenMesh", "OutsideLightFrustum", "PartlyReadFile",
         "SceneError", "SoftShadowError", "StateError", "TJunction", "UnweldedMesh", "Warning",
     ),
     "softshadow.inspection.pictures": ("stencil_palette",),

@@ -77,6 +77,10 @@ class CounterSaturated(Warning):
     """A stencil count reached its largest value (or wrapped): larger counts are lost."""
 
 
+class HistoryCut(Warning):
+    """A recording has been bounded and has dropped its earliest commands: answers begin after them."""
+
+
 def nearest(name: str, choices: Iterable[str]) -> str:
     """Return the end of an "unknown name" message: the nearest choice, ignoring case, and the list of choices.
 

@@ -15,9 +15,9 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context.arrays import BufferObject, ClientArrays
 from softshadow.context.pending_attributes import PendingAttributes
+from softshadow.context.recording import Frame
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
-from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Clear, Command, Draw, Vertices
 from softshadow.pipeline.execute import execute
@@ -28,26 +28,6 @@ from softshadow.programs.inverse import known_kind
 from softshadow.state import TEXTURE_UNITS, State
 
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
-
-
-@dataclass
-class Frame:
-    """The recording: the parameters of the window, every command, and where each step ends.
-
-    `steps` holds (title, number of commands until its end).
-    """
-
-    size: tuple[int, int]
-    depth_format: str
-    stencil_bits: int
-    precision: str
-    commands: list[Command] = field(default_factory=list)
-    steps: list[tuple[str, int]] = field(default_factory=list)
-
-    def fresh_storage(self) -> Storage:
-        """Return new storage in its state before the first command."""
-        window = default_framebuffer(*self.size, self.depth_format, self.stencil_bits, self.precision)
-        return Storage({window.name: window})
 
 
 @dataclass
@@ -87,6 +67,7 @@ class Context:
     polygon_offset_slope : "max", "length" or "slide" (no absolute value, as printed on the slide)
     polygon_offset_unit : "mesa" (two depth steps) or "spec" (one)
     raise_errors : raise `GLError` besides recording the error for glGetError
+    history_bytes : how much of the recording to keep at most, None for all
     """
 
     def __init__(
@@ -99,12 +80,13 @@ class Context:
         polygon_offset_slope: str = "max",
         polygon_offset_unit: str = "mesa",
         raise_errors: bool = True,
+        history_bytes: int | None = None,
     ) -> None:
         if polygon_offset_slope not in ("max", "length", "slide"):
             raise ValueError(f"polygon_offset_slope={polygon_offset_slope!r}: expected 'max', 'length' or 'slide'")
         if polygon_offset_unit not in ("mesa", "spec"):
             raise ValueError(f"polygon_offset_unit={polygon_offset_unit!r}: expected 'mesa' or 'spec'")
-        self._frame = Frame((width, height), depth_format, stencil_bits, precision)
+        self._frame = Frame((width, height), depth_format, stencil_bits, precision, history_bytes=history_bytes)
         self.objects = self._frame.fresh_storage()
         self._waiting = DrawQueue(self.objects)
         self.offset_slope, self.offset_unit = polygon_offset_slope, polygon_offset_unit
@@ -241,7 +223,8 @@ class Context:
             execute(command, self.storage)
         elif not self._waiting.add(command):
             execute(command, self.objects)
-        self._frame.commands.append(command)
+        if self._frame.append(command):
+            self._frame.shorten(self.storage)
 
     def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:
         """Draw primitives under the current state; nobody may change the arrays afterwards."""

@@ -62,6 +62,7 @@ def create_context(
     polygon_offset_slope: str = "max",
     polygon_offset_unit: str = "mesa",
     raise_errors: bool = True,
+    history_mb: float | None = 256,
 ) -> Context:
     """Create a context in GL's initial state and make it this thread's current one.
 
@@ -76,6 +77,8 @@ def create_context(
     polygon_offset_slope : "max", "length" or "slide" (no absolute value, as printed on the slide)
     polygon_offset_unit : "mesa" (a unit is two steps of fixed-point depth) or "spec" (one)
     raise_errors : raise `GLError` besides recording the error for glGetError
+    history_mb : megabytes of recorded commands and arrays to keep at most, None for all; older ones are forgotten, so
+        an animation runs in constant memory
 
     Raises
     ------
@@ -92,7 +95,10 @@ def create_context(
     array([[2, 2, 2, 2]], dtype=uint8)
     """
     offset = (polygon_offset_slope, polygon_offset_unit)
-    context = Context(width, height, depth_format, stencil_bits, precision, *offset, raise_errors)
+    if history_mb is not None and not history_mb > 0:
+        raise ValueError(f"history_mb={history_mb!r}: expected more than 0, or None")
+    history_bytes = None if history_mb is None or history_mb == float("inf") else int(history_mb * (1 << 20))
+    context = Context(width, height, depth_format, stencil_bits, precision, *offset, raise_errors, history_bytes)
     context.before = make_current(context)
     return context
 

@@ -21,6 +21,7 @@ SMALL = 4096  # bytes: up to here, `tobytes` and a comparison of bytes are faste
 CHUNK = 1 << 16  # rows that are compared at a time if they are not contiguous
 POSITION, COLOR, NORMAL, TEXCOORD = range(4)  # slots of the attributes; texture coordinates of the other units follow
 LARGEST_PART = 4  # a changed array is copied whole if a draw reads a fourth of it or more
+ALWAYS_WHOLE = 1 << 16  # bytes: up to here, a new array is copied whole
 MOST_SLICES = 4096  # of one snapshot
 
 _memcmp = ctypes.CDLL("msvcrt" if os.name == "nt" else None).memcmp
@@ -64,6 +65,8 @@ def snapshot_rows(array: VertexArray, first: int, lowest: int, end: int, context
             return kept
         if (end - first) * LARGEST_PART >= kept.end - kept.first:
             first, end = kept.first, kept.end
+    elif array.rows.nbytes <= ALWAYS_WHOLE:
+        first, end = 0, len(array.rows)
     elif kept is not None:
         first, end = _grown(kept, first, end, len(array.rows))
     array.snapshot = _fixed(array, context) if array.is_fixed else _copied(array, first, end, context)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from softshadow import errors, image, scene, state, texture
+from softshadow import errors, framebuffer, image, scene, state, texture
 from softshadow.context import Frame
 from softshadow.errors import SoftShadowError
 from softshadow.pipeline import commands
@@ -26,10 +26,11 @@ def _of(module: Any, base: type = object) -> dict[str, type]:
 
 
 WARNINGS = _of(errors, errors.Warning)
+IN_STORAGE = (framebuffer.Storage, framebuffer.Framebuffer, framebuffer.Attachment, image.Image, texture.Texture)
 IN_SCENE = (scene.Scene, scene.SceneObject, scene.Mesh, scene.Camera, scene.Light, scene.Material)
 KINDS: dict[str, type] = {
     **{name: kind for name, kind in (_of(commands) | _of(state)).items() if is_dataclass(kind)},
-    **{kind.__name__: kind for kind in (texture.Sampler, image.Format, Frame, *IN_SCENE)},
+    **{kind.__name__: kind for kind in (texture.Sampler, image.Format, Frame, *IN_STORAGE, *IN_SCENE)},
 }
 NAMES = {kind: name for name, kind in KINDS.items()}
 

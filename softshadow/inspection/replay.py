@@ -94,7 +94,7 @@ class Replay:
         self._cache: OrderedDict[int, Buffers | Cells] = OrderedDict()  # by step, least recently used first
         self._last: Cells | None = None
         self._storage: Storage | None = None  # allocated by the first replay
-        self._played = 0  # number of commands
+        self._played, self._dropped = 0, 0  # number of commands; of those that the frame had dropped by then
 
     def storage_after(self, commands: int) -> Storage:
         """Return the storage as it was after the first `commands` commands; the next call changes it.
@@ -106,8 +106,8 @@ class Replay:
         recorded = self.frame.commands
         if not 0 <= commands <= len(recorded):
             raise StateError(f"commands={commands}: the recording has {len(recorded)}")
-        if self._storage is None or commands < self._played:
-            self._storage, self._played = self.frame.fresh_storage(), 0
+        if self._storage is None or commands < self._played or self._dropped != self.frame.dropped:
+            self._storage, self._played, self._dropped = self.frame.fresh_storage(), 0, self.frame.dropped
         for command in recorded[self._played : commands]:
             execute(command, self._storage)
         self._played = commands

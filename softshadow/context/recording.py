@@ -1,0 +1,173 @@
+"""The recording of a context: every command, where each step ends, and the state of the storage before the first one.
+
+An animation runs for as long as its user likes, so a recording may be bounded: then it forgets its earliest commands
+and begins with a copy of the storage as they left it. Replayed from there, it gives every buffer again, bit for bit.
+"""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from softshadow.errors import HistoryCut
+from softshadow.framebuffer import Framebuffer, Storage, default_framebuffer
+from softshadow.image import Image
+from softshadow.pipeline.commands import Command, DefineImage, Draw, UpdateImage, Vertices
+
+COMMAND_BYTES = 1300  # of a command without its arrays: about this much for a draw with two matrices and a new state
+
+
+class Contents:
+    """The bytes of a part of the recording; an array that several commands share counts once."""
+
+    def __init__(self, before: Contents | None = None) -> None:
+        self.commands = 0
+        self.new_bytes = 0  # those that the part before does not hold, too
+        self._sizes: dict[int, int] = {}  # by id: the commands keep the arrays alive
+        self._before = {} if before is None else before._sizes
+
+    @property
+    def bytes(self) -> int:
+        """The bytes of all commands and arrays of this part."""
+        return self.commands * COMMAND_BYTES + sum(self._sizes.values())
+
+    def add(self, command: Command) -> None:
+        """Count a command."""
+        self.commands += 1
+        self.new_bytes += COMMAND_BYTES
+        kind = type(command)
+        if kind is Draw:
+            if id(command.vertices) not in self._sizes:  # type: ignore[union-attr]
+                self._add_vertices(command.vertices)  # type: ignore[union-attr]
+            for array in (command.indices, command.joined_positions):  # type: ignore[union-attr]
+                if array is not None:
+                    self._add_array(array)
+        elif kind is DefineImage or kind is UpdateImage:
+            for array in (command.cells, command.stencil):  # type: ignore[union-attr]
+                if array is not None:
+                    self._add_array(array)
+
+    def _add_vertices(self, vertices: Vertices) -> None:
+        self._sizes[id(vertices)] = 0
+        for array in (vertices.position, vertices.color, vertices.normal, *vertices.texcoords):
+            if array.strides[0]:  # a constant attribute is one row
+                self._add_array(array)
+        for array in vertices.materials.values():
+            self._add_array(array)
+
+    def _add_array(self, array: np.ndarray) -> None:
+        while isinstance(array.base, np.ndarray):
+            array = array.base
+        if id(array) not in self._sizes:
+            self._sizes[id(array)] = array.nbytes
+            if id(array) not in self._before:
+                self.new_bytes += array.nbytes
+
+
+@dataclass
+class Frame:
+    """The recording: the parameters of the window, every command, and where each step ends.
+
+    `steps` holds (title, number of commands until its end). A bounded recording (`history_bytes`, None for all) keeps
+    between half of these bytes and all of them: `start` is the storage before the first command that it still has,
+    None if that is the first one of all, and `dropped` the number of commands before it. Steps that have ended before
+    it are dropped, too; `dropped_steps` is their number.
+    """
+
+    size: tuple[int, int]
+    depth_format: str
+    stencil_bits: int
+    precision: str
+    commands: list[Command] = field(default_factory=list)
+    steps: list[tuple[str, int]] = field(default_factory=list)
+    start: Storage | None = None
+    dropped: int = 0
+    dropped_steps: int = 0
+    history_bytes: int | None = None
+
+    def __post_init__(self) -> None:
+        self._older, self._newer = Contents(), Contents()  # before and after the mark
+        self._mark: tuple[int, Storage] | None = None  # number of commands, and the storage after them
+
+    @property
+    def bytes(self) -> int:
+        """The bytes of commands and arrays, if the recording is bounded; an array that several share counts once."""
+        return self._older.bytes + self._newer.new_bytes
+
+    def append(self, command: Command) -> bool:
+        """Record a command that is carried out; return whether `shorten` must be called when all of them have been."""
+        self.commands.append(command)
+        if self.history_bytes is None:
+            return False
+        self._newer.add(command)
+        return self._newer.new_bytes * 2 > self.history_bytes
+
+    def shorten(self, storage: Storage) -> None:
+        """Drop the commands before the mark, and set it here; `storage` is as all commands left it."""
+        if self._mark is not None:
+            count, self.start = self._mark
+            del self.commands[:count]
+            steps = [(title, end - count) for title, end in self.steps if end > count]
+            self.dropped += count
+            self.dropped_steps += len(self.steps) - len(steps)
+            self.steps[:] = steps
+        self._mark = len(self.commands), copy_storage(storage)
+        self._older, self._newer = self._newer, Contents(self._newer)
+
+    def fresh_storage(self) -> Storage:
+        """Return new storage in its state before the first command.
+
+        Warns
+        -----
+        HistoryCut                   the recording has dropped earlier commands
+        """
+        if self.start is not None:
+            warnings.warn(HistoryCut(self._cut_message()), stacklevel=2)
+            return copy_storage(self.start)
+        window = default_framebuffer(*self.size, self.depth_format, self.stencil_bits, self.precision)
+        return Storage({window.name: window})
+
+    def _cut_message(self) -> str:
+        bound = "" if self.history_bytes is None else f" (history_mb={self.history_bytes / (1 << 20):g})"
+        steps = f" and {self.dropped_steps} steps" if self.dropped_steps else ""
+        return (
+            f"the recording keeps the last {len(self.commands)} commands{bound}: {self.dropped} earlier commands"
+            f"{steps} are not in it; with gl.create_context(..., history_mb=None) it keeps all"
+        )
+
+
+def copy_storage(storage: Storage) -> Storage:
+    """Return a copy of all objects; images that several of them share are shared in the copy, too."""
+    images: dict[int, Image] = {}
+
+    def copied(image: Image) -> Image:
+        if id(image) not in images:
+            images[id(image)] = image.copy()
+            if image.stencil is not None:
+                images[id(image.stencil)] = images[id(image)].stencil  # type: ignore[assignment]
+        return images[id(image)]
+
+    def copied_framebuffer(target: Framebuffer) -> Framebuffer:
+        attachments = {point: replace(each, image=copied(each.image)) for point, each in target.attachments.items()}
+        accumulation = None if target.accumulation is None else target.accumulation.copy()
+        return replace(target, attachments=attachments, accumulation=accumulation)
+
+    everything: list[Any] = [image for texture in storage.textures.values() for image in texture.images.values()]
+    everything += storage.renderbuffers.values()
+    everything += [each.image for target in storage.framebuffers.values() for each in target.attachments.values()]
+    for image in sorted(everything, key=lambda image: image.stencil is None):  # a packed one before its stencil image
+        copied(image)
+    return replace(
+        storage,
+        framebuffers={name: copied_framebuffer(target) for name, target in storage.framebuffers.items()},
+        textures={
+            name: replace(texture, images={place: copied(image) for place, image in texture.images.items()})
+            for name, texture in storage.textures.items()
+        },
+        renderbuffers={name: copied(image) for name, image in storage.renderbuffers.items()},
+        queries=dict(storage.queries),
+        visibility_cache=None,
+    )
