@@ -85,8 +85,8 @@ _RENAMED = {"failures": ("softshadow.gallery", "GALLERY"), "technique_names": ("
 _HOMES = {
     "softshadow.errors": (
         "CounterSaturated", "DegenerateFaces", "FarFromOrigin", "HistoryCut", "InsideOutMesh", "LightInsideCaster",
-        "MeshError", "MisorientedMesh", "NearClipZPass", "NonManifoldMesh", "OpenMesh", "OutsideLightFrustum", "PartlyReadFile",
-        "SceneError", "SoftShadowError", "StateError", "TJunction", "UnweldedMesh", "Warning",
+        "MeshError", "MisorientedMesh", "NearClipZPass", "NonManifoldMesh", "OpenMesh", "OutsideLightFrustum",
+        "PartlyReadFile", "SceneError", "SoftShadowError", "StateError", "TJunction", "UnweldedMesh", "Warning",
     ),
     "softshadow.inspection.pictures": ("stencil_palette",),
     "softshadow.pipeline": ("explain_paths", "set_threads", "use_short_cuts"),

@@ -1,11 +1,11 @@
 """Display lists: calls that are recorded and carried out later.
 
-A list records the calls decorated by `in_lists`; arrays are read while the list is compiled.
+A list records the calls decorated by `in_lists`; arrays are read while the list is compiled. At its end, primitives
+become arrays (`list_primitives`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
 from ctypes import c_uint
 from functools import partial
 from typing import Any
@@ -15,7 +15,8 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context, DisplayList, current
 from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.errors import GLError, fail, is_one_of, outside_begin
+from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.gl.list_primitives import carry_out, with_primitives
 
 DEEPEST_LIST = 64
 NAME_TYPES = range(gl.GL_BYTE, gl.GL_FLOAT + 1)
@@ -62,6 +63,7 @@ def glEndList() -> None:
     context = current()
     compiled, context.compiled_list = context.compiled_list, None
     if compiled is not None:
+        compiled.calls = with_primitives(context, compiled.calls)
         context.lists[compiled.name] = compiled
     if outside_begin("glEndList") is None:
         return
@@ -103,7 +105,7 @@ def glCallLists(*arguments: Any) -> None:
         lists = lists[:n]
     characters = lists.encode() if isinstance(lists, str) else lists
     names = list(characters) if isinstance(characters, bytes) else np.ravel(characters).tolist()
-    _carry_out(partial(_call, context, context.list_base + int(name)) for name in names)
+    carry_out(partial(_call, context, context.list_base + int(name)) for name in names)
 
 
 def _call(context: Context, name: int) -> None:
@@ -112,22 +114,10 @@ def _call(context: Context, name: int) -> None:
         return
     context.list_depth += 1
     try:
-        _carry_out(context.lists[name].calls)
+        carry_out(context.lists[name].calls)
     finally:
         context.list_depth -= 1
         context.flush()
-
-
-def _carry_out(calls: Iterable[Callable[[], Any]]) -> None:
-    """Make all calls, then raise the first of their errors: GL does not stop at an error."""
-    first_error = None
-    for call in calls:
-        try:
-            call()
-        except GLError as error:
-            first_error = first_error or error
-    if first_error is not None:
-        raise first_error
 
 
 @in_lists

@@ -1,0 +1,225 @@
+"""Primitives of display lists are drawn from arrays exactly as by their calls."""
+
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+import pytest
+
+from softshadow import gl
+from softshadow.gl import lists
+from softshadow.gl.list_primitives import CALLS, ListPrimitive, with_primitives
+from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.state import TEXTURE_UNITS
+
+SIZE = (16, 12)
+Call = tuple[str, tuple[Any, ...]]
+
+
+# -- random programs ---------------------------------------------------------------------------------------------------
+class Author:
+    """Writes random calls around display lists: what they contain, and what stands before, between and after them."""
+
+    def __init__(self, seed: int) -> None:
+        self.rng = np.random.default_rng(seed)
+
+    def chance(self, p: float) -> bool:
+        return bool(self.rng.random() < p)
+
+    def floats(self, n: int) -> list[float]:
+        return [float(x) for x in self.rng.choice([-1.0, -0.5, 0.0, -0.0, 0.25, 0.7, 1.0, 1.5], n)]
+
+    def ints(self, n: int) -> list[int]:
+        return [int(x) for x in self.rng.integers(-128, 300, n)]
+
+    def attribute(self) -> Call:
+        kind = str(self.rng.choice(["Color", "Color", "Normal", "Normal", "TexCoord", "MultiTexCoord"]))
+        if kind == "Color":
+            n = int(self.rng.integers(3, 5))
+            letter = str(self.rng.choice(["f", "f", "f", "d", "ub", "b", "us", "ui", "i", "s"]))
+        elif kind == "Normal":
+            n, letter = 3, str(self.rng.choice(["f", "f", "b", "s", "i"]))
+        else:
+            n, letter = int(self.rng.integers(1, 5)), "f"
+        values: list[Any] = self.floats(n) if letter in "fd" else self.ints(n)
+        first = (gl.GL_TEXTURE0 + int(self.rng.integers(0, TEXTURE_UNITS)),) if kind == "MultiTexCoord" else ()
+        if self.chance(0.4):
+            vector: Any = values if self.chance(0.5) else np.array(values, np.float32 if letter in "fd" else np.int64)
+            return f"gl{kind}{n}{letter}v", (*first, vector)
+        return f"gl{kind}{n}{letter}", (*first, *values)
+
+    def vertex(self) -> Call:
+        n = int(self.rng.integers(2, 5))
+        w = [1.0] if n == 4 else []
+        if self.chance(0.03):
+            return "glVertex3f", (str("x"), 0, 0) if self.chance(0.3) else (1, 2)  # wrong
+        if self.chance(0.2):
+            return f"glVertex{n}iv", (self.ints(n),)
+        values = self.floats(n - len(w)) + w
+        return (f"glVertex{n}fv", (values,)) if self.chance(0.3) else (f"glVertex{n}f", tuple(values))
+
+    def pair(self) -> list[Call]:
+        mode = int(self.rng.integers(gl.GL_POINTS, gl.GL_POLYGON + (2 if self.chance(0.05) else 1)))
+        calls: list[Call] = [("glBegin", (mode,))] if self.chance(0.95) else []
+        for _ in range(int(self.rng.integers(0, 9))):
+            calls += [self.attribute() for _ in range(int(self.rng.integers(0, 3)))]
+            if self.chance(0.04):
+                calls.append(self.between())
+            if self.chance(0.03):
+                calls.append(("glMaterialfv", (gl.GL_FRONT, gl.GL_DIFFUSE, self.floats(4))))
+            calls.append(self.vertex())
+        calls += [self.attribute() for _ in range(int(self.rng.integers(0, 2)))]
+        return [*calls, ("glEnd", ())] if self.chance(0.95) else calls
+
+    def between(self) -> Call:
+        which = int(self.rng.integers(9))
+        if which == 0:
+            return "glTranslatef", tuple(self.floats(3))
+        if which == 1:
+            capability = int(self.rng.choice([gl.GL_LIGHTING, gl.GL_COLOR_MATERIAL, gl.GL_DEPTH_TEST, gl.GL_LIGHT0]))
+            return ("glEnable" if self.chance(0.6) else "glDisable"), (capability,)
+        if which == 2:
+            return "glMaterialfv", (gl.GL_FRONT_AND_BACK, gl.GL_AMBIENT, self.floats(4))
+        if which == 3:
+            return "glCallList", (int(self.rng.integers(0, 5)),)
+        if which == 4:
+            return "glPushAttrib", (int(self.rng.choice([gl.GL_CURRENT_BIT, gl.GL_LIGHTING_BIT, gl.GL_ALL_ATTRIB_BITS])),)
+        if which == 5:
+            return "glPopAttrib", ()
+        if which == 6:
+            return "glRectf", tuple(self.floats(4))
+        if which == 7:
+            return "glBindFramebuffer", (gl.GL_FRAMEBUFFER, int(self.chance(0.2)))  # 1 is incomplete
+        return "glShadeModel", (int(self.rng.choice([gl.GL_FLAT, gl.GL_SMOOTH])),)
+
+    def some(self) -> list[Call]:
+        which = self.rng.random()
+        return self.pair() if which < 0.5 else [self.attribute()] if which < 0.75 else [self.between()]
+
+    def program(self) -> list[Call]:
+        calls: list[Call] = []
+        for _ in range(12):
+            if self.chance(0.4):
+                mode = gl.GL_COMPILE if self.chance(0.7) else gl.GL_COMPILE_AND_EXECUTE
+                calls.append(("glNewList", (int(self.rng.integers(1, 5)), mode)))
+                for _ in range(int(self.rng.integers(1, 6))):
+                    calls += self.some()
+                calls.append(("glEndList", ()))
+            else:
+                calls += self.some()
+            calls += [("glCallList", (int(self.rng.integers(1, 5)),)) for _ in range(int(self.rng.integers(0, 3)))]
+        return calls
+
+
+# -- comparison --------------------------------------------------------------------------------------------------------
+def bits(value: Any) -> Any:
+    """A value that is equal for equal bits."""
+    if isinstance(value, np.ndarray):
+        return value.dtype.str, value.shape, value.tobytes(), value.strides[:1] == (0,)
+    if isinstance(value, Vertices | Draw):
+        return [bits(getattr(value, each.name)) for each in fields(value)]
+    if isinstance(value, tuple | list):
+        return [bits(each) for each in value]
+    if isinstance(value, dict):
+        return {key: bits(each) for key, each in value.items()}
+    return repr(value)
+
+
+def what_happened(calls: list[Call], precision: str) -> list[Any]:
+    """The commands of a program, and the state after each call."""
+    seen: list[Any] = []
+    with gl.create_context(*SIZE, precision=precision) as context:
+        for name, arguments in calls:
+            try:
+                getattr(gl, name)(*arguments)
+                seen.append((name, None))
+            except Exception as error:
+                seen.append((name, type(error).__name__, str(error)))
+            buffer, pending = context.vertex_buffer, context.pending
+            seen.append(
+                bits(
+                    [
+                        context.current.color, context.current.normal, context.current.texcoords, context.state,
+                        context.touched, sorted(pending.names), pending.old_values, pending.hidden, pending.reset_due,
+                        sorted(buffer.sizes.items()), sorted(buffer.active_sizes.items()), buffer.n_vertices,
+                        buffer.used_bytes, buffer.pairs, buffer.driver_draw, buffer.joined_pairs is None,
+                        context.error, context.primitive is None, len(context._frame.commands),
+                    ]
+                )  # fmt: skip
+            )
+        if context.primitive is not None:
+            gl.glEnd()
+        context.flush()
+        seen += [(type(command).__name__, bits(command)) for command in context._frame.commands]
+        images = context.storage.window.attachments.values()
+        return [*seen, *(image.image.view.tobytes() for image in images)]
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_lists_of_arrays_draw_what_their_calls_draw(monkeypatch, seed):
+    calls, precision = Author(seed).program(), "exact" if seed % 5 == 4 else "mesa"
+    ours = what_happened(calls, precision)
+    monkeypatch.setattr(lists, "with_primitives", lambda context, calls: calls)
+    expected = what_happened(calls, precision)
+    different = [(a, b) for a, b in zip(ours, expected, strict=True) if a != b]
+    assert not different, different[0]
+
+
+# -- what becomes an array ---------------------------------------------------------------------------------------------
+def compiled(*calls: Call) -> list[Any]:
+    gl.glNewList(1, gl.GL_COMPILE)
+    for name, arguments in calls:
+        getattr(gl, name)(*arguments)
+    gl.glEndList()
+    return gl.current().lists[1].calls
+
+
+@pytest.fixture
+def context():
+    with gl.create_context(*SIZE) as context:
+        yield context
+
+
+TRIANGLE = [("glBegin", (gl.GL_TRIANGLES,)), *[("glVertex2f", (x, x * x)) for x in (-1, 0, 1)], ("glEnd", ())]
+
+
+def test_primitives_become_arrays(context):
+    calls = compiled(("glColor3f", (1, 0, 0)), *TRIANGLE, ("glTranslatef", (1, 0, 0)), *TRIANGLE)
+    assert [type(call) is ListPrimitive for call in calls] == [False, True, False, True]
+
+
+def test_all_calls_that_set_attributes_are_known(context):
+    names = [
+        name for name in dir(gl)
+        if name.startswith(("glVertex", "glColor", "glNormal", "glTexCoord", "glMultiTexCoord"))
+        and name[-1:] in "dfisbv" and any(digit in name for digit in "1234")
+        and not name.endswith(("ARB", "EXT"))
+    ]  # fmt: skip
+    known = {getattr(gl, name).__wrapped__ for name in names}
+    assert known == set(CALLS)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [("glMaterialfv", (gl.GL_FRONT, gl.GL_DIFFUSE, (1, 0, 0, 1))), ("glCallList", (7,)), ("glVertex3f", (0, 1)),
+     ("glVertex2f", ("x", 1)), ("glVertex2f", (2**60, 1)), ("glNormal3fv", ([0, 1],)), ("glBegin", (gl.GL_LINES,))],
+)  # fmt: skip
+def test_other_calls_stay_calls(context, call):
+    assert not any(type(each) is ListPrimitive for each in compiled(*TRIANGLE[:2], call, *TRIANGLE[2:-1]))
+
+
+def test_wrong_or_empty_primitives_stay_calls(context):
+    for calls in (TRIANGLE[:1] + TRIANGLE[-1:], [("glBegin", (77,)), *TRIANGLE[1:]], TRIANGLE[1:], TRIANGLE[:-1]):
+        assert not any(type(each) is ListPrimitive for each in compiled(*calls))
+    assert with_primitives(context, []) == []
+
+
+def test_the_same_vertices_are_drawn_again(context):
+    compiled(("glNormal3f", (0, 1, 0)), *TRIANGLE)
+    for red in (0.0, 0.5, -0.0, 0.5):
+        gl.glColor3f(red, 0, 0)
+        gl.glCallList(1)
+    drawn = [command.vertices for command in context.frame.commands]
+    assert drawn[1] is drawn[3]
+    assert len({id(vertices) for vertices in drawn}) == 3
+    assert [float(np.copysign(1, vertices.color[0, 0])) for vertices in drawn] == [1, 1, -1, 1]
