@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 from typing import Any
@@ -28,7 +29,7 @@ class Cache:
 
     def __init__(self, bytes: int = CACHE_BYTES, entries: int = CACHE_ENTRIES) -> None:
         self._bounds = bytes, entries
-        self._entries: dict[Hashable, tuple[Any, int]] = {}  # the oldest first
+        self._entries: OrderedDict[Hashable, tuple[Any, int]] = OrderedDict()  # the oldest first
         self.bytes = 0
 
     def __len__(self) -> int:
@@ -41,10 +42,10 @@ class Cache:
 
     def use(self, key: Hashable) -> Any:
         """Return the value of a key, or None; it becomes the newest."""
-        entry = self._entries.pop(key, None)
+        entry = self._entries.get(key)
         if entry is None:
             return None
-        self._entries[key] = entry
+        self._entries.move_to_end(key)
         return entry[0]
 
     def put(self, key: Hashable, value: Any, bytes: int) -> None:
@@ -54,7 +55,7 @@ class Cache:
         self.bytes += bytes
         most_bytes, most_entries = self._bounds
         while len(self._entries) > 1 and (self.bytes > most_bytes or len(self._entries) > most_entries):
-            self.drop(next(iter(self._entries)))
+            self.bytes -= self._entries.popitem(last=False)[1][1]
 
     def drop(self, key: Hashable) -> None:
         """Remove a key, if it is there."""
@@ -69,6 +70,7 @@ class RowSnapshot:
 
     Attributes
     ----------
+    slot : int                   of the attribute, see `VertexArray`
     rows : (end - first, width)  as they are drawn, read-only
     content : bytes or None      the source of a small array; None if nobody can change it
     raw : ndarray or None        the source of a larger one, contiguous, with its address
@@ -76,6 +78,7 @@ class RowSnapshot:
     slices : dict                parts of `rows` by range
     """
 
+    slot: int
     first: int
     end: int
     rows: np.ndarray

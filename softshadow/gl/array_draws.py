@@ -7,16 +7,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from ctypes import c_uint
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, current
-from softshadow.context.arrays import ArrayLayout, BufferObject, VertexArray
+from softshadow.context.arrays import ArrayLayout, BufferObject, RowSnapshot, VertexArray
 from softshadow.gl.array_snapshots import POSITION, slice_of, snapshot_rows
 from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.constant_attributes import constant_attributes
+from softshadow.gl.constant_attributes import constant_attributes, constant_columns
 from softshadow.gl.conversions import (
     from_byte,
     from_int,
@@ -35,6 +36,7 @@ from softshadow.pipeline.commands import Vertices
 
 INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
 AN_INDEX_TYPE = "GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT or GL_UNSIGNED_INT"
+Rows = tuple[list[RowSnapshot], int, int]  # of each array, positions first, and which: [first, end)
 KEYS = tuple(SLOTS)  # names of the arrays by slot
 MOST_DRAWN = 4096  # ranges of one array with the vertices that were drawn
 NORMALIZED = ("color", "normal")  # integers represent 0 to 1 or -1 to 1
@@ -54,8 +56,7 @@ def glDrawArrays(mode: int, first: int, count: int) -> None:
         return
     if not _refused("glDrawArrays", mode, count) and can_draw(context, "glDrawArrays"):
         begin = int(first)
-        vertices = _vertices(context, "glDrawArrays", begin, begin, begin + int(count))
-        _draw(context, int(mode), vertices, None)
+        _draw(context, int(mode), _rows(context, "glDrawArrays", begin, begin, begin + int(count)), None)
 
 
 def glDrawElements(mode: int, count: int, type: int, indices: Any) -> None:
@@ -85,7 +86,7 @@ def glMultiDrawArrays(mode: int, first: Any, count: Any, drawcount: int) -> None
     elif is_one_of(operation, "mode", mode, MODES, A_MODE) and can_draw(context, operation):
         for begin, number in zip(firsts, counts, strict=True):
             start = int(begin)
-            _draw(context, int(mode), _vertices(context, operation, start, start, start + int(number)), None)
+            _draw(context, int(mode), _rows(context, operation, start, start, start + int(number)), None)
 
 
 def _draw_elements(operation: str, mode: int, count: int, type: int, indices: Any) -> None:
@@ -100,8 +101,8 @@ def _draw_elements(operation: str, mode: int, count: int, type: int, indices: An
     snapshot = snapshot_indices(context, operation, int(count), DTYPES[type], indices)
     if snapshot.lowest < 0:
         raise ValueError(f"{operation}: index {snapshot.lowest} is negative")
-    vertices = _vertices(context, operation, snapshot.lowest, 0, snapshot.highest + 1)
-    _draw(context, int(mode), vertices, snapshot.indices)
+    rows = _rows(context, operation, snapshot.lowest, 0, snapshot.highest + 1)
+    _draw(context, int(mode), rows, snapshot.indices)
 
 
 def _refused(operation: str, mode: int, count: int) -> bool:
@@ -141,22 +142,32 @@ def _set_attribute(key: str, values: list[float]) -> None:
         set_coordinate(int(key.removeprefix("texcoord")), *values)
 
 
-def _draw(context: Context, mode: int, vertices: Vertices | None, indices: np.ndarray | None) -> None:
+def _draw(context: Context, mode: int, rows: Rows | None, indices: np.ndarray | None) -> None:
     """Draw now, or record the draw in the display list; its arrays are read now in either case."""
-    if vertices is None:
+    if rows is None:
         return
     compiled = context.compiled_list
     if compiled is not None:
-        indices_or_all = consecutive_indices(len(vertices.position)) if indices is None else indices
-        compiled.calls.append(lambda: current().draw(mode, vertices, indices_or_all))
-    if compiled is None or compiled.executes:
-        context.draw(mode, vertices, indices)
+        _, first, end = rows
+        compiled.calls.append(
+            partial(_draw_rows, mode, rows, consecutive_indices(end - first) if indices is None else indices)
+        )
+        if not compiled.executes:
+            return
+    context.draw(mode, _vertices(context, rows), indices)
 
 
-def _vertices(context: Context, operation: str, lowest: int, first: int, end: int) -> Vertices | None:
-    """Return the vertices [first, end) of the enabled arrays; None without vertices or an array of positions.
+def _draw_rows(mode: int, rows: Rows, indices: np.ndarray) -> None:
+    """Draw arrays of a display list; attributes without an array have the values that are current now."""
+    context = current()
+    context.flush()
+    context.draw(mode, _vertices(context, rows), indices)
 
-    The same object is returned for the same contents and constant attributes. No index names vertices before `lowest`.
+
+def _rows(context: Context, operation: str, lowest: int, first: int, end: int) -> Rows | None:
+    """Return the rows [first, end) of the enabled arrays; None without any or without an array of positions.
+
+    No index names rows before `lowest`.
 
     Raises
     ------
@@ -176,17 +187,22 @@ def _vertices(context: Context, operation: str, lowest: int, first: int, end: in
             raise ValueError(f"{operation}: vertex {end - 1} is outside the array of {name}s, which has {n_rows}")
     if end <= first:
         return None
-    position, *others = [snapshot_rows(array, first, lowest, end, context) for array in active]
+    return [snapshot_rows(array, first, lowest, end, context) for array in active], first, end
+
+
+def _vertices(context: Context, rows: Rows) -> Vertices:
+    """Return vertices from rows and current values; the same object for the same ones."""
+    (position, *others), first, end = rows
     constants = constant_attributes(context)
-    key = first, end, constants, *others  # a snapshot belongs to one slot
+    key = first, end, constants, *others
     vertices: Vertices | None = position.drawn.get(key)
     if vertices is None:
-        rows = [constant.rows(end - first) for constant in constants]
-        for array, snapshot in zip(active[1:], others, strict=True):
-            rows[array.slot - 1] = slice_of(snapshot, first, end)
+        columns = constant_columns(context, constants, end - first)
+        for snapshot in others:
+            columns[snapshot.slot - 1] = slice_of(snapshot, first, end)
         if len(position.drawn) >= MOST_DRAWN:
             position.drawn.clear()
-        vertices = Vertices(slice_of(position, first, end), rows[0], rows[1], tuple(rows[2:]))
+        vertices = Vertices(slice_of(position, first, end), columns[0], columns[1], tuple(columns[2:]))
         position.drawn[key] = vertices
     return vertices
 

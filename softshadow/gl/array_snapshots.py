@@ -125,7 +125,7 @@ def _copied(array: VertexArray, first: int, end: int, context: Context) -> RowSn
         return found
     raw.setflags(write=False)
     rows = _converted(raw, array.slot, context)
-    snapshot = RowSnapshot(first, end, rows, content, None if small else raw, address)
+    snapshot = RowSnapshot(array.slot, first, end, rows, content, None if small else raw, address)
     pool.put(key, snapshot, snapshot.bytes)
     return snapshot
 
@@ -142,7 +142,7 @@ def _fixed(array: VertexArray, context: Context) -> RowSnapshot:
     key = (array.slot, id(_owner(rows)), rows.__array_interface__["data"][0], rows.strides, rows.shape, rows.dtype.char)
     found = context.arrays.snapshots.use(key)
     if found is None:
-        snapshot = RowSnapshot(0, len(rows), _converted(rows, array.slot, context))
+        snapshot = RowSnapshot(array.slot, 0, len(rows), _converted(rows, array.slot, context))
         found = snapshot, _owner(rows)  # no other array can get the id of the owner
         context.arrays.snapshots.put(key, found, snapshot.bytes + _owner(rows).nbytes)
     kept: RowSnapshot = found[0]

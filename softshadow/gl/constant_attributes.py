@@ -42,6 +42,7 @@ class ConstantAttributes:
     attributes: tuple[ConstantAttribute, ...]
     known: dict[bytes, ConstantAttribute]
     sets: dict[tuple[ConstantAttribute, ...], tuple[ConstantAttribute, ...]]
+    columns: dict[tuple[tuple[ConstantAttribute, ...], int], tuple[np.ndarray, ...]]
 
 
 def constant_attributes(context: Context) -> tuple[ConstantAttribute, ...]:
@@ -49,7 +50,7 @@ def constant_attributes(context: Context) -> tuple[ConstantAttribute, ...]:
     current, kept = context.current, context.arrays.constants
     values = (current.color, current.normal, *current.texcoords)
     if kept is None:
-        kept = context.arrays.constants = ConstantAttributes((), (), {}, {})
+        kept = context.arrays.constants = ConstantAttributes((), (), {}, {}, {})
     elif all(map(is_, values, kept.values)):
         return kept.attributes
     if len(kept.known) >= MOST_VALUES or len(kept.sets) >= MOST_VALUES:
@@ -66,6 +67,17 @@ def constant_attributes(context: Context) -> tuple[ConstantAttribute, ...]:
     attributes = tuple(found)
     kept.values, kept.attributes = values, kept.sets.setdefault(attributes, attributes)
     return kept.attributes
+
+
+def constant_columns(context: Context, constants: tuple[ConstantAttribute, ...], count: int) -> list[np.ndarray]:
+    """Return `count` rows of each attribute."""
+    known = context.arrays.constants.columns
+    columns: tuple[np.ndarray, ...] | None = known.get((constants, count))
+    if columns is None:
+        if len(known) >= MOST_VALUES:
+            known.clear()
+        columns = known[constants, count] = tuple(constant.rows(count) for constant in constants)
+    return list(columns)
 
 
 def repeat_row(row: np.ndarray, count: int) -> np.ndarray:

@@ -18,7 +18,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context, current
 from softshadow.gl import immediate, texture_coordinates, vertex_attributes
 from softshadow.gl.array_snapshots import COLOR, NORMAL, POSITION, TEXCOORD
-from softshadow.gl.constant_attributes import ConstantAttribute, constant_attributes
+from softshadow.gl.constant_attributes import ConstantAttribute, constant_attributes, constant_columns
 from softshadow.gl.conversions import (
     from_byte,
     from_int,
@@ -169,7 +169,7 @@ class ListPrimitive:
         key = tuple(each for slot, each in enumerate(constants, 1) if self.starts.get(slot, 1))
         vertices = self.drawn.get(key)
         if vertices is None:
-            rows = [constant.rows(count) for constant in constants]
+            rows = constant_columns(current(), constants, count)
             for slot, start in self.starts.items():
                 rows[slot - 1] = self.rows[slot]
                 if start:

@@ -125,7 +125,37 @@ def draw_without_types(gl: Any) -> list[Any]:
     return [np.array(answer).tolist() for answer in state]
 
 
-PROGRAMS = {f.__name__: f for f in (draw_from_buffers, draw_interleaved, draw_elements_one_by_one, draw_without_types)}
+def draw_arrays_in_lists(gl: Any) -> list[Any]:
+    """Attributes without an array have the values that are current when the list is called."""
+    start(gl)
+    keep = np.ascontiguousarray(VERTICES[:, :3]), np.ascontiguousarray(VERTICES[:, 6:9])
+    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, keep[0])
+    gl.glColorPointer(3, gl.GL_FLOAT, 0, keep[1])
+    for name in (1, 2):
+        gl.glColor4f(0.25, 1, 0.5, 1)
+        gl.glNewList(name, gl.GL_COMPILE)
+        gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
+        gl.glColor3f(0, 0.5, 1)
+        gl.glDrawElements(gl.GL_TRIANGLE_STRIP, 4, gl.GL_UNSIGNED_SHORT, np.array([2, 3, 4, 5], np.uint16))
+        gl.glEnableClientState(gl.GL_COLOR_ARRAY)
+        gl.glDrawArrays(gl.GL_TRIANGLES, 2, 3)
+        gl.glDisableClientState(gl.GL_COLOR_ARRAY)
+        gl.glEndList()
+    answers = []
+    for name, color in ((1, (1, 0.5, 0, 0.5)), (2, (0.5, 0, 0.5, 1)), (1, (1, 1, 0, 1))):
+        gl.glTranslatef(0.1, 0.05, 0)
+        gl.glColor4f(*color)
+        gl.glCallList(name)
+        answers.append(np.array(gl.glGetFloatv(gl.GL_CURRENT_COLOR)).tolist())
+    del keep
+    return answers
+
+
+PROGRAMS = {
+    f.__name__: f
+    for f in (draw_from_buffers, draw_interleaved, draw_elements_one_by_one, draw_without_types, draw_arrays_in_lists)
+}
 
 
 @pytest.mark.mesa
