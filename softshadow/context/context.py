@@ -18,6 +18,7 @@ from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.recording import Frame
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
+from softshadow.framebuffer import Storage
 from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Clear, Command, Draw, Vertices
 from softshadow.pipeline.execute import execute
