@@ -10,6 +10,7 @@ the bounds of a number, and its default.
 
 import inspect
 import math
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from types import NoneType, UnionType
@@ -114,6 +115,11 @@ class Technique:
             name: option.validate(name, values[name]) if name in values else option.default
             for name, option in self.options.items()
         }
+
+    def checked_options(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Return what `validate_options` returns (deprecated: its name before 0.1.0)."""
+        warnings.warn("Technique.checked_options is now called validate_options", DeprecationWarning, stacklevel=2)
+        return self.validate_options(values)
 
 
 def options_of(steps: Callable[..., Steps]) -> dict[str, Option]:

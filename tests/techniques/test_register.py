@@ -97,3 +97,10 @@ def test_a_whole_number_is_a_number_and_nothing_is_from_the_scene() -> None:
     options = techniques.get("volume-zpass").validate_options({"reach": 3})
     assert options["reach"] == 3.0
     assert techniques.get("volume-zpass").validate_options({"reach": None})["reach"] is None
+
+
+def test_the_earlier_name_of_validate_options_still_works_and_says_so() -> None:
+    technique = techniques.get("volume-zpass")
+    with pytest.warns(DeprecationWarning, match="validate_options"):
+        options = technique.checked_options({"reach": 3})
+    assert options == technique.validate_options({"reach": 3})
