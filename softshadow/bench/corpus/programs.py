@@ -1,0 +1,33 @@
+"""All programs of the corpus by name."""
+
+from __future__ import annotations
+
+from softshadow.bench.corpus import (
+    blended,
+    first_programs,
+    large_meshes,
+    lines_and_points,
+    several_passes,
+    shadow_maps,
+    stencil_shadows,
+    textured,
+)
+from softshadow.bench.corpus.program import Program
+from softshadow.errors import nearest
+
+FAMILIES = (
+    first_programs, large_meshes, textured, blended, stencil_shadows, shadow_maps, several_passes, lines_and_points,
+)  # fmt: skip
+PROGRAMS = {program.name: program for family in FAMILIES for program in family.PROGRAMS}
+
+
+def get(name: str) -> Program:
+    """Return the program with this name.
+
+    Raises
+    ------
+    ValueError                   unknown name; the message suggests the nearest
+    """
+    if name not in PROGRAMS:
+        raise ValueError(f"unknown program corpus/{name}: {nearest(name, PROGRAMS)}")
+    return PROGRAMS[name]
