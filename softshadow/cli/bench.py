@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from softshadow.cli.arguments import Size, as_json, examples
+from softshadow.cli.bench_corpus import bench_corpus, is_of_corpus
 from softshadow.cli.console import CHECK_FAILED, print_json, print_warnings_once, say, table
 
 if TYPE_CHECKING:
@@ -35,7 +37,11 @@ class Threads(click.ParamType):
 
 
 @click.command(
-    epilog=examples("softshadow bench w4", "softshadow bench volume-zfail/torus --scaling lights --threads 1")
+    epilog=examples(
+        "softshadow bench w4",
+        "softshadow bench volume-zfail/torus --scaling lights --threads 1",
+        "softshadow bench corpus --against mesa",
+    )
 )
 @click.argument("names", metavar="[WORKLOAD]...", nargs=-1)
 @click.option(
@@ -62,6 +68,11 @@ def bench(
     if not names:
         _list(as_json)
         return
+    if any(map(is_of_corpus, names)):
+        if scaling or starts or plot:
+            raise click.UsageError("the corpus has neither --scaling nor --starts nor --plot")
+        bench_corpus(context, names, against, threads, rounds, size, as_json)
+        return
     workloads = [each.resized(size) if size else each for each in select_workloads(list(names))]
     files = [each for each in against if each.endswith(".json")]
     earlier = [_earlier(file) for file in files]
@@ -85,9 +96,13 @@ def bench(
 
 
 def _list(as_json: bool) -> None:
+    from softshadow.bench.corpus.programs import PROGRAMS
     from softshadow.bench.workloads import get, names
 
-    workloads = [get(name) for name in names()]
+    workloads = [
+        *(get(name) for name in names()),
+        *(replace(program, name=f"corpus/{name}") for name, program in PROGRAMS.items()),
+    ]
     if as_json:
         print_json("bench", workloads=[{"name": e.name, "title": e.title, "size": e.size} for e in workloads])
         return

@@ -1,0 +1,56 @@
+"""``softshadow bench corpus``: ordinary GL programs, here and on Mesa."""
+
+from __future__ import annotations
+
+import click
+
+from softshadow.cli.console import CHECK_FAILED, print_json, say, table
+
+CORPUS = "corpus"
+
+
+def is_of_corpus(name: str) -> bool:
+    """Return whether a name of `softshadow bench` is the corpus or one of its programs, "corpus/PROGRAM"."""
+    return name.partition("/")[0] == CORPUS
+
+
+def bench_corpus(
+    context: click.Context,
+    names: tuple[str, ...],
+    against: tuple[str, ...],
+    threads: list[int],
+    rounds: int,
+    size: tuple[int, int] | None,
+    as_json: bool,
+) -> None:
+    """Measure the programs and print the table; exit code 1 if a buffer differs."""
+    from softshadow.bench.corpus.measuring import measure
+    from softshadow.bench.corpus.programs import PROGRAMS, get
+    from softshadow.bench.corpus.results import to_json
+    from softshadow.bench.corpus.tables import program_rows, summary_lines
+    from softshadow.bench.machine import machine
+
+    if not all(map(is_of_corpus, names)):
+        raise click.UsageError("the corpus is measured alone: expected corpus or corpus/PROGRAM")
+    if against not in (("mesa",), ("llvmpipe",)):
+        raise click.UsageError("the corpus is measured against llvmpipe: expected --against mesa")
+    chosen = [each for name in names for each in ([name.partition("/")[2]] if "/" in name else PROGRAMS)]
+    programs = [get(name) for name in dict.fromkeys(chosen)]
+    results = []
+    for number in threads:
+        for program in programs:
+            result = measure(program.resized(size) if size else program, number, rounds)
+            results.append(result)
+            differing = "equal buffers" if result.equal else f"DIFFERING: {dict(result.differing)}"
+            say(
+                f"{result.name}: {differing}; Mesa {result.mesa:.2f} ms, softshadow {result.own:.2f} ms, ratio "
+                f"{result.ratio:.2f}; first frame {result.mesa_first:.0f} and {result.own_first:.0f} ms"
+            )
+    if as_json:
+        print_json("bench-corpus", machine=machine(with_mesa=True), rounds=rounds, **to_json(results))
+    else:
+        table("Corpus", *program_rows(results))
+        for line in summary_lines(results):
+            click.echo(line)
+    if not all(result.equal for result in results):
+        context.exit(CHECK_FAILED)
