@@ -9,8 +9,8 @@ from typing import Any
 import numba
 import numpy as np
 from numba.core import event
-from numba.core.dispatcher import Dispatcher
 
+from softshadow.jit.stored_code import KernelDispatcher
 from softshadow.kernel_cache import cache_folder
 
 # no kernel is called from C, and a wrapper for it would take a twentieth of the compile time
@@ -23,15 +23,20 @@ def kernel(function: Callable[..., Any]) -> Any:
     IEEE arithmetic as written (no fastmath), no bounds or division checks, no interpreter lock (nogil).
     With ``NUMBA_DISABLE_JIT=1`` the function stays plain Python.
     """
-    folder = cache_folder()
     config: Any = numba.config  # type checkers do not see its settings, which Numba creates at import
-    users_folder = config.CACHE_DIR
-    # njit reads the folder at once, so the user's own setting can be restored right after it
-    config.CACHE_DIR = str(folder) if folder else ""
-    try:
-        return numba.njit(cache=folder is not None, **OPTIONS)(function)
-    finally:
-        config.CACHE_DIR = users_folder
+    if config.DISABLE_JIT:
+        return function
+    dispatcher = KernelDispatcher(function, targetoptions={"nopython": True, "boundscheck": None, **OPTIONS})  # as njit
+    folder = cache_folder()
+    if folder:
+        users_folder = config.CACHE_DIR
+        # the folder is read at once, so the user's own setting can be restored right after it
+        config.CACHE_DIR = str(folder)
+        try:
+            dispatcher.enable_caching()
+        finally:
+            config.CACHE_DIR = users_folder
+    return dispatcher
 
 
 def inlined(function: Callable[..., Any]) -> Any:
@@ -92,7 +97,7 @@ def rehearsing() -> Iterator[Kernels]:
     """
     kernels: Kernels = {}
     nesting = _Nesting()
-    dispatcher: Any = Dispatcher
+    dispatcher: Any = KernelDispatcher
     compile_for_args = dispatcher._compile_for_args
 
     def note_call(kernel: Any, *arguments: Any) -> Callable[..., Any]:

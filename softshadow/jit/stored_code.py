@@ -1,0 +1,173 @@
+"""Kernels whose machine code is on disk start without the compiler.
+
+Numba prepares its compiler before it looks at the disk: it imports its implementations of Python's and NumPy's
+functions, registers them, and parses the intermediate code of every kernel. For a program whose kernels are all on disk
+this took most of the time until its first picture. Here, machine code is handed to LLVM as it is; the compiler starts
+when something must be compiled. The files are Numba's own (`softshadow.kernel_cache` names the folder).
+"""
+
+import contextlib
+from importlib import import_module
+from typing import Any, NamedTuple
+
+import numpy as np
+from llvmlite import binding as llvm
+from numba.core import compiler, types
+from numba.core.caching import CompileResultCacheImpl, FunctionCache
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler_lock import global_compiler_lock
+from numba.core.registry import CPUDispatcher
+from numba.core.typing.typeof import Purpose, typeof
+from numba.np import numpy_support
+
+# what the parts of Numba that are used here raise where another version lacks them or builds them differently
+OTHER_VERSION = (AttributeError, KeyError, TypeError, ValueError)
+
+
+class StoredResult(NamedTuple):
+    """What the disk holds for a kernel and the types of its arguments.
+
+    Attributes
+    ----------
+    result : tuple               Numba's reduced `CompileResult`
+    defined, external : names that the machine code defines, and that it needs from elsewhere
+    """
+
+    result: tuple[Any, ...]
+    defined: frozenset[str]
+    external: frozenset[str]
+
+
+class StoredLibrary(JITCodeLibrary):
+    """Machine code from disk. Its intermediate code is parsed when a kernel that calls it is compiled."""
+
+    _bitcode = b""
+
+    def _get_module_for_linking(self) -> Any:
+        if self._shared_module is None:
+            self._shared_module = llvm.parse_bitcode(self._bitcode)
+        return self._shared_module
+
+
+class StoredResults(CompileResultCacheImpl):
+    """What to store, and how to make it callable again."""
+
+    def reduce(self, cres: Any) -> StoredResult:
+        """Return the parts of a result that are stored."""
+        module = cres.library._final_module
+        symbols = [*module.functions, *module.global_variables]
+        external = {each.name for each in symbols if each.is_declaration}
+        defined = {each.name for each in symbols if not each.is_declaration}
+        external = {name for name in external if not name.startswith("llvm.")}
+        return StoredResult(super().reduce(cres), frozenset(defined), frozenset(external))
+
+    def rebuild(self, target_context: Any, payload: StoredResult) -> Any:
+        """Return the result, made in Numba's own way."""
+        return super().rebuild(target_context, payload.result)
+
+    def rebuild_without_compiler(self, target_context: Any, payload: StoredResult) -> Any:
+        """Return the result with its machine code ready to be called, or None if it needs what is not there."""
+        codegen = target_context.codegen()
+        engine = codegen._engine
+        register_runtime()
+        if not all(name in engine._defined_symbols or llvm.address_of_symbol(name) for name in payload.external):
+            return None
+        library_parts, fndesc, environment, signature, objectmode, lifted, annotation, reload, referenced = (
+            payload.result
+        )
+        name, kind, (machine_code, bitcode) = library_parts
+        if kind != "object" or reload or objectmode:
+            return None
+        library = StoredLibrary(codegen, name)
+        library._bitcode = bitcode
+        library.enable_object_caching()
+        library._set_compiled_object(machine_code)
+        library._finalize_final_module()
+        engine._defined_symbols |= payload.defined
+        entry_point = target_context.get_executable(library, fndesc, environment)
+        for each in referenced:
+            codegen.set_env(each.env_name, each)
+        return compiler.compile_result(
+            target_context=target_context, typing_context=target_context.typing_context, library=library,
+            environment=environment, entry_point=entry_point, fndesc=fndesc, type_annotation=annotation,
+            signature=signature, objectmode=objectmode, lifted=lifted, reload_init=reload, referenced_envs=referenced,
+        )  # fmt: skip
+
+
+def register_runtime() -> None:
+    """Tell LLVM where the C functions of Numba's runtime are, which machine code calls; once."""
+    if not _registered:
+        runtime: Any = import_module("numba.core.runtime._nrt_python")
+        for name, address in runtime.c_helpers.items():
+            llvm.add_symbol(name if name.startswith("_") else f"NRT_{name}", address)
+        _registered.append(True)
+
+
+_registered: list[bool] = []
+
+
+class KernelCache(FunctionCache):
+    """The files of one kernel."""
+
+    _impl_class = StoredResults
+
+    def load_without_compiler(self, argument_types: tuple[Any, ...], target_context: Any) -> Any:
+        """Return the stored result for these types, or None."""
+        with self._guard_against_spurious_io_errors():
+            payload = self._cache_file.load(self._index_key(argument_types, target_context.codegen()))
+            return None if payload is None else self._impl.rebuild_without_compiler(target_context, payload)
+
+
+NumbaDispatcher: Any = CPUDispatcher  # type checkers do not see the attributes that its C base class has
+
+
+class KernelDispatcher(NumbaDispatcher):
+    """A compiled function that looks for its machine code on disk before it starts the compiler."""
+
+    def enable_caching(self) -> None:
+        """Store and find machine code in the folder that Numba's configuration names now."""
+        self._cache = KernelCache(self.py_func)
+
+    def typeof_pyval(self, val: Any) -> Any:
+        """Return Numba's type of an argument."""
+        try:
+            result = type_of(val)
+        except Exception:  # as an argument of another kind: Numba has its own message
+            return super().typeof_pyval(val)
+        self._types_active_call.add(result)
+        return result
+
+    def _compile_for_args(self, *args: Any, **kws: Any) -> Any:
+        """Return the machine code for these arguments; Numba calls this when they are of new types."""
+        with contextlib.suppress(*OTHER_VERSION):
+            entry_point = self._entry_point_from_disk(tuple(map(type_of, args)))
+            if entry_point is not None:
+                return entry_point
+        return super()._compile_for_args(*args, **kws)
+
+    def _entry_point_from_disk(self, argument_types: tuple[Any, ...]) -> Any:
+        with global_compiler_lock:
+            result = self.overloads.get(argument_types)
+            if result is None and isinstance(self._cache, KernelCache):
+                result = self._cache.load_without_compiler(argument_types, self.targetctx)
+                if result is not None:
+                    self._cache_hits[argument_types] += 1
+                    self.targetctx.insert_user_function(result.entry_point, result.fndesc, [result.library])
+                    self.add_overload(result)
+            return None if result is None else result.entry_point
+
+
+def type_of(value: Any) -> Any:
+    """Return what `numba.typeof` returns for an argument; for an array it would first import ``numpy.ma``."""
+    kind = type(value)
+    if kind is np.ndarray:
+        layout = numpy_support.map_layout(value)
+        return types.Array(
+            numpy_support.from_dtype(value.dtype), value.ndim, layout, readonly=not value.flags.writeable
+        )
+    if isinstance(value, tuple):
+        return types.BaseTuple.from_types([type_of(part) for part in value], kind)
+    result = typeof(value, Purpose.argument)
+    if result is None:
+        raise TypeError(f"no type for {value!r}")
+    return result

@@ -1,0 +1,124 @@
+"""Kernels whose machine code is on disk: the same results, without the compiler."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+import pytest
+
+from softshadow.jit.stored_code import type_of
+
+KERNELS = """
+import sys
+import numpy as np
+from softshadow.jit import kernel, stored_code
+
+@kernel
+def inner(x):
+    return x * 2 + 1
+
+@kernel
+def outer(x):
+    return inner(x) + 100
+
+@kernel
+def several(array, names):
+    if array.shape[0] == 0:
+        raise ValueError("empty")
+    copy = np.empty(array.shape[0])
+    for i in range(array.shape[0]):
+        copy[i] = array[i] * names[0]
+    return copy, names, array[0] > 0
+
+def make(number):
+    @kernel
+    def closed(x):
+        return x + number
+    return closed
+
+def compiler_started():
+    return "numba.np.linalg" in sys.modules
+"""
+RUN = """
+print(inner(3), several(np.ones(2), (4.0, 2))[0], make(5)(1), make(6)(1), compiler_started())
+try:
+    several(np.ones(0), (4.0, 2))
+except ValueError as error:
+    print(error)
+"""
+RESULT = "7 [4. 4.] 6 7 {}\nempty"
+
+
+class Pair(NamedTuple):
+    """As pipeline/records.py has many."""
+
+    first: Any
+    second: Any
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Any:
+    """Run code after the kernels in a process of its own, with an own cache; return what it prints."""
+    script = tmp_path / "kernels.py"  # Numba's cache asks for a file
+
+    def run_code(code: str) -> str:
+        (tmp_path / "code.py").write_text(f"from kernels import *\n{code}")
+        script.write_text(KERNELS)
+        environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+        environment["PYTHONPATH"] = os.pathsep.join([str(tmp_path), *(entry or os.getcwd() for entry in sys.path)])
+        environment.pop("NUMBA_DISABLE_JIT", None)
+        os.utime(script, (1, 1))  # the same file for Numba's cache, though it was written anew
+        done = subprocess.run(
+            [sys.executable, "-P", str(tmp_path / "code.py")], env=environment, capture_output=True, text=True
+        )
+        assert done.returncode == 0, done.stderr
+        return done.stdout.strip()
+
+    return run_code
+
+
+def test_machine_code_from_disk_gives_the_same_without_the_compiler(run: Any) -> None:
+    assert run(RUN) == RESULT.format(True)
+    assert run(RUN) == RESULT.format(False)
+
+
+def test_a_kernel_that_is_compiled_later_calls_one_from_disk(run: Any) -> None:
+    assert run("print(inner(3))") == "7"
+    assert run("print(inner(3), compiler_started(), outer(3), compiler_started())") == "7 False 107 True"
+
+
+def test_a_name_that_is_missing_in_the_process_starts_the_compiler(run: Any) -> None:
+    run(RUN)
+    missing = "stored_code.llvm.address_of_symbol = lambda name: None\n"
+    assert run(missing + RUN) == RESULT.format(True)
+
+
+def test_another_version_of_numba_loads_kernels_in_its_own_way(run: Any) -> None:
+    run(RUN)
+    other = "del stored_code.StoredResults.rebuild_without_compiler\n"
+    assert run(other + RUN) == RESULT.format(True)
+
+
+def test_wrong_arguments_have_numbas_own_message(run: Any) -> None:
+    code = "try:\n    inner(object())\nexcept Exception as error:\n    print(type(error).__name__)"
+    assert run(code) == "TypingError"
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        1, -1, 2**40, 2**63, 0.5, True, None, np.float32(1), np.uint8(1), np.int64(1), np.bool_(True),
+        (), (1, 2), (1, 0.5), Pair(1, np.zeros(3)), Pair(1, 2), ((1, 2), (np.zeros((2, 2)),)),
+        np.zeros((2, 3), np.float32), np.zeros((2, 3)).T, np.zeros((4, 4))[::2, ::2], np.zeros(0, np.uint8),
+        np.zeros(()), np.zeros(2, [("x", "f4"), ("y", "i4")]), np.broadcast_to(np.float32(1), (2, 2)),
+    ],
+    ids=lambda value: repr(value).replace("\n", ""),
+)  # fmt: skip
+def test_types_of_arguments_are_numbas(value: Any) -> None:
+    ours, theirs = type_of(value), numba.typeof(value)
+    assert ours == theirs
+    assert hash(ours) == hash(theirs)
