@@ -97,7 +97,10 @@ def _finite(radians: float) -> float:
 def _single_precision_functions() -> tuple[Callable[[float], float], Callable[[float], float]]:
     """Return the C library's sinf and cosf; without them, Python's double precision functions."""
     try:
-        library = ctypes.CDLL(ctypes.util.find_library("m") or "libm.so.6")
+        try:
+            library = ctypes.CDLL("libm.so.6")  # find_library would start a process
+        except OSError:
+            library = ctypes.CDLL(ctypes.util.find_library("m") or "libm.so.6")
         functions = library.sinf, library.cosf
     except (OSError, AttributeError):
         return math.sin, math.cos

@@ -145,5 +145,5 @@ class Spans(NamedTuple):
 
     def chunks(self, size: int) -> np.ndarray:
         """Return where to cut (C + 1,), so that each part has about `size` fragments."""
-        cuts = np.searchsorted(self.start, np.arange(0, self.fragments, size))
-        return np.unique(np.append(cuts, len(self.row)))
+        cuts = np.append(np.searchsorted(self.start, np.arange(0, self.fragments, size)), len(self.row))
+        return cuts[np.diff(cuts, prepend=-1) > 0]  # sorted already; np.unique would import numpy.ma
