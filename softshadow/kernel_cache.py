@@ -9,6 +9,7 @@ import os
 import shutil
 import sys
 import tempfile
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
@@ -49,6 +50,8 @@ def cache_folder() -> Path | None:
         if not folder.exists():
             folder.mkdir(parents=True, exist_ok=True)
             _delete_old_versions(folder.parent)
+        with suppress(OSError):  # as in a folder of another user
+            os.utime(folder)  # it is in use, even where no file is added
         with tempfile.TemporaryFile(dir=folder):
             return folder
     except OSError:

@@ -115,6 +115,14 @@ def test_code_of_old_versions_is_deleted(tmp_path):
     assert f"{0:016x}" not in left
 
 
+def test_code_that_is_used_is_recent_though_nothing_new_is_compiled(tmp_path):
+    run_with(PACKAGE.parent, tmp_path)
+    (folder,) = (tmp_path / "softshadow").iterdir()
+    os.utime(folder, (1, 1))
+    run_with(PACKAGE.parent, tmp_path)
+    assert folder.stat().st_mtime > 1
+
+
 def sources_of(name: str) -> list[Path]:
     path = PACKAGE / name
     return [path] if path.is_file() else sorted(path.rglob("*.py"))
