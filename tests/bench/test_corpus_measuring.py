@@ -7,9 +7,11 @@ from typing import Any
 import pytest
 
 from cli.invocation import invoke, invoke_ok
+from paths import ROOT
 from softshadow.bench.corpus.measuring import frames_in_a_round
+from softshadow.bench.corpus.programs import PROGRAMS
 from softshadow.bench.corpus.results import ProgramTimes, from_json, summary, to_json
-from softshadow.bench.corpus.tables import markdown, program_rows, summary_lines
+from softshadow.bench.corpus.tables import machine_line, markdown, program_rows, summary_lines
 
 TINY = ["--size", "32x24", "--rounds", "1"]
 
@@ -46,6 +48,15 @@ def test_tables_tell_differing_pixels_and_the_second_thread() -> None:
     assert [row[columns.index("differing")] for row in cells] == ["color: 7", "0"]
     assert "2.00 times as fast" in summary_lines(rows)[-1]
     assert markdown(rows).splitlines()[-1].startswith("| `turning-cubes` | A ring of lit cubes")
+
+
+def test_report_of_the_documentation_has_all_programs_and_equal_buffers() -> None:
+    contents = json.loads((ROOT / "benchmarks" / "corpus.json").read_text(encoding="utf-8"))
+    results = from_json(contents)
+    assert {each.name for each in results} == set(PROGRAMS)
+    assert all(each.equal for each in results)
+    assert "Mesa" in summary_lines(results)[0]
+    assert contents["machine"]["processor"] in machine_line(contents["machine"])
 
 
 def test_a_round_has_at_least_one_frame() -> None:

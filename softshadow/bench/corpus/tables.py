@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from statistics import geometric_mean
+from typing import Any
 
 from softshadow.bench.corpus.programs import PROGRAMS
 from softshadow.bench.corpus.results import ProgramTimes, by_threads, summary
@@ -59,15 +60,24 @@ def summary_lines(results: Sequence[ProgramTimes]) -> list[str]:
 
 
 def markdown(results: Sequence[ProgramTimes]) -> str:
-    """Return the table of a page: slowest first, with what each program draws."""
-    groups = by_threads(results)
-    columns = ["program", "what it draws", "Mesa ms", "softshadow ms", *(f"x ({n})" for n in groups), "first x"]
+    """Return the table of a page, the lowest ratio first: times with the fewest threads, ratios with all numbers."""
+    groups = {number: {each.name: each for each in group} for number, group in by_threads(results).items()}
+    fewest = groups[min(groups)]
+    columns = ["program", "what it draws", "Mesa, ms", "softshadow, ms", *map(_ratio_column, groups), "first frame"]
     lines = ["| " + " | ".join(columns) + " |", "|---|---|" + "---:|" * (len(columns) - 2)]
-    first = min(groups)
-    others = {number: {each.name: each for each in group} for number, group in groups.items()}
-    for each in sorted(groups[first], key=lambda each: each.ratio):
-        ratios = [f"{others[number][each.name].ratio:.2f}" for number in groups]
-        title = PROGRAMS[each.name].title if each.name in PROGRAMS else ""
-        cells = [f"`{each.name}`", title, f"{each.mesa:.2f}", f"{each.own:.2f}", *ratios, f"{each.first_ratio:.2f}"]
+    for name, times in sorted(fewest.items(), key=lambda item: item[1].ratio):
+        title = PROGRAMS[name].title if name in PROGRAMS else ""
+        ratios = [f"{group[name].ratio:.2f}" if name in group else "" for group in groups.values()]
+        cells = [f"`{name}`", title, f"{times.mesa:.2f}", f"{times.own:.2f}", *ratios, f"{times.first_ratio:.2f}"]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
+
+
+def _ratio_column(threads: int) -> str:
+    return "ratio" if threads == 1 else f"{threads} threads"
+
+
+def machine_line(machine: Mapping[str, Any]) -> str:
+    """Return processor, system and versions of a report in one line."""
+    versions = ", ".join(f"{name} {machine[name]}" for name in ("python", "numpy", "numba", "mesa") if name in machine)
+    return f"{machine['cores']} cores of {machine['processor']} ({machine['system']}; {versions})"
