@@ -8,7 +8,8 @@ import ctypes
 import ctypes.util
 import math
 from collections.abc import Callable, Sequence
-from functools import cache
+from ctypes import c_float
+from functools import cache, lru_cache
 
 import numpy as np
 
@@ -50,11 +51,12 @@ def rotation(angle: float, x: float, y: float, z: float, real: Real = FLOAT) -> 
     A rotation about a coordinate axis has exact zeros and ones. Sine and cosine are the C library's single precision
     functions: NumPy's differ in the last bit.
     """
-    sine, cosine = _sine_and_cosine(angle, real)
-    return _rotation(sine, cosine, real(x), real(y), real(z))
+    sine, cosine = sine_and_cosine(angle, real is np.float32)
+    return rotation_of(real(sine), real(cosine), real(x), real(y), real(z))
 
 
-def _rotation(sine: np.floating, cosine: np.floating, x: np.floating, y: np.floating, z: np.floating) -> np.ndarray:
+def rotation_of(sine: np.floating, cosine: np.floating, x: np.floating, y: np.floating, z: np.floating) -> np.ndarray:
+    """Return glRotate's matrix for the sine and cosine of its angle, in their precision."""
     real = type(x)
     matrix = np.eye(4, dtype=real)
     if not x and not y and z:
@@ -80,12 +82,14 @@ def _set_rotation(matrix: np.ndarray, i: int, j: int, cosine: np.floating, sine:
     matrix[i, j], matrix[j, i] = -sine, sine
 
 
-def _sine_and_cosine(angle: float, real: Real) -> tuple[np.floating, np.floating]:
-    radians = _finite(float(real(angle)) * math.pi / 180)
-    if real is np.float64:
-        return np.float64(math.sin(radians)), np.float64(math.cos(radians))
+@lru_cache(maxsize=4096)
+def sine_and_cosine(angle: float, single: bool) -> tuple[float, float]:
+    """Return sine and cosine of an angle in degrees; if `single`, the angle and both are rounded to float32."""
+    radians = (c_float(angle).value if single else float(angle)) * math.pi / 180
+    if not single:
+        return math.sin(radians), math.cos(radians)
     sinf, cosf = _single_precision_functions()
-    return real(sinf(radians)), real(cosf(radians))
+    return sinf(radians), cosf(radians)
 
 
 def _finite(radians: float) -> float:
@@ -105,7 +109,7 @@ def _single_precision_functions() -> tuple[Callable[[float], float], Callable[[f
     except (OSError, AttributeError):
         return math.sin, math.cos
     for function in functions:
-        function.restype, function.argtypes = ctypes.c_float, [ctypes.c_float]
+        function.restype, function.argtypes = c_float, [c_float]
     return functions
 
 
@@ -139,11 +143,22 @@ def ortho(
 @silent
 def perspective(fov_y: float, aspect: float, near: float, far: float, real: Real = FLOAT) -> np.ndarray:
     """Return gluPerspective's matrix, computed in double precision and then rounded; `fov_y` in degrees."""
-    radians = _finite(fov_y / 2 * math.pi / 180)
+    return perspective_of(*perspective_elements(fov_y, aspect, near, far), real=real)
+
+
+def perspective_elements(fov_y: float, aspect: float, near: float, far: float) -> tuple[float, float, float, float]:
+    """Return the elements (0, 0), (1, 1), (2, 2) and (2, 3) of gluPerspective's matrix, in double precision."""
+    radians = fov_y / 2 * math.pi / 180
     focal = math.cos(radians) / math.sin(radians)
+    depth = far - near
+    return focal / aspect, focal, -(far + near) / depth, -2 * near * far / depth
+
+
+def perspective_of(x_scale: float, y_scale: float, z_scale: float, z_shift: float, real: Real = FLOAT) -> np.ndarray:
+    """Return the perspective projection with these elements, and w = -z."""
     matrix = np.zeros((4, 4))
-    matrix[0, 0], matrix[1, 1] = focal / aspect, focal
-    matrix[2, 2], matrix[2, 3] = -(far + near) / (far - near), -2 * near * far / (far - near)
+    matrix[0, 0], matrix[1, 1] = x_scale, y_scale
+    matrix[2, 2], matrix[2, 3] = z_scale, z_shift
     matrix[3, 2] = -1
     return matrix.astype(real)
 

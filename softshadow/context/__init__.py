@@ -9,7 +9,9 @@ from softshadow.context.context import (
     Frame,
     current,
     make_current,
+    thread,
 )
+from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 
 __all__ = [
@@ -21,8 +23,10 @@ __all__ = [
     "CurrentVertex",
     "DisplayList",
     "Frame",
+    "MatrixStack",
     "Primitive",
     "VertexBuffer",
     "current",
     "make_current",
+    "thread",
 ]

@@ -14,6 +14,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context.arrays import BufferObject, ClientArrays
+from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.recording import Frame
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
@@ -25,7 +26,6 @@ from softshadow.pipeline.execute import execute
 from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
 from softshadow.programs import Program
-from softshadow.programs.inverse import known_kind
 from softshadow.state import TEXTURE_UNITS, State
 
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
@@ -92,6 +92,9 @@ class Context:
         self._waiting = DrawQueue(self.objects)
         self.offset_slope, self.offset_unit = polygon_offset_slope, polygon_offset_unit
         self.raise_errors = raise_errors
+        # no list is compiled, no primitive is open, nothing is collected: a call may change the state at once.
+        # Not always True then, but always False otherwise.
+        self.ready = False
         self.before: Context | None = None  # the context that a with statement restores
         self.error = gl.GL_NO_ERROR
         viewport = evolve(State().viewport, width=width, height=height)
@@ -99,15 +102,13 @@ class Context:
         self.state = evolve(State(), viewport=viewport, scissor=scissor)
         self.real: type[np.floating] = np.float64 if precision == "exact" else np.float32
         self.current = CurrentVertex()
-        self.matrix_mode = gl.GL_MODELVIEW
-        self.active_unit = 0
-        identity = self.frozen(np.eye(4))
-        self.modelview_stack = [identity]
-        self.projection_stack = [identity]
-        self.texture_stacks = [[identity] for _ in range(TEXTURE_UNITS)]
-        # which kind each matrix is by the calls that made it: Mesa inverts by kind (softshadow.programs.inverse)
-        self.modelview_kinds, self.projection_kinds = [0], [0]
-        self.texture_kinds = [[0] for _ in range(TEXTURE_UNITS)]
+        self.identity = self.frozen(np.eye(4))
+        self.modelview_stack, self.projection_stack = (
+            MatrixStack(MATRIX_STACK_DEPTHS[mode], self.real) for mode in (gl.GL_MODELVIEW, gl.GL_PROJECTION)
+        )
+        self.texture_stacks = [MatrixStack(MATRIX_STACK_DEPTHS[gl.GL_TEXTURE], self.real) for _ in range(TEXTURE_UNITS)]
+        self._matrix_mode, self._active_unit = gl.GL_MODELVIEW, 0
+        self.matrix_stack = self.modelview_stack  # chosen by glMatrixMode; its last entry is the current matrix
         self.programs: dict[int, Program] = {}
         self.uniforms: dict[int, dict[str, Any]] = {}
         self.labels: list[str] = []
@@ -121,7 +122,7 @@ class Context:
         self.state_at_push, self.touched = self.state, 0
         self.pending = PendingAttributes()
         self.lists: dict[int, DisplayList] = {}
-        self.compiled_list: DisplayList | None = None  # between glNewList and glEndList
+        self._compiled_list: DisplayList | None = None
         self.executes_list = False  # while a compiled call is also being executed
         self.list_base = 0
         self.list_depth = 0  # nesting of lists that call each other
@@ -161,8 +162,7 @@ class Context:
 
     def change_state(self, state: State) -> None:
         """Replace the state; if the change affects draws, draw the collected vertices first."""
-        collected = self.vertex_buffer.sizes or self.pending.reset_due
-        if collected and self.primitive is None and _draw_state(state) != _draw_state(self.state):
+        if self.has_collected and self.primitive is None and _draw_state(state) != _draw_state(self.state):
             before = self.state
             self.flush()
             if self.state is not before:  # the flush has made pending materials current
@@ -178,26 +178,44 @@ class Context:
         return array
 
     @property
-    def matrix_stack(self) -> list[np.ndarray]:
-        """The stack chosen by glMatrixMode; its last entry is the current matrix."""
-        if self.matrix_mode == gl.GL_PROJECTION:
-            return self.projection_stack
-        return self.texture_stacks[self.active_unit] if self.matrix_mode == gl.GL_TEXTURE else self.modelview_stack
+    def matrix_mode(self) -> int:
+        """The stack that matrix calls work on."""
+        return self._matrix_mode
+
+    @matrix_mode.setter
+    def matrix_mode(self, mode: int) -> None:
+        self._matrix_mode = mode
+        self._select_stack()
 
     @property
-    def kind_stack(self) -> list[int]:
-        """The kinds of the matrices of `matrix_stack`."""
-        if self.matrix_mode == gl.GL_PROJECTION:
-            return self.projection_kinds
-        return self.texture_kinds[self.active_unit] if self.matrix_mode == gl.GL_TEXTURE else self.modelview_kinds
+    def active_unit(self) -> int:
+        """The texture unit that texture calls and the texture matrix stack apply to."""
+        return self._active_unit
 
-    def resolve_matrix_kinds(self) -> None:
-        """Determine unknown kinds of the current matrices from their elements, as Mesa does at each draw."""
-        for matrices, kinds in (
-            (self.modelview_stack, self.modelview_kinds),
-            (self.projection_stack, self.projection_kinds),
-        ):
-            kinds[-1] = known_kind(matrices[-1], kinds[-1])
+    @active_unit.setter
+    def active_unit(self, unit: int) -> None:
+        self._active_unit = unit
+        self._select_stack()
+
+    def _select_stack(self) -> None:
+        if self._matrix_mode == gl.GL_TEXTURE:
+            self.matrix_stack = self.texture_stacks[self._active_unit]
+        else:
+            self.matrix_stack = self.modelview_stack if self._matrix_mode == gl.GL_MODELVIEW else self.projection_stack
+
+    @property
+    def compiled_list(self) -> DisplayList | None:
+        """The list between its glNewList and glEndList."""
+        return self._compiled_list
+
+    @compiled_list.setter
+    def compiled_list(self, compiled: DisplayList | None) -> None:
+        self._compiled_list, self.ready = compiled, False
+
+    @property
+    def has_collected(self) -> bool:
+        """Whether vertices are collected, or attributes wait for the next change of the state."""
+        return bool(self.vertex_buffer.sizes or self.pending.reset_due)
 
     # -- commands ------------------------------------------------------------------------------------------------------
     def execute(self, command: Command) -> None:
@@ -276,7 +294,7 @@ class Context:
         """Make pending attributes current, as queries of current values do (Mesa's FLUSH_CURRENT)."""
         if self.pending.old_values:
             self._make_pending_current()
-            self.pending.reset_due = True
+            self.pending.reset_due, self.ready = True, False
 
     def reset_attributes(self) -> None:
         """Make pending attributes current; the vertices that follow do not carry them (Mesa's vbo_reset_all_attr)."""
@@ -297,22 +315,21 @@ class Context:
 
     # -- recording -----------------------------------------------------------------------------------------------------
     def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
-        self.resolve_matrix_kinds()
         return Draw(
             state=self.state,
             mode=mode,
             vertices=vertices,
             indices=indices,
-            modelview=self.modelview_stack[-1],
-            projection=self.projection_stack[-1],
-            texture_matrices=tuple(stack[-1] for stack in self.texture_stacks),
+            modelview=self.modelview_stack.current,
+            projection=self.projection_stack.current,
+            texture_matrices=tuple(stack.current for stack in self.texture_stacks),
             uniforms=self._uniform_values(),
             program_name=self.programs[self.state.program].name if self.state.program else "",
             label="/".join(self.labels),
             offset_slope=self.offset_slope,
             offset_unit=self.offset_unit,
-            modelview_kind=self.modelview_kinds[-1],
-            projection_kind=self.projection_kinds[-1],
+            modelview_kind=self.modelview_stack.kind,
+            projection_kind=self.projection_stack.kind,
         )
 
     def _uniform_values(self) -> Mapping[str, Any]:
@@ -334,7 +351,23 @@ def _draw_state(state: State) -> State:
     )
 
 
-_thread = threading.local()
+class _NoContext:
+    """What is current in a thread without a context: the first use of it raises an error."""
+
+    def __getattr__(self, name: str) -> Any:
+        raise StateError("no current context: call softshadow.gl.create_context(width, height) first")
+
+    def __bool__(self) -> bool:
+        return False
+
+
+class _Thread(threading.local):
+    """`context` is this thread's current context; each thread has its own."""
+
+    context: Context = _NoContext()  # type: ignore[assignment]
+
+
+thread = _Thread()
 
 
 def current() -> Context:
@@ -345,16 +378,15 @@ def current() -> Context:
     StateError
         There is none yet.
     """
-    context = getattr(_thread, "context", None)
-    if context is None:
-        raise StateError("no current context: call softshadow.gl.create_context(width, height) first")
+    context = thread.context
+    context.error  # noqa: B018 - raises an error without a context
     return context
 
 
 def make_current(context: Context | None) -> Context | None:
     """Make a context this thread's current one; return the previous one."""
-    before: Context | None = getattr(_thread, "context", None)
+    before = thread.context or None
     if before is not None:
         before.flush()
-    _thread.context = context
+    thread.context = context or _Thread.context
     return before

@@ -8,7 +8,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from softshadow.context import current
+from softshadow.context import Context, thread
+from softshadow.gl.errors import outside_begin
 
 Call = TypeVar("Call", bound=Callable[..., Any])
 
@@ -22,20 +23,49 @@ def in_lists(call: Call) -> Call:
 
     @functools.wraps(call)
     def recorded(*arguments: Any, **named: Any) -> Any:
-        context = current()
-        compiled = context.compiled_list
-        if compiled is None:
+        context = thread.context
+        if context.compiled_list is None:
             return call(*arguments, **named)
-        compiled.calls.append(functools.partial(call, *map(_snapshot, arguments), **named))
-        if not compiled.executes:
-            return None
-        context.compiled_list, context.executes_list = None, True  # calls made by this call are part of it
-        try:
-            return call(*arguments, **named)
-        finally:
-            context.compiled_list, context.executes_list = compiled, False
+        return record(context, call, *arguments, **named)
 
     return recorded  # type: ignore[return-value]
+
+
+def record(context: Context, call: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
+    """Record a call in the display list that is being compiled; with GL_COMPILE_AND_EXECUTE, also carry it out."""
+    compiled = context.compiled_list
+    assert compiled is not None
+    compiled.calls.append(functools.partial(call, *map(_snapshot, arguments), **named))
+    if not compiled.executes:
+        return None
+    context.compiled_list, context.executes_list = None, True  # calls made by this call are part of it
+    try:
+        return call(*arguments, **named)
+    finally:
+        context.compiled_list, context.executes_list = compiled, False
+
+
+# Calls that programs make most have neither `in_lists` nor `outside_begin`. They begin with
+#     context = thread.context
+#     if context.ready or is_ready(context, glCall, ...):
+def is_allowed(context: Context, call: Callable[..., Any], *arguments: Any) -> bool:
+    """Return whether a call can be carried out now.
+
+    While a display list is compiled, it is recorded instead; between glBegin and glEnd it fails.
+    """
+    if context.compiled_list is None:
+        return context.primitive is None or outside_begin(call.__name__) is not None
+    record(context, call, *arguments)
+    return False
+
+
+def is_ready(context: Context, call: Callable[..., Any], *arguments: Any) -> bool:
+    """Return whether a call can be carried out now; before a call that can, draw the collected vertices."""
+    if not is_allowed(context, call, *arguments):
+        return False
+    context.flush()
+    context.ready = True
+    return True
 
 
 def _snapshot(argument: Any) -> Any:

@@ -7,7 +7,7 @@ from numbers import Integral
 from typing import Any
 
 from softshadow import tokens as gl
-from softshadow.context import Context, current
+from softshadow.context import Context, current, thread
 from softshadow.errors import SoftShadowError
 from softshadow.tokens import token_name
 
@@ -82,7 +82,7 @@ def is_one_of(operation: str, argument: str, value: Any, allowed: Container[int]
 
 def outside_begin(operation: str) -> Context | None:
     """Return the current context; between glBegin and glEnd the call fails, and None is returned."""
-    context = current()
+    context = thread.context
     if context.primitive is None:
         return context
     fail(gl.GL_INVALID_OPERATION, operation, "not allowed between glBegin and glEnd")

@@ -7,22 +7,20 @@ from typing import Any
 
 import numpy as np
 
-from softshadow import matrices
-from softshadow.context import current
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.context import current, thread
+from softshadow.gl.calls import in_lists, is_allowed, is_ready, spelled_like_gl
 from softshadow.gl.errors import outside_begin
-from softshadow.gl.transforms import glOrtho, multiply_current, set_current
-from softshadow.programs.inverse import GENERAL, TRANSLATION, UNKNOWN
+from softshadow.gl.transforms import glOrtho
 
 
-@in_lists
 def gluPerspective(fovy: float, aspect: float, zNear: float, zFar: float) -> None:
     """Multiply by a perspective projection, `fovy` in degrees; do nothing for arguments that GLU ignores."""
-    context = outside_begin("gluPerspective")
-    sine = math.sin(math.radians(fovy / 2)) if math.isfinite(fovy) else math.nan
-    if context is not None and zFar != zNear and sine != 0 and aspect != 0:
-        projection = matrices.perspective(fovy, aspect, zNear, zFar, context.real)
-        multiply_current(context, projection, GENERAL | UNKNOWN)
+    context = thread.context
+    if not (context.ready or is_allowed(context, gluPerspective, fovy, aspect, zNear, zFar)):
+        return
+    if zFar != zNear and math.sin(math.radians(fovy / 2)) != 0 and aspect != 0:
+        context.flush()
+        context.matrix_stack.perspective(fovy, aspect, zNear, zFar)
 
 
 @in_lists
@@ -31,18 +29,16 @@ def gluOrtho2D(left: float, right: float, bottom: float, top: float) -> None:
     glOrtho(left, right, bottom, top, -1, 1)
 
 
-@in_lists
 def gluLookAt(
     eyeX: float, eyeY: float, eyeZ: float,
     centerX: float, centerY: float, centerZ: float,
     upX: float, upY: float, upZ: float,
 ) -> None:  # fmt: skip
     """Multiply by the view matrix of an eye looking at a centre."""
-    context = outside_begin("gluLookAt")
-    if context is not None:
-        eye, center, up = (eyeX, eyeY, eyeZ), (centerX, centerY, centerZ), (upX, upY, upZ)
-        view = matrices.look_at(context.matrix_stack[-1], eye, center, up)
-        set_current(context, view, context.kind_stack[-1] | GENERAL | TRANSLATION | UNKNOWN)
+    context = thread.context
+    places = (eyeX, eyeY, eyeZ, centerX, centerY, centerZ, upX, upY, upZ)
+    if context.ready or is_ready(context, gluLookAt, *places):
+        context.matrix_stack.look_at(*places)
 
 
 def gluProject(

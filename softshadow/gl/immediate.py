@@ -45,7 +45,7 @@ def glEnd() -> None:
     if primitive is None:
         fail(gl.GL_INVALID_OPERATION, "glEnd", "there was no glBegin before it")
         return
-    context.primitive = None
+    context.primitive, context.ready = None, False
     follow_color(context)
     context.pending.reset_due |= bool(primitive.positions)
     if not primitive.positions:

@@ -80,7 +80,7 @@ def _set(operation: str, light: int, pname: int, params: Any, color: Callable[[A
 
 def in_eye_space(context: Context, place: Any) -> tuple[float, ...]:
     """Return a point (4,) or direction (3,) times the modelview matrix, each step rounded in GL's order."""
-    m = context.modelview_stack[-1]
+    m = context.modelview_stack.current
     values = [context.real(rounded(context, v)) for v in place]
     with np.errstate(all="ignore"):
         product = (m[:, 0] * values[0] + m[:, 1] * values[1]) + m[:, 2] * values[2]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import MATRIX_STACK_DEPTHS, Context
+from softshadow.context import MATRIX_STACK_DEPTHS, Context, MatrixStack
 from softshadow.framebuffer import DEFAULT, DRAW_BUFFERS, LARGEST_SIDE, Framebuffer
 from softshadow.gl.attributes import DEEPEST_ATTRIBUTES
 from softshadow.gl.capabilities import CLIP_PLANES, HINTS, LIGHTS
@@ -103,7 +103,7 @@ def active_face(c: Context) -> StencilFace:
     return face
 
 
-def matrix(name: str, stack: Callable[[Context], list[np.ndarray]]) -> dict[str, Read]:
+def matrix(name: str, stack: Callable[[Context], MatrixStack]) -> dict[str, Read]:
     """Return the readers of a matrix stack; a matrix is (4, 4) in GL's memory order, column after column."""
     return {
         f"GL_{name}_MATRIX": lambda c: stack(c)[-1].T,

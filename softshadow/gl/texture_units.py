@@ -15,7 +15,7 @@ from softshadow.gl.conversions import enum, first, from_int, numbers, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.texture_combiners import COMBINE_PARAMETERS, SCALES, parameter_of, with_parameter
 from softshadow.gl.textures import queried_color, set_unit
-from softshadow.programs.inverse import inverse, known_kind
+from softshadow.programs.inverse import inverse
 from softshadow.state import TEXTURE_UNITS, TexGen
 from softshadow.tokens import token_name
 
@@ -229,9 +229,7 @@ def _set_generation(
 
 def eye_plane(context: Context, plane: np.ndarray) -> np.ndarray:
     """Return a plane (4,) in eye space: the row vector times the inverse of the current modelview matrix."""
-    modelview, kinds = context.modelview_stack[-1], context.modelview_kinds
-    kinds[-1] = known_kind(modelview, kinds[-1])
-    m = inverse(modelview, kinds[-1])
+    m = inverse(context.modelview_stack.current, context.modelview_stack.kind)
     with np.errstate(all="ignore"):
         a, b, c, d = plane.astype(np.float32)
         return np.asarray(a * m[0] + b * m[1] + c * m[2] + d * m[3], np.float32)

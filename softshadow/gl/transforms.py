@@ -1,4 +1,8 @@
-"""Matrix stacks, and calls that change the current matrix."""
+"""Matrix stacks, and calls that change the current matrix.
+
+The calls only queue their numbers (`softshadow.context.matrix_stacks`). A call that changes a matrix first draws the
+collected vertices, if there are any.
+"""
 
 from __future__ import annotations
 
@@ -6,30 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from softshadow import matrices
 from softshadow import tokens as gl
-from softshadow.context import MATRIX_STACK_DEPTHS, Context
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.context import MATRIX_STACK_DEPTHS, Context, thread
+from softshadow.gl.calls import in_lists, is_allowed, is_ready, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.programs.inverse import (
-    GENERAL,
-    GENERAL_SCALE,
-    ROTATION,
-    TRANSLATION,
-    UNIFORM_SCALE,
-    UNKNOWN,
-    known_kind,
-)
-
-SAME_SCALE = 1e-8  # a scale is uniform if its factors differ by less (Mesa, math/m_matrix.c)
-
-
-def set_current(context: Context, matrix: np.ndarray, kind: int) -> None:
-    """Replace the current matrix; Mesa inverts it by its `kind`, the transformations that it may contain."""
-    context.flush()
-    matrix.setflags(write=False)
-    context.matrix_stack[-1] = matrix
-    context.kind_stack[-1] = kind
 
 
 def _matrix_argument(context: Context, m: Any) -> np.ndarray:
@@ -39,55 +23,50 @@ def _matrix_argument(context: Context, m: Any) -> np.ndarray:
     return context.frozen(m).reshape(4, 4).T
 
 
-@in_lists
 def glMatrixMode(mode: int) -> None:
     """Select the stack that matrix calls work on."""
-    context = outside_begin("glMatrixMode")
-    expected = "GL_MODELVIEW, GL_PROJECTION or GL_TEXTURE"
-    if context is not None and is_one_of("glMatrixMode", "mode", mode, MATRIX_STACK_DEPTHS, expected):
-        if mode != context.matrix_mode or mode == gl.GL_TEXTURE:
-            context.touched |= gl.GL_TRANSFORM_BIT
+    context = thread.context
+    if not (context.ready or is_allowed(context, glMatrixMode, mode)):
+        return
+    if mode not in MATRIX_STACK_DEPTHS:
+        is_one_of("glMatrixMode", "mode", mode, MATRIX_STACK_DEPTHS, "GL_MODELVIEW, GL_PROJECTION or GL_TEXTURE")
+        return
+    if mode != context.matrix_mode or mode == gl.GL_TEXTURE:
+        context.touched |= gl.GL_TRANSFORM_BIT
         context.matrix_mode = mode
 
 
-@in_lists
 def glPushMatrix() -> None:
     """Push a copy of the current matrix onto its stack."""
-    context = outside_begin("glPushMatrix")
-    if context is None:
+    context = thread.context
+    if not (context.ready or is_allowed(context, glPushMatrix)):
         return
-    largest = MATRIX_STACK_DEPTHS[context.matrix_mode]
-    if len(context.matrix_stack) == largest:
-        fail(gl.GL_STACK_OVERFLOW, "glPushMatrix", f"this stack holds {largest} matrices")
+    stack = context.matrix_stack
+    if len(stack.kinds) == stack.limit:
+        fail(gl.GL_STACK_OVERFLOW, "glPushMatrix", f"this stack holds {stack.limit} matrices")
     else:
-        matrix, kinds = context.matrix_stack[-1], context.kind_stack
-        kinds[-1] = known_kind(matrix, kinds[-1])
-        kinds.append(kinds[-1])
-        context.matrix_stack.append(matrix)
+        stack.push()
 
 
-@in_lists
 def glPopMatrix() -> None:
     """Restore the matrix of the last push."""
-    context = outside_begin("glPopMatrix")
-    if context is None:
+    context = thread.context
+    if not (context.ready or is_allowed(context, glPopMatrix)):
         return
-    if len(context.matrix_stack) == 1:
+    stack = context.matrix_stack
+    if len(stack.kinds) == 1:
         fail(gl.GL_STACK_UNDERFLOW, "glPopMatrix", "there was no glPushMatrix before it")
     else:
-        if context.matrix_stack[-1].tobytes() != context.matrix_stack[-2].tobytes():
+        if not context.ready and context.has_collected and not stack.equals_pushed:
             context.flush()
-        context.matrix_stack.pop()
-        context.kind_stack.pop()
+        stack.pop()
 
 
-@in_lists
 def glLoadIdentity() -> None:
     """Replace the current matrix by the identity."""
-    context = outside_begin("glLoadIdentity")
-    if context is not None:
-        # Mesa keeps the kind of the old matrix, and so inverts products with the identity more generally
-        set_current(context, np.eye(4, dtype=context.real), context.kind_stack[-1] & ~UNKNOWN)
+    context = thread.context
+    if context.ready or is_ready(context, glLoadIdentity):
+        context.matrix_stack.load_identity()
 
 
 @in_lists
@@ -95,9 +74,10 @@ def glLoadMatrixf(m: Any) -> None:
     """Replace the current matrix by 16 numbers, column after column."""
     context = outside_begin("glLoadMatrixf")
     if context is not None:
-        matrix = _matrix_argument(context, m)
-        if matrix.tobytes() != context.matrix_stack[-1].tobytes():
-            set_current(context, matrix, GENERAL | UNKNOWN)
+        matrix, stack = _matrix_argument(context, m), context.matrix_stack
+        if matrix.tobytes() != stack.current.tobytes():
+            context.flush()
+            stack.load(matrix)
 
 
 @in_lists
@@ -106,8 +86,9 @@ def glMultMatrixf(m: Any) -> None:
     context = outside_begin("glMultMatrixf")
     if context is not None:
         matrix = _matrix_argument(context, m)
-        if matrix.tobytes() != np.eye(4, dtype=context.real).tobytes():  # Mesa skips the identity
-            multiply_current(context, matrix, GENERAL | UNKNOWN)
+        if matrix.tobytes() != context.identity.tobytes():  # Mesa skips the identity
+            context.flush()
+            context.matrix_stack.multiply(matrix)
 
 
 @in_lists
@@ -122,38 +103,25 @@ def glMultTransposeMatrixf(m: Any) -> None:
     glMultMatrixf(np.reshape(m, (4, 4)).T)
 
 
-def multiply_current(context: Context, matrix: np.ndarray, kind: int) -> None:
-    """Multiply the current matrix on the right by a matrix of a kind."""
-    set_current(context, matrices.multiply(context.matrix_stack[-1], matrix), context.kind_stack[-1] | kind)
-
-
-@in_lists
 def glTranslatef(x: float, y: float, z: float) -> None:
     """Multiply the current matrix by a translation."""
-    context = outside_begin("glTranslatef")
-    if context is not None:
-        product = matrices.translate(context.matrix_stack[-1], x, y, z)
-        set_current(context, product, context.kind_stack[-1] | TRANSLATION)
+    context = thread.context
+    if context.ready or is_ready(context, glTranslatef, x, y, z):
+        context.matrix_stack.translate(x, y, z)
 
 
-@in_lists
 def glScalef(x: float, y: float, z: float) -> None:
     """Multiply the current matrix by a scale."""
-    context = outside_begin("glScalef")
-    if context is not None:
-        uniform = max(abs(x - y), abs(x - z)) < SAME_SCALE
-        kind = context.kind_stack[-1] | (UNIFORM_SCALE if uniform else GENERAL_SCALE)
-        set_current(context, matrices.scale(context.matrix_stack[-1], x, y, z), kind)
+    context = thread.context
+    if context.ready or is_ready(context, glScalef, x, y, z):
+        context.matrix_stack.scale(x, y, z)
 
 
-@in_lists
 def glRotatef(angle: float, x: float, y: float, z: float) -> None:
     """Multiply the current matrix by a rotation: degrees about an axis."""
-    context = outside_begin("glRotatef")
-    if context is not None:
-        context.flush()
-    if context is not None and angle and (x or y or z):
-        multiply_current(context, matrices.rotation(angle, x, y, z, context.real), ROTATION)
+    context = thread.context
+    if (context.ready or is_ready(context, glRotatef, angle, x, y, z)) and angle and (x or y or z):
+        context.matrix_stack.rotate(angle, x, y, z)
 
 
 @in_lists
@@ -166,7 +134,8 @@ def glFrustum(left: float, right: float, bottom: float, top: float, zNear: float
         expected = "expected left ≠ right, bottom ≠ top, near ≠ far and both more than 0"
         fail(gl.GL_INVALID_VALUE, "glFrustum", f"zNear={zNear}, zFar={zFar}: {expected}")
     else:
-        multiply_current(context, matrices.frustum(left, right, bottom, top, zNear, zFar, context.real), GENERAL)
+        context.flush()
+        context.matrix_stack.frustum(left, right, bottom, top, zNear, zFar)
 
 
 @in_lists
@@ -179,8 +148,8 @@ def glOrtho(left: float, right: float, bottom: float, top: float, zNear: float, 
         expected = "expected left ≠ right, bottom ≠ top and near ≠ far"
         fail(gl.GL_INVALID_VALUE, "glOrtho", f"left={left}, right={right}: {expected}")
     else:
-        projection = matrices.ortho(left, right, bottom, top, zNear, zFar, context.real)
-        multiply_current(context, projection, GENERAL_SCALE | TRANSLATION)
+        context.flush()
+        context.matrix_stack.ortho(left, right, bottom, top, zNear, zFar)
 
 
 glLoadMatrixd, glMultMatrixd = glLoadMatrixf, glMultMatrixf

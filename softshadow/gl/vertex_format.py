@@ -41,6 +41,7 @@ def begin(context: Context, mode: int) -> None:
         if context.pending.names:
             context.reset_attributes()
     materials: dict[str, list[Any]] = {name: [] for name in context.vertex_buffer.sizes if "." in name}
+    context.ready = False
     context.primitive = Primitive(mode, from_list=context.list_depth > 0, materials=materials)
 
 
@@ -76,7 +77,7 @@ def carry_attribute(context: Context, name: str, size: int) -> int:
         context.vertex_buffer.submit()
         if name not in sizes and had_many:
             sizes.clear()
-    sizes[name] = size
+    sizes[name], context.ready = size, False
     return size
 
 
