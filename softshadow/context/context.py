@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,7 +16,7 @@ from softshadow import tokens as gl
 from softshadow.context.arrays import BufferObject, ClientArrays
 from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.pending_attributes import PendingAttributes
-from softshadow.context.recording import Frame
+from softshadow.context.state_groups import StateGroups, affects_draws
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage
@@ -99,8 +99,9 @@ class Context:
         self.error = gl.GL_NO_ERROR
         viewport = evolve(State().viewport, width=width, height=height)
         scissor = evolve(State().scissor, width=width, height=height)
-        self.state = evolve(State(), viewport=viewport, scissor=scissor)
         self.real: type[np.floating] = np.float64 if precision == "exact" else np.float32
+        self._state = StateGroups(evolve(State(), viewport=viewport, scissor=scissor), self.real is np.float32)
+        self.groups = self._state.groups  # calls change them by `change`
         self.current = CurrentVertex()
         self.identity = self.frozen(np.eye(4))
         self.modelview_stack, self.projection_stack = (
@@ -156,6 +157,52 @@ class Context:
         return self._frame
 
     # -- state ---------------------------------------------------------------------------------------------------------
+    @property
+    def state(self) -> State:
+        """The state, immutable; the same object until something changes."""
+        return self._state.snapshot()
+
+    @state.setter
+    def state(self, state: State) -> None:
+        self._state.restore(state)
+
+    def change(self, group: str, **fields: Any) -> None:
+        """Set fields of a group of the state; if the change affects draws, draw the collected vertices first."""
+        changed = self.groups[group]
+        before = changed.fields
+        for name, value in fields.items():
+            if before[name] is not value:
+                break
+        else:
+            return
+        if not self.ready and self.has_collected and affects_draws(before, fields):
+            self.flush()
+        before.update(fields)
+        self._state.changed.add(changed)
+
+    def change_each(self, groups: Sequence[str], **fields: Any) -> None:
+        """Set the same fields in several groups of the state."""
+        changed = [self.groups[group] for group in groups]
+        if not self.ready and self.has_collected and any(affects_draws(group.fields, fields) for group in changed):
+            self.flush()
+        for group in changed:
+            for name, value in fields.items():
+                if group.fields[name] is not value:
+                    group.fields.update(fields)
+                    self._state.changed.add(group)
+                    break
+
+    def follow(self, sides: tuple[str, ...], fields: tuple[str, ...]) -> None:
+        """Copy the current colour to fields of the materials that follow it, without drawing the collected vertices."""
+        if self._state.followed is not None and self._state.followed[:2] != (sides, fields):
+            self._state.settle()
+        self._state.followed = sides, fields, self.current.color
+
+    def material(self, side: str) -> dict[str, Any]:
+        """Return the fields of the "front" or "back" material."""
+        self._state.settle()
+        return self.groups[f"lighting.{side}"].fields
+
     def set(self, **groups: Any) -> None:
         """Replace groups of the state, each by its name."""
         self.change_state(evolve(self.state, **groups))
@@ -268,7 +315,7 @@ class Context:
         if name.startswith("texcoord"):
             return self.current.texcoords[int(name.removeprefix("texcoord"))]
         side, _, material = name.partition(".")
-        return getattr(getattr(self.state.lighting, side), material) if material else getattr(self.current, name)
+        return self.material(side)[material] if material else getattr(self.current, name)
 
     def set_attribute(self, name: str, value: Any) -> None:
         """Set a current value by its name, without drawing the collected vertices first."""
@@ -276,9 +323,8 @@ class Context:
         if name.startswith("texcoord"):
             self.current.texcoords[int(name.removeprefix("texcoord"))] = value
         elif material:
-            lighting = self.state.lighting
-            materials: Any = {side: evolve(getattr(lighting, side), **{material: value})}
-            self.state = evolve(self.state, lighting=evolve(lighting, **materials))
+            self.material(side)[material] = value
+            self._state.changed.add(self.groups[f"lighting.{side}"])
         else:
             setattr(self.current, name, value)
 

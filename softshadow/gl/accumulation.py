@@ -6,7 +6,7 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import DEFAULT
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.fragment_state import change, rounded
+from softshadow.gl.fragment_state import rounded
 from softshadow.pipeline.commands import Accumulate
 
 OPERATIONS = (gl.GL_ACCUM, gl.GL_LOAD, gl.GL_ADD, gl.GL_MULT, gl.GL_RETURN)
@@ -20,7 +20,7 @@ def glClearAccum(red: float, green: float, blue: float, alpha: float) -> None:
     if context is not None:
         context.touched |= gl.GL_ACCUM_BUFFER_BIT
         clamped = [min(max(-1.0, float(c)), 1.0) for c in (red, green, blue, alpha)]
-        change(context, "color", clear_accum=rounded(context, *clamped))
+        context.change("color", clear_accum=rounded(context, *clamped))
 
 
 @in_lists

@@ -5,22 +5,22 @@ from __future__ import annotations
 from ctypes import c_int
 
 from softshadow import tokens as gl
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.context import thread
+from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
-from softshadow.gl.fragment_state import change, clamp01, rounded
+from softshadow.gl.fragment_state import clamp01, rounded
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.pipeline.commands import Clear
 
 BUFFER_BITS = gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT | gl.GL_ACCUM_BUFFER_BIT
 
 
-@in_lists
 def glClearColor(red: float, green: float, blue: float, alpha: float) -> None:
     """Set the clear colour."""
-    context = outside_begin("glClearColor")
-    if context is not None:
+    context = thread.context
+    if context.ready or is_allowed(context, glClearColor, red, green, blue, alpha):
         context.touched |= gl.GL_COLOR_BUFFER_BIT
-        change(context, "color", clear=rounded(context, red, green, blue, alpha))
+        context.change("color", clear=rounded(context, red, green, blue, alpha))
 
 
 @in_lists
@@ -29,7 +29,7 @@ def glClearDepth(depth: float) -> None:
     context = outside_begin("glClearDepth")
     if context is not None:
         context.touched |= gl.GL_DEPTH_BUFFER_BIT
-        change(context, "depth", clear=clamp01(depth))
+        context.change("depth", clear=clamp01(depth))
 
 
 glClearDepthf = glClearDepth
@@ -41,7 +41,7 @@ def glClearStencil(s: int) -> None:
     context = outside_begin("glClearStencil")
     if context is not None:
         context.touched |= gl.GL_STENCIL_BUFFER_BIT
-        change(context, "stencil", clear=c_int(int(s)).value)
+        context.change("stencil", clear=c_int(int(s)).value)
 
 
 @in_lists

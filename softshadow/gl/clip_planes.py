@@ -11,7 +11,6 @@ from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.capabilities import CLIP_PLANES, with_item
 from softshadow.gl.conversions import vector
 from softshadow.gl.errors import is_one_of, outside_begin
-from softshadow.gl.fragment_state import change
 from softshadow.gl.texture_units import eye_plane
 
 A_PLANE = "GL_CLIP_PLANE0 … GL_CLIP_PLANE5"
@@ -26,7 +25,7 @@ def glClipPlane(plane: int, equation: Any) -> None:
     object_space = np.array(vector(equation, 4), np.float64)
     eye_space = tuple(eye_plane(context, object_space).tolist())
     equations = with_item(context.state.clip_planes.equations, plane - gl.GL_CLIP_PLANE0, eye_space)
-    change(context, "clip_planes", equations=equations)
+    context.change("clip_planes", equations=equations)
 
 
 def glGetClipPlane(plane: int) -> Any:

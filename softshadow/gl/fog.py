@@ -9,7 +9,7 @@ from softshadow import tokens as gl
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import enum, first, from_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.fragment_state import change, rounded
+from softshadow.gl.fragment_state import rounded
 
 NUMBERS = {gl.GL_FOG_DENSITY: "density", gl.GL_FOG_START: "start", gl.GL_FOG_END: "end"}
 MODES = (gl.GL_LINEAR, gl.GL_EXP, gl.GL_EXP2)
@@ -47,16 +47,16 @@ def _set(operation: str, pname: int, params: Any, color: Callable[[Any], float])
     if context is None or not is_one_of(operation, "pname", pname, allowed, expected):
         return
     if pname == gl.GL_FOG_COLOR:
-        change(context, "fog", color=rounded(context, *vector(params, 4, color)))
+        context.change("fog", color=rounded(context, *vector(params, 4, color)))
         return
     value = first(params, int if color is from_int else float)
     if pname == gl.GL_FOG_MODE:
-        if is_one_of(operation, "param", mode := enum(value), MODES, "GL_LINEAR, GL_EXP or GL_EXP2"):
-            change(context, "fog", mode=mode)
+        if is_one_of(operation, "param", int(value), MODES, "GL_LINEAR, GL_EXP or GL_EXP2"):
+            context.change("fog", mode=int(value))
     elif pname == gl.GL_FOG_DENSITY and value < 0:
         fail(gl.GL_INVALID_VALUE, operation, f"param={value:g}: expected 0 or more for GL_FOG_DENSITY")
     else:
-        change(context, "fog", **{NUMBERS[pname]: rounded(context, value)})
+        context.change("fog", **{NUMBERS[pname]: rounded(context, value)})
 
 
 __all__ = spelled_like_gl(globals())

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from ctypes import c_float, c_int
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context
-from softshadow.frozen import evolve
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.context import Context, thread
+from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.errors import is_one_of, outside_begin
 from softshadow.state import STENCIL_OPS, Stencil
 
-FUNCTIONS = range(gl.GL_NEVER, gl.GL_ALWAYS + 1)
+FUNCTIONS = frozenset(range(gl.GL_NEVER, gl.GL_ALWAYS + 1))
 A_FUNCTION = "GL_NEVER … GL_ALWAYS"
-STENCIL_OP_VALUES = {getattr(gl, name) for name in STENCIL_OPS}
+STENCIL_OP_VALUES = frozenset(getattr(gl, name) for name in STENCIL_OPS)
 FACES = (gl.GL_FRONT, gl.GL_BACK, gl.GL_FRONT_AND_BACK)
+FRONT, BACKS = "stencil.front", ("stencil.back", "stencil.other_back")  # GL 2.0's back state, without and with two_side
+BOTH_FACES = tuple((FRONT, back) for back in BACKS)
 A_FACE = "GL_FRONT, GL_BACK or GL_FRONT_AND_BACK"
 EQUATIONS = (gl.GL_FUNC_ADD, gl.GL_FUNC_SUBTRACT, gl.GL_FUNC_REVERSE_SUBTRACT, gl.GL_MIN, gl.GL_MAX)
 AN_EQUATION = "GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN or GL_MAX"
@@ -28,12 +30,8 @@ FACTORS = {
 }  # fmt: skip
 A_FACTOR = "a blend factor (GL 2.1, table 4.2)"
 UNSIGNED = 0xFFFFFFFF  # masks are unsigned: -1 sets all bits
+MASKS = {mask: mask for mask in product((False, True), repeat=4)}  # so that equal masks are the same object
 LOGIC_OPS = range(gl.GL_CLEAR, gl.GL_SET + 1)
-
-
-def change(context: Context, group: str, **fields: Any) -> None:
-    """Replace fields of one group of the state."""
-    context.set(**{group: evolve(getattr(context.state, group), **fields)})
 
 
 def clamp01(value: float) -> float:
@@ -48,20 +46,20 @@ def rounded(context: Context, *values: float) -> Any:
 
 
 # -- depth and alpha test ----------------------------------------------------------------------------------------------
-@in_lists
 def glDepthFunc(func: int) -> None:
     """Set the comparison of the depth test."""
-    context = outside_begin("glDepthFunc")
-    if context is not None and is_one_of("glDepthFunc", "func", func, FUNCTIONS, A_FUNCTION):
-        change(context, "depth", func=int(func))
+    context = thread.context
+    if not (context.ready or is_allowed(context, glDepthFunc, func)):
+        return
+    if func in FUNCTIONS or is_one_of("glDepthFunc", "func", func, FUNCTIONS, A_FUNCTION):
+        context.change("depth", func=int(func))
 
 
-@in_lists
 def glDepthMask(flag: Any) -> None:
     """Enable or disable depth writes."""
-    context = outside_begin("glDepthMask")
-    if context is not None:
-        change(context, "depth", write=bool(flag))
+    context = thread.context
+    if context.ready or is_allowed(context, glDepthMask, flag):
+        context.change("depth", write=bool(flag))
 
 
 @in_lists
@@ -69,83 +67,84 @@ def glAlphaFunc(func: int, ref: float) -> None:
     """Set comparison and reference of the alpha test; the test clamps the reference to [0, 1]."""
     context = outside_begin("glAlphaFunc")
     if context is not None and is_one_of("glAlphaFunc", "func", func, FUNCTIONS, A_FUNCTION):
-        change(context, "alpha", func=int(func), ref=rounded(context, ref))
+        context.change("alpha", func=int(func), ref=rounded(context, ref))
 
 
 # -- stencil test ------------------------------------------------------------------------------------------------------
-@in_lists
 def glStencilFunc(func: int, ref: int, mask: int) -> None:
     """Set the stencil comparison of both facings: (ref & mask) func (stencil & mask)."""
-    _stencil_func("glStencilFunc", None, func, ref, mask)
+    context = thread.context
+    if context.ready or is_allowed(context, glStencilFunc, func, ref, mask):
+        _stencil_func(context, "glStencilFunc", None, func, ref, mask)
 
 
-@in_lists
 def glStencilFuncSeparate(face: int, func: int, ref: int, mask: int) -> None:
     """Set the stencil comparison of one facing; the test clamps the reference to the range of the buffer."""
-    _stencil_func("glStencilFuncSeparate", face, func, ref, mask)
+    context = thread.context
+    if context.ready or is_allowed(context, glStencilFuncSeparate, face, func, ref, mask):
+        _stencil_func(context, "glStencilFuncSeparate", face, func, ref, mask)
 
 
-def _stencil_func(operation: str, face: int | None, func: int, ref: int, mask: int) -> None:
-    context = outside_begin(operation)
-    if context is not None and is_one_of(operation, "func", func, FUNCTIONS, A_FUNCTION):
-        _set_faces(context, operation, face, func=int(func), ref=c_int(int(ref)).value, read_mask=int(mask) & UNSIGNED)
+def _stencil_func(context: Context, operation: str, face: int | None, func: int, ref: int, mask: int) -> None:
+    if func in FUNCTIONS or is_one_of(operation, "func", func, FUNCTIONS, A_FUNCTION):
+        ref = c_int(int(ref)).value
+        context.change_each(_faces(context, operation, face), func=int(func), ref=ref, read_mask=int(mask) & UNSIGNED)
 
 
-@in_lists
 def glStencilOp(fail: int, zfail: int, zpass: int) -> None:
     """Set the stencil operations of both facings: stencil test fails, depth test fails, both pass."""
-    _stencil_op("glStencilOp", None, fail, zfail, zpass)
+    context = thread.context
+    if context.ready or is_allowed(context, glStencilOp, fail, zfail, zpass):
+        _stencil_op(context, "glStencilOp", None, fail, zfail, zpass)
 
 
-@in_lists
 def glStencilOpSeparate(face: int, sfail: int, dpfail: int, dppass: int) -> None:
     """Set the stencil operations of one facing."""
-    _stencil_op("glStencilOpSeparate", face, sfail, dpfail, dppass)
+    context = thread.context
+    if context.ready or is_allowed(context, glStencilOpSeparate, face, sfail, dpfail, dppass):
+        _stencil_op(context, "glStencilOpSeparate", face, sfail, dpfail, dppass)
 
 
-def _stencil_op(operation: str, face: int | None, sfail: int, zfail: int, zpass: int) -> None:
-    context = outside_begin(operation)
-    if context is None:
-        return
+def _stencil_op(context: Context, operation: str, face: int | None, sfail: int, zfail: int, zpass: int) -> None:
     for argument, op in (("sfail", sfail), ("zfail", zfail), ("zpass", zpass)):
-        if not is_one_of(operation, argument, op, STENCIL_OP_VALUES, ", ".join(STENCIL_OPS)):
+        if op not in STENCIL_OP_VALUES:
+            is_one_of(operation, argument, op, STENCIL_OP_VALUES, ", ".join(STENCIL_OPS))
             return
-    _set_faces(context, operation, face, sfail=int(sfail), zfail=int(zfail), zpass=int(zpass))
+    context.change_each(_faces(context, operation, face), sfail=int(sfail), zfail=int(zfail), zpass=int(zpass))
 
 
-@in_lists
 def glStencilMask(mask: int) -> None:
     """Set the stencil write mask of both facings."""
-    _stencil_mask("glStencilMask", None, mask)
+    context = thread.context
+    if context.ready or is_allowed(context, glStencilMask, mask):
+        _stencil_mask(context, "glStencilMask", None, mask)
 
 
-@in_lists
 def glStencilMaskSeparate(face: int, mask: int) -> None:
     """Set the stencil write mask of one facing."""
-    _stencil_mask("glStencilMaskSeparate", face, mask)
+    context = thread.context
+    if context.ready or is_allowed(context, glStencilMaskSeparate, face, mask):
+        _stencil_mask(context, "glStencilMaskSeparate", face, mask)
 
 
-def _stencil_mask(operation: str, face: int | None, mask: int) -> None:
-    context = outside_begin(operation)
-    if context is not None:
-        _set_faces(context, operation, face, write_mask=int(mask) & UNSIGNED)
+def _stencil_mask(context: Context, operation: str, face: int | None, mask: int) -> None:
+    context.change_each(_faces(context, operation, face), write_mask=int(mask) & UNSIGNED)
 
 
-def _set_faces(context: Context, operation: str, face: int | None, **fields: int) -> None:
-    """Set fields of one face or both; without a `face`, of those chosen by glActiveStencilFaceEXT."""
-    if face is not None and not is_one_of(operation, "face", face, FACES, A_FACE):
-        return
-    stencil = context.state.stencil
-    if face is None and stencil.active_back:
-        name = extension_back(stencil)
-        context.set(stencil=evolve(stencil, **{name: evolve(getattr(stencil, name), **fields)}))
-        return
-    if face != gl.GL_BACK:
-        stencil = evolve(stencil, front=evolve(stencil.front, **fields))
-    if face != gl.GL_FRONT:
-        name = core_back(stencil)
-        stencil = evolve(stencil, **{name: evolve(getattr(stencil, name), **fields)})
-    context.set(stencil=stencil)
+def _faces(context: Context, operation: str, face: int | None) -> tuple[str, ...]:
+    """Return the groups of the state that a call sets; none after an error.
+
+    Without a `face`, they are those chosen by glActiveStencilFaceEXT.
+    """
+    stencil = context.groups["stencil"].fields
+    two_side = stencil["two_side"]
+    if face is None:
+        return (BACKS[not two_side],) if stencil["active_back"] else BOTH_FACES[two_side]
+    if not is_one_of(operation, "face", face, FACES, A_FACE):
+        return ()
+    return (
+        BOTH_FACES[two_side] if face == gl.GL_FRONT_AND_BACK else (FRONT if face == gl.GL_FRONT else BACKS[two_side],)
+    )
 
 
 def extension_back(stencil: Stencil) -> str:
@@ -167,7 +166,7 @@ def glActiveStencilFaceEXT(face: int) -> None:
     """
     context, faces = outside_begin("glActiveStencilFaceEXT"), (gl.GL_FRONT, gl.GL_BACK)
     if context is not None and is_one_of("glActiveStencilFaceEXT", "face", face, faces, "GL_FRONT or GL_BACK"):
-        change(context, "stencil", active_back=face == gl.GL_BACK)
+        context.change("stencil", active_back=face == gl.GL_BACK)
 
 
 @in_lists
@@ -177,29 +176,28 @@ def glStencilFuncSeparateATI(frontfunc: int, backfunc: int, ref: int, mask: int)
     if context is None or not is_one_of(operation, "frontfunc", frontfunc, FUNCTIONS, A_FUNCTION):
         return
     if is_one_of(operation, "backfunc", backfunc, FUNCTIONS, A_FUNCTION):
-        _stencil_func(operation, gl.GL_FRONT, frontfunc, ref, mask)
-        _stencil_func(operation, gl.GL_BACK, backfunc, ref, mask)
+        _stencil_func(context, operation, gl.GL_FRONT, frontfunc, ref, mask)
+        _stencil_func(context, operation, gl.GL_BACK, backfunc, ref, mask)
 
 
 glStencilOpSeparateATI = glStencilOpSeparate
 
 
 # -- colour ------------------------------------------------------------------------------------------------------------
-@in_lists
 def glColorMask(red: Any, green: Any, blue: Any, alpha: Any) -> None:
     """Enable or disable writes to each colour channel."""
-    context = outside_begin("glColorMask")
-    if context is not None:
-        change(context, "color", mask=(bool(red), bool(green), bool(blue), bool(alpha)))
+    context = thread.context
+    if context.ready or is_allowed(context, glColorMask, red, green, blue, alpha):
+        context.change("color", mask=MASKS[bool(red), bool(green), bool(blue), bool(alpha)])
 
 
-@in_lists
 def glBlendFunc(sfactor: int, dfactor: int) -> None:
     """Set the blend factors of source and destination."""
-    _blend_func("glBlendFunc", sfactor, dfactor, sfactor, dfactor)
+    context = thread.context
+    if context.ready or is_allowed(context, glBlendFunc, sfactor, dfactor):
+        _blend_func(context, "glBlendFunc", sfactor, dfactor, sfactor, dfactor)
 
 
-@in_lists
 def glBlendFuncSeparate(
     sfactorRGB: int,
     dfactorRGB: int,
@@ -207,20 +205,22 @@ def glBlendFuncSeparate(
     dfactorAlpha: int,
 ) -> None:
     """Set the blend factors separately for colour and alpha."""
-    _blend_func("glBlendFuncSeparate", sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha)
+    context = thread.context
+    if context.ready or is_allowed(context, glBlendFuncSeparate, sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha):
+        _blend_func(context, "glBlendFuncSeparate", sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha)
 
 
-def _blend_func(operation: str, src_rgb: int, dst_rgb: int, src_alpha: int, dst_alpha: int) -> None:
-    context = outside_begin(operation)
-    if context is None:
-        return
+def _blend_func(
+    context: Context, operation: str, src_rgb: int, dst_rgb: int, src_alpha: int, dst_alpha: int
+) -> None:  # fmt: skip
     names = ("sfactorRGB", "dfactorRGB", "sfactorAlpha", "dfactorAlpha")
-    factors = tuple(map(int, (src_rgb, dst_rgb, src_alpha, dst_alpha)))
-    for name, value in zip(names, factors, strict=True):
-        if not is_one_of(operation, name, value, FACTORS, A_FACTOR):
+    for name, value in zip(names, (src_rgb, dst_rgb, src_alpha, dst_alpha), strict=True):
+        if value not in FACTORS:
+            is_one_of(operation, name, value, FACTORS, A_FACTOR)
             return
-    fields = ("src_rgb", "dst_rgb", "src_alpha", "dst_alpha")
-    change(context, "blend", **dict(zip(fields, factors, strict=True)))
+    context.change(
+        "blend", src_rgb=int(src_rgb), dst_rgb=int(dst_rgb), src_alpha=int(src_alpha), dst_alpha=int(dst_alpha)
+    )
 
 
 @in_lists
@@ -242,7 +242,7 @@ def _blend_equation(operation: str, mode_rgb: int, mode_alpha: int) -> None:
     for name, value in (("modeRGB", mode_rgb), ("modeAlpha", mode_alpha)):
         if not is_one_of(operation, name, value, EQUATIONS, AN_EQUATION):
             return
-    change(context, "blend", equation_rgb=int(mode_rgb), equation_alpha=int(mode_alpha))
+    context.change("blend", equation_rgb=int(mode_rgb), equation_alpha=int(mode_alpha))
 
 
 @in_lists
@@ -250,7 +250,7 @@ def glBlendColor(red: float, green: float, blue: float, alpha: float) -> None:
     """Set the constant blend colour."""
     context = outside_begin("glBlendColor")
     if context is not None:
-        change(context, "blend", color=rounded(context, red, green, blue, alpha))
+        context.change("blend", color=rounded(context, red, green, blue, alpha))
 
 
 @in_lists
@@ -258,7 +258,7 @@ def glLogicOp(opcode: int) -> None:
     """Set the bitwise operation of GL_COLOR_LOGIC_OP."""
     context = outside_begin("glLogicOp")
     if context is not None and is_one_of("glLogicOp", "opcode", opcode, LOGIC_OPS, "GL_CLEAR … GL_SET"):
-        change(context, "blend", logic_op=int(opcode))
+        context.change("blend", logic_op=int(opcode))
 
 
 __all__ = spelled_like_gl(globals())

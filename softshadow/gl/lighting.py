@@ -9,12 +9,11 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.capabilities import LIGHTS, with_item
-from softshadow.gl.conversions import as_floats, as_ints, enum, first, from_int, to_int, truncated_int, vector
+from softshadow.gl.capabilities import LIGHTS
+from softshadow.gl.conversions import as_floats, as_ints, first, from_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.fragment_state import change, rounded
+from softshadow.gl.fragment_state import rounded
 
 COLORS = {gl.GL_AMBIENT: "ambient", gl.GL_DIFFUSE: "diffuse", gl.GL_SPECULAR: "specular"}
 PLACES = {gl.GL_POSITION: "position", gl.GL_SPOT_DIRECTION: "spot_direction"}
@@ -100,8 +99,7 @@ def _set_number(operation: str, context: Context, light: int, pname: int, value:
 
 
 def _replace(context: Context, light: int, **fields: Any) -> None:
-    lights, index = context.state.lighting.lights, light - gl.GL_LIGHT0
-    change(context, "lighting", lights=with_item(lights, index, evolve(lights[index], **fields)))
+    context.change(f"lighting.lights.{light - gl.GL_LIGHT0}", **fields)
 
 
 def glGetLightfv(light: int, pname: int) -> Any:
@@ -159,14 +157,14 @@ def _set_model(operation: str, pname: int, params: Any, color: Callable[[Any], f
     if pname == gl.GL_LIGHT_MODEL_AMBIENT:
         ambient = rounded(context, *vector(params, 4, color))
         if ambient != rounded(context, *context.state.lighting.model_ambient):  # initially 0.2, not rounded
-            change(context, "lighting", model_ambient=ambient)
+            context.change("lighting", model_ambient=ambient)
     elif pname in MODEL_SWITCHES:
-        change(context, "lighting", **{MODEL_SWITCHES[pname]: bool(first(params, plain))})
+        context.change("lighting", **{MODEL_SWITCHES[pname]: bool(first(params, plain))})
     else:
         expected = "GL_SINGLE_COLOR or GL_SEPARATE_SPECULAR_COLOR"
         control = enum(first(params, plain))
         if is_one_of(operation, "param", control, COLOR_CONTROLS, expected):
-            change(context, "lighting", color_control=control)
+            context.change("lighting", color_control=control)
 
 
 @in_lists
@@ -175,7 +173,7 @@ def glShadeModel(mode: int) -> None:
     context = outside_begin("glShadeModel")
     modes = (gl.GL_FLAT, gl.GL_SMOOTH)
     if context is not None and is_one_of("glShadeModel", "mode", mode, modes, "GL_FLAT or GL_SMOOTH"):
-        change(context, "lighting", shade_model=int(mode))
+        context.change("lighting", shade_model=int(mode))
 
 
 __all__ = spelled_like_gl(globals())

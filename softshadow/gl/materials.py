@@ -9,13 +9,11 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, current
-from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import as_floats, as_ints, first, from_int, nearest_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.fragment_state import A_FACE, FACES, change, rounded
+from softshadow.gl.fragment_state import A_FACE, FACES, rounded
 from softshadow.gl.vertex_format import carry_attribute
-from softshadow.state import Lighting, MaterialState
 
 # parameter: fields of the material
 FIELDS: dict[int, tuple[str, ...]] = {
@@ -90,25 +88,23 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
     Between glBegin and glEnd they become attributes of the vertices.
     """
     context.flush()
-    lighting = context.state.lighting
-    materials: dict[str, MaterialState] = {}
     for side in SIDES[face]:
-        free = {field: value for field, value in fields.items() if field not in followed(lighting, side)}
+        material, fixed = context.material(side), followed(context, side)
+        free = {field: value for field, value in fields.items() if field not in fixed}
         for field in free:
             context.remember_attribute(f"{side}.{field}")
         if context.primitive is not None:
             for field, value in free.items():
                 carry_attribute(context, f"{side}.{field}", np.size(value))
-                old_values = [getattr(getattr(lighting, side), field)] * len(context.primitive.positions)
+                old_values = [material[field]] * len(context.primitive.positions)
                 context.primitive.materials.setdefault(f"{side}.{field}", old_values)
-        materials[side] = evolve(getattr(lighting, side), **free)
-    change(context, "lighting", **materials)
+        context.change(f"lighting.{side}", **free)
 
 
 def material_field(context: Context, name: str) -> Any:
     """Return a field of a material by its name in `Vertices.materials`, such as "front.diffuse"."""
     side, _, field = name.partition(".")
-    return getattr(getattr(context.state.lighting, side), field)
+    return context.material(side)[field]
 
 
 # -- colours that follow glColor ---------------------------------------------------------------------------------------
@@ -119,24 +115,22 @@ def glColorMaterial(face: int, mode: int) -> None:
     if context is None or not is_one_of("glColorMaterial", "face", face, FACES, A_FACE):
         return
     if is_one_of("glColorMaterial", "mode", mode, FIELDS, A_COLOR):
-        change(context, "lighting", color_material_face=int(face), color_material_mode=int(mode))
+        context.change("lighting", color_material_face=int(face), color_material_mode=int(mode))
         start_to_follow(context)
 
 
-def followed(lighting: Lighting, side: str) -> tuple[str, ...]:
+def followed(context: Context, side: str) -> tuple[str, ...]:
     """Return the fields of the "front" or "back" material that follow glColor."""
-    follows = lighting.color_material and side in SIDES[lighting.color_material_face]
-    return FIELDS[lighting.color_material_mode] if follows else ()
+    lighting = context.groups["lighting"].fields
+    follows = lighting["color_material"] and side in SIDES[lighting["color_material_face"]]
+    return FIELDS[lighting["color_material_mode"]] if follows else ()
 
 
 def follow_color(context: Context) -> None:
     """Copy the current colour to the material fields that follow it."""
-    lighting = context.state.lighting
-    if lighting.color_material:
-        fields: Any = dict.fromkeys(FIELDS[lighting.color_material_mode], rounded(context, *context.current.color))
-        sides = SIDES[lighting.color_material_face]
-        materials = {side: evolve(getattr(lighting, side), **fields) for side in sides}
-        context.state = evolve(context.state, lighting=evolve(lighting, **materials))  # without a flush
+    lighting = context.groups["lighting"].fields
+    if lighting["color_material"]:
+        context.follow(SIDES[lighting["color_material_face"]], FIELDS[lighting["color_material_mode"]])
 
 
 def start_to_follow(context: Context) -> None:
@@ -144,7 +138,7 @@ def start_to_follow(context: Context) -> None:
 
     A pending material is only hidden by it: Mesa makes it current again with the next flush (vbo_exec_copy_to_current).
     """
-    if context.state.lighting.color_material:
+    if context.groups["lighting"].fields["color_material"]:
         context.update_current()
         for name in context.pending.names:
             if "." in name:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from softshadow import tokens as gl
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.context import thread
+from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.fragment_state import A_FACE, FACES, change, clamp01, rounded
+from softshadow.gl.fragment_state import A_FACE, FACES, clamp01, rounded
 
 LARGEST_VIEWPORT = 16384
 FARTHEST_CORNER = 32768  # Mesa clamps the corner of a viewport to this
@@ -13,20 +14,22 @@ POLYGON_MODES = (gl.GL_POINT, gl.GL_LINE, gl.GL_FILL)
 
 
 # -- polygons, lines, points -------------------------------------------------------------------------------------------
-@in_lists
 def glCullFace(mode: int) -> None:
     """Set which faces GL_CULL_FACE removes."""
-    context = outside_begin("glCullFace")
-    if context is not None and is_one_of("glCullFace", "mode", mode, FACES, A_FACE):
-        change(context, "cull", face=int(mode))
+    context = thread.context
+    if not (context.ready or is_allowed(context, glCullFace, mode)):
+        return
+    if is_one_of("glCullFace", "mode", mode, FACES, A_FACE):
+        context.change("cull", face=int(mode))
 
 
-@in_lists
 def glFrontFace(mode: int) -> None:
     """Set which winding is front-facing."""
-    context = outside_begin("glFrontFace")
-    if context is not None and is_one_of("glFrontFace", "mode", mode, (gl.GL_CW, gl.GL_CCW), "GL_CW or GL_CCW"):
-        change(context, "cull", front_face=int(mode))
+    context = thread.context
+    if not (context.ready or is_allowed(context, glFrontFace, mode)):
+        return
+    if is_one_of("glFrontFace", "mode", mode, (gl.GL_CW, gl.GL_CCW), "GL_CW or GL_CCW"):
+        context.change("cull", front_face=int(mode))
 
 
 @in_lists
@@ -37,17 +40,16 @@ def glPolygonMode(face: int, mode: int) -> None:
         return
     if is_one_of("glPolygonMode", "mode", mode, POLYGON_MODES, "GL_POINT, GL_LINE or GL_FILL"):
         if face != gl.GL_BACK:
-            change(context, "polygon", mode_front=int(mode))
+            context.change("polygon", mode_front=int(mode))
         if face != gl.GL_FRONT:
-            change(context, "polygon", mode_back=int(mode))
+            context.change("polygon", mode_back=int(mode))
 
 
-@in_lists
 def glPolygonOffset(factor: float, units: float) -> None:
     """Set the depth offset of polygons: `factor` times the slope, plus `units` times the smallest depth step."""
-    context = outside_begin("glPolygonOffset")
-    if context is not None:
-        change(context, "polygon", factor=rounded(context, factor), units=rounded(context, units))
+    context = thread.context
+    if context.ready or is_allowed(context, glPolygonOffset, factor, units):
+        context.change("polygon", factor=rounded(context, factor), units=rounded(context, units))
 
 
 @in_lists
@@ -59,7 +61,7 @@ def glLineWidth(width: float) -> None:
     if width <= 0:
         fail(gl.GL_INVALID_VALUE, "glLineWidth", f"width={width}: expected more than 0")
     else:
-        change(context, "polygon", line_width=rounded(context, width))
+        context.change("polygon", line_width=rounded(context, width))
 
 
 @in_lists
@@ -71,18 +73,19 @@ def glPointSize(size: float) -> None:
     if size <= 0:
         fail(gl.GL_INVALID_VALUE, "glPointSize", f"size={size}: expected more than 0")
     else:
-        change(context, "polygon", point_size=rounded(context, size))
+        context.change("polygon", point_size=rounded(context, size))
 
 
 # -- viewport and scissor box ------------------------------------------------------------------------------------------
-@in_lists
 def glViewport(x: int, y: int, width: int, height: int) -> None:
     """Set the viewport, in pixels from the lower left."""
-    context = outside_begin("glViewport")
-    if context is not None and _box_is_valid("glViewport", width, height):
+    context = thread.context
+    if not (context.ready or is_allowed(context, glViewport, x, y, width, height)):
+        return
+    if _box_is_valid("glViewport", width, height):
         width, height = min(int(width), LARGEST_VIEWPORT), min(int(height), LARGEST_VIEWPORT)
         left, bottom = (max(-FARTHEST_CORNER, min(int(corner), FARTHEST_CORNER - 1)) for corner in (x, y))
-        change(context, "viewport", x=left, y=bottom, width=width, height=height)
+        context.change("viewport", x=left, y=bottom, width=width, height=height)
 
 
 @in_lists
@@ -90,7 +93,7 @@ def glScissor(x: int, y: int, width: int, height: int) -> None:
     """Set the scissor box, in pixels from the lower left."""
     context = outside_begin("glScissor")
     if context is not None and _box_is_valid("glScissor", width, height):
-        change(context, "scissor", x=int(x), y=int(y), width=int(width), height=int(height))
+        context.change("scissor", x=int(x), y=int(y), width=int(width), height=int(height))
 
 
 def _box_is_valid(operation: str, width: int, height: int) -> bool:
@@ -107,7 +110,7 @@ def glDepthRange(zNear: float, zFar: float) -> None:
     context = outside_begin("glDepthRange")
     if context is not None:
         near, far = rounded(context, clamp01(zNear), clamp01(zFar))
-        change(context, "viewport", near=near, far=far)
+        context.change("viewport", near=near, far=far)
 
 
 glDepthRangef = glDepthRange

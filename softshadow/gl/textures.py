@@ -15,7 +15,6 @@ from softshadow.gl.conversions import clamped_int, enum, first, from_int, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, names_argument, reserve
 from softshadow.pipeline.commands import AttachTexture, CreateTexture, DeleteTextures, SetSampler
-from softshadow.state import TextureUnit
 from softshadow.texture import Sampler, Texture, stored_name
 from softshadow.tokens import token_name
 
@@ -103,9 +102,7 @@ def glIsTexture(texture: int) -> bool:
 
 def set_unit(context: Context, index: int, **fields: Any) -> None:
     """Replace fields of a texture unit's state."""
-    units: list[TextureUnit] = list(context.state.units)
-    units[index] = evolve(units[index], **fields)
-    context.set(units=tuple(units))
+    context.change(f"units.{index}", **fields)
 
 
 def object_target(target: int) -> int:

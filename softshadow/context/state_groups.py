@@ -1,0 +1,145 @@
+"""The state as dictionaries that calls change, and as an immutable `State` that is made when something reads it.
+
+A call such as glDepthMask stores one value. Making a new `State` for it would cost ten times as much, and most states
+between two draws are never used. Groups that have not changed are the same objects in the next `State`.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping
+from ctypes import c_float
+from operator import is_
+from typing import Any
+
+from softshadow.state import Color, State
+
+# parts of groups that are groups themselves: (group, field)
+PARTS = (
+    ("stencil", "front"), ("stencil", "back"), ("stencil", "other_back"), ("lighting", "front"), ("lighting", "back"),
+)  # fmt: skip
+TUPLES: tuple[tuple[str, str], ...] = (
+    ("lighting", "lights"),
+    ("", "units"),
+)  # fields of a group or of the state itself that are tuples of groups
+# fields that draws do not use: clear values, and the face that glStencilFunc sets
+UNDRAWN = frozenset(("clear", "clear_accum", "active_back"))
+PACK = struct.Struct("4d").pack
+
+
+def affects_draws(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:
+    """Return whether new values of fields of a group change what draws do."""
+    return any(field not in UNDRAWN and value != before[field] for field, value in after.items())
+
+
+# glColor under GL_COLOR_MATERIAL: the sides whose material follows ("front" or "back"), its fields, the colour
+Followed = tuple[tuple[str, ...], tuple[str, ...], Color]
+
+
+class Group:
+    """A group of the state: its fields, and its last immutable value."""
+
+    __slots__ = ("field", "fields", "index", "parent", "value")
+
+    def __init__(self, value: Any, parent: Group | None, field: str, index: int = -1) -> None:
+        self.value, self.parent, self.field, self.index = value, parent, field, index
+        self.fields: dict[str, Any] = dict(vars(value))
+
+    def publish(self) -> bool:
+        """Make the immutable value anew, and store it in the parent's fields; return whether a field has changed."""
+        before, fields = self.value, self.fields
+        if all(map(is_, fields.values(), before.__dict__.values())):
+            return False
+        value = object.__new__(type(before))
+        value.__dict__.update(fields)
+        self.value = value
+        if self.parent is not None:
+            siblings = self.parent.fields
+            if self.index >= 0:
+                items = siblings[self.field]
+                value = (*items[: self.index], value, *items[self.index + 1 :])
+            siblings[self.field] = value
+        return True
+
+
+class StateGroups:
+    """All groups of the state of a context.
+
+    Attributes
+    ----------
+    groups : dict of Group       "depth", "lighting", "stencil.front", "lighting.lights.0", "units.3" ...; "" is `State`
+    changed : set of Group       those whose fields may differ from their values
+    followed : Followed or None  colour that materials follow, but do not contain yet
+
+    Parameters
+    ----------
+    state : State
+    single : bool                whether the context's precision is float32
+    """
+
+    def __init__(self, state: State, single: bool) -> None:
+        self._single = single
+        self.followed: Followed | None = None
+        self.root = Group(state, None, "")
+        self.groups: dict[str, Group] = {"": self.root}
+        self.changed: set[Group] = set()
+        for name, value in vars(state).items():
+            if hasattr(value, "__dataclass_fields__"):
+                self.groups[name] = Group(value, self.root, name)
+        for name, field in PARTS:
+            self._add(f"{name}.{field}", self.groups[name], field)
+        for name, field in TUPLES:
+            parent = self.groups[name]
+            for index in range(len(parent.fields[field])):
+                self._add(f"{name}.{field}.{index}" if name else f"{field}.{index}", parent, field, index)
+
+    def _add(self, name: str, parent: Group, field: str, index: int = -1) -> None:
+        value = parent.fields[field]
+        self.groups[name] = Group(value[index] if index >= 0 else value, parent, field, index)
+
+    def snapshot(self) -> State:
+        """Return the state; the same object as before if nothing has changed."""
+        changed, root = self.changed, self.root
+        if self.followed is not None:
+            self.settle()
+        if changed:
+            parents = set()
+            for group in changed:
+                if group.parent is not root and group.parent is not None:
+                    if group.publish():
+                        parents.add(group.parent)
+                else:
+                    parents.add(group)
+            for group in parents:
+                if group is not root:
+                    group.publish()
+            changed.clear()
+            root.publish()
+        value: State = root.value
+        return value
+
+    def settle(self) -> None:
+        """Store the colour in the materials that follow it. Programs set many colours that no draw uses."""
+        if self.followed is None:
+            return
+        (sides, fields, color), self.followed = self.followed, None
+        rounded = tuple(c_float(value).value for value in color) if self._single else color
+        for side in sides:
+            group = self.groups[f"lighting.{side}"]
+            for field in fields:
+                if PACK(*group.fields[field]) != PACK(*rounded):  # -0.0 equals 0.0, but has other bits
+                    group.fields[field] = rounded
+                    self.changed.add(group)
+
+    def restore(self, state: State) -> None:
+        """Replace the state by an immutable one."""
+        changed, self.changed, self.followed = self.changed, set(), None
+        for group in self.groups.values():  # parents before their parts
+            parent = group.parent
+            value: Any = state
+            if parent is not None:
+                value = parent.fields[group.field]
+                if group.index >= 0:
+                    value = value[group.index]
+            if group.value is not value or group in changed:
+                group.value, group.fields = value, dict(vars(value))
