@@ -101,7 +101,7 @@ class Context:
         scissor = evolve(State().scissor, width=width, height=height)
         self.real: type[np.floating] = np.float64 if precision == "exact" else np.float32
         self._state = StateGroups(evolve(State(), viewport=viewport, scissor=scissor), self.real is np.float32)
-        self.groups = self._state.groups  # calls change them by `change`
+        self.groups, self._changed = self._state.groups, self._state.changed  # see `change`
         self.current = CurrentVertex()
         self.identity = self.frozen(np.eye(4))
         self.modelview_stack, self.projection_stack = (
@@ -166,31 +166,28 @@ class Context:
     def state(self, state: State) -> None:
         self._state.restore(state)
 
-    def change(self, group: str, **fields: Any) -> None:
-        """Set fields of a group of the state; if the change affects draws, draw the collected vertices first."""
+    def change_field(self, group: str, name: str, value: Any) -> None:
+        """Set a field of a group of the state; if the change affects draws, draw the collected vertices first."""
         changed = self.groups[group]
-        before = changed.fields
-        for name, value in fields.items():
-            if before[name] is not value:
-                break
-        else:
-            return
-        if not self.ready and self.has_collected and affects_draws(before, fields):
-            self.flush()
-        before.update(fields)
-        self._state.changed.add(changed)
+        fields = changed.fields
+        if fields[name] is not value:
+            if not self.ready and self._would_redraw((group,), {name: value}):
+                self.flush()
+            fields[name] = value
+            self._changed.add(changed)
 
-    def change_each(self, groups: Sequence[str], **fields: Any) -> None:
-        """Set the same fields in several groups of the state."""
-        changed = [self.groups[group] for group in groups]
-        if not self.ready and self.has_collected and any(affects_draws(group.fields, fields) for group in changed):
+    def change(self, *groups: str, **fields: Any) -> None:
+        """Set the same fields in one or several groups, as `change_field` does."""
+        if not self.ready and self._would_redraw(groups, fields):
             self.flush()
-        for group in changed:
-            for name, value in fields.items():
-                if group.fields[name] is not value:
-                    group.fields.update(fields)
-                    self._state.changed.add(group)
-                    break
+        for name in groups:
+            group = self.groups[name]
+            group.fields.update(fields)
+            self._changed.add(group)
+
+    def _would_redraw(self, groups: Sequence[str], fields: Mapping[str, Any]) -> bool:
+        """Return whether new values of fields would change how the collected vertices are drawn."""
+        return self.has_collected and any(affects_draws(self.groups[name].fields, fields) for name in groups)
 
     def follow(self, sides: tuple[str, ...], fields: tuple[str, ...]) -> None:
         """Copy the current colour to fields of the materials that follow it, without drawing the collected vertices."""
@@ -324,7 +321,7 @@ class Context:
             self.current.texcoords[int(name.removeprefix("texcoord"))] = value
         elif material:
             self.material(side)[material] = value
-            self._state.changed.add(self.groups[f"lighting.{side}"])
+            self._changed.add(self.groups[f"lighting.{side}"])
         else:
             setattr(self.current, name, value)
 

@@ -32,6 +32,11 @@ def affects_draws(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:
     return any(field not in UNDRAWN and value != before[field] for field, value in after.items())
 
 
+def is_same(a: Any, b: Any) -> bool:
+    """Return whether two values of a field have the same bits; -0.0 equals 0.0, but is another number."""
+    return a is b or (a == b and repr(a) == repr(b))
+
+
 # glColor under GL_COLOR_MATERIAL: the sides whose material follows ("front" or "back"), its fields, the colour
 Followed = tuple[tuple[str, ...], tuple[str, ...], Color]
 
@@ -49,6 +54,9 @@ class Group:
         """Make the immutable value anew, and store it in the parent's fields; return whether a field has changed."""
         before, fields = self.value, self.fields
         if all(map(is_, fields.values(), before.__dict__.values())):
+            return False
+        if all(map(is_same, fields.values(), before.__dict__.values())):
+            fields.update(before.__dict__)
             return False
         value = object.__new__(type(before))
         value.__dict__.update(fields)
@@ -133,7 +141,8 @@ class StateGroups:
 
     def restore(self, state: State) -> None:
         """Replace the state by an immutable one."""
-        changed, self.changed, self.followed = self.changed, set(), None
+        changed, self.followed = set(self.changed), None
+        self.changed.clear()
         for group in self.groups.values():  # parents before their parts
             parent = group.parent
             value: Any = state

@@ -6,8 +6,7 @@ driver (`softshadow.pipeline.mesa.driver_draws`), and so some bits of the image.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from softshadow.framebuffer import Storage
@@ -19,26 +18,70 @@ BYTES = 512 * 1024  # size of the vertex buffer (vbo_exec_draw.c)
 LEAST_BYTES = 1024  # Mesa takes a new buffer when no more than these are left
 
 
-@dataclass
 class Primitive:
-    """The vertices between glBegin and glEnd: one row per vertex.
+    """The vertices between glBegin and glEnd.
 
-    `from_list`: glBegin was called by a display list. `continued`: a part of the primitive has already been submitted.
+    A vertex costs four numbers; its attributes are stored when they change. So glVertex after glVertex is cheap, and
+    an array of attributes is made once, at glEnd.
+
+    Attributes
+    ----------
+    from_list : bool         glBegin was called by a display list
+    continued : bool         a part of the primitive has already been submitted
+    positions : list         x, y, z, w of each vertex
+    changes : dict           "color", "texcoord0", "front.diffuse" ...: (length of `positions`, value) of each change;
+                             the first one has length 0. Attributes without an entry have their current value.
+    materials : set          names of the materials that the vertices carry
+    steady : dict            attribute: components of a call that needs no change of the vertex format
+    position_size : int      the same for positions: such calls append to `positions`, up to `limit` numbers
+    counted : int            vertices that `VertexBuffer.n_vertices` includes
     """
 
-    mode: int
-    from_list: bool = False
-    continued: bool = False
-    positions: list[tuple[float, float, float, float]] = field(default_factory=list)
-    colors: list[tuple[float, float, float, float]] = field(default_factory=list)
-    normals: list[tuple[float, float, float]] = field(default_factory=list)
-    texcoords: list[tuple[tuple[float, float, float, float], ...]] = field(default_factory=list)
-    materials: dict[str, list[Any]] = field(default_factory=dict)  # "front.diffuse": values set between the vertices
+    __slots__ = (
+        "changes",
+        "continued",
+        "counted",
+        "from_list",
+        "limit",
+        "materials",
+        "mode",
+        "position_size",
+        "positions",
+        "steady",
+    )  # fmt: skip
 
-    @property
-    def rows(self) -> list[list[Any]]:
-        """The lists that have one row per vertex."""
-        return [self.positions, self.colors, self.normals, self.texcoords, *self.materials.values()]
+    def __init__(self, mode: int, from_list: bool, materials: set[str]) -> None:
+        self.mode, self.from_list, self.materials = mode, from_list, materials
+        self.positions: list[float] = []
+        self.changes: dict[str, list[tuple[int, Any]]] = {}
+        self.steady: dict[str, int] = {}
+        self.continued, self.position_size, self.limit, self.counted = False, 0, 0, 0
+
+    def __len__(self) -> int:
+        return len(self.positions) // 4
+
+    def change(self, name: str, before: Any, value: Any) -> None:
+        """Set an attribute of the vertices that follow."""
+        changes = self.changes.get(name)
+        if changes is None:
+            changes = self.changes[name] = [(0, before)]
+        changes.append((len(self.positions), value))
+
+    def values(self, name: str, current: Any) -> list[Any]:
+        """Return the value of an attribute at each vertex."""
+        changes = self.changes.get(name)
+        if changes is None:
+            return [current] * len(self)
+        ends = [*(start for start, _ in changes[1:]), len(self.positions)]
+        return [value for (start, value), end in zip(changes, ends, strict=True) for _ in range(start, end, 4)]
+
+    def select(self, vertices: Sequence[int]) -> None:
+        """Keep these vertices, in this order; the attributes of those that follow stay."""
+        for name, changes in self.changes.items():
+            values = self.values(name, None)
+            kept = [(4 * number, values[vertex]) for number, vertex in enumerate(vertices)]
+            self.changes[name] = [*kept, (4 * len(kept), changes[-1][1])]
+        self.positions = [x for vertex in vertices for x in self.positions[4 * vertex : 4 * vertex + 4]]
 
 
 class VertexBuffer:
@@ -118,10 +161,13 @@ class VertexBuffer:
     def submit(self) -> None:
         """Draw the collected vertices; those that follow lie behind them in Mesa's buffer."""
         self.draw_joined_pairs()
-        self.driver_draw = DriverDraw()
-        self.pairs = CollectedPairs()
-        self.used_bytes += self.n_vertices * self._vertex_bytes
-        self.n_vertices = 0
+        if self.driver_draw.mode >= 0:
+            self.driver_draw = DriverDraw()
+        if self.pairs.n_pairs:
+            self.pairs = CollectedPairs()
+        if self.n_vertices:
+            self.used_bytes += self.n_vertices * self._vertex_bytes
+            self.n_vertices = 0
         if self.used_bytes + LEAST_BYTES >= BYTES:
             self.used_bytes = 0
 

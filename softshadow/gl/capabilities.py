@@ -10,7 +10,7 @@ from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.materials import start_to_follow
-from softshadow.state import State
+from softshadow.state import TEXTURE_UNITS, State
 from softshadow.tokens import token_name
 
 # capability: (group of the state, field)
@@ -41,10 +41,10 @@ TEXTURE_GENERATION = (gl.GL_TEXTURE_GEN_S, gl.GL_TEXTURE_GEN_T, gl.GL_TEXTURE_GE
 LIGHTS = range(gl.GL_LIGHT0, gl.GL_LIGHT7 + 1)
 CLIP_PLANES = range(gl.GL_CLIP_PLANE0, gl.GL_CLIP_PLANE5 + 1)
 KNOWN = {*CAPABILITIES, *UNIT_CAPABILITIES, *TEXTURE_GENERATION, *LIGHTS, *CLIP_PLANES}
-# those that are one field of a group: (group in `Context.groups`, field)
-PLACES = {cap: place for cap, place in CAPABILITIES.items() if cap != gl.GL_STENCIL_TEST_TWO_SIDE_EXT} | {
-    light: (f"lighting.lights.{index}", "enabled") for index, light in enumerate(LIGHTS)
-}
+# those that only set one field of a group: (group in `Context.groups`, field)
+PLACES = CAPABILITIES | {light: (f"lighting.lights.{index}", "enabled") for index, light in enumerate(LIGHTS)}
+del PLACES[gl.GL_STENCIL_TEST_TWO_SIDE_EXT], PLACES[gl.GL_COLOR_MATERIAL]
+UNITS = tuple(f"units.{index}" for index in range(TEXTURE_UNITS))
 A_CAPABILITY = "a capability of this subset"
 UNSUPPORTED = (
     gl.GL_POINT_SMOOTH, gl.GL_LINE_SMOOTH, gl.GL_POLYGON_SMOOTH, gl.GL_LINE_STIPPLE, gl.GL_POLYGON_STIPPLE,
@@ -59,33 +59,32 @@ def glEnable(cap: int) -> None:
     """Enable a capability."""
     context = thread.context
     if context.ready or is_allowed(context, glEnable, cap):
-        _switch(context, "glEnable", cap, True)
+        place = PLACES.get(cap)
+        if place is not None:
+            context.change_field(*place, True)
+        elif _is_known("glEnable", cap):
+            _switch_other(context, cap, True)
 
 
 def glDisable(cap: int) -> None:
     """Disable a capability."""
     context = thread.context
     if context.ready or is_allowed(context, glDisable, cap):
-        _switch(context, "glDisable", cap, False)
-
-
-def _switch(context: Context, operation: str, cap: int, on: bool) -> None:
-    place = PLACES.get(cap)
-    if place is None:
-        if _is_known(operation, cap):
-            _switch_other(context, cap, on)
-    elif context.groups[place[0]].fields[place[1]] is not on:
-        context.change(place[0], **{place[1]: on})
-        if cap == gl.GL_COLOR_MATERIAL and on:
-            start_to_follow(context)
+        place = PLACES.get(cap)
+        if place is not None:
+            context.change_field(*place, False)
+        elif _is_known("glDisable", cap):
+            _switch_other(context, cap, False)
 
 
 def _switch_other(context: Context, cap: int, on: bool) -> None:
     unit = context.active_unit
     if cap in UNIT_CAPABILITIES:
-        context.change(f"units.{unit}", **{UNIT_CAPABILITIES[cap]: on})
+        context.change_field(UNITS[unit], UNIT_CAPABILITIES[cap], on)
     elif is_on(context.state, cap, unit) != on:
         context.change_state(with_capability(context.state, cap, unit, on))
+        if cap == gl.GL_COLOR_MATERIAL and on:
+            start_to_follow(context)
 
 
 def _is_known(operation: str, cap: int) -> bool:

@@ -91,6 +91,9 @@ ELEMENTS: dict[Callable[[Any], Any], type[np.generic]] = {
 }
 
 
+SEQUENCES = (list, tuple)
+
+
 def numbers(params: Any, convert: Callable[[Any], Any] = float) -> np.ndarray:
     """Return a vector argument (array, sequence, bytes, or one number) as a flat array of the call's type.
 
@@ -114,6 +117,11 @@ def vector(params: Any, length: int, convert: Callable[[Any], float] = float) ->
     ValueError
         The argument has fewer numbers.
     """
+    if convert is float and type(params) in SEQUENCES and len(params) >= length:
+        try:
+            return [float(value) for value in params[:length]]
+        except TypeError:  # nested sequences
+            pass
     values = numbers(params, convert)
     if len(values) < length:
         raise ValueError(f"params={params!r}: expected {length} numbers")

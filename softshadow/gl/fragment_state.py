@@ -31,6 +31,7 @@ FACTORS = {
 A_FACTOR = "a blend factor (GL 2.1, table 4.2)"
 UNSIGNED = 0xFFFFFFFF  # masks are unsigned: -1 sets all bits
 MASKS = {mask: mask for mask in product((False, True), repeat=4)}  # so that equal masks are the same object
+INT_RANGE = 1 << 31
 LOGIC_OPS = range(gl.GL_CLEAR, gl.GL_SET + 1)
 
 
@@ -40,8 +41,12 @@ def clamp01(value: float) -> float:
 
 def rounded(context: Context, *values: float) -> Any:
     """Return a number, or a tuple of several, rounded to the context's precision."""
-    single = context.real is np.float32
-    numbers = tuple(c_float(value).value if single else float(value) for value in values)
+    if context.real is not np.float32:
+        numbers = tuple(map(float, values))
+    elif len(values) == 1:
+        return c_float(values[0]).value
+    else:
+        numbers = tuple([c_float(value).value for value in values])
     return numbers if len(numbers) > 1 else numbers[0]
 
 
@@ -52,14 +57,14 @@ def glDepthFunc(func: int) -> None:
     if not (context.ready or is_allowed(context, glDepthFunc, func)):
         return
     if func in FUNCTIONS or is_one_of("glDepthFunc", "func", func, FUNCTIONS, A_FUNCTION):
-        context.change("depth", func=int(func))
+        context.change_field("depth", "func", int(func))
 
 
 def glDepthMask(flag: Any) -> None:
     """Enable or disable depth writes."""
     context = thread.context
     if context.ready or is_allowed(context, glDepthMask, flag):
-        context.change("depth", write=bool(flag))
+        context.change_field("depth", "write", bool(flag))
 
 
 @in_lists
@@ -87,8 +92,10 @@ def glStencilFuncSeparate(face: int, func: int, ref: int, mask: int) -> None:
 
 def _stencil_func(context: Context, operation: str, face: int | None, func: int, ref: int, mask: int) -> None:
     if func in FUNCTIONS or is_one_of(operation, "func", func, FUNCTIONS, A_FUNCTION):
-        ref = c_int(int(ref)).value
-        context.change_each(_faces(context, operation, face), func=int(func), ref=ref, read_mask=int(mask) & UNSIGNED)
+        ref = int(ref)
+        if not -INT_RANGE <= ref < INT_RANGE:
+            ref = c_int(ref).value
+        context.change(*_faces(context, operation, face), func=int(func), ref=ref, read_mask=int(mask) & UNSIGNED)
 
 
 def glStencilOp(fail: int, zfail: int, zpass: int) -> None:
@@ -106,11 +113,11 @@ def glStencilOpSeparate(face: int, sfail: int, dpfail: int, dppass: int) -> None
 
 
 def _stencil_op(context: Context, operation: str, face: int | None, sfail: int, zfail: int, zpass: int) -> None:
-    for argument, op in (("sfail", sfail), ("zfail", zfail), ("zpass", zpass)):
-        if op not in STENCIL_OP_VALUES:
-            is_one_of(operation, argument, op, STENCIL_OP_VALUES, ", ".join(STENCIL_OPS))
-            return
-    context.change_each(_faces(context, operation, face), sfail=int(sfail), zfail=int(zfail), zpass=int(zpass))
+    if not (sfail in STENCIL_OP_VALUES and zfail in STENCIL_OP_VALUES and zpass in STENCIL_OP_VALUES):
+        for argument, op in (("sfail", sfail), ("zfail", zfail), ("zpass", zpass)):
+            if not is_one_of(operation, argument, op, STENCIL_OP_VALUES, ", ".join(STENCIL_OPS)):
+                return
+    context.change(*_faces(context, operation, face), sfail=int(sfail), zfail=int(zfail), zpass=int(zpass))
 
 
 def glStencilMask(mask: int) -> None:
@@ -128,7 +135,7 @@ def glStencilMaskSeparate(face: int, mask: int) -> None:
 
 
 def _stencil_mask(context: Context, operation: str, face: int | None, mask: int) -> None:
-    context.change_each(_faces(context, operation, face), write_mask=int(mask) & UNSIGNED)
+    context.change(*_faces(context, operation, face), write_mask=int(mask) & UNSIGNED)
 
 
 def _faces(context: Context, operation: str, face: int | None) -> tuple[str, ...]:
@@ -188,7 +195,7 @@ def glColorMask(red: Any, green: Any, blue: Any, alpha: Any) -> None:
     """Enable or disable writes to each colour channel."""
     context = thread.context
     if context.ready or is_allowed(context, glColorMask, red, green, blue, alpha):
-        context.change("color", mask=MASKS[bool(red), bool(green), bool(blue), bool(alpha)])
+        context.change_field("color", "mask", MASKS[bool(red), bool(green), bool(blue), bool(alpha)])
 
 
 def glBlendFunc(sfactor: int, dfactor: int) -> None:
@@ -213,11 +220,11 @@ def glBlendFuncSeparate(
 def _blend_func(
     context: Context, operation: str, src_rgb: int, dst_rgb: int, src_alpha: int, dst_alpha: int
 ) -> None:  # fmt: skip
-    names = ("sfactorRGB", "dfactorRGB", "sfactorAlpha", "dfactorAlpha")
-    for name, value in zip(names, (src_rgb, dst_rgb, src_alpha, dst_alpha), strict=True):
-        if value not in FACTORS:
-            is_one_of(operation, name, value, FACTORS, A_FACTOR)
-            return
+    if not (src_rgb in FACTORS and dst_rgb in FACTORS and src_alpha in FACTORS and dst_alpha in FACTORS):
+        names = ("sfactorRGB", "dfactorRGB", "sfactorAlpha", "dfactorAlpha")
+        for name, value in zip(names, (src_rgb, dst_rgb, src_alpha, dst_alpha), strict=True):
+            if not is_one_of(operation, name, value, FACTORS, A_FACTOR):
+                return
     context.change(
         "blend", src_rgb=int(src_rgb), dst_rgb=int(dst_rgb), src_alpha=int(src_alpha), dst_alpha=int(dst_alpha)
     )

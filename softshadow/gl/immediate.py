@@ -7,64 +7,67 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, current
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.context import Context, current, thread
+from softshadow.framebuffer import DEFAULT
+from softshadow.gl.calls import in_lists, is_allowed, record, spelled_like_gl
 from softshadow.gl.conversions import vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
-from softshadow.gl.materials import follow_color, material_field
-from softshadow.gl.vertex_format import REST, begin, carry_attribute, end_continued_loop, store_vertex, vertices_of
+from softshadow.gl.materials import follow_color
+from softshadow.gl.vertex_format import add_vertex, begin, end, store_vertices, vertices_of
 from softshadow.pipeline.mesa.driver_draws import CORNERS
 
-MODES = range(gl.GL_POINTS, gl.GL_POLYGON + 1)
+MODES = frozenset(range(gl.GL_POINTS, gl.GL_POLYGON + 1))
 A_MODE = "GL_POINTS … GL_POLYGON"
 
 
 def can_draw(context: Context, operation: str) -> bool:
     """Return whether the draw framebuffer is complete; otherwise the call fails."""
-    name = context.state.draw_framebuffer
-    if framebuffer_status(context, name) == gl.GL_FRAMEBUFFER_COMPLETE:
+    name = context.groups[""].fields["draw_framebuffer"]
+    if name == DEFAULT or framebuffer_status(context, name) == gl.GL_FRAMEBUFFER_COMPLETE:
         return True
     fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, operation, f"framebuffer {name} is not complete")
     return False
 
 
-@in_lists
 def glBegin(mode: int) -> None:
     """Start a primitive."""
-    context = outside_begin("glBegin")
-    if context is not None and is_one_of("glBegin", "mode", mode, MODES, A_MODE) and can_draw(context, "glBegin"):
+    context = thread.context
+    if not (context.ready or is_allowed(context, glBegin, mode)):
+        return
+    if is_one_of("glBegin", "mode", mode, MODES, A_MODE) and can_draw(context, "glBegin"):
         begin(context, int(mode))
 
 
-@in_lists
 def glEnd() -> None:
     """Draw the primitive, or collect it to be drawn together with others."""
-    context = current()
+    context = thread.context
+    if context.compiled_list is not None:
+        record(context, glEnd)
+        return
     primitive = context.primitive
     if primitive is None:
         fail(gl.GL_INVALID_OPERATION, "glEnd", "there was no glBegin before it")
         return
     context.primitive, context.ready = None, False
     follow_color(context)
-    context.pending.reset_due |= bool(primitive.positions)
     if not primitive.positions:
         context.vertex_buffer.end_pair(primitive.mode, 0)
         return
-    if primitive.continued and primitive.mode == gl.GL_LINE_LOOP:
-        end_continued_loop(context, primitive)
-    vertices = vertices_of(context, primitive)
+    context.pending.reset_due = True
+    end(context, primitive)
+    vertices, count = vertices_of(context, primitive), len(primitive)
     if primitive.from_list and context.list_depth > 0:
-        context.draw(primitive.mode, vertices, consecutive_indices(len(vertices.position)))
+        context.draw(primitive.mode, vertices, consecutive_indices(count))
         return
-    one_triangle = primitive.mode in (gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN) and len(vertices.position) == 3
+    one_triangle = primitive.mode in (gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN) and count == 3
     mode = gl.GL_TRIANGLES if one_triangle else primitive.mode  # as in Mesa (vbo_try_prim_conversion)
     if mode in CORNERS:
         context.collect(mode, vertices)
     else:
         context.draw_primitive(mode, vertices)
-    one_line = mode == gl.GL_LINE_STRIP and len(vertices.position) == 2
-    context.vertex_buffer.end_pair(gl.GL_LINES if one_line else mode, len(vertices.position))
+    one_line = mode == gl.GL_LINE_STRIP and count == 2
+    context.vertex_buffer.end_pair(gl.GL_LINES if one_line else mode, count)
 
 
 def consecutive_indices(count: int) -> np.ndarray:
@@ -74,57 +77,70 @@ def consecutive_indices(count: int) -> np.ndarray:
     return indices
 
 
-def add_vertex(context: Context, *coordinates: float) -> None:
-    """Add a vertex with the current attributes to the primitive; missing coordinates are z = 0, w = 1."""
-    primitive = context.primitive
-    if primitive is None:  # undefined in GL; here it adds nothing
-        context.flush()
-        return
-    carry_attribute(context, "position", len(coordinates))
-    attributes = context.current
-    primitive.positions.append((*coordinates, *REST[len(coordinates) :]))  # type: ignore[arg-type]
-    primitive.colors.append(attributes.color)
-    primitive.normals.append(attributes.normal)
-    primitive.texcoords.append(tuple(attributes.texcoords))
-    for name, rows in primitive.materials.items():
-        rows.append(material_field(context, name))
-    store_vertex(context, primitive)
-
-
-@in_lists
 def glVertex2f(x: float, y: float) -> None:
     """Add a vertex, z = 0, w = 1."""
-    add_vertex(current(), x, y)
+    context = thread.context
+    primitive = context.primitive
+    if primitive is None or primitive.position_size != 2:
+        if context.compiled_list is None:
+            add_vertex(context, x, y)
+        else:
+            record(context, glVertex2f, x, y)
+        return
+    positions = primitive.positions
+    positions += (x, y, 0.0, 1.0)
+    if len(positions) >= primitive.limit:
+        store_vertices(context, primitive)
 
 
-@in_lists
 def glVertex3f(x: float, y: float, z: float) -> None:
     """Add a vertex, w = 1."""
-    add_vertex(current(), x, y, z)
+    context = thread.context
+    primitive = context.primitive
+    if primitive is None or primitive.position_size != 3:
+        if context.compiled_list is None:
+            add_vertex(context, x, y, z)
+        else:
+            record(context, glVertex3f, x, y, z)
+        return
+    positions = primitive.positions
+    positions += (x, y, z, 1.0)
+    if len(positions) >= primitive.limit:
+        store_vertices(context, primitive)
 
 
-@in_lists
 def glVertex4f(x: float, y: float, z: float, w: float) -> None:
     """Add a vertex in homogeneous coordinates."""
-    add_vertex(current(), x, y, z, w)
+    context = thread.context
+    primitive = context.primitive
+    if primitive is None or primitive.position_size != 4:
+        if context.compiled_list is None:
+            add_vertex(context, x, y, z, w)
+        else:
+            record(context, glVertex4f, x, y, z, w)
+        return
+    positions = primitive.positions
+    positions += (x, y, z, w)
+    if len(positions) >= primitive.limit:
+        store_vertices(context, primitive)
 
 
 @in_lists
 def glVertex2fv(v: Any) -> None:
     """Add a vertex from a vector."""
-    add_vertex(current(), *vector(v, 2))
+    glVertex2f(*vector(v, 2))
 
 
 @in_lists
 def glVertex3fv(v: Any) -> None:
     """Add a vertex from a vector."""
-    add_vertex(current(), *vector(v, 3))
+    glVertex3f(*vector(v, 3))
 
 
 @in_lists
 def glVertex4fv(v: Any) -> None:
     """Add a vertex from a vector."""
-    add_vertex(current(), *vector(v, 4))
+    glVertex4f(*vector(v, 4))
 
 
 @in_lists

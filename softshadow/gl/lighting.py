@@ -79,13 +79,13 @@ def _set(operation: str, light: int, pname: int, params: Any, color: Callable[[A
 
 def in_eye_space(context: Context, place: Any) -> tuple[float, ...]:
     """Return a point (4,) or direction (3,) times the modelview matrix, each step rounded in GL's order."""
-    m = context.modelview_stack.current
-    values = [context.real(rounded(context, v)) for v in place]
+    m, count = context.modelview_stack.current, len(place)
     with np.errstate(all="ignore"):
-        product = (m[:, 0] * values[0] + m[:, 1] * values[1]) + m[:, 2] * values[2]
-        if len(values) == 4:
-            product = product + m[:, 3] * values[3]
-    return tuple(product.tolist()[: len(values)])
+        terms = m[:, :count] * np.array(place, context.real)
+        product = (terms[:, 0] + terms[:, 1]) + terms[:, 2]
+        if count == 4:
+            product = product + terms[:, 3]
+    return tuple(product.tolist()[:count])
 
 
 def _set_number(operation: str, context: Context, light: int, pname: int, value: float) -> None:

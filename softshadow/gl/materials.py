@@ -87,24 +87,19 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
 
     Between glBegin and glEnd they become attributes of the vertices.
     """
-    context.flush()
+    if not context.ready:
+        context.flush()
     for side in SIDES[face]:
         material, fixed = context.material(side), followed(context, side)
-        free = {field: value for field, value in fields.items() if field not in fixed}
+        free = {field: value for field, value in fields.items() if field not in fixed} if fixed else fields
         for field in free:
             context.remember_attribute(f"{side}.{field}")
         if context.primitive is not None:
             for field, value in free.items():
                 carry_attribute(context, f"{side}.{field}", np.size(value))
-                old_values = [material[field]] * len(context.primitive.positions)
-                context.primitive.materials.setdefault(f"{side}.{field}", old_values)
+                context.primitive.materials.add(f"{side}.{field}")
+                context.primitive.change(f"{side}.{field}", material[field], value)
         context.change(f"lighting.{side}", **free)
-
-
-def material_field(context: Context, name: str) -> Any:
-    """Return a field of a material by its name in `Vertices.materials`, such as "front.diffuse"."""
-    side, _, field = name.partition(".")
-    return context.material(side)[field]
 
 
 # -- colours that follow glColor ---------------------------------------------------------------------------------------

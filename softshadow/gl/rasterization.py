@@ -20,7 +20,7 @@ def glCullFace(mode: int) -> None:
     if not (context.ready or is_allowed(context, glCullFace, mode)):
         return
     if is_one_of("glCullFace", "mode", mode, FACES, A_FACE):
-        context.change("cull", face=int(mode))
+        context.change_field("cull", "face", int(mode))
 
 
 def glFrontFace(mode: int) -> None:
@@ -29,7 +29,7 @@ def glFrontFace(mode: int) -> None:
     if not (context.ready or is_allowed(context, glFrontFace, mode)):
         return
     if is_one_of("glFrontFace", "mode", mode, (gl.GL_CW, gl.GL_CCW), "GL_CW or GL_CCW"):
-        context.change("cull", front_face=int(mode))
+        context.change_field("cull", "front_face", int(mode))
 
 
 @in_lists
@@ -83,9 +83,10 @@ def glViewport(x: int, y: int, width: int, height: int) -> None:
     if not (context.ready or is_allowed(context, glViewport, x, y, width, height)):
         return
     if _box_is_valid("glViewport", width, height):
-        width, height = min(int(width), LARGEST_VIEWPORT), min(int(height), LARGEST_VIEWPORT)
-        left, bottom = (max(-FARTHEST_CORNER, min(int(corner), FARTHEST_CORNER - 1)) for corner in (x, y))
-        context.change("viewport", x=left, y=bottom, width=width, height=height)
+        x, y, width, height = int(x), int(y), min(int(width), LARGEST_VIEWPORT), min(int(height), LARGEST_VIEWPORT)
+        if not (-FARTHEST_CORNER <= x < FARTHEST_CORNER and -FARTHEST_CORNER <= y < FARTHEST_CORNER):
+            x, y = (max(-FARTHEST_CORNER, min(corner, FARTHEST_CORNER - 1)) for corner in (x, y))
+        context.change("viewport", x=x, y=y, width=width, height=height)
 
 
 @in_lists
@@ -97,11 +98,11 @@ def glScissor(x: int, y: int, width: int, height: int) -> None:
 
 
 def _box_is_valid(operation: str, width: int, height: int) -> bool:
-    for name, size in (("width", width), ("height", height)):
-        if size < 0:
-            fail(gl.GL_INVALID_VALUE, operation, f"{name}={size}: expected 0 or more")
-            return False
-    return True
+    if width >= 0 and height >= 0:
+        return True
+    name, size = ("width", width) if width < 0 else ("height", height)
+    fail(gl.GL_INVALID_VALUE, operation, f"{name}={size}: expected 0 or more")
+    return False
 
 
 @in_lists

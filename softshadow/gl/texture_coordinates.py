@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from softshadow import tokens as gl
-from softshadow.context import current
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.context import current, thread
+from softshadow.gl.calls import in_lists, record, spelled_like_gl
 from softshadow.gl.conversions import vector
-from softshadow.gl.vertex_format import REST, carry_attribute
+from softshadow.gl.vertex_format import REST, TEXCOORDS, carry_attribute, set_attribute
 from softshadow.state import TEXTURE_UNITS
 
 UNITS = range(gl.GL_TEXTURE0, gl.GL_TEXTURE0 + TEXTURE_UNITS)
@@ -18,9 +18,9 @@ A_UNIT = f"GL_TEXTURE0 … GL_TEXTURE{TEXTURE_UNITS - 1}"
 def set_coordinate(unit: int, *coordinates: float) -> None:
     """Set the current texture coordinate of a unit."""
     context, new = current(), tuple(float(c) for c in coordinates)
-    texcoords = context.current.texcoords
-    size = max(carry_attribute(context, f"texcoord{unit}", len(new)), len(new))
-    texcoords[unit] = new + texcoords[unit][len(new) : size] + REST[size:]  # type: ignore[assignment]
+    before, name = context.current.texcoords[unit], TEXCOORDS[unit]
+    size = max(carry_attribute(context, name, len(new)), len(new))
+    set_attribute(context, name, len(new), new + before[len(new) : size] + REST[size:])
 
 
 def _set_of(target: int, *coordinates: float) -> None:
@@ -41,16 +41,23 @@ def glTexCoord1fv(v: Any) -> None:
     set_coordinate(0, *vector(v, 1))
 
 
-@in_lists
 def glTexCoord2f(s: float, t: float) -> None:
     """Set the texture coordinate of unit 0; r = 0, q = 1."""
-    set_coordinate(0, s, t)
+    context = thread.context
+    primitive = context.primitive
+    if primitive is not None and primitive.steady.get("texcoord0") == 2:
+        context.current.texcoords[0] = coordinate = (float(s), float(t), 0.0, 1.0)
+        primitive.changes["texcoord0"].append((len(primitive.positions), coordinate))
+    elif context.compiled_list is None:
+        set_coordinate(0, s, t)
+    else:
+        record(context, glTexCoord2f, s, t)
 
 
 @in_lists
 def glTexCoord2fv(v: Any) -> None:
     """Set the texture coordinate of unit 0 from a vector."""
-    set_coordinate(0, *vector(v, 2))
+    glTexCoord2f(*vector(v, 2))
 
 
 @in_lists

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context
+from softshadow.context import Context, thread
 from softshadow.frozen import evolve
-from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.conversions import clamped_int, enum, first, from_int, vector
+from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
+from softshadow.gl.conversions import first, from_int, nearest_int, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, names_argument, reserve
 from softshadow.pipeline.commands import AttachTexture, CreateTexture, DeleteTextures, SetSampler
@@ -53,25 +53,26 @@ def glGenTextures(n: int, textures: Any = None) -> Any:
     return generate("glGenTextures", "texture", n, textures)
 
 
-@in_lists
 def glBindTexture(target: int, texture: int) -> None:
     """Bind a texture to the active unit; a new name becomes a texture of this target."""
-    if (context := outside_begin("glBindTexture")) is None:
+    context = thread.context
+    if not (context.ready or is_allowed(context, glBindTexture, target, texture)):
         return None
     if target not in BINDINGS:
         return fail(gl.GL_INVALID_ENUM, "glBindTexture", f"target={token_name(target)}: {EXPECTED_TARGET}")
     name = int(texture)
-    texture_object = context.objects.textures.get(name)
-    if name and texture_object is not None and texture_object.target != target:
-        return fail(
-            gl.GL_INVALID_OPERATION,
-            "glBindTexture",
-            f"texture={name}: expected a {token_name(target)}, it is a {token_name(texture_object.target)}",
-        )
-    if name and texture_object is None:
-        reserve(context, "texture", name)
-        context.execute(CreateTexture(name, target))
-    set_unit(context, context.active_unit, **{BINDINGS[target]: name})
+    if name:
+        texture_object = context.storage.textures.get(name)
+        if texture_object is None:
+            reserve(context, "texture", name)
+            context.execute(CreateTexture(name, target))
+        elif texture_object.target != target:
+            return fail(
+                gl.GL_INVALID_OPERATION,
+                "glBindTexture",
+                f"texture={name}: expected a {token_name(target)}, it is a {token_name(texture_object.target)}",
+            )
+    context.change_field(f"units.{context.active_unit}", BINDINGS[target], name)
     return None
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from softshadow.context import current
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.context import current, thread
+from softshadow.gl.calls import in_lists, record, spelled_like_gl
 from softshadow.gl.conversions import (
     from_byte,
     from_int,
@@ -17,24 +17,32 @@ from softshadow.gl.conversions import (
     vector,
 )
 from softshadow.gl.materials import follow_color
-from softshadow.gl.vertex_format import carry_attribute
+from softshadow.gl.vertex_format import carry_attribute, set_attribute
 
 
 # -- colour ------------------------------------------------------------------------------------------------------------
 def set_color(red: float, green: float, blue: float, *alpha: float) -> None:
     context = current()
-    size = carry_attribute(context, "color", 3 + len(alpha))
+    n_components = 3 + len(alpha)
+    size = carry_attribute(context, "color", n_components)
     if not alpha:
         alpha = context.current.color[3:] if size > 3 else (1.0,)
-    context.current.color = (float(red), float(green), float(blue), float(alpha[0]))
+    set_attribute(context, "color", n_components, (float(red), float(green), float(blue), float(alpha[0])))
     if context.primitive is None:  # between glBegin and glEnd, glEnd does it
         follow_color(context)
 
 
-@in_lists
 def glColor3f(red: float, green: float, blue: float) -> None:
     """Set the current colour, alpha 1."""
-    set_color(red, green, blue)
+    context = thread.context
+    primitive = context.primitive
+    if primitive is not None and primitive.steady.get("color") == 3:
+        context.current.color = color = (float(red), float(green), float(blue), 1.0)
+        primitive.changes["color"].append((len(primitive.positions), color))
+    elif context.compiled_list is None:
+        set_color(red, green, blue)
+    else:
+        record(context, glColor3f, red, green, blue)
 
 
 @in_lists
@@ -46,7 +54,7 @@ def glColor4f(red: float, green: float, blue: float, alpha: float) -> None:
 @in_lists
 def glColor3fv(v: Any) -> None:
     """Set the current colour from a vector, alpha 1."""
-    set_color(*vector(v, 3))
+    glColor3f(*vector(v, 3))
 
 
 @in_lists
@@ -106,20 +114,28 @@ glColor3ui, glColor4ui, glColor3uiv, glColor4uiv = _calls_for(from_unsigned_int)
 
 # -- normal ------------------------------------------------------------------------------------------------------------
 def set_normal(x: float, y: float, z: float) -> None:
-    carry_attribute(current(), "normal", 3)
-    current().current.normal = (float(x), float(y), float(z))
+    context = current()
+    carry_attribute(context, "normal", 3)
+    set_attribute(context, "normal", 3, (float(x), float(y), float(z)))
 
 
-@in_lists
 def glNormal3f(nx: float, ny: float, nz: float) -> None:
     """Set the current normal."""
-    set_normal(nx, ny, nz)
+    context = thread.context
+    primitive = context.primitive
+    if primitive is not None and primitive.steady.get("normal") == 3:
+        context.current.normal = normal = (float(nx), float(ny), float(nz))
+        primitive.changes["normal"].append((len(primitive.positions), normal))
+    elif context.compiled_list is None:
+        set_normal(nx, ny, nz)
+    else:
+        record(context, glNormal3f, nx, ny, nz)
 
 
 @in_lists
 def glNormal3fv(v: Any) -> None:
     """Set the current normal from a vector."""
-    set_normal(*vector(v, 3))
+    glNormal3f(*vector(v, 3))
 
 
 glNormal3d, glNormal3dv = glNormal3f, glNormal3fv

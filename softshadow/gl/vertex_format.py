@@ -7,7 +7,7 @@ they do not carry yet, or with fewer components, submits the collected vertices,
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import sys
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +19,7 @@ from softshadow.pipeline.mesa.driver_draws import SEPARATE
 from softshadow.state import TEXTURE_UNITS
 
 REST = (0.0, 0.0, 0.0, 1.0)  # default values of components that a call does not set
+TEXCOORDS = tuple(f"texcoord{unit}" for unit in range(TEXTURE_UNITS))
 FEW_VERTICES = 8  # with more collected vertices, a new attribute outside glBegin makes Mesa reset all others
 
 
@@ -40,9 +41,9 @@ def begin(context: Context, mode: int) -> None:
         context.vertex_buffer.sizes.clear()
         if context.pending.names:
             context.reset_attributes()
-    materials: dict[str, list[Any]] = {name: [] for name in context.vertex_buffer.sizes if "." in name}
+    materials = {name for name in context.vertex_buffer.sizes if "." in name}
     context.ready = False
-    context.primitive = Primitive(mode, from_list=context.list_depth > 0, materials=materials)
+    context.primitive = Primitive(mode, context.list_depth > 0, materials)
 
 
 def carry_attribute(context: Context, name: str, size: int) -> int:
@@ -68,10 +69,11 @@ def carry_attribute(context: Context, name: str, size: int) -> int:
         return carried
     context.vertex_buffer.active_sizes[name] = size
     if primitive is not None:
+        primitive.position_size = 0  # there is room for fewer vertices
         if not primitive.from_list:
             _wrap(context, primitive)
             if name not in sizes:
-                _shorten(primitive, name, size)
+                _shorten(context, primitive, name, size)
     else:
         had_many = context.vertex_buffer.n_vertices > FEW_VERTICES
         context.vertex_buffer.submit()
@@ -81,37 +83,81 @@ def carry_attribute(context: Context, name: str, size: int) -> int:
     return size
 
 
-def _shorten(primitive: Primitive, name: str, size: int) -> None:
+def _shorten(context: Context, primitive: Primitive, name: str, size: int) -> None:
     """Reset all but `size` components of an attribute in the copied vertices, which did not carry it, as Mesa does."""
-    if name == "color":
-        primitive.colors[:] = [(*color[:size], *REST[size:]) for color in primitive.colors]  # type: ignore[misc]
-    elif name.startswith("texcoord"):
-        unit = int(name.removeprefix("texcoord"))
-        for number, rows in enumerate(primitive.texcoords):
-            shortened = (*rows[unit][:size], *REST[size:])
-            primitive.texcoords[number] = (*rows[:unit], shortened, *rows[unit + 1 :])  # type: ignore[arg-type]
+    if name == "color" or name.startswith("texcoord"):
+        value = context.attribute(name)
+        primitive.changes[name] = [(0, (*value[:size], *REST[size:]))]
 
 
-def store_vertex(context: Context, primitive: Primitive) -> None:
-    """Count a collected vertex; when the buffer is full, submit all vertices."""
-    if primitive.from_list:
+def set_attribute(context: Context, name: str, size: int, value: Any) -> None:
+    """Set a current colour, normal or texture coordinate, after `carry_attribute` with `size` components."""
+    primitive, buffer = context.primitive, context.vertex_buffer
+    if primitive is not None:
+        primitive.change(name, context.attribute(name), value)
+        # calls that a list also records go the long way
+        if buffer.sizes[name] == buffer.active_sizes[name] == size and not context.executes_list:
+            primitive.steady[name] = size
+        else:
+            primitive.steady.pop(name, None)
+    context.set_attribute(name, value)
+
+
+def add_vertex(context: Context, *coordinates: float) -> None:
+    """Add a vertex with the current attributes to the primitive; missing coordinates are z = 0, w = 1."""
+    primitive, size = context.primitive, len(coordinates)
+    if primitive is None:  # undefined in GL; here it adds nothing
+        context.flush()
         return
-    context.vertex_buffer.n_vertices += 1
-    if context.vertex_buffer.n_vertices >= context.vertex_buffer.room - 1:  # one is reserved for the end of a line loop
+    carry_attribute(context, "position", size)
+    primitive.positions += (*coordinates, *REST[size:])
+    store_vertices(context, primitive)
+    primitive.position_size = 0 if context.executes_list else size
+
+
+def store_vertices(context: Context, primitive: Primitive) -> None:
+    """Count the vertices; when the buffer is full, submit all of them. Set how many more there is room for."""
+    if primitive.from_list:
+        primitive.limit = sys.maxsize
+        return
+    buffer = context.vertex_buffer
+    _count(context, primitive)
+    if buffer.n_vertices >= buffer.room - 1:  # one is reserved for the end of a line loop
         _wrap(context, primitive)
+    primitive.limit = len(primitive.positions) + 4 * (buffer.room - 1 - buffer.n_vertices)
+
+
+def _count(context: Context, primitive: Primitive) -> None:
+    count = len(primitive)
+    context.vertex_buffer.n_vertices += count - primitive.counted
+    primitive.counted = count
+
+
+def end(context: Context, primitive: Primitive) -> None:
+    """Count the vertices of a primitive at its glEnd; turn the rest of a cut line loop into a line strip.
+
+    The strip ends at the first vertex of the loop.
+    """
+    if not primitive.from_list:
+        _count(context, primitive)
+    if primitive.continued and primitive.mode == gl.GL_LINE_LOOP:
+        primitive.select([*range(1, len(primitive)), 0])
+        primitive.mode = gl.GL_LINE_STRIP
+        context.vertex_buffer.n_vertices += 1  # the first one stays in the buffer
 
 
 def _wrap(context: Context, primitive: Primitive) -> None:
     """Draw the collected vertices, and keep those that the rest of the primitive needs."""
-    n, alone = len(primitive.positions), context.vertex_buffer.n_vertices == len(primitive.positions)
+    _count(context, primitive)
+    n = len(primitive)
+    alone = context.vertex_buffer.n_vertices == n
     cut = _cut(primitive, n)
     if cut.end > cut.start and not (alone and len(cut.copied) == n):
         context.draw_primitive(cut.mode, vertices_of(context, primitive, cut.start, cut.end))
     context.vertex_buffer.submit()
-    for rows in primitive.rows:
-        rows[:] = [rows[i] for i in cut.copied]
+    primitive.select(cut.copied)
     primitive.continued = primitive.continued or len(cut.copied) != n
-    context.vertex_buffer.n_vertices = len(cut.copied)
+    context.vertex_buffer.n_vertices = primitive.counted = len(cut.copied)
 
 
 def _cut(primitive: Primitive, n: int) -> Cut:
@@ -133,28 +179,33 @@ def _cut(primitive: Primitive, n: int) -> Cut:
     return Cut(drawn, 0, n if n >= least else 0, (0, last) if n > 1 else tuple(range(n)))
 
 
-def end_continued_loop(context: Context, primitive: Primitive) -> None:
-    """Turn the rest of a cut line loop into a line strip that ends at the first vertex of the loop."""
-    for rows in primitive.rows:
-        rows.append(rows.pop(0))
-    primitive.mode = gl.GL_LINE_STRIP
-    context.vertex_buffer.n_vertices += 1  # the first one stays in the buffer
-
-
 def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int | None = None) -> Vertices:
-    """Return the vertices [start, end) of a primitive; attributes that they do not carry are broadcast from one row."""
+    """Return the vertices [start, end) of a primitive; attributes that they do not carry are repeats of one row."""
+    real, carried, end = context.real, context.vertex_buffer.sizes, len(primitive) if end is None else end
+    repeats: dict[int, np.ndarray] = {}  # most units have the same texture coordinates
 
-    def rows(name: str, values: Sequence[Any]) -> np.ndarray:
-        if name in context.vertex_buffer.sizes:
-            return context.frozen(values[start:end])
-        constant = context.frozen(values[start])
-        return np.broadcast_to(constant, (len(values[start:end]), *constant.shape))
+    def rows(name: str, current: Any) -> np.ndarray:
+        if name in carried:
+            return _read_only(np.array(primitive.values(name, current)[start:end], real))
+        if id(current) not in repeats:
+            row = _read_only(np.array(current, real))
+            repeats[id(current)] = _read_only(np.ndarray((end - start, len(row)), real, row, strides=(0, row.itemsize)))
+        return repeats[id(current)]
 
-    texcoords = list(zip(*primitive.texcoords, strict=True))
-    return Vertices(
-        context.frozen(primitive.positions[start:end]),
-        rows("color", primitive.colors),
-        rows("normal", primitive.normals),
-        tuple(rows(f"texcoord{unit}", texcoords[unit]) for unit in range(TEXTURE_UNITS)),
-        {name: context.frozen(values[start:end]) for name, values in primitive.materials.items()},
-    )
+    current = context.current
+    with np.errstate(over="ignore"):
+        return Vertices(
+            _read_only(np.array(primitive.positions[4 * start : 4 * end], real)).reshape(-1, 4),
+            rows("color", current.color),
+            rows("normal", current.normal),
+            tuple([rows(name, current.texcoords[unit]) for unit, name in enumerate(TEXCOORDS)]),
+            {
+                name: _read_only(np.array(primitive.values(name, context.attribute(name))[start:end], real))
+                for name in primitive.materials
+            },
+        )
+
+
+def _read_only(rows: np.ndarray) -> np.ndarray:
+    rows.flags.writeable = False
+    return rows
