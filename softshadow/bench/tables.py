@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from softshadow.bench.calls import CallTime
 from softshadow.bench.growth import Growth
 from softshadow.bench.peers import OWN
 from softshadow.bench.regression import TimeChange
@@ -82,6 +83,22 @@ def start_rows(report: Report) -> Table:
     return ["workload", *columns], [
         [name, *(f"{seconds[column]:.2f}" for column in columns)] for name, seconds in report.starts.items()
     ]
+
+
+def call_rows(times: Sequence[CallTime]) -> Table:
+    """Return a row for each GL call: microseconds here and on Mesa, and their ratio.
+
+    Examples
+    --------
+    >>> call_rows([CallTime("glDepthMask", 0.5, 0.4, 1.25), CallTime("glClear", 12.0)])[1]
+    [['glDepthMask', '0.50', '0.40', '1.25'], ['glClear', '12.00', '-', '-']]
+    """
+    columns = ["call", "softshadow", "PyOpenGL + Mesa", "times"]
+    return columns, [[each.name, *map(_number, (each.softshadow, each.mesa, each.ratio))] for each in times]
+
+
+def _number(value: float | None) -> str:
+    return NOTHING if value is None else f"{value:.2f}"
 
 
 def change_rows(changes: Sequence[TimeChange]) -> Table:

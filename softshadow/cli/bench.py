@@ -60,7 +60,7 @@ def bench(
     context: click.Context, names: tuple[str, ...], against: tuple[str, ...], threads: list[int], rounds: int,
     size: tuple[int, int] | None, scaling: str | None, starts: bool, plot: str | None, as_json: bool,
 ) -> None:  # fmt: skip
-    """Measure frame times of workloads, or list the workloads."""
+    """Measure frame times of workloads, or list them; with the name calls, measure single GL calls."""
     from softshadow.bench.peers import peers_for
     from softshadow.bench.regression import time_changes
     from softshadow.bench.workloads import select_workloads
@@ -68,10 +68,8 @@ def bench(
     if not names:
         _list(as_json)
         return
-    if any(map(is_of_corpus, names)):
-        if scaling or starts or plot:
-            raise click.UsageError("the corpus has neither --scaling nor --starts nor --plot")
-        bench_corpus(context, names, against, threads, rounds, size, as_json)
+    if names == ("calls",):
+        _calls(rounds, as_json)
         return
     workloads = [each.resized(size) if size else each for each in select_workloads(list(names))]
     files = [each for each in against if each.endswith(".json")]
@@ -108,6 +106,25 @@ def _list(as_json: bool) -> None:
         return
     rows = [[each.name, f"{each.size[0]}x{each.size[1]}", each.title] for each in workloads]
     table("Workloads", ["name", "size", "description"], rows)
+
+
+def _calls(rounds: int, as_json: bool) -> None:
+    """Measure single GL calls, beside PyOpenGL on Mesa if that is installed."""
+    from dataclasses import asdict
+
+    from softshadow.bench.calls import measure_calls
+    from softshadow.bench.tables import call_rows
+    from softshadow.testing.mesa import mesa_available, mesa_reason
+
+    with_mesa = mesa_available()
+    if not with_mesa:
+        say(f"without Mesa: {mesa_reason()}")
+    say("measuring calls ...")
+    times = measure_calls(with_mesa, rounds)
+    if as_json:
+        print_json("bench-calls", calls=[asdict(each) for each in times])
+    else:
+        table("Calls, microseconds", *call_rows(times))
 
 
 def _earlier(file: str) -> Report:

@@ -170,9 +170,12 @@ def _failure(failure: dict[str, Any]) -> Exception:
 
 
 class Worker:
-    """A Mesa process and the pipes to it; with `rasterizer_threads` 0 llvmpipe draws on the calling thread."""
+    """A Mesa process and the pipes to it; with `rasterizer_threads` 0 llvmpipe draws on the calling thread.
 
-    def __init__(self, driver: str, rasterizer_threads: int = 0) -> None:
+    Without `checked`, PyOpenGL does not ask for errors after each call, and its own functions are called as they are.
+    """
+
+    def __init__(self, driver: str, rasterizer_threads: int = 0, checked: bool = True) -> None:
         environment = {
             **os.environ,
             "PYTHONPATH": os.pathsep.join(entry or os.getcwd() for entry in sys.path),
@@ -180,6 +183,7 @@ class Worker:
             "GALLIUM_DRIVER": driver,
             "GALLIUM_OVERRIDE_CPU_CAPS": "sse4.1",  # no fused multiply-add
             "LP_NUM_THREADS": str(rasterizer_threads),
+            "SOFTSHADOW_CHECKED_PYOPENGL": str(int(checked)),
         }
         self.driver = driver
         self.programs = 0

@@ -41,6 +41,9 @@ def main() -> None:
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     os.dup2(2, 1)
+    import OpenGL
+
+    OpenGL.ERROR_CHECKING = os.environ["SOFTSHADOW_CHECKED_PYOPENGL"] == "1"  # must precede the import of its calls
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent handles Ctrl-C, and closes the pipe
     write_message(answers, pickle.dumps(introduction()))
     while (request := read_message(requests)) is not None:

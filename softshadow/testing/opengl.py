@@ -18,6 +18,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
+import OpenGL
 from OpenGL import GL, GLU, images
 from OpenGL.raw.GL.VERSION import GL_1_0 as raw
 
@@ -45,6 +46,7 @@ DTYPES: dict[int, Any] = {
     GL.GL_FLOAT: np.float32,
     **PACKED_TYPES,
 }
+CHECKED = OpenGL.ERROR_CHECKING  # else calls are PyOpenGL's own, as fast as they can be
 LARGEST_PIXEL = 16  # bytes; enough for a read-out whose format or type GL will reject
 
 # PyOpenGL defines names with a suffix in a module for each extension
@@ -95,7 +97,7 @@ class MesaGL:
         _current = self
 
     def __getattr__(self, name: str) -> Any:
-        value = OWN.get(name)
+        value = OWN.get(name) if CHECKED else None
         if value is None:
             module = GLU if name.startswith(("glu", "GLU_")) else GL
             value = getattr(module, name, None)
@@ -103,7 +105,7 @@ class MesaGL:
             value = _of_extension(name)
         if value is None:
             raise AttributeError(f"OpenGL has no {name}")
-        if callable(value) and name.startswith("gl"):
+        if CHECKED and callable(value) and name.startswith("gl"):
             value = self._recorded(name, value)
         setattr(self, name, value)  # later accesses do not call __getattr__
         return value

@@ -98,6 +98,7 @@ class MesaSession:
     size : (width, height) of the window
     driver : "llvmpipe" or "softpipe"
     draw_threads : int           number of threads of llvmpipe; with 1 it draws on the calling thread
+    checked : bool               False: PyOpenGL as fast as it can be, without asking for errors after each call
 
     Raises
     ------
@@ -105,7 +106,12 @@ class MesaSession:
     """
 
     def __init__(
-        self, program: FrameProgram, size: tuple[int, int], driver: str = "llvmpipe", draw_threads: int = 1
+        self,
+        program: FrameProgram,
+        size: tuple[int, int],
+        driver: str = "llvmpipe",
+        draw_threads: int = 1,
+        checked: bool = True,
     ) -> None:
         if driver not in DRIVERS:
             raise ValueError(f"driver={driver!r}: expected one of {', '.join(DRIVERS)}")
@@ -113,7 +119,7 @@ class MesaSession:
             raise MesaError(mesa_reason())
         self._size = size
         # LP_NUM_THREADS=1 would add a rasterizer thread to the calling thread, which makes two
-        self._worker = Worker(driver, rasterizer_threads=0 if draw_threads == 1 else draw_threads)
+        self._worker = Worker(driver, 0 if draw_threads == 1 else draw_threads, checked)
         try:
             self.prepared: Timing = self._ask("prepare", **program_request(program, size))
         except BaseException:

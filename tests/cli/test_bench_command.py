@@ -26,6 +26,17 @@ def test_table_has_a_row_for_each_number_of_threads() -> None:
     assert "measuring the machine's limits" in answer.stderr
 
 
+def test_calls_are_measured_beside_pyopengl() -> None:
+    from softshadow.testing import mesa_available
+
+    answer = json.loads(invoke_ok("bench", "calls", "--rounds", "1", "--json").stdout)
+    calls = {each["name"]: each for each in answer["calls"]}
+    assert len(calls) >= 15
+    assert {"glTranslatef", "glEnable + glDisable", "glClear"} <= set(calls)
+    assert all(each["softshadow"] > 0 for each in calls.values())
+    assert all((each["ratio"] is not None) == mesa_available() for each in calls.values())
+
+
 def test_growth_is_told_with_its_exponent() -> None:
     answer = json_of("bench", "planar/boxes", "--scaling", "lights", *TINY)
     (grown,) = answer["growth"]
