@@ -56,6 +56,8 @@ def depth_as_float(cells: np.ndarray, format: Format) -> np.ndarray:
         return cells.astype(F32)
     if format.largest == (1 << 16) - 1:
         return sampled_depth(cells, format)
+    if cells.dtype == F32 and format.largest == LARGEST_24:  # both exact in float32, so the quotient is rounded once
+        return np.minimum(cells, F32(LARGEST_24)) / F32(LARGEST_24)
     return (np.minimum(cells.astype(np.float64), format.largest) / format.largest).astype(F32)
 
 
@@ -103,6 +105,8 @@ def pack_depth(cells: np.ndarray, format: Format, dtype: type[np.generic], throu
     bits to floats instead (`through_float`).
     """
     z = depth_as_float(cells, format)
+    if dtype == F32:
+        return z
     if dtype == np.uint32 and format.largest and not (through_float and format.largest < LARGEST_UINT):
         units = np.minimum(cells.astype(np.float64), format.largest).astype(np.int64)
         if format.largest == (1 << 16) - 1:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterator
 from typing import Any
 
 from softshadow import tokens as gl
@@ -66,6 +66,16 @@ SET_BY_CALLS: dict[int, Fields] = {
 }
 
 
+# group of the state: the bits with fields of it, each with these fields
+BITS: dict[str, list[tuple[int, tuple[str, ...]]]] = {}
+for _bit, _groups in GROUPS.items():
+    for _group, _fields in _groups.items():
+        BITS.setdefault(_group, []).append((_bit, _fields))
+# GL_TEXTURE_CUBE_MAP_SEAMLESS, which is newer than GL 2.1, belongs to no group
+PUSHED = tuple((cap, *place) for cap, place in CAPABILITIES.items() if cap != gl.GL_TEXTURE_CUBE_MAP_SEAMLESS)
+PER_UNIT = (*UNIT_CAPABILITIES, *TEXTURE_GENERATION)
+
+
 def changed_groups(before: State, after: State) -> int:
     """Return the bits of the groups in which two states differ.
 
@@ -73,10 +83,14 @@ def changed_groups(before: State, after: State) -> int:
     """
     if before is after:
         return 0
-    bits = sum(bit for bit, groups in GROUPS.items() if differ(before, after, groups))
-    capabilities = _capabilities(after, lights=True)
-    any_switched = any(is_on(before, cap, unit) != is_on(after, cap, unit) for cap, unit in capabilities)
-    return bits | (gl.GL_ENABLE_BIT if any_switched else 0)
+    bits = 0
+    for group, groups in BITS.items():
+        old, new = getattr(before, group), getattr(after, group)
+        if old is not new:
+            for bit, fields in groups:
+                if not bits & bit and differ(before, after, {group: fields}):
+                    bits |= bit
+    return bits | (gl.GL_ENABLE_BIT if any(_switched(before, after, lights=True)) else 0)
 
 
 def differ(before: State, after: State, groups: Fields) -> bool:
@@ -116,20 +130,29 @@ def with_group(bit: int, now: State, before: State) -> State:
 
 
 def _with_capabilities(state: State, before: State) -> State:
-    for cap, unit in _capabilities(state, lights=False):
-        on = is_on(before, cap, unit)
-        if is_on(state, cap, unit) != on:
-            state = with_capability(state, cap, unit, on)
+    for cap, unit in list(_switched(before, state, lights=False)):
+        state = with_capability(state, cap, unit, is_on(before, cap, unit))
     return state
 
 
-def _capabilities(state: State, lights: bool) -> Iterable[tuple[int, int]]:
-    """Return the (capability, texture unit) pairs of GL_ENABLE_BIT.
+def _switched(before: State, after: State, lights: bool) -> Iterator[tuple[int, int]]:
+    """Return the (capability, texture unit) pairs of GL_ENABLE_BIT in which two states differ.
 
     In Mesa, switching a light on or off marks this group as changed, but popping it does not restore lights.
-    GL_TEXTURE_CUBE_MAP_SEAMLESS, which is newer than GL 2.1, belongs to no group.
     """
-    pushed = [cap for cap in CAPABILITIES if cap != gl.GL_TEXTURE_CUBE_MAP_SEAMLESS]
-    everywhere = [(cap, 0) for cap in (*pushed, *(LIGHTS if lights else ()), *CLIP_PLANES)]
-    per_unit = (*UNIT_CAPABILITIES, *TEXTURE_GENERATION)
-    return everywhere + [(cap, unit) for cap in per_unit for unit in range(len(state.units))]
+    for cap, group, field in PUSHED:
+        old, new = getattr(before, group), getattr(after, group)
+        if old is not new and getattr(old, field) != getattr(new, field):
+            yield cap, 0
+    several: list[int] = []
+    if lights and before.lighting is not after.lighting:
+        several += LIGHTS
+    if before.clip_planes is not after.clip_planes:
+        several += CLIP_PLANES
+    for cap in several:
+        if is_on(before, cap, 0) != is_on(after, cap, 0):
+            yield cap, 0
+    if before.units is not after.units:
+        for unit, (old, new) in enumerate(zip(before.units, after.units, strict=True)):
+            if old is not new:
+                yield from ((cap, unit) for cap in PER_UNIT if is_on(before, cap, unit) != is_on(after, cap, unit))

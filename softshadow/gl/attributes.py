@@ -12,7 +12,7 @@ Mesa restores less than GL 2.1, sec. 6.1.14, requires (main/attrib.c):
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from softshadow import tokens as gl
 from softshadow.context import Context, CurrentVertex
@@ -29,10 +29,10 @@ from softshadow.state import State
 from softshadow.texture import Sampler, stored_name
 
 DEEPEST_ATTRIBUTES = 16
+INITIAL_SAMPLER = Sampler()
 
 
-@dataclass(frozen=True, eq=False)
-class SavedAttributes:
+class SavedAttributes(NamedTuple):
     """An entry of the attribute stack: the whole state; `mask` says which groups the pop restores.
 
     `touched` are the bits of the groups that had changed between the previous push and this one.
@@ -69,8 +69,8 @@ def glPushAttrib(mask: int) -> None:
             mask=int(mask),
             touched=touched,
             state=state,
-            current=evolve(context.current, texcoords=list(context.current.texcoords)),
-            hints=copy(context.hints),
+            current=_copy_of(context.current),
+            hints=copy(context.hints) if context.hints else {},
             matrix_mode=context.matrix_mode,
             active_unit=context.active_unit,
             list_base=context.list_base,
@@ -87,15 +87,19 @@ def _changed_since_push(context: Context) -> int:
     return context.touched | changed_groups(context.state_at_push, context.state)
 
 
+def _copy_of(current: CurrentVertex) -> CurrentVertex:
+    return CurrentVertex(current.color, current.normal, current.texcoords.copy())
+
+
 def _bound_samplers(context: Context) -> dict[tuple[int, int], Sampler]:
-    textures, samplers = context.objects.textures, {}
-    for unit in context.state.units:
-        for target, binding in BINDINGS.items():
-            name = stored_name(target, getattr(unit, binding))
+    textures, samplers, units = context.storage.textures, {}, context.state.units
+    for target, binding in BINDINGS.items():
+        for bound in dict.fromkeys([getattr(unit, binding) for unit in units]):
+            name = stored_name(target, bound)
             if name in textures:
                 samplers[target, name] = textures[name].sampler
             elif name <= 0:  # a default texture (name 0) always exists in GL; the storage creates it at its first use
-                samplers[target, name] = Sampler()
+                samplers[target, name] = INITIAL_SAMPLER
     return samplers
 
 
@@ -113,10 +117,11 @@ def glPopAttrib() -> None:
     if saved.mask & gl.GL_CURRENT_BIT:
         context.update_current()
     mask = saved.mask & _changed_since_push(context)
-    for bit in GROUPS:
-        if mask & bit:
-            _restore(context, bit, saved)
-    _restore_buffers(context, mask, saved)
+    if mask:
+        for bit in GROUPS:
+            if mask & bit:
+                _restore(context, bit, saved)
+        _restore_buffers(context, mask, saved)
     context.touched, context.state_at_push = saved.touched, context.state
 
 
@@ -159,7 +164,7 @@ def _restore_current(context: Context, saved: SavedAttributes) -> None:
     for name in context.pending.names:
         if "." not in name:
             context.pending.hidden.setdefault(name, context.attribute(name))
-    context.current = evolve(saved.current, texcoords=list(saved.current.texcoords))
+    context.current = _copy_of(saved.current)
 
 
 def _restore_materials(context: Context, saved: SavedAttributes) -> None:
@@ -190,6 +195,8 @@ def _sets_draw_buffer(context: Context, saved: SavedAttributes) -> bool:
 
 def _draw_buffers(target: Framebuffer) -> tuple[int, ...]:
     """Return the draw buffers up to the last that is not GL_NONE."""
+    if len(target.draw_buffers) == 1:
+        return target.draw_buffers
     last = max((i for i, mode in enumerate(target.draw_buffers) if mode != gl.GL_NONE), default=0)
     return tuple(target.draw_buffer_at(i) for i in range(last + 1))
 
