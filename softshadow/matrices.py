@@ -146,7 +146,6 @@ def perspective(fov_y: float, aspect: float, near: float, far: float, real: Real
     return perspective_of(*perspective_elements(fov_y, aspect, near, far), real=real)
 
 
-@lru_cache(maxsize=256)
 def perspective_elements(fov_y: float, aspect: float, near: float, far: float) -> tuple[float, float, float, float]:
     """Return the elements (0, 0), (1, 1), (2, 2) and (2, 3) of gluPerspective's matrix, in double precision."""
     radians = fov_y / 2 * math.pi / 180

@@ -176,8 +176,12 @@ class Context:
             fields[name] = value
             self._changed.add(changed)
 
-    def change(self, *groups: str, **fields: Any) -> None:
-        """Set the same fields in one or several groups, as `change_field` does."""
+    def change(self, group: str, **fields: Any) -> None:
+        """Set fields of a group of the state, as `change_field` does."""
+        self.change_groups((group,), fields)
+
+    def change_groups(self, groups: Sequence[str], fields: Mapping[str, Any]) -> None:
+        """Set the same fields in several groups of the state, as `change_field` does."""
         if not self.ready and self._would_redraw(groups, fields):
             self.flush()
         for name in groups:
@@ -197,7 +201,8 @@ class Context:
 
     def material(self, side: str) -> dict[str, Any]:
         """Return the fields of the "front" or "back" material."""
-        self._state.settle()
+        if self._state.followed is not None:
+            self._state.settle()
         return self.groups[f"lighting.{side}"].fields
 
     def set(self, **groups: Any) -> None:

@@ -32,6 +32,7 @@ NUMBER = 8  # bytes
 CAPACITY = 512 * NUMBER  # of the queue
 SAME_SCALE = 1e-8  # a scale is uniform if its factors differ by less (Mesa, math/m_matrix.c)
 PACK_1, PACK_4, PACK_6, PACK_10, PACK_17 = (struct.Struct(f"={n}d").pack_into for n in (1, 4, 6, 10, 17))
+PACKED_PUSH = struct.pack("=d", PUSH)
 FEW = 1000 * NUMBER  # bytes computed before compiled code pays: a program that draws little need not load it
 
 
@@ -94,12 +95,13 @@ class MatrixStack:
     # -- stack ---------------------------------------------------------------------------------------------------------
     def push(self) -> None:
         """Push a copy of the current matrix; the caller knows that there is room."""
-        self.kinds.append(self.kind)
-        self._known.append(self._known[-1])
+        kinds, known = self.kinds, self._known
+        kinds.append(self.kind if kinds[-1] & UNKNOWN else kinds[-1])
+        known.append(known[-1])
         end = self._end
         if end + NUMBER > CAPACITY:
             end = self._compute()
-        PACK_1(self._memory, end, PUSH)
+        self._memory[end : end + NUMBER] = PACKED_PUSH
         self._starts.append(end)
         self._end = end + NUMBER
 
@@ -177,8 +179,12 @@ class MatrixStack:
 
     def perspective(self, fov_y: float, aspect: float, near: float, far: float) -> None:
         """Multiply by gluPerspective's matrix."""
-        x, y, z, shift = perspective_elements(fov_y, aspect, near, far)
-        self._enqueue(PACK_17, MULTIPLY, x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, -1, 0, 0, shift, 0)
+        packed = _packed_perspective(fov_y, aspect, near, far)
+        end = self._end
+        if end + len(packed) > CAPACITY:
+            end = self._compute()
+        self._memory[end : end + len(packed)] = packed
+        self._end = end + len(packed)
         self._known[-1] = None
         self.kinds[-1] |= GENERAL | UNKNOWN
 
@@ -244,6 +250,13 @@ class MatrixStack:
             if self._computed >= FEW and self._is_single and hasattr(products.carry_out, "py_func"):
                 self._carry_out = products.carry_out
         return 0
+
+
+@lru_cache(maxsize=64)
+def _packed_perspective(fov_y: float, aspect: float, near: float, far: float) -> bytes:
+    """Return the product with gluPerspective's matrix as an operation of the queue."""
+    x, y, z, shift = perspective_elements(float(fov_y), float(aspect), float(near), float(far))
+    return struct.pack("=17d", MULTIPLY, x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, -1, 0, 0, shift, 0)
 
 
 @lru_cache(maxsize=64)

@@ -95,7 +95,8 @@ def _stencil_func(context: Context, operation: str, face: int | None, func: int,
         ref = int(ref)
         if not -INT_RANGE <= ref < INT_RANGE:
             ref = c_int(ref).value
-        context.change(*_faces(context, operation, face), func=int(func), ref=ref, read_mask=int(mask) & UNSIGNED)
+        fields = {"func": int(func), "ref": ref, "read_mask": int(mask) & UNSIGNED}
+        context.change_groups(_faces(context, operation, face), fields)
 
 
 def glStencilOp(fail: int, zfail: int, zpass: int) -> None:
@@ -117,7 +118,8 @@ def _stencil_op(context: Context, operation: str, face: int | None, sfail: int, 
         for argument, op in (("sfail", sfail), ("zfail", zfail), ("zpass", zpass)):
             if not is_one_of(operation, argument, op, STENCIL_OP_VALUES, ", ".join(STENCIL_OPS)):
                 return
-    context.change(*_faces(context, operation, face), sfail=int(sfail), zfail=int(zfail), zpass=int(zpass))
+    fields = {"sfail": int(sfail), "zfail": int(zfail), "zpass": int(zpass)}
+    context.change_groups(_faces(context, operation, face), fields)
 
 
 def glStencilMask(mask: int) -> None:
@@ -135,7 +137,7 @@ def glStencilMaskSeparate(face: int, mask: int) -> None:
 
 
 def _stencil_mask(context: Context, operation: str, face: int | None, mask: int) -> None:
-    context.change(*_faces(context, operation, face), write_mask=int(mask) & UNSIGNED)
+    context.change_groups(_faces(context, operation, face), {"write_mask": int(mask) & UNSIGNED})
 
 
 def _faces(context: Context, operation: str, face: int | None) -> tuple[str, ...]:

@@ -18,11 +18,10 @@ def gluPerspective(fovy: float, aspect: float, zNear: float, zFar: float) -> Non
     context = thread.context
     if not (context.ready or is_allowed(context, gluPerspective, fovy, aspect, zNear, zFar)):
         return
-    fovy = float(fovy)
     if zFar != zNear and math.sin(math.radians(fovy / 2)) != 0 and aspect != 0:
         if not context.ready:
             context.flush()
-        context.matrix_stack.perspective(fovy, float(aspect), float(zNear), float(zFar))
+        context.matrix_stack.perspective(fovy, aspect, zNear, zFar)
 
 
 @in_lists

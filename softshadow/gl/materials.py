@@ -93,13 +93,14 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
         material, fixed = context.material(side), followed(context, side)
         free = {field: value for field, value in fields.items() if field not in fixed} if fixed else fields
         for field in free:
-            context.remember_attribute(f"{side}.{field}")
+            if f"{side}.{field}" not in context.pending.old_values:
+                context.remember_attribute(f"{side}.{field}")
         if context.primitive is not None:
             for field, value in free.items():
                 carry_attribute(context, f"{side}.{field}", np.size(value))
                 context.primitive.materials.add(f"{side}.{field}")
                 context.primitive.change(f"{side}.{field}", material[field], value)
-        context.change(f"lighting.{side}", **free)
+        context.change_groups((f"lighting.{side}",), free)
 
 
 # -- colours that follow glColor ---------------------------------------------------------------------------------------
@@ -117,8 +118,9 @@ def glColorMaterial(face: int, mode: int) -> None:
 def followed(context: Context, side: str) -> tuple[str, ...]:
     """Return the fields of the "front" or "back" material that follow glColor."""
     lighting = context.groups["lighting"].fields
-    follows = lighting["color_material"] and side in SIDES[lighting["color_material_face"]]
-    return FIELDS[lighting["color_material_mode"]] if follows else ()
+    if lighting["color_material"] and side in SIDES[lighting["color_material_face"]]:
+        return FIELDS[lighting["color_material_mode"]]
+    return ()
 
 
 def follow_color(context: Context) -> None:

@@ -22,14 +22,17 @@ from softshadow.gl.vertex_format import carry_attribute, set_attribute
 
 # -- colour ------------------------------------------------------------------------------------------------------------
 def set_color(red: float, green: float, blue: float, *alpha: float) -> None:
-    context = current()
+    context = thread.context
     n_components = 3 + len(alpha)
     size = carry_attribute(context, "color", n_components)
     if not alpha:
         alpha = context.current.color[3:] if size > 3 else (1.0,)
-    set_attribute(context, "color", n_components, (float(red), float(green), float(blue), float(alpha[0])))
-    if context.primitive is None:  # between glBegin and glEnd, glEnd does it
+    color = (float(red), float(green), float(blue), float(alpha[0]))
+    if context.primitive is None:
+        context.current.color = color
         follow_color(context)
+    else:  # glEnd lets the materials follow
+        set_attribute(context, "color", n_components, color)
 
 
 def glColor3f(red: float, green: float, blue: float) -> None:

@@ -57,7 +57,7 @@ def carry_attribute(context: Context, name: str, size: int) -> int:
         this: after glColor4, glColor3, glColor4, glColor3, the last call keeps the third one's alpha. Display lists
         do not lose track.
     """
-    if name != "position":
+    if name != "position" and name not in context.pending.old_values:
         context.remember_attribute(name)
     sizes, primitive = context.vertex_buffer.sizes, context.primitive
     carried, previous_size = sizes.get(name, 0), context.vertex_buffer.active_sizes.get(name, 0)
