@@ -85,7 +85,7 @@ def _set_rotation(matrix: np.ndarray, i: int, j: int, cosine: np.floating, sine:
 @lru_cache(maxsize=4096)
 def sine_and_cosine(angle: float, single: bool) -> tuple[float, float]:
     """Return sine and cosine of an angle in degrees; if `single`, the angle and both are rounded to float32."""
-    radians = (c_float(angle).value if single else float(angle)) * math.pi / 180
+    radians = _finite((c_float(angle).value if single else float(angle)) * math.pi / 180)
     if not single:
         return math.sin(radians), math.cos(radians)
     sinf, cosf = _single_precision_functions()
@@ -148,7 +148,7 @@ def perspective(fov_y: float, aspect: float, near: float, far: float, real: Real
 
 def perspective_elements(fov_y: float, aspect: float, near: float, far: float) -> tuple[float, float, float, float]:
     """Return the elements (0, 0), (1, 1), (2, 2) and (2, 3) of gluPerspective's matrix, in double precision."""
-    radians = fov_y / 2 * math.pi / 180
+    radians = _finite(fov_y / 2 * math.pi / 180)
     focal = math.cos(radians) / math.sin(radians)
     depth = far - near
     return focal / aspect, focal, -(far + near) / depth, -2 * near * far / depth

@@ -71,6 +71,11 @@ def bench(
     if names == ("calls",):
         _calls(rounds, as_json)
         return
+    if any(map(is_of_corpus, names)):
+        if scaling or starts or plot:
+            raise click.UsageError("the corpus has neither --scaling nor --starts nor --plot")
+        bench_corpus(context, names, against, threads, rounds, size, as_json)
+        return
     workloads = [each.resized(size) if size else each for each in select_workloads(list(names))]
     files = [each for each in against if each.endswith(".json")]
     earlier = [_earlier(file) for file in files]

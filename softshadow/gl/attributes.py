@@ -92,7 +92,7 @@ def _copy_of(current: CurrentVertex) -> CurrentVertex:
 
 
 def _bound_samplers(context: Context) -> dict[tuple[int, int], Sampler]:
-    textures, samplers, units = context.storage.textures, {}, context.state.units
+    textures, samplers, units = context.objects.textures, {}, context.state.units
     for target, binding in BINDINGS.items():
         for bound in dict.fromkeys([getattr(unit, binding) for unit in units]):
             name = stored_name(target, bound)

@@ -51,8 +51,8 @@ def _set(operation: str, pname: int, params: Any, color: Callable[[Any], float])
         return
     value = first(params, int if color is from_int else float)
     if pname == gl.GL_FOG_MODE:
-        if is_one_of(operation, "param", int(value), MODES, "GL_LINEAR, GL_EXP or GL_EXP2"):
-            context.change("fog", mode=int(value))
+        if is_one_of(operation, "param", mode := enum(value), MODES, "GL_LINEAR, GL_EXP or GL_EXP2"):
+            context.change("fog", mode=mode)
     elif pname == gl.GL_FOG_DENSITY and value < 0:
         fail(gl.GL_INVALID_VALUE, operation, f"param={value:g}: expected 0 or more for GL_FOG_DENSITY")
     else:

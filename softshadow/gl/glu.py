@@ -18,7 +18,8 @@ def gluPerspective(fovy: float, aspect: float, zNear: float, zFar: float) -> Non
     context = thread.context
     if not (context.ready or is_allowed(context, gluPerspective, fovy, aspect, zNear, zFar)):
         return
-    if zFar != zNear and math.sin(math.radians(fovy / 2)) != 0 and aspect != 0:
+    sine = math.sin(math.radians(fovy / 2)) if math.isfinite(fovy) else math.nan
+    if zFar != zNear and sine != 0 and aspect != 0:
         if not context.ready:
             context.flush()
         context.matrix_stack.perspective(fovy, aspect, zNear, zFar)

@@ -11,7 +11,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.capabilities import LIGHTS
-from softshadow.gl.conversions import as_floats, as_ints, first, from_int, to_int, vector
+from softshadow.gl.conversions import as_floats, as_ints, enum, first, from_int, to_int, truncated_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.fragment_state import rounded
 

@@ -11,7 +11,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context, thread
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
-from softshadow.gl.conversions import first, from_int, nearest_int, vector
+from softshadow.gl.conversions import clamped_int, enum, first, from_int, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, names_argument, reserve
 from softshadow.pipeline.commands import AttachTexture, CreateTexture, DeleteTextures, SetSampler
@@ -62,7 +62,7 @@ def glBindTexture(target: int, texture: int) -> None:
         return fail(gl.GL_INVALID_ENUM, "glBindTexture", f"target={token_name(target)}: {EXPECTED_TARGET}")
     name = int(texture)
     if name:
-        texture_object = context.storage.textures.get(name)
+        texture_object = context.objects.textures.get(name)
         if texture_object is None:
             reserve(context, "texture", name)
             context.execute(CreateTexture(name, target))

@@ -14,12 +14,14 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, Primitive
+from softshadow.gl.constant_attributes import constant_attributes, constant_columns
 from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
 from softshadow.state import TEXTURE_UNITS
 
 REST = (0.0, 0.0, 0.0, 1.0)  # default values of components that a call does not set
 TEXCOORDS = tuple(f"texcoord{unit}" for unit in range(TEXTURE_UNITS))
+COLUMNS = ("color", "normal", *TEXCOORDS)  # attributes in the order of `constant_columns`
 FEW_VERTICES = 8  # with more collected vertices, a new attribute outside glBegin makes Mesa reset all others
 
 
@@ -182,27 +184,21 @@ def _cut(primitive: Primitive, n: int) -> Cut:
 def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int | None = None) -> Vertices:
     """Return the vertices [start, end) of a primitive; attributes that they do not carry are repeats of one row."""
     real, carried, end = context.real, context.vertex_buffer.sizes, len(primitive) if end is None else end
-    repeats: dict[int, np.ndarray] = {}  # most units have the same texture coordinates
 
-    def rows(name: str, current: Any) -> np.ndarray:
-        if name in carried:
-            return _read_only(np.array(primitive.values(name, current)[start:end], real))
-        if id(current) not in repeats:
-            row = _read_only(np.array(current, real))
-            repeats[id(current)] = _read_only(np.ndarray((end - start, len(row)), real, row, strides=(0, row.itemsize)))
-        return repeats[id(current)]
+    def rows(name: str) -> np.ndarray:
+        return _read_only(np.array(primitive.values(name, context.attribute(name))[start:end], real))
 
-    current = context.current
+    columns = constant_columns(context, constant_attributes(context), end - start)
     with np.errstate(over="ignore"):
+        for number, name in enumerate(COLUMNS):
+            if name in carried:
+                columns[number] = rows(name)
         return Vertices(
             _read_only(np.array(primitive.positions[4 * start : 4 * end], real)).reshape(-1, 4),
-            rows("color", current.color),
-            rows("normal", current.normal),
-            tuple([rows(name, current.texcoords[unit]) for unit, name in enumerate(TEXCOORDS)]),
-            {
-                name: _read_only(np.array(primitive.values(name, context.attribute(name))[start:end], real))
-                for name in primitive.materials
-            },
+            columns[0],
+            columns[1],
+            tuple(columns[2:]),
+            {name: rows(name) for name in primitive.materials},
         )
 
 
