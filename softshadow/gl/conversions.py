@@ -57,8 +57,11 @@ def to_int(value: float) -> int:
 def nearest_int(value: float) -> int:
     """Return the nearest int, halves away from zero, as C's lround: glGetIntegerv of other floats.
 
-    As in Mesa on x86, too large numbers lose their upper bits; what has no place in 64 bits becomes 0.
+    As in Mesa on x86, too large floats lose their upper bits, and what has no place in 64 bits becomes 0; too large
+    ints, which are masks, become the largest one.
     """
+    if isinstance(value, int):
+        return min(value, LARGEST_INT)
     if not abs(value) < 2.0**63:  # NaN, too
         return 0
     return c_int(int(math.copysign(math.floor(abs(value) + 0.5), value))).value
