@@ -129,6 +129,7 @@ class Image:
     `internal_format` is the token that the image was created with. A packed depth-stencil format is stored as two
     images: the depth image, and its `stencil`. `version` is a version token: equal tokens, other than None, mean
     identical cells; taking the cells clears it. Whoever takes the cells may write to them until the next command.
+    `tile_bounds` is what the fill stage knows about the cells; it is forgotten with them.
     """
 
     format: Format
@@ -138,13 +139,20 @@ class Image:
     internal_format: int = 0
     stencil: Image | None = None
     version: Hashable | None = None
+    tile_bounds: Any = None
     _pending_rows: list[tuple[int, np.ndarray]] = field(default_factory=list)  # (first row, rows)
 
     @property
     def cells(self) -> np.ndarray:
         """The cells, for reading and writing."""
         self.write_pending()
-        self.version = None
+        self.version = self.tile_bounds = None
+        return self._cells
+
+    @property
+    def read_cells(self) -> np.ndarray:
+        """The cells, for reading only."""
+        self.write_pending()
         return self._cells
 
     def write_pending(self) -> None:
@@ -163,7 +171,7 @@ class Image:
         if len(rows) == self.height:
             self._pending_rows = []  # all cells would be overwritten
         self._pending_rows.append((first_row, rows))
-        self.version = version
+        self.version, self.tile_bounds = version, None
 
     @classmethod
     def new(cls, format: Format, width: int, height: int, internal_format: int = 0) -> Image:

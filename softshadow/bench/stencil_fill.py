@@ -1,6 +1,9 @@
-"""Stencil fill workload: large quads increment and decrement the stencil buffer, like the sides of shadow volumes.
+"""Stencil fill workloads: large faces increment and decrement the stencil buffer, like the sides of shadow volumes.
 
-Only the stencil buffer changes, so it measures coverage, depth test and stencil update.
+Only the stencil buffer changes, so they measure coverage, depth test and stencil update. The quads of `prepare` are
+tilted little and hidden by few walls, so that whole tiles pass or fail. Those of `prepare_steep` are triangles through
+the whole depth of a scene of many small things: a quarter of their fragments lie in tiles where some pass and some
+fail.
 """
 
 from __future__ import annotations
@@ -14,6 +17,8 @@ from softshadow.testing.timing import DrawFrame
 QUADS = 400
 SEED = 1991  # of Heidmann's "Real shadows, real time"; any fixed number would do
 WALLS = 12
+TRIANGLES = 400
+RECTANGLES = 150  # in the depth buffer, 2 to 16 % of the width
 
 
 def prepare(gl: Any, size: tuple[int, int], *, counting: str, depth_format: str, quads: int = QUADS) -> DrawFrame:
@@ -30,9 +35,40 @@ def prepare(gl: Any, size: tuple[int, int], *, counting: str, depth_format: str,
     gl.glEnable(gl.GL_DEPTH_TEST)
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
     random = np.random.default_rng(SEED)
-    draw_quads(gl, tilted_quads(random, WALLS))
-    sides = tilted_quads(random, quads)
+    draw_polygons(gl, tilted_quads(random, WALLS))
+    return counting_frame(gl, tilted_quads(random, quads), counting, (gl.GL_INCR_WRAP, gl.GL_DECR_WRAP))
 
+
+def prepare_steep(
+    gl: Any,
+    size: tuple[int, int],
+    *,
+    counting: str,
+    depth_format: str,
+    saturating: bool = False,
+    triangles: int = TRIANGLES,
+    rectangles: int = RECTANGLES,
+) -> DrawFrame:
+    """Do the same with steep triangles over a depth buffer of many small rectangles.
+
+    Parameters
+    ----------
+    counting, depth_format : as for `prepare`
+    saturating : bool            counts stop at 0 and 255 in place of wrapping round
+    """
+    if depth_format == "d32f":
+        bind_float_depth(gl, size)
+    gl.glViewport(0, 0, *size)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
+    random = np.random.default_rng(SEED)
+    draw_polygons(gl, small_rectangles(random, rectangles, size[0] / size[1]))
+    operations = (gl.GL_INCR, gl.GL_DECR) if saturating else (gl.GL_INCR_WRAP, gl.GL_DECR_WRAP)
+    return counting_frame(gl, steep_triangles(random, triangles), counting, operations)
+
+
+def counting_frame(gl: Any, faces: np.ndarray, counting: str, operations: tuple[int, int]) -> DrawFrame:
+    """Return a frame that clears the stencil buffer and counts front faces, then back faces into it."""
     gl.glDepthMask(gl.GL_FALSE)
     gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
     gl.glEnable(gl.GL_STENCIL_TEST)
@@ -41,13 +77,13 @@ def prepare(gl: Any, size: tuple[int, int], *, counting: str, depth_format: str,
 
     def frame() -> None:
         gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
-        for culled, operation in ((gl.GL_BACK, gl.GL_INCR_WRAP), (gl.GL_FRONT, gl.GL_DECR_WRAP)):
+        for culled, operation in zip((gl.GL_BACK, gl.GL_FRONT), operations, strict=True):
             gl.glCullFace(culled)
             if counting == "zpass":
                 gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, operation)
             else:
                 gl.glStencilOp(gl.GL_KEEP, operation, gl.GL_KEEP)
-            draw_quads(gl, sides)
+            draw_polygons(gl, faces)
 
     return frame
 
@@ -77,11 +113,44 @@ def tilted_quads(random: np.random.Generator, n_quads: int) -> np.ndarray:
     return quads
 
 
-def draw_quads(gl: Any, quads: np.ndarray) -> None:
-    """Draw quads (n, 4, 3) float32."""
+def small_rectangles(random: np.random.Generator, n_rectangles: int, aspect: float) -> np.ndarray:
+    """Return tilted rectangles (n_rectangles, 4, 3) float32 in clip space, sides 2 to 16 % of the screen's width."""
+    extent = random.uniform(0.04, 0.32, (n_rectangles, 2)) * (1, aspect)  # clip space is 2 x 2
+    first = random.uniform(-1, 1 - extent)
+    along = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    corners = np.empty((n_rectangles, 4, 3))
+    corners[:, :, :2] = first[:, None] + along * extent[:, None]
+    tilts = random.uniform(-1.0, 1.0, (n_rectangles, 2))
+    middle = random.uniform(-0.9, 0.9, (n_rectangles, 1))
+    corners[:, :, 2] = np.clip(middle + ((along - 0.5) @ tilts[:, :, None])[:, :, 0], -0.98, 0.98)
+    rectangles = corners.astype(np.float32)
+    rectangles.setflags(write=False)
+    return rectangles
+
+
+def steep_triangles(random: np.random.Generator, n_triangles: int) -> np.ndarray:
+    """Return triangles (n_triangles, 3, 3) float32 in clip space, of random facing, each corner at any depth.
+
+    Each covers 20 to 27 % of the screen.
+    """
+    found: list[np.ndarray] = []
+    while len(found) < n_triangles:
+        corners = random.uniform(-1, 1, (3, 2))
+        (a, b), (c, d) = corners[1:] - corners[0]
+        if 4 * 0.2 <= abs(a * d - b * c) / 2 <= 4 * 0.27:
+            found.append(corners)
+    window_z = random.uniform(0.15, 0.95, (n_triangles, 3, 1))
+    triangles = np.concatenate([np.stack(found), 2 * window_z - 1], axis=2).astype(np.float32)
+    triangles.setflags(write=False)
+    return triangles
+
+
+def draw_polygons(gl: Any, polygons: np.ndarray) -> None:
+    """Draw triangles (n, 3, 3) or quads (n, 4, 3), float32."""
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
-    gl.glVertexPointer(3, gl.GL_FLOAT, 0, quads)
-    gl.glDrawArrays(gl.GL_QUADS, 0, 4 * len(quads))
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, polygons)
+    n_polygons, n_corners = polygons.shape[:2]
+    gl.glDrawArrays(gl.GL_QUADS if n_corners == 4 else gl.GL_TRIANGLES, 0, n_corners * n_polygons)
     gl.glDisableClientState(gl.GL_VERTEX_ARRAY)
 
 

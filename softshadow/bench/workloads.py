@@ -31,6 +31,24 @@ def _stencil_fill(counting: str, depth_format: str) -> Workload:
     )
 
 
+def _steep_fill(counting: str, depth_format: str, *, saturating: bool = False) -> Workload:
+    where = "passes" if counting == "zpass" else "fails"
+    ending = ", counts stop at their ends" if saturating else ""
+    return Workload(
+        f"w1-steep-{counting}-{depth_format}{'-saturating' if saturating else ''}",
+        f"stencil fill: 400 steep triangles counted where the depth test {where}, {depth_format}{ending}",
+        stencil_fill.prepare_steep,
+        FULL_HD,
+        {
+            "counting": counting,
+            "depth_format": depth_format,
+            "saturating": saturating,
+            "triangles": stencil_fill.TRIANGLES,
+        },
+        aim=6.0,
+    )
+
+
 def _small_triangles(shape: str) -> Workload:
     amounts = {"shape": shape, "triangles": small_triangles.TRIANGLES}
     title = f"small triangles: depth only, 1 M triangles of a {shape}"
@@ -50,6 +68,9 @@ WORKLOADS = {
         _stencil_fill("zfail", "d24"),
         _stencil_fill("zpass", "d32f"),
         _stencil_fill("zfail", "d32f"),
+        _steep_fill("zpass", "d24"),
+        _steep_fill("zfail", "d32f"),
+        _steep_fill("zpass", "d24", saturating=True),
         _small_triangles("sphere"),
         _small_triangles("grid"),
         _shading("nearest", "blinn-phong-shadowed", "one comparison"),

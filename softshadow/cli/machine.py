@@ -24,7 +24,6 @@ def warmup(as_json: bool) -> None:
     from softshadow import techniques
     from softshadow.errors import Warning as SoftShadowWarning
     from softshadow.kernel_cache import cache_folder
-    from softshadow.pipeline import use_short_cuts
     from softshadow.runs import run
 
     start = time.perf_counter()
@@ -34,9 +33,7 @@ def warmup(as_json: bool) -> None:
             for options in _option_sets(name):
                 text = ", ".join(f"{key}={value}" for key, value in options.items())
                 say(f"compiling {name}{f' ({text})' if text else ''} ...")
-                for policy in (False, "always"):
-                    with use_short_cuts(policy):
-                        run(name, "boxes", WARM_SIZE, **options)
+                run(name, "boxes", WARM_SIZE, **options)
     seconds = time.perf_counter() - start
     if as_json:
         print_json("warmup", seconds=seconds, cache_folder=cache_folder())

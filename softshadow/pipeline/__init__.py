@@ -221,9 +221,9 @@ def _fill(
     """Fill the triangles; `fragments` is about how many they have, the other arguments are those of `fill`."""
     writes_ids = writes_ids if ids is not None else 0
     n_triangles = len(triangles.ids) if ranges is None else sum(end - first for first, end in ranges)
-    choice = choose_fill(plan, n_triangles, fragments, region, writes_ids=writes_ids, counts=counts)
-    real = triangles.depth.dtype
-    buffers = fill_buffers(*buffer_cells(target, real), real, region, ids)
+    choice = choose_fill(plan, n_triangles, fragments, region, writes_ids=writes_ids, counts=counts, depth=target.depth)
+    real, writes_depth = triangles.depth.dtype, bool(plan.front.depth_write or plan.back.depth_write)
+    buffers = fill_buffers(*buffer_cells(target, real, writes_depth=writes_depth), real, region, ids)
     fill(
         choice.kernel, plan.front, plan.back, triangles, region, depth_range_of(state, real.type), buffers,
         writes_ids=bool(writes_ids), band_rows_log2=choice.band_rows_log2, ranges=ranges,

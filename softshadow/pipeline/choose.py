@@ -10,12 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.image import Image
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.draw_path import DrawPath, begin_path, is_explained
 from softshadow.pipeline.geometry.lines import LINES
@@ -29,11 +30,12 @@ from softshadow.pipeline.shade.shading import shade_and_write
 from softshadow.state import State
 
 try:
-    from softshadow.pipeline.fast import specialize
+    from softshadow.pipeline.fast.any_state import any_state_kernel
     from softshadow.pipeline.fast.batch.table import Run, can_begin_run
     from softshadow.pipeline.fast.depth_only import Chunk, chunks_of
     from softshadow.pipeline.fast.hierarchical_z import order_independent
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
+    from softshadow.pipeline.fast.stencil_tiles import tiles_kernel
     from softshadow.pipeline.fast.unordered_blend import triangles_without_overlaps
     from softshadow.pipeline.fast.visibility_cache import cached_fill
 
@@ -41,8 +43,6 @@ try:
 except ModuleNotFoundError:  # the folder can be deleted: the textbook draws everything
     SHORT_CUTS_EXIST = False
 
-# a fill kernel that is not compiled for its state fills so many fragments in the time that compiling takes (measured)
-PAYS_AFTER = 200_000_000
 WORTH_BANDS = 1_000_000  # fragments from which sorting and the hand-over to threads are small against the work
 SMALL_TRIANGLE = 100  # fragments that take as long as a small triangle
 WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volumes are long and thin
@@ -57,7 +57,6 @@ Policy = bool | Literal["always"]
 WithoutOverlaps = Callable[[Callable[[np.ndarray], None], Region, int], np.ndarray | None]
 
 _short_cuts: ContextVar[Policy] = ContextVar("short_cuts", default=SHORT_CUTS_EXIST)  # each thread has its own
-_filled: dict[object, int] = {}  # fragments per state that is not compiled
 
 
 @contextmanager
@@ -67,8 +66,8 @@ def use_short_cuts(policy: Policy) -> Iterator[None]:
     Parameters
     ----------
     policy : bool or "always"
-        False: only the textbook; True: where they pay, which is the default; "always": fill kernels are compiled for
-        every state at once, even where compiling takes longer than it saves.
+        False: only the textbook; True: where they pay, which is the default; "always" is the same, from a time when
+        kernels were compiled for each state.
 
     Raises
     ------
@@ -201,6 +200,7 @@ def choose_fill(
     *,
     writes_ids: int = 0,
     counts: FragmentCounts | None = None,
+    depth: Image | None = None,
 ) -> FillChoice:
     """Return how to fill triangles with about so many fragments.
 
@@ -208,20 +208,17 @@ def choose_fill(
     ----------
     writes_ids : 0, LAST or ONLY
     counts : receives the number of fragments by verdict, where they are counted
+    depth : the depth buffer, which keeps its tile bounds
     """
     front, back, path = plan.front, plan.back, plan.path
-    two_sided, in_tiles = int(front != back), False
-    kernel: FillKernel | None = None
-    if _short_cuts.get() and counts is None:
-        codes = (front.code(), back.code()) if two_sided else (front.code(),)
-        if not writes_ids and order_independent(front, back):
-            in_tiles = all(_is_specialized(code, n_fragments, path) for code in codes)
-            kernel = specialize.tiles_kernel(codes) if in_tiles else None
-        key = (codes[0], codes[-1], two_sided, writes_ids)
-        if kernel is None and _is_specialized(key, n_fragments, path):
-            kernel = specialize.kernel_of(key)
-    path.fill = "textbook" if kernel is None else "stencil tiles" if in_tiles else "specialized"
-    kernel = textbook_kernel(two_sided, writes_ids, counts) if kernel is None else kernel
+    in_tiles = False
+    if not _short_cuts.get() or counts is not None:
+        path.fill, kernel = "textbook", textbook_kernel(int(front != back), writes_ids, counts)
+    elif not writes_ids and order_independent(front, back):
+        path.fill, kernel, in_tiles = "stencil tiles", tiles_kernel(depth), True
+        path.note("only the stencil buffer changes, in an order that does not matter")
+    else:
+        path.fill, kernel = "vectors", any_state_kernel(writes_ids)
     if in_tiles:
         bands_pay = n_fragments >= WORTH_BANDS_IN_TILES
     else:
@@ -230,25 +227,6 @@ def choose_fill(
         return FillChoice(kernel, 0)
     path.fill += " in bands"
     return FillChoice(kernel, _band_rows_log2(region, n_fragments))
-
-
-def _is_specialized(key: Any, n_fragments: int, path: DrawPath) -> bool:
-    """Return whether to use the kernel compiled for a state: it is compiled already, or compiling it pays now."""
-    if key in specialize.compiled:
-        path.note("the state is compiled")
-        return True
-    if _short_cuts.get() == "always":
-        path.note("the state is compiled, as asked for")
-        return True
-    _filled[key] = _filled.get(key, 0) + n_fragments
-    if _filled[key] > PAYS_AFTER:
-        path.note("the state has filled so many fragments that compiling it pays")
-        return True
-    if specialize.is_on_disk(key):
-        path.note("the state was compiled before: its code is on disk")
-        return True
-    path.note("the state has not filled enough fragments to be compiled")
-    return False
 
 
 def _bands_pay(region: Region, fragments: int) -> bool:

@@ -12,7 +12,7 @@ import numpy as np
 
 from softshadow import gl
 from softshadow.context import make_current
-from softshadow.pipeline import set_threads, threads, use_short_cuts
+from softshadow.pipeline import set_threads, threads
 from softshadow.pipeline.fast.visibility_cache import clear_visibility_cache
 from softshadow.testing.mesa import DRIVERS, MesaError, Worker, mesa_available, mesa_reason, program_request
 from softshadow.testing.timing import FrameProgram, Timing, read_buffers, timed
@@ -63,9 +63,8 @@ class OwnSession:
         return [self._inside(lambda: timed(gl, self._frame))[1] for _ in range(repeats)]
 
     def warm_up(self) -> None:
-        """Draw a frame with every state specialized, as it will be once it has drawn enough."""
-        with use_short_cuts("always"):
-            self.time()
+        """Draw a frame that is not timed, so that all code is compiled afterwards."""
+        self.time()
 
     def buffers(self) -> dict[str, np.ndarray]:
         """Return the buffers after the last frame, see `read_buffers`."""

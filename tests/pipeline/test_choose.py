@@ -87,10 +87,15 @@ def test_explain_paths_lists_the_way_of_each_draw_and_its_reasons():
     assert paths[3].fill == "textbook"
 
 
-def test_always_compiles_the_state_of_every_draw():
-    with gl.create_context(*SIZE), explain_paths() as paths, use_short_cuts("always"):
+def test_every_state_is_filled_in_vectors():
+    with gl.create_context(*SIZE), explain_paths() as paths:
         draw_triangle()
-    assert [path.fill for path in paths] == ["specialized"]
+        gl.glEnable(gl.GL_STENCIL_TEST)
+        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR)
+        draw_triangle()
+        gl.glColorMask(False, False, False, False)
+        draw_triangle()
+    assert [path.fill for path in paths] == ["vectors", "vectors", "stencil tiles"]
 
 
 def test_draws_outside_the_block_are_not_listed():

@@ -14,16 +14,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from softshadow.image import Image
 from softshadow.jit import kernel
+from softshadow.pipeline.fast.fragment_numbers import ZFAIL_OP, ZPASS_OP, update_of, updated
 from softshadow.pipeline.raster.depth import depth_at, depth_units
 from softshadow.pipeline.raster.fragment_ops import (
     ALWAYS,
-    CLEAR,
-    DECR,
     DECR_WRAP,
     GEQUAL,
     GREATER,
-    INCR,
     INCR_WRAP,
     KEEP,
     LEQUAL,
@@ -44,16 +43,28 @@ FAIL, PASS, MIXED, NOTHING = range(4)
 WRAPPING = {INCR_WRAP, DECR_WRAP}
 
 
-class Tiles(NamedTuple):
-    """The tiles of a draw's region, each array (rows, columns) of tiles.
+class TileBounds(NamedTuple):
+    """Bounds of the stored depth in each tile of an image, (rows, columns) of tiles, NaN where not computed yet.
 
-    low, high: bounds of the stored depth, NaN where they are not computed yet; pending: how many stencil updates are
-    still to be applied.
+    width: how many columns the image has without padding.
     """
 
     low: np.ndarray
     high: np.ndarray
-    pending: np.ndarray
+    width: int
+
+
+def tile_bounds(depth: Image | None, shape: tuple[int, int], real: np.dtype) -> TileBounds:
+    """Return the tile bounds of a depth buffer with so many rows and columns; they are kept until its cells change."""
+    bounds: TileBounds | None = None if depth is None else depth.tile_bounds
+    if bounds is None:
+        tiles = ((shape[0] - 1) >> ROWS_LOG2) + 1, ((shape[1] - 1) >> COLUMNS_LOG2) + 1
+        bounds = TileBounds(
+            np.full(tiles, np.nan, real), np.full(tiles, np.nan, real), shape[1] if depth is None else depth.width
+        )
+        if depth is not None:
+            depth.tile_bounds = bounds
+    return bounds
 
 
 def order_independent(front: FragmentOps, back: FragmentOps) -> bool:
@@ -74,23 +85,14 @@ def order_independent(front: FragmentOps, back: FragmentOps) -> bool:
 
 
 @kernel
-def tiles_of(region, real):
-    """Return the tiles of a region: rows of tiles from its first row on, columns of tiles from column 0 on."""
-    rows, columns = ((region.end_row - region.first_row - 1) >> ROWS_LOG2) + 1, ((region.right - 1) >> COLUMNS_LOG2) + 1
-    low, high = np.full((rows, columns), np.nan, real), np.full((rows, columns), np.nan, real)
-    return Tiles(low, high, np.zeros((rows, columns), np.int32))
-
-
-@kernel
 def rows_of(tile_row, region):
-    """Return first and end row of a row of tiles."""
-    top = region.first_row + (tile_row << ROWS_LOG2)
-    return top, min(top + ROWS, region.end_row)
+    """Return first and end row of a row of tiles, within the region."""
+    return max(tile_row << ROWS_LOG2, region.first_row), min((tile_row + 1) << ROWS_LOG2, region.end_row)
 
 
 @kernel
 def columns_of_tile(tile, region):
-    """Return first and end column of a column of tiles."""
+    """Return first and end column of a column of tiles, within the region."""
     return max(tile << COLUMNS_LOG2, region.left), min((tile + 1) << COLUMNS_LOG2, region.right)
 
 
@@ -137,7 +139,9 @@ def find_bounds(depth, first, end, left, right, scratch):
 
 
 @kernel
-def outcome(ops, depth_range, z0, dz, dz_row, offset, left, right, first, end, stored_low, stored_high):
+def outcome(
+    func, zfail, zpass, depth_range, largest, z0, dz, dz_row, offset, left, right, first, end, stored_low, stored_high
+):  # fmt: skip
     """Return the depth test's result for a triangle's fragments from column `left` to `right`, row `first` to `end`.
 
     PASS or FAIL: all fragments; MIXED: it differs or is not known; NOTHING: no stencil value will change. The depth
@@ -145,65 +149,44 @@ def outcome(ops, depth_range, z0, dz, dz_row, offset, left, right, first, end, s
     reference counting.
     """
     result = PASS
-    if ops.depth_test:
+    if func != ALWAYS:
         column_low, column_high = (left, right) if dz >= 0 else (right, left)
         row_low, row_high = (first, end) if dz_row >= 0 else (end, first)
         low = depth_at(z0, dz, dz_row, offset, column_low, row_low)
         high = depth_at(z0, dz, dz_row, offset, column_high, row_high)
         if not np.isfinite(low) or not np.isfinite(high):
             return MIXED  # planes that overflow, or are NaN, are not monotone
-        low = depth_units(low, depth_range, ops.depth_largest)
-        high = depth_units(high, depth_range, ops.depth_largest)
-        result = decide(ops.depth_func, low, high, stored_low, stored_high)
+        low, high = depth_units(low, depth_range, largest), depth_units(high, depth_range, largest)
+        result = decide(func, low, high, stored_low, stored_high)
     if result == PASS:
-        return NOTHING if ops.zpass == KEEP else PASS
+        return NOTHING if zpass == KEEP else PASS
     if result == FAIL:
-        return NOTHING if ops.zfail == KEEP else FAIL
+        return NOTHING if zfail == KEEP else FAIL
     return MIXED
 
 
 @kernel
 def common_op(ops):
     """Return the one operation of an order-independent state; GL_INCR_WRAP for steps in both directions."""
-    op = ops.zfail if ops.zpass == KEEP else ops.zpass
+    op = KEEP
+    for facing in range(2):
+        for which in (ZFAIL_OP, ZPASS_OP):
+            op = op if ops[facing, which] == KEEP else int(ops[facing, which])
     return INCR_WRAP if op == DECR_WRAP else op
 
 
 @kernel
-def advance(op, s, n, ref, largest):
-    """Return the stencil value after `n` operations: the same as calling `stencil_op` n times.
-
-    All values uint8; for GL_INCR_WRAP and GL_DECR_WRAP, n counts increments less decrements.
-    """
-    if op == KEEP or n == 0:
-        return s
-    if op == CLEAR:
-        return np.uint8(0)
-    if op == REPLACE:
-        return np.uint8(ref)
-    if op == INCR_WRAP or op == DECR_WRAP:
-        return np.uint8((int(s) + n) & int(largest))
-    often = np.uint8(min(n, 255))  # only bytes: 64 of them fit into a vector
-    if op == INCR:
-        return np.uint8(s + min(np.uint8(largest - s), often))
-    if op == DECR:
-        return np.uint8(s - min(s, often))
-    return np.uint8(s ^ largest if n & 1 else s)
-
-
-@kernel
-def apply_pending_updates(ops, tiles, region, stencil):
-    """Apply the pending updates to whole tiles."""
-    op = common_op(ops)
-    ref, largest = np.uint8(ops.ref), np.uint8(ops.stencil_largest)
-    for tile_row in range(tiles.pending.shape[0]):
-        top, bottom = rows_of(tile_row, region)
-        for tile in range(tiles.pending.shape[1]):
-            n = tiles.pending[tile_row, tile]
-            if n == 0:
+def apply_pending_updates(op, ref, largest, pending, first_tile_row, region, stencil):
+    """Apply the pending updates to whole tiles; `pending` begins with the row of tiles `first_tile_row`."""
+    for tile_row in range(pending.shape[0]):
+        top, bottom = rows_of(first_tile_row + tile_row, region)
+        for tile in range(pending.shape[1]):
+            n = pending[tile_row, tile]
+            if n == 0 or op == KEEP:
                 continue
+            update = update_of(op, n, ref, largest)
             left, right = columns_of_tile(tile, region)
             for row in range(top, bottom):
                 values = stencil[row, left:right]
                 for k in range(np.uint64(right - left)):
-                    values[k] = advance(op, values[k], n, ref, largest)
+                    values[k] = updated(update, values[k], largest)

@@ -1,96 +1,120 @@
 """Fill stencil-only draws tile by tile; equals `raster.fill.fill_triangles`, see fast/test_stencil_tiles.py.
 
-Tiles that their depth bounds (`hierarchical_z.py`) do not decide are filled row by row, in chunks of 32 columns.
+Tiles that their depth bounds (`hierarchical_z.py`) do not decide are filled row by row, in chunks of 32 columns: first
+the depth test in floats, 16 to a vector, then the stencil update in bytes, 32 to a vector.
 """
 
 import numpy as np
 
-from softshadow.jit import inlined
+from softshadow.image import Image
+from softshadow.jit import kernel
+from softshadow.pipeline.fast.any_state import CHUNK, CHUNK_LOG2
+from softshadow.pipeline.fast.fragment_numbers import (
+    ALL,
+    DEPTH_FUNC,
+    LARGEST,
+    NONE,
+    UNMASKED_REF,
+    ZFAIL,
+    ZFAIL_OP,
+    ZPASS,
+    ZPASS_OP,
+    depth_of,
+    depth_passes,
+    depth_test_of,
+    numbers_of,
+    stencil_update_of,
+    updated,
+)  # fmt: skip
 from softshadow.pipeline.fast.hierarchical_z import (
     COLUMNS,
     COLUMNS_LOG2,
     MIXED,
     NOTHING,
     PASS,
+    ROWS,
     ROWS_LOG2,
-    advance,
     apply_pending_updates,
     columns_of_tile,
     common_op,
     find_bounds,
     outcome,
     rows_of,
-    tiles_of,
+    tile_bounds,
 )  # fmt: skip
-from softshadow.pipeline.fast.small_triangles import columns_of, common_pitch, fill_small
+from softshadow.pipeline.fast.small_triangles import columns_of, fill_small
 from softshadow.pipeline.raster.coverage import bounds, row_spans
-from softshadow.pipeline.raster.depth import depth_at, depth_units
-from softshadow.pipeline.raster.fragment_ops import DECR_WRAP, NO_ALPHA, process_fragment
-from softshadow.pipeline.records import EITHER
-
-CHUNK_LOG2 = 5  # columns processed in one go, 32: what rows are padded to (`image.PITCH`)
-CHUNK = 1 << CHUNK_LOG2
+from softshadow.pipeline.raster.fill import FillKernel
+from softshadow.pipeline.raster.fragment_ops import ALWAYS, DECR_WRAP, INCR_WRAP, LESS, FragmentOps
+from softshadow.pipeline.records import DepthRange, FillBuffers, Region, Setup
 
 
-@inlined
-def fill_chunk(ops, z0, dz, dz_row, offset, depth_range, columns, left, right, start, row, depth, stencil):
-    """Process the fragments of one row of a triangle, [left, right), that lie in the chunk from column `start` on.
+def tiles_kernel(depth_image: Image | None = None) -> FillKernel:
+    """Return the kernel that fills in tiles under an order-independent state; the image keeps its tile bounds."""
 
-    Always the same number of columns, those outside unchanged: the whole loop is vectorised, without a remainder loop.
+    def fill_kernel(
+        front: FragmentOps,
+        back: FragmentOps,
+        triangles: Setup,
+        numbers: np.ndarray,
+        region: Region,
+        depth_range: DepthRange,
+        buffers: FillBuffers,
+    ) -> None:
+        depth, stencil = buffers.depth, buffers.stencil
+        fill_in_tiles(
+            numbers_of(front, back), front.depth_largest, triangles.corners, triangles.depth, triangles.front, numbers,
+            region, depth_range, *tile_bounds(depth_image, depth.shape, depth.dtype),
+            min(depth.shape[1], stencil.shape[1]), buffers.columns, depth, stencil,
+        )  # fmt: skip
+
+    return fill_kernel
+
+
+@kernel
+def fill_in_tiles(
+    ops, largest, corners, planes, faces, numbers, region, depth_range, lows, highs, width, pitch, columns, depth,
+    stencil,
+):  # fmt: skip
+    """Fill triangles under a state that is `order_independent`; small ones bypass the tiles.
+
+    `ops` are the numbers of both facings, `lows`, `highs` and `width` the tile bounds, `pitch` the columns that both
+    buffers have.
     """
-    j, row_at = np.uint64(row), columns[row]
-    for k in range(CHUNK):
-        i = np.uint64(start + k)
-        inside = (columns[i] >= left) & (columns[i] < right)
-        z = depth_units(depth_at(z0, dz, dz_row, offset, columns[i], row_at), depth_range, ops.depth_largest)
-        _, stencil[j, i], _ = process_fragment(ops, inside, NO_ALPHA, z, depth[j, i], stencil[j, i])
-
-
-@inlined
-def advance_chunk(op, step, ref, largest, left, right, start, row, stencil):
-    """Do the same where the result of the depth test is known: in bytes, so that a chunk is one vector."""
-    first = min(max(left - start, 0), CHUNK)
-    width = np.uint8(min(max(right - start, first), CHUNK) - first)
-    j = np.uint64(row)
-    for k in range(CHUNK):
-        i = np.uint64(start + k)
-        inside = np.uint8((k - first) & 255) < width  # left of the first one wraps round to large numbers
-        stencil[j, i] = advance(op, stencil[j, i], step, ref, largest) if inside else stencil[j, i]
-
-
-@inlined
-def fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, buffers):
-    """Fill the triangles of one facing, FRONT, BACK or EITHER, under a state that is `order_independent`.
-
-    Small triangles bypass the tiles.
-    """
-    # taken out of the tuples once: for every triangle, counting the references would take as long as drawing it
-    corners, planes, faces_front = triangles.corners, triangles.depth, triangles.front
-    columns, depth, stencil, ids = buffers.columns, buffers.depth, buffers.stencil, buffers.ids
-    op, ref, largest = common_op(ops), np.uint8(ops.ref), np.uint8(ops.stencil_largest)
-    last_start = common_pitch(0, depth, stencil, ids) - CHUNK
-    tiles = tiles_of(region, columns.dtype)
-    lows, highs, pending = tiles.low, tiles.high, tiles.pending
-    scratch = np.empty((3, COLUMNS), columns.dtype)
+    op, ref, most = common_op(ops), np.uint8(ops[0, UNMASKED_REF]), np.uint8(ops[0, LARGEST])
+    func, depth_test = ops[0, DEPTH_FUNC], depth_test_of(ops, np.uint64(0))
+    last_start = pitch - CHUNK
+    first_tile_row = region.first_row >> ROWS_LOG2
+    tile_rows, tile_columns = (
+        ((region.end_row - 1) >> ROWS_LOG2) + 1 - first_tile_row,
+        ((region.right - 1) >> COLUMNS_LOG2) + 1,
+    )
+    pending = np.zeros((max(tile_rows, 0), max(tile_columns, 0)), np.int32)
+    scratch = np.empty((3, COLUMNS), depth.dtype)
+    passed, covered = np.empty(ROWS * COLUMNS, np.uint8), np.empty(CHUNK, np.uint8)
     lefts, rights = np.empty(region.end_row, np.int32), np.empty(region.end_row, np.int32)
     n = 0
     while n < numbers.shape[0]:
         n = fill_small(
-            ops, facing, 0, corners, planes, faces_front, numbers, n, region, depth_range, depth, stencil, ids
+            1, 0, 0, ops, largest, corners, planes, faces, numbers, n, region, depth_range, pitch, depth,
+            stencil, depth, passed, covered,
         )  # fmt: skip
         if n == numbers.shape[0]:
             break
-        t = int(numbers[n])
+        t = np.uint64(numbers[n])
         n += 1
         first, end = bounds(corners, t)
         first, end = max(first, region.first_row), min(end, region.end_row)
         box_left, box_right = columns_of(corners, t)
         box_left, box_right = max(box_left, region.left), min(box_right, region.right)
-        if first >= end or box_left >= box_right or (facing != EITHER and faces_front[t] != facing):
+        if first >= end or box_left >= box_right:
             continue
+        f = np.uint64(faces[t])
+        zfail, zpass = ops[f, ZFAIL_OP], ops[f, ZPASS_OP]
+        failing, passing = stencil_update_of(ops, f, ZFAIL), stencil_update_of(ops, f, ZPASS)
         z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
         row_spans(corners, t, first, end, region.downwards, region.left, region.right, lefts, rights)
-        for tile_row in range((first - region.first_row) >> ROWS_LOG2, ((end - 1 - region.first_row) >> ROWS_LOG2) + 1):
+        for tile_row in range(first >> ROWS_LOG2, ((end - 1) >> ROWS_LOG2) + 1):
             top, bottom = rows_of(tile_row, region)
             first_here, end_here = max(first, top), min(end, bottom)
             # outer: from the first to the last column; inner: the columns that all rows cover
@@ -107,34 +131,84 @@ def fill_in_tiles(ops, facing, triangles, numbers, region, depth_range, buffers)
             for tile in range(outer_left >> COLUMNS_LOG2, ((outer_right - 1) >> COLUMNS_LOG2) + 1):
                 tile_left, tile_right = columns_of_tile(tile, region)
                 left, right = max(outer_left, tile_left), min(outer_right, tile_right)
-                if ops.depth_test and np.isnan(lows[tile_row, tile]):
+                if func != ALWAYS and np.isnan(lows[tile_row, tile]):
+                    # of the whole tile, as the bounds outlive the region
                     lows[tile_row, tile], highs[tile_row, tile] = find_bounds(
-                        depth, top, bottom, tile_left, tile_right, scratch
-                    )
+                        depth, tile_row << ROWS_LOG2, min((tile_row + 1) << ROWS_LOG2, depth.shape[0]),
+                        tile << COLUMNS_LOG2, min((tile + 1) << COLUMNS_LOG2, width), scratch,
+                    )  # fmt: skip
                 what = outcome(
-                    ops, depth_range, z0, dz, dz_row, offset, columns[left], columns[right - 1], columns[first_here],
-                    columns[end_here - 1], lows[tile_row, tile], highs[tile_row, tile],
+                    func, zfail, zpass, depth_range, largest, z0, dz, dz_row, offset, columns[left],
+                    columns[right - 1], columns[first_here], columns[end_here - 1], lows[tile_row, tile],
+                    highs[tile_row, tile],
                 )  # fmt: skip
                 if what == NOTHING:
                     continue
-                step = -1 if (ops.zpass if what == PASS else ops.zfail) == DECR_WRAP else 1
                 if what != MIXED and has_all_rows and inner_left <= tile_left and inner_right >= tile_right:
-                    pending[tile_row, tile] += step
+                    pending[tile_row - first_tile_row, tile] += (
+                        -1 if (zpass if what == PASS else zfail) == DECR_WRAP else 1
+                    )
                     continue
-                fits = right - left <= CHUNK  # then one chunk, from `left` on, covers the row
+                # the chunks of a row: one from `left` on if that covers the tile's part of every row, else all of them
+                first_chunk, end_chunk = left >> CHUNK_LOG2 << CHUNK_LOG2, right
+                if right - left <= CHUNK:
+                    first_chunk = min(left, last_start)
+                    end_chunk = first_chunk + 1
+                if what == MIXED:
+                    # for all rows: bytes read right after they were written in other portions would have to wait
+                    for row in range(first_here, end_here):
+                        j, row_at = np.uint64(row), np.float32(np.int32(row))
+                        for at in range(first_chunk, end_chunk, CHUNK):
+                            if lefts[j] >= at + CHUNK or rights[j] <= at:
+                                continue
+                            place = np.uint64(((row - first_here) << COLUMNS_LOG2) + at - first_chunk)
+                            if func == LESS:  # what nearly all shadow volumes use, in two thirds of the time
+                                for k in range(CHUNK):
+                                    i, column = np.uint64(at) + np.uint64(k), np.int32(np.int32(at) + np.int32(k))
+                                    z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
+                                    passed[place + np.uint64(k)] = ALL if z < depth[j, i] else NONE
+                                continue
+                            for k in range(CHUNK):
+                                i, column = np.uint64(at) + np.uint64(k), np.int32(np.int32(at) + np.int32(k))
+                                z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
+                                passed[place + np.uint64(k)] = np.uint8(depth_passes(depth_test, z, depth[j, i]))
+                    for row in range(first_here, end_here):
+                        j = np.uint64(row)
+                        row_left, row_right = max(lefts[j], tile_left), min(rights[j], tile_right)
+                        for at in range(first_chunk, end_chunk, CHUNK):
+                            if row_left >= at + CHUNK or row_right <= at:
+                                continue
+                            place = np.uint64(((row - first_here) << COLUMNS_LOG2) + at - first_chunk)
+                            begin = min(max(row_left - at, 0), CHUNK)
+                            count = np.uint8(min(max(row_right - at, begin), CHUNK) - begin)
+                            if op == INCR_WRAP:
+                                for k in range(CHUNK):
+                                    i, hit = np.uint64(at) + np.uint64(k), passed[place + np.uint64(k)]
+                                    step = passing.step if hit else failing.step
+                                    # left of the first column, the difference wraps round to large numbers
+                                    step = step if np.uint8(np.uint8(k) - np.uint8(begin)) < count else NONE
+                                    stencil[j, i] = np.uint8(np.uint8(stencil[j, i] + step) & most)
+                            else:
+                                for k in range(CHUNK):
+                                    i, hit = np.uint64(at) + np.uint64(k), passed[place + np.uint64(k)]
+                                    inside = ALL if np.uint8(np.uint8(k) - np.uint8(begin)) < count else NONE
+                                    s = stencil[j, i]
+                                    after, other = updated(passing, s, most), updated(failing, s, most)
+                                    after = after if hit else other
+                                    stencil[j, i] = np.uint8(s ^ np.uint8(np.uint8(s ^ after) & inside))
+                    continue
+                update = passing if what == PASS else failing
                 for row in range(first_here, end_here):
                     j = np.uint64(row)
                     row_left, row_right = max(lefts[j], tile_left), min(rights[j], tile_right)
-                    start, stop = row_left >> CHUNK_LOG2 << CHUNK_LOG2, row_right
-                    if fits:
-                        start = min(left, last_start)
-                        stop = start + 1
-                    for at in range(start, stop, CHUNK):
-                        if what == MIXED:
-                            fill_chunk(
-                                ops, z0, dz, dz_row, offset, depth_range, columns, row_left, row_right,
-                                at, row, depth, stencil,
-                            )  # fmt: skip
-                        else:
-                            advance_chunk(op, step, ref, largest, row_left, row_right, at, row, stencil)
-    apply_pending_updates(ops, tiles, region, stencil)
+                    for at in range(first_chunk, end_chunk, CHUNK):
+                        if row_left >= at + CHUNK or row_right <= at:
+                            continue
+                        begin = min(max(row_left - at, 0), CHUNK)
+                        count = np.uint8(min(max(row_right - at, begin), CHUNK) - begin)
+                        for k in range(CHUNK):
+                            i = np.uint64(at) + np.uint64(k)
+                            inside = ALL if np.uint8(np.uint8(k) - np.uint8(begin)) < count else NONE
+                            s = stencil[j, i]
+                            stencil[j, i] = np.uint8(s ^ np.uint8(np.uint8(s ^ updated(update, s, most)) & inside))
+    apply_pending_updates(op, ref, most, pending, first_tile_row, region, stencil)

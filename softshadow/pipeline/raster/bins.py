@@ -18,7 +18,11 @@ BAND_ROWS_LOG2 = 5  # 32 rows: layers drawn over each other in a band stay in th
 
 
 class Bins(NamedTuple):
-    """The numbers of the triangles in band b: ``numbers[starts[b] : starts[b + 1]]``; a band has 2**rows_log2 rows."""
+    """The numbers of the triangles in band b: ``numbers[starts[b] : starts[b + 1]]``.
+
+    A band has 2**rows_log2 rows, the first one begins with a multiple of that: bands do not cut the tiles of
+    `fast/hierarchical_z.py`.
+    """
 
     starts: np.ndarray
     numbers: np.ndarray
@@ -30,13 +34,13 @@ class Bins(NamedTuple):
 
     def rows_of(self, band: int, region: Region) -> tuple[int, int]:
         """Return first and end row of a band."""
-        first = region.first_row + (band << self.rows_log2)
-        return first, min(first + (1 << self.rows_log2), region.end_row)
+        first = ((region.first_row >> self.rows_log2) + band) << self.rows_log2
+        return max(first, region.first_row), min(first + (1 << self.rows_log2), region.end_row)
 
 
 def bands_of(region: Region, rows_log2: int = BAND_ROWS_LOG2) -> int:
     """Return the number of bands of a region."""
-    return ((region.end_row - region.first_row - 1) >> rows_log2) + 1
+    return ((region.end_row - 1) >> rows_log2) - (region.first_row >> rows_log2) + 1
 
 
 def sort_into_bands(
@@ -63,7 +67,8 @@ def band_range(corners, t, region, rows_log2):
     first, end = max(first, region.first_row), min(end, region.end_row)
     if first >= end:
         return 0, 0
-    return (first - region.first_row) >> rows_log2, ((end - 1 - region.first_row) >> rows_log2) + 1
+    base = region.first_row >> rows_log2
+    return (first >> rows_log2) - base, ((end - 1) >> rows_log2) + 1 - base
 
 
 @kernel

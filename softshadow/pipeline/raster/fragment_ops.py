@@ -1,7 +1,7 @@
 """The per-fragment operations: one textbook function in the order of the specification.
 
-The state comes in two ways: as an argument (`raster/fill.py`), or as constants of a kernel compiled for one state, so
-that the compiler folds it away (`fast/specialize.py`). Called from Python it explains the history of a pixel.
+The textbook's loops call it with the state as an argument; `fast/fragment_numbers.py` has the same operations as
+numbers, for loops over many pixels. Called from Python it explains the history of a pixel.
 """
 
 from typing import NamedTuple
@@ -45,10 +45,6 @@ class FragmentOps(NamedTuple):
     ref: int
     read_mask: int
     write_mask: int
-
-    def code(self) -> "FragmentOps":
-        """Return the compilation key: reference values and masks, which do not change the code, set to 0."""
-        return self._replace(alpha_ref=0, ref=0, read_mask=0, write_mask=0)
 
 
 def fragment_ops(state: State, depth: Image | None, stencil: Image | None, front: bool) -> FragmentOps:

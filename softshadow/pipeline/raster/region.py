@@ -43,10 +43,13 @@ def covered(triangles: Setup, region: Region) -> tuple[Region, int]:
     return cut, sum(areas) >> 8
 
 
-def buffer_cells(target: Framebuffer, real: np.dtype) -> tuple[np.ndarray, np.ndarray]:
+def buffer_cells(target: Framebuffer, real: np.dtype, *, writes_depth: bool = True) -> tuple[np.ndarray, np.ndarray]:
     """Return depth and stencil cells; a missing buffer, whose test is off, has a stand-in of zeros."""
     shape = padded_shape(target)
-    depth = target.depth.cells if target.depth is not None else np.zeros(shape, real)
+    if target.depth is None:
+        depth = np.zeros(shape, real)
+    else:
+        depth = target.depth.cells if writes_depth else target.depth.read_cells
     stencil = target.stencil.cells if target.stencil is not None else np.zeros(shape, np.uint8)
     return depth, stencil
 

@@ -1,24 +1,30 @@
-"""The specialized fill is vectorised: its machine code tests many pixels with one instruction.
+"""The fill kernels are vectorised: their machine code tests many pixels with one instruction.
 
-With a branch in the wrong place, or an index that may be negative, the compiler falls back to one pixel at a time, and
-only timings would show it. So the machine code is searched for instructions that every vectorised loop over pixels has:
-comparisons of packed depths, and packed arithmetic on stencil values, which are bytes.
+With a branch in the wrong place, or an index that may be negative, the compiler falls back to one pixel at a time; with
+a comparison of a float and an integer, it widens eight floats to float64, and with bytes that meet integers, eight
+bytes to 64 bits. Only timings would show it. So the machine code is searched for instructions that every vectorised
+loop over pixels has, and for those that widen.
 """
 
 import platform
 import re
+from typing import Any
 
 import numba
 import numpy as np
 import pytest
 
 from softshadow import gl
-from softshadow.pipeline import use_short_cuts
-from softshadow.pipeline.fast import specialize
+from softshadow.pipeline.fast import any_state, stencil_tiles
+from softshadow.pipeline.raster.fragment_ops import NO_ALPHA, FragmentOps, process_fragment
 
 # in AVX and AVX-512, with registers of 32 or 64 bytes; SSE has the same names without the v
 PACKED_FLOATS_COMPARED = re.compile(r"\bv?cmp\w*ps\b[^\n]*%[xyz]mm|\bv?(?:min|max)ps\b[^\n]*%[xyz]mm")
 PACKED_BYTES_COUNTED = re.compile(r"\bv?p(?:add|sub)b\b[^\n]*%[xyz]mm")
+FLOATS_WIDENED = re.compile(r"\bv?cvtps2pd\b")
+BYTES_WIDENED = re.compile(r"\bv?pmov[sz]x[bw]q\b|\bvpmovqb\b")  # in one step or by way of words, and back
+DEPTH_KERNELS = {"fill_depths", "fill_ids"}
+STENCIL_KERNELS = {"fill_stencil", "fill_stencil_and_ids", "fill_in_tiles"}
 
 pytestmark = [
     pytest.mark.skipif(bool(vars(numba.config)["DISABLE_JIT"]), reason="looks at compiled code"),
@@ -28,37 +34,12 @@ pytestmark = [
 ]
 
 
-def machine_code_of_fills(monkeypatch: pytest.MonkeyPatch, draw) -> str:
-    """Return the assembly of the specialized fills of a draw, recompiled since the cache has no text of it."""
-    kernels: dict = {}
-    monkeypatch.setattr(specialize, "compiled", kernels)
-    with gl.create_context(64, 48), use_short_cuts("always"):
-        draw()
-        gl.glFinish()
-    assert kernels
-    text = ""
-    for fill in kernels.values():
-        recompiled = numba.njit(nogil=True, error_model="numpy")(fill.py_func)
-        for signature in fill.signatures:
-            recompiled.compile(signature)
-        text += "".join(recompiled.inspect_asm().values())
-    return text
-
-
-def test_a_loop_that_ends_early_has_no_packed_instructions():
-    @numba.njit
-    def first_nearer(depth, stencil, z):
-        for i in range(depth.shape[0]):
-            if z < depth[i]:
-                stencil[i] += 1
-                return i
-        return -1
-
-    first_nearer(np.zeros(8, np.float32), np.zeros(8, np.uint8), np.float32(1))
-    code = "".join(first_nearer.inspect_asm().values())
-    assert "first_nearer" in code
-    assert not PACKED_FLOATS_COMPARED.search(code)
-    assert not PACKED_BYTES_COUNTED.search(code)
+def machine_code(function: Any, *signatures: Any) -> str:
+    """Return the assembly of a kernel; it is compiled again, since the cache has no text of it."""
+    compiled = numba.njit(nogil=True, error_model="numpy")(function)
+    for signature in signatures:
+        compiled.compile(signature)
+    return "".join(compiled.inspect_asm().values())
 
 
 def draw_quad() -> None:
@@ -68,24 +49,85 @@ def draw_quad() -> None:
     gl.glEnd()
 
 
-def test_depths_are_compared_many_at_a_time(monkeypatch):
-    def draw() -> None:
-        gl.glEnable(gl.GL_DEPTH_TEST)
-        gl.glColorMask(False, False, False, False)
-        draw_quad()
+def draw_with_all_kernels() -> None:
+    """Draw depths, ids, stencil values, both, and stencil values whose order does not matter."""
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    draw_quad()
+    gl.glColorMask(False, False, False, False)
+    draw_quad()
+    gl.glEnable(gl.GL_STENCIL_TEST)
+    gl.glStencilFunc(gl.GL_EQUAL, 0, 255)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_INCR, gl.GL_DECR)
+    draw_quad()
+    gl.glStencilFunc(gl.GL_ALWAYS, 0, 255)
+    gl.glDepthMask(False)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR_WRAP)
+    draw_quad()
+    gl.glColorMask(True, True, True, True)
+    draw_quad()
+    gl.glFinish()
 
-    assert PACKED_FLOATS_COMPARED.search(machine_code_of_fills(monkeypatch, draw))
+
+@pytest.fixture(scope="module")
+def kernels() -> dict[str, str]:
+    """Return the machine code of the fill kernels by name, compiled for float32."""
+    with gl.create_context(64, 48):
+        draw_with_all_kernels()
+    texts = {}
+    for module in (any_state, stencil_tiles):
+        for name in (DEPTH_KERNELS | STENCIL_KERNELS) & vars(module).keys():
+            fill = vars(module)[name]
+            in_float32 = [signature for signature in fill.signatures if "float64" not in str(signature)]
+            texts[name] = machine_code(fill.py_func, *in_float32)
+    return texts
 
 
-@pytest.mark.parametrize("operation", ["GL_INCR_WRAP", pytest.param("GL_DECR", marks=pytest.mark.slow)])
-def test_stencil_values_are_counted_many_at_a_time(monkeypatch, operation):
-    def draw() -> None:
-        gl.glEnable(gl.GL_DEPTH_TEST)
-        gl.glEnable(gl.GL_STENCIL_TEST)
-        gl.glDepthMask(False)
-        gl.glColorMask(False, False, False, False)
-        gl.glStencilFunc(gl.GL_ALWAYS, 0, 255)
-        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, getattr(gl, operation))
-        draw_quad()
+def old_loop(columns, left, right, depth, stencil, z, read, write):
+    """Process a chunk in one loop, as it was: columns are floats, their limits integers."""
+    ops = FragmentOps(
+        0, gl.GL_ALWAYS, 1, gl.GL_ALWAYS, gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR_WRAP, 255, 1, gl.GL_LESS, 0, 0, 0, 0, read,
+        write,
+    )  # fmt: skip
+    for k in range(32):
+        i = np.uint64(k)
+        inside = (columns[i] >= left) & (columns[i] < right)
+        _, stencil[i], _ = process_fragment(ops, inside, NO_ALPHA, z, depth[i], stencil[i])
 
-    assert PACKED_BYTES_COUNTED.search(machine_code_of_fills(monkeypatch, draw))
+
+def test_the_search_finds_what_the_old_loop_widened():
+    floats, byte = numba.types.float32[::1], numba.types.uint8[::1]
+    int64 = numba.types.int64
+    types = (floats, int64, int64, floats, byte, numba.types.float32, int64, int64)
+    code = machine_code(old_loop, types)
+    assert FLOATS_WIDENED.search(code)
+    assert BYTES_WIDENED.search(code)
+
+
+def test_a_loop_that_ends_early_has_no_packed_instructions():
+    def first_nearer(depth, stencil, z):
+        for i in range(depth.shape[0]):
+            if z < depth[i]:
+                stencil[i] += 1
+                return i
+        return -1
+
+    code = machine_code(first_nearer, (numba.types.float32[::1], numba.types.uint8[::1], numba.types.float32))
+    assert "first_nearer" in code
+    assert not PACKED_FLOATS_COMPARED.search(code)
+    assert not PACKED_BYTES_COUNTED.search(code)
+
+
+@pytest.mark.parametrize("name", sorted(DEPTH_KERNELS | STENCIL_KERNELS))
+def test_depths_are_compared_many_at_a_time(kernels, name):
+    assert PACKED_FLOATS_COMPARED.search(kernels[name])
+
+
+@pytest.mark.parametrize("name", sorted(STENCIL_KERNELS))
+def test_stencil_values_are_counted_many_at_a_time(kernels, name):
+    assert PACKED_BYTES_COUNTED.search(kernels[name])
+
+
+@pytest.mark.parametrize("name", sorted(DEPTH_KERNELS | STENCIL_KERNELS))
+def test_neither_floats_nor_bytes_are_widened_to_64_bits(kernels, name):
+    assert not FLOATS_WIDENED.search(kernels[name])
+    assert not BYTES_WIDENED.search(kernels[name])
