@@ -155,6 +155,12 @@ class Image:
         self.write_pending()
         return self._cells
 
+    @property
+    def readable_cells(self) -> np.ndarray:
+        """The cells, for reading only: the version token stays."""
+        self.write_pending()
+        return self._cells
+
     def write_pending(self) -> None:
         """Write the rows that `write_later` has stored."""
         if self._pending_rows:

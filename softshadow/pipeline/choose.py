@@ -33,6 +33,7 @@ try:
     from softshadow.pipeline.fast.any_state import any_state_kernel
     from softshadow.pipeline.fast.batch.table import Run, can_begin_run
     from softshadow.pipeline.fast.depth_only import Chunk, chunks_of
+    from softshadow.pipeline.fast.fixed_function_spans import fixed_function_shader
     from softshadow.pipeline.fast.hierarchical_z import order_independent
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
     from softshadow.pipeline.fast.stencil_tiles import tiles_kernel
@@ -257,6 +258,11 @@ def choose_shading(plan: Plan, state: State, target: Framebuffer, geometry: Geom
         if shader is not None:
             plan.path.shading = "shadow-map kernel"
             plan.path.note("plain depth map and one buffer of bytes without blending")
+            return shader
+        shader = fixed_function_shader(state, target, geometry)
+        if shader is not None:
+            plan.path.shading = "fixed-function kernel"
+            plan.path.note("fixed function with two plain textures at most, and one buffer of bytes")
             return shader
     plan.path.shading = "program"
     return lambda spans: shade_and_write(state, target, geometry, spans, ordered=False)

@@ -53,7 +53,8 @@ def program(state: State, textures: Mapping[tuple[int, int], Texture]) -> Progra
     def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
         shade_fragments(state, units, inputs, out)
 
-    return Program("fixed function", vertex, shade, blocks=any(needs_blocks(unit.texture) for unit in units))
+    blocks = any(needs_blocks(unit.texture) for unit in units)
+    return Program("fixed function", vertex, shade, blocks=blocks, units=units)
 
 
 def units_in_use(state: State, textures: Mapping[tuple[int, int], Texture]) -> list[Unit]:

@@ -26,19 +26,30 @@ def exp2(x: np.ndarray) -> np.ndarray:
 
 def fog_factor(fog: Fog, distance: np.ndarray) -> np.ndarray:
     """Return the fog factor (N,), the share in [0, 1] of the fragment's own colour, at eye distances (N,)."""
-    real = np.float32
     if fog.mode == gl.GL_LINEAR:
-        slope = ONE if fog.end == fog.start else -ONE / (real(fog.end) - real(fog.start))
-        factor = distance * slope + real(fog.end) * -slope
+        slope, shift = linear_terms(fog)
+        factor = distance * slope + shift
     elif fog.mode == gl.GL_EXP:
-        factor = exp2(-(distance * real(real(fog.density) * math.log2(math.e))))
+        factor = exp2(-(distance * scaled_density(fog)))
     elif fog.mode == gl.GL_EXP2:
-        scaled = distance * real(real(fog.density) * (1 / math.sqrt(math.log(2))))
+        scaled = distance * scaled_density(fog)
         factor = exp2(-(scaled * scaled))
     else:
         raise StateError(f"GL_FOG_MODE is {gl.token_name(fog.mode)}: expected GL_LINEAR, GL_EXP or GL_EXP2")
     share: np.ndarray = np.fmin(np.fmax(factor, ZERO), ONE)
     return share
+
+
+def linear_terms(fog: Fog) -> tuple[np.float32, np.float32]:
+    """Return slope and shift of GL_LINEAR fog, whose factor is ``distance * slope + shift``."""
+    slope = ONE if fog.end == fog.start else -ONE / (np.float32(fog.end) - np.float32(fog.start))
+    return slope, np.float32(fog.end) * -slope
+
+
+def scaled_density(fog: Fog) -> np.float32:
+    """Return the density of GL_EXP or GL_EXP2 fog, scaled for powers of two."""
+    scale = math.log2(math.e) if fog.mode == gl.GL_EXP else 1 / math.sqrt(math.log(2))
+    return np.float32(np.float32(fog.density) * scale)
 
 
 def apply_fog(fragment: np.ndarray, fog: Fog, distance: np.ndarray) -> None:

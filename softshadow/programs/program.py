@@ -66,6 +66,7 @@ class Program:
         detail. Then N is a multiple of 4. A block holds the values of one triangle at four pixels: the pixel at an even
         row and column of the stored rows, its right neighbour, and the two pixels of the next row.
     glsl_vertex, glsl_fragment : the same program in GLSL 1.20
+    units : for GL's fixed function, the texture units in use
     """
 
     name: str
@@ -77,6 +78,7 @@ class Program:
     blocks: bool = False
     glsl_vertex: str = ""
     glsl_fragment: str = ""
+    units: list[Any] | None = None
 
 
 def needs_blocks(texture: Texture) -> bool:

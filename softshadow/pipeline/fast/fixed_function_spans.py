@@ -1,0 +1,99 @@
+"""The fixed function on the visible spans of a draw; equals `shade.shading.shade_and_write`, see fast/test_span_shading.py.
+
+Step by step, a fragment takes a hundred bytes from kernel to kernel, and a chunk large enough to pay for the calls does
+not fit into the cache. Here a block of fragments goes through all steps in the first-level cache.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from softshadow.framebuffer import Framebuffer
+from softshadow.jit import kernel
+from softshadow.pipeline.fast.fragment_block import (
+    FLOAT_ROWS,
+    MASK,
+    NEXT,
+    SIZE,
+    SPAN_LEFT,
+    SPAN_PLACE,
+    SPAN_ROW,
+    SPAN_START,
+    WHOLE_ROWS,
+)
+from softshadow.pipeline.fast.span_colors import shade_block
+from softshadow.pipeline.fast.span_state import SpanState, span_state
+from softshadow.pipeline.fast.span_writes import write_block
+from softshadow.pipeline.memory.threads import share, threads
+from softshadow.pipeline.records import Geometry, Spans
+from softshadow.pipeline.shade.interpolate import AttributePlanes
+from softshadow.pipeline.shade.shading import attribute_planes_of
+from softshadow.state import State
+
+PART = 1 << 14  # fragments that one thread shades in one go where several threads draw
+
+
+def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None] | None:
+    """Return the function that shades and writes spans of a draw without overlaps; None where it is not covered."""
+    numbers = covered_state(state, target, geometry)
+    if numbers is None:
+        return None
+    pixels = target.colors[0].cells.view(np.int32)[..., 0]
+
+    def shade_part(spans: Spans, planes: AttributePlanes) -> None:
+        shade_visible_spans(
+            planes.values, planes.place, *spans, geometry.flat, numbers.switches, numbers.numbers, *numbers.texels,
+            pixels,
+        )  # fmt: skip
+
+    def shade(spans: Spans) -> None:
+        planes = attribute_planes_of(geometry, spans)
+        if threads() == 1:
+            shade_part(spans, planes)
+        else:
+            parts = spans.chunks(PART)
+            share(lambda n: shade_part(spans.part(parts[n], parts[n + 1]), planes), len(parts) - 1)
+
+    return shade
+
+
+def covered_state(state: State, target: Framebuffer, geometry: Geometry) -> SpanState | None:
+    """Return the numbers of a draw's fragment state, or None where the textbook has to shade.
+
+    The kernels take the fixed function in float32 and one colour buffer of four bytes, which no unit samples.
+    """
+    units, colors = geometry.program.units, target.colors
+    if units is None or geometry.window.dtype != np.float32 or len(colors) != 1:
+        return None
+    if any(image is attached.image for unit in units for image in unit.texture.images.values()
+           for attached in target.attachments.values()):  # fmt: skip
+        return None
+    return span_state(state, units, colors[0].format, len(geometry.flat))
+
+
+@kernel
+def shade_visible_spans(
+    planes, place, rows, lefts, triangles, starts, flat, switches, numbers, texels0, texels1, pixels
+):  # fmt: skip
+    """Shade spans, as many at a time as fit into a block, and write them to `pixels` (H, pitch) int32."""
+    room, whole = np.empty(FLOAT_ROWS * SIZE, np.float32), np.empty(WHOLE_ROWS * SIZE, np.int32)
+    whole[MASK : MASK + np.uint64(SIZE)] = -1
+    spans = np.zeros((4, SIZE + 1), np.int32)
+    r, done = 0, np.int64(0)  # the next span, and how many of its fragments are done
+    while r < rows.shape[0]:
+        n_spans, n = 0, np.int64(0)
+        while r < rows.shape[0] and n < SIZE:  # the last span may go on in the next block
+            length, s = min(starts[r + 1] - starts[r] - done, SIZE - n), np.uint64(n_spans)
+            spans[SPAN_ROW, s], spans[SPAN_LEFT, s], spans[SPAN_PLACE, s] = (
+                rows[r],
+                lefts[r] + done,
+                place[triangles[r]],
+            )
+            done, n, n_spans = done + length, n + length, n_spans + 1
+            spans[SPAN_START, s + NEXT] = n
+            if done == starts[r + 1] - starts[r]:
+                r, done = r + 1, np.int64(0)
+        shade_block(planes, spans, n_spans, n, flat, switches, numbers, texels0, texels1, room, whole)
+        write_block(spans, n_spans, switches, whole, pixels)

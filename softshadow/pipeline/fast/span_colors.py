@@ -1,0 +1,115 @@
+"""The fixed function on a block of fragments; equals `shade.shading.shade`, see fast/test_span_shading.py."""
+
+import numpy as np
+
+from softshadow.jit import kernel
+from softshadow.pipeline.constants import ONE, ZERO
+from softshadow.pipeline.fast.fragment_block import PACKED, ROW, TEXEL, WEIGHT, interpolate_block
+from softshadow.pipeline.fast.span_state import (
+    ADD,
+    ALPHA_OPERATION,
+    BLEND,
+    CONSTANT,
+    DECAL,
+    EXP_FOG,
+    FOG,
+    FOG_COLOR,
+    FOG_COLUMN,
+    FOG_SHIFT,
+    FOG_SLOPE,
+    LINEAR_FOG,
+    MULTIPLY,
+    N_UNITS,
+    NEEDED,
+    NUMBERS_OF_UNIT,
+    REPLACE,
+    RGB_OPERATION,
+    SEPARATE,
+    SWITCHES_OF_UNIT,
+    UNIT_NUMBERS,
+    UNIT_SWITCHES,
+)
+from softshadow.pipeline.fast.span_textures import sample_block
+from softshadow.pipeline.shade.color_writes import BLUE, GREEN, UPPERMOST, byte_of
+from softshadow.programs.llvmpipe_math import exp2_of_all
+
+RED_ROW, GREEN_ROW, BLUE_ROW, ALPHA_ROW = (np.uint64(n) * ROW for n in range(4))
+TEXEL_ALPHA = TEXEL + ALPHA_ROW
+SECONDARY = np.uint64(4) * ROW
+
+
+@kernel
+def shade_block(planes, spans, n_spans, count, flat, switches, numbers, texels0, texels1, room, whole):
+    """Write PACKED, the colours of all fragments of a block as bytes; the colours stay in the first rows of `room`.
+
+    planes (P, 3, k + 1) are those of `shade.interpolate.attribute_planes`, `spans` and `count` say which fragments.
+    """
+    interpolate_block(planes, spans, n_spans, flat, switches[NEEDED], room)
+    for u in range(switches[N_UNITS]):
+        unit, number = UNIT_SWITCHES + u * SWITCHES_OF_UNIT, UNIT_NUMBERS + u * NUMBERS_OF_UNIT
+        texels = texels0 if u == 0 else texels1
+        sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, number, texels, room, whole)
+        apply_environment_to_block(switches, numbers, unit, number, count, room)
+    if switches[SEPARATE]:
+        for c in range(3):
+            row = np.uint64(c) * ROW
+            for n in range(np.uint64(count)):
+                room[row + n] += room[SECONDARY + row + n]
+    if switches[FOG]:
+        apply_fog_to_block(switches, numbers, count, room)
+    for n in range(np.uint64(count)):
+        low = byte_of(room[RED_ROW + n]) | byte_of(room[GREEN_ROW + n]) << GREEN
+        whole[PACKED + n] = low | byte_of(room[BLUE_ROW + n]) << BLUE | byte_of(room[ALPHA_ROW + n]) << UPPERMOST
+
+
+@kernel
+def apply_environment_to_block(switches, numbers, unit, number, count, room):
+    """Apply a unit's texture function to the colours, as `texture_environment.apply_environment`."""
+    for c in range(4):
+        operation = switches[unit + (RGB_OPERATION if c < 3 else ALPHA_OPERATION)]
+        row, texel, constant = np.uint64(c) * ROW, TEXEL + np.uint64(c) * ROW, numbers[number + CONSTANT + c]
+        if operation == REPLACE:
+            for n in range(np.uint64(count)):
+                room[row + n] = room[texel + n]
+        elif operation == MULTIPLY:
+            for n in range(np.uint64(count)):
+                room[row + n] *= room[texel + n]
+        elif operation == DECAL:
+            for n in range(np.uint64(count)):
+                weight = room[TEXEL_ALPHA + n]
+                room[row + n] = room[texel + n] * weight + room[row + n] * (ONE - weight)
+        elif operation == ADD:
+            for n in range(np.uint64(count)):
+                total = room[row + n] + room[texel + n]
+                room[row + n] = ONE if total >= ONE else total  # NaN stays
+        elif operation == BLEND:
+            for n in range(np.uint64(count)):
+                weight = room[texel + n]
+                room[row + n] = constant * weight + room[row + n] * (ONE - weight)
+
+
+@kernel
+def apply_fog_to_block(switches, numbers, count, room):
+    """Blend the fog colour into the colours, as `fog.apply_fog`."""
+    distance, slope, shift = np.uint64(switches[FOG_COLUMN]) * ROW, numbers[FOG_SLOPE], numbers[FOG_SHIFT]
+    if switches[FOG] == LINEAR_FOG:
+        for n in range(np.uint64(count)):
+            room[WEIGHT + n] = room[distance + n] * slope + shift
+    else:
+        if switches[FOG] == EXP_FOG:
+            for n in range(np.uint64(count)):
+                room[TEXEL + n] = -(room[distance + n] * slope)
+        else:
+            for n in range(np.uint64(count)):
+                scaled = room[distance + n] * slope
+                room[TEXEL + n] = -(scaled * scaled)
+        exp2_of_all(room[TEXEL : TEXEL + np.uint64(count)], room[WEIGHT : WEIGHT + np.uint64(count)])
+    for n in range(np.uint64(count)):
+        factor = room[WEIGHT + n]
+        factor = factor if factor > ZERO else ZERO
+        room[WEIGHT + n] = factor if factor < ONE else ONE
+    for c in range(3):
+        row, color = np.uint64(c) * ROW, numbers[FOG_COLOR + c]
+        for n in range(np.uint64(count)):
+            factor = room[WEIGHT + n]
+            room[row + n] = color * (ONE - factor) + room[row + n] * factor

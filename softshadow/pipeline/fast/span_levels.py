@@ -1,0 +1,137 @@
+"""Mipmap levels of the fragments of a block; equals `shade.shading.shade`, see fast/test_span_shading.py.
+
+The steps of the texture coordinates to the neighbours in a 2x2 block of pixels are evaluated from the planes of the
+triangle, once for every block of pixels that a span meets; so fragments need not be sorted into blocks.
+"""
+
+import numpy as np
+
+from softshadow.jit import kernel
+from softshadow.pipeline.constants import HALF, ONE, ZERO
+from softshadow.pipeline.fast.fragment_block import (
+    LEVEL,
+    LINEAR,
+    NEXT,
+    QUADS,
+    SPAN_LEFT,
+    SPAN_PLACE,
+    SPAN_ROW,
+    SPAN_START,
+    SQUARED,
+    WEIGHT,
+)
+from softshadow.pipeline.fast.span_state import (
+    BETWEEN,
+    BIAS,
+    BY_EXPONENT,
+    CONSTANT_LEVEL,
+    LAST_LEVEL,
+    LEAST,
+    LOD_MODE,
+    MAG_LINEAR,
+    MIN_LINEAR,
+    MOST,
+    NO_LEVELS,
+)
+from softshadow.programs.level_of_detail import EXPONENT_BIAS, MANTISSA, MANTISSA_BITS, ONE_BITS
+from softshadow.tokens import GL_LINEAR, GL_NONE
+
+ODD = np.uint64(1)
+
+
+@kernel
+def write_squared_steps(planes, spans, n_spans, column, is_flat, width, height, room):
+    """Write SQUARED, `level_of_detail.squared_texels_per_pixel` of the block of pixels that each fragment lies in.
+
+    `column` is the number of the coordinate s; t and q are the next one and the third next.
+    """
+    k, wide, high = planes.shape[2] - 1, np.float32(width), np.float32(height)
+    for m in range(np.uint64(n_spans)):
+        first, end = spans[SPAN_START, m], spans[SPAN_START, m + NEXT]
+        left, row = spans[SPAN_LEFT, m], spans[SPAN_ROW, m] & ~1
+        own = planes[np.uint64(spans[SPAN_PLACE, m])]
+        upper, lower = np.float32(row), np.float32(row + 1)
+        w0, dw, w_upper, w_lower = own[0, k], own[1, k], own[2, k] * upper, own[2, k] * lower
+        s0, ds, s_upper, s_lower = own[0, column], own[1, column], own[2, column] * upper, own[2, column] * lower
+        c = column + 1
+        t0, dt, t_upper, t_lower = own[0, c], own[1, c], own[2, c] * upper, own[2, c] * lower
+        c = column + 3
+        q0, dq, q_upper, q_lower = own[0, c], own[1, c], own[2, c] * upper, own[2, c] * lower
+        even, n_quads = left & ~1, ((left + end - first - 1) >> 1) - (left >> 1) + 1
+        for b in range(np.uint64(n_quads)):
+            if is_flat:
+                over_q = ONE / q0
+                step_s, step_t = s0 * over_q - s0 * over_q, t0 * over_q - t0 * over_q
+                down_s, down_t = step_s, step_t
+            else:
+                at = np.int32(np.int32(b) * 2 + even)
+                i, next_i = np.float32(at), np.float32(np.int32(at + 1))
+                w = ONE / ((dw * i + w0) + w_upper)
+                over_q = ONE / (((dq * i + q0) + q_upper) * w)
+                s, t = ((ds * i + s0) + s_upper) * w * over_q, ((dt * i + t0) + t_upper) * w * over_q
+                w = ONE / ((dw * next_i + w0) + w_upper)
+                over_q = ONE / (((dq * next_i + q0) + q_upper) * w)
+                step_s = ((ds * next_i + s0) + s_upper) * w * over_q - s
+                step_t = ((dt * next_i + t0) + t_upper) * w * over_q - t
+                w = ONE / ((dw * i + w0) + w_lower)
+                over_q = ONE / (((dq * i + q0) + q_lower) * w)
+                down_s = ((ds * i + s0) + s_lower) * w * over_q - s
+                down_t = ((dt * i + t0) + t_lower) * w * over_q - t
+            step_s, step_t, down_s, down_t = step_s * wide, step_t * high, down_s * wide, down_t * high
+            a, b_squared = step_s * step_s + step_t * step_t, down_s * down_s + down_t * down_t
+            room[QUADS + b] = a if a > b_squared or a != a else b_squared  # NaN, as NumPy's maximum
+        odd = np.uint64(left & 1)
+        for n in range(np.uint64(end - first)):
+            room[SQUARED + np.uint64(first) + n] = room[QUADS + ((n + odd) >> ODD)]
+
+
+@kernel
+def select_levels_of_block(switches, numbers, unit, number, count, room, whole):
+    """Write LEVEL (the lower one), WEIGHT of the next one, and LINEAR; as `level_of_detail.select_levels`.
+
+    `unit` and `number` are where the unit's switches and numbers begin.
+    """
+    mode, between, last = switches[unit + LOD_MODE], switches[unit + BETWEEN], np.float32(switches[unit + LAST_LEVEL])
+    small, large = np.int32(switches[unit + MIN_LINEAR]), np.int32(switches[unit + MAG_LINEAR])
+    if mode == NO_LEVELS:
+        for n in range(np.uint64(count)):
+            whole[LEVEL + n], whole[LINEAR + n], room[WEIGHT + n] = 0, large, ZERO
+        return
+    if mode == BY_EXPONENT:
+        top = np.int32(switches[unit + LAST_LEVEL])
+        for n in range(np.uint64(count)):
+            squared = room[SQUARED + n]
+            exponent = np.int32((np.float32(squared).view(np.int32) >> MANTISSA_BITS) & 0xFF) - (EXPONENT_BIAS - 1)
+            level = np.int32(exponent >> 1)
+            level = level if level > 0 else 0
+            whole[LEVEL + n] = level if level < top else top
+            whole[LINEAR + n] = small if squared > ONE else large
+            room[WEIGHT + n] = ZERO
+    else:
+        least, most, bias = numbers[number + LEAST], numbers[number + MOST], numbers[number + BIAS]
+        if mode == CONSTANT_LEVEL:
+            for n in range(np.uint64(count)):
+                room[SQUARED + n] = least
+        else:
+            for n in range(np.uint64(count)):
+                bits = np.float32(room[SQUARED + n]).view(np.int32)
+                mantissa = np.int32(bits & MANTISSA | ONE_BITS).view(np.float32)
+                level = HALF * (np.float32(np.int32((bits >> MANTISSA_BITS) - (EXPONENT_BIAS + 1))) + mantissa) + bias
+                level = level if level < most else most
+                room[SQUARED + n] = level if level > least else least
+        for n in range(np.uint64(count)):
+            level = room[SQUARED + n]
+            floor = np.floor(level) if between == GL_LINEAR else np.rint(level)
+            inside = between == GL_LINEAR and floor >= ZERO and floor < last
+            room[WEIGHT + n] = level - floor if inside else ZERO
+            floor = floor if floor > ZERO else ZERO
+            whole[LEVEL + n] = np.int32(floor if floor < last else last)
+            whole[LINEAR + n] = small if level > ZERO else large
+    if between == GL_NONE:
+        for n in range(np.uint64(count)):
+            whole[LEVEL + n] = 0
+    elif small != large:  # where the texture is magnified, level 0 with the other filter
+        for n in range(np.uint64(count)):
+            is_small = whole[LINEAR + n] == small
+            whole[LEVEL + n] = whole[LEVEL + n] if is_small else 0
+            room[WEIGHT + n] = room[WEIGHT + n] if is_small else ZERO

@@ -1,0 +1,292 @@
+"""The fragment state as flat arrays of numbers; equals `shade.shading.shade`, see fast/test_span_shading.py.
+
+The kernels that shade spans take the state as an array of integers, `switches`, and an array of float32, `numbers`:
+passing two arrays takes a fraction of a microsecond, and no state has to be compiled. What is not covered here
+(GL_COMBINE, cube maps, float textures, more than two units ...) is shaded by the textbook.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.image import Format, Image
+from softshadow.pipeline.fast.fragment_block import COLUMNS
+from softshadow.pipeline.shade.blend import FOUR_BYTES, BlendOps, blend_ops
+from softshadow.programs.filtering import DEPTH_SOURCES, SOURCES, in_8_bits, unit_of, wraps_of
+from softshadow.programs.fixed_function import Unit, is_separate
+from softshadow.programs.fog import linear_terms, scaled_density
+from softshadow.programs.level_of_detail import FILTERS, LARGEST_LEVEL, bias_of
+from softshadow.programs.program import needs_blocks
+from softshadow.programs.sampling import base_format
+from softshadow.programs.texture_environment import MODES, WITHOUT_ALPHA
+from softshadow.state import State
+from softshadow.texture import Sampler, Texture
+
+UNITS = 2  # texture units at most
+LEVELS = 16
+# in `switches`
+NEEDED, SEPARATE, FOG, FOG_COLUMN, N_UNITS, WRITABLE, BLENDS = range(7)
+LOGIC_OP, EQUATION_RGB, EQUATION_ALPHA, SATURATES, SOURCE_TERMS, TARGET_TERMS = 7, 8, 9, 10, 11, 17
+UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 40
+(
+    PATH, S_COLUMN, WRAP_S, WRAP_T, WIDTH, HEIGHT, ROW_LENGTH, LAST_LEVEL, LOD_MODE, BETWEEN, MIN_LINEAR, MAG_LINEAR,
+    CHANNELS, _, _, _, RGB_OPERATION, ALPHA_OPERATION, COMPARISON, CLAMPED, PACKED_LEVELS, IS_DEPTH, _, _,
+    LEVEL_OFFSETS,
+) = range(25)  # fmt: skip
+# in `numbers`
+FOG_COLOR, FOG_SLOPE, FOG_SHIFT, UNIT_NUMBERS, NUMBERS_OF_UNIT = 0, 3, 4, 8, 16
+BORDER, CONSTANT, STEP, LEAST, MOST, BIAS = 0, 4, 8, 9, 10, 11
+# how a unit is sampled: bytes as integers; one by one in float; the nearest depth compared
+IN_BYTES, IN_FLOAT, NEAREST_DEPTH = range(3)
+NO_LEVELS, BY_EXPONENT, CONSTANT_LEVEL, BY_LOGARITHM = range(4)
+# what a texture environment does to a channel
+KEEP, REPLACE, MULTIPLY, DECAL, ADD, BLEND = range(6)
+NO_FOG, LINEAR_FOG, EXP_FOG, EXP2_FOG = range(4)
+FOGS = {gl.GL_LINEAR: LINEAR_FOG, gl.GL_EXP: EXP_FOG, gl.GL_EXP2: EXP2_FOG}
+NO_BLENDING, BLENDING, LOGIC = range(3)
+# results of a comparison as bits: less, equal, greater, unordered
+COMPARISONS = {
+    gl.GL_NEVER: 0, gl.GL_LESS: 1, gl.GL_EQUAL: 2, gl.GL_LEQUAL: 3, gl.GL_GREATER: 4, gl.GL_NOTEQUAL: 13,
+    gl.GL_GEQUAL: 6, gl.GL_ALWAYS: 15,
+}  # fmt: skip
+NO_TEXELS = np.zeros(1, np.int32)
+RGB, ALPHA = 0x00FFFFFF, 0xFF000000
+
+
+class SpanState(NamedTuple):
+    """The state of the fragment stage: switches int64, numbers float32, the texels (n,) int32 of two units."""
+
+    switches: np.ndarray
+    numbers: np.ndarray
+    texels: tuple[np.ndarray, np.ndarray]
+
+
+class StateNumbers(NamedTuple):
+    """What depends on the state and the samplers only, not on the images."""
+
+    switches: np.ndarray
+    numbers: np.ndarray
+
+
+_numbers: dict[object, StateNumbers | None] = {}  # by all that they depend on
+KEPT = 256
+
+
+def span_state(state: State, units: list[Unit], color: Format | None, columns: int) -> SpanState | None:
+    """Return the numbers of a fixed-function state, or None where it is not covered.
+
+    Parameters
+    ----------
+    color : format of the only colour buffer, or None where no colour is written
+    columns : how many values are interpolated
+    """
+    if len(units) > UNITS or columns > COLUMNS or (color is not None and not is_covered(color)):
+        return None
+    textures = [unit.texture for unit in units]
+    key = (
+        state.fog, state.blend, state.color.mask, is_separate(state), color,
+        *((state.units[unit.index].env_mode, state.units[unit.index].env_color, *_texture_key(unit.texture)) for unit in units),
+    )  # fmt: skip
+    if key not in _numbers:
+        if len(_numbers) >= KEPT:
+            _numbers.clear()
+        _numbers[key] = _state_numbers(state, units, color)
+    known = _numbers[key]
+    if known is None:
+        return None
+    texels = [texels_of(texture) for texture in textures]
+    return SpanState(*known, (texels[0] if texels else NO_TEXELS, texels[1] if len(texels) > 1 else NO_TEXELS))
+
+
+def is_covered(color: Format) -> bool:
+    """Return whether the kernels write colours of a format: four bytes per pixel."""
+    return color.kind == "unorm8" and color.base in FOUR_BYTES
+
+
+def _texture_key(texture: Texture) -> tuple[object, ...]:
+    """Return what the numbers of a unit depend on."""
+    image, first = texture.base(), texture.images.get((0, 0))
+    assert image is not None
+    size = (image.width, image.height, image.shape[1], image.format, texture.last_level())
+    return texture.target, texture.sampler, *size, None if first is None else (first.width, first.height)
+
+
+def _state_numbers(state: State, units: list[Unit], color: Format | None) -> StateNumbers | None:
+    switches = np.zeros(UNIT_SWITCHES + UNITS * SWITCHES_OF_UNIT, np.int64)
+    numbers = np.zeros(UNIT_NUMBERS + UNITS * NUMBERS_OF_UNIT, np.float32)
+    separate = is_separate(state)
+    column = 7 if separate else 4
+    needed = (1 << column) - 1
+    for n, unit in enumerate(units):
+        at, number = UNIT_SWITCHES + n * SWITCHES_OF_UNIT, UNIT_NUMBERS + n * NUMBERS_OF_UNIT
+        if not _write_unit(state, unit, switches[at:], numbers[number:]):
+            return None
+        switches[at + S_COLUMN] = column
+        needed |= (0b1111 if switches[at + COMPARISON] else 0b1011) << column
+        column += 4
+    switches[SEPARATE], switches[N_UNITS] = separate, len(units)
+    if state.fog.enabled:
+        switches[FOG], switches[FOG_COLUMN] = FOGS.get(state.fog.mode, NO_FOG), column
+        if not switches[FOG]:
+            return None
+        needed |= 1 << column
+        numbers[FOG_COLOR : FOG_COLOR + 3] = np.array(state.fog.color[:3], np.float32).clip(0, 1)
+        if state.fog.mode == gl.GL_LINEAR:
+            numbers[FOG_SLOPE : FOG_SHIFT + 1] = linear_terms(state.fog)
+        else:
+            numbers[FOG_SLOPE] = scaled_density(state.fog)
+    switches[NEEDED] = needed
+    if color is not None:
+        mask = np.array(state.color.mask) & np.array(color.written)
+        switches[WRITABLE] = np.where(mask, np.uint8(255), np.uint8(0)).view(np.int32)[0]
+        _write_blending(state, blend_ops(state.blend, color), switches)
+    return StateNumbers(switches, numbers)
+
+
+def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndarray) -> bool:
+    """Write the numbers of a unit; return whether it is covered."""
+    texture, setting = unit.texture, state.units[unit.index]
+    image, sampler = texture.base(), texture.sampler
+    assert image is not None
+    is_depth = image.format.kind == "depth"
+    kind = np.float32 if is_depth else np.uint8
+    if texture.target != gl.GL_TEXTURE_2D or setting.env_mode not in MODES or image.format.dtype != kind:
+        return False
+    wraps = wraps_of(sampler, texture.images.get((0, 0)) or image)
+    within, between = FILTERS[sampler.min_filter]
+    linear = gl.GL_LINEAR in (within, sampler.mag_filter)
+    compares = is_depth and sampler.compare_mode != gl.GL_NONE
+    mixes_bytes = in_8_bits(image, wraps)
+    if compares and not linear and not needs_blocks(texture):
+        switches[PATH] = NEAREST_DEPTH
+    elif is_depth or not (
+        mixes_bytes or (not linear and between != gl.GL_LINEAR and gl.GL_CLAMP_TO_BORDER not in wraps)
+    ):
+        switches[PATH] = IN_FLOAT
+    else:
+        switches[PATH] = IN_BYTES
+    switches[WRAP_S : WRAP_T + 1] = wraps
+    last = texture.last_level() - sampler.base_level if between != gl.GL_NONE else 0
+    switches[WIDTH : LAST_LEVEL + 1] = image.width, image.height, image.shape[1], last
+    switches[BETWEEN], switches[MIN_LINEAR], switches[MAG_LINEAR] = (
+        between, within == gl.GL_LINEAR, sampler.mag_filter == gl.GL_LINEAR,
+    )  # fmt: skip
+    switches[CHANNELS : CHANNELS + 4] = DEPTH_SOURCES[sampler.depth_mode] if is_depth else SOURCES[image.format.base]
+    switches[RGB_OPERATION : ALPHA_OPERATION + 1] = environment_operations(setting.env_mode, base_format(texture))
+    switches[COMPARISON] = 16 | COMPARISONS[sampler.compare_func] if compares else 0
+    switches[CLAMPED], switches[IS_DEPTH] = image.format.largest > 0, is_depth
+    switches[PACKED_LEVELS] = last > 0
+    switches[LEVEL_OFFSETS : LEVEL_OFFSETS + LEVELS] = level_offsets(image, last)
+    border = np.array(sampler.border_color, np.float32)
+    numbers[BORDER : BORDER + 4] = border.clip(0, 1) if image.format.largest else border
+    numbers[CONSTANT : CONSTANT + 4] = np.array(setting.env_color, np.float32).clip(0, 1)
+    numbers[STEP] = unit_of(image.format, np.dtype(np.float32))
+    switches[LOD_MODE], numbers[LEAST : BIAS + 1] = level_mode(sampler, needs_blocks(texture))
+    return True
+
+
+def level_mode(sampler: Sampler, needs_levels: bool) -> tuple[int, tuple[float, float, float]]:
+    """Return how the level of detail is computed, and its least and largest value and bias."""
+    least, most, bias = max(sampler.min_lod, 0.0), sampler.max_lod, bias_of(sampler)
+    if not needs_levels:
+        return NO_LEVELS, (0.0, 0.0, 0.0)
+    if least == most:
+        return CONSTANT_LEVEL, (least, most, bias)
+    if bias == 0 and least == 0 and most >= LARGEST_LEVEL and FILTERS[sampler.min_filter][1] != gl.GL_LINEAR:
+        return BY_EXPONENT, (least, most, bias)
+    limited = least > 0 or most < LARGEST_LEVEL
+    return BY_LOGARITHM, (least if limited else -np.inf, most if limited else np.inf, bias)
+
+
+def environment_operations(mode: int, base: int) -> tuple[int, int]:
+    """Return what a texture environment does to the colours and to alpha, see `texture_environment`."""
+    has_color, has_alpha = base != gl.GL_ALPHA, base not in WITHOUT_ALPHA
+    if mode == gl.GL_REPLACE:
+        return REPLACE if has_color else KEEP, REPLACE if has_alpha else KEEP
+    if mode == gl.GL_DECAL:
+        return REPLACE if base in (gl.GL_RGB, gl.GL_RED, gl.GL_RG) else DECAL if base == gl.GL_RGBA else KEEP, KEEP
+    operation = {gl.GL_MODULATE: MULTIPLY, gl.GL_ADD: ADD, gl.GL_BLEND: BLEND}[mode]
+    alpha = operation if base == gl.GL_INTENSITY else MULTIPLY
+    return operation if has_color else KEEP, alpha if has_alpha else KEEP
+
+
+def level_offsets(image: Image, last: int) -> list[int]:
+    """Return where each level begins in the packed texels of a texture, for `LEVELS` levels."""
+    offsets, width, height = [0], image.width, image.height
+    for _ in range(LEVELS - 1):
+        offsets.append(offsets[-1] + (width * height if len(offsets) <= last else 0))
+        width, height = max(width // 2, 1), max(height // 2, 1)
+    return offsets
+
+
+_packed: WeakKeyDictionary[Image, tuple[list[tuple[Image, object]], np.ndarray]] = WeakKeyDictionary()
+
+
+def texels_of(texture: Texture) -> np.ndarray:
+    """Return all texels (n,) int32 of a texture: its only level with the padding, or its levels one after the other."""
+    base, sampler = texture.base(), texture.sampler
+    assert base is not None
+    if FILTERS[sampler.min_filter][1] == gl.GL_NONE or texture.last_level() == sampler.base_level:
+        return base.readable_cells.reshape(-1).view(np.int32)
+    images = [texture.images[0, level] for level in range(sampler.base_level, texture.last_level() + 1)]
+    known = _packed.get(base)
+    if known is not None and len(known[0]) == len(images):
+        for image, (same, version) in zip(images, known[0], strict=True):
+            if image is not same or image.version is not version:
+                break
+        else:
+            return known[1]
+    texels = np.concatenate(
+        [image.readable_cells[:, : image.width].reshape(-1).view(np.int32) for image in images], dtype=np.int32
+    )
+    for image in images:
+        image.version = image.version if image.version is not None else object()
+    _packed[base] = [(image, image.version) for image in images], texels
+    return texels
+
+
+def _write_blending(state: State, ops: BlendOps, switches: np.ndarray) -> None:
+    if ops.logic_op:
+        switches[BLENDS], switches[LOGIC_OP] = LOGIC, ops.logic_op
+        return
+    if not state.blend.enabled:
+        return
+    switches[BLENDS] = BLENDING
+    switches[EQUATION_RGB], switches[EQUATION_ALPHA] = ops.equation_rgb, ops.equation_alpha
+    constant = int(ops.red) | int(ops.green) << 8 | int(ops.blue) << 16 | int(ops.alpha) << 24
+    switches[SOURCE_TERMS : SOURCE_TERMS + 6] = factor_terms(ops.src_rgb, ops.src_alpha, constant)
+    switches[TARGET_TERMS : TARGET_TERMS + 6] = factor_terms(ops.dst_rgb, ops.dst_alpha, constant)
+    for bit, name in enumerate((ops.src_rgb, ops.src_alpha, ops.dst_rgb, ops.dst_alpha)):
+        switches[SATURATES] |= (name == gl.GL_SRC_ALPHA_SATURATE) << bit
+
+
+PLAIN = {
+    gl.GL_ONE_MINUS_SRC_COLOR: gl.GL_SRC_COLOR, gl.GL_ONE_MINUS_DST_COLOR: gl.GL_DST_COLOR,
+    gl.GL_ONE_MINUS_SRC_ALPHA: gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_DST_ALPHA: gl.GL_DST_ALPHA,
+    gl.GL_ONE_MINUS_CONSTANT_COLOR: gl.GL_CONSTANT_COLOR, gl.GL_ONE_MINUS_CONSTANT_ALPHA: gl.GL_CONSTANT_ALPHA,
+    gl.GL_ONE: gl.GL_ZERO,
+}  # fmt: skip
+
+
+def factor_terms(rgb: int, alpha: int, constant: int) -> np.ndarray:
+    """Return the terms of a blend factor (6,) int32, masks of a pixel of four bytes.
+
+    The factor is ``(source & a | target & b | source_alpha & c | target_alpha & d | e) ^ f``, where the alphas are in
+    all four bytes: for bytes, 1 - x is ~x.
+    """
+    terms = [0] * 6
+    for name, mask in ((rgb, RGB), (alpha, ALPHA)):
+        plain = PLAIN.get(name, name)
+        if name != plain:
+            terms[5] |= mask
+        if plain in (gl.GL_SRC_COLOR, gl.GL_DST_COLOR, gl.GL_SRC_ALPHA, gl.GL_DST_ALPHA):
+            terms[(gl.GL_SRC_COLOR, gl.GL_DST_COLOR, gl.GL_SRC_ALPHA, gl.GL_DST_ALPHA).index(plain)] |= mask
+        elif plain == gl.GL_CONSTANT_COLOR:
+            terms[4] |= constant & mask
+        elif plain == gl.GL_CONSTANT_ALPHA:
+            terms[4] |= (constant >> 24) * 0x01010101 & mask
+    return np.array(terms, np.int64).astype(np.int32)
