@@ -1,4 +1,4 @@
-"""The fixed function on the visible spans of a draw; equals `shade.shading.shade_and_write`, see fast/test_span_shading.py.
+"""The fixed function on visible spans; equals `shade.shading.shade_and_write`, see fast/test_span_shading.py.
 
 Step by step, a fragment takes a hundred bytes from kernel to kernel, and a chunk large enough to pay for the calls does
 not fit into the cache. Here a block of fragments goes through all steps in the first-level cache.

@@ -295,7 +295,7 @@ def compare_nearest_depths(switches, numbers, unit, number, count, texels, room,
         i, j = whole[FIRST + n], whole[T_AXIS + FIRST + n]
         inside = (np.uint32(i) < np.uint32(whole[LENGTH + n])) & (np.uint32(j) < np.uint32(whole[T_AXIS + LENGTH + n]))
         whole[FILTERED + n] = np.int32(np.int32(j * whole[PITCH + n]) + i) if inside else NO_BORDER
-    depths, border, step, clamped = texels.view(np.float32), numbers[number + BORDER], numbers[number + STEP]
+    depths, border, step = texels.view(np.float32), numbers[number + BORDER], numbers[number + STEP]
     largest = np.uint32(len(texels) - 1)
     for n in range(np.uint64(count)):
         room[W + n] = depths[np.uint64(min(np.uint32(whole[FILTERED + n]), largest))]
