@@ -28,6 +28,7 @@ from softshadow.pipeline.choose import (
     Plan,
     WithoutOverlaps,
     choose_fill,
+    choose_forward,
     choose_shading,
     plan_draw,
     tests_alpha,
@@ -125,6 +126,10 @@ def _draw_opaque(
     region, fragments = covered(triangles, region_of(state, target))
     if region.first_row >= region.end_row:
         return
+    forward = choose_forward(plan, state, target, geometry, region, fragments)
+    if forward:
+        forward()
+        return
 
     def fill_all(ids: np.ndarray | None) -> None:
         _fill(plan, state, target, triangles, region, fragments, ids=ids, counts=counts)
@@ -154,6 +159,12 @@ def _draw_in_order(
     """Test and write the fragments one by one, in drawing order."""
     state, triangles = command.state, geometry.triangles
     region, real = region_of(state, target), geometry.window.dtype
+    if plan.forward:
+        rows, n_fragments = covered(triangles, region)
+        forward = choose_forward(plan, state, target, geometry, rows, n_fragments)
+        if forward:
+            forward()
+            return
     if plan.without_overlaps:
         spans = _spans_without_overlaps(plan, plan.without_overlaps, command, target, geometry)
         if spans is not None:

@@ -34,6 +34,7 @@ try:
     from softshadow.pipeline.fast.batch.table import Run, can_begin_run
     from softshadow.pipeline.fast.depth_only import Chunk, chunks_of
     from softshadow.pipeline.fast.fixed_function_spans import fixed_function_shader
+    from softshadow.pipeline.fast.forward import draw_forward, forward_state
     from softshadow.pipeline.fast.hierarchical_z import order_independent
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
     from softshadow.pipeline.fast.stencil_tiles import tiles_kernel
@@ -48,6 +49,7 @@ WORTH_BANDS = 1_000_000  # fragments from which sorting and the hand-over to thr
 SMALL_TRIANGLE = 100  # fragments that take as long as a small triangle
 WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volumes are long and thin
 BANDS_PER_THREAD = 4  # so that the other threads can make up for one that takes longer
+FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangle: finding their spans would cost more
 LAYERS = 4  # of fragments over each other, from which bands pay on one thread, too
 
 MOST_DRAWS = 4096  # of a run
@@ -99,7 +101,8 @@ class Plan(NamedTuple):
 
     in_order: fragments are tested and written one by one; writes_color: colours may change; front, back: the
     per-fragment operations of each facing. The short cuts to take, or None: chunks_of sets up some triangles at a time,
-    cached_fill looks for an equal fill, without_overlaps finds out whether blended fragments overlap.
+    cached_fill looks for an equal fill, without_overlaps finds out whether blended fragments overlap; forward: whether
+    the draw may go triangle by triangle from coverage to pixels.
     """
 
     in_order: bool
@@ -110,6 +113,7 @@ class Plan(NamedTuple):
     chunks_of: Callable[[Draw, Framebuffer], Iterator[Chunk]] | None = None
     cached_fill: Callable[..., tuple[Spans, bool]] | None = None
     without_overlaps: WithoutOverlaps | None = None
+    forward: bool = False
 
 
 def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
@@ -130,12 +134,13 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
         path.note("short cuts are off")
     elif in_order:
         if writes_color and not tests_alpha(state) and keeps_depth_and_stencil(front, back):
-            return plan._replace(without_overlaps=triangles_without_overlaps)
+            plan = plan._replace(without_overlaps=triangles_without_overlaps)
+        return plan._replace(forward=True)
     elif writes_no_colors(command, target):
         path.way, path.reasons = "depth and stencil only, in chunks", ["no colour is written or tested"]
         return plan._replace(chunks_of=chunks_of)
     elif writes_color:
-        return plan._replace(cached_fill=cached_fill)
+        return plan._replace(cached_fill=cached_fill, forward=True)
     return plan
 
 
@@ -249,6 +254,23 @@ def _band_rows_log2(region: Region, fragments: int) -> int:
         return BAND_ROWS_LOG2
     rows = int(region.end_row - region.first_row) // (BANDS_PER_THREAD * threads())
     return max(BAND_ROWS_LOG2, rows.bit_length() - 1)
+
+
+def choose_forward(
+    plan: Plan, state: State, target: Framebuffer, geometry: Geometry, region: Region, fragments: int
+) -> Callable[[], None] | None:
+    """Return the function that draws triangle by triangle from coverage to pixels, or None where another way is taken.
+
+    It is for draws in order, and for opaque ones of few fragments; `fragments` is about how many they are.
+    """
+    if not plan.forward or not (plan.in_order or fragments <= FEW_FRAGMENTS):
+        return None
+    numbers = forward_state(state, target, geometry)
+    if numbers is None:
+        return None
+    path = plan.path
+    path.way, path.fill, path.shading = "forward", "span by span", "fixed-function kernel"
+    return lambda: draw_forward(numbers, plan.front, plan.back, state, target, geometry, region, fragments)
 
 
 def choose_shading(plan: Plan, state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None]:

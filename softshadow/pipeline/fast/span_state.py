@@ -89,7 +89,7 @@ def span_state(state: State, units: list[Unit], color: Format | None, columns: i
     textures = [unit.texture for unit in units]
     key = (
         state.fog, state.blend, state.color.mask, is_separate(state), color,
-        *((state.units[unit.index].env_mode, state.units[unit.index].env_color, *_texture_key(unit.texture)) for unit in units),
+        *(_unit_key(state, unit) for unit in units),
     )  # fmt: skip
     if key not in _numbers:
         if len(_numbers) >= KEPT:
@@ -107,12 +107,14 @@ def is_covered(color: Format) -> bool:
     return color.kind == "unorm8" and color.base in FOUR_BYTES
 
 
-def _texture_key(texture: Texture) -> tuple[object, ...]:
+def _unit_key(state: State, unit: Unit) -> tuple[object, ...]:
     """Return what the numbers of a unit depend on."""
+    setting, texture = state.units[unit.index], unit.texture
     image, first = texture.base(), texture.images.get((0, 0))
     assert image is not None
     size = (image.width, image.height, image.shape[1], image.format, texture.last_level())
-    return texture.target, texture.sampler, *size, None if first is None else (first.width, first.height)
+    first_size = None if first is None else (first.width, first.height)
+    return setting.env_mode, setting.env_color, texture.target, texture.sampler, *size, first_size
 
 
 def _state_numbers(state: State, units: list[Unit], color: Format | None) -> StateNumbers | None:
