@@ -12,6 +12,7 @@ import numpy as np
 
 from softshadow.framebuffer import Framebuffer
 from softshadow.jit import kernel
+from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import (
     FLOAT_ROWS,
     MASK,
@@ -23,8 +24,9 @@ from softshadow.pipeline.fast.fragment_block import (
     SPAN_START,
     WHOLE_ROWS,
 )
-from softshadow.pipeline.fast.span_colors import shade_block
+from softshadow.pipeline.fast.span_colors import ALPHA_ROW, shade_block
 from softshadow.pipeline.fast.span_state import SpanState, span_state
+from softshadow.pipeline.fast.span_tests import N_OPS, test_alpha_of_block
 from softshadow.pipeline.fast.span_writes import write_block
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.records import Geometry, Spans
@@ -32,6 +34,8 @@ from softshadow.pipeline.shade.interpolate import AttributePlanes
 from softshadow.pipeline.shade.shading import attribute_planes_of
 from softshadow.state import State
 
+NO_DEPTH, NO_STENCIL = np.zeros((1, 1), np.float32), np.zeros((1, 1), np.uint8)  # where there is no such buffer
+NO_OPS = np.zeros((2, N_OPS), np.int64)
 PART = 1 << 14  # fragments that one thread shades in one go where several threads draw
 
 
@@ -40,12 +44,12 @@ def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry)
     numbers = covered_state(state, target, geometry)
     if numbers is None:
         return None
-    pixels = target.colors[0].cells.view(np.int32)[..., 0]
+    triangles, pixels = geometry.triangles, target.colors[0].cells.view(np.int32)[..., 0]
 
     def shade_part(spans: Spans, planes: AttributePlanes) -> None:
-        shade_visible_spans(
-            planes.values, planes.place, *spans, geometry.flat, numbers.switches, numbers.numbers, *numbers.texels,
-            pixels,
+        shade_spans(
+            planes.values, planes.place, *spans, len(spans.row), geometry.flat, numbers.switches, numbers.numbers,
+            *numbers.texels, pixels, triangles.depth, triangles.front, NO_OPS, ZERO, ONE, NO_DEPTH, NO_STENCIL,
         )  # fmt: skip
 
     def shade(spans: Spans) -> None:
@@ -74,18 +78,24 @@ def covered_state(state: State, target: Framebuffer, geometry: Geometry) -> Span
 
 
 @kernel
-def shade_visible_spans(
-    planes, place, rows, lefts, triangles, starts, flat, switches, numbers, texels0, texels1, pixels
+def shade_spans(
+    planes, place, rows, lefts, triangles, starts, n_all, flat, switches, numbers, texels0, texels1, pixels,
+    depth_planes, faces_front, ops, low, high, depth, stencil,
 ):  # fmt: skip
-    """Shade spans, as many at a time as fit into a block, and write them to `pixels` (H, pitch) int32."""
+    """Shade `n_all` spans, as many at a time as fit into a block, and write them to `pixels` (H, pitch) int32.
+
+    The spans are blended in their order. With alpha test, their fragments are tested before they are written; the
+    arguments from `depth_planes` on are read for that only.
+    """
     room, whole = np.empty(FLOAT_ROWS * SIZE, np.float32), np.empty(WHOLE_ROWS * SIZE, np.int32)
     whole[MASK : MASK + np.uint64(SIZE)] = -1
-    spans = np.zeros((4, SIZE + 1), np.int32)
+    spans, own_triangles = np.zeros((4, SIZE + 1), np.int32), np.empty(SIZE, np.int32)
     r, done = 0, np.int64(0)  # the next span, and how many of its fragments are done
-    while r < rows.shape[0]:
+    while r < n_all:
         n_spans, n = 0, np.int64(0)
-        while r < rows.shape[0] and n < SIZE:  # the last span may go on in the next block
+        while r < n_all and n < SIZE:  # the last span may go on in the next block
             length, s = min(starts[r + 1] - starts[r] - done, SIZE - n), np.uint64(n_spans)
+            own_triangles[s] = triangles[r]
             spans[SPAN_ROW, s], spans[SPAN_LEFT, s], spans[SPAN_PLACE, s] = (
                 rows[r],
                 lefts[r] + done,
@@ -96,4 +106,9 @@ def shade_visible_spans(
             if done == starts[r + 1] - starts[r]:
                 r, done = r + 1, np.int64(0)
         shade_block(planes, spans, n_spans, n, flat, switches, numbers, texels0, texels1, room, whole)
+        if ops[0, 0]:
+            test_alpha_of_block(
+                ops, spans, n_spans, own_triangles, depth_planes, faces_front, low, high, depth, stencil, ALPHA_ROW,
+                room, whole,
+            )  # fmt: skip
         write_block(spans, n_spans, switches, whole, pixels)

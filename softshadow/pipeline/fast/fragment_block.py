@@ -24,9 +24,10 @@ def _rows(first: int, count: int) -> list[np.uint64]:
 
 
 # rows of `room`: the inputs of the fragment stage, of which the first four become the colour, and then
-W, COLUMN, S, T, R, SQUARED, QUADS, WEIGHT, DEPTH, TEXEL = _rows(COLUMNS, 10)
+W, COLUMN, S, T, R, SQUARED, QUADS, WEIGHT, DEPTH = _rows(COLUMNS, 9)
+TEXEL, TEXEL_GREEN, TEXEL_BLUE, TEXEL_ALPHA = _rows(COLUMNS + 9, 4)  # red, green, blue, alpha
 ROW = np.uint64(SIZE)
-FLOAT_ROWS = COLUMNS + 13  # TEXEL has four
+FLOAT_ROWS = COLUMNS + 13
 # rows of `whole`; those of the s axis, and then of the t axis
 LENGTH, FIRST, SECOND, FRACTION = _rows(0, 4)
 T_AXIS = np.uint64(4 * SIZE)

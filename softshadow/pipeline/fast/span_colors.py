@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ONE, ZERO
-from softshadow.pipeline.fast.fragment_block import PACKED, ROW, TEXEL, WEIGHT, interpolate_block
+from softshadow.pipeline.fast.fragment_block import PACKED, ROW, TEXEL, TEXEL_ALPHA, WEIGHT, interpolate_block
 from softshadow.pipeline.fast.span_state import (
     ADD,
     ALPHA_OPERATION,
@@ -34,11 +34,10 @@ from softshadow.pipeline.shade.color_writes import BLUE, GREEN, UPPERMOST, byte_
 from softshadow.programs.llvmpipe_math import exp2_of_all
 
 RED_ROW, GREEN_ROW, BLUE_ROW, ALPHA_ROW = (np.uint64(n) * ROW for n in range(4))
-TEXEL_ALPHA = TEXEL + ALPHA_ROW
 SECONDARY = np.uint64(4) * ROW
 
 
-@kernel
+@inlined
 def shade_block(planes, spans, n_spans, count, flat, switches, numbers, texels0, texels1, room, whole):
     """Write PACKED, the colours of all fragments of a block as bytes; the colours stay in the first rows of `room`.
 

@@ -34,7 +34,7 @@ LOGIC_OP, EQUATION_RGB, EQUATION_ALPHA, SATURATES, SOURCE_TERMS, TARGET_TERMS = 
 UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 40
 (
     PATH, S_COLUMN, WRAP_S, WRAP_T, WIDTH, HEIGHT, ROW_LENGTH, LAST_LEVEL, LOD_MODE, BETWEEN, MIN_LINEAR, MAG_LINEAR,
-    CHANNELS, _, _, _, RGB_OPERATION, ALPHA_OPERATION, COMPARISON, CLAMPED, PACKED_LEVELS, IS_DEPTH, _, _,
+    CHANNELS, _, _, _, RGB_OPERATION, ALPHA_OPERATION, COMPARISON, CLAMPED, PACKED_LEVELS, IS_DEPTH, IS_SPREAD, _,
     LEVEL_OFFSETS,
 ) = range(25)  # fmt: skip
 # in `numbers`
@@ -178,6 +178,7 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
         between, within == gl.GL_LINEAR, sampler.mag_filter == gl.GL_LINEAR,
     )  # fmt: skip
     switches[CHANNELS : CHANNELS + 4] = DEPTH_SOURCES[sampler.depth_mode] if is_depth else SOURCES[image.format.base]
+    switches[IS_SPREAD] = switches[CHANNELS : CHANNELS + 4].tolist() != [0, 1, 2, 3]
     switches[RGB_OPERATION : ALPHA_OPERATION + 1] = environment_operations(setting.env_mode, base_format(texture))
     switches[COMPARISON] = 16 | COMPARISONS[sampler.compare_func] if compares else 0
     switches[CLAMPED], switches[IS_DEPTH] = image.format.largest > 0, is_depth

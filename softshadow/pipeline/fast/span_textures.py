@@ -7,7 +7,7 @@ nearest depth is compared in a few loops (`compare_nearest_depths`); everything 
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import (
     CORNER_00,
@@ -28,6 +28,9 @@ from softshadow.pipeline.fast.fragment_block import (
     STEPS,
     T_AXIS,
     TEXEL,
+    TEXEL_ALPHA,
+    TEXEL_BLUE,
+    TEXEL_GREEN,
     WEIGHT,
     R,
     S,
@@ -42,7 +45,9 @@ from softshadow.pipeline.fast.span_state import (
     COMPARISON,
     HEIGHT,
     IN_BYTES,
+    IN_FLOAT,
     IS_DEPTH,
+    IS_SPREAD,
     LEVEL_OFFSETS,
     LOD_MODE,
     MAG_LINEAR,
@@ -70,6 +75,7 @@ from softshadow.programs.wrapping import (
 )
 from softshadow.tokens import GL_CLAMP_TO_BORDER, GL_MIRRORED_REPEAT, GL_REPEAT
 
+BYTE = np.int32(255)
 EVEN, HALVES = np.int32(0x00FF00FF), np.int32(0x00800080)  # two bytes of a pixel, and the rounding of both
 HALF_TEXEL, STEPS_PER_TEXEL = np.int32(128), np.int32(256)
 NOTHING, ONE_TEXEL = np.int32(0), np.int32(1)
@@ -78,29 +84,31 @@ LESS, EQUAL, GREATER, UNORDERED, CODES = np.int32(1), np.int32(2), np.int32(4), 
 NO_BORDER = np.int32(-1)  # as a place: outside the image
 
 
-@kernel
+@inlined
 def sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, number, texels, room, whole):
     """Write the colours of a unit's texture to the rows from TEXEL on, for all fragments of a block.
 
     `unit` and `number` are where the unit's switches and numbers begin.
     """
-    column = switches[unit + S_COLUMN]
-    if switches[unit + LOD_MODE] != NO_LEVELS:
+    column, path, has_levels = switches[unit + S_COLUMN], switches[unit + PATH], switches[unit + LOD_MODE] != NO_LEVELS
+    if has_levels:
         write_squared_steps(
             planes, spans, n_spans, column, flat[column], switches[unit + WIDTH], switches[unit + HEIGHT], room
         )
-    select_levels_of_block(switches, numbers, unit, number, count, room, whole)
+    if has_levels or path == IN_FLOAT:
+        select_levels_of_block(switches, numbers, unit, number, count, room, whole)
     project_block(column, count, switches[unit + COMPARISON] != 0, room)
-    path = switches[unit + PATH]
     if path == IN_BYTES:
         sample_bytes(switches, unit, count, texels, room, whole)
     elif path == NEAREST_DEPTH:
         compare_nearest_depths(switches, numbers, unit, number, count, texels, room, whole)
     else:
         sample_in_float(switches, numbers, unit, number, count, texels, room, whole)
+    if switches[unit + IS_SPREAD]:
+        spread_channels(switches, unit, count, room)
 
 
-@kernel
+@inlined
 def project_block(column, count, with_reference, room):
     """Write S, T and, for a comparison, R: the coordinates from `column` on, divided by q; W is overwritten."""
     s = np.uint64(column) * ROW
@@ -113,7 +121,7 @@ def project_block(column, count, with_reference, room):
             room[R + n] = room[s + ROW + ROW + n] * (ONE / room[s + ROW + ROW + ROW + n])
 
 
-@kernel
+@inlined
 def write_places(switches, unit, count, whole):
     """Write LENGTH of both axes, OFFSET and PITCH: the sizes of each fragment's LEVEL and where it begins."""
     width, height, pitch = (
@@ -195,7 +203,7 @@ def nearest_places(coordinate, axis, wrap, place, count, room, whole):
             whole[nearest + n] = min(max(texel, NOTHING), last)
 
 
-@kernel
+@inlined
 def sample_bytes(switches, unit, count, texels, room, whole):
     """Write the texels of a texture of bytes, filtered in integers."""
     filter_level(switches, unit, count, texels, room, whole)
@@ -212,16 +220,12 @@ def sample_bytes(switches, unit, count, texels, room, whole):
         filter_level(switches, unit, count, texels, room, whole)
         for n in range(np.uint64(count)):
             whole[FILTERED + n] = mix_bytes_of(whole[STEPS + n], whole[LOWER + n], whole[FILTERED + n])
-    for c in range(4):
-        source, row = switches[unit + CHANNELS + c], TEXEL + np.uint64(c) * ROW
-        if source >= CONSTANT_ZERO:
-            value = ZERO if source == CONSTANT_ZERO else ONE
-            for n in range(np.uint64(count)):
-                room[row + n] = value
-        else:
-            shift = np.int32(8 * source)
-            for n in range(np.uint64(count)):
-                room[row + n] = np.float32(np.int32(whole[FILTERED + n] >> shift & 255)) * UNORM8_STEP
+    for n in range(np.uint64(count)):
+        texel = whole[FILTERED + n]
+        room[TEXEL + n] = np.float32(texel & BYTE) * UNORM8_STEP
+        room[TEXEL_GREEN + n] = np.float32(np.int32(texel >> 8) & BYTE) * UNORM8_STEP
+        room[TEXEL_BLUE + n] = np.float32(np.int32(texel >> 16) & BYTE) * UNORM8_STEP
+        room[TEXEL_ALPHA + n] = np.float32(np.int32(texel >> 24) & BYTE) * UNORM8_STEP
 
 
 @kernel
@@ -308,20 +312,27 @@ def compare_nearest_depths(switches, numbers, unit, number, count, texels, room,
             r = r if r < ONE else ONE
         code = LESS if r < depth else EQUAL if r == depth else GREATER if r > depth else UNORDERED
         room[TEXEL + n] = ONE if code & wanted else ZERO
-    spread_channels(switches, unit, count, room)
 
 
-@kernel
+@inlined
 def spread_channels(switches, unit, count, room):
-    """Write all four rows from TEXEL on by the sources of the texture's format; the first row holds red."""
+    """Replace the stored channels in the rows from TEXEL on by the sources of the texture's format.
+
+    No source comes after its channel, so the last channel is first.
+    """
     for c in range(3, -1, -1):
         source, row = switches[unit + CHANNELS + c], TEXEL + np.uint64(c) * ROW
-        for n in range(np.uint64(count)):
-            red = room[TEXEL + n]
-            room[row + n] = red if source < CONSTANT_ZERO else (ZERO if source == CONSTANT_ZERO else ONE)
+        if source >= CONSTANT_ZERO:
+            value = ZERO if source == CONSTANT_ZERO else ONE
+            for n in range(np.uint64(count)):
+                room[row + n] = value
+        elif source != c:
+            other = TEXEL + np.uint64(source) * ROW
+            for n in range(np.uint64(count)):
+                room[row + n] = room[other + n]
 
 
-@kernel
+@inlined
 def sample_in_float(switches, numbers, unit, number, count, texels, room, whole):
     """Write the texels fragment by fragment, filtered in float, with borders and comparisons of depths."""
     for m in range(count):
@@ -335,12 +346,7 @@ def sample_in_float(switches, numbers, unit, number, count, texels, room, whole)
             a, b, c, d = texel_of_level(switches, numbers, unit, number, level, linear, s, t, r, texels)
             red, green = weight * (a - red) + red, weight * (b - green) + green
             blue, alpha = weight * (c - blue) + blue, weight * (d - alpha) + alpha
-        for c in range(4):
-            source = switches[unit + CHANNELS + c]
-            value = red if source == 0 else green if source == 1 else blue if source == 2 else alpha
-            if source >= CONSTANT_ZERO:
-                value = ZERO if source == CONSTANT_ZERO else ONE
-            room[TEXEL + np.uint64(c) * ROW + n] = value
+        room[TEXEL + n], room[TEXEL_GREEN + n], room[TEXEL_BLUE + n], room[TEXEL_ALPHA + n] = red, green, blue, alpha
 
 
 @kernel
@@ -381,7 +387,7 @@ def texel_of_level(switches, numbers, unit, number, level, linear, s, t, r, texe
     return y * (c0 - a0) + a0, y * (c1 - a1) + a1, y * (c2 - a2) + a2, y * (c3 - a3) + a3
 
 
-@kernel
+@inlined
 def place_of(i, j, width, height, pitch, offset, texels):
     """Return where a texel is stored, -1 outside the image."""
     if i >= 0 and i < width and j >= 0 and j < height:
