@@ -56,6 +56,12 @@ def shade_block(planes, spans, n_spans, count, flat, switches, numbers, texels0,
                 room[row + n] += room[SECONDARY + row + n]
     if switches[FOG]:
         apply_fog_to_block(switches, numbers, count, room)
+    pack_block(count, room, whole)
+
+
+@kernel
+def pack_block(count, room, whole):
+    """Write PACKED, the colours as bytes, as `color_writes.pack_bytes`."""
     for n in range(np.uint64(count)):
         low = byte_of(room[RED_ROW + n]) | byte_of(room[GREEN_ROW + n]) << GREEN
         whole[PACKED + n] = low | byte_of(room[BLUE_ROW + n]) << BLUE | byte_of(room[ALPHA_ROW + n]) << UPPERMOST

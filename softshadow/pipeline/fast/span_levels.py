@@ -6,7 +6,7 @@ triangle, once for every block of pixels that a span meets; so fragments need no
 
 import numpy as np
 
-from softshadow.jit import inlined, kernel
+from softshadow.jit import kernel
 from softshadow.pipeline.constants import HALF, ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import (
     LEVEL,
@@ -85,7 +85,7 @@ def write_squared_steps(planes, spans, n_spans, column, is_flat, width, height, 
             room[SQUARED + np.uint64(first) + n] = room[QUADS + ((n + odd) >> ODD)]
 
 
-@inlined
+@kernel
 def select_levels_of_block(switches, numbers, unit, number, count, room, whole):
     """Write LEVEL (the lower one), WEIGHT of the next one, and LINEAR; as `level_of_detail.select_levels`.
 

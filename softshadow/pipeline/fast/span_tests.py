@@ -151,7 +151,7 @@ def test_span(numbers, plane, low, high, row, left, length, depth, stencil, room
     return every != 0, some != 0
 
 
-@inlined
+@kernel
 def test_alpha_of_block(
     ops, spans, n_spans, triangles, planes, faces_front, low, high, depth, stencil, alpha, room, whole
 ):

@@ -1,6 +1,6 @@
 """Texture lookups of a block of fragments; equals `shade.shading.shade`, see fast/test_span_shading.py.
 
-Bytes are filtered as llvmpipe does it, in integers: `sample_bytes`, two channels in each of two numbers of 32 bits. The
+Bytes are filtered as llvmpipe does it, in integers (`filter_level`), two channels in each of two 32-bit numbers. The
 nearest depth is compared in a few loops (`compare_nearest_depths`); everything else goes texel by texel
 (`sample_in_float`), with the functions of `softshadow.programs.wrapping`.
 """
@@ -99,7 +99,13 @@ def sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, n
         select_levels_of_block(switches, numbers, unit, number, count, room, whole)
     project_block(column, count, switches[unit + COMPARISON] != 0, room)
     if path == IN_BYTES:
-        sample_bytes(switches, unit, count, texels, room, whole)
+        filter_level(switches, unit, count, texels, room, whole)
+        mixed = False
+        if switches[unit + PACKED_LEVELS]:
+            mixed = begin_upper_level(count, room, whole)
+        if mixed:
+            filter_level(switches, unit, count, texels, room, whole)
+        unpack_texels(mixed, count, room, whole)
     elif path == NEAREST_DEPTH:
         compare_nearest_depths(switches, numbers, unit, number, count, texels, room, whole)
     else:
@@ -108,7 +114,7 @@ def sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, n
         spread_channels(switches, unit, count, room)
 
 
-@inlined
+@kernel
 def project_block(column, count, with_reference, room):
     """Write S, T and, for a comparison, R: the coordinates from `column` on, divided by q; W is overwritten."""
     s = np.uint64(column) * ROW
@@ -121,7 +127,7 @@ def project_block(column, count, with_reference, room):
             room[R + n] = room[s + ROW + ROW + n] * (ONE / room[s + ROW + ROW + ROW + n])
 
 
-@inlined
+@kernel
 def write_places(switches, unit, count, whole):
     """Write LENGTH of both axes, OFFSET and PITCH: the sizes of each fragment's LEVEL and where it begins."""
     width, height, pitch = (
@@ -203,21 +209,25 @@ def nearest_places(coordinate, axis, wrap, place, count, room, whole):
             whole[nearest + n] = min(max(texel, NOTHING), last)
 
 
-@inlined
-def sample_bytes(switches, unit, count, texels, room, whole):
-    """Write the texels of a texture of bytes, filtered in integers."""
-    filter_level(switches, unit, count, texels, room, whole)
+@kernel
+def begin_upper_level(count, room, whole):
+    """Write STEPS, and let LEVEL be the upper level where its weight is not 0; return whether it is anywhere."""
     mixed = NOTHING
-    if switches[unit + PACKED_LEVELS]:
-        for n in range(np.uint64(count)):
-            steps = np.int32(room[WEIGHT + n] * WEIGHT_STEPS)
-            whole[STEPS + n] = steps
-            mixed |= steps
+    for n in range(np.uint64(count)):
+        steps = np.int32(room[WEIGHT + n] * WEIGHT_STEPS)
+        whole[STEPS + n] = steps
+        mixed |= steps
     if mixed:
         for n in range(np.uint64(count)):
             whole[LOWER + n] = whole[FILTERED + n]
             whole[LEVEL + n] += ONE_TEXEL if whole[STEPS + n] > NOTHING else NOTHING
-        filter_level(switches, unit, count, texels, room, whole)
+    return mixed != NOTHING
+
+
+@kernel
+def unpack_texels(mixed, count, room, whole):
+    """Write the filtered bytes as floats; `mixed`: first those of two levels are mixed."""
+    if mixed:
         for n in range(np.uint64(count)):
             whole[FILTERED + n] = mix_bytes_of(whole[STEPS + n], whole[LOWER + n], whole[FILTERED + n])
     for n in range(np.uint64(count)):
@@ -314,7 +324,7 @@ def compare_nearest_depths(switches, numbers, unit, number, count, texels, room,
         room[TEXEL + n] = ONE if code & wanted else ZERO
 
 
-@inlined
+@kernel
 def spread_channels(switches, unit, count, room):
     """Replace the stored channels in the rows from TEXEL on by the sources of the texture's format.
 
@@ -332,7 +342,7 @@ def spread_channels(switches, unit, count, room):
                 room[row + n] = room[other + n]
 
 
-@inlined
+@kernel
 def sample_in_float(switches, numbers, unit, number, count, texels, room, whole):
     """Write the texels fragment by fragment, filtered in float, with borders and comparisons of depths."""
     for m in range(count):
@@ -387,7 +397,7 @@ def texel_of_level(switches, numbers, unit, number, level, linear, s, t, r, texe
     return y * (c0 - a0) + a0, y * (c1 - a1) + a1, y * (c2 - a2) + a2, y * (c3 - a3) + a3
 
 
-@inlined
+@kernel
 def place_of(i, j, width, height, pitch, offset, texels):
     """Return where a texel is stored, -1 outside the image."""
     if i >= 0 and i < width and j >= 0 and j < height:

@@ -60,7 +60,7 @@ def write_block(spans, n_spans, switches, whole, pixels):
         first = end
 
 
-@inlined
+@kernel
 def read_spans(spans, first, end, whole, pixels):
     """Write the pixels of the spans [first, end) to TARGET."""
     for s in range(np.uint64(first), np.uint64(end)):
@@ -81,7 +81,7 @@ def write_spans(spans, first, end, source, writable, whole, pixels):
             row[left + n] = (row[left + n] & ~bits) | (whole[source + start + n] & bits)
 
 
-@inlined
+@kernel
 def blend_pixels(switches, first, end, whole):
     """Write PACKED blended with TARGET to OTHER, for the fragments [first, end)."""
     begin, stop = np.uint64(first), np.uint64(end)
@@ -121,7 +121,7 @@ def write_factors(switches, terms, row, begin, stop, whole):
         whole[row + n] = (plain | (target_alpha & of_target_alpha) | constant) ^ flip
 
 
-@inlined
+@kernel
 def saturate(which, row, begin, stop, whole):
     """Write GL_SRC_ALPHA_SATURATE into the factors: of the colours if bit 0 of `which` is set, of alpha if bit 1 is."""
     colors = COLORS if which & 1 else np.int32(0)
