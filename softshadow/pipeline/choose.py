@@ -33,7 +33,7 @@ try:
     from softshadow.pipeline.fast.any_state import any_state_kernel
     from softshadow.pipeline.fast.batch.table import Run, can_begin_run
     from softshadow.pipeline.fast.depth_only import Chunk, chunks_of
-    from softshadow.pipeline.fast.fixed_function_spans import fixed_function_shader
+    from softshadow.pipeline.fast.fixed_function_spans import are_compiled, fixed_function_shader, note_compiled
     from softshadow.pipeline.fast.forward import draw_forward, forward_state
     from softshadow.pipeline.fast.hierarchical_z import order_independent
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
@@ -50,6 +50,9 @@ SMALL_TRIANGLE = 100  # fragments that take as long as a small triangle
 WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volumes are long and thin
 BANDS_PER_THREAD = 4  # so that the other threads can make up for one that takes longer
 FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangle: finding their spans would cost more
+# so many fragments of the fixed function, in draws that cover most of a small window, pay for compiling its kernels
+SHADING_PAYS_AFTER = 600_000
+LARGE_DRAW = 50_000
 LAYERS = 4  # of fragments over each other, from which bands pay on one thread, too
 
 MOST_DRAWS = 4096  # of a run
@@ -60,6 +63,7 @@ Policy = bool | Literal["always"]
 WithoutOverlaps = Callable[[Callable[[np.ndarray], None], Region, int], np.ndarray | None]
 
 _short_cuts: ContextVar[Policy] = ContextVar("short_cuts", default=SHORT_CUTS_EXIST)  # each thread has its own
+_shaded = [0]  # fragments that the fixed function shaded, while its kernels are not compiled
 
 
 @contextmanager
@@ -263,13 +267,13 @@ def choose_forward(
 
     It is for draws in order, and for opaque ones of few fragments; `fragments` is about how many they are.
     """
-    if not plan.forward or not (plan.in_order or fragments <= FEW_FRAGMENTS):
+    is_small = fragments <= FEW_FRAGMENTS and _short_cuts.get() != "always"  # which wants its fill to be compiled
+    if not plan.forward or not (plan.in_order or is_small):
         return None
     numbers = forward_state(state, target, geometry)
-    if numbers is None:
+    if numbers is None or not _are_compiled(fragments):
         return None
-    path = plan.path
-    path.way, path.fill, path.shading = "forward", "span by span", "fixed-function kernel"
+    plan.path.fill, plan.path.shading = "span by span", "fixed-function kernel"
     return lambda: draw_forward(numbers, plan.front, plan.back, state, target, geometry, region, fragments)
 
 
@@ -281,10 +285,33 @@ def choose_shading(plan: Plan, state: State, target: Framebuffer, geometry: Geom
             plan.path.shading = "shadow-map kernel"
             plan.path.note("plain depth map and one buffer of bytes without blending")
             return shader
-        shader = fixed_function_shader(state, target, geometry)
-        if shader is not None:
-            plan.path.shading = "fixed-function kernel"
-            plan.path.note("fixed function with two plain textures at most, and one buffer of bytes")
-            return shader
+        fixed = fixed_function_shader(state, target, geometry)
+        if fixed is not None:
+            return lambda spans: _shade_fixed_function(fixed, plan, state, target, geometry, spans)
     plan.path.shading = "program"
     return lambda spans: shade_and_write(state, target, geometry, spans, ordered=False)
+
+
+def _shade_fixed_function(
+    shader: Callable[[Spans], None], plan: Plan, state: State, target: Framebuffer, geometry: Geometry, spans: Spans
+) -> None:
+    """Shade with the kernels of the fixed function, or with the program until compiling them pays."""
+    if _are_compiled(spans.fragments):
+        plan.path.shading = "fixed-function kernel"
+        plan.path.note("fixed function with two plain textures at most, and one buffer of bytes")
+        shader(spans)
+        return
+    plan.path.shading = "program"
+    plan.path.note("the fixed function has not shaded enough fragments to compile its kernels")
+    shade_and_write(state, target, geometry, spans, ordered=False)
+
+
+def _are_compiled(fragments: int) -> bool:
+    """Return whether to shade with the kernels of the fixed function: they are compiled, or compiling them pays now."""
+    if are_compiled():
+        return True
+    _shaded[0] += fragments if fragments >= LARGE_DRAW else 0
+    if _shaded[0] < SHADING_PAYS_AFTER and _short_cuts.get() != "always":
+        return False
+    note_compiled()
+    return True

@@ -12,6 +12,7 @@ import numpy as np
 
 from softshadow.framebuffer import Framebuffer
 from softshadow.jit import kernel
+from softshadow.kernel_cache import cache_folder
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import (
     FLOAT_ROWS,
@@ -37,6 +38,26 @@ from softshadow.state import State
 NO_DEPTH, NO_STENCIL = np.zeros((1, 1), np.float32), np.zeros((1, 1), np.uint8)  # where there is no such buffer
 NO_OPS = np.zeros((2, N_OPS), np.int64)
 PART = 1 << 14  # fragments that one thread shades in one go where several threads draw
+
+
+MARKER = "spans"  # the empty file in the cache folder that says that the kernels are on disk
+_compiled = [False]
+
+
+def are_compiled() -> bool:
+    """Return whether the kernels that shade spans were compiled before, by this or another process."""
+    if not _compiled[0]:
+        folder = cache_folder()
+        _compiled[0] = folder is not None and (folder / MARKER).exists()
+    return _compiled[0]
+
+
+def note_compiled() -> None:
+    """Note that the kernels are compiled from now on."""
+    _compiled[0] = True
+    folder = cache_folder()
+    if folder is not None:
+        (folder / MARKER).touch()
 
 
 def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None] | None:

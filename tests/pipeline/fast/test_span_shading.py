@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from draws import random_state, same_window
 from softshadow import gl
-from softshadow.pipeline import explain_paths, set_threads, threads, use_short_cuts
+from softshadow.pipeline import choose, explain_paths, set_threads, threads, use_short_cuts
 from softshadow.pipeline.fast import fragment_block
 from softshadow.state import Blend
 
@@ -30,6 +30,11 @@ FACTORS = (
     gl.GL_ONE_MINUS_CONSTANT_COLOR, gl.GL_CONSTANT_ALPHA, gl.GL_ONE_MINUS_CONSTANT_ALPHA,
 )  # fmt: skip
 EQUATIONS = (gl.GL_FUNC_ADD, gl.GL_FUNC_SUBTRACT, gl.GL_FUNC_REVERSE_SUBTRACT, gl.GL_MIN, gl.GL_MAX)
+
+
+@pytest.fixture(autouse=True)
+def _compiled(monkeypatch):
+    monkeypatch.setattr(choose, "SHADING_PAYS_AFTER", 0)
 
 
 def pick(rng, values):
@@ -105,7 +110,6 @@ def random_picture(seed, *, size=(70, 50), n_triangles=12, ordered=False, tested
     """Return a window after a draw in a random state of the fixed function, over a random background."""
     rng = np.random.default_rng(seed)
     context = gl.create_context(*size, **options)
-    gl.glDrawPixels if False else None
     gl.glClearColor(*rng.random(4).tolist())
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
     for unit in range(rng.integers(0, 3) if units is None else units):
@@ -183,6 +187,27 @@ def test_only_float32_is_shaded_in_blocks(option, is_used):
     for seed in range(8):
         shadings |= assert_same(seed, **option)
     assert ("fixed-function kernel" in shadings) == is_used
+
+
+def test_programs_and_uncovered_states_are_shaded_by_the_textbook():
+    with explain_paths() as paths:
+        for seed in range(12):
+            random_picture(seed, units=2)
+    assert "program" in {path.shading for path in paths}  # for example with a depth texture of 32 bits
+
+
+def test_the_kernels_are_compiled_when_it_pays(monkeypatch):
+    compiled = []
+    monkeypatch.setattr(choose, "are_compiled", lambda: bool(compiled))
+    monkeypatch.setattr(choose, "note_compiled", lambda: compiled.append(True))
+    monkeypatch.setattr(choose, "SHADING_PAYS_AFTER", 250)
+    monkeypatch.setattr(choose, "LARGE_DRAW", 100)
+    monkeypatch.setattr(choose, "_shaded", [0])
+    with explain_paths() as paths, gl.create_context(10, 10):
+        for _ in range(4):
+            gl.glRectf(-1, -1, 1, 1)
+            gl.glFinish()
+    assert [path.shading for path in paths] == ["program", *["fixed-function kernel"] * 3]
 
 
 @pytest.mark.interpreted

@@ -1,0 +1,90 @@
+"""Draws that go triangle by triangle from coverage to pixels leave the bits of the ordered path."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from draws import MIXING, draw, random_triangles, same_window
+from softshadow import gl
+from softshadow.context import Context
+from softshadow.pipeline import choose, explain_paths, set_threads, threads, use_short_cuts
+from softshadow.pipeline.fast import forward
+
+from test_span_shading import random_picture
+
+
+@pytest.fixture(autouse=True)
+def _compiled(monkeypatch):
+    monkeypatch.setattr(choose, "SHADING_PAYS_AFTER", 0)
+
+
+def assert_same(seed, **options):
+    with explain_paths() as paths:
+        window = random_picture(seed, **options)
+    with use_short_cuts(False):
+        assert same_window(window, random_picture(seed, **options)), seed
+    return {path.fill for path in paths}
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_blended_fragments_are_written_in_order(seed):
+    assert_same(seed, ordered=True)
+
+
+@given(st.integers(0, 2**32 - 1), st.booleans())
+def test_the_alpha_test_decides_about_each_fragment(seed, ordered):
+    assert_same(seed, ordered=ordered, tested=True)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_small_opaque_draws_leave_the_bits_of_the_fill(seed):
+    assert_same(seed, size=(40, 30))
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_bands_of_rows_keep_the_order(seed):
+    before, worth = threads(), forward.WORTH_BANDS
+    try:
+        set_threads(2)
+        forward.WORTH_BANDS = 0
+        assert_same(seed, size=(30, 150), ordered=True)
+    finally:
+        set_threads(before)
+        forward.WORTH_BANDS = worth
+
+
+def overlapping(seed):
+    """Return a window after many blended triangles with depth test, most of them across each other."""
+    rng = np.random.default_rng(seed)
+    context = Context(200, 40, "d24")
+    depth = replace(context.state.depth, enabled=True, func=gl.GL_LESS, write=bool(seed % 2))
+    draw(context, replace(context.state, depth=depth, blend=MIXING), random_triangles(rng, 90))
+    return context
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_triangles_and_spans_that_do_not_fit_at_once_go_on_afterwards(monkeypatch, seed):
+    monkeypatch.setattr(forward, "TRIANGLES", 7)
+    spans = forward.Spans(*np.empty((3, 150), np.int32), np.empty(151, np.int64))
+    monkeypatch.setattr(forward._lists, "spans", spans)
+    window = overlapping(seed)
+    with use_short_cuts(False):
+        assert same_window(window, overlapping(seed))
+
+
+def test_what_is_drawn_forward():
+    fills = set()
+    for seed in range(6):
+        fills |= assert_same(seed, ordered=True)
+    assert "span by span" in fills
+    assert "span by span" not in assert_same(1, ordered=True, precision="exact")
+
+
+@pytest.mark.interpreted
+def test_the_interpreted_kernels_leave_the_bits_of_the_ordered_path():
+    for seed in range(5):
+        assert_same(seed, size=(12, 9), n_triangles=4, ordered=True)
+        assert_same(seed, size=(12, 9), n_triangles=4, tested=True)
