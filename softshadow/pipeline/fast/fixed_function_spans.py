@@ -7,6 +7,7 @@ not fit into the cache. Here a block of fragments goes through all steps in the 
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 
 import numpy as np
 
@@ -57,7 +58,8 @@ def note_compiled() -> None:
     _compiled[0] = True
     folder = cache_folder()
     if folder is not None:
-        (folder / MARKER).touch()
+        with suppress(OSError):  # the folder was deleted meanwhile
+            (folder / MARKER).touch()
 
 
 def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None] | None:

@@ -22,7 +22,6 @@ from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, sort_into_bands
 from softshadow.pipeline.raster.fragment_ops import FragmentOps
 from softshadow.pipeline.raster.region import depth_range_of
 from softshadow.pipeline.records import Geometry, Region, Setup, Spans
-from softshadow.pipeline.shade.blend import to_unorm8
 from softshadow.pipeline.shade.interpolate import attribute_planes
 from softshadow.state import State
 
@@ -32,7 +31,7 @@ WORTH_BANDS = 100_000  # fragments, about, from which sorting triangles into ban
 
 Numbers = tuple[Any, ...]  # arguments of kernels
 
-_ops_numbers: dict[tuple[FragmentOps, FragmentOps, int], np.ndarray] = {}
+_ops_numbers: dict[tuple[FragmentOps, FragmentOps], np.ndarray] = {}
 KEPT = 256
 
 
@@ -76,7 +75,7 @@ def draw_forward(
     """
     depth, stencil = target.depth, target.stencil
     tests = (
-        ops_numbers(front, back, state), *depth_range_of(state, np.float32),
+        ops_numbers(front, back), *depth_range_of(state, np.float32),
         NO_DEPTH if depth is None else depth.cells, NO_STENCIL if stencil is None else stencil.cells,
     )  # fmt: skip
     colors = (geometry.flat, *numbers[:2], *numbers.texels, target.colors[0].cells.view(np.int32)[..., 0])
@@ -128,16 +127,13 @@ def _draw_rows(
         shade_spans(planes, _in_order, *spans, n_spans, *colors, depth_planes, faces_front, *tests)
 
 
-def ops_numbers(front: FragmentOps, back: FragmentOps, state: State) -> np.ndarray:
-    """Return the operations of both facings as numbers (2, N_OPS), with the alpha reference as a byte."""
-    reference = int(to_unorm8(np.array(state.alpha.ref, np.float32))) if front.alpha_test else 0
-    key = (front, back, reference)
-    numbers = _ops_numbers.get(key)
+def ops_numbers(front: FragmentOps, back: FragmentOps) -> np.ndarray:
+    """Return the operations of both facings as numbers (2, N_OPS)."""
+    numbers = _ops_numbers.get((front, back))
     if numbers is None:
         if len(_ops_numbers) >= KEPT:
             _ops_numbers.clear()
-        numbers = _ops_numbers[key] = np.empty((2, N_OPS), np.int64)
+        numbers = _ops_numbers[front, back] = np.empty((2, N_OPS), np.int64)
         for row, ops in zip(numbers, (front, back), strict=True):
-            row[:WANTED] = ops._replace(alpha_ref=reference)
-            row[WANTED] = COMPARISONS[ops.depth_func]
+            row[:WANTED], row[WANTED] = ops, COMPARISONS[ops.depth_func]
     return numbers

@@ -37,6 +37,7 @@ from softshadow.programs.level_of_detail import EXPONENT_BIAS, MANTISSA, MANTISS
 from softshadow.tokens import GL_LINEAR, GL_NONE
 
 ODD = np.uint64(1)
+NO_LEVEL = np.int32(0)
 
 
 @kernel
@@ -103,7 +104,7 @@ def select_levels_of_block(switches, numbers, unit, number, count, room, whole):
             squared = room[SQUARED + n]
             exponent = np.int32((np.float32(squared).view(np.int32) >> MANTISSA_BITS) & 0xFF) - (EXPONENT_BIAS - 1)
             level = np.int32(exponent >> 1)
-            level = level if level > 0 else 0
+            level = level if level > NO_LEVEL else NO_LEVEL
             whole[LEVEL + n] = level if level < top else top
             whole[LINEAR + n] = small if squared > ONE else large
             room[WEIGHT + n] = ZERO

@@ -96,7 +96,7 @@ def collect_passing_spans(
                     while n < length and whole[MASK + n]:
                         n += NEXT
                     if n > begin:
-                        s, fragments = np.uint64(n_spans), fragments + np.int64(n - begin)
+                        s, fragments = np.uint64(n_spans), fragments + int(n - begin)
                         rows[s], lefts[s], triangles[s], starts[s + NEXT] = row, left + np.int64(begin), t, fragments
                         n_spans += 1
                 left += SIZE

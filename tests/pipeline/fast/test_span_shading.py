@@ -120,7 +120,9 @@ def random_picture(seed, *, size=(70, 50), n_triangles=12, ordered=False, tested
         gl.glEnable(gl.GL_LIGHTING)
         gl.glEnable(gl.GL_LIGHT0)
         gl.glMaterialfv(gl.GL_FRONT_AND_BACK, gl.GL_SPECULAR, [1, 0.5, 0.2, 1])
-        gl.glLightModeli(gl.GL_LIGHT_MODEL_COLOR_CONTROL, pick(rng, (gl.GL_SINGLE_COLOR, gl.GL_SEPARATE_SPECULAR_COLOR)))
+        gl.glLightModeli(
+            gl.GL_LIGHT_MODEL_COLOR_CONTROL, pick(rng, (gl.GL_SINGLE_COLOR, gl.GL_SEPARATE_SPECULAR_COLOR))
+        )
     gl.glShadeModel(gl.GL_SMOOTH if rng.random() < 0.8 else gl.GL_FLAT)
     gl.glMatrixMode(gl.GL_TEXTURE)
     gl.glLoadMatrixf(np.eye(4, dtype=np.float32) + rng.normal(0, 0.1, (4, 4)).astype(np.float32))
