@@ -25,3 +25,10 @@ def test_a_copy_cannot_be_changed_either():
 def test_an_unknown_field_is_told():
     with pytest.raises(TypeError, match="Depth has no field bias"):
         frozen.evolve(Depth(), func=3, bias=1)
+
+
+def test_a_created_instance_is_that_of_the_constructor():
+    fields = {field.name: getattr(Depth(), field.name) for field in dataclasses.fields(Depth)} | {"clear": 0.5}
+    assert frozen.create(Depth, **fields) == Depth(clear=0.5)
+    with pytest.raises(TypeError, match="Depth: missing or unknown fields bias"):
+        frozen.create(Depth, **fields, bias=1)

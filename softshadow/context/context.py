@@ -21,7 +21,7 @@ from softshadow.context.state_groups import StateGroups, affects_draws
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage
-from softshadow.frozen import evolve
+from softshadow.frozen import create, evolve
 from softshadow.pipeline.commands import Clear, Command, Draw, Vertices
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.queue import DrawQueue
@@ -29,6 +29,7 @@ from softshadow.pixel_store import PixelStore
 from softshadow.programs import Program
 from softshadow.state import TEXTURE_UNITS, State
 
+NO_UNIFORMS: Mapping[str, Any] = {}
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
 
 
@@ -364,25 +365,29 @@ class Context:
 
     # -- recording -----------------------------------------------------------------------------------------------------
     def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
-        return Draw(
-            state=self.state,
+        state, modelview, projection = self._state.drawn(), self.modelview_stack, self.projection_stack
+        program = state.program
+        return create(
+            Draw,
+            state=state,
             mode=mode,
             vertices=vertices,
             indices=indices,
-            modelview=self.modelview_stack.current,
-            projection=self.projection_stack.current,
-            texture_matrices=tuple(stack.current for stack in self.texture_stacks),
-            uniforms=self._uniform_values(),
-            program_name=self.programs[self.state.program].name if self.state.program else "",
-            label="/".join(self.labels),
+            modelview=modelview.current,
+            projection=projection.current,
+            texture_matrices=tuple([stack.current for stack in self.texture_stacks]),
+            uniforms=dict(self.uniforms[program]) if program else NO_UNIFORMS,
+            program_name=self.programs[program].name if program else "",
+            label="/".join(self.labels) if self.labels else "",
             offset_slope=self.offset_slope,
             offset_unit=self.offset_unit,
-            modelview_kind=self.modelview_stack.kind,
-            projection_kind=self.projection_stack.kind,
+            modelview_kind=modelview.kind,
+            projection_kind=projection.kind,
+            joined_positions=None,
+            joined_start=0,
+            linear=False,
+            offset_mode=0,
         )
-
-    def _uniform_values(self) -> Mapping[str, Any]:
-        return dict(self.uniforms[self.state.program]) if self.state.program else {}
 
     def end_step(self, title: str) -> None:
         """Mark the end of a step in the recording."""

@@ -107,9 +107,16 @@ class StateGroups:
 
     def snapshot(self) -> State:
         """Return the state; the same object as before if nothing has changed."""
-        changed, root = self.changed, self.root
         if self.followed is not None:
             self.settle()
+        return self.drawn()
+
+    def drawn(self) -> State:
+        """Return the state for a draw: materials may not contain yet the colour that they follow.
+
+        A draw takes this colour from its vertices. So draws that differ in it alone have the same state.
+        """
+        changed, root = self.changed, self.root
         if changed:
             parents = set()
             for group in changed:
