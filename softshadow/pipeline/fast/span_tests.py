@@ -59,7 +59,8 @@ def collect_passing_spans(
     m, row, n_spans : where to go on, since the arrays were full, and how many spans there are
     """
     room, whole = np.empty(FLOAT_ROWS * SIZE, np.float32), np.empty(WHOLE_ROWS * SIZE, np.int32)
-    tests, n_spans, fragments = ops[0, 0] == 0 and (ops[0, 2] | ops[0, 8] | ops[1, 2] | ops[1, 8]) != 0, 0, 0
+    tests = ops[0, 0] == 0 and (ops[0, 2] | ops[0, 8] | ops[1, 2] | ops[1, 8]) != 0
+    n_spans, fragments = 0, np.int64(0)
     no_depth, no_stencil = depth.shape[0] < end_row, stencil.shape[0] < end_row
     starts[0] = 0
     while m < order.shape[0]:
@@ -96,7 +97,7 @@ def collect_passing_spans(
                     while n < length and whole[MASK + n]:
                         n += NEXT
                     if n > begin:
-                        s, fragments = np.uint64(n_spans), fragments + int(n - begin)
+                        s, fragments = np.uint64(n_spans), fragments + np.int64(n - begin)
                         rows[s], lefts[s], triangles[s], starts[s + NEXT] = row, left + np.int64(begin), t, fragments
                         n_spans += 1
                 left += SIZE

@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from test_span_shading import random_picture
 
 from draws import MIXING, draw, random_triangles, same_window
 from softshadow import gl
 from softshadow.context import Context
 from softshadow.pipeline import choose, explain_paths, set_threads, threads, use_short_cuts
 from softshadow.pipeline.fast import forward
-
-from test_span_shading import random_picture
 
 
 @pytest.fixture(autouse=True)

@@ -1,4 +1,4 @@
-"""The kernels that shade blocks of fragments leave the bits of the shading stage, for any state of the fixed function."""
+"""The kernels that shade blocks of fragments leave the bits of the shading stage, for any fixed-function state."""
 
 from dataclasses import replace
 
