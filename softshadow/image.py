@@ -151,13 +151,7 @@ class Image:
 
     @property
     def read_cells(self) -> np.ndarray:
-        """The cells, for reading only."""
-        self.write_pending()
-        return self._cells
-
-    @property
-    def readable_cells(self) -> np.ndarray:
-        """The cells, for reading only: the version token stays."""
+        """The cells, for reading only: version token and tile bounds stay."""
         self.write_pending()
         return self._cells
 

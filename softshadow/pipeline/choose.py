@@ -73,8 +73,8 @@ def use_short_cuts(policy: Policy) -> Iterator[None]:
     Parameters
     ----------
     policy : bool or "always"
-        False: only the textbook; True: where they pay, which is the default; "always" is the same, from a time when
-        kernels were compiled for each state.
+        False: only the textbook; True: where they pay, which is the default; "always": also those whose kernels are
+        not compiled yet, even where compiling takes longer than it saves.
 
     Raises
     ------

@@ -234,7 +234,7 @@ def texels_of(texture: Texture) -> np.ndarray:
     base, sampler = texture.base(), texture.sampler
     assert base is not None
     if FILTERS[sampler.min_filter][1] == gl.GL_NONE or texture.last_level() == sampler.base_level:
-        return base.readable_cells.reshape(-1).view(np.int32)
+        return base.read_cells.reshape(-1).view(np.int32)
     images = [texture.images[0, level] for level in range(sampler.base_level, texture.last_level() + 1)]
     known = _packed.get(base)
     if known is not None and len(known[0]) == len(images):
@@ -244,7 +244,7 @@ def texels_of(texture: Texture) -> np.ndarray:
         else:
             return known[1]
     texels = np.concatenate(
-        [image.readable_cells[:, : image.width].reshape(-1).view(np.int32) for image in images], dtype=np.int32
+        [image.read_cells[:, : image.width].reshape(-1).view(np.int32) for image in images], dtype=np.int32
     )
     for image in images:
         image.version = image.version if image.version is not None else object()
