@@ -1,6 +1,7 @@
 """Every draw reads the arrays as they are at the call; equal contents are recorded once."""
 
 import ctypes
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,8 +22,8 @@ REST = (0, 0, 0, 1)
 def context(request):
     with gl.create_context(4, 4, precision=request.param) as context:
         gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
-        context.drawn = []
-        context.draw = lambda mode, vertices, indices=None: context.drawn.append((vertices, indices))
+        drawn: list[Any] = []
+        vars(context).update(drawn=drawn, draw=lambda mode, vertices, indices=None: drawn.append((vertices, indices)))
         yield context
 
 

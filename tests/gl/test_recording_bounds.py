@@ -71,13 +71,13 @@ def test_a_thousand_frames_keep_their_last_bytes_only():
     with gl.create_context(*SIZE, history_mb=1) as context:
         gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
         most = 0
-        for frame in range(1000):
+        for number in range(1000):
             corners = rng.random((300, 3)).astype(np.float32)
             gl.glClear(gl.GL_COLOR_BUFFER_BIT)
             gl.glVertexPointer(3, gl.GL_FLOAT, 0, corners)
             for _ in range(2):
                 gl.glDrawArrays(gl.GL_POINTS, 0, 300)
-            if frame % 20 == 19:
+            if number % 20 == 19:
                 most = max(most, context.frame.bytes)
         frame = context.frame
         assert frame.dropped + len(frame.commands) == 3000
@@ -191,8 +191,8 @@ def test_shared_arrays_count_once():
         gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
         gl.glVertexPointer(4, gl.GL_FLOAT, 0, np.zeros((100, 4), np.float32))
         indices = np.arange(50, dtype=np.uint32)
-        for first in range(3):
-            gl.glDrawArrays(gl.GL_POINTS, first, 50)
+        for start in range(3):
+            gl.glDrawArrays(gl.GL_POINTS, start, 50)
             gl.glDrawElements(gl.GL_POINTS, 50, gl.GL_UNSIGNED_INT, indices)
         first = Contents()
         for command in context.frame.commands:

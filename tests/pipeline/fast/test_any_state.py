@@ -5,6 +5,7 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -89,7 +90,8 @@ def random_ops(rng: np.random.Generator, depth_largest: int) -> tuple[FragmentOp
         numbers = tuple(int(rng.integers(0, largest, endpoint=True)) for _ in range(3))
         off = ((gl.GL_ALWAYS, gl.GL_KEEP, gl.GL_KEEP, gl.GL_KEEP, 0), (0, 0, 0))
         stencil, numbers = (stencil, numbers) if tests_stencil else off
-        return FragmentOps(0, gl.GL_ALWAYS, tests_stencil, *stencil, *depth, depth_largest, 0, *numbers)
+        fields: Any = (0, gl.GL_ALWAYS, tests_stencil, *stencil, *depth, depth_largest, 0, *numbers)
+        return FragmentOps(*fields)
 
     front = facing()
     return front, facing() if rng.random() < 0.5 else front

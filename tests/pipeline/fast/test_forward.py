@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from test_span_shading import random_picture
 
 from draws import MIXING, draw, random_triangles, same_window
+from fixed_function_pictures import random_picture
 from softshadow import gl
 from softshadow.context import Context
 from softshadow.pipeline import choose, explain_paths, set_threads, threads, use_short_cuts
@@ -67,7 +67,8 @@ def overlapping(seed):
 @pytest.mark.parametrize("seed", range(4))
 def test_triangles_and_spans_that_do_not_fit_at_once_go_on_afterwards(monkeypatch, seed):
     monkeypatch.setattr(forward, "TRIANGLES", 7)
-    spans = forward.Spans(*np.empty((3, 150), np.int32), np.empty(151, np.int64))
+    row, left, triangle = np.empty((3, 150), np.int32)
+    spans = forward.Spans(row, left, triangle, np.empty(151, np.int64))
     monkeypatch.setattr(forward._lists, "spans", spans)
     window = overlapping(seed)
     with use_short_cuts(False):

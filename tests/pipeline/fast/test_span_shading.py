@@ -1,163 +1,19 @@
 """The kernels that shade blocks of fragments leave the bits of the shading stage, for any fixed-function state."""
 
-from dataclasses import replace
-
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from draws import random_state, same_window
+from draws import same_window
+from fixed_function_pictures import random_picture
 from softshadow import gl
 from softshadow.pipeline import choose, explain_paths, set_threads, threads, use_short_cuts
 from softshadow.pipeline.fast import fragment_block
-from softshadow.state import Blend
-
-WRAPS = (gl.GL_REPEAT, gl.GL_CLAMP_TO_EDGE, gl.GL_CLAMP_TO_BORDER, gl.GL_CLAMP, gl.GL_MIRRORED_REPEAT)
-MIN_FILTERS = (
-    gl.GL_NEAREST, gl.GL_LINEAR, gl.GL_NEAREST_MIPMAP_NEAREST, gl.GL_LINEAR_MIPMAP_NEAREST,
-    gl.GL_NEAREST_MIPMAP_LINEAR, gl.GL_LINEAR_MIPMAP_LINEAR,
-)  # fmt: skip
-FORMATS = (
-    gl.GL_RGBA, gl.GL_RGB, gl.GL_LUMINANCE, gl.GL_LUMINANCE_ALPHA, gl.GL_ALPHA, gl.GL_INTENSITY, gl.GL_RED, gl.GL_RG,
-)  # fmt: skip
-DEPTH_FORMATS = (gl.GL_DEPTH_COMPONENT16, gl.GL_DEPTH_COMPONENT24, gl.GL_DEPTH_COMPONENT32, gl.GL_DEPTH_COMPONENT32F)
-FUNCS = tuple(range(gl.GL_NEVER, gl.GL_ALWAYS + 1))
-MODES = (gl.GL_MODULATE, gl.GL_REPLACE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_ADD)
-FACTORS = (
-    gl.GL_ZERO, gl.GL_ONE, gl.GL_SRC_COLOR, gl.GL_ONE_MINUS_SRC_COLOR, gl.GL_DST_COLOR, gl.GL_ONE_MINUS_DST_COLOR,
-    gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA, gl.GL_DST_ALPHA, gl.GL_ONE_MINUS_DST_ALPHA, gl.GL_CONSTANT_COLOR,
-    gl.GL_ONE_MINUS_CONSTANT_COLOR, gl.GL_CONSTANT_ALPHA, gl.GL_ONE_MINUS_CONSTANT_ALPHA,
-)  # fmt: skip
-EQUATIONS = (gl.GL_FUNC_ADD, gl.GL_FUNC_SUBTRACT, gl.GL_FUNC_REVERSE_SUBTRACT, gl.GL_MIN, gl.GL_MAX)
 
 
 @pytest.fixture(autouse=True)
 def _compiled(monkeypatch):
     monkeypatch.setattr(choose, "SHADING_PAYS_AFTER", 0)
-
-
-def pick(rng, values):
-    return values[rng.integers(len(values))]
-
-
-def random_texture(rng, unit):
-    """Bind a random texture to a unit, with random environment, filters and wrap modes."""
-    gl.glActiveTexture(gl.GL_TEXTURE0 + unit)
-    gl.glEnable(gl.GL_TEXTURE_2D)
-    gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
-
-    def parameter(name, value):
-        gl.glTexParameteri(gl.GL_TEXTURE_2D, getattr(gl, f"GL_TEXTURE_{name}"), int(value))
-
-    min_filter = pick(rng, MIN_FILTERS)
-    parameter("MIN_FILTER", min_filter)
-    parameter("MAG_FILTER", pick(rng, (gl.GL_NEAREST, gl.GL_LINEAR)))
-    edges = WRAPS[:2] if rng.random() < 0.5 else WRAPS
-    parameter("WRAP_S", pick(rng, edges))
-    parameter("WRAP_T", pick(rng, edges))
-    gl.glTexParameterfv(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_BORDER_COLOR, rng.uniform(-0.2, 1.2, 4).astype(np.float32))
-    if rng.random() < 0.3:
-        gl.glTexParameterf(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_LOD, float(rng.choice([-1, 0.5, 2, 20])))
-        gl.glTexParameterf(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MAX_LOD, float(rng.choice([1.5, 3, 15, 20])))
-    if rng.random() < 0.3:
-        gl.glTexEnvf(gl.GL_TEXTURE_FILTER_CONTROL, gl.GL_TEXTURE_LOD_BIAS, float(rng.uniform(-2, 2)))
-    width, height = (2 ** rng.integers(0, 7, 2) if rng.random() < 0.5 else rng.integers(1, 65, 2)).tolist()
-    is_depth = rng.random() < 0.3
-    internal = int(pick(rng, DEPTH_FORMATS if is_depth else FORMATS))
-    format, channels = (gl.GL_DEPTH_COMPONENT, 1) if is_depth else (gl.GL_RGBA, 4)
-    if is_depth:
-        parameter("COMPARE_MODE", pick(rng, (gl.GL_NONE, gl.GL_COMPARE_R_TO_TEXTURE, gl.GL_COMPARE_R_TO_TEXTURE)))
-        parameter("COMPARE_FUNC", pick(rng, FUNCS))
-        gl.glTexParameteri(
-            gl.GL_TEXTURE_2D, gl.GL_DEPTH_TEXTURE_MODE, pick(rng, (gl.GL_LUMINANCE, gl.GL_INTENSITY, gl.GL_ALPHA))
-        )
-    level = 0
-    while True:
-        texels = rng.random((height, width, channels)).astype(np.float32)
-        gl.glTexImage2D(gl.GL_TEXTURE_2D, level, internal, width, height, 0, format, gl.GL_FLOAT, texels)
-        if width == height == 1 or min_filter in (gl.GL_NEAREST, gl.GL_LINEAR):
-            break
-        level, width, height = level + 1, max(width // 2, 1), max(height // 2, 1)
-    gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, pick(rng, MODES))
-    gl.glTexEnvfv(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_COLOR, rng.random(4).astype(np.float32))
-
-
-def random_fog(rng):
-    gl.glEnable(gl.GL_FOG)
-    gl.glFogi(gl.GL_FOG_MODE, pick(rng, (gl.GL_LINEAR, gl.GL_EXP, gl.GL_EXP2)))
-    gl.glFogf(gl.GL_FOG_DENSITY, float(rng.uniform(0, 2)))
-    gl.glFogf(gl.GL_FOG_START, float(rng.uniform(-1, 1)))
-    gl.glFogf(gl.GL_FOG_END, float(rng.choice([-1, 1, 2, 5])))
-    gl.glFogfv(gl.GL_FOG_COLOR, rng.random(4).astype(np.float32))
-
-
-def random_blending(rng, state):
-    """Return a state with random blending, or a logic operation."""
-    factors = [int(pick(rng, FACTORS)) for _ in range(4)]
-    if rng.random() < 0.1:
-        factors[rng.choice([0, 2])] = gl.GL_SRC_ALPHA_SATURATE
-    equations = [int(pick(rng, EQUATIONS))] * 2 if rng.random() < 0.6 else [int(pick(rng, EQUATIONS)) for _ in range(2)]
-    if rng.random() < 0.5:
-        equations = [gl.GL_FUNC_ADD] * 2
-    constant = tuple(rng.uniform(-0.1, 1.1, 4).tolist())
-    logic = bool(rng.random() < 0.15)
-    operation = int(rng.integers(gl.GL_CLEAR, gl.GL_SET + 1))
-    return replace(state, blend=Blend(True, *factors, *equations, constant, logic, operation))
-
-
-def random_picture(seed, *, size=(70, 50), n_triangles=12, ordered=False, tested=False, units=None, **options):
-    """Return a window after a draw in a random state of the fixed function, over a random background."""
-    rng = np.random.default_rng(seed)
-    context = gl.create_context(*size, **options)
-    gl.glClearColor(*rng.random(4).tolist())
-    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
-    for unit in range(rng.integers(0, 3) if units is None else units):
-        random_texture(rng, unit)
-    if rng.random() < 0.4:
-        random_fog(rng)
-    if rng.random() < 0.3:
-        gl.glEnable(gl.GL_LIGHTING)
-        gl.glEnable(gl.GL_LIGHT0)
-        gl.glMaterialfv(gl.GL_FRONT_AND_BACK, gl.GL_SPECULAR, [1, 0.5, 0.2, 1])
-        gl.glLightModeli(
-            gl.GL_LIGHT_MODEL_COLOR_CONTROL, pick(rng, (gl.GL_SINGLE_COLOR, gl.GL_SEPARATE_SPECULAR_COLOR))
-        )
-    gl.glShadeModel(gl.GL_SMOOTH if rng.random() < 0.8 else gl.GL_FLAT)
-    gl.glMatrixMode(gl.GL_TEXTURE)
-    gl.glLoadMatrixf(np.eye(4, dtype=np.float32) + rng.normal(0, 0.1, (4, 4)).astype(np.float32))
-    tests = random_state(rng, context.state)
-    if rng.random() < 0.6:
-        tests = replace(tests, stencil=context.state.stencil)
-    if rng.random() < 0.4:
-        tests = replace(tests, depth=replace(tests.depth, enabled=True, func=gl.GL_LESS, write=True))
-    if rng.random() < 0.7:
-        tests = replace(tests, color=replace(tests.color, mask=(True,) * 4))
-    if ordered:
-        tests = random_blending(rng, tests)
-    if tested:
-        tests = replace(tests, alpha=replace(tests.alpha, enabled=True, func=int(pick(rng, FUNCS)), ref=rng.random()))
-    context.state = tests
-    positions = rng.normal(0, 1, (3 * n_triangles, 4)).astype(np.float32)
-    positions[:, 3] = rng.choice(np.float32([1, 1, 1, 0.5, 2, -1, 0.01]), 3 * n_triangles)
-    if rng.random() < 0.5:  # small ones
-        positions = np.ones((n_triangles, 3, 4), np.float32)
-        positions[:, :, :3] = rng.uniform(-1.05, 1.05, (n_triangles, 1, 3))
-        positions[:, :, :3] += rng.normal(0, 1, (n_triangles, 3, 3)) * 0.15
-        positions = positions.reshape(-1, 4)
-    scale = rng.choice([0.5, 3, 30])
-    coordinates = rng.normal(0, 1, (2, 3 * n_triangles, 4)) * [scale, scale, 1, 0.1] + [0, 0, 0.5, 1]
-    colors = rng.uniform(-0.1, 1.2, (3 * n_triangles, 4))
-    gl.glBegin(pick(rng, (gl.GL_TRIANGLES, gl.GL_TRIANGLES, gl.GL_QUADS, gl.GL_LINES, gl.GL_POINTS)))
-    for n in range(3 * n_triangles):
-        gl.glColor4f(*colors[n].tolist())
-        gl.glNormal3f(*rng.normal(0, 1, 3).tolist())
-        for unit in range(2):
-            gl.glMultiTexCoord4f(gl.GL_TEXTURE0 + unit, *coordinates[unit, n].tolist())
-        gl.glVertex4f(*positions[n].tolist())
-    gl.glEnd()
-    gl.glFinish()
-    return context
 
 
 def assert_same(seed, **options):
