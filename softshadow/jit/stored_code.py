@@ -7,6 +7,7 @@ when something must be compiled. The files are Numba's own (`softshadow.kernel_c
 """
 
 import contextlib
+import sys
 from importlib import import_module
 from typing import Any, NamedTuple
 
@@ -16,6 +17,7 @@ from numba.core import compiler, types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler_lock import global_compiler_lock
+from numba.core.environment import Environment, lookup_environment
 from numba.core.registry import CPUDispatcher
 from numba.core.typing.typeof import Purpose, typeof
 from numba.np import numpy_support
@@ -29,11 +31,13 @@ class StoredResult(NamedTuple):
 
     Attributes
     ----------
-    result : tuple               Numba's reduced `CompileResult`
+    result : tuple               Numba's reduced `CompileResult`, without the environments of its callees
+    environments : of callees    module, constants and name of each
     defined, external : names that the machine code defines, and that it needs from elsewhere
     """
 
     result: tuple[Any, ...]
+    environments: tuple[tuple[str, list[Any], str], ...]
     defined: frozenset[str]
     external: frozenset[str]
 
@@ -59,11 +63,14 @@ class StoredResults(CompileResultCacheImpl):
         external = {each.name for each in symbols if each.is_declaration}
         defined = {each.name for each in symbols if not each.is_declaration}
         external = {name for name in external if not name.startswith("llvm.")}
-        return StoredResult(super().reduce(cres), frozenset(defined), frozenset(external))
+        *result, environments = super().reduce(cres)
+        parts = tuple((each.globals["__name__"], list(each.consts), each.env_name) for each in environments)
+        return StoredResult((*result, ()), parts, frozenset(defined), frozenset(external))
 
     def rebuild(self, target_context: Any, payload: StoredResult) -> Any:
         """Return the result, made in Numba's own way."""
-        return super().rebuild(target_context, payload.result)
+        environments = tuple(rebuild_environment(*parts) for parts in payload.environments)
+        return super().rebuild(target_context, (*payload.result[:-1], environments))
 
     def rebuild_without_compiler(self, target_context: Any, payload: StoredResult) -> Any:
         """Return the result with its machine code ready to be called, or None if it needs what is not there."""
@@ -85,6 +92,7 @@ class StoredResults(CompileResultCacheImpl):
         library._finalize_final_module()
         engine._defined_symbols |= payload.defined
         entry_point = target_context.get_executable(library, fndesc, environment)
+        referenced = tuple(rebuild_environment(*parts) for parts in payload.environments)
         for each in referenced:
             codegen.set_env(each.env_name, each)
         return compiler.compile_result(
@@ -92,6 +100,21 @@ class StoredResults(CompileResultCacheImpl):
             environment=environment, entry_point=entry_point, fndesc=fndesc, type_annotation=annotation,
             signature=signature, objectmode=objectmode, lifted=lifted, reload_init=reload, referenced_envs=referenced,
         )  # fmt: skip
+
+
+def rebuild_environment(module: str, constants: list[Any], name: str) -> Any:
+    """Return the environment of a function that a kernel calls.
+
+    A function such as ``np.empty`` is Python code in Numba, and Numba would import its module for the sake of the
+    globals. Only interpreted code uses them, which no kernel contains.
+    """
+    result = lookup_environment(name)
+    if result is None:
+        result = Environment(vars(sys.modules[module]) if module in sys.modules else {"__name__": module})
+        result.consts[:] = constants
+        result.env_name = name
+        Environment._memo[name] = result
+    return result
 
 
 def register_runtime() -> None:
