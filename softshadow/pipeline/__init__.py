@@ -25,6 +25,7 @@ import numpy as np
 from softshadow.errors import StateError
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.choose import (
+    FEW_FRAGMENTS,
     Plan,
     WithoutOverlaps,
     choose_fill,
@@ -103,10 +104,17 @@ def draw_geometry(
     storage: Storage,
     geometry: Geometry,
     counts: FragmentCounts | None = None,
+    fragments: int = -1,
 ) -> None:
-    """Draw triangles in the window, under the state of a command."""
+    """Draw triangles in the window, under the state of a command; about so many `fragments`, -1 if not known."""
     if not len(geometry.triangles.ids):
         return
+    if 0 <= fragments <= FEW_FRAGMENTS and plan.forward:  # a small draw: no time to look for its rows
+        region = region_of(command.state, target)
+        forward = choose_forward(plan, command.state, target, geometry, region, fragments)
+        if forward:
+            forward()
+            return
     if plan.in_order:
         _draw_in_order(plan, command, target, geometry, counts)
     else:

@@ -87,5 +87,5 @@ class DrawQueue:
         storage = self._storage
         target = storage.framebuffers[run.state.draw_framebuffer]
         with np.errstate(all="ignore"):  # as in pipeline.draw
-            geometry = geometry_of(run, setting, draws, target)
-            pipeline.draw_geometry(plan, run.command, target, storage, geometry)
+            geometry, fragments = geometry_of(run, setting, draws, target)
+            pipeline.draw_geometry(plan, run.command, target, storage, geometry, fragments=fragments)

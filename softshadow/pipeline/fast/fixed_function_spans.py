@@ -42,20 +42,20 @@ PART = 1 << 14  # fragments that one thread shades in one go where several threa
 
 
 MARKER = "spans"  # the empty file in the cache folder that says that the kernels are on disk
-_compiled = [False]
+_compiled: list[bool] = []
 
 
 def are_compiled() -> bool:
-    """Return whether the kernels that shade spans were compiled before, by this or another process."""
-    if not _compiled[0]:
+    """Return whether the kernels that shade spans were compiled before, by this process or one before it."""
+    if not _compiled:
         folder = cache_folder()
-        _compiled[0] = folder is not None and (folder / MARKER).exists()
+        _compiled.append(folder is not None and (folder / MARKER).exists())
     return _compiled[0]
 
 
 def note_compiled() -> None:
     """Note that the kernels are compiled from now on."""
-    _compiled[0] = True
+    _compiled[:] = [True]
     folder = cache_folder()
     if folder is not None:
         with suppress(OSError):  # the folder was deleted meanwhile

@@ -223,7 +223,7 @@ def test_many_small_draws_are_one_run(monkeypatch):
     runs = []
     geometry_of = queue.geometry_of
 
-    def count(run: Run, setting: Setting, draws: list[Draw], *rest: Any) -> Geometry:
+    def count(run: Run, setting: Setting, draws: list[Draw], *rest: Any) -> tuple[Geometry, int]:
         runs.append(len(draws))
         return geometry_of(run, setting, draws, *rest)
 

@@ -66,8 +66,11 @@ def setting_of(run: Run, target: Framebuffer, storage: Storage) -> Setting:
     )
 
 
-def geometry_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Framebuffer) -> Geometry:
-    """Return the triangles of all draws of a run, in drawing order, in the window of `target`."""
+def geometry_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Framebuffer) -> tuple[Geometry, int]:
+    """Return the triangles of all draws of a run, in drawing order, in the window of `target`.
+
+    And about how many fragments they have, -1 where that is not known.
+    """
     command, table = run.command, table_of(run, draws)
     n, most = int(table.numbers[-1, END]), _most_triangles(draws)
     k, is_small = len(setting.flat), n <= SMALL and most <= SMALL and not has_float_units(command, target)
@@ -90,12 +93,12 @@ def geometry_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Frame
             np.empty((most, 6), np.int32), np.empty((most, 3), np.int32), np.empty((most, 4), REAL),
             np.empty(most, np.uint8), np.empty(most, np.int32),
         )  # fmt: skip
-        n_triangles, n_drawn = set_up_run(
+        n_triangles, n_drawn, area = set_up_run(
             *inputs, *outputs, table.indices, triangles, read_only(triangles), provoking, np.empty((n, 2), np.int32),
             setting.culled, setting.positive_is_front, setting.offset, *setup,
         )  # fmt: skip
         if n_drawn >= 0:
-            return unset._replace(triangles=Setup(*[array[:n_drawn] for array in setup]))
+            return unset._replace(triangles=Setup(*[array[:n_drawn] for array in setup])), area >> 8
     else:
         prepare_draws(*inputs[:3], table.lights, table.flags, placed)
         parts = parts_of(n)
@@ -112,7 +115,7 @@ def geometry_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Frame
         source=clipped.source,
         provoking=provoking[clipped.source],
     )
-    return filled_geometry(geometry, clipped, command, target, command.state.cull)
+    return filled_geometry(geometry, clipped, command, target, command.state.cull), -1
 
 
 @kernel
@@ -123,8 +126,8 @@ def set_up_run(
 ):  # fmt: skip
     """Process the vertices of all draws and set their triangles up, unless any of them must be clipped.
 
-    Return the numbers of triangles and of those that are drawn, the latter -1 where a vertex needs clipping.
-    `triangles_read` is `triangles`, read-only.
+    Return the numbers of triangles and of those that are drawn, the latter -1 where a vertex needs clipping, and the
+    sum of their areas in 1/256 pixel. `triangles_read` is `triangles`, read-only.
     """
     n = positions.shape[0]
     prepare_draws(layout, numbers, rows, lights, flags, placed)
@@ -137,13 +140,13 @@ def set_up_run(
     for v in range(n):
         any_code |= codes[v]
     if any_code:
-        return n_triangles, np.int64(-1)
+        return n_triangles, np.int64(-1), np.int64(0)
     snap_vertices(window, 0, n, snapped)
-    n_drawn, _ = set_up_triangles(
+    n_drawn, area = set_up_triangles(
         window, snapped, triangles_read, 0, n_triangles, culled, positive_is_front, offset, 0, corners, vertices, depth,
         front, ids,
     )  # fmt: skip
-    return n_triangles, np.int64(n_drawn)
+    return n_triangles, np.int64(n_drawn), np.int64(area)
 
 
 def _most_triangles(draws: Sequence[Draw]) -> int:
