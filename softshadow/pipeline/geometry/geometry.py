@@ -56,7 +56,7 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull:
     clip, codes, window, planes = positions_of(command, target)
     columns = varyings.values if varyings.back is None else np.hstack([varyings.values, varyings.back])
     if command.mode in (gl.GL_POINTS, *LINES):
-        set_up_primitives, primitives = _points_and_lines, lines_or_points_of(command)
+        set_up_primitives, primitives = points_and_lines_geometry, lines_or_points_of(command)
         provoking = primitives[:, -1]
         clip_primitives = clip_points if command.mode == gl.GL_POINTS else clip_lines
         clipped = clip_primitives(clip, columns, primitives, codes, planes)
@@ -119,7 +119,9 @@ def filled_geometry(geometry: Geometry, clipped: Clipped, command: Draw, target:
     return geometry._replace(triangles=triangles)
 
 
-def _points_and_lines(geometry: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull) -> Geometry:
+def points_and_lines_geometry(
+    geometry: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull
+) -> Geometry:
     """Return the geometry with its points or lines set up; they are never culled."""
     polygon, primitives = command.state.polygon, clipped.triangles
     ids = np.arange(len(primitives), dtype=np.int32)

@@ -21,7 +21,8 @@ from softshadow.programs import inverse
 
 SIZE = 32
 MODES = (
-    gl.GL_TRIANGLES, gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_QUADS, gl.GL_QUAD_STRIP, gl.GL_POLYGON, gl.GL_LINES
+    gl.GL_TRIANGLES, gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_QUADS, gl.GL_QUAD_STRIP, gl.GL_POLYGON,
+    gl.GL_LINES, gl.GL_LINE_STRIP, gl.GL_LINE_LOOP, gl.GL_POINTS,
 )  # fmt: skip
 seeds = st.integers(0, 2**32 - 1)
 
@@ -31,6 +32,7 @@ class Program:
 
     def __init__(self, seed: int) -> None:
         self.rng = np.random.default_rng(seed)
+        self.mode = self.one_of(*MODES)
 
     def draw(self, states: int = 3, draws: int = 5) -> Context:
         """Carry the program out in a new context."""
@@ -76,6 +78,8 @@ class Program:
         gl.glStencilFunc(self.one_of(gl.GL_ALWAYS, gl.GL_EQUAL), self.one_of(0, 1), 255)
         gl.glStencilOp(gl.GL_KEEP, self.one_of(gl.GL_KEEP, gl.GL_INVERT), self.one_of(gl.GL_INCR, gl.GL_DECR_WRAP))
         gl.glAlphaFunc(gl.GL_GREATER, 0.4)
+        gl.glLineWidth(self.one_of(1, 1, 2, 5))
+        gl.glPointSize(self.one_of(1, 2, 3))
         gl.glPolygonOffset(*self.numbers(2, -2, 2))
         gl.glFogi(gl.GL_FOG_MODE, self.one_of(gl.GL_LINEAR, gl.GL_EXP))
         gl.glColorMask(*[self.chance(0.9)] * 4)
@@ -142,7 +146,9 @@ class Program:
             side = self.one_of(gl.GL_FRONT, gl.GL_BACK, gl.GL_FRONT_AND_BACK)
             gl.glMaterialfv(side, self.one_of(gl.GL_SPECULAR, gl.GL_DIFFUSE), self.numbers(4, 0))
             gl.glMaterialf(side, gl.GL_SHININESS, self.one_of(0, 5, 100))
-        mode, n = self.one_of(*MODES), int(self.rng.integers(0, 14))
+        if self.chance(0.4):
+            self.mode = self.one_of(*MODES)
+        mode, n = self.mode, int(self.rng.integers(0, 14))
         if self.chance(0.3):
             gl.glBegin(mode)
             for _ in range(n):

@@ -6,8 +6,12 @@ The patterns are those of `geometry.assembly`; how quads are cut depends on the 
 
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.fast.batch.vertices import END, INDEX_END, INDEX_START, INDEXED, MODE, START
+from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.mesa.quad_cuts import INDEXED_SEGMENT, SEGMENT
 from softshadow.tokens import (
+    GL_LINE_LOOP,
+    GL_LINES,
+    GL_POINTS,
     GL_POLYGON,
     GL_QUAD_STRIP,
     GL_QUADS,
@@ -16,15 +20,18 @@ from softshadow.tokens import (
     GL_TRIANGLES,
 )
 
-MODES = (GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN, GL_QUADS, GL_QUAD_STRIP, GL_POLYGON)
+POLYGONS = (GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN, GL_QUADS, GL_QUAD_STRIP, GL_POLYGON)
+MODES = (*POLYGONS, *LINES, GL_POINTS)
 
 
-def triangle_count(mode: int, n: int) -> int:
-    """Return the number of triangles that `n` vertices or indices make."""
+def primitive_count(mode: int, n: int) -> int:
+    """Return the number of triangles that `n` vertices or indices make, or at most so many lines or points."""
     if mode == GL_TRIANGLES:
         return n // 3
     if mode == GL_QUADS:
         return n // 4 * 2
+    if mode not in POLYGONS:
+        return n
     return max(n // 2 - 1, 0) * 2 if mode == GL_QUAD_STRIP else max(n - 2, 0)
 
 
@@ -119,4 +126,24 @@ def write_quads(numbers, indices, codes, d, mode, n, triangles, provoking, row):
             write_triangle(numbers, indices, d, triangles, provoking, row, at, one, two, three)
             write_triangle(numbers, indices, d, triangles, provoking, row + 1, at, two, three, three)
         row += 2
+    return row
+
+
+@kernel
+def assemble_lines_and_points(numbers, indices, primitives):
+    """Write the lines (L, 2) or points (P, 1) of all draws in order; return how many they are."""
+    row = 0
+    for d in range(numbers.shape[0]):
+        mode = numbers[d, MODE]
+        n = numbers[d, INDEX_END] - numbers[d, INDEX_START] if numbers[d, INDEXED] else (
+            numbers[d, END] - numbers[d, START]
+        )  # fmt: skip
+        for i in range(0, n if mode == GL_POINTS else n - 1, 2 if mode == GL_LINES else 1):
+            for k in range(primitives.shape[1]):
+                primitives[row, k] = vertex_at(numbers, indices, d, i + k)
+            row += 1
+        if mode == GL_LINE_LOOP and n >= 2:
+            primitives[row, 0] = vertex_at(numbers, indices, d, n - 1)
+            primitives[row, 1] = vertex_at(numbers, indices, d, 0)
+            row += 1
     return row

@@ -14,9 +14,9 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.jit import kernel, read_only
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.fast.batch.assembly import assemble_draws, triangle_count
+from softshadow.pipeline.fast.batch.assembly import assemble_draws, assemble_lines_and_points, primitive_count
 from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
-from softshadow.pipeline.fast.batch.table import Run, table_of
+from softshadow.pipeline.fast.batch.table import Run, Table, table_of, width_of
 from softshadow.pipeline.fast.batch.vertices import END, prepare_draws, process_vertices
 from softshadow.pipeline.geometry.clip import clip_triangles
 from softshadow.pipeline.geometry.facing import snap_vertices
@@ -24,9 +24,12 @@ from softshadow.pipeline.geometry.geometry import (
     filled_geometry,
     filled_offset,
     has_float_units,
+    points_and_lines_geometry,
     user_planes,
     window_transform,
 )
+from softshadow.pipeline.geometry.lines import clip_lines
+from softshadow.pipeline.geometry.points import clip_points
 from softshadow.pipeline.geometry.program import program_of
 from softshadow.pipeline.geometry.triangle_setup import NO_TRIANGLES, Offset, set_up_triangles, stored_culling
 from softshadow.pipeline.geometry.vertex import VERTICES_PER_SPARE, append_rows, scale_and_shift, to_window
@@ -72,8 +75,8 @@ def geometry_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Frame
     And about how many fragments they have, -1 where that is not known.
     """
     command, table = run.command, table_of(run, draws)
-    n, most = int(table.numbers[-1, END]), _most_triangles(draws)
-    k, is_small = len(setting.flat), n <= SMALL and most <= SMALL and not has_float_units(command, target)
+    n, most, width = int(table.numbers[-1, END]), _most_primitives(draws), width_of(command.mode)
+    k, is_small = len(setting.flat), width == 3 and max(n, most) <= SMALL and not has_float_units(command, target)
     clip, codes, values = scratch((n, 4), REAL), scratch(n, np.int32), scratch((n, k), REAL)
     window = np.empty((n + n // VERTICES_PER_SPARE, 4), REAL)[:n]
     back = scratch((n, k), REAL) if table.layout.two_side else None
@@ -103,9 +106,14 @@ def geometry_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Frame
         prepare_draws(*inputs[:3], table.lights, table.flags, placed)
         parts = parts_of(n)
         share(lambda part: process_vertices(*parts[part], *inputs, *outputs), len(parts))
-        n_triangles = assemble_draws(table.numbers, table.indices, codes, triangles, provoking)
+        if width == 3:
+            n_triangles = assemble_draws(table.numbers, table.indices, codes, triangles, provoking)
     columns = values if back is None else np.hstack([values, back])
-    clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, user_planes(command))
+    if width == 3:
+        clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, user_planes(command))
+    else:
+        primitives, clip_primitives = _lines_or_points(table, most, width), clip_points if width == 1 else clip_lines
+        provoking, clipped = primitives[:, -1], clip_primitives(clip, columns, primitives, codes, user_planes(command))
     if len(clipped.clip) > n:  # the new vertices of clipping come last
         window = append_rows(window, to_window(clipped.clip[n:], *window_transform(command, target)))
     geometry = unset._replace(
@@ -115,7 +123,8 @@ def geometry_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Frame
         source=clipped.source,
         provoking=provoking[clipped.source],
     )
-    return filled_geometry(geometry, clipped, command, target, command.state.cull), -1
+    set_up = filled_geometry if width == 3 else points_and_lines_geometry
+    return set_up(geometry, clipped, command, target, command.state.cull), -1
 
 
 @kernel
@@ -149,11 +158,17 @@ def set_up_run(
     return n_triangles, np.int64(n_drawn), np.int64(area)
 
 
-def _most_triangles(draws: Sequence[Draw]) -> int:
-    """Return how many triangles the draws have before clipping."""
+def _lines_or_points(table: Table, most: int, width: int) -> np.ndarray:
+    """Return the lines (L, 2) or points (P, 1) of all draws over the vertices of the table."""
+    primitives = np.empty((most, width), np.int32)
+    return primitives[: assemble_lines_and_points(table.numbers, table.indices, primitives)]
+
+
+def _most_primitives(draws: Sequence[Draw]) -> int:
+    """Return how many primitives the draws have before clipping, at most."""
     return sum(
         [
-            triangle_count(draw.mode, len(draw.vertices.position) if draw.indices is None else len(draw.indices))
+            primitive_count(draw.mode, len(draw.vertices.position) if draw.indices is None else len(draw.indices))
             for draw in draws
         ]
     )

@@ -17,7 +17,7 @@ from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.jit import read_only
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.fast.batch import lighting
-from softshadow.pipeline.fast.batch.assembly import MODES
+from softshadow.pipeline.fast.batch.assembly import MODES, POLYGONS
 from softshadow.pipeline.fast.batch.vertices import (
     COLOR,
     END,
@@ -114,7 +114,14 @@ class Run:
         state, first = command.state, self.state
         if state is not first and not _differ_in_lights_only(state, first):
             return False
+        if width_of(command.mode) != width_of(self.command.mode):
+            return False
         return self._arrays_of(command) == self.arrays and can_run(command)
+
+
+def width_of(mode: int) -> int:
+    """Return how many vertices a primitive has that reaches the setup: 3 for polygons, which are cut into triangles."""
+    return 3 if mode in POLYGONS else 1 if mode == gl.GL_POINTS else 2
 
 
 def _differ_in_lights_only(a: State, b: State) -> bool:
