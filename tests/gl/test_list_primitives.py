@@ -1,6 +1,6 @@
 """Primitives of display lists are drawn from arrays exactly as by their calls."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -10,7 +10,8 @@ from softshadow import gl
 from softshadow.gl import lists
 from softshadow.gl.list_primitives import CALLS, ListPrimitive, with_primitives
 from softshadow.pipeline.commands import Draw, Vertices
-from softshadow.state import TEXTURE_UNITS
+from softshadow.programs.reflectances import followed
+from softshadow.state import BLACK, TEXTURE_UNITS, State
 
 SIZE = (16, 12)
 Call = tuple[str, tuple[Any, ...]]
@@ -118,6 +119,8 @@ def bits(value: Any) -> Any:
     """A value that is equal for equal bits."""
     if isinstance(value, np.ndarray):
         return value.dtype.str, value.shape, value.tobytes(), value.strides[:1] == (0,)
+    if isinstance(value, Draw):  # a draw takes a colour that materials follow from its vertices
+        value = replace(value, state=without_followed_colors(value.state))
     if isinstance(value, Vertices | Draw):
         return [bits(getattr(value, each.name)) for each in fields(value)]
     if isinstance(value, tuple | list):
@@ -125,6 +128,15 @@ def bits(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: bits(each) for key, each in value.items()}
     return repr(value)
+
+
+def without_followed_colors(state: State) -> State:
+    """The state with black material colours where they follow glColor."""
+    lighting, sides = state.lighting, {}
+    for side in ("front", "back"):
+        black: Any = dict.fromkeys(followed(lighting, side), BLACK)
+        sides[side] = replace(getattr(lighting, side), **black)
+    return replace(state, lighting=replace(lighting, front=sides["front"], back=sides["back"]))
 
 
 def what_happened(calls: list[Call], precision: str) -> list[Any]:
