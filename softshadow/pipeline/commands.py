@@ -38,8 +38,8 @@ class Draw:
 
     `mode` is GL_POINTS ... GL_POLYGON, `indices` (N,) int32 into the vertices, or None for all in order; `label` names
     the debug groups the draw stands in ("step/torus"); `uniforms` are those of the program in use; the kinds of the
-    matrices decide how they are inverted. Material colours that follow glColor are those of the vertices; in `state` they
-    may be older. Where Mesa joins draws of several debug groups into one, `joined_positions`
+    matrices decide how they are inverted. Material colours that follow glColor are those of the vertices; in `state`
+    they may be older. Where Mesa joins draws of several debug groups into one, `joined_positions`
     (N, 4) are those of all of them and `joined_start` is the number of this draw's first vertex among them. `linear`:
     clipping interpolates values without perspective. `offset_mode` is the polygon mode whose offset unfilled
     polygons get if an earlier draw has decided it, else 0.
