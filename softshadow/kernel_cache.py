@@ -69,3 +69,32 @@ def _delete_old_versions(folder: Path) -> None:
 def is_empty(folder: Path) -> bool:
     """Return whether no compiled kernel is in the cache folder."""
     return next(folder.rglob("*.nbi"), None) is None
+
+
+class KernelGroup:
+    """Kernels that are compiled together and take seconds: one picture is finished earlier without them.
+
+    Parameters
+    ----------
+    name : str               of the empty file in the cache folder that says that they are on disk
+    """
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self._known: bool | None = None
+
+    def are_compiled(self) -> bool:
+        """Return whether the kernels were compiled before, by this process or one before it."""
+        if self._known is None:
+            folder = cache_folder()
+            self._known = folder is not None and (folder / self._name).exists()
+        return self._known
+
+    def note_compiled(self) -> None:
+        """Note that the kernels are compiled from now on."""
+        if self._known:
+            return
+        self._known, folder = True, cache_folder()
+        if folder is not None:
+            with suppress(OSError):  # the folder was deleted meanwhile
+                (folder / self._name).touch()

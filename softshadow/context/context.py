@@ -71,6 +71,7 @@ class Context:
     polygon_offset_unit : "mesa" (two depth steps) or "spec" (one)
     raise_errors : raise `GLError` besides recording the error for glGetError
     history_bytes : how much of the recording to keep at most, None for all
+    compiles : compile the kernels for runs of draws at their first use; for one picture that does not pay
     """
 
     def __init__(
@@ -84,6 +85,7 @@ class Context:
         polygon_offset_unit: str = "mesa",
         raise_errors: bool = True,
         history_bytes: int | None = None,
+        compiles: bool = True,
     ) -> None:
         if polygon_offset_slope not in ("max", "length", "slide"):
             raise ValueError(f"polygon_offset_slope={polygon_offset_slope!r}: expected 'max', 'length' or 'slide'")
@@ -91,7 +93,7 @@ class Context:
             raise ValueError(f"polygon_offset_unit={polygon_offset_unit!r}: expected 'mesa' or 'spec'")
         self._frame = Frame((width, height), depth_format, stencil_bits, precision, history_bytes=history_bytes)
         self.objects = self._frame.fresh_storage()
-        self._waiting = DrawQueue(self.objects)
+        self._waiting = DrawQueue(self.objects, compiles)
         self.offset_slope, self.offset_unit = polygon_offset_slope, polygon_offset_unit
         self.raise_errors = raise_errors
         # no list is compiled, no primitive is open, nothing is collected: a call may change the state at once.

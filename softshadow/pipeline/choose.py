@@ -33,7 +33,7 @@ try:
     from softshadow.pipeline.fast.any_state import any_state_kernel
     from softshadow.pipeline.fast.batch.table import Run, can_begin_run
     from softshadow.pipeline.fast.depth_only import Chunk, chunks_of
-    from softshadow.pipeline.fast.fixed_function_spans import are_compiled, fixed_function_shader, note_compiled
+    from softshadow.pipeline.fast.fixed_function_spans import SPAN_KERNELS, fixed_function_shader
     from softshadow.pipeline.fast.forward import draw_forward, forward_state
     from softshadow.pipeline.fast.hierarchical_z import order_independent
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
@@ -51,7 +51,7 @@ WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volu
 BANDS_PER_THREAD = 4  # so that the other threads can make up for one that takes longer
 FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangle: finding their spans would cost more
 # so many fragments of the fixed function, in draws that cover most of a small window, pay for compiling its kernels
-SHADING_PAYS_AFTER = 600_000
+SHADING_PAYS_AFTER = 250_000
 LARGE_DRAW = 50_000
 LAYERS = 4  # of fragments over each other, from which bands pay on one thread, too
 
@@ -308,10 +308,10 @@ def _shade_fixed_function(
 
 def _are_compiled(fragments: int) -> bool:
     """Return whether to shade with the kernels of the fixed function: they are compiled, or compiling them pays now."""
-    if are_compiled():
+    if SPAN_KERNELS.are_compiled():
         return True
     _shaded[0] += fragments if fragments >= LARGE_DRAW else 0
     if _shaded[0] < SHADING_PAYS_AFTER and _short_cuts.get() != "always":
         return False
-    note_compiled()
+    SPAN_KERNELS.note_compiled()
     return True

@@ -15,7 +15,7 @@ from softshadow.pipeline.commands import Draw
 
 try:
     from softshadow.pipeline.fast.batch.geometry import Setting, geometry_of, setting_of
-    from softshadow.pipeline.fast.batch.table import Run
+    from softshadow.pipeline.fast.batch.table import BATCH_KERNELS, Run
 except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
     pass
 
@@ -29,10 +29,11 @@ class DrawQueue:
     Parameters
     ----------
     storage : Storage        what they will be drawn to
+    compiles : bool          whether to compile the kernels for runs of draws at once: for one picture it does not pay
     """
 
-    def __init__(self, storage: Storage) -> None:
-        self._storage = storage
+    def __init__(self, storage: Storage, compiles: bool = True) -> None:
+        self._storage, self._compiles = storage, compiles
         self._run: Run | None = None
         self._draws: list[Draw] = []
         self._n_vertices = 0
@@ -56,7 +57,7 @@ class DrawQueue:
         return True
 
     def _begin_run(self, command: Draw) -> bool:
-        if not may_wait(command, self._storage):
+        if not may_wait(command, self._storage) or not (self._compiles or BATCH_KERNELS.are_compiled()):
             return False
         known = self._known.get(id(command.state), [])
         for kind in known:
@@ -88,4 +89,5 @@ class DrawQueue:
         target = storage.framebuffers[run.state.draw_framebuffer]
         with np.errstate(all="ignore"):  # as in pipeline.draw
             geometry, fragments = geometry_of(run, setting, draws, target)
+            BATCH_KERNELS.note_compiled()
             pipeline.draw_geometry(plan, run.command, target, storage, geometry, fragments=fragments)

@@ -65,7 +65,8 @@ def run(
         raise TypeError(f"scene={scene!r}: expected a Scene or the name of one")
     width, height = checked_size(size)
     options = technique.validate_options(options)
-    context = Context(width, height, depth_format, stencil_bits, precision, polygon_offset_slope, polygon_offset_unit)
+    offset = polygon_offset_slope, polygon_offset_unit
+    context = Context(width, height, depth_format, stencil_bits, precision, *offset, compiles=False)
     replay = Replay(context.frame, keep_bytes)
     maps, caught = _draw(technique, scene, context, replay, options)
     own = [message for message in (*scene.warnings(), *caught) if isinstance(message, errors.Warning)]

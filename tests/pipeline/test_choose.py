@@ -69,7 +69,9 @@ def draw_triangle() -> None:
 
 
 def test_explain_paths_lists_the_way_of_each_draw_and_its_reasons(monkeypatch):
-    monkeypatch.setattr(choose, "are_compiled", lambda: False)  # the kernels that shade spans may be on disk
+    monkeypatch.setattr(
+        choose.SPAN_KERNELS, "are_compiled", lambda: False
+    )  # the kernels that shade spans may be on disk
     with gl.create_context(*SIZE), explain_paths() as paths:
         draw_triangle()
         gl.glEnable(gl.GL_ALPHA_TEST)

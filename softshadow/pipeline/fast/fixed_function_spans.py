@@ -7,13 +7,12 @@ not fit into the cache. Here a block of fragments goes through all steps in the 
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 
 import numpy as np
 
 from softshadow.framebuffer import Framebuffer
 from softshadow.jit import kernel
-from softshadow.kernel_cache import cache_folder
+from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import (
     FLOAT_ROWS,
@@ -41,25 +40,7 @@ NO_OPS = np.zeros((2, N_OPS), np.int64)
 PART = 1 << 14  # fragments that one thread shades in one go where several threads draw
 
 
-MARKER = "spans"  # the empty file in the cache folder that says that the kernels are on disk
-_compiled: list[bool] = []
-
-
-def are_compiled() -> bool:
-    """Return whether the kernels that shade spans were compiled before, by this process or one before it."""
-    if not _compiled:
-        folder = cache_folder()
-        _compiled.append(folder is not None and (folder / MARKER).exists())
-    return _compiled[0]
-
-
-def note_compiled() -> None:
-    """Note that the kernels are compiled from now on."""
-    _compiled[:] = [True]
-    folder = cache_folder()
-    if folder is not None:
-        with suppress(OSError):  # the folder was deleted meanwhile
-            (folder / MARKER).touch()
+SPAN_KERNELS = KernelGroup("spans")
 
 
 def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None] | None:

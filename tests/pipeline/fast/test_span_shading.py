@@ -56,8 +56,8 @@ def test_programs_and_uncovered_states_are_shaded_by_the_textbook():
 
 def test_the_kernels_are_compiled_when_it_pays(monkeypatch):
     compiled = []
-    monkeypatch.setattr(choose, "are_compiled", lambda: bool(compiled))
-    monkeypatch.setattr(choose, "note_compiled", lambda: compiled.append(True))
+    monkeypatch.setattr(choose.SPAN_KERNELS, "are_compiled", lambda: bool(compiled))
+    monkeypatch.setattr(choose.SPAN_KERNELS, "note_compiled", lambda: compiled.append(True))
     monkeypatch.setattr(choose, "SHADING_PAYS_AFTER", 250)
     monkeypatch.setattr(choose, "LARGE_DRAW", 100)
     monkeypatch.setattr(choose, "_shaded", [0])

@@ -4,7 +4,7 @@ The patterns are those of `geometry.assembly`; how quads are cut depends on the 
 (`mesa.quad_cuts`).
 """
 
-from softshadow.jit import inlined, kernel
+from softshadow.jit import kernel
 from softshadow.pipeline.fast.batch.vertices import END, INDEX_END, INDEX_START, INDEXED, MODE, START
 from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.mesa.quad_cuts import INDEXED_SEGMENT, SEGMENT
@@ -35,7 +35,7 @@ def primitive_count(mode: int, n: int) -> int:
     return max(n // 2 - 1, 0) * 2 if mode == GL_QUAD_STRIP else max(n - 2, 0)
 
 
-@inlined
+@kernel
 def vertex_at(numbers, indices, d, i):
     """Return the row of the i-th vertex that a draw names."""
     if numbers[d, INDEXED]:
@@ -43,7 +43,7 @@ def vertex_at(numbers, indices, d, i):
     return numbers[d, START] + i
 
 
-@inlined
+@kernel
 def write_triangle(numbers, indices, d, triangles, provoking, row, a, b, c, last):
     """Write the triangle of three vertices of a draw; `last` gives the flat colours."""
     triangles[row, 0] = vertex_at(numbers, indices, d, a)

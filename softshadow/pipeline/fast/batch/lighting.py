@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from softshadow.jit import inlined
+from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.programs.lighting import (
     LARGEST_SHININESS,
@@ -81,19 +81,25 @@ def _material(material: MaterialState, lighting: Lighting) -> tuple[float, ...]:
     return (*colors, material.shininess, *lighting.model_ambient[:3])
 
 
-@inlined
+@kernel
 def root_of(x):
     """Return 1 / sqrt(x), both rounded."""
     return ONE / np.sqrt(x)
 
 
-@inlined
+@kernel
+def power_of(x, exponent):
+    """Return x to the power of the exponent, as llvmpipe approximates it; a kernel, since it is used twice."""
+    return power(x, exponent)
+
+
+@kernel
 def dot3(a, b, c, x, y, z):
     """Return the dot product of two vectors, added from the last component to the first."""
     return (c * z + b * y) + a * x
 
 
-@inlined
+@kernel
 def unit_of(x, y, z):
     """Return a vector normalized as in Mesa's C code; 0 stays 0."""
     squared = (x * x + y * y) + z * z
@@ -103,7 +109,7 @@ def unit_of(x, y, z):
     return x * factor, y * factor, z * factor
 
 
-@inlined
+@kernel
 def positive(x):
     """Return x, or 0 if it is negative or NaN."""
     return x if x > ZERO else ZERO
@@ -153,7 +159,7 @@ def lit_normal(flags, to_object, object_space, length_preserving, x, y, z):
     return x, y, z
 
 
-@inlined
+@kernel
 def reflectance(materials, side, follows, bit, column, color, channel):
     """Return a channel of a material colour: the vertex colour's where the material follows it."""
     return color[channel] if follows & bit else materials[side, column + channel]
@@ -196,7 +202,7 @@ def light_vertex(
                 -x, -y, -z, lights[n, SPOT_DIRECTION], lights[n, SPOT_DIRECTION + 1], lights[n, SPOT_DIRECTION + 2]
             )
             inside = ONE if lights[n, COSINE] < spot else ZERO
-            attenuates, attenuation = True, inside * power(abs(spot), lights[n, SPOT_EXPONENT])
+            attenuates, attenuation = True, inside * power_of(abs(spot), lights[n, SPOT_EXPONENT])
         if lights[n, HAS_POLYNOMIAL] != ZERO:
             distance = np.sqrt(squared)
             one = root_of(squared) * distance
@@ -212,7 +218,7 @@ def light_vertex(
             if not towards_light <= ZERO:
                 limited = -LARGEST_SHININESS if shininess < -LARGEST_SHININESS else shininess
                 limited = LARGEST_SHININESS if limited > LARGEST_SHININESS else limited
-                specular = power(positive(towards_half), limited)
+                specular = power_of(positive(towards_half), limited)
         elif towards_light > ZERO:
             specular = ONE
         if attenuates:
@@ -242,7 +248,7 @@ def light_vertex(
         highlight[c] = clamped(highlight[c])
 
 
-@inlined
+@kernel
 def clamped(value):
     """Return a number in [0, 1]; NaN becomes 0."""
     value = value if value > ZERO else ZERO

@@ -5,12 +5,12 @@ The product and the inverses have the operations of `softshadow.matrices` and `s
 
 import numpy as np
 
-from softshadow.jit import inlined, kernel
+from softshadow.jit import kernel
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.programs.inverse import AFFINE, ANGLE_PRESERVING, SMALLEST_DETERMINANT, UNIFORM_SCALE, WITHOUT_ROTATION
 
 
-@inlined
+@kernel
 def multiply(left, right, out):
     """Write the product of two matrices: ((l0 r0 + l1 r1) + l2 r2) + l3 r3."""
     for i in range(4):
@@ -44,7 +44,7 @@ def invert(m, kind, out):
         _invert_translation(m, out)
 
 
-@inlined
+@kernel
 def _invert_translation(m, out):
     """Write the last column of the inverse of an affine matrix, whose 3x3 part is written already."""
     x, y, z = m[0, 3], m[1, 3], m[2, 3]
@@ -53,7 +53,7 @@ def _invert_translation(m, out):
             out[i, 3] = -((x * out[i, 0] + y * out[i, 1]) + z * out[i, 2])
 
 
-@inlined
+@kernel
 def _invert_scale(m, out):
     """Write the inverse of a matrix that scales and translates."""
     if m[0, 0] == ZERO or m[1, 1] == ZERO or m[2, 2] == ZERO:
@@ -65,7 +65,7 @@ def _invert_scale(m, out):
             out[i, 3] = -(m[i, 3] * (ONE / m[i, i]))
 
 
-@inlined
+@kernel
 def _invert_linear(m, out):
     """Write the inverse of the 3x3 part by cofactors; return whether it has one."""
     positive, negative = ZERO, ZERO
@@ -93,7 +93,7 @@ def _invert_linear(m, out):
     return True
 
 
-@inlined
+@kernel
 def _invert_general(m, out):
     """Write the inverse by Gaussian elimination; pivoting only swaps adjacent rows, from the bottom up."""
     rows = np.empty((4, 8), m.dtype)

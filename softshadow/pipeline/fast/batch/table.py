@@ -15,6 +15,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.jit import read_only
+from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.fast.batch import lighting
 from softshadow.pipeline.fast.batch.assembly import MODES, POLYGONS
@@ -52,6 +53,7 @@ from softshadow.programs.inverse import UNKNOWN
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE
 from softshadow.state import Lighting, MaterialState, State
 
+BATCH_KERNELS = KernelGroup("batch")
 GENERATED = {gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR}
 GROUPS = tuple(group.name for group in fields(State) if group.name not in ("lighting", "read_framebuffer"))
 LIGHT_MODEL = tuple(field.name for field in fields(Lighting) if field.name not in ("front", "back"))

@@ -51,7 +51,7 @@ class Layout(NamedTuple):
     ignored: int
 
 
-@inlined
+@kernel
 def matrix_at(row, column):
     """Return a matrix (4, 4) in a draw's row."""
     return row[column : column + 16].reshape(4, 4)
@@ -79,13 +79,13 @@ def in_object_space(layout, flags, kind):
     return flags[OBJECT_SPACE] != 0 and not layout.in_eye_space and not kind & ~LENGTH_PRESERVING
 
 
-@inlined
+@kernel
 def plane_dot(m, i, x, y, z, w):
     """Return the dot product of row i of a matrix with a vector, added from the last component to the first."""
     return ((w * m[i, 3] + z * m[i, 2]) + y * m[i, 1]) + x * m[i, 0]
 
 
-@inlined
+@kernel
 def transformed(m, i, x, y, z, w):
     """Return component i of matrix times vector, added from x to w."""
     return ((x * m[i, 0] + y * m[i, 1]) + z * m[i, 2]) + w * m[i, 3]
