@@ -6,9 +6,11 @@ values in bytes, 32 to a vector; between the two loops, the results of the depth
 triangle are masked out: their stored values are written back.
 """
 
+from typing import Any
+
 import numpy as np
 
-from softshadow.jit import inlined, kernel
+from softshadow.jit import kernel
 from softshadow.pipeline.fast.fragment_numbers import (
     ALL,
     DEPTH_WRITE,
@@ -57,138 +59,105 @@ def any_state_kernel(writes_ids: int) -> FillKernel:
             return
         depth, stencil, ids = buffers.depth, buffers.stencil, buffers.ids
         pitch = min(depth.shape[1], stencil.shape[1], *([ids.shape[1]] if writes_ids else []))
-        common = (
-            numbers_of(front, back), front.depth_largest, triangles.corners, triangles.depth, triangles.front, numbers,
-            region, depth_range, pitch, depth,
+        KERNELS[bool(tests_stencil), bool(writes_ids)](
+            writes_ids, numbers_of(front, back), front.depth_largest, triangles.corners, triangles.depth,
+            triangles.front, numbers, region, depth_range, pitch, depth, stencil, ids,
         )  # fmt: skip
-        if tests_stencil:
-            if writes_ids:
-                fill_stencil_and_ids(*common, stencil, ids, writes_ids)
-            else:
-                fill_stencil(*common, stencil)
-        elif writes_ids:
-            fill_ids(*common, ids, writes_ids)
-        else:
-            fill_depths(*common)
 
     return fill_kernel
 
 
-@kernel
-def fill_depths(ops, largest, corners, planes, faces, numbers, region, depth_range, pitch, depth):
-    """Fill triangles that change depths only."""
-    fill_all(0, 0, 0, ops, largest, corners, planes, faces, numbers, region, depth_range, pitch, depth, depth, depth)
+def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
+    """Return the kernel that tests stencil values or not, and writes ids or not; loops that it lacks cost no time."""
 
-
-@kernel
-def fill_ids(ops, largest, corners, planes, faces, numbers, region, depth_range, pitch, depth, ids, which_ids):
-    """Fill triangles that change depths and ids."""
-    fill_all(
-        0, 1, which_ids, ops, largest, corners, planes, faces, numbers, region, depth_range, pitch, depth, depth, ids
-    )  # fmt: skip
-
-
-@kernel
-def fill_stencil(ops, largest, corners, planes, faces, numbers, region, depth_range, pitch, depth, stencil):
-    """Fill triangles that change depths and stencil values."""
-    fill_all(
-        1, 0, 0, ops, largest, corners, planes, faces, numbers, region, depth_range, pitch, depth, stencil, depth
-    )  # fmt: skip
-
-
-@kernel
-def fill_stencil_and_ids(
-    ops, largest, corners, planes, faces, numbers, region, depth_range, pitch, depth, stencil, ids, which_ids
-):  # fmt: skip
-    """Fill triangles that change depths, stencil values and ids."""
-    fill_all(
-        1, 1, which_ids, ops, largest, corners, planes, faces, numbers, region, depth_range, pitch, depth, stencil, ids
-    )  # fmt: skip
-
-
-@inlined
-def fill_all(
-    tests_stencil, writes_ids, which_ids, ops, largest, corners, planes, faces, numbers, region, depth_range, pitch,
-    depth, stencil, ids,
-):  # fmt: skip
-    """Process all fragments of the triangles with these numbers, in this order.
-
-    `ops` are the numbers of both facings, `pitch` the columns that all buffers have.
-    """
-    last_start = pitch - CHUNK
-    lefts, rights = np.empty(region.end_row, np.int32), np.empty(region.end_row, np.int32)
-    passed, covered = np.empty(max(pitch, CHUNK), np.uint8), np.empty(CHUNK, np.uint8)
-    n = 0
-    while n < numbers.shape[0]:
-        n = fill_small(
-            tests_stencil, writes_ids, which_ids, ops, largest, corners, planes, faces, numbers, n, region,
-            depth_range, pitch, depth, stencil, ids, passed, covered,
-        )  # fmt: skip
-        if n == numbers.shape[0]:
-            break
-        t = np.uint64(numbers[n])  # unsigned: no wrap-around of negative indices is compiled in
-        n += 1
-        first, end = bounds(corners, t)
-        first, end = max(first, region.first_row), min(end, region.end_row)
-        row_spans(corners, t, first, end, region.downwards, region.left, region.right, lefts, rights)
-        z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
-        f = np.uint64(faces[t])
-        depth_test, writes_depth = depth_test_of(ops, f), ops[f, DEPTH_WRITE] != 0
-        if tests_stencil:
-            stencil_test, ref, read = stencil_test_of(ops, f), np.uint8(ops[f, REF]), np.uint8(ops[f, READ])
-            write, most = np.uint8(ops[f, WRITE]), np.uint8(ops[f, LARGEST])
-            sfail, zfail = stencil_update_of(ops, f, SFAIL), stencil_update_of(ops, f, ZFAIL)
-            zpass = stencil_update_of(ops, f, ZPASS)
-        if writes_ids:
-            triangle = np.int32(t)
-            repeated = SEVERAL_TRIANGLES if which_ids == ONLY else triangle
-        for row in range(first, end):
-            j, row_at = np.uint64(row), np.float32(np.int32(row))
-            left, right = lefts[j], rights[j]
-            # one chunk from `left` on, or all those that meet the row
-            start = min(int(left), last_start) if right - left <= CHUNK else int(left) >> CHUNK_LOG2 << CHUNK_LOG2
+    @kernel
+    def fill(
+        which_ids, ops, largest, corners, planes, faces, numbers, region, depth_range, pitch, depth, stencil, ids
+    ):  # fmt: skip
+        # `ops` are the numbers of both facings, `pitch` the columns that all buffers have
+        last_start = pitch - CHUNK
+        lefts, rights = np.empty(region.end_row, np.int32), np.empty(region.end_row, np.int32)
+        passed, covered = np.empty(max(pitch, CHUNK), np.uint8), np.empty(CHUNK, np.uint8)
+        n = 0
+        while n < numbers.shape[0]:
+            n = fill_small(
+                tests_stencil, writes_ids, which_ids, ops, largest, corners, planes, faces, numbers, n, region,
+                depth_range, pitch, depth, stencil, ids, passed, covered,
+            )  # fmt: skip
+            if n == numbers.shape[0]:
+                break
+            t = np.uint64(numbers[n])  # unsigned: no wrap-around of negative indices is compiled in
+            n += 1
+            first, end = bounds(corners, t)
+            first, end = max(first, region.first_row), min(end, region.end_row)
+            row_spans(corners, t, first, end, region.downwards, region.left, region.right, lefts, rights)
+            z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
+            f = np.uint64(faces[t])
+            depth_test, writes_depth = depth_test_of(ops, f), ops[f, DEPTH_WRITE] != 0
             if tests_stencil:
-                # for the whole row: bytes read right after they were written in other portions would have to wait
+                stencil_test, ref, read = stencil_test_of(ops, f), np.uint8(ops[f, REF]), np.uint8(ops[f, READ])
+                write, most = np.uint8(ops[f, WRITE]), np.uint8(ops[f, LARGEST])
+                sfail, zfail = stencil_update_of(ops, f, SFAIL), stencil_update_of(ops, f, ZFAIL)
+                zpass = stencil_update_of(ops, f, ZPASS)
+            if writes_ids:
+                triangle = np.int32(t)
+                repeated = SEVERAL_TRIANGLES if which_ids == ONLY else triangle
+            for row in range(first, end):
+                j, row_at = np.uint64(row), np.float32(np.int32(row))
+                left, right = lefts[j], rights[j]
+                # one chunk from `left` on, or all those that meet the row
+                start = min(int(left), last_start) if right - left <= CHUNK else int(left) >> CHUNK_LOG2 << CHUNK_LOG2
+                if tests_stencil:
+                    # for the whole row: bytes read right after they were written in other portions would have to wait
+                    for at in range(start, right, CHUNK):
+                        for k in range(CHUNK):
+                            i, column = np.uint64(at) + np.uint64(k), np.int32(np.int32(at) + np.int32(k))
+                            z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
+                            passed[i] = np.uint8(depth_passes(depth_test, z, depth[j, i]))
+                    for at in range(start, right, CHUNK):
+                        begin = min(max(left - at, 0), CHUNK)
+                        count = np.uint8(min(max(right - at, begin), CHUNK) - begin)
+                        for k in range(CHUNK):
+                            i = np.uint64(at) + np.uint64(k)
+                            hit, s = passed[i], stencil[j, i]
+                            # left of the first column, the difference wraps round to large numbers
+                            inside = ALL if np.uint8(np.uint8(k) - np.uint8(begin)) < count else NONE
+                            allowed = stencil_passes(stencil_test, ref, np.uint8(s & read))
+                            passing, failing = updated(zpass, s, most), updated(zfail, s, most)
+                            after, denied = passing if hit else failing, updated(sfail, s, most)
+                            after = after if allowed else denied
+                            stencil[j, i] = np.uint8(s ^ np.uint8(np.uint8(s ^ after) & np.uint8(write & inside)))
+                            passed[i] = np.uint8(np.uint8(hit & inside) & allowed)
                 for at in range(start, right, CHUNK):
-                    for k in range(CHUNK):
-                        i, column = np.uint64(at) + np.uint64(k), np.int32(np.int32(at) + np.int32(k))
-                        z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
-                        passed[i] = np.uint8(depth_passes(depth_test, z, depth[j, i]))
-                for at in range(start, right, CHUNK):
-                    begin = min(max(left - at, 0), CHUNK)
-                    count = np.uint8(min(max(right - at, begin), CHUNK) - begin)
-                    for k in range(CHUNK):
-                        i = np.uint64(at) + np.uint64(k)
-                        hit, s = passed[i], stencil[j, i]
-                        # left of the first column, the difference wraps round to large numbers
-                        inside = ALL if np.uint8(np.uint8(k) - np.uint8(begin)) < count else NONE
-                        allowed = stencil_passes(stencil_test, ref, np.uint8(s & read))
-                        passing, failing = updated(zpass, s, most), updated(zfail, s, most)
-                        after, denied = passing if hit else failing, updated(sfail, s, most)
-                        after = after if allowed else denied
-                        stencil[j, i] = np.uint8(s ^ np.uint8(np.uint8(s ^ after) & np.uint8(write & inside)))
-                        passed[i] = np.uint8(np.uint8(hit & inside) & allowed)
-            for at in range(start, right, CHUNK):
-                if writes_ids:
-                    id_j = np.uint64(row - region.first_row)
-                    for k in range(CHUNK):
-                        i, column = np.uint64(at) + np.uint64(k), np.int32(np.int32(at) + np.int32(k))
-                        z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
-                        stored, before = depth[j, i], ids[id_j, i]
-                        if tests_stencil:
-                            hit = passed[i] != 0
-                        else:
-                            hit = (depth_passes(depth_test, z, stored) != 0) & (column >= left) & (column < right)
-                        number = triangle if before == NO_TRIANGLE else repeated
-                        depth[j, i] = z if hit & writes_depth else stored
-                        ids[id_j, i] = number if hit else before
-                elif writes_depth:
-                    for k in range(CHUNK):
-                        i, column = np.uint64(at) + np.uint64(k), np.int32(np.int32(at) + np.int32(k))
-                        z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
-                        stored = depth[j, i]
-                        if tests_stencil:
-                            hit = passed[i] != 0
-                        else:
-                            hit = (depth_passes(depth_test, z, stored) != 0) & (column >= left) & (column < right)
-                        depth[j, i] = z if hit else stored
+                    if writes_ids:
+                        id_j = np.uint64(row - region.first_row)
+                        for k in range(CHUNK):
+                            i, column = np.uint64(at) + np.uint64(k), np.int32(np.int32(at) + np.int32(k))
+                            z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
+                            stored, before = depth[j, i], ids[id_j, i]
+                            if tests_stencil:
+                                hit = passed[i] != 0
+                            else:
+                                hit = (depth_passes(depth_test, z, stored) != 0) & (column >= left) & (column < right)
+                            number = triangle if before == NO_TRIANGLE else repeated
+                            depth[j, i] = z if hit & writes_depth else stored
+                            ids[id_j, i] = number if hit else before
+                    elif writes_depth:
+                        for k in range(CHUNK):
+                            i, column = np.uint64(at) + np.uint64(k), np.int32(np.int32(at) + np.int32(k))
+                            z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
+                            stored = depth[j, i]
+                            if tests_stencil:
+                                hit = passed[i] != 0
+                            else:
+                                hit = (depth_passes(depth_test, z, stored) != 0) & (column >= left) & (column < right)
+                            depth[j, i] = z if hit else stored
+
+    return fill
+
+
+KERNELS = {
+    (tests_stencil, writes_ids): compiled_for(tests_stencil, writes_ids)
+    for tests_stencil in (False, True)
+    for writes_ids in (False, True)
+}

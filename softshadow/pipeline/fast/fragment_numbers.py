@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from softshadow.jit import inlined, kernel, read_only
+from softshadow.jit import kernel, read_only
 from softshadow.pipeline.raster.depth import depth_at, depth_units
 from softshadow.pipeline.raster.fragment_ops import (
     ALWAYS,
@@ -124,7 +124,7 @@ def update_of(op, n, ref, largest):
     return Update(ALL, np.uint8(largest if n & 1 else 0), NONE, NONE, NONE)
 
 
-@inlined
+@kernel
 def depth_test_of(numbers, f):
     """Return the depth test of facing `f`."""
     return DepthTest(
@@ -132,7 +132,7 @@ def depth_test_of(numbers, f):
     )
 
 
-@inlined
+@kernel
 def stencil_test_of(numbers, f):
     """Return the stencil test of facing `f`."""
     return StencilTest(
@@ -142,7 +142,7 @@ def stencil_test_of(numbers, f):
     )
 
 
-@inlined
+@kernel
 def stencil_update_of(numbers, f, which):
     """Return one of the stencil operations of facing `f`: SFAIL, ZFAIL or ZPASS."""
     return Update(

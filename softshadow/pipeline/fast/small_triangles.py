@@ -44,7 +44,7 @@ def columns_of(corners, t):
     return (min(x0, min(x1, x2)) + 255) >> 8, (max(x0, max(x1, x2)) >> 8) + 1
 
 
-@inlined
+@kernel
 def is_small(corners, t, region, pitch):
     """Return whether boxes can take triangle `t`: few columns and rows, no column cut off by the region.
 
@@ -159,7 +159,7 @@ def outside_edges(at0, at1, at2, across0, across1, across2, n):
     return np.int32(np.int32(inside0 | inside1 | inside2) >> 31)
 
 
-@inlined
+@kernel
 def edge_from(x0, y0, x1, y1, x, y, flip):
     """Return the edge function of `coverage.edge` at a sample, and its steps: a column subtracts, a row adds.
 

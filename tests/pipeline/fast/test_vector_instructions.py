@@ -23,8 +23,8 @@ PACKED_FLOATS_COMPARED = re.compile(r"\bv?cmp\w*ps\b[^\n]*%[xyz]mm|\bv?(?:min|ma
 PACKED_BYTES_COUNTED = re.compile(r"\bv?p(?:add|sub)b\b[^\n]*%[xyz]mm")
 FLOATS_WIDENED = re.compile(r"\bv?cvtps2pd\b")
 BYTES_WIDENED = re.compile(r"\bv?pmov[sz]x[bw]q\b|\bvpmovqb\b")  # in one step or by way of words, and back
-DEPTH_KERNELS = {"fill_depths", "fill_ids"}
-STENCIL_KERNELS = {"fill_stencil", "fill_stencil_and_ids", "fill_in_tiles"}
+NAMES = {"depths": (False, False), "ids": (False, True), "stencil": (True, False), "stencil and ids": (True, True)}
+DEPTH_KERNELS, STENCIL_KERNELS = {"depths", "ids"}, {"stencil", "stencil and ids", "tiles"}
 
 pytestmark = [
     pytest.mark.skipif(bool(vars(numba.config)["DISABLE_JIT"]), reason="looks at compiled code"),
@@ -73,12 +73,12 @@ def kernels() -> dict[str, str]:
     """Return the machine code of the fill kernels by name, compiled for float32."""
     with gl.create_context(64, 48):
         draw_with_all_kernels()
+    fills = {name: any_state.KERNELS[key] for name, key in NAMES.items()} | {"tiles": stencil_tiles.fill_in_tiles}
     texts = {}
-    for module in (any_state, stencil_tiles):
-        for name in (DEPTH_KERNELS | STENCIL_KERNELS) & vars(module).keys():
-            fill = vars(module)[name]
-            in_float32 = [signature for signature in fill.signatures if "float64" not in str(signature)]
-            texts[name] = machine_code(fill.py_func, *in_float32)
+    for name, fill in fills.items():
+        in_float32 = [signature for signature in fill.signatures if "float64" not in str(signature)]
+        assert in_float32
+        texts[name] = machine_code(fill.py_func, *in_float32)
     return texts
 
 
