@@ -60,7 +60,7 @@ def any_state_kernel(writes_ids: int) -> FillKernel:
         depth, stencil, ids = buffers.depth, buffers.stencil, buffers.ids
         pitch = min(depth.shape[1], stencil.shape[1], *([ids.shape[1]] if writes_ids else []))
         KERNELS[bool(tests_stencil), bool(writes_ids)](
-            writes_ids, numbers_of(front, back), front.depth_largest, triangles.corners, triangles.depth,
+            writes_ids, *numbers_of(front, back), front.depth_largest, triangles.corners, triangles.depth,
             triangles.front, numbers, region, depth_range, pitch, depth, stencil, ids,
         )  # fmt: skip
 
@@ -72,7 +72,8 @@ def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
 
     @kernel
     def fill(
-        which_ids, ops, largest, corners, planes, faces, numbers, region, depth_range, pitch, depth, stencil, ids
+        which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, region, depth_range, pitch, depth, stencil,
+        ids,
     ):  # fmt: skip
         # `ops` are the numbers of both facings, `pitch` the columns that all buffers have
         last_start = pitch - CHUNK
@@ -81,8 +82,8 @@ def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
         n = 0
         while n < numbers.shape[0]:
             n = fill_small(
-                tests_stencil, writes_ids, which_ids, ops, largest, corners, planes, faces, numbers, n, region,
-                depth_range, pitch, depth, stencil, ids, passed, covered,
+                tests_stencil, writes_ids, which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, n,
+                region, depth_range, pitch, depth, stencil, ids, passed, covered,
             )  # fmt: skip
             if n == numbers.shape[0]:
                 break
@@ -95,10 +96,10 @@ def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
             f = np.uint64(faces[t])
             depth_test, writes_depth = depth_test_of(ops, f), ops[f, DEPTH_WRITE] != 0
             if tests_stencil:
-                stencil_test, ref, read = stencil_test_of(ops, f), np.uint8(ops[f, REF]), np.uint8(ops[f, READ])
-                write, most = np.uint8(ops[f, WRITE]), np.uint8(ops[f, LARGEST])
-                sfail, zfail = stencil_update_of(ops, f, SFAIL), stencil_update_of(ops, f, ZFAIL)
-                zpass = stencil_update_of(ops, f, ZPASS)
+                stencil_test, ref, read = stencil_test_of(byte_ops, f), byte_ops[f, REF], byte_ops[f, READ]
+                write, most = byte_ops[f, WRITE], byte_ops[f, LARGEST]
+                sfail, zfail = stencil_update_of(byte_ops, f, SFAIL), stencil_update_of(byte_ops, f, ZFAIL)
+                zpass = stencil_update_of(byte_ops, f, ZPASS)
             if writes_ids:
                 triangle = np.int32(t)
                 repeated = SEVERAL_TRIANGLES if which_ids == ONLY else triangle

@@ -84,8 +84,11 @@ def _plainly(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 @lru_cache(maxsize=256)
-def numbers_of(front: FragmentOps, back: FragmentOps) -> np.ndarray:
-    """Return the numbers of both facings, (2, COLUMNS) int32, in row BACK and row FRONT."""
+def numbers_of(front: FragmentOps, back: FragmentOps) -> tuple[np.ndarray, np.ndarray]:
+    """Return the numbers of both facings, (2, COLUMNS) in row BACK and row FRONT: as int32, and their lowest bytes.
+
+    Bytes that a kernel cuts out of larger numbers make the compiler compute with larger numbers.
+    """
     numbers = np.zeros((2, COLUMNS), np.int32)
     for facing, ops in ((FRONT, front), (BACK, back)):
         says, updates = _plainly(compare), _plainly(update_of)
@@ -101,7 +104,7 @@ def numbers_of(front: FragmentOps, back: FragmentOps) -> np.ndarray:
             *(number for op in stencil_ops for number in updates(op, 1, ref, largest)),
             depth_func, *stencil_ops[1:], ref,
         )  # fmt: skip
-    return read_only(numbers)
+    return read_only(numbers), read_only(numbers.astype(np.uint8))
 
 
 @kernel
@@ -134,20 +137,15 @@ def depth_test_of(numbers, f):
 
 @kernel
 def stencil_test_of(numbers, f):
-    """Return the stencil test of facing `f`."""
-    return StencilTest(
-        np.uint8(numbers[f, STENCIL_TEST]),
-        np.uint8(numbers[f, STENCIL_TEST + 1]),
-        np.uint8(numbers[f, STENCIL_TEST + 2]),
-    )
+    """Return the stencil test of facing `f`; `numbers` are bytes."""
+    return StencilTest(numbers[f, STENCIL_TEST], numbers[f, STENCIL_TEST + 1], numbers[f, STENCIL_TEST + 2])
 
 
 @kernel
 def stencil_update_of(numbers, f, which):
-    """Return one of the stencil operations of facing `f`: SFAIL, ZFAIL or ZPASS."""
+    """Return one of the stencil operations of facing `f`: SFAIL, ZFAIL or ZPASS; `numbers` are bytes."""
     return Update(
-        np.uint8(numbers[f, which]), np.uint8(numbers[f, which + 1]), np.uint8(numbers[f, which + 2]),
-        np.uint8(numbers[f, which + 3]), np.uint8(numbers[f, which + 4]),
+        numbers[f, which], numbers[f, which + 1], numbers[f, which + 2], numbers[f, which + 3], numbers[f, which + 4]
     )  # fmt: skip
 
 

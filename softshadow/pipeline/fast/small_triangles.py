@@ -59,8 +59,8 @@ def is_small(corners, t, region, pitch):
 
 @inlined
 def fill_small(
-    tests_stencil, writes_ids, which_ids, ops, largest, corners, planes, faces, numbers, n, region, depth_range, pitch,
-    depth, stencil, ids, passed, covered,
+    tests_stencil, writes_ids, which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, n, region,
+    depth_range, pitch, depth, stencil, ids, passed, covered,
 ):  # fmt: skip
     """Fill small triangles by bounding box, from ``numbers[n]`` on; the arguments are those of `any_state.fill_all`.
 
@@ -90,10 +90,10 @@ def fill_small(
         f = np.uint64(faces[t])
         depth_test, writes_depth = depth_test_of(ops, f), ops[f, DEPTH_WRITE] != 0
         if tests_stencil:
-            stencil_test, ref, read = stencil_test_of(ops, f), np.uint8(ops[f, REF]), np.uint8(ops[f, READ])
-            write, most = np.uint8(ops[f, WRITE]), np.uint8(ops[f, LARGEST])
-            sfail, zfail = stencil_update_of(ops, f, SFAIL), stencil_update_of(ops, f, ZFAIL)
-            zpass = stencil_update_of(ops, f, ZPASS)
+            stencil_test, ref, read = stencil_test_of(byte_ops, f), byte_ops[f, REF], byte_ops[f, READ]
+            write, most = byte_ops[f, WRITE], byte_ops[f, LARGEST]
+            sfail, zfail = stencil_update_of(byte_ops, f, SFAIL), stencil_update_of(byte_ops, f, ZFAIL)
+            zpass = stencil_update_of(byte_ops, f, ZPASS)
         if writes_ids:
             triangle = np.int32(t)
             repeated = SEVERAL_TRIANGLES if which_ids == ONLY else triangle

@@ -63,7 +63,7 @@ def tiles_kernel(depth_image: Image | None = None) -> FillKernel:
     ) -> None:
         depth, stencil = buffers.depth, buffers.stencil
         fill_in_tiles(
-            numbers_of(front, back), front.depth_largest, triangles.corners, triangles.depth, triangles.front, numbers,
+            *numbers_of(front, back), front.depth_largest, triangles.corners, triangles.depth, triangles.front, numbers,
             region, depth_range, *tile_bounds(depth_image, depth.shape, depth.dtype),
             min(depth.shape[1], stencil.shape[1]), buffers.columns, depth, stencil,
         )  # fmt: skip
@@ -73,15 +73,15 @@ def tiles_kernel(depth_image: Image | None = None) -> FillKernel:
 
 @kernel
 def fill_in_tiles(
-    ops, largest, corners, planes, faces, numbers, region, depth_range, lows, highs, width, pitch, columns, depth,
-    stencil,
+    ops, byte_ops, largest, corners, planes, faces, numbers, region, depth_range, lows, highs, width, pitch, columns,
+    depth, stencil,
 ):  # fmt: skip
     """Fill triangles under a state that is `order_independent`; small ones bypass the tiles.
 
     `ops` are the numbers of both facings, `lows`, `highs` and `width` the tile bounds, `pitch` the columns that both
     buffers have.
     """
-    op, ref, most = common_op(ops), np.uint8(ops[0, UNMASKED_REF]), np.uint8(ops[0, LARGEST])
+    op, ref, most = common_op(ops), byte_ops[0, UNMASKED_REF], byte_ops[0, LARGEST]
     func, depth_test = ops[0, DEPTH_FUNC], depth_test_of(ops, np.uint64(0))
     last_start = pitch - CHUNK
     first_tile_row = region.first_row >> ROWS_LOG2
@@ -96,7 +96,7 @@ def fill_in_tiles(
     n = 0
     while n < numbers.shape[0]:
         n = fill_small(
-            1, 0, 0, ops, largest, corners, planes, faces, numbers, n, region, depth_range, pitch, depth,
+            1, 0, 0, ops, byte_ops, largest, corners, planes, faces, numbers, n, region, depth_range, pitch, depth,
             stencil, depth, passed, covered,
         )  # fmt: skip
         if n == numbers.shape[0]:
@@ -111,7 +111,7 @@ def fill_in_tiles(
             continue
         f = np.uint64(faces[t])
         zfail, zpass = ops[f, ZFAIL_OP], ops[f, ZPASS_OP]
-        failing, passing = stencil_update_of(ops, f, ZFAIL), stencil_update_of(ops, f, ZPASS)
+        failing, passing = stencil_update_of(byte_ops, f, ZFAIL), stencil_update_of(byte_ops, f, ZPASS)
         z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
         row_spans(corners, t, first, end, region.downwards, region.left, region.right, lefts, rights)
         for tile_row in range(first >> ROWS_LOG2, ((end - 1) >> ROWS_LOG2) + 1):
