@@ -1,7 +1,8 @@
-"""Plots of a report: a bar chart of frame times, and growth as lines on logarithmic axes."""
+"""Plots of a report: frame times as points, and growth as lines, on logarithmic axes."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
@@ -40,24 +41,57 @@ def save_plot(path: str, report: Report, growths: Sequence[Growth] = ()) -> None
 
 
 def draw_times(panel: Any, report: Report) -> None:
-    """Draw a bar for each workload and peer: milliseconds per frame, with the spread."""
-    labels = list(dict.fromkeys(f"{peer.renderer}@{peer.threads}" for each in report.workloads for peer in each.peers))
-    height = 0.8 / max(1, len(labels))
-    for number, label in enumerate(labels):
-        renderer, _, threads = label.partition("@")
-        for row, workload in enumerate(report.workloads):
-            times = workload.times(renderer, int(threads))
-            if times is not None:
-                median = 1e3 * times.wall.median
-                panel.barh(
-                    row + number * height, median, height, xerr=median * times.wall.spread, color=f"C{number}",
-                    label=label if row == 0 else None,
-                )  # fmt: skip
-    panel.set_yticks(range(len(report.workloads)), [each.name for each in report.workloads])
+    """Draw a point for each workload and peer: milliseconds per frame, with the spread.
+
+    Points and not bars, since a logarithmic axis has no zero that a bar could begin at.
+    """
+    peers = list(dict.fromkeys((peer.renderer, peer.threads) for each in report.workloads for peer in each.peers))
+    names = workload_names(report)
+    for number, (renderer, threads) in enumerate(peers):
+        shift = 0.5 * (number + 0.5) / len(peers) - 0.25  # peers side by side, around the workload's line
+        measured = [(row, each.times(renderer, threads)) for row, each in enumerate(report.workloads)]
+        points = [(row + shift, 1e3 * times.wall.median, times.wall.spread) for row, times in measured if times]
+        rows, medians, spreads = zip(*points, strict=True)
+        errors = [median * spread for median, spread in zip(medians, spreads, strict=True)]
+        panel.errorbar(medians, rows, xerr=errors, fmt="o", color=f"C{number}", label=f"{renderer}@{threads}")
+    panel.set_yticks(range(len(names)), names)
     panel.invert_yaxis()
-    panel.set_xscale("log")
+    logarithmic(panel, "x")
+    panel.grid(axis="x", alpha=0.4)
     panel.set_xlabel("milliseconds per frame")
     panel.legend()
+
+
+def workload_names(report: Report) -> list[str]:
+    """Return a name for each workload: where several have the same name, with their sizes, else with their amounts."""
+
+    def is_shared(names: Sequence[str]) -> list[bool]:
+        count = Counter(names)
+        return [count[name] > 1 for name in names]
+
+    names = [each.name for each in report.workloads]
+    for detail in (
+        lambda each: f"{each.size[0]}x{each.size[1]}",
+        lambda each: ", ".join(f"{key} {value}" for key, value in each.amounts.items()),
+        lambda each: f"{each.triangles} triangles",
+    ):
+        shared = is_shared(names)
+        names = [
+            f"{name} {detail(each)}".rstrip() if repeated else name
+            for name, each, repeated in zip(names, report.workloads, shared, strict=True)
+        ]
+    return names
+
+
+def logarithmic(panel: Any, axis: str) -> None:
+    """Make an axis logarithmic, with plain numbers such as 0.5, 20 and 3000 at its ticks."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    getattr(panel, f"set_{axis}scale")("log")
+    ticks = getattr(panel, f"{axis}axis")
+    ticks.set_major_locator(LogLocator(base=10, subs=(1, 2, 5)))
+    ticks.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    ticks.set_minor_formatter(NullFormatter())
 
 
 def draw_growth(panel: Any, growth: Growth) -> None:
@@ -69,8 +103,8 @@ def draw_growth(panel: Any, growth: Growth) -> None:
         label = name if power is None else f"{name}: exponent {power:.2f}"
         panel.plot(growth.amounts, [1e3 * each.wall.median for each in times if each], marker="o", label=label)
     if growth.exponents:
-        panel.set_xscale("log")
-    panel.set_yscale("log")
+        logarithmic(panel, "x")
+    logarithmic(panel, "y")
     panel.set_xlabel(f"{growth.axis} of {growth.workload}")
     panel.set_ylabel("milliseconds per frame")
     panel.legend()

@@ -7,7 +7,7 @@ import pytest
 
 from bench.sample_reports import report, result
 from softshadow.bench.growth import exponent, growth, series
-from softshadow.bench.plot import figure_class, save_plot
+from softshadow.bench.plot import figure_class, save_plot, workload_names
 from softshadow.bench.tables import growth_rows
 from softshadow.bench.workloads import get
 from softshadow.errors import SoftShadowError
@@ -59,6 +59,13 @@ def test_without_matplotlib_the_message_says_how_to_get_it(monkeypatch: pytest.M
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
     with pytest.raises(SoftShadowError, match=r"pip install 'softshadow\[notebook\]'"):
         figure_class()
+
+
+def test_names_in_the_picture_are_distinct() -> None:
+    sizes = [result(size=(8, 6)), result(size=(16, 12)), result("w5"), result("map"), result("map")]
+    names = workload_names(report(*sizes))
+    assert names[:3] == ["w4 8x6", "w4 16x12", "w5"]
+    assert names[3] == "map 8x6 triangles 12 12 triangles"  # nothing tells the last two apart
 
 
 def test_picture_is_written(tmp_path: Path) -> None:
