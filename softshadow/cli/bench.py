@@ -39,7 +39,6 @@ class Threads(click.ParamType):
 @click.command(
     epilog=examples(
         "softshadow bench w4",
-        "softshadow bench volume-zfail/torus --scaling lights --threads 1",
         "softshadow bench corpus --against mesa",
     )
 )
