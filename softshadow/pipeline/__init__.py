@@ -25,7 +25,7 @@ import numpy as np
 from softshadow.errors import StateError
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.choose import (
-    FEW_FRAGMENTS,
+    MANY_TRIANGLES,
     Plan,
     WithoutOverlaps,
     choose_fill,
@@ -109,7 +109,7 @@ def draw_geometry(
     """Draw triangles in the window, under the state of a command; about so many `fragments`, -1 if not known."""
     if not len(geometry.triangles.ids):
         return
-    if 0 <= fragments <= FEW_FRAGMENTS and plan.forward:  # a small draw: no time to look for its rows
+    if fragments >= 0 and plan.forward and not plan.without_overlaps:  # a small draw: no time to look for its rows
         region = region_of(command.state, target)
         forward = choose_forward(plan, command.state, target, geometry, region, fragments)
         if forward:
@@ -167,17 +167,17 @@ def _draw_in_order(
     """Test and write the fragments one by one, in drawing order."""
     state, triangles = command.state, geometry.triangles
     region, real = region_of(state, target), geometry.window.dtype
+    is_mesh = len(triangles.ids) >= MANY_TRIANGLES
+    if is_mesh and _shade_without_overlaps(plan, command, target, geometry):
+        return
     if plan.forward:
         rows, n_fragments = covered(triangles, region)
         forward = choose_forward(plan, state, target, geometry, rows, n_fragments)
         if forward:
             forward()
             return
-    if plan.without_overlaps:
-        spans = _spans_without_overlaps(plan, plan.without_overlaps, command, target, geometry)
-        if spans is not None:
-            choose_shading(plan, state, target, geometry)(spans)
-            return
+    if not is_mesh and _shade_without_overlaps(plan, command, target, geometry):
+        return
     fragments = list_fragments(triangles, region)
     colors = shade(geometry, spans_of(fragments)) if tests_alpha(state) else None
     depth, stencil = buffer_cells(target, real)
@@ -202,6 +202,17 @@ def _draw_in_order(
         else:
             for image in target.colors:
                 color_writer(state, image)(spans, colors[passed])
+
+
+def _shade_without_overlaps(plan: Plan, command: Draw, target: Framebuffer, geometry: Geometry) -> bool:
+    """Shade a blended draw where each pixel takes at most one fragment; return whether that is so."""
+    if not plan.without_overlaps:
+        return False
+    spans = _spans_without_overlaps(plan, plan.without_overlaps, command, target, geometry)
+    if spans is None:
+        return False
+    choose_shading(plan, command.state, target, geometry)(spans)
+    return True
 
 
 def _spans_without_overlaps(

@@ -50,6 +50,8 @@ SMALL_TRIANGLE = 100  # fragments that take as long as a small triangle
 WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volumes are long and thin
 BANDS_PER_THREAD = 4  # so that the other threads can make up for one that takes longer
 FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangle: finding their spans would cost more
+# draws of so many triangles are cheaper to fill, shading each visible pixel once, than to draw triangle by triangle
+MANY_TRIANGLES = 4096
 # so many fragments of the fixed function, in draws that cover most of a small window, pay for compiling its kernels
 SHADING_PAYS_AFTER = 250_000
 LARGE_DRAW = 50_000

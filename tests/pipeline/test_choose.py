@@ -69,9 +69,7 @@ def draw_triangle() -> None:
 
 
 def test_explain_paths_lists_the_way_of_each_draw_and_its_reasons(monkeypatch):
-    monkeypatch.setattr(
-        choose.SPAN_KERNELS, "are_compiled", lambda: False
-    )  # the kernels that shade spans may be on disk
+    monkeypatch.setattr(choose, "_are_compiled", lambda fragments: False)  # the kernels that shade spans
     with gl.create_context(*SIZE), explain_paths() as paths:
         draw_triangle()
         gl.glEnable(gl.GL_ALPHA_TEST)
@@ -90,7 +88,8 @@ def test_explain_paths_lists_the_way_of_each_draw_and_its_reasons(monkeypatch):
     assert paths[3].fill == "textbook"
 
 
-def test_every_state_is_filled_in_vectors():
+def test_every_state_is_filled_in_vectors(monkeypatch):
+    monkeypatch.setattr(choose, "_are_compiled", lambda fragments: False)
     with gl.create_context(*SIZE), explain_paths() as paths:
         draw_triangle()
         gl.glEnable(gl.GL_STENCIL_TEST)

@@ -62,7 +62,7 @@ def fill_small(
     tests_stencil, writes_ids, which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, n, region,
     depth_range, pitch, depth, stencil, ids, passed, covered,
 ):  # fmt: skip
-    """Fill small triangles by bounding box, from ``numbers[n]`` on; the arguments are those of `any_state.compiled_for`.
+    """Fill small triangles by bounding box, from ``numbers[n]`` on; the arguments: see `any_state.compiled_for`.
 
     Return the index of the first triangle that is not small. The caller's loop over large triangles is separate so that
     the registers of one loop need not hold the values of the other: in one loop, it takes twice as long. `passed` and

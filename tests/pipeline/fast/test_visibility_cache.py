@@ -10,10 +10,17 @@ from hypothesis import strategies as st
 from draws import random_triangles
 from softshadow import gl
 from softshadow.context import Context
-from softshadow.pipeline import explain_paths, use_short_cuts
+from softshadow.pipeline import choose, explain_paths, use_short_cuts
 from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.fast import visibility_cache
 from softshadow.pipeline.fast.visibility_cache import clear_visibility_cache
+
+
+@pytest.fixture(autouse=True)
+def _no_small_draws(monkeypatch):
+    """The fills of small draws are not cached: they go from their triangles to the pixels at once."""
+    monkeypatch.setattr(choose, "FEW_FRAGMENTS", -1)
+
 
 SIZE = 24  # of the window and the framebuffer object
 DEPTH_TEXTURE, FRAMEBUFFER = 1, 1
@@ -241,10 +248,12 @@ def test_entries_evicted_without_a_hit_are_not_cached_again():
     for _ in range(2):
         clear(context, rng, [])
         draw(context, rng, [mesh, mesh])
+        context.finish()
     assert len(cache.entries) == 1
     clear_visibility_cache(context.storage)
     clear(context, rng, [])
     draw(context, rng, [mesh, mesh])
+    context.finish()
     assert not cache.entries
 
 
