@@ -180,12 +180,19 @@ def same_buffers(a: Context, b: Context) -> bool:
     return all(one.image.view.tobytes() == other.image.view.tobytes() for one, other in pairs)
 
 
-@pytest.mark.interpreted
 @given(seeds)
 def test_runs_of_draws_leave_the_bits_of_single_draws(seed):
     with use_short_cuts(False):
         expected = Program(seed).draw()
     assert same_buffers(Program(seed).draw(), expected)
+
+
+@pytest.mark.interpreted
+@pytest.mark.parametrize("seed", range(16))
+def test_short_programs_leave_the_bits_of_single_draws(seed):
+    with use_short_cuts(False):
+        expected = Program(seed).draw(states=1, draws=3)
+    assert same_buffers(Program(seed).draw(states=1, draws=3), expected)
 
 
 @given(seeds)
