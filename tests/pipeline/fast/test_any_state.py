@@ -216,7 +216,6 @@ def test_ordered_path_draws_what_the_opaque_path_draws(seed, depth_format):
     assert same_window(draw_at_random(seed, depth_format, ordered=True), draw_at_random(seed, depth_format))
 
 
-@pytest.mark.interpreted
 @given(st.integers(0, 2**32 - 1), st.sampled_from([1, 5, fill.AT_A_TIME]))
 def test_results_do_not_depend_on_the_number_of_threads_or_the_bands(seed, at_a_time):
     before = threads()

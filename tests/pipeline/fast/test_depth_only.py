@@ -48,7 +48,6 @@ def all_at_once(seed: int, depth_format: str) -> Context:
         return draw_without_colors(seed, depth_format)
 
 
-@pytest.mark.interpreted
 @given(seeds, st.sampled_from(["d24", "d32f"]), st.sampled_from([1, 3]), st.sampled_from([1, 7, 16]))
 def test_chunks_leave_the_bits_of_all_triangles_at_once(seed, depth_format, n_threads, size):
     before = threads()
@@ -63,6 +62,12 @@ def test_chunks_leave_the_bits_of_all_triangles_at_once(seed, depth_format, n_th
             assert same_window(draw_without_colors(seed, depth_format), expected)
         finally:
             set_threads(before)
+
+
+@pytest.mark.interpreted
+@pytest.mark.parametrize("seed", range(2))
+def test_interpreted_chunks_leave_the_same_bits(seed):
+    assert same_window(draw_without_colors(seed, "d24"), all_at_once(seed, "d24"))
 
 
 @given(seeds)
