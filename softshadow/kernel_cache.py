@@ -77,10 +77,12 @@ class KernelGroup:
     Parameters
     ----------
     name : str               of the empty file in the cache folder that says that they are on disk
+    pays_after : int         work without them, in a unit of the caller's, from which compiling them pays
     """
 
-    def __init__(self, name: str) -> None:
-        self._name = name
+    def __init__(self, name: str, pays_after: int = 0) -> None:
+        self.pays_after = pays_after
+        self._name, self._done = name, 0
         self._known: bool | None = None
 
     def are_compiled(self) -> bool:
@@ -98,3 +100,17 @@ class KernelGroup:
         if folder is not None:
             with suppress(OSError):  # the folder was deleted meanwhile
                 (folder / self._name).touch()
+
+    def want(self) -> None:
+        """Let the next work pay for compiling: many frames are expected."""
+        self.pays_after = 0
+
+    def pay_for(self, work: int, at_once: bool = False) -> bool:
+        """Return whether to use the kernels for so much work: they are compiled, or compiling them pays now."""
+        if self.are_compiled():
+            return True
+        self._done += work
+        if self._done < self.pays_after and not at_once:
+            return False
+        self.note_compiled()
+        return True

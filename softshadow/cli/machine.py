@@ -24,10 +24,11 @@ def warmup(as_json: bool) -> None:
     from softshadow import techniques
     from softshadow.errors import Warning as SoftShadowWarning
     from softshadow.kernel_cache import cache_folder
+    from softshadow.pipeline import use_short_cuts
     from softshadow.runs import run
 
     start = time.perf_counter()
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), use_short_cuts("always"):
         warnings.simplefilter("ignore", SoftShadowWarning)  # the images are not used
         for name in techniques.names():
             for options in _option_sets(name):

@@ -17,6 +17,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.image import Image
+from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.draw_path import DrawPath, begin_path, is_explained
 from softshadow.pipeline.geometry.lines import LINES
@@ -30,7 +31,7 @@ from softshadow.pipeline.shade.shading import shade_and_write
 from softshadow.state import State
 
 try:
-    from softshadow.pipeline.fast.any_state import any_state_kernel
+    from softshadow.pipeline.fast.any_state import FILL_KERNELS, any_state_kernel
     from softshadow.pipeline.fast.batch.table import Run, can_begin_run
     from softshadow.pipeline.fast.depth_only import Chunk, chunks_of
     from softshadow.pipeline.fast.fixed_function_spans import SPAN_KERNELS, fixed_function_shader
@@ -52,9 +53,7 @@ BANDS_PER_THREAD = 4  # so that the other threads can make up for one that takes
 FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangle: finding their spans would cost more
 # draws of so many triangles are cheaper to fill, shading each visible pixel once, than to draw triangle by triangle
 MANY_TRIANGLES = 4096
-# so many fragments of the fixed function, in draws that cover most of a small window, pay for compiling its kernels
-SHADING_PAYS_AFTER = 250_000
-LARGE_DRAW = 50_000
+LARGE_DRAW = 50_000  # fragments of a draw that counts when the kernels of the fixed function are to be compiled
 LAYERS = 4  # of fragments over each other, from which bands pay on one thread, too
 
 MOST_DRAWS = 4096  # of a run
@@ -65,7 +64,6 @@ Policy = bool | Literal["always"]
 WithoutOverlaps = Callable[[Callable[[np.ndarray], None], Region, int], np.ndarray | None]
 
 _short_cuts: ContextVar[Policy] = ContextVar("short_cuts", default=SHORT_CUTS_EXIST)  # each thread has its own
-_shaded = [0]  # fragments that the fixed function shaded, while its kernels are not compiled
 
 
 @contextmanager
@@ -223,9 +221,12 @@ def choose_fill(
     depth : the depth buffer, which keeps its tile bounds
     """
     front, back, path = plan.front, plan.back, plan.path
-    in_tiles = False
+    in_tiles, work = False, n_fragments + SMALL_TRIANGLE * n_triangles
     if not _short_cuts.get() or counts is not None:
         path.fill, kernel = "textbook", textbook_kernel(int(front != back), writes_ids, counts)
+    elif not _pays(FILL_KERNELS, work):
+        path.fill, kernel = "textbook", textbook_kernel(int(front != back), writes_ids, None)
+        path.note("too few fragments were filled so far to compile faster kernels")
     elif not writes_ids and order_independent(front, back):
         path.fill, kernel, in_tiles = "stencil tiles", tiles_kernel(depth), True
         path.note("only the stencil buffer changes, in an order that does not matter")
@@ -234,7 +235,7 @@ def choose_fill(
     if in_tiles:
         bands_pay = n_fragments >= WORTH_BANDS_IN_TILES
     else:
-        bands_pay = n_fragments + SMALL_TRIANGLE * n_triangles >= WORTH_BANDS
+        bands_pay = work >= WORTH_BANDS
     if counts is not None or not bands_pay or not _bands_pay(region, n_fragments):
         return FillChoice(kernel, 0)
     path.fill += " in bands"
@@ -310,10 +311,9 @@ def _shade_fixed_function(
 
 def _are_compiled(fragments: int) -> bool:
     """Return whether to shade with the kernels of the fixed function: they are compiled, or compiling them pays now."""
-    if SPAN_KERNELS.are_compiled():
-        return True
-    _shaded[0] += fragments if fragments >= LARGE_DRAW else 0
-    if _shaded[0] < SHADING_PAYS_AFTER and _short_cuts.get() != "always":
-        return False
-    SPAN_KERNELS.note_compiled()
-    return True
+    return _pays(SPAN_KERNELS, fragments if fragments >= LARGE_DRAW else 0)
+
+
+def _pays(kernels: KernelGroup, work: int) -> bool:
+    """Return whether to use kernels for so much work: they are compiled, compiling them pays now, or is asked for."""
+    return kernels.pay_for(work, at_once=_short_cuts.get() == "always")

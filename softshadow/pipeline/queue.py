@@ -10,10 +10,11 @@ import numpy as np
 
 from softshadow import pipeline
 from softshadow.framebuffer import Storage
-from softshadow.pipeline.choose import MOST_DRAWS, MOST_VERTICES, Plan, begin_run, may_wait, plan_draw
+from softshadow.pipeline.choose import MOST_DRAWS, MOST_VERTICES, SHORT_CUTS_EXIST, Plan, begin_run, may_wait, plan_draw
 from softshadow.pipeline.commands import Draw
 
 try:
+    from softshadow.pipeline.fast.any_state import FILL_KERNELS
     from softshadow.pipeline.fast.batch.geometry import Setting, geometry_of, setting_of
     from softshadow.pipeline.fast.batch.table import BATCH_KERNELS, Run
 except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
@@ -29,11 +30,13 @@ class DrawQueue:
     Parameters
     ----------
     storage : Storage        what they will be drawn to
-    compiles : bool          whether to compile the kernels for runs of draws at once: for one picture it does not pay
+    compiles : bool          whether to compile kernels at the first use: for one picture some of them do not pay
     """
 
     def __init__(self, storage: Storage, compiles: bool = True) -> None:
         self._storage, self._compiles = storage, compiles
+        if compiles and SHORT_CUTS_EXIST:
+            FILL_KERNELS.want()
         self._run: Run | None = None
         self._draws: list[Draw] = []
         self._n_vertices = 0

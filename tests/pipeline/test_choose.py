@@ -25,7 +25,8 @@ def same_run(a: ss.Run, b: ss.Run) -> bool:
 
 @pytest.mark.parametrize("name", techniques.names())
 def test_every_technique_draws_the_same_without_short_cuts(name):
-    run = ss.run(name, "boxes", SIZE)
+    with use_short_cuts("always"):
+        run = ss.run(name, "boxes", SIZE)
     with use_short_cuts(False):
         assert same_run(ss.run(name, "boxes", SIZE), run)
 
@@ -98,6 +99,19 @@ def test_every_state_is_filled_in_vectors(monkeypatch):
         gl.glColorMask(False, False, False, False)
         draw_triangle()
     assert [path.fill for path in paths] == ["vectors", "vectors", "stencil tiles"]
+
+
+def test_one_picture_does_without_the_kernels_that_fill_in_vectors(monkeypatch):
+    compiled = []
+    monkeypatch.setattr(choose.FILL_KERNELS, "are_compiled", lambda: bool(compiled))
+    monkeypatch.setattr(choose.FILL_KERNELS, "note_compiled", lambda: compiled.append(True))
+    monkeypatch.setattr(choose.FILL_KERNELS, "pays_after", 100_000)
+    monkeypatch.setattr(choose.FILL_KERNELS, "_done", 0)
+    with explain_paths() as paths:
+        ss.run("volume-zfail", "boxes", size=(20, 10))
+        assert not {"vectors", "stencil tiles"} & {path.fill for path in paths}
+        ss.run("volume-zfail", "boxes", size=(200, 100))
+    assert "stencil tiles" in {path.fill for path in paths}
 
 
 def test_draws_outside_the_block_are_not_listed():

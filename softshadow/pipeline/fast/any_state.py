@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.jit import kernel
+from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.fast.fragment_numbers import (
     ALL,
     DEPTH_WRITE,
@@ -40,6 +41,8 @@ from softshadow.pipeline.records import NO_TRIANGLE, SEVERAL_TRIANGLES, DepthRan
 
 CHUNK_LOG2 = 5  # columns processed in one go, 32: what rows are padded to (`image.PITCH`)
 CHUNK = 1 << CHUNK_LOG2
+# these and those of `stencil_tiles`: one takes some two seconds to compile, and gains 10 ns a fragment
+FILL_KERNELS = KernelGroup("fills", pays_after=100_000_000)
 
 
 def any_state_kernel(writes_ids: int) -> FillKernel:

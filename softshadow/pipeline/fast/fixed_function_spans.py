@@ -39,8 +39,8 @@ NO_DEPTH, NO_STENCIL = np.zeros((1, 1), np.float32), np.zeros((1, 1), np.uint8) 
 NO_OPS = np.zeros((2, N_OPS), np.int64)
 PART = 1 << 14  # fragments that one thread shades in one go where several threads draw
 
-
-SPAN_KERNELS = KernelGroup("spans")
+# so many fragments, in draws that cover most of a small window, pay for compiling them
+SPAN_KERNELS = KernelGroup("spans", pays_after=250_000)
 
 
 def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None] | None:

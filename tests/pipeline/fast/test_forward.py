@@ -17,7 +17,7 @@ from softshadow.pipeline.fast import forward
 
 @pytest.fixture(autouse=True)
 def _compiled(monkeypatch):
-    monkeypatch.setattr(choose, "SHADING_PAYS_AFTER", 0)
+    monkeypatch.setattr(choose.SPAN_KERNELS, "pays_after", 0)
 
 
 def assert_same(seed, **options):

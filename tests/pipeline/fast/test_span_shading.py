@@ -13,7 +13,7 @@ from softshadow.pipeline.fast import fragment_block
 
 @pytest.fixture(autouse=True)
 def _compiled(monkeypatch):
-    monkeypatch.setattr(choose, "SHADING_PAYS_AFTER", 0)
+    monkeypatch.setattr(choose.SPAN_KERNELS, "pays_after", 0)
 
 
 def assert_same(seed, **options):
@@ -58,9 +58,9 @@ def test_the_kernels_are_compiled_when_it_pays(monkeypatch):
     compiled = []
     monkeypatch.setattr(choose.SPAN_KERNELS, "are_compiled", lambda: bool(compiled))
     monkeypatch.setattr(choose.SPAN_KERNELS, "note_compiled", lambda: compiled.append(True))
-    monkeypatch.setattr(choose, "SHADING_PAYS_AFTER", 250)
+    monkeypatch.setattr(choose.SPAN_KERNELS, "pays_after", 250)
     monkeypatch.setattr(choose, "LARGE_DRAW", 100)
-    monkeypatch.setattr(choose, "_shaded", [0])
+    monkeypatch.setattr(choose.SPAN_KERNELS, "_done", 0)
     with explain_paths() as paths, gl.create_context(10, 10):
         for _ in range(4):
             gl.glRectf(-1, -1, 1, 1)
