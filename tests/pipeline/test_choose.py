@@ -105,7 +105,7 @@ def test_one_picture_does_without_the_kernels_that_fill_in_vectors(monkeypatch):
     compiled = []
     monkeypatch.setattr(choose.FILL_KERNELS, "are_compiled", lambda: bool(compiled))
     monkeypatch.setattr(choose.FILL_KERNELS, "note_compiled", lambda: compiled.append(True))
-    monkeypatch.setattr(choose.FILL_KERNELS, "pays_after", 100_000)
+    monkeypatch.setattr(choose.FILL_KERNELS, "pays_after", 20_000)
     monkeypatch.setattr(choose.FILL_KERNELS, "_done", 0)
     with explain_paths() as paths:
         ss.run("volume-zfail", "boxes", size=(20, 10))
