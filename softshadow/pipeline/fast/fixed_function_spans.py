@@ -52,7 +52,7 @@ def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry)
 
     def shade_part(spans: Spans, planes: AttributePlanes) -> None:
         shade_spans(
-            planes.values, planes.place, *spans, len(spans.row), geometry.flat, numbers.switches, numbers.numbers,
+            planes.values, planes.place, *spans, len(spans.row), False, geometry.flat, numbers.switches, numbers.numbers,
             *numbers.texels, pixels, triangles.depth, triangles.front, NO_OPS, ZERO, ONE, NO_DEPTH, NO_STENCIL,
         )  # fmt: skip
 
@@ -83,12 +83,12 @@ def covered_state(state: State, target: Framebuffer, geometry: Geometry) -> Span
 
 @kernel
 def shade_spans(
-    planes, place, rows, lefts, triangles, starts, n_all, flat, switches, numbers, texels0, texels1, pixels,
+    planes, place, rows, lefts, triangles, starts, n_all, may_overlap, flat, switches, numbers, texels0, texels1, pixels,
     depth_planes, faces_front, ops, low, high, depth, stencil,
 ):  # fmt: skip
     """Shade `n_all` spans, as many at a time as fit into a block, and write them to `pixels` (H, pitch) int32.
 
-    The spans are blended in their order. With alpha test, their fragments are tested before they are written; the
+    Spans that may overlap are blended in their order. With alpha test, their fragments are tested before they are written; the
     arguments from `depth_planes` on are read for that only.
     """
     room, whole = np.empty(FLOAT_ROWS * SIZE, np.float32), np.empty(WHOLE_ROWS * SIZE, np.int32)
@@ -115,4 +115,4 @@ def shade_spans(
                 ops, spans, n_spans, own_triangles, depth_planes, faces_front, low, high, depth, stencil, ALPHA_ROW,
                 room, whole,
             )  # fmt: skip
-        write_block(spans, n_spans, switches, whole, pixels)
+        write_block(spans, n_spans, may_overlap, switches, whole, pixels)

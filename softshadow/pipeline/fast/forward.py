@@ -124,7 +124,7 @@ def _draw_rows(
             order, m, row, region.left, region.right, first_row, end_row, region.downwards, corners, depth_planes,
             faces_front, *tests, *spans,
         )  # fmt: skip
-        shade_spans(planes, _in_order, *spans, n_spans, *colors, depth_planes, faces_front, *tests)
+        shade_spans(planes, _in_order, *spans, n_spans, True, *colors, depth_planes, faces_front, *tests)
 
 
 def ops_numbers(front: FragmentOps, back: FragmentOps) -> np.ndarray:

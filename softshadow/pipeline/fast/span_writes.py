@@ -41,19 +41,21 @@ BYTE, HALF_BYTE, LARGEST = np.int32(255), np.uint16(128), np.uint16(255)
 
 
 @inlined
-def write_block(spans, n_spans, switches, whole, pixels):
+def write_block(spans, n_spans, may_overlap, switches, whole, pixels):
     """Write PACKED where MASK is set, blended with `pixels` (H, pitch) int32, as if span by span.
 
-    The spans of one triangle do not overlap: they are blended together.
+    Spans that do not overlap, such as those of one triangle, are blended together.
     """
     if switches[BLENDS] == NO_BLENDING:
         write_spans(spans, 0, n_spans, PACKED, np.int32(switches[WRITABLE]), whole, pixels)
         return
     first = 0
     while first < n_spans:
-        end, place = first + 1, spans[SPAN_PLACE, np.uint64(first)]
-        while end < n_spans and spans[SPAN_PLACE, np.uint64(end)] == place:
-            end += 1
+        end, place = n_spans, spans[SPAN_PLACE, np.uint64(first)]
+        if may_overlap:
+            end = first + 1
+            while end < n_spans and spans[SPAN_PLACE, np.uint64(end)] == place:
+                end += 1
         read_spans(spans, first, end, whole, pixels)
         blend_pixels(switches, spans[SPAN_START, np.uint64(first)], spans[SPAN_START, np.uint64(end)], whole)
         write_spans(spans, first, end, OTHER, np.int32(switches[WRITABLE]), whole, pixels)
