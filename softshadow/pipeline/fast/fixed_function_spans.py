@@ -52,8 +52,9 @@ def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry)
 
     def shade_part(spans: Spans, planes: AttributePlanes) -> None:
         shade_spans(
-            planes.values, planes.place, *spans, len(spans.row), False, geometry.flat, numbers.switches, numbers.numbers,
-            *numbers.texels, pixels, triangles.depth, triangles.front, NO_OPS, ZERO, ONE, NO_DEPTH, NO_STENCIL,
+            planes.values, planes.place, *spans, len(spans.row), False, geometry.flat, numbers.switches,
+            numbers.numbers, *numbers.texels, pixels, triangles.depth, triangles.front, NO_OPS, ZERO, ONE, NO_DEPTH,
+            NO_STENCIL,
         )  # fmt: skip
 
     def shade(spans: Spans) -> None:
@@ -83,13 +84,13 @@ def covered_state(state: State, target: Framebuffer, geometry: Geometry) -> Span
 
 @kernel
 def shade_spans(
-    planes, place, rows, lefts, triangles, starts, n_all, may_overlap, flat, switches, numbers, texels0, texels1, pixels,
-    depth_planes, faces_front, ops, low, high, depth, stencil,
+    planes, place, rows, lefts, triangles, starts, n_all, may_overlap, flat, switches, numbers, texels0, texels1,
+    pixels, depth_planes, faces_front, ops, low, high, depth, stencil,
 ):  # fmt: skip
     """Shade `n_all` spans, as many at a time as fit into a block, and write them to `pixels` (H, pitch) int32.
 
-    Spans that may overlap are blended in their order. With alpha test, their fragments are tested before they are written; the
-    arguments from `depth_planes` on are read for that only.
+    Spans that may overlap are blended in their order. With alpha test, their fragments are tested before they are
+    written; the arguments from `depth_planes` on are read for that only.
     """
     room, whole = np.empty(FLOAT_ROWS * SIZE, np.float32), np.empty(WHOLE_ROWS * SIZE, np.int32)
     whole[MASK : MASK + np.uint64(SIZE)] = -1

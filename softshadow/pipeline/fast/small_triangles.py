@@ -78,15 +78,11 @@ def fill_small(
         first, end = bounds(corners, t)
         first, end = max(first, region.first_row), min(end, region.end_row)
         left, right = columns_of(corners, t)
+        if first >= end or left >= right:
+            continue  # between the samples
         z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
-        x0, y0, x1, y1, x2, y2 = (
-            corners[t, 0],
-            corners[t, 1],
-            corners[t, 2],
-            corners[t, 3],
-            corners[t, 4],
-            corners[t, 5],
-        )
+        x0, y0, x1, y1 = corners[t, 0], corners[t, 1], corners[t, 2], corners[t, 3]
+        x2, y2 = corners[t, 4], corners[t, 5]
         f = np.uint64(faces[t])
         depth_test, writes_depth = depth_test_of(ops, f), ops[f, DEPTH_WRITE] != 0
         if tests_stencil:
