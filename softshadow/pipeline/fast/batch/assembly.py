@@ -5,7 +5,7 @@ The patterns are those of `geometry.assembly`; how quads are cut depends on the 
 """
 
 from softshadow.jit import kernel
-from softshadow.pipeline.fast.batch.vertices import END, INDEX_END, INDEX_START, INDEXED, MODE, START
+from softshadow.pipeline.fast.batch.vertices import ACROSS, END, INDEX_END, INDEX_START, INDEXED, MODE, START
 from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.mesa.quad_cuts import INDEXED_SEGMENT, SEGMENT
 from softshadow.tokens import (
@@ -119,7 +119,7 @@ def write_quads(numbers, indices, codes, d, mode, n, triangles, provoking, row):
             else:
                 write_triangle(numbers, indices, d, triangles, provoking, row, at, one, three, three)
                 write_triangle(numbers, indices, d, triangles, provoking, row + 1, two, at, three, three)
-        elif is_clipped or numbers[d, INDEXED]:
+        elif is_clipped or numbers[d, ACROSS]:
             write_triangle(numbers, indices, d, triangles, provoking, row, at, one, three, three)
             write_triangle(numbers, indices, d, triangles, provoking, row + 1, one, two, three, three)
         else:

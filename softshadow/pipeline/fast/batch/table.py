@@ -25,18 +25,11 @@ from softshadow.pipeline.fast.batch.vertices import (
     EYE_LINEAR,
     FLOATS,
     HAS_ARRAY,
-    INDEX_END,
-    INDEX_START,
-    INDEXED,
-    KIND,
-    LIGHTING,
-    MODE,
     MODELVIEW,
     NORMAL,
     NUMBERS,
     OBJECT_LINEAR,
     PROJECTION,
-    START,
     UNIT_COLUMNS,
     UNIT_CONSTANT,
     UNIT_IS_IDENTITY,
@@ -48,7 +41,7 @@ from softshadow.pipeline.geometry.polygon_mode import is_filled
 from softshadow.pipeline.geometry.program import bound_textures
 from softshadow.pipeline.mesa.rectangles import start_of_last_nine
 from softshadow.programs import reflectances
-from softshadow.programs.fixed_function import Unit, is_separate, units_in_use
+from softshadow.programs.fixed_function import Unit, is_separate, needs_vertex_color, units_in_use
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE
 from softshadow.state import Lighting, MaterialState, State
@@ -83,6 +76,7 @@ class Run:
     units : the texture units in use
     writes_color : bool      else no colours are computed
     arrays : Arrays          of all draws
+    across : bool            quads are cut along the other diagonal even without indices (`Varyings.flat_input`)
     """
 
     def __init__(self, command: Draw, storage: Storage, writes_color: bool) -> None:
@@ -90,7 +84,8 @@ class Run:
         bound = bound_textures(self.state, storage) if writes_color else {}
         self.units: list[Unit] = units_in_use(self.state, bound) if bound else []
         self.arrays = self._arrays_of(command)
-        self._identities: dict[int, tuple[np.ndarray, bool]] = {}
+        is_flat = writes_color and self.state.lighting.shade_model == gl.GL_FLAT
+        self.across = is_flat and (self.lit or self.arrays.color) and needs_vertex_color(self.state, self.units)
 
     def _arrays_of(self, command: Draw) -> Arrays:
         vertices = command.vertices
@@ -147,8 +142,6 @@ def can_run(command: Draw) -> bool:
         return False
     if command.mode == gl.GL_TRIANGLES and command.indices is None and start_of_last_nine(len(vertices.position)) >= 0:
         return False  # triangles that llvmpipe leaves out (mesa.rectangles)
-    if lights.shade_model == gl.GL_FLAT and command.mode == gl.GL_QUADS:
-        return False  # cut along the other diagonal where the colours differ
     # Mesa's back materials that follow the colour of each vertex have stale products (programs.stale_registers)
     return not (lights.enabled and lights.two_side and lights.color_material and vertices.color.strides[0])
 
@@ -165,7 +158,7 @@ def can_begin_run(command: Draw, target: Framebuffer) -> bool:
 class Table(NamedTuple):
     """The draws of a run as arrays, see the columns in `batch.vertices`.
 
-    numbers (D, 8) int64; rows (D, 72), unit_rows (D, U, 21): matrices and constants; lights (L, N, 23), materials
+    numbers (D, 9) int64; rows (D, 72), unit_rows (D, U, 21): matrices and constants; lights (L, N, 23), materials
     (L, 2, 20), flags (L, 9): each distinct `Lighting`; generated (U, 5), planes (U, 4, 4): generation of coordinates;
     positions (V, 4), colors (V, 4), normals (V, 3), texcoords (U, V, 4): of all draws one after the other, no rows
     where they are constants; indices (I,) int32.
@@ -210,7 +203,7 @@ def table_of(run: Run, draws: Sequence[Draw]) -> Table:
         rows[:, COLOR:NORMAL] = [each.color[0] for each in vertices]
     if not arrays.normal:
         rows[:, NORMAL : NORMAL + 3] = [each.normal[0] for each in vertices]
-    numbers, lightings = _numbers(draws, run.lit)
+    numbers, lightings = _numbers(draws, run)
     return Table(
         layout,
         numbers,
@@ -237,23 +230,22 @@ def _joined(parts: list[np.ndarray], is_array: bool, nothing: np.ndarray = NO_RO
     return read_only(np.ascontiguousarray(joined))
 
 
-def _numbers(draws: Sequence[Draw], lit: bool) -> tuple[np.ndarray, list[Lighting]]:
+def _numbers(draws: Sequence[Draw], run: Run) -> tuple[np.ndarray, list[Lighting]]:
     """Return the numbers of each draw, and the states of lighting that kernels can tell apart."""
     lightings = [draws[0].state.lighting]
-    table, start, index_start, row = [], 0, 0, 0
+    table: list[int] = []  # in the order of the columns
+    start, index_start, row = 0, 0, 0
     for draw in draws:
         end, lights = start + len(draw.vertices.position), draw.state.lighting
         n_indices = 0 if draw.indices is None else len(draw.indices)
-        if lit and not _same_rows(lights, lightings[row]):
+        if run.lit and not _same_rows(lights, lightings[row]):
             row = len(lightings)
             lightings.append(lights)
-        number = [0] * NUMBERS
-        number[START], number[END], number[MODE] = start, end, draw.mode
-        number[INDEX_START], number[INDEX_END] = index_start, index_start + n_indices
-        number[INDEXED], number[KIND], number[LIGHTING] = draw.indices is not None, draw.modelview_kind, row
-        table.append(number)
-        start, index_start = end, index_start + n_indices
-    return np.array(table, np.int64), lightings
+        index_end, indexed = index_start + n_indices, draw.indices is not None
+        across = run.across or indexed
+        table += (start, end, draw.mode, index_start, index_end, indexed, draw.modelview_kind, row, across)
+        start, index_start = end, index_end
+    return np.array(table, np.int64).reshape(-1, NUMBERS), lightings
 
 
 def _same_rows(a: Lighting, b: Lighting) -> bool:

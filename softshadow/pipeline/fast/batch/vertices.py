@@ -25,8 +25,9 @@ from softshadow.programs.inverse import LENGTH_PRESERVING
 
 # columns of a draw's row: matrices, constant attributes; the product and the inverse are written by `prepare_draws`
 MODELVIEW, PROJECTION, COLOR, NORMAL, PRODUCT, INVERSE, FLOATS = 0, 16, 32, 36, 40, 56, 72
-# columns of a draw's numbers: vertices and indices [start, end), how its modelview matrix is inverted
-START, END, MODE, INDEX_START, INDEX_END, INDEXED, KIND, LIGHTING, NUMBERS = range(9)
+# columns of a draw's numbers: vertices and indices [start, end), how its modelview matrix is inverted; ACROSS: whether
+# all its quads are cut along the other diagonal
+START, END, MODE, INDEX_START, INDEX_END, INDEXED, KIND, LIGHTING, ACROSS, NUMBERS = range(10)
 # columns of a texture unit of a draw: its matrix, the constant coordinates, whether the matrix is the identity
 UNIT_MATRIX, UNIT_CONSTANT, UNIT_IS_IDENTITY, UNIT_COLUMNS = 0, 16, 20, 21
 SPECIFIED, OBJECT_LINEAR, EYE_LINEAR = range(3)  # how a texture coordinate is generated
