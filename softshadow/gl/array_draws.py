@@ -56,7 +56,7 @@ def glDrawArrays(mode: int, first: int, count: int) -> None:
         return
     if not _refused("glDrawArrays", mode, count) and can_draw(context, "glDrawArrays"):
         begin = int(first)
-        _draw(context, int(mode), _rows(context, "glDrawArrays", begin, begin, begin + int(count)), None)
+        _draw(context, int(mode), _rows(context, "glDrawArrays", begin, begin + int(count)), None)
 
 
 def glDrawElements(mode: int, count: int, type: int, indices: Any) -> None:
@@ -86,7 +86,7 @@ def glMultiDrawArrays(mode: int, first: Any, count: Any, drawcount: int) -> None
     elif is_one_of(operation, "mode", mode, MODES, A_MODE) and can_draw(context, operation):
         for begin, number in zip(firsts, counts, strict=True):
             start = int(begin)
-            _draw(context, int(mode), _rows(context, operation, start, start, start + int(number)), None)
+            _draw(context, int(mode), _rows(context, operation, start, start + int(number)), None)
 
 
 def _draw_elements(operation: str, mode: int, count: int, type: int, indices: Any) -> None:
@@ -101,7 +101,7 @@ def _draw_elements(operation: str, mode: int, count: int, type: int, indices: An
     snapshot = snapshot_indices(context, operation, int(count), DTYPES[type], indices)
     if snapshot.lowest < 0:
         raise ValueError(f"{operation}: index {snapshot.lowest} is negative")
-    rows = _rows(context, operation, snapshot.lowest, 0, snapshot.highest + 1)
+    rows = _rows(context, operation, snapshot.lowest, snapshot.highest + 1)
     _draw(context, int(mode), rows, snapshot.indices)
 
 
@@ -164,10 +164,8 @@ def _draw_rows(mode: int, rows: Rows, indices: np.ndarray) -> None:
     context.draw(mode, _vertices(context, rows), indices)
 
 
-def _rows(context: Context, operation: str, lowest: int, first: int, end: int) -> Rows | None:
+def _rows(context: Context, operation: str, first: int, end: int) -> Rows | None:
     """Return the rows [first, end) of the enabled arrays; None without any or without an array of positions.
-
-    No index names rows before `lowest`.
 
     Raises
     ------
@@ -187,7 +185,7 @@ def _rows(context: Context, operation: str, lowest: int, first: int, end: int) -
             raise ValueError(f"{operation}: vertex {end - 1} is outside the array of {name}s, which has {n_rows}")
     if end <= first:
         return None
-    return [snapshot_rows(array, first, lowest, end, context) for array in active], first, end
+    return [snapshot_rows(array, first, end, context) for array in active], first, end
 
 
 def _vertices(context: Context, rows: Rows) -> Vertices:

@@ -52,16 +52,13 @@ def _owner(rows: np.ndarray) -> np.ndarray:
 
 
 # -- snapshots ---------------------------------------------------------------------------------------------------------
-def snapshot_rows(array: VertexArray, first: int, lowest: int, end: int, context: Context) -> RowSnapshot:
-    """Return a snapshot that has the rows [first, end) of an array; those from `lowest` on are as they are now.
-
-    Rows before `lowest` may be those of an earlier draw: no index of this draw names them.
-    """
+def snapshot_rows(array: VertexArray, first: int, end: int, context: Context) -> RowSnapshot:
+    """Return a snapshot that has the rows [first, end) of an array as they are now."""
     if array.root is not None and array.root.flags.writeable:
         array.is_fixed, array.root, array.snapshot = False, None, None
     kept = array.snapshot
     if kept is not None and kept.first <= first and end <= kept.end:
-        if array.is_fixed or is_unchanged(array, kept, lowest, end):
+        if array.is_fixed or is_unchanged(array, kept, first, end):
             return kept
         if (end - first) * LARGEST_PART >= kept.end - kept.first:
             first, end = kept.first, kept.end
@@ -85,26 +82,26 @@ def _grown(kept: RowSnapshot, first: int, end: int, length: int) -> tuple[int, i
     return low, min(max(high, low + 2 * size), length)
 
 
-def is_unchanged(array: VertexArray, kept: RowSnapshot, lowest: int, end: int) -> bool:
-    """Return whether the rows [lowest, end) of an array have the bits of a snapshot that has them."""
+def is_unchanged(array: VertexArray, kept: RowSnapshot, first: int, end: int) -> bool:
+    """Return whether the rows [first, end) of an array have the bits of a snapshot that has them."""
     if kept.content is not None:
-        if lowest == kept.first and end == kept.end:
+        if first == kept.first and end == kept.end:
             rows = array.rows
-            if end - lowest != len(rows):
-                rows = rows[lowest:end]
+            if end - first != len(rows):
+                rows = rows[first:end]
             return rows.tobytes() == kept.content
         row_bytes = len(kept.content) // (kept.end - kept.first)
-        before = kept.content[(lowest - kept.first) * row_bytes : (end - kept.first) * row_bytes]
-        return array.rows[lowest:end].tobytes() == before
+        before = kept.content[(first - kept.first) * row_bytes : (end - kept.first) * row_bytes]
+        return array.rows[first:end].tobytes() == before
     assert kept.raw is not None
     if array.row_bytes:
-        then = kept.address + (lowest - kept.first) * array.row_bytes
-        return same_memory(array.address + lowest * array.row_bytes, then, (end - lowest) * array.row_bytes)
+        then = kept.address + (first - kept.first) * array.row_bytes
+        return same_memory(array.address + first * array.row_bytes, then, (end - first) * array.row_bytes)
     bits = f"u{array.rows.itemsize}"
     now, past = array.rows.view(bits), kept.raw.view(bits)
     return all(
         np.array_equal(now[row : min(row + CHUNK, end)], past[row - kept.first : min(row + CHUNK, end) - kept.first])
-        for row in range(lowest, end, CHUNK)
+        for row in range(first, end, CHUNK)
     )
 
 

@@ -20,9 +20,10 @@ BYTES_BEFORE = 64  # at both ends of the content; arrays with equal ones are com
 
 @dataclass(eq=False, slots=True)
 class IndexSnapshot:
-    """The indices of a draw: (N,) int32, read-only, with the smallest and the largest; 0 and -1 without indices.
+    """The indices of a draw: (N,) int32, read-only, counted from the smallest; 0 and -1 are the range without indices.
 
-    `content` is the source of a small array, `raw` that of a larger one, at `address`.
+    A draw takes the vertices `lowest` to `highest` only, so that others of the same arrays are not processed. `content`
+    is the source of a small array, `raw` that of a larger one, at `address`.
     """
 
     indices: np.ndarray
@@ -120,6 +121,9 @@ def _taken(context: Context, operation: str, count: int, numbers: np.ndarray) ->
         copy = np.array(raw, np.int32)
         copy.setflags(write=False)
     lowest, highest = (int(copy.min()), int(copy.max())) if count else (0, -1)
+    if lowest > 0:
+        copy = copy - np.int32(lowest)
+        copy.setflags(write=False)
     snapshot = IndexSnapshot(copy, lowest, highest, content, raw, address)
     pool.put(key, snapshot, raw.nbytes + copy.nbytes)
     return snapshot
