@@ -34,6 +34,7 @@ from softshadow.gl.immediate import MODES, consecutive_indices
 from softshadow.gl.materials import follow_color
 from softshadow.gl.vertex_format import REST
 from softshadow.pipeline.commands import Vertices
+from softshadow.pipeline.mesa.driver_draws import CORNERS
 from softshadow.state import TEXTURE_UNITS
 
 MOST_DRAWN = 16  # current values that a primitive was drawn with
@@ -124,7 +125,7 @@ class ListPrimitive:
     Attributes
     ----------
     calls : list                 what it stands for
-    rows : dict                  slot: one row per vertex, read-only
+    rows : dict                  slot: one row per vertex, read-only; `indices` name equal vertices several times
     starts : dict                slot: the first vertex that has a value of the list; those before have the current one
     last : dict                  slot: the value after the pair
     sizes : dict                 name: components in the last call
@@ -165,7 +166,7 @@ class ListPrimitive:
 
     def vertices(self, constants: tuple[ConstantAttribute, ...]) -> Vertices:
         """Return the vertices; the same object for the same current values."""
-        count = len(self.indices)
+        count = len(self.rows[POSITION])
         key = tuple(each for slot, each in enumerate(constants, 1) if self.starts.get(slot, 1))
         vertices = self.drawn.get(key)
         if vertices is None:
@@ -266,8 +267,30 @@ def _primitive(context: Context, calls: list[Any]) -> ListPrimitive | None:
     if not positions:
         return None
     rows = {slot: context.frozen(column) for slot, column in columns.items()}
-    indices = consecutive_indices(len(positions))
-    return ListPrimitive(calls, int(begin.args[0]), rows, starts, last, sizes, indices)
+    mode, indices = int(begin.args[0]), consecutive_indices(len(positions))
+    # with vertices left over, the range of the indices would decide how quads are cut (`mesa.quad_cuts`)
+    if mode in CORNERS and len(positions) % CORNERS[mode] == 0 and not any(starts.values()):
+        rows, indices = _with_equal_vertices_joined(rows, indices)
+    return ListPrimitive(calls, mode, rows, starts, last, sizes, indices)
+
+
+def _with_equal_vertices_joined(
+    rows: dict[int, np.ndarray], indices: np.ndarray
+) -> tuple[dict[int, np.ndarray], np.ndarray]:
+    """Return rows without repetitions, and indices into them: corners of a mesh are shared by several triangles."""
+    bits = np.hstack(list(rows.values()))
+    keys = bits.view(np.dtype((np.void, bits.strides[0])))[:, 0]
+    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
+    if len(first) == len(keys):
+        return rows, indices
+    order = np.argsort(first)  # of their first use
+    places = np.empty(len(order), np.int32)
+    places[order] = np.arange(len(order))
+    joined = {slot: array[first[order]] for slot, array in rows.items()}
+    indices = places[inverse]
+    for array in (*joined.values(), indices):
+        array.setflags(write=False)
+    return joined, indices
 
 
 def _has_names(call: partial[Any]) -> bool:

@@ -62,7 +62,11 @@ class Author:
     def pair(self) -> list[Call]:
         mode = int(self.rng.integers(gl.GL_POINTS, gl.GL_POLYGON + (2 if self.chance(0.05) else 1)))
         calls: list[Call] = [("glBegin", (mode,))] if self.chance(0.95) else []
+        shares, corners = self.chance(0.3), [self.vertex(), self.vertex()]  # one vertex several times
         for _ in range(int(self.rng.integers(0, 9))):
+            if shares and calls:
+                calls.append(corners[int(self.chance(0.5))])
+                continue
             calls += [self.attribute() for _ in range(int(self.rng.integers(0, 3)))]
             if self.chance(0.04):
                 calls.append(self.between())
@@ -121,6 +125,8 @@ def bits(value: Any) -> Any:
         return value.dtype.str, value.shape, value.tobytes(), value.strides[:1] == (0,)
     if isinstance(value, Draw):  # a draw takes a colour that materials follow from its vertices
         value = replace(value, state=without_followed_colors(value.state))
+        if value.indices is not None:  # vertices that a list has joined stand in the order of the calls
+            value = replace(value, vertices=in_order(value.vertices, value.indices), indices=len(value.indices))
     if isinstance(value, Vertices | Draw):
         return [bits(getattr(value, each.name)) for each in fields(value)]
     if isinstance(value, tuple | list):
@@ -128,6 +134,21 @@ def bits(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: bits(each) for key, each in value.items()}
     return repr(value)
+
+
+def in_order(vertices: Vertices, indices: np.ndarray) -> Vertices:
+    """The vertices that indices name, one after the other."""
+
+    def named(array: np.ndarray) -> np.ndarray:
+        return np.broadcast_to(array[0], (len(indices), *array.shape[1:])) if not array.strides[0] else array[indices]
+
+    return Vertices(
+        named(vertices.position),
+        named(vertices.color),
+        named(vertices.normal),
+        tuple(map(named, vertices.texcoords)),
+        {name: named(array) for name, array in vertices.materials.items()},
+    )
 
 
 def without_followed_colors(state: State) -> State:
@@ -251,3 +272,13 @@ def test_the_same_vertices_are_drawn_again(context):
     assert drawn[1] is drawn[3]
     assert len({id(vertices) for vertices in drawn}) == 3
     assert [float(np.copysign(1, vertices.color[0, 0])) for vertices in drawn] == [1, 1, -1, 1]
+
+
+def test_equal_corners_are_one_vertex(context):
+    corners = [("glVertex2f", corner) for corner in ((0, 0), (1, 0), (0, 1), (0, 1), (1, 0), (1, 1), (-0.0, 0))]
+    for mode, count, n_vertices in ((gl.GL_TRIANGLES, 6, 4), (gl.GL_QUADS, 4, 3), (gl.GL_QUADS, 5, 5)):
+        (primitive,) = compiled(("glBegin", (mode,)), *corners[:count], ("glEnd", ()))
+        assert (len(primitive.rows[0]), len(primitive.indices)) == (n_vertices, count)
+    (primitive,) = compiled(("glBegin", (gl.GL_TRIANGLES,)), *corners[:2], corners[-1], ("glEnd", ()))
+    assert len(primitive.rows[0]) == 3
+    assert primitive.indices.tolist() == [0, 1, 2]
