@@ -7,6 +7,7 @@ between two draws are never used. Groups that have not changed are the same obje
 from __future__ import annotations
 
 import struct
+from collections import deque
 from collections.abc import Mapping
 from ctypes import c_float
 from operator import is_
@@ -25,6 +26,7 @@ TUPLES: tuple[tuple[str, str], ...] = (
 # fields that draws do not use: clear values, and the face that glStencilFunc sets
 UNDRAWN = frozenset(("clear", "clear_accum", "active_back"))
 PACK = struct.Struct("4d").pack
+PAST = 8  # values of each group that are kept
 
 
 def affects_draws(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:
@@ -34,7 +36,11 @@ def affects_draws(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:
 
 def is_same(a: Any, b: Any) -> bool:
     """Return whether two values of a field have the same bits; -0.0 equals 0.0, but is another number."""
-    return a is b or (a == b and repr(a) == repr(b))
+    if a is b:
+        return True
+    if a != b:
+        return False
+    return all(map(is_same, a, b)) if type(a) is tuple else repr(a) == repr(b)
 
 
 # glColor under GL_COLOR_MATERIAL: the sides whose material follows ("front" or "back"), its fields, the colour
@@ -42,13 +48,18 @@ Followed = tuple[tuple[str, ...], tuple[str, ...], Color]
 
 
 class Group:
-    """A group of the state: its fields, and its last immutable value."""
+    """A group of the state: its fields, and its last immutable value.
 
-    __slots__ = ("field", "fields", "index", "parent", "value")
+    `past` holds the latest values: a program that goes back and forth between states gets the same objects again, and
+    what was derived from them.
+    """
+
+    __slots__ = ("field", "fields", "index", "parent", "past", "value")
 
     def __init__(self, value: Any, parent: Group | None, field: str, index: int = -1) -> None:
         self.value, self.parent, self.field, self.index = value, parent, field, index
         self.fields: dict[str, Any] = dict(vars(value))
+        self.past: deque[tuple[tuple[Any, ...], Any]] = deque(maxlen=PAST)  # values of the fields, and of the group
 
     def publish(self) -> bool:
         """Make the immutable value anew, and store it in the parent's fields; return whether a field has changed."""
@@ -58,9 +69,7 @@ class Group:
         if all(map(is_same, fields.values(), before.__dict__.values())):
             fields.update(before.__dict__)
             return False
-        value = object.__new__(type(before))
-        value.__dict__.update(fields)
-        self.value = value
+        self.value = value = self._past_or_new()
         if self.parent is not None:
             siblings = self.parent.fields
             if self.index >= 0:
@@ -68,6 +77,21 @@ class Group:
                 value = (*items[: self.index], value, *items[self.index + 1 :])
             siblings[self.field] = value
         return True
+
+    def _past_or_new(self) -> Any:
+        """Return an immutable value with the present fields: a past one if it has the same bits."""
+        before, values, is_known = self.value, tuple(self.fields.values()), False
+        for past_values, past in self.past:
+            if past_values == values and all(map(is_same, past_values, values)):
+                self.fields.update(past.__dict__)
+                return past
+            is_known = is_known or past is before
+        value = object.__new__(type(before))
+        value.__dict__.update(self.fields)
+        if not is_known:
+            self.past.append((tuple(before.__dict__.values()), before))
+        self.past.append((values, value))
+        return value
 
 
 class StateGroups:

@@ -16,7 +16,7 @@ from softshadow.pipeline.commands import Draw
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
     from softshadow.pipeline.fast.batch.geometry import Setting, geometry_of, setting_of
-    from softshadow.pipeline.fast.batch.table import BATCH_KERNELS, Run
+    from softshadow.pipeline.fast.batch.table import BATCH_KERNELS, Run, key_of
 except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
     pass
 
@@ -40,8 +40,8 @@ class DrawQueue:
         self._run: Run | None = None
         self._draws: list[Draw] = []
         self._n_vertices = 0
-        # kinds of runs by the identity of their state, each with what their geometry and their fragments depend on
-        self._known: dict[int, list[tuple[Run, Setting, Plan]]] = {}
+        # kinds of runs by the identity of what they depend on, each with that of their geometry and their fragments
+        self._known: dict[tuple[int, ...], list[tuple[Run, Setting, Plan]]] = {}
         self._setting: Setting | None = None
         self._plan: Plan | None = None
 
@@ -62,9 +62,9 @@ class DrawQueue:
     def _begin_run(self, command: Draw) -> bool:
         if not may_wait(command, self._storage) or not (self._compiles or BATCH_KERNELS.are_compiled()):
             return False
-        known = self._known.get(id(command.state), [])
-        for kind in known:
-            if kind[0].state is command.state and kind[0].takes(command):
+        key = key_of(command.state)
+        for kind in self._known.get(key, ()):
+            if kind[0].takes(command):
                 self._run, self._setting, self._plan = kind
                 return True
         target = self._storage.framebuffers[command.state.draw_framebuffer]
@@ -74,7 +74,7 @@ class DrawQueue:
         kind = run, setting_of(run, target, self._storage), plan_draw(command, target, False)
         if len(self._known) >= KNOWN_KINDS:
             self._known.clear()
-        self._known.setdefault(id(command.state), []).append(kind)
+        self._known.setdefault(key, []).append(kind)
         self._run, self._setting, self._plan = kind
         return True
 

@@ -275,3 +275,18 @@ def test_inverses_are_those_of_the_textbook(seed, kind):
         invert(matrix, kind, result)
         expected = inverse.inverse(matrix, kind)
     np.testing.assert_array_equal(result, expected)
+
+
+def test_what_a_run_depends_on_is_known_when_its_state_returns(monkeypatch):
+    planned = []
+    plan_draw = queue.plan_draw
+    monkeypatch.setattr(queue, "plan_draw", lambda *arguments: planned.append(1) or plan_draw(*arguments))
+    gl.create_context(SIZE, SIZE)
+    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.eye(3, dtype=np.float32))
+    for n in range(6):
+        (gl.glEnable if n % 2 else gl.glDisable)(gl.GL_DEPTH_TEST)
+        gl.glLightfv(gl.GL_LIGHT0, gl.GL_POSITION, [n, 0, 1, 0])
+        gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
+    gl.glFinish()
+    assert len(planned) == 2

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import fields
+from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -49,6 +50,7 @@ from softshadow.state import Lighting, MaterialState, State
 BATCH_KERNELS = KernelGroup("batch")
 GENERATED = {gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR}
 GROUPS = tuple(group.name for group in fields(State) if group.name not in ("lighting", "read_framebuffer"))
+groups_of = attrgetter(*GROUPS)
 LIGHT_MODEL = tuple(field.name for field in fields(Lighting) if field.name not in ("front", "back"))
 MATERIAL = tuple(field.name for field in fields(MaterialState))
 IDENTITY = np.eye(4, dtype=np.float32)
@@ -83,13 +85,15 @@ class Run:
         self.command, self.state, self.writes_color = command, command.state, writes_color
         bound = bound_textures(self.state, storage) if writes_color else {}
         self.units: list[Unit] = units_in_use(self.state, bound) if bound else []
+        self._unit_numbers = [unit.index for unit in self.units]
         self.arrays = self._arrays_of(command)
+        self._last = command  # taken
         is_flat = writes_color and self.state.lighting.shade_model == gl.GL_FLAT
         self.across = is_flat and (self.lit or self.arrays.color) and needs_vertex_color(self.state, self.units)
 
     def _arrays_of(self, command: Draw) -> Arrays:
         vertices = command.vertices
-        numbers = [unit.index for unit in self.units]
+        numbers = self._unit_numbers
         return Arrays(
             vertices.color.strides[0] != 0,
             vertices.normal.strides[0] != 0,
@@ -108,12 +112,32 @@ class Run:
 
     def takes(self, command: Draw) -> bool:
         """Return whether a draw of the same kind as the others continues the run."""
+        if self._is_like_last(command):
+            return True
         state, first = command.state, self.state
         if state is not first and not _differ_in_lights_only(state, first):
             return False
         if width_of(command.mode) != width_of(self.command.mode):
             return False
-        return self._arrays_of(command) == self.arrays and can_run(command)
+        if self._arrays_of(command) != self.arrays or not can_run(command):
+            return False
+        self._last = command
+        return True
+
+    def _is_like_last(self, command: Draw) -> bool:
+        """Return whether a draw with indices differs from the last one only in what every run allows."""
+        last = self._last
+        if command.state is not last.state or command.texture_matrices is not last.texture_matrices:
+            return False
+        if command.mode != last.mode or command.modelview_kind & UNKNOWN or command.indices is None:
+            return False
+        one, other, numbers = command.vertices, last.vertices, self._unit_numbers
+        return one is other or (
+            one.color.strides == other.color.strides
+            and one.normal.strides == other.normal.strides
+            and [one.texcoords[n].strides for n in numbers] == [other.texcoords[n].strides for n in numbers]
+            and not one.materials
+        )
 
 
 def width_of(mode: int) -> int:
@@ -121,11 +145,15 @@ def width_of(mode: int) -> int:
     return 3 if mode in POLYGONS else 1 if mode == gl.GL_POINTS else 2
 
 
+def key_of(state: State) -> tuple[int, ...]:
+    """Return by what to look for a run that may take draws of a state: the identities of its groups."""
+    return tuple(map(id, groups_of(state)))
+
+
 def _differ_in_lights_only(a: State, b: State) -> bool:
     if a.lighting is not b.lighting and _structure(a.lighting) != _structure(b.lighting):
         return False
-    one, other = a.__dict__, b.__dict__
-    return all(one[group] is other[group] or one[group] == other[group] for group in GROUPS)
+    return groups_of(a) == groups_of(b)
 
 
 def _structure(lights: Lighting) -> tuple[object, ...]:
@@ -197,8 +225,8 @@ def table_of(run: Run, draws: Sequence[Draw]) -> Table:
     )
     vertices = [draw.vertices for draw in draws]
     rows = np.empty((len(draws), FLOATS), np.float32)
-    rows[:, MODELVIEW:PROJECTION] = np.array([draw.modelview for draw in draws]).reshape(-1, 16)
-    rows[:, PROJECTION:COLOR] = np.array([draw.projection for draw in draws]).reshape(-1, 16)
+    rows[:, MODELVIEW:PROJECTION] = _matrices([draw.modelview for draw in draws])
+    rows[:, PROJECTION:COLOR] = _matrices([draw.projection for draw in draws])
     if not arrays.color:
         rows[:, COLOR:NORMAL] = [each.color[0] for each in vertices]
     if not arrays.normal:
@@ -218,6 +246,13 @@ def table_of(run: Run, draws: Sequence[Draw]) -> Table:
         _texcoords(run, vertices, int(numbers[-1, END])),
         _joined([draw.indices for draw in draws if draw.indices is not None], True, NO_INDICES),
     )
+
+
+def _matrices(matrices: Sequence[np.ndarray]) -> np.ndarray:
+    """Return matrices as rows of 16 numbers; one row if all draws have the same."""
+    if len(set(map(id, matrices))) == 1:
+        return matrices[0].reshape(1, 16)
+    return np.concatenate(matrices).reshape(-1, 16)
 
 
 NO_ROWS, NO_INDICES = np.empty((0, 4), np.float32), np.empty(0, np.int32)
@@ -308,7 +343,7 @@ def _unit_rows(run: Run, draws: Sequence[Draw]) -> np.ndarray:
     rows = np.zeros((len(draws), len(run.units), UNIT_COLUMNS), np.float32)
     for n, unit in enumerate(run.units):
         matrices = [draw.texture_matrices[unit.index] for draw in draws]
-        rows[:, n, UNIT_MATRIX:UNIT_CONSTANT] = np.array(matrices).reshape(-1, 16)
+        rows[:, n, UNIT_MATRIX:UNIT_CONSTANT] = _matrices(matrices)
         rows[:, n, UNIT_IS_IDENTITY] = run.arrays.identities[n]
         if not run.arrays.texcoords[n]:
             rows[:, n, UNIT_CONSTANT:UNIT_IS_IDENTITY] = [draw.vertices.texcoords[unit.index][0] for draw in draws]
