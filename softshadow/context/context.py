@@ -112,6 +112,7 @@ class Context:
             MatrixStack(MATRIX_STACK_DEPTHS[mode], self.real) for mode in (gl.GL_MODELVIEW, gl.GL_PROJECTION)
         )
         self.texture_stacks = [MatrixStack(MATRIX_STACK_DEPTHS[gl.GL_TEXTURE], self.real) for _ in range(TEXTURE_UNITS)]
+        self._texture_matrices: tuple[np.ndarray, ...] | None = None  # None while calls can change them
         self._matrix_mode, self._active_unit = gl.GL_MODELVIEW, 0
         self.matrix_stack = self.modelview_stack  # chosen by glMatrixMode; its last entry is the current matrix
         self.programs: dict[int, Program] = {}
@@ -253,8 +254,16 @@ class Context:
     def _select_stack(self) -> None:
         if self._matrix_mode == gl.GL_TEXTURE:
             self.matrix_stack = self.texture_stacks[self._active_unit]
+            self._texture_matrices = None
         else:
             self.matrix_stack = self.modelview_stack if self._matrix_mode == gl.GL_MODELVIEW else self.projection_stack
+
+    def _read_texture_matrices(self) -> tuple[np.ndarray, ...]:
+        """Return the texture matrices, and keep them until calls can change them."""
+        matrices = tuple([stack.current for stack in self.texture_stacks])
+        if self._matrix_mode != gl.GL_TEXTURE:
+            self._texture_matrices = matrices
+        return matrices
 
     @property
     def compiled_list(self) -> DisplayList | None:
@@ -279,7 +288,9 @@ class Context:
     def flush(self) -> None:
         """Draw the collected vertices: later pairs are not joined to them. Do nothing between glBegin and glEnd."""
         if self.primitive is None:
-            self.vertex_buffer.flush()
+            buffer = self.vertex_buffer
+            if buffer.sizes or buffer.n_vertices or buffer.joined_pairs is not None:
+                buffer.flush()
             if self.pending.reset_due:
                 self.reset_attributes()
 
@@ -318,10 +329,13 @@ class Context:
     # -- current values ------------------------------------------------------------------------------------------------
     def attribute(self, name: str) -> Any:
         """Return a current value by its name: "color", "normal", "texcoord0", "front.diffuse" ..."""
+        current = self.current.__dict__
+        if name in current:
+            return current[name]
         if name.startswith("texcoord"):
             return self.current.texcoords[int(name.removeprefix("texcoord"))]
         side, _, material = name.partition(".")
-        return self.material(side)[material] if material else getattr(self.current, name)
+        return self.material(side)[material]
 
     def set_attribute(self, name: str, value: Any) -> None:
         """Set a current value by its name, without drawing the collected vertices first."""
@@ -356,6 +370,8 @@ class Context:
 
     def _make_pending_current(self) -> None:
         pending = self.pending
+        if not pending.old_values and not pending.hidden:
+            return
         for name, value in pending.hidden.items():
             pending.old_values.setdefault(name, self.attribute(name))
             self.set_attribute(name, value)
@@ -367,24 +383,26 @@ class Context:
 
     # -- recording -----------------------------------------------------------------------------------------------------
     def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
-        state, modelview, projection = self._state.drawn(), self.modelview_stack, self.projection_stack
+        state = self._state.drawn()
         program = state.program
+        modelview, modelview_kind = self.modelview_stack.drawn()
+        projection, projection_kind = self.projection_stack.drawn()
         return create(
             Draw,
             state=state,
             mode=mode,
             vertices=vertices,
             indices=indices,
-            modelview=modelview.current,
-            projection=projection.current,
-            texture_matrices=tuple([stack.current for stack in self.texture_stacks]),
+            modelview=modelview,
+            projection=projection,
+            texture_matrices=self._texture_matrices or self._read_texture_matrices(),
             uniforms=dict(self.uniforms[program]) if program else NO_UNIFORMS,
             program_name=self.programs[program].name if program else "",
             label="/".join(self.labels) if self.labels else "",
             offset_slope=self.offset_slope,
             offset_unit=self.offset_unit,
-            modelview_kind=modelview.kind,
-            projection_kind=projection.kind,
+            modelview_kind=modelview_kind,
+            projection_kind=projection_kind,
             joined_positions=None,
             joined_start=0,
             linear=False,

@@ -92,6 +92,11 @@ class MatrixStack:
             kind = self.kinds[-1] = known_kind(self.current, kind)
         return kind
 
+    def drawn(self) -> tuple[np.ndarray, int]:
+        """Return the current matrix and its kind, for a draw."""
+        matrix, kind = self._known[-1], self.kinds[-1]
+        return self[-1] if matrix is None else matrix, self.kind if kind & UNKNOWN else kind
+
     # -- stack ---------------------------------------------------------------------------------------------------------
     def push(self) -> None:
         """Push a copy of the current matrix; the caller knows that there is room."""
@@ -118,7 +123,9 @@ class MatrixStack:
     @property
     def equals_pushed(self) -> bool:
         """Whether the current matrix has the same bytes as the one below it."""
-        return self[-1].tobytes() == self[-2].tobytes()
+        self._compute()
+        level = len(self.kinds) - 1
+        return self._levels[level].tobytes() == self._levels[level - 1].tobytes()
 
     # -- operations ----------------------------------------------------------------------------------------------------
     def translate(self, x: float, y: float, z: float) -> None:

@@ -43,7 +43,7 @@ class Contents:
             if id(command.vertices) not in self._sizes:  # type: ignore[union-attr]
                 self._add_vertices(command.vertices)  # type: ignore[union-attr]
             for array in (command.indices, command.joined_positions):  # type: ignore[union-attr]
-                if array is not None:
+                if array is not None and id(array) not in self._sizes:
                     self._add_array(array)
         elif kind is DefineImage or kind is UpdateImage:
             for array in (command.cells, command.stencil):  # type: ignore[union-attr]
@@ -60,6 +60,7 @@ class Contents:
 
     def _add_array(self, array: np.ndarray) -> None:
         while isinstance(array.base, np.ndarray):
+            self._sizes[id(array)] = 0
             array = array.base
         if id(array) not in self._sizes:
             self._sizes[id(array)] = array.nbytes

@@ -17,7 +17,7 @@ from softshadow.context import Context, current
 from softshadow.context.arrays import ArrayLayout, BufferObject, RowSnapshot, VertexArray
 from softshadow.gl.array_snapshots import POSITION, slice_of, snapshot_rows
 from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.constant_attributes import constant_attributes, constant_columns
+from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.gl.conversions import (
     from_byte,
     from_int,
@@ -195,7 +195,7 @@ def _vertices(context: Context, rows: Rows) -> Vertices:
     key = first, end, constants, *others
     vertices: Vertices | None = position.drawn.get(key)
     if vertices is None:
-        columns = constant_columns(context, constants, end - first)
+        columns = constants.rows(end - first)
         for snapshot in others:
             columns[snapshot.slot - 1] = slice_of(snapshot, first, end)
         if len(position.drawn) >= MOST_DRAWN:

@@ -11,10 +11,13 @@ from operator import is_
 
 import numpy as np
 
-from softshadow.context import Context
+from softshadow.context import Context, CurrentVertex
+from softshadow.state import TEXTURE_UNITS
 
 MOST_VIEWS = 1024  # of one value, by the number of vertices
 MOST_VALUES = 4096
+# 0 and -0 are different values, so values are compared by their bits
+PACK_COLOR_AND_NORMAL, PACK_COORDINATES = struct.Struct("7d").pack, struct.Struct("4d").pack
 
 
 @dataclass(eq=False, slots=True)
@@ -35,49 +38,67 @@ class ConstantAttribute:
 
 
 @dataclass(eq=False, slots=True)
-class ConstantAttributes:
-    """The current values, in the order of the slots, and what stands for them; equal values have the same object."""
+class ConstantSet:
+    """Values of all attributes, in the order of the slots: colour, normal, texture coordinates."""
 
-    values: tuple[tuple[float, ...], ...]  # colour, normal, texture coordinates
     attributes: tuple[ConstantAttribute, ...]
-    known: dict[bytes, ConstantAttribute]
-    sets: dict[tuple[ConstantAttribute, ...], tuple[ConstantAttribute, ...]]
-    columns: dict[tuple[tuple[ConstantAttribute, ...], int], tuple[np.ndarray, ...]]
+    columns: dict[int, tuple[np.ndarray, ...]] = field(default_factory=dict)
+
+    def rows(self, count: int) -> list[np.ndarray]:
+        """Return `count` rows of each attribute."""
+        columns = self.columns.get(count)
+        if columns is None:
+            if len(self.columns) >= MOST_VIEWS:
+                self.columns.clear()
+            columns = self.columns[count] = tuple([attribute.rows(count) for attribute in self.attributes])
+        return list(columns)
 
 
-def constant_attributes(context: Context) -> tuple[ConstantAttribute, ...]:
-    """Return colour, normal and texture coordinates of the context; the same tuple for the same bits."""
+class ConstantAttributes:
+    """The current values as the last draw had them, and all sets of values; equal values have the same objects."""
+
+    def __init__(self) -> None:
+        self.color: tuple[float, ...] = ()
+        self.normal: tuple[float, ...] = ()
+        self.texcoords: tuple[tuple[float, ...], ...] = ((),) * TEXTURE_UNITS
+        self.texcoord_bits: tuple[bytes, ...] = ()  # the same object for the same bits
+        self.known_bits: dict[tuple[bytes, ...], tuple[bytes, ...]] = {}
+        self.known: dict[bytes, ConstantAttribute] = {}
+        self.sets: dict[tuple[bytes, int], ConstantSet] = {}
+        self.last: ConstantSet | None = None
+
+    def find(self, context: Context, current: CurrentVertex) -> ConstantSet:
+        """Return the set of the current values."""
+        if not all(map(is_, current.texcoords, self.texcoords)):
+            bits = tuple([PACK_COORDINATES(*value) for value in current.texcoords])
+            self.texcoords, self.texcoord_bits = tuple(current.texcoords), self.known_bits.setdefault(bits, bits)
+        color, normal = current.color, current.normal
+        key = PACK_COLOR_AND_NORMAL(*color, *normal), id(self.texcoord_bits)
+        found = self.sets.get(key)
+        if found is None:
+            values = (color, normal, *current.texcoords)
+            found = self.sets[key] = ConstantSet(tuple([self._attribute(context, value) for value in values]))
+        self.color, self.normal, self.last = color, normal, found
+        return found
+
+    def _attribute(self, context: Context, value: tuple[float, ...]) -> ConstantAttribute:
+        bits = struct.pack(f"{len(value)}d", *value)
+        attribute = self.known.get(bits)
+        if attribute is None:
+            attribute = self.known[bits] = ConstantAttribute(context.frozen(value))
+        return attribute
+
+
+def constant_attributes(context: Context) -> ConstantSet:
+    """Return colour, normal and texture coordinates of the context; the same object for the same bits."""
     current, kept = context.current, context.arrays.constants
-    values = (current.color, current.normal, *current.texcoords)
-    if kept is None:
-        kept = context.arrays.constants = ConstantAttributes((), (), {}, {}, {})
-    elif all(map(is_, values, kept.values)):
-        return kept.attributes
-    if len(kept.known) >= MOST_VALUES or len(kept.sets) >= MOST_VALUES:
-        kept.known, kept.sets, kept.values, kept.attributes = {}, {}, (), ()
-    found = []
-    old_values = kept.values or (None,) * len(values)
-    for value, old_value, attribute in zip(values, old_values, kept.attributes or old_values, strict=True):
-        if value is not old_value:
-            bits = struct.pack(f"{len(value)}d", *value)  # 0 and -0 are different values
-            attribute = kept.known.get(bits)
-            if attribute is None:
-                attribute = kept.known[bits] = ConstantAttribute(context.frozen(value))
-        found.append(attribute)
-    attributes = tuple(found)
-    kept.values, kept.attributes = values, kept.sets.setdefault(attributes, attributes)
-    return kept.attributes
-
-
-def constant_columns(context: Context, constants: tuple[ConstantAttribute, ...], count: int) -> list[np.ndarray]:
-    """Return `count` rows of each attribute."""
-    known = context.arrays.constants.columns
-    columns: tuple[np.ndarray, ...] | None = known.get((constants, count))
-    if columns is None:
-        if len(known) >= MOST_VALUES:
-            known.clear()
-        columns = known[constants, count] = tuple(constant.rows(count) for constant in constants)
-    return list(columns)
+    if kept is None or len(kept.sets) >= MOST_VALUES or len(kept.known_bits) >= MOST_VALUES:
+        kept = context.arrays.constants = ConstantAttributes()
+    is_last = current.color is kept.color and current.normal is kept.normal
+    found: ConstantSet = kept.last
+    if not is_last or not all(map(is_, current.texcoords, kept.texcoords)):
+        found = kept.find(context, current)
+    return found
 
 
 def repeat_row(row: np.ndarray, count: int) -> np.ndarray:

@@ -18,7 +18,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context, current
 from softshadow.gl import immediate, texture_coordinates, vertex_attributes
 from softshadow.gl.array_snapshots import COLOR, NORMAL, POSITION, TEXCOORD
-from softshadow.gl.constant_attributes import ConstantAttribute, constant_attributes, constant_columns
+from softshadow.gl.constant_attributes import ConstantAttribute, ConstantSet, constant_attributes
 from softshadow.gl.conversions import (
     from_byte,
     from_int,
@@ -164,18 +164,18 @@ class ListPrimitive:
         context.pending.reset_due = True
         context.draw(self.mode, vertices, self.indices)
 
-    def vertices(self, constants: tuple[ConstantAttribute, ...]) -> Vertices:
+    def vertices(self, constants: ConstantSet) -> Vertices:
         """Return the vertices; the same object for the same current values."""
         count = len(self.rows[POSITION])
-        key = tuple(each for slot, each in enumerate(constants, 1) if self.starts.get(slot, 1))
+        key = tuple(each for slot, each in enumerate(constants.attributes, 1) if self.starts.get(slot, 1))
         vertices = self.drawn.get(key)
         if vertices is None:
-            rows = constant_columns(current(), constants, count)
+            rows = constants.rows(count)
             for slot, start in self.starts.items():
                 rows[slot - 1] = self.rows[slot]
                 if start:
                     rows[slot - 1] = self.rows[slot].copy()
-                    rows[slot - 1][:start] = constants[slot - 1].row
+                    rows[slot - 1][:start] = constants.attributes[slot - 1].row
                     rows[slot - 1].setflags(write=False)
             if len(self.drawn) >= MOST_DRAWN:
                 self.drawn.clear()

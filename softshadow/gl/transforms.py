@@ -59,6 +59,7 @@ def glPopMatrix() -> None:
     else:
         if not context.ready and context.has_collected and not stack.equals_pushed:
             context.flush()
+            context.ready = True
         stack.pop()
 
 

@@ -14,14 +14,14 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, Primitive
-from softshadow.gl.constant_attributes import constant_attributes, constant_columns
+from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
 from softshadow.state import TEXTURE_UNITS
 
 REST = (0.0, 0.0, 0.0, 1.0)  # default values of components that a call does not set
 TEXCOORDS = tuple(f"texcoord{unit}" for unit in range(TEXTURE_UNITS))
-COLUMNS = ("color", "normal", *TEXCOORDS)  # attributes in the order of `constant_columns`
+COLUMNS = ("color", "normal", *TEXCOORDS)  # attributes in the order of `ConstantSet`
 FEW_VERTICES = 8  # with more collected vertices, a new attribute outside glBegin makes Mesa reset all others
 
 
@@ -188,7 +188,7 @@ def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int
     def rows(name: str) -> np.ndarray:
         return _read_only(np.array(primitive.values(name, context.attribute(name))[start:end], real))
 
-    columns = constant_columns(context, constant_attributes(context), end - start)
+    columns = constant_attributes(context).rows(end - start)
     with np.errstate(over="ignore"):
         for number, name in enumerate(COLUMNS):
             if name in carried:
