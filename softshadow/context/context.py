@@ -128,7 +128,7 @@ class Context:
         self.state_at_push, self.touched = self.state, 0
         self.pending = PendingAttributes()
         self.lists: dict[int, DisplayList] = {}
-        self._compiled_list: DisplayList | None = None
+        self.compiled_list: DisplayList | None = None  # between glNewList and glEndList; whoever sets it clears `ready`
         self.executes_list = False  # while a compiled call is also being executed
         self.list_base = 0
         self.list_depth = 0  # nesting of lists that call each other
@@ -183,7 +183,11 @@ class Context:
 
     def change(self, group: str, **fields: Any) -> None:
         """Set fields of a group of the state, as `change_field` does."""
-        self.change_groups((group,), fields)
+        if not self.ready and self._would_redraw((group,), fields):
+            self.flush()
+        changed = self.groups[group]
+        changed.fields.update(fields)
+        self._changed.add(changed)
 
     def change_groups(self, groups: Sequence[str], fields: Mapping[str, Any]) -> None:
         """Set the same fields in several groups of the state, as `change_field` does."""
@@ -266,15 +270,6 @@ class Context:
         return matrices
 
     @property
-    def compiled_list(self) -> DisplayList | None:
-        """The list between its glNewList and glEndList."""
-        return self._compiled_list
-
-    @compiled_list.setter
-    def compiled_list(self, compiled: DisplayList | None) -> None:
-        self._compiled_list, self.ready = compiled, False
-
-    @property
     def has_collected(self) -> bool:
         """Whether vertices are collected, or attributes wait for the next change of the state."""
         return bool(self.vertex_buffer.sizes or self.pending.reset_due)
@@ -324,7 +319,7 @@ class Context:
         """Collect triangles or quads of immediate mode, to draw them together with pairs that follow."""
         if not self.vertex_buffer.can_join(mode):
             self.vertex_buffer.begin_joined_pairs(self._draw_command(mode, vertices))
-        self.vertex_buffer.join("/".join(self.labels), vertices)
+        self.vertex_buffer.join("/".join(self.labels) if self.labels else "", vertices)
 
     # -- current values ------------------------------------------------------------------------------------------------
     def attribute(self, name: str) -> Any:

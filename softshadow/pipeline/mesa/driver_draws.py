@@ -12,12 +12,13 @@ which the first triangle decides the polygon offset of all.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import groupby
 
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, offset_is_on
 
@@ -48,14 +49,16 @@ class JoinedPairs:
 
     def commands(self) -> list[Draw]:
         """Return the draws: one if all pairs are in the same debug groups, else one for each change of groups."""
+        if len(self.parts) == 1 and self.parts[0] == (self.first.label, self.first.vertices):
+            return [self.first]
         groups = [(label, [part for _, part in parts]) for label, parts in groupby(self.parts, lambda part: part[0])]
         if len(groups) == 1:
-            return [replace(self.first, vertices=join_vertices(groups[0][1]))]
+            return [evolve(self.first, vertices=join_vertices(groups[0][1]))]
         whole = join_vertices([vertices for _, vertices in self.parts]).position
         commands, start = [], 0
         for label, parts in groups:
             vertices = join_vertices(parts)
-            part = replace(self.first, vertices=vertices, label=label, joined_positions=whole, joined_start=start)
+            part = evolve(self.first, vertices=vertices, label=label, joined_positions=whole, joined_start=start)
             commands.append(part)
             start += len(vertices.position)
         return commands
@@ -106,7 +109,7 @@ class DriverDraw:
         front, back = effective_modes(command.state)
         if front == back or not offset_is_on(command.state.polygon):
             return command
-        part = replace(command, offset_mode=self.offset_mode)
+        part = evolve(command, offset_mode=self.offset_mode)
         if not self.offset_mode:
             self.offset_mode = offset_mode_of(part)
         return part

@@ -125,11 +125,13 @@ class Run:
         return True
 
     def _is_like_last(self, command: Draw) -> bool:
-        """Return whether a draw with indices differs from the last one only in what every run allows."""
+        """Return whether a draw differs from the last one only in what every run allows, as far as is seen at once."""
         last = self._last
         if command.state is not last.state or command.texture_matrices is not last.texture_matrices:
             return False
-        if command.mode != last.mode or command.modelview_kind & UNKNOWN or command.indices is None:
+        if command.mode != last.mode or command.modelview_kind & UNKNOWN or command.joined_positions is not None:
+            return False
+        if command.mode == gl.GL_TRIANGLES and command.indices is None:
             return False
         one, other, numbers = command.vertices, last.vertices, self._unit_numbers
         return one is other or (
