@@ -72,7 +72,10 @@ for _bit, _groups in GROUPS.items():
     for _group, _fields in _groups.items():
         BITS.setdefault(_group, []).append((_bit, _fields))
 # GL_TEXTURE_CUBE_MAP_SEAMLESS, which is newer than GL 2.1, belongs to no group
-PUSHED = tuple((cap, *place) for cap, place in CAPABILITIES.items() if cap != gl.GL_TEXTURE_CUBE_MAP_SEAMLESS)
+PUSHED: dict[str, list[tuple[int, str]]] = {}  # group of the state: (capability, field)
+for _cap, (_group, _field) in CAPABILITIES.items():
+    if _cap != gl.GL_TEXTURE_CUBE_MAP_SEAMLESS:
+        PUSHED.setdefault(_group, []).append((_cap, _field))
 PER_UNIT = (*UNIT_CAPABILITIES, *TEXTURE_GENERATION)
 
 
@@ -83,22 +86,29 @@ def changed_groups(before: State, after: State) -> int:
     """
     if before is after:
         return 0
-    bits = 0
+    bits, one, other = 0, before.__dict__, after.__dict__
     for group, groups in BITS.items():
-        old, new = getattr(before, group), getattr(after, group)
+        old, new = one[group], other[group]
         if old is not new:
             for bit, fields in groups:
-                if not bits & bit and differ(before, after, {group: fields}):
+                if not bits & bit and _fields_differ(old, new, fields):
                     bits |= bit
     return bits | (gl.GL_ENABLE_BIT if any(_switched(before, after, lights=True)) else 0)
 
 
 def differ(before: State, after: State, groups: Fields) -> bool:
     """Return whether two states differ in any of these fields."""
-    return any(
-        old is not new and (old != new if not fields else any(getattr(old, f) != getattr(new, f) for f in fields))
-        for old, new, fields in ((getattr(before, g), getattr(after, g), fields) for g, fields in groups.items())
-    )
+    return any(_fields_differ(getattr(before, group), getattr(after, group), names) for group, names in groups.items())
+
+
+def _fields_differ(old: Any, new: Any, fields: tuple[str, ...]) -> bool:
+    """Return whether two values of a group differ in any of these fields; () are all."""
+    if old is new:
+        return False
+    if not fields:
+        return bool(old != new)
+    one, other = old.__dict__, new.__dict__
+    return any(one[field] is not other[field] and one[field] != other[field] for field in fields)
 
 
 def needs_calls(bit: int, before: State, after: State) -> bool:
@@ -140,12 +150,12 @@ def _switched(before: State, after: State, lights: bool) -> Iterator[tuple[int, 
 
     In Mesa, switching a light on or off marks this group as changed, but popping it does not restore lights.
     """
-    for cap, group, field in PUSHED:
+    for group, switches in PUSHED.items():
         old, new = getattr(before, group), getattr(after, group)
-        if old is not new and getattr(old, field) != getattr(new, field):
-            yield cap, 0
+        if old is not new:
+            yield from ((cap, 0) for cap, field in switches if getattr(old, field) != getattr(new, field))
     several: list[int] = []
-    if lights and before.lighting is not after.lighting:
+    if lights and before.lighting.lights is not after.lighting.lights:
         several += LIGHTS
     if before.clip_planes is not after.clip_planes:
         several += CLIP_PLANES

@@ -25,11 +25,12 @@ from softshadow.gl.framebuffers import glDrawBuffer, glDrawBuffers, glReadBuffer
 from softshadow.gl.materials import start_to_follow
 from softshadow.gl.textures import BINDINGS
 from softshadow.pipeline.commands import CreateTexture, SetSampler
-from softshadow.state import State
+from softshadow.state import State, TextureUnit
 from softshadow.texture import Sampler, stored_name
 
 DEEPEST_ATTRIBUTES = 16
 INITIAL_SAMPLER = Sampler()
+_last_bound: list[tuple[tuple[TextureUnit, ...], list[tuple[int, int]]]] = [((), [])]
 
 
 class SavedAttributes(NamedTuple):
@@ -60,7 +61,7 @@ def glPushAttrib(mask: int) -> None:
     if len(context.attribute_stack) == DEEPEST_ATTRIBUTES:
         fail(gl.GL_STACK_OVERFLOW, "glPushAttrib", f"this stack holds {DEEPEST_ATTRIBUTES} entries")
         return
-    touched = _changed_since_push(context)
+    touched = _changed_since_push(context, context.state)
     if mask & (gl.GL_CURRENT_BIT | gl.GL_LIGHTING_BIT):
         context.update_current()
     framebuffers, state = context.objects.framebuffers, context.state
@@ -76,31 +77,41 @@ def glPushAttrib(mask: int) -> None:
             list_base=context.list_base,
             draw_buffers=_draw_buffers(framebuffers[state.draw_framebuffer]),
             read_buffer=framebuffers[state.read_framebuffer].read_buffer,
-            samplers=_bound_samplers(context) if mask & gl.GL_TEXTURE_BIT else {},
+            samplers=_bound_samplers(context, state) if mask & gl.GL_TEXTURE_BIT else {},
         )
     )
     context.touched, context.state_at_push = 0, state
 
 
-def _changed_since_push(context: Context) -> int:
+def _changed_since_push(context: Context, state: State) -> int:
     """Return the bits of the groups that have changed since the last push or pop."""
-    return context.touched | changed_groups(context.state_at_push, context.state)
+    if state is context.state_at_push:
+        return context.touched
+    return context.touched | changed_groups(context.state_at_push, state)
 
 
 def _copy_of(current: CurrentVertex) -> CurrentVertex:
     return CurrentVertex(current.color, current.normal, current.texcoords.copy())
 
 
-def _bound_samplers(context: Context) -> dict[tuple[int, int], Sampler]:
-    textures, samplers, units = context.objects.textures, {}, context.state.units
-    for target, binding in BINDINGS.items():
-        for bound in dict.fromkeys([getattr(unit, binding) for unit in units]):
-            name = stored_name(target, bound)
-            if name in textures:
-                samplers[target, name] = textures[name].sampler
-            elif name <= 0:  # a default texture (name 0) always exists in GL; the storage creates it at its first use
-                samplers[target, name] = INITIAL_SAMPLER
+def _bound_samplers(context: Context, state: State) -> dict[tuple[int, int], Sampler]:
+    textures, samplers = context.objects.textures, {}
+    for target, name in _bound_names(state.units):
+        if name in textures:
+            samplers[target, name] = textures[name].sampler
+        elif name <= 0:  # a default texture (name 0) always exists in GL; the storage creates it at its first use
+            samplers[target, name] = INITIAL_SAMPLER
     return samplers
+
+
+def _bound_names(units: tuple[TextureUnit, ...]) -> list[tuple[int, int]]:
+    """Return target and stored name of all bound textures; the same list for the same units as in the last call."""
+    known, names = _last_bound[0]
+    if known is not units:
+        bound = ((target, getattr(unit, binding)) for target, binding in BINDINGS.items() for unit in units)
+        names = [(target, stored_name(target, name)) for target, name in dict.fromkeys(bound)]
+        _last_bound[0] = units, names
+    return names
 
 
 @in_lists
@@ -116,7 +127,7 @@ def glPopAttrib() -> None:
     saved: SavedAttributes = context.attribute_stack.pop()
     if saved.mask & gl.GL_CURRENT_BIT:
         context.update_current()
-    mask = saved.mask & _changed_since_push(context)
+    mask = saved.mask & _changed_since_push(context, context.state)
     if mask:
         for bit in GROUPS:
             if mask & bit:

@@ -38,11 +38,11 @@ def record(context: Context, call: Callable[..., Any], *arguments: Any, **named:
     compiled.calls.append(functools.partial(call, *map(_snapshot, arguments), **named))
     if not compiled.executes:
         return None
-    context.compiled_list, context.executes_list = None, True  # calls made by this call are part of it
+    context.compiled_list, context.executes_list, context.ready = None, True, False  # calls made by this are part of it
     try:
         return call(*arguments, **named)
     finally:
-        context.compiled_list, context.executes_list = compiled, False
+        context.compiled_list, context.executes_list, context.ready = compiled, False, False
 
 
 # Calls that programs make most have neither `in_lists` nor `outside_begin`. They begin with
@@ -53,10 +53,13 @@ def is_allowed(context: Context, call: Callable[..., Any], *arguments: Any) -> b
 
     While a display list is compiled, it is recorded instead; between glBegin and glEnd it fails.
     """
-    if context.compiled_list is None:
-        return context.primitive is None or outside_begin(call.__name__) is not None
-    record(context, call, *arguments)
-    return False
+    if context.compiled_list is not None:
+        record(context, call, *arguments)
+        return False
+    if context.primitive is not None:
+        return outside_begin(call.__name__) is not None
+    context.ready = not context.has_collected
+    return True
 
 
 def is_ready(context: Context, call: Callable[..., Any], *arguments: Any) -> bool:

@@ -203,7 +203,12 @@ def glColorMask(red: Any, green: Any, blue: Any, alpha: Any) -> None:
 def glBlendFunc(sfactor: int, dfactor: int) -> None:
     """Set the blend factors of source and destination."""
     context = thread.context
-    if context.ready or is_allowed(context, glBlendFunc, sfactor, dfactor):
+    if not (context.ready or is_allowed(context, glBlendFunc, sfactor, dfactor)):
+        return
+    if sfactor in FACTORS and dfactor in FACTORS:
+        source, target = int(sfactor), int(dfactor)
+        context.change("blend", src_rgb=source, dst_rgb=target, src_alpha=source, dst_alpha=target)
+    else:
         _blend_func(context, "glBlendFunc", sfactor, dfactor, sfactor, dfactor)
 
 

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, DisplayList, current
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.context import Context, DisplayList, current, thread
+from softshadow.gl.calls import in_lists, record, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.list_primitives import carry_out, with_primitives
 
@@ -55,13 +55,13 @@ def glNewList(list: int, mode: int) -> None:
     elif name == 0:
         fail(gl.GL_INVALID_VALUE, "glNewList", f"list={list}: expected 1 or more")
     elif is_one_of("glNewList", "mode", mode, MODES, "GL_COMPILE or GL_COMPILE_AND_EXECUTE"):
-        context.compiled_list = DisplayList(name, int(mode))
+        context.compiled_list, context.ready = DisplayList(name, int(mode)), False
 
 
 def glEndList() -> None:
     """End the list, which replaces an older one of its name. A missing glEnd is an error, but the list ends."""
     context = current()
-    compiled, context.compiled_list = context.compiled_list, None
+    compiled, context.compiled_list, context.ready = context.compiled_list, None, False
     if compiled is not None:
         compiled.calls = with_primitives(context, compiled.calls)
         context.lists[compiled.name] = compiled
@@ -72,7 +72,6 @@ def glEndList() -> None:
         fail(gl.GL_INVALID_OPERATION, "glEndList", "there was no glNewList before it")
 
 
-@in_lists
 def glCallList(list: int) -> None:
     """Carry out a list. A name without a list does nothing, nor does name 0 inside another list.
 
@@ -81,11 +80,15 @@ def glCallList(list: int) -> None:
     GLError
         GL_INVALID_VALUE for name 0; else the first error of the list, after all its calls have been carried out.
     """
-    name = c_uint(int(list)).value
-    if name == 0 and current().list_depth == 0:
+    context = thread.context
+    if context.compiled_list is not None:
+        record(context, glCallList, list)
+        return
+    name = list if list in context.lists else c_uint(int(list)).value
+    if name == 0 and context.list_depth == 0:
         fail(gl.GL_INVALID_VALUE, "glCallList", f"list={list}: expected 1 or more")
     else:
-        _call(current(), name)
+        _call(context, name)
 
 
 @in_lists
@@ -110,11 +113,12 @@ def glCallLists(*arguments: Any) -> None:
 
 def _call(context: Context, name: int) -> None:
     context.flush()
-    if name not in context.lists or context.list_depth == DEEPEST_LIST:
+    compiled = context.lists.get(name)
+    if compiled is None or context.list_depth == DEEPEST_LIST:
         return
     context.list_depth += 1
     try:
-        carry_out(context.lists[name].calls)
+        carry_out(compiled.calls)
     finally:
         context.list_depth -= 1
         context.flush()

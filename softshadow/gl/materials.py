@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, current
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.context import Context, current, thread
+from softshadow.gl.calls import in_lists, record, spelled_like_gl
 from softshadow.gl.conversions import as_floats, as_ints, first, from_int, nearest_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.fragment_state import A_FACE, FACES, rounded
@@ -26,6 +26,10 @@ FIELDS: dict[int, tuple[str, ...]] = {
 PARAMETERS = {**FIELDS, gl.GL_SHININESS: ("shininess",)}
 A_COLOR = "GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR, GL_EMISSION or GL_AMBIENT_AND_DIFFUSE"
 SIDES = {gl.GL_FRONT: ("front",), gl.GL_BACK: ("back",), gl.GL_FRONT_AND_BACK: ("front", "back")}
+MATERIALS = {side: f"lighting.{side}" for side in SIDES[gl.GL_FRONT_AND_BACK]}  # groups of the state
+NAMES = {  # of the attributes
+    (side, field): f"{side}.{field}" for side in MATERIALS for fields in PARAMETERS.values() for field in fields
+}
 LARGEST_SHININESS = 128
 
 
@@ -63,13 +67,15 @@ def _context_if_valid(operation: str, face: int, pname: int) -> Context | None:
     return context if is_one_of(operation, "pname", pname, PARAMETERS, f"GL_SHININESS, {A_COLOR}") else None
 
 
-@in_lists
 def glMaterialf(face: int, pname: int, param: float) -> None:
     """Set the shininess, 0 to 128."""
-    if is_one_of("glMaterialf", "pname", pname, (gl.GL_SHININESS,), "GL_SHININESS"):
-        context = _context_if_valid("glMaterialf", face, pname)
-        if context is not None:
-            _set_shininess("glMaterialf", context, face, param)
+    context = thread.context
+    if context.compiled_list is not None:
+        record(context, glMaterialf, face, pname, param)
+    elif is_one_of("glMaterialf", "pname", pname, (gl.GL_SHININESS,), "GL_SHININESS") and is_one_of(
+        "glMaterialf", "face", face, FACES, A_FACE
+    ):
+        _set_shininess("glMaterialf", context, face, param)
 
 
 glMateriali = glMaterialf
@@ -89,18 +95,21 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
     """
     if not context.ready:
         context.flush()
+        context.ready = context.primitive is None and context.compiled_list is None
     for side in SIDES[face]:
         material, fixed = context.material(side), followed(context, side)
         free = {field: value for field, value in fields.items() if field not in fixed} if fixed else fields
         for field in free:
-            if f"{side}.{field}" not in context.pending.old_values:
-                context.remember_attribute(f"{side}.{field}")
+            name = NAMES[side, field]
+            if name not in context.pending.old_values:
+                context.remember_attribute(name)
         if context.primitive is not None:
             for field, value in free.items():
-                carry_attribute(context, f"{side}.{field}", np.size(value))
-                context.primitive.materials.add(f"{side}.{field}")
-                context.primitive.change(f"{side}.{field}", material[field], value)
-        context.change_groups((f"lighting.{side}",), free)
+                name = NAMES[side, field]
+                carry_attribute(context, name, np.size(value))
+                context.primitive.materials.add(name)
+                context.primitive.change(name, material[field], value)
+        context.change(MATERIALS[side], **free)
 
 
 # -- colours that follow glColor ---------------------------------------------------------------------------------------

@@ -49,7 +49,8 @@ def glPolygonOffset(factor: float, units: float) -> None:
     """Set the depth offset of polygons: `factor` times the slope, plus `units` times the smallest depth step."""
     context = thread.context
     if context.ready or is_allowed(context, glPolygonOffset, factor, units):
-        context.change("polygon", factor=rounded(context, factor), units=rounded(context, units))
+        factor, units = rounded(context, factor, units)
+        context.change("polygon", factor=factor, units=units)
 
 
 @in_lists
@@ -82,8 +83,10 @@ def glViewport(x: int, y: int, width: int, height: int) -> None:
     context = thread.context
     if not (context.ready or is_allowed(context, glViewport, x, y, width, height)):
         return
-    if _box_is_valid("glViewport", width, height):
-        x, y, width, height = int(x), int(y), min(int(width), LARGEST_VIEWPORT), min(int(height), LARGEST_VIEWPORT)
+    if (width >= 0 and height >= 0) or _box_is_valid("glViewport", width, height):
+        x, y, width, height = int(x), int(y), int(width), int(height)
+        if width > LARGEST_VIEWPORT or height > LARGEST_VIEWPORT:
+            width, height = min(width, LARGEST_VIEWPORT), min(height, LARGEST_VIEWPORT)
         if not (-FARTHEST_CORNER <= x < FARTHEST_CORNER and -FARTHEST_CORNER <= y < FARTHEST_CORNER):
             x, y = (max(-FARTHEST_CORNER, min(corner, FARTHEST_CORNER - 1)) for corner in (x, y))
         context.change("viewport", x=x, y=y, width=width, height=height)
