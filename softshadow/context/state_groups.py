@@ -43,6 +43,11 @@ def is_same(a: Any, b: Any) -> bool:
     return all(map(is_same, a, b)) if type(a) is tuple else repr(a) == repr(b)
 
 
+def _is_same_part(a: Any, b: Any) -> bool:
+    """Return whether two values of a field, a group or a tuple of groups, are the same objects."""
+    return a is b or (type(a) is tuple and all(map(is_, a, b)))
+
+
 # glColor under GL_COLOR_MATERIAL: the sides whose material follows ("front" or "back"), its fields, the colour
 Followed = tuple[tuple[str, ...], tuple[str, ...], Color]
 
@@ -54,11 +59,12 @@ class Group:
     what was derived from them.
     """
 
-    __slots__ = ("field", "fields", "index", "parent", "past", "value")
+    __slots__ = ("field", "fields", "has_parts", "index", "parent", "past", "value")
 
     def __init__(self, value: Any, parent: Group | None, field: str, index: int = -1) -> None:
         self.value, self.parent, self.field, self.index = value, parent, field, index
         self.fields: dict[str, Any] = dict(vars(value))
+        self.has_parts = False  # groups among the fields: equal ones are the same object
         self.past: deque[tuple[tuple[Any, ...], Any]] = deque(maxlen=PAST)  # values of the fields, and of the group
 
     def publish(self) -> bool:
@@ -82,7 +88,11 @@ class Group:
         """Return an immutable value with the present fields: a past one if it has the same bits."""
         before, values, is_known = self.value, tuple(self.fields.values()), False
         for past_values, past in self.past:
-            if past_values == values and all(map(is_same, past_values, values)):
+            if self.has_parts:
+                is_found = all(map(_is_same_part, past_values, values))
+            else:
+                is_found = past_values == values and all(map(is_same, past_values, values))
+            if is_found:
                 self.fields.update(past.__dict__)
                 return past
             is_known = is_known or past is before
@@ -117,7 +127,7 @@ class StateGroups:
         self.changed: set[Group] = set()
         for name, value in vars(state).items():
             if hasattr(value, "__dataclass_fields__"):
-                self.groups[name] = Group(value, self.root, name)
+                self._add(name, self.root, name)
         for name, field in PARTS:
             self._add(f"{name}.{field}", self.groups[name], field)
         for name, field in TUPLES:
@@ -126,7 +136,7 @@ class StateGroups:
                 self._add(f"{name}.{field}.{index}" if name else f"{field}.{index}", parent, field, index)
 
     def _add(self, name: str, parent: Group, field: str, index: int = -1) -> None:
-        value = parent.fields[field]
+        value, parent.has_parts = parent.fields[field], True
         self.groups[name] = Group(value[index] if index >= 0 else value, parent, field, index)
 
     def snapshot(self) -> State:
