@@ -79,6 +79,7 @@ class Run:
     writes_color : bool      else no colours are computed
     arrays : Arrays          of all draws
     across : bool            quads are cut along the other diagonal even without indices (`Varyings.flat_input`)
+    layout, generated, planes : of its `Table`
     """
 
     def __init__(self, command: Draw, storage: Storage, writes_color: bool) -> None:
@@ -89,6 +90,8 @@ class Run:
         self.arrays = self._arrays_of(command)
         self._last = command  # taken
         is_flat = writes_color and self.state.lighting.shade_model == gl.GL_FLAT
+        self.generated, self.planes, in_eye_space = _generation(self)
+        self.layout = self._layout(in_eye_space)
         self.across = is_flat and (self.lit or self.arrays.color) and needs_vertex_color(self.state, self.units)
 
     def _arrays_of(self, command: Draw) -> Arrays:
@@ -99,6 +102,20 @@ class Run:
             vertices.normal.strides[0] != 0,
             tuple([vertices.texcoords[number].strides[0] != 0 for number in numbers]),
             tuple([self._is_identity(command.texture_matrices[number]) for number in numbers]),
+        )
+
+    def _layout(self, in_eye_space: bool) -> Layout:
+        state, lit = self.state, self.lit
+        return Layout(
+            lit=int(lit),
+            separate=int(lit and is_separate(state)),
+            two_side=int(lit and state.lighting.two_side),
+            fog=int(self.writes_color and state.fog.enabled),
+            colors=int(self.arrays.color),
+            normals=int(self.arrays.normal),
+            units=len(self.units),
+            in_eye_space=int(in_eye_space),
+            ignored=NEAR_FAR if state.depth.clamp else 0,
         )
 
     @staticmethod
@@ -212,36 +229,23 @@ class Table(NamedTuple):
 
 def table_of(run: Run, draws: Sequence[Draw]) -> Table:
     """Return the draws of a run as arrays."""
-    state, arrays = run.state, run.arrays
-    generated, planes, in_eye_space = _generation(run)
-    layout = Layout(
-        lit=int(run.lit),
-        separate=int(run.lit and is_separate(state)),
-        two_side=int(run.lit and state.lighting.two_side),
-        fog=int(run.writes_color and state.fog.enabled),
-        colors=int(arrays.color),
-        normals=int(arrays.normal),
-        units=len(run.units),
-        in_eye_space=int(in_eye_space),
-        ignored=NEAR_FAR if state.depth.clamp else 0,
-    )
-    vertices = [draw.vertices for draw in draws]
+    arrays, vertices = run.arrays, [draw.vertices for draw in draws]
     rows = np.empty((len(draws), FLOATS), np.float32)
     rows[:, MODELVIEW:PROJECTION] = _matrices([draw.modelview for draw in draws])
     rows[:, PROJECTION:COLOR] = _matrices([draw.projection for draw in draws])
     if not arrays.color:
-        rows[:, COLOR:NORMAL] = [each.color[0] for each in vertices]
+        rows[:, COLOR:NORMAL] = np.concatenate([each.color[:1] for each in vertices])
     if not arrays.normal:
-        rows[:, NORMAL : NORMAL + 3] = [each.normal[0] for each in vertices]
+        rows[:, NORMAL : NORMAL + 3] = np.concatenate([each.normal[:1] for each in vertices])
     numbers, lightings = _numbers(draws, run)
     return Table(
-        layout,
+        run.layout,
         numbers,
         rows,
         _unit_rows(run, draws),
         *_lighting_arrays(lightings),
-        generated,
-        planes,
+        run.generated,
+        run.planes,
         _joined([each.position for each in vertices], True),
         _joined([each.color for each in vertices], arrays.color),
         _joined([each.normal for each in vertices], arrays.normal and run.lit),
@@ -269,26 +273,24 @@ def _joined(parts: list[np.ndarray], is_array: bool, nothing: np.ndarray = NO_RO
 
 def _numbers(draws: Sequence[Draw], run: Run) -> tuple[np.ndarray, list[Lighting]]:
     """Return the numbers of each draw, and the states of lighting that kernels can tell apart."""
-    lightings = [draws[0].state.lighting]
+    lit, across, last = run.lit, run.across, draws[0].state.lighting
     table: list[int] = []  # in the order of the columns
-    start, index_start, row = 0, 0, 0
+    lightings, start, index_start = [last], 0, 0
     for draw in draws:
-        end, lights = start + len(draw.vertices.position), draw.state.lighting
-        n_indices = 0 if draw.indices is None else len(draw.indices)
-        if run.lit and not _same_rows(lights, lightings[row]):
-            row = len(lightings)
+        indices, lights = draw.indices, draw.state.lighting
+        end, indexed = start + len(draw.vertices.position), indices is not None
+        index_end = index_start if indices is None else index_start + len(indices)
+        if lights is not last and lit and not _same_rows(lights, last):
+            last = lights
             lightings.append(lights)
-        index_end, indexed = index_start + n_indices, draw.indices is not None
-        across = run.across or indexed
-        table += (start, end, draw.mode, index_start, index_end, indexed, draw.modelview_kind, row, across)
+        row = len(lightings) - 1
+        table += (start, end, draw.mode, index_start, index_end, indexed, draw.modelview_kind, row, across or indexed)
         start, index_start = end, index_end
     return np.array(table, np.int64).reshape(-1, NUMBERS), lightings
 
 
 def _same_rows(a: Lighting, b: Lighting) -> bool:
     """Return whether two states of lighting have the same rows: a colour that follows glColor does not matter."""
-    if a is b:
-        return True
     one, other = a.__dict__, b.__dict__
     if any(one[name] is not other[name] and one[name] != other[name] for name in LIGHT_MODEL):
         return False
