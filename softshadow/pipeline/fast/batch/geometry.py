@@ -5,7 +5,6 @@ Vertices, lighting and assembly of all draws take three calls of kernels; clippi
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -167,10 +166,12 @@ def _lines_or_points(table: Table, most: int, width: int) -> np.ndarray:
 
 def _most_primitives(draws: Sequence[Draw]) -> int:
     """Return how many primitives the draws have before clipping, at most."""
-    sizes = Counter(
-        [(draw.mode, len(draw.vertices.position if draw.indices is None else draw.indices)) for draw in draws]
+    return sum(
+        [
+            primitive_count(draw.mode, len(draw.vertices.position if draw.indices is None else draw.indices))
+            for draw in draws
+        ]
     )
-    return sum([primitive_count(*size) * count for size, count in sizes.items()])
 
 
 def _flat_columns(run: Run) -> np.ndarray:
