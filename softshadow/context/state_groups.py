@@ -182,10 +182,12 @@ class StateGroups:
 
     def restore(self, state: State) -> None:
         """Replace the state by an immutable one."""
-        changed, self.followed = set(self.changed), None
+        changed, replaced, self.followed = set(self.changed), {self.root}, None
         self.changed.clear()
         for group in self.groups.values():  # parents before their parts
             parent = group.parent
+            if parent is not None and parent not in replaced and group not in changed:
+                continue
             value: Any = state
             if parent is not None:
                 value = parent.fields[group.field]
@@ -193,3 +195,4 @@ class StateGroups:
                     value = value[group.index]
             if group.value is not value or group in changed:
                 group.value, group.fields = value, dict(vars(value))
+                replaced.add(group)

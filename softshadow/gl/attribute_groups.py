@@ -113,7 +113,12 @@ def _fields_differ(old: Any, new: Any, fields: tuple[str, ...]) -> bool:
 
 def needs_calls(bit: int, before: State, after: State) -> bool:
     """Return whether Mesa makes GL calls to get from one state to another in one group."""
-    if bit == gl.GL_LIGHTING_BIT and any(is_on(before, light, 0) != is_on(after, light, 0) for light in LIGHTS):
+    lights, others = before.lighting.lights, after.lighting.lights
+    if (
+        bit == gl.GL_LIGHTING_BIT
+        and lights is not others
+        and [a.enabled for a in lights] != [b.enabled for b in others]
+    ):
         return True
     if bit == gl.GL_ENABLE_BIT:
         return before is not after
