@@ -27,7 +27,8 @@ def _of(module: Any, base: type = object) -> dict[str, type]:
 
 WARNINGS = _of(errors, errors.Warning)
 IN_STORAGE = (framebuffer.Storage, framebuffer.Framebuffer, framebuffer.Attachment, image.Image, texture.Texture)
-IN_SCENE = (scene.Scene, scene.SceneObject, scene.Mesh, scene.Camera, scene.Light, scene.Material)
+LIGHT_SHAPES = (scene.Rectangle, scene.Disc, scene.Sphere, scene.Segment)
+IN_SCENE = (scene.Scene, scene.SceneObject, scene.Mesh, scene.Camera, scene.Light, scene.Material, *LIGHT_SHAPES)
 KINDS: dict[str, type] = {
     **{name: kind for name, kind in (_of(commands) | _of(state)).items() if is_dataclass(kind)},
     **{kind.__name__: kind for kind in (texture.Sampler, image.Format, Frame, *IN_STORAGE, *IN_SCENE)},

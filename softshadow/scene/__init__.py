@@ -2,6 +2,8 @@
 
 from softshadow.scene.camera import Camera
 from softshadow.scene.files import load_scene
+from softshadow.scene.light_samples import light_samples, sample_lights
+from softshadow.scene.light_shapes import Disc, LightShape, Rectangle, Segment, Sphere
 from softshadow.scene.lights import Light
 from softshadow.scene.loading import scene_from_mesh
 from softshadow.scene.mesh import Mesh
@@ -16,16 +18,23 @@ from softshadow.scene.topology import Topology
 __all__ = [
     "Camera",
     "CastingFaces",
+    "Disc",
     "Light",
+    "LightShape",
     "Material",
     "Mesh",
+    "Rectangle",
     "Scene",
     "SceneObject",
+    "Segment",
     "ShadowVolume",
     "Silhouette",
+    "Sphere",
     "Topology",
     "casting_faces",
+    "light_samples",
     "placement",
+    "sample_lights",
     "scene_names",
     "scene_title",
     "shadow_volume",

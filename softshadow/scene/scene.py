@@ -22,27 +22,34 @@ from softshadow.scene.validate import set_fields, validate_number, validate_numb
 
 @dataclass(frozen=True, eq=False, init=False)
 class Material:
-    """How a surface reflects light; `color` is both GL's ambient and its diffuse color.
+    """How a surface reflects and emits light; `color` is both GL's ambient and its diffuse color.
 
     Attributes
     ----------
     color : (3,) float64         0 to 1
     specular : (3,) float64      0 to 1
     shininess : float            exponent, 0 to 128 as in GL
+    emission : (3,) float64      0 to 1: added once, whatever shines on the surface; it lights nothing else
     """
 
     color: np.ndarray
     specular: np.ndarray
     shininess: float
+    emission: np.ndarray
 
     def __init__(
-        self, color: ArrayLike = (0.8, 0.8, 0.8), specular: ArrayLike = (0, 0, 0), shininess: float = 0
+        self,
+        color: ArrayLike = (0.8, 0.8, 0.8),
+        specular: ArrayLike = (0, 0, 0),
+        shininess: float = 0,
+        emission: ArrayLike = (0, 0, 0),
     ) -> None:
         set_fields(
             self,
             color=validate_numbers("material: color", color, 3),
             specular=validate_numbers("material: specular", specular, 3),
             shininess=validate_number("material: shininess", shininess),
+            emission=validate_numbers("material: emission", emission, 3),
         )
         if not 0 <= self.shininess <= 128:
             raise SceneError(f"material: shininess: expected 0 to 128, got {self.shininess:g}")

@@ -15,7 +15,9 @@ from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError,
 from softshadow.errors import SceneError, Warning, nearest
 from softshadow.scene import shapes
 from softshadow.scene.camera import Camera
-from softshadow.scene.lights import NO_CONE, Light
+from softshadow.scene.light_shapes import SHAPES as LIGHT_SHAPES
+from softshadow.scene.light_shapes import LightShape
+from softshadow.scene.lights import NO_ATTENUATION, NO_CONE, Light
 from softshadow.scene.loading import load_mesh
 from softshadow.scene.mesh import Mesh
 from softshadow.scene.placement import placement
@@ -90,6 +92,9 @@ class LightTable(_Table):
     direction: Triple | None = None
     axis: Triple | None = None
     cutoff: float = NO_CONE
+    shape: str | None = None
+    parameters: dict[str, Any] = {}
+    attenuation: Triple = list(NO_ATTENUATION)
     color: Color = [1, 1, 1]
     _built: Light = PrivateAttr()
 
@@ -107,8 +112,35 @@ class LightTable(_Table):
             else:
                 with errors.catch(name):
                     place = self.position or [*(self.direction or ()), 0]
-                    self._built = Light(place, self.color, name, axis=self.axis, cutoff=self.cutoff)
+                    self._built = Light(
+                        place, self.color, name, axis=self.axis, cutoff=self.cutoff, shape=self._shape(errors),
+                        attenuation=self.attenuation,
+                    )  # fmt: skip
         return self
+
+    def _shape(self, errors: ErrorCollector) -> LightShape | None:
+        if self.shape is None:
+            if self.parameters:
+                errors.add("parameters: only a shape has parameters; expected none without shape")
+            return None
+        if self.shape not in LIGHT_SHAPES:
+            raise SceneError(f"shape: no shape of lights is called {self.shape!r}; {nearest(self.shape, LIGHT_SHAPES)}")
+        kind = LIGHT_SHAPES[self.shape]
+        expected = list(inspect.signature(kind).parameters)
+        n_before = len(errors.lines)
+        for key in self.parameters:
+            if key not in expected:
+                errors.add(f"parameters.{key}: a {self.shape} has no such parameter; {nearest(key, expected)}")
+        for key in expected:
+            if key not in self.parameters:
+                form = "a positive number" if key == "radius" else "[x, y, z]"
+                errors.add(f"parameters.{key}: expected {form}, but it is missing")
+        if len(errors.lines) > n_before:
+            return None
+        try:
+            return kind(**self.parameters)
+        except SceneError as error:
+            raise SceneError(f"parameters.{error}") from None
 
 
 class MaterialTable(_Table):
@@ -117,6 +149,7 @@ class MaterialTable(_Table):
     color: Color = [0.8, 0.8, 0.8]
     specular: Color = [0, 0, 0]
     shininess: Annotated[float, Field(ge=0, le=128)] = 0
+    emission: Color = [0, 0, 0]
 
 
 class _SceneObjectTable(_Table):
@@ -145,7 +178,7 @@ class _SceneObjectTable(_Table):
             raise SceneError(
                 "\n".join(f"material.{line}" for line in error_lines(error, {"": MaterialTable}))
             ) from None
-        return Material(table.color, table.specular, table.shininess)
+        return Material(table.color, table.specular, table.shininess, table.emission)
 
 
 class ObjectTable(_SceneObjectTable):

@@ -11,14 +11,15 @@ from softshadow.errors import SceneError, nearest
 # what a message expects, by the last key of the place
 EXPECTED = {
     **dict.fromkeys(("eye", "target", "up", "position", "direction", "move", "corner", "across"), "[x, y, z]"),
-    **dict.fromkeys(("color", "specular", "ambient", "background"), "[red, green, blue], each 0 to 1"),
+    **dict.fromkeys(("color", "specular", "emission", "ambient", "background"), "[red, green, blue], each 0 to 1"),
+    "attenuation": "[constant, linear, quadratic]",
     "fov_y": "degrees between 0 and 180",
     "near": "a positive distance",
     "far": "a positive distance",
     "shininess": "a number from 0 to 128",
     "turn": "[angle in degrees, x, y, z]",
     "scale": "a positive number or [x, y, z]",
-    "material": "the name of a [materials.NAME] table, or a table with color, specular, shininess",
+    "material": "the name of a [materials.NAME] table, or a table with color, specular, shininess, emission",
     "camera": "a table [camera] with eye and target",
     "light": "one or more tables [[light]]",
     "object": "tables [[object]]",

@@ -138,7 +138,7 @@ shininess = inf
             "ambient[1]: expected [red, green, blue], each 0 to 1, got 2",
             "camera: eye and target are both [0.0, 0.0, 0.0]; expected two different points",
             "light[0].postion: unknown key; did you mean 'position'? "
-            "(there are: name, position, direction, axis, cutoff, color)",
+            "(there are: name, position, direction, axis, cutoff, shape, parameters, attenuation, color)",
             "light[1].position: expected [x, y, z], got [1, 2]",
             "object[0].shape: no shape is called 'tours'; did you mean 'torus'? (there are: " + ", ".join(SHAPES) + ")",
             "object[1].parameters.major_radios: torus has no such parameter; did you mean 'major_radius'? "
@@ -149,7 +149,8 @@ shininess = inf
             f"object[3].mesh: {nothere}: there is no such file; expected an existing file",
             "object[3].name: 'a' is used twice; expected a unique name",
             "object[3].turn: expected an axis of a length other than 0, got [0.0, 0.0, 0.0, 0.0]",
-            "object[3].material.colour: unknown key; did you mean 'color'? (there are: color, specular, shininess)",
+            "object[3].material.colour: unknown key; did you mean 'color'? "
+            "(there are: color, specular, shininess, emission)",
             "object[4]: expected either shape (a built-in shape) or mesh (a model file)",
             "receiver[0].up: expected [x, y, z], but it is missing",
             "materials.gold.color: expected [red, green, blue], each 0 to 1, got 'red'",
