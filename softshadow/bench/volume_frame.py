@@ -44,7 +44,7 @@ def prepare(gl: Any, size: tuple[int, int], *, triangles: int = TRIANGLES) -> Dr
         gl.glDisable(gl.GL_CULL_FACE)
         drawing.light_by(gl, scene, [light], ambient=False)
         with drawing.additive_blending(gl):
-            drawing.draw_objects(gl, scene.objects)
+            drawing.draw_objects(gl, scene.objects, emission=False)
         gl.glDisable(gl.GL_STENCIL_TEST)
 
     return frame

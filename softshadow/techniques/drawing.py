@@ -88,9 +88,17 @@ def light_by(gl: Any, scene: Scene, lights: Iterable[Light], ambient: bool, cone
             gl.glLightfv(gl.GL_LIGHT0 + index, gl.GL_POSITION, tuple(float(v) for v in light.position))
             for term in (gl.GL_DIFFUSE, gl.GL_SPECULAR):
                 gl.glLightfv(gl.GL_LIGHT0 + index, term, (*light.color, 1.0))
+            if light.is_attenuated:
+                for term, factor in zip(attenuation_terms(gl), light.attenuation, strict=True):
+                    gl.glLightf(gl.GL_LIGHT0 + index, term, float(factor))
             if light.axis is not None and cones:
                 gl.glLightfv(gl.GL_LIGHT0 + index, gl.GL_SPOT_DIRECTION, tuple(float(v) for v in light.axis))
                 gl.glLightf(gl.GL_LIGHT0 + index, gl.GL_SPOT_CUTOFF, light.cutoff)
+
+
+def attenuation_terms(gl: Any) -> tuple[int, int, int]:
+    """Return the tokens of the three factors of attenuation."""
+    return gl.GL_CONSTANT_ATTENUATION, gl.GL_LINEAR_ATTENUATION, gl.GL_QUADRATIC_ATTENUATION
 
 
 @contextmanager
@@ -151,11 +159,14 @@ def debug_group(gl: Any, thing: SceneObject) -> Iterator[None]:
     gl.glPopDebugGroup()
 
 
-def draw_objects(gl: Any, objects: Iterable[SceneObject]) -> None:
-    """Draw objects with normals and materials, for passes with lighting."""
+def draw_objects(gl: Any, objects: Iterable[SceneObject], emission: bool = True) -> None:
+    """Draw objects with normals and materials, for passes with lighting.
+
+    A pass that is added to an earlier one must not add what the objects emit again (`emission` = False).
+    """
     for thing in objects:
         with object_space(gl, thing):
-            set_material(gl, thing)
+            set_material(gl, thing, emission)
             draw_mesh(gl, thing, shaded=True)
 
 
@@ -166,12 +177,13 @@ def draw_shapes(gl: Any, objects: Iterable[SceneObject]) -> None:
             draw_mesh(gl, thing, shaded=False)
 
 
-def set_material(gl: Any, thing: SceneObject) -> None:
-    """Set an object's reflectances."""
+def set_material(gl: Any, thing: SceneObject, emission: bool = True) -> None:
+    """Set an object's reflectances, and what it emits, or that it emits nothing."""
     material = thing.material
     gl.glMaterialfv(gl.GL_FRONT_AND_BACK, gl.GL_AMBIENT_AND_DIFFUSE, (*material.color, 1.0))
     gl.glMaterialfv(gl.GL_FRONT_AND_BACK, gl.GL_SPECULAR, (*material.specular, 1.0))
     gl.glMaterialf(gl.GL_FRONT_AND_BACK, gl.GL_SHININESS, material.shininess)
+    gl.glMaterialfv(gl.GL_FRONT_AND_BACK, gl.GL_EMISSION, (*(material.emission if emission else (0.0, 0.0, 0.0)), 1.0))
 
 
 def draw_mesh(gl: Any, thing: SceneObject, shaded: bool, texture_coordinates: np.ndarray | None = None) -> None:

@@ -35,7 +35,10 @@ def clear_coordinates(gl: Any) -> None:
 
 
 def draw_looked_up(gl: Any, objects: Iterable[SceneObject], normal_bias: float = 0.0, shaded: bool = False) -> None:
-    """Draw objects with their world positions as texture coordinates, moved along the normals by `normal_bias`."""
+    """Draw objects with their world positions as texture coordinates, moved along the normals by `normal_bias`.
+
+    With `shaded`, a light is added: the objects emit nothing.
+    """
     for thing in objects:
         gl.glMatrixMode(gl.GL_TEXTURE)
         gl.glPushMatrix()
@@ -43,7 +46,7 @@ def draw_looked_up(gl: Any, objects: Iterable[SceneObject], normal_bias: float =
         gl.glMatrixMode(gl.GL_MODELVIEW)
         with drawing.object_space(gl, thing):
             if shaded:
-                drawing.set_material(gl, thing)
+                drawing.set_material(gl, thing, emission=False)
             drawing.draw_mesh(gl, thing, shaded, texture_coordinates=moved_along_normals(thing, normal_bias))
         gl.glMatrixMode(gl.GL_TEXTURE)
         gl.glPopMatrix()

@@ -177,7 +177,7 @@ def add_further_light(
     gl.glStencilFunc(gl.GL_NOTEQUAL, 0, 0xFF)
     drawing.light_by(gl, scene, [light], ambient=False)
     with drawing.additive_blending(gl):
-        drawing.draw_objects(gl, scene.receivers)
+        drawing.draw_objects(gl, scene.receivers, emission=False)
     yield drawing.title("add the light where receivers are marked", scene, light)
 
 
@@ -235,7 +235,8 @@ def paint_shadows(gl: Any, scene: Scene, light: Light, clip: bool) -> None:
     """Draw the flattened casters in the colour that each receiver has under the ambient light."""
     gl.glDisable(gl.GL_LIGHTING)
     for receiver in scene.receivers:
-        gl.glColor3f(*np.clip(receiver.material.color * scene.ambient, 0, 1))
+        material = receiver.material
+        gl.glColor3f(*np.clip(material.color * scene.ambient + material.emission, 0, 1))
         draw_flattened(gl, scene, receiver, light, clip)
 
 

@@ -162,7 +162,7 @@ def add_light_through_textures(gl: Any, scene: Scene, light: Light, shadows: Sha
             gl.glMultMatrixd(drawing.column_major(world_to_receiver(receiver) @ receiver.object_to_world))
             gl.glMatrixMode(gl.GL_MODELVIEW)
             with drawing.object_space(gl, receiver):
-                drawing.set_material(gl, receiver)
+                drawing.set_material(gl, receiver, emission=False)
                 drawing.draw_mesh(gl, receiver, shaded=True, texture_coordinates=receiver.mesh.positions)
     gl.glDisable(gl.GL_TEXTURE_2D)
     gl.glDisable(gl.GL_ALPHA_TEST)

@@ -196,4 +196,4 @@ def add_light(gl: Any, scene: Scene, light: Light) -> None:
     gl.glStencilFunc(gl.GL_EQUAL, 0, SHADOW)
     drawing.light_by(gl, scene, [light], ambient=False)
     with drawing.additive_blending(gl):
-        drawing.draw_objects(gl, scene.objects)
+        drawing.draw_objects(gl, scene.objects, emission=False)

@@ -67,7 +67,7 @@ def steps(
         gl.glColorMask(gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE)
         drawing.light_by(gl, scene, [light], ambient=False)
         with drawing.additive_blending(gl):
-            drawing.draw_objects(gl, scene.objects)
+            drawing.draw_objects(gl, scene.objects, emission=False)
         gl.glDisable(gl.GL_STENCIL_TEST)
         yield (
             drawing.title("add the light where the parity is even", scene, light),

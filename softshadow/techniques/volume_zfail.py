@@ -90,7 +90,7 @@ def steps(
         gl.glDisable(gl.GL_CULL_FACE)  # E3: or only back faces of the scene are drawn
         drawing.light_by(gl, scene, [light], ambient=False)
         with drawing.additive_blending(gl):
-            drawing.draw_objects(gl, scene.objects)
+            drawing.draw_objects(gl, scene.objects, emission=False)
         gl.glDisable(gl.GL_STENCIL_TEST)
         yield (
             drawing.title("add the light where the count is 0", scene, light),

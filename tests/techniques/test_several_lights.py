@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from softshadow.scene import Camera, Light, Scene, SceneObject, placement, shapes
+from softshadow.scene import Camera, Light, Material, Scene, SceneObject, placement, shapes
 from softshadow.techniques import drawing
 from strategies import floor_scenes
 from techniques.drawn_frames import SIZE, cast_rays, draw, in_context
@@ -47,7 +47,7 @@ def parts_of(scene: Scene) -> list[np.ndarray]:
             gl.glClear(gl.GL_COLOR_BUFFER_BIT)
             drawing.light_by(gl, scene, [light], ambient=False)
             with drawing.additive_blending(gl):
-                drawing.draw_objects(gl, scene.objects)
+                drawing.draw_objects(gl, scene.objects, emission=False)
             parts.append(gl.glReadPixels(0, 0, *SIZE, gl.GL_RGB, gl.GL_UNSIGNED_BYTE).astype(float))
         return parts
 
@@ -63,6 +63,25 @@ def test_the_picture_is_the_ambient_light_and_each_light_where_it_is_seen(techni
     assert np.abs(drawn.image[valid, :3] - np.minimum(expected, 255)[valid]).max() <= ONE_STEP_PER_LIGHT
     for one in visible:
         assert 0 < one[valid].mean() < 1
+
+
+@pytest.mark.parametrize(
+    ("technique", "options"), [*ADDING, ("volume-zpass-plus", {}), ("volume-parity", {}), ("map-pcf", {})]
+)
+def test_attenuated_lights_are_added_and_emission_is_drawn_once(technique, options) -> None:  # type: ignore[no-untyped-def]
+    lamps = [light if light.is_directional else replace(light, attenuation=(0.5, 0.1, 0.02)) for light in LIGHTS]
+    glowing = replace(FLOOR, material=Material((0.5, 0.6, 0.7), emission=(0.05, 0.2, 0.1)))
+    scene = replace(SCENE, lights=lamps, objects=(glowing, BOX, RING))
+    drawn, (ambient, *direct) = draw(technique, scene, **options), parts_of(scene)
+    visible = [drawn.maps[f"visibility of {light.name}"][:, :, None] for light in lamps]
+    expected = ambient + sum(v * part for v, part in zip(visible, direct, strict=True))
+    valid = drawn.maps["valid"]
+    assert np.abs(drawn.image[valid, :3] - np.minimum(expected, 255)[valid]).max() <= ONE_STEP_PER_LIGHT
+
+    plain, *_ = parts_of(replace(scene, objects=(replace(glowing, material=Material((0.5, 0.6, 0.7))), BOX, RING)))
+    differences = np.unique(np.rint(ambient - plain).reshape(-1, 3), axis=0)
+    assert np.abs(differences - [13, 51, 25]).max(axis=1).min() <= 1  # the floor's emission times 255, and 0 elsewhere
+    assert len(np.unique(direct[0][drawn.maps["valid"]], axis=0)) > 5  # attenuation: many levels on one flat floor
 
 
 @settings(max_examples=4)
