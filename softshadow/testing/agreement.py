@@ -181,8 +181,8 @@ def agreement(run: Run, truth: Truth | None = None, width: int = 1) -> list[Agre
         band = truth.band(index, width)
         if "map_size" in run.options:
             band |= truth.texel_band(index, run.options["map_size"], width)
-        suffix = f" of {seen.name}" if len(run.lights) > 1 else ""
-        unknown = run.maps.get(f"unknown{suffix}", np.zeros_like(run.valid))
+        name = "unknown" if len(run.lights) == 1 else f"unknown: {seen.name}"
+        unknown = run.maps.get(name, np.zeros_like(run.valid))
         compared = run.valid & ~unknown & (truth.objects >= 0)
         wrong = compared & ((seen.visibility == 1) != truth.lit(index))
         agreements.append(Agreement(seen.name, band, wrong, compared))

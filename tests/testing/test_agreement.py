@@ -1,6 +1,7 @@
 """Agreement with ray casting: exact off the band for techniques that are right, and errors of the others."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -37,6 +38,17 @@ def test_a_shadow_map_is_right_off_its_texels_and_pixels_band_on_what_does_not_c
         # casters touch themselves: there the offset, which is as deep as a texel is steep, moves edges further
         assert not (result.wrong & ~result.band & ~casts).any()
         assert result.off_band <= 0.02 * result.compared.sum()
+
+
+def test_what_a_map_of_one_of_two_lights_does_not_cover_is_left_out() -> None:
+    """The map of unknown pixels is found for each light of several (it was looked up under another name)."""
+    scene = ss.Scene.named("room")
+    (lamp,) = scene.lights
+    twice = replace(scene, lights=(lamp, replace(lamp, name="again")))
+    (alone,) = agreement(quietly("map", scene))
+    for result in agreement(quietly("map", twice)):
+        assert (result.compared == alone.compared).all()
+        assert result.off_band == alone.off_band
 
 
 def test_a_coarser_map_has_a_wider_band_and_stays_right_off_it() -> None:
