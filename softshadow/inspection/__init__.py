@@ -8,6 +8,7 @@ from softshadow.inspection.difference import Difference, difference
 from softshadow.inspection.history import HistoryRow, PixelHistory, pixel_history
 from softshadow.inspection.ledger import Counts, Ledger, ledger_of
 from softshadow.inspection.replay import Buffers, Replay
+from softshadow.inspection.soft_truth import SoftTruth, soft_truth
 from softshadow.inspection.step import DrawSummary, Step, Steps
 
 __all__ = [
@@ -20,10 +21,12 @@ __all__ = [
     "Ledger",
     "PixelHistory",
     "Replay",
+    "SoftTruth",
     "Step",
     "Steps",
     "compare",
     "difference",
     "ledger_of",
     "pixel_history",
+    "soft_truth",
 ]

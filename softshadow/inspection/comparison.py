@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 WRONG = 0.1  # a larger error looks wrong, a smaller one only rough
+JUMP = 0.5  # a larger change of a light's visibility from pixel to pixel is an outline, not a penumbra
 
 
 @dataclass(frozen=True)
@@ -17,6 +18,11 @@ class ErrorSummary:
     max: float
     rms: float
     wrong: int
+
+    @property
+    def wrong_share(self) -> float:
+        """The share of the pixels that are off by more than 0.1."""
+        return self.wrong / self.pixels if self.pixels else 0.0
 
     def __str__(self) -> str:
         return f"{self.pixels} pixels, max {self.max:.4g}, RMS {self.rms:.4g}, {self.wrong} off by more than {WRONG:g}"
@@ -31,7 +37,8 @@ class Comparison:
     against : str                name of the reference
     error : (H, W) float32       visibility minus reference, row 0 on top; 0 where one of them is not defined
     compared : (H, W) bool       where both are defined
-    band : (H, W) bool           the boundary band: the reference differs between the pixel and its neighbours
+    band : (H, W) bool           the boundary band: the reference differs between the pixel and its neighbours; for soft
+                                 shadows, the visibility of a light differs by more than a half, as at outlines
     lit, umbra, penumbra : (H, W) bool   compared pixels off the band, by the reference: 1, 0, in between
     """
 
@@ -74,12 +81,22 @@ class Comparison:
 
 
 def compare(
-    visibility: np.ndarray, valid: np.ndarray, reference: np.ndarray, reference_valid: np.ndarray, against: str
+    visibility: np.ndarray,
+    valid: np.ndarray,
+    reference: np.ndarray,
+    reference_valid: np.ndarray,
+    against: str,
+    edges: np.ndarray | None = None,
 ) -> Comparison:
-    """Return how a visibility (H, W) differs from a reference; each has a bool (H, W) of where it is defined."""
+    """Return how a visibility (H, W) differs from a reference; each has a bool (H, W) of where it is defined.
+
+    The band is where the reference is not uniform, or, of compared pixels, `edges` (H, W) bool.
+    """
     compared = valid & reference_valid
     error = np.where(compared, visibility - reference, 0).astype(np.float32)
-    band = compared & ~uniform(np.where(reference_valid, reference, np.float32(-1)))
+    if edges is None:
+        edges = ~uniform(np.where(reference_valid, reference, np.float32(-1)))
+    band = compared & edges
     inner = compared & ~band
     lit, umbra = inner & (reference == 1), inner & (reference == 0)
     penumbra = inner & ~lit & ~umbra
@@ -90,7 +107,17 @@ def compare(
 
 def uniform(values: np.ndarray) -> np.ndarray:
     """Return where a pixel and its eight neighbours have the same value, (H, W) bool: no edge passes within a pixel."""
+    return np.logical_and.reduce([shifted == values for shifted in neighbours(values)])
+
+
+def jumps(values: np.ndarray) -> np.ndarray:
+    """Return where values (H, W) of a pixel and its eight neighbours differ by more than a half, (H, W) bool."""
+    around = neighbours(values)
+    return np.asarray(np.max(around, axis=0) - np.min(around, axis=0) > JUMP)
+
+
+def neighbours(values: np.ndarray) -> list[np.ndarray]:
+    """Return nine arrays: the values (H, W) of each pixel and its eight neighbours, repeated at the border."""
     height, width = values.shape
     framed = np.pad(values, 1, mode="edge")
-    shifted = [framed[y : y + height, x : x + width] == values for y in range(3) for x in range(3)]
-    return np.logical_and.reduce(shifted)
+    return [framed[y : y + height, x : x + width] for y in range(3) for x in range(3)]

@@ -39,15 +39,25 @@ def hard_counts(
     objects, triangles, points : (N,), (N,), (N, 3)      as `seen_faces` returns them
     """
     seen = objects >= 0
-    caster_index = np.full(len(scene.objects) + 1, -1)
-    casters = [index for index, item in enumerate(scene.objects) if item.casts]
-    caster_index[casters] = np.arange(len(casters))
-    exclude = caster_index[objects[seen]], triangles[seen]
+    exclude = own_faces(scene, objects[seen], triangles[seen])
     counts = np.zeros(len(objects), np.int32)
     counts[seen] = casting_faces_between(
         points[seen], light.position, scene.casters, exclude=exclude, viewer=scene.camera.eye
     )
     return counts
+
+
+def own_faces(scene: Scene, objects: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the face that each point lies on as caster and triangle, -1 for a face that does not cast.
+
+    Parameters
+    ----------
+    objects, triangles : (N,) int        index of the object in the scene, and of the triangle in it
+    """
+    caster_index = np.full(len(scene.objects), -1)
+    casters = [index for index, item in enumerate(scene.objects) if item.casts]
+    caster_index[casters] = np.arange(len(casters))
+    return caster_index[objects], triangles
 
 
 def seen_faces(

@@ -19,13 +19,16 @@ from softshadow.inspection import (
     Difference,
     Ledger,
     PixelHistory,
+    SoftTruth,
     Step,
     Steps,
     compare,
     difference,
     ledger_of,
     pixel_history,
+    soft_truth,
 )
+from softshadow.inspection.comparison import jumps
 from softshadow.inspection.explanation import explain
 from softshadow.inspection.hard_truth import hard_visibility
 from softshadow.inspection.pictures import notebook_display
@@ -156,13 +159,15 @@ class Run:
         """Draws, triangles, fragments by verdict and stencil updates of every step; the frame is replayed for it."""
         return ledger_of(self.frame)
 
-    def compare(self, other: Run | None = None, *, truth: str | None = None) -> Comparison:
+    def compare(self, other: Run | None = None, *, truth: str | SoftTruth | None = None) -> Comparison:
         """Return how the visibility differs from that of another run, or from ray casting.
 
         Parameters
         ----------
         other : Run                  of the same size
-        truth : "hard"               rays from the visible points to the lights, in double precision
+        truth : "hard", "soft" or SoftTruth      in double precision: a ray from each visible point to the centre of
+                                     each light; the share of each light that it sees; or the second as `soft_truth`
+                                     has returned it for the run's scene and size, with options and for several runs
 
         Raises
         ------
@@ -170,19 +175,29 @@ class Run:
         ValueError                   the sizes differ, or the truth is unknown
         """
         if (other is None) == (truth is None) or not isinstance(other, Run | None):
-            raise TypeError('compare(): expected another run, or truth="hard"')
+            raise TypeError('compare(): expected another run, or truth="hard" or "soft"')
         if other is not None:
             if other.size != self.size:
                 raise ValueError(f"compare(): sizes differ, {self.size} and {other.size}; expected the same")
             against = f"{other.technique} on {other.scene.name}"
             return compare(self.visibility, self.valid, other.visibility, other.valid, against)
         if truth == "soft":
-            raise ValueError('truth="soft": area lights are not part of this version; expected "hard"')
+            truth = soft_truth(self.scene, self.size)
+        if isinstance(truth, SoftTruth):
+            return self._compare_soft(truth)
         if truth != "hard":
-            raise ValueError(f'truth={truth!r}: expected "hard"')
+            raise ValueError(f'truth={truth!r}: expected "hard" or "soft"')
         visibilities, seen = hard_visibility(self.scene, self.size)
         mean = np.asarray(np.mean(visibilities, axis=0, dtype=np.float32))
         return compare(self.visibility, self.valid, mean, seen, "ray casting")
+
+    def _compare_soft(self, truth: SoftTruth) -> Comparison:
+        if truth.size != self.size:
+            raise ValueError(f"compare(): sizes differ, {self.size} and {truth.size}; expected the same")
+        edges = [jumps(np.where(truth.valid, visibility, -1)) for visibility in truth.visibilities]
+        return compare(
+            self.visibility, self.valid, truth.visibility, truth.valid, str(truth), np.logical_or.reduce(edges)
+        )
 
     # -- files and display ---------------------------------------------------------------------------------------------
     def save(self, path: str | os.PathLike[str], force: bool = False) -> Path:
