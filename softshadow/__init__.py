@@ -31,9 +31,23 @@ if TYPE_CHECKING:
     )
     from softshadow.gallery import GALLERY as failures
     from softshadow.inspection.pictures import stencil_palette
+    from softshadow.inspection.soft_truth import SoftTruth, soft_truth
     from softshadow.pipeline import explain_paths, set_threads, use_short_cuts
     from softshadow.runs import Run, load_run, run
-    from softshadow.scene import Camera, Light, Material, Mesh, Scene, SceneObject, scene_names
+    from softshadow.scene import (
+        Camera,
+        Disc,
+        Light,
+        Material,
+        Mesh,
+        Rectangle,
+        Scene,
+        SceneObject,
+        Segment,
+        Sphere,
+        scene_names,
+    )
+    from softshadow.scene.light_samples import light_samples
     from softshadow.techniques import describe
     from softshadow.techniques import names as technique_names
 
@@ -43,6 +57,7 @@ __all__ = [
     "Camera",
     "CounterSaturated",
     "DegenerateFaces",
+    "Disc",
     "FarFromOrigin",
     "HistoryCut",
     "InsideOutMesh",
@@ -57,11 +72,15 @@ __all__ = [
     "OpenMesh",
     "OutsideLightFrustum",
     "PartlyReadFile",
+    "Rectangle",
     "Run",
     "Scene",
     "SceneError",
     "SceneObject",
+    "Segment",
     "SoftShadowError",
+    "SoftTruth",
+    "Sphere",
     "StateError",
     "TJunction",
     "UnweldedMesh",
@@ -70,10 +89,12 @@ __all__ = [
     "explain_paths",
     "failures",
     "gl",
+    "light_samples",
     "load_run",
     "run",
     "scene_names",
     "set_threads",
+    "soft_truth",
     "stencil_palette",
     "technique_names",
     "testing",
@@ -89,9 +110,14 @@ _HOMES = {
         "PartlyReadFile", "SceneError", "SoftShadowError", "StateError", "TJunction", "UnweldedMesh", "Warning",
     ),
     "softshadow.inspection.pictures": ("stencil_palette",),
+    "softshadow.inspection.soft_truth": ("SoftTruth", "soft_truth"),
     "softshadow.pipeline": ("explain_paths", "set_threads", "use_short_cuts"),
     "softshadow.runs": ("Run", "load_run", "run"),
-    "softshadow.scene": ("Camera", "Light", "Material", "Mesh", "Scene", "SceneObject", "scene_names"),
+    "softshadow.scene": (
+        "Camera", "Disc", "Light", "Material", "Mesh", "Rectangle", "Scene", "SceneObject", "Segment", "Sphere",
+        "scene_names",
+    ),
+    "softshadow.scene.light_samples": ("light_samples",),
     "softshadow.techniques": ("describe",),
 }  # fmt: skip
 _HOME = {name: (module, name) for module, names in _HOMES.items() for name in names} | _RENAMED

@@ -8,6 +8,7 @@ import numpy as np
 from softshadow.errors import SceneError, nearest
 from softshadow.scene import shapes
 from softshadow.scene.camera import Camera
+from softshadow.scene.light_shapes import Rectangle, Sphere
 from softshadow.scene.lights import Light
 from softshadow.scene.mesh import Mesh
 from softshadow.scene.placement import placement
@@ -220,6 +221,47 @@ def open_tube() -> Scene:
     )
 
 
+def soft_slab() -> Scene:
+    """A square light, a slab and a floor, all parallel: umbra and penumbra are as wide as the formula says."""
+    return Scene(
+        "soft-slab",
+        Camera((2.9, 3.3, 5.2), (0.2, 0.7, 0.1), fov_y=45, near=1, far=30),
+        (Light((0, 4, 0), shape=Rectangle((1, 0, 0), (0, 0, 1))),),
+        (
+            _floor(),
+            # wider than the light, so that its upper edges, at a height of 2, alone bound umbra and penumbra
+            _caster(shapes.box(1.5, 0.125, 1.5), BRICK, (0, 1.9375, 0), name="slab"),
+        ),
+    )
+
+
+def soft_overlap() -> Scene:
+    """Two slabs before the same part of the light: what each of them hides must not be added."""
+    return Scene(
+        "soft-overlap",
+        Camera((2.9, 3.3, 5.2), (0.1, 0.8, 0.1), fov_y=45, near=1, far=30),
+        (Light((-0.4, 4.5, 0.3), shape=Rectangle((1.2, 0, 0), (0, 0, 1.2))),),
+        (
+            _floor(),
+            _caster(shapes.box(1.0, 0.1, 1.4), BRICK, (-0.2, 2.4, 0.1), (8, 0, 1, 0), name="upper"),
+            _caster(shapes.box(1.7, 0.1, 1.1), SKY, (0.3, 1.1, 0.0), (8, 0, 1, 0), name="lower"),
+        ),
+    )
+
+
+def soft_torus() -> Scene:
+    """A ball of light over a torus: the silhouette of a curved body differs from place to place on the light."""
+    return Scene(
+        "soft-torus",
+        Camera((2.4, 3.0, 4.6), (-0.1, 0.75, 0), fov_y=40, near=1, far=30),
+        (Light((1.5, 5, 2), shape=Sphere(0.7)),),
+        (
+            _floor(),
+            _caster(shapes.torus(0.9, 0.33, 48, 24), GOLD, (0, 1.4, 0), (50, 1, 0, 0.3), shine=40),
+        ),
+    )
+
+
 _SCENES: dict[str, Callable[[], Scene]] = {
     build.__name__.replace("_", "-"): build
     for build in (
@@ -236,6 +278,9 @@ _SCENES: dict[str, Callable[[], Scene]] = {
         spotlight,
         two_lights,
         open_tube,
+        soft_slab,
+        soft_overlap,
+        soft_torus,
     )
 }
 
