@@ -11,7 +11,7 @@ for it.
 import numpy as np
 
 from softshadow.jit import kernel
-from softshadow.truth.ray_cast import _cross, _difference, _dot, _is_before
+from softshadow.truth.ray_cast import cross, difference, dot, is_before
 
 FLAT, ROUND, BALL = range(3)  # parallelogram (also without a height, a segment), disc, sphere
 # a place on an edge counts as inside if its function is greater than this: 0, or the largest number below
@@ -31,7 +31,7 @@ def seen_light(point, kind, center, half_u, half_v, view):
     if kind != BALL:
         return True
     radius = half_u[0]
-    square = _dot(view[0], view[0])
+    square = dot(view[0], view[0])
     if square <= radius * radius:
         return False
     outline = radius * np.sqrt(square / (square - radius * radius))
@@ -44,9 +44,9 @@ def seen_light(point, kind, center, half_u, half_v, view):
         1.0 if smallest == 1 else 0.0,
         1.0 if smallest == 2 else 0.0,
     )
-    u = _cross(across, view[0])
-    v = _cross(view[0], u)
-    scale_u, scale_v = outline / np.sqrt(_dot(u, u)), outline / np.sqrt(_dot(v, v))
+    u = cross(across, view[0])
+    v = cross(view[0], u)
+    scale_u, scale_v = outline / np.sqrt(dot(u, u)), outline / np.sqrt(dot(v, v))
     for axis in range(3):
         view[1, axis] = u[axis] * scale_u
         view[2, axis] = v[axis] * scale_v
@@ -77,8 +77,8 @@ def set_shaft(view, part, planes, bounds):
 @kernel
 def _set_plane(a, b, inside, plane):
     """Write the normal of the plane through 0, a and b, turned towards `inside`."""
-    normal = _cross(a, b)
-    sign = 1.0 if _dot(normal, inside) >= 0 else -1.0
+    normal = cross(a, b)
+    sign = 1.0 if dot(normal, inside) >= 0 else -1.0
     for axis in range(3):
         plane[axis] = sign * normal[axis]
 
@@ -134,11 +134,11 @@ def hidden_part(corners, point, view, part, closed, functions):
     A row is (k, ka, kb, above): the place (a, b) is on the hidden side where ``k + ka a + kb b > above``. The face of a
     closed body hides the light only if it faces the light.
     """
-    a = _difference(corners[0], point)
-    b = _difference(corners[1], point)
-    c = _difference(corners[2], point)
-    normal = _cross(_difference(b, a), _difference(c, a))
-    height = _dot(normal, a)
+    a = difference(corners[0], point)
+    b = difference(corners[1], point)
+    c = difference(corners[2], point)
+    normal = cross(difference(b, a), difference(c, a))
+    height = dot(normal, a)
     if height == 0 or (closed and height < 0):
         return False
     sign = 1.0 if height > 0 else -1.0
@@ -160,8 +160,8 @@ def _set_edge(a, b, sign, view, part, function):
 
     A ray through the edge itself passes on the side that `ray_cast` gives it to.
     """
-    _set_function(_cross(a, b), sign, view, function)
-    function[3] = FROM_0 if (sign > 0) == _is_before(a, b) else ABOVE_0
+    _set_function(cross(a, b), sign, view, function)
+    function[3] = FROM_0 if (sign > 0) == is_before(a, b) else ABOVE_0
     return _largest(function, part) >= 0
 
 
@@ -185,8 +185,8 @@ def hidden_by_own_face(corners, viewer, point, view, closed, functions):
 
     It does where the light is on the other side of the face than the viewer.
     """
-    normal = _cross(_difference(corners[1], corners[0]), _difference(corners[2], corners[0]))
-    to_viewer = _dot(normal, _difference(viewer, point))
+    normal = cross(difference(corners[1], corners[0]), difference(corners[2], corners[0]))
+    to_viewer = dot(normal, difference(viewer, point))
     if not (to_viewer < 0 or (to_viewer > 0 and not closed)):  # no viewer is NaN
         return False
     _set_function(normal, -1.0 if to_viewer > 0 else 1.0, view, functions[0])

@@ -1,8 +1,7 @@
 """How much of an area light each point sees: the reference that soft shadows are compared with.
 
-Every point looks at the light through the tree of faces once. Faces in the shaft between the two are cut out of the
-light as polygons, which gives the exact area. Where that takes too many polygons, as behind a fine mesh, samples of the
-light are tested against the same faces instead, all samples of a point at once.
+Faces in the shaft between a point and the light are cut out of the light as polygons, which gives the exact area. Where
+that takes too many polygons, as behind a fine mesh, rays to samples of the light are cast instead.
 """
 
 from collections.abc import Callable, Sequence
@@ -12,35 +11,19 @@ from typing import Literal, get_args
 import numpy as np
 
 from softshadow.errors import nearest
-from softshadow.jit import kernel
 from softshadow.scene import Disc, Light, SceneObject, Sphere
 from softshadow.scene.sample_patterns import square_to_disc, strata
 from softshadow.truth.embree import visible_samples
-from softshadow.truth.light_view import (
-    BALL,
-    FLAT,
-    ROUND,
-    box_meets_ray,
-    box_meets_shaft,
-    hidden_by_own_face,
-    hidden_part,
-    place,
-    seen_light,
-    set_shaft,
-)
-from softshadow.truth.ray_cast import NONE, _in_one_plane, _own_leaves, _points, casting_faces_between
+from softshadow.truth.light_kernels import measure_light
+from softshadow.truth.light_view import BALL, FLAT, ROUND
+from softshadow.truth.ray_cast import casting_faces_between, checked_points, own_leaves
 from softshadow.truth.triangle_tree import build_tree
-from softshadow.truth.visible_pieces import CORNERS, cut_away, start_pieces, visible_share
 
 Method = Literal["auto", "exact", "rays", "embree"]
 METHODS: tuple[Method, ...] = get_args(Method)
 # pieces of the light, and faces before it: with more of them, samples take less time
 MOST_PIECES, MOST_FACES = 24, 64
 ALL_PIECES = 4096  # with method="exact"; some 1.6 MB per thread
-# samples that are tested one by one, and faces per sample before a group of samples is halved
-FEW, FACES_PER_SAMPLE = 16, 0.25
-HALF_AND_MORE = 0.5 + 1e-12  # half a width, widened by more than rounding
-HUGE = 1e300  # in place of an infinite slope
 # sets of samples, so that neighbouring points have different ones; a prime, so that they do not repeat per column
 SETS = 61
 CHUNK = 4096  # points that one thread takes at once
@@ -123,7 +106,7 @@ def light_visibility(
                                  falls into more than 4096 pieces
     ModuleNotFoundError          "embree" without embreex
     """
-    start = _points("points", points)
+    start = checked_points("points", points)
     if method not in METHODS:
         raise ValueError(f"method={method!r}: {nearest(str(method), METHODS)}")
     if isinstance(samples, bool) or not isinstance(samples, int | np.integer) or samples < 1:
@@ -133,7 +116,7 @@ def light_visibility(
         visible = ((counts == 0) & light.shines_on(start)).astype(np.float64)
         return _result(visible, np.ones(len(start), bool), samples)
     tree = build_tree(casters)
-    own = _own_leaves(exclude, len(start), tree)
+    own = own_leaves(exclude, len(start), tree)
     sets = sample_sets(light, samples, seed)
     if method == "embree":
         visible = visible_samples(start, light, tree, own, viewer, sets)
@@ -146,7 +129,7 @@ def light_visibility(
 
     def measure(chunk: int) -> None:
         part = slice(chunk * CHUNK, (chunk + 1) * CHUNK)
-        _measure(
+        measure_light(
             start[part], *frame, own[part], eye, tree.corners, tree.boxes, tree.flatness, tree.closed, sets,
             chunk * CHUNK, n_pieces, n_faces, visible[part], exact[part],
         )  # fmt: skip
@@ -180,8 +163,8 @@ def sample_sets(light: Light, samples: int, seed: int) -> np.ndarray:
 
 
 def in_halves(samples: np.ndarray) -> np.ndarray:
-    """Return samples (n, 2) in an order in which both halves are compact, and both halves of each half, and so on."""
-    if len(samples) <= FEW:
+    """Return samples (n, 2) so that both halves are compact, and both halves of each half: neighbours come together."""
+    if len(samples) < 3:
         return samples
     ordered = samples[np.argsort(samples[:, np.ptp(samples, axis=0).argmax()], kind="stable")]
     middle = len(samples) // 2
@@ -197,204 +180,3 @@ def _frame(light: Light) -> tuple[int, np.ndarray, np.ndarray, np.ndarray]:
         return BALL, center, np.full(3, shape.radius), np.zeros(3)
     u, v = shape.half_axes
     return ROUND if isinstance(shape, Disc) else FLAT, center, np.array(u), np.array(v)
-
-
-@kernel
-def _measure(
-    points, kind, center, half_u, half_v, own, viewer, corners, boxes, flatness, closed, sets, first, most_pieces,
-    most_faces, visible, exact,
-):  # fmt: skip
-    """Write how much of the light each point sees, and whether this is exact."""
-    view, shaft = np.empty((3, 3)), (np.empty(4), np.empty((4, 3)), np.empty((2, 3)))
-    functions, work = np.empty((4, 4)), np.empty((3, CORNERS, 2))
-    pieces, sizes = np.empty((max(most_pieces, 1), CORNERS, 2)), np.empty(max(most_pieces, 1), np.int64)
-    hidden = np.empty(sets.shape[1], np.bool_)
-    stack, groups = np.empty(128, np.int64), np.empty((64, 2), np.int64)
-    for number in range(len(points)):
-        visible[number], exact[number] = 1.0, True
-        point = points[number]
-        if not seen_light(point, kind, center, half_u, half_v, view):
-            continue
-        n_pieces = -1
-        if most_pieces > 0:
-            n_pieces = _cut_faces(
-                point, view, shaft, own[number], viewer, corners, boxes, flatness, closed, functions, work, pieces,
-                sizes, stack, most_faces,
-            )  # fmt: skip
-        if n_pieces >= 0:
-            visible[number] = visible_share(pieces, sizes, n_pieces, kind != FLAT)
-        else:
-            visible[number] = _sample_faces(
-                point, view, shaft, own[number], viewer, corners, boxes, flatness, closed, functions,
-                sets[(first + number) % SETS], hidden, stack, groups,
-            )  # fmt: skip
-            exact[number] = False
-
-
-@kernel
-def _next_face(top, point, view, shaft, own, corners, boxes, flatness, closed, functions, stack):
-    """Return the new top of the stack of nodes after the next face that hides something, -1 if there is none."""
-    part, planes, bounds = shaft
-    first_leaf = len(boxes) // 2
-    while top > 0:
-        top -= 1
-        node = stack[top]
-        if not box_meets_shaft(boxes[node], point, planes, bounds):
-            continue
-        if node < first_leaf:
-            stack[top] = 2 * node
-            stack[top + 1] = 2 * node + 1
-            top += 2
-            continue
-        face = node - first_leaf
-        if not hidden_part(corners[face], point, view, part, closed[face], functions):
-            continue
-        if own >= 0 and (face == own or _in_one_plane(corners[own], corners[face], flatness[own])):
-            continue
-        return top
-    return NONE
-
-
-@kernel
-def _cut_faces(
-    point, view, shaft, own, viewer, corners, boxes, flatness, closed, functions, work, pieces, sizes, stack,
-    most_faces,
-):  # fmt: skip
-    """Cut all faces between the point and the light out of the light; return the number of pieces, -1 if too many."""
-    part, planes, bounds = shaft
-    part[0], part[1], part[2], part[3] = 0.0, 0.0, 1.0, 1.0
-    set_shaft(view, part, planes, bounds)
-    n_pieces = start_pieces(pieces, sizes)
-    if own >= 0 and hidden_by_own_face(corners[own], viewer, point, view, closed[own], functions):
-        n_pieces = cut_away(pieces, sizes, n_pieces, functions, 1, work)
-    stack[0] = 1
-    top = 1
-    while n_pieces > 0:
-        top = _next_face(top, point, view, shaft, own, corners, boxes, flatness, closed, functions, stack)
-        if top == NONE:
-            break
-        if most_faces == 0:
-            return -1
-        most_faces -= 1
-        n_pieces = cut_away(pieces, sizes, n_pieces, functions, 4, work)
-    return n_pieces
-
-
-@kernel
-def _sample_faces(
-    point, view, shaft, own, viewer, corners, boxes, flatness, closed, functions, samples, hidden, stack, groups
-):
-    """Return the share of samples that no face between the point and the light hides.
-
-    Many samples are tested together as long as few faces are before them, else halves of them, and few one by one.
-    """
-    part, planes, bounds = shaft
-    hidden[:] = False
-    if own >= 0 and hidden_by_own_face(corners[own], viewer, point, view, closed[own], functions):
-        functions[1:, 0], functions[1:, 1:] = 1.0, 0.0
-        _hide(samples, functions, hidden)
-    groups[0, 0], groups[0, 1] = 0, len(samples)
-    n_groups = 1
-    while n_groups > 0:
-        n_groups -= 1
-        start, end = groups[n_groups]
-        if end - start <= FEW:
-            for sample in range(start, end):
-                if not hidden[sample]:
-                    hidden[sample] = _is_hidden(
-                        point, view, part, samples[sample], own, corners, boxes, flatness, closed, functions, stack
-                    )
-            continue
-        _set_part(samples[start:end], part)
-        set_shaft(view, part, planes, bounds)
-        budget = FACES_PER_SAMPLE * (end - start)
-        stack[0] = 1
-        top = 1
-        while True:
-            top = _next_face(top, point, view, shaft, own, corners, boxes, flatness, closed, functions, stack)
-            if top == NONE:
-                break
-            if budget <= 0:
-                middle = (start + end) // 2
-                groups[n_groups, 0], groups[n_groups, 1] = start, middle
-                groups[n_groups + 1, 0], groups[n_groups + 1, 1] = middle, end
-                n_groups += 2
-                break
-            budget -= 1
-            if _hide(samples[start:end], functions, hidden[start:end]) == 0:
-                break
-    n_visible = 0
-    for sample in range(len(samples)):
-        n_visible += not hidden[sample]
-    return n_visible / len(samples)
-
-
-@kernel
-def _set_part(samples, part):
-    """Write the smallest part of the light that contains the samples: its middle and its half widths."""
-    low_a, high_a, low_b, high_b = samples[0, 0], samples[0, 0], samples[0, 1], samples[0, 1]
-    for sample in range(len(samples)):
-        a, b = samples[sample, 0], samples[sample, 1]
-        low_a, high_a, low_b, high_b = min(low_a, a), max(high_a, a), min(low_b, b), max(high_b, b)
-    part[0], part[1], part[2], part[3] = (low_a + high_a) / 2, (low_b + high_b) / 2, high_a - low_a, high_b - low_b
-    part[2], part[3] = part[2] * HALF_AND_MORE, part[3] * HALF_AND_MORE
-
-
-@kernel
-def _is_hidden(point, view, part, sample, own, corners, boxes, flatness, closed, functions, stack):
-    """Return whether a face lies between the point and one sample."""
-    part[0], part[1], part[2], part[3] = sample[0], sample[1], 0.0, 0.0
-    x, y, z = place(view, sample[0], sample[1])
-    inverse = (1 / x if x != 0 else HUGE, 1 / y if y != 0 else HUGE, 1 / z if z != 0 else HUGE)
-    first_leaf = len(boxes) // 2
-    stack[0] = 1
-    top = 1
-    while top > 0:
-        top -= 1
-        node = stack[top]
-        if not box_meets_ray(boxes[node], point, inverse):
-            continue
-        if node < first_leaf:
-            stack[top] = 2 * node
-            stack[top + 1] = 2 * node + 1
-            top += 2
-            continue
-        face = node - first_leaf
-        if (
-            hidden_part(corners[face], point, view, part, closed[face], functions)
-            and _is_in_all(sample, functions)
-            and not (own >= 0 and (face == own or _in_one_plane(corners[own], corners[face], flatness[own])))
-        ):
-            return True
-    return False
-
-
-@kernel
-def _is_in_all(sample, functions):
-    """Return whether all four functions are positive at a sample."""
-    for number in range(4):
-        k, ka, kb, above = functions[number]
-        if not k + ka * sample[0] + kb * sample[1] > above:
-            return False
-    return True
-
-
-@kernel
-def _hide(samples, functions, hidden):
-    """Mark the samples where all four functions are positive as hidden; return how many are not hidden."""
-    k0, a0, b0, above0 = functions[0, 0], functions[0, 1], functions[0, 2], functions[0, 3]
-    k1, a1, b1, above1 = functions[1, 0], functions[1, 1], functions[1, 2], functions[1, 3]
-    k2, a2, b2, above2 = functions[2, 0], functions[2, 1], functions[2, 2], functions[2, 3]
-    k3, a3, b3, above3 = functions[3, 0], functions[3, 1], functions[3, 2], functions[3, 3]
-    n_visible = 0
-    for sample in range(len(samples)):
-        a, b = samples[sample, 0], samples[sample, 1]
-        is_in = (
-            (k0 + a0 * a + b0 * b > above0)
-            & (k1 + a1 * a + b1 * b > above1)
-            & (k2 + a2 * a + b2 * b > above2)
-            & (k3 + a3 * a + b3 * b > above3)
-        )
-        hidden[sample] |= is_in
-        n_visible += not hidden[sample]
-    return n_visible

@@ -52,7 +52,7 @@ def casting_faces_between(
     """
     if faces not in FACES:
         raise ValueError(f"faces: expected one of {', '.join(FACES)}, got {faces!r}")
-    start = _points("points", points)
+    start = checked_points("points", points)
     homogeneous = np.asarray(light, dtype=np.float64)
     if homogeneous.shape != (4,):
         raise ValueError(f"light: expected four numbers x, y, z, w, got shape {homogeneous.shape}")
@@ -65,7 +65,7 @@ def casting_faces_between(
         toward = np.tile(homogeneous[:3], (len(start), 1))
         reach = np.inf
     tree = build_tree(casters)
-    own = _own_leaves(exclude, len(start), tree)
+    own = own_leaves(exclude, len(start), tree)
     counts = np.zeros(len(start), dtype=np.int32)
     kind = FACES.index(faces)
     _count_faces(start, toward, reach, own, kind, *_arrays(tree), tree.closed, counts)
@@ -88,7 +88,7 @@ def first_faces(
     objects, triangles : (N,) int32          -1 if the ray hits nothing
     distances : (N,) float64                 in units of the direction's length, infinite if the ray hits nothing
     """
-    start, toward = _points("origins", origins), _points("directions", directions)
+    start, toward = checked_points("origins", origins), checked_points("directions", directions)
     tree = build_tree(objects)
     leaves = np.full(len(start), NONE, dtype=np.int32)
     distances = np.full(len(start), np.inf)
@@ -97,7 +97,8 @@ def first_faces(
     return np.where(hit, tree.objects[leaves], NONE), np.where(hit, tree.triangles[leaves], NONE), distances
 
 
-def _points(key: str, value: np.ndarray) -> np.ndarray:
+def checked_points(key: str, value: np.ndarray) -> np.ndarray:
+    """Return points (N, 3) as float64, or raise a ValueError that names them."""
     array = np.ascontiguousarray(value, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{key}: expected shape (N, 3), got {array.shape}")
@@ -108,7 +109,7 @@ def _arrays(tree: TriangleTree) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return tree.corners, tree.boxes, tree.flatness
 
 
-def _own_leaves(exclude: tuple[np.ndarray, np.ndarray] | None, n_points: int, tree: TriangleTree) -> np.ndarray:
+def own_leaves(exclude: tuple[np.ndarray, np.ndarray] | None, n_points: int, tree: TriangleTree) -> np.ndarray:
     """Return (N,) int32: the leaf of the triangle that each point lies on, -1 for none."""
     own = np.full(n_points, NONE, dtype=np.int32)
     if exclude is not None:
@@ -153,22 +154,25 @@ def _segment_meets_box(box, origin, direction, reach):
 
 
 @kernel
-def _cross(a, b):
+def cross(a, b):
+    """Return the cross product of two vectors as a tuple."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
 @kernel
-def _dot(a, b):
+def dot(a, b):
+    """Return the dot product of two vectors."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 @kernel
-def _difference(a, b):
+def difference(a, b):
+    """Return a - b as a tuple."""
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
 @kernel
-def _is_before(a, b):
+def is_before(a, b):
     """Return whether a comes before b in the order of x, then y, then z."""
     for axis in range(3):
         if a[axis] != b[axis]:
@@ -179,35 +183,35 @@ def _is_before(a, b):
 @kernel
 def _side(direction, a, b):
     """Return on which side of the edge a to b the ray from 0 passes, +1 or -1; always the opposite for b to a."""
-    value = _dot(direction, _cross(a, b))
+    value = dot(direction, cross(a, b))
     if value != 0:
         return 1 if value > 0 else -1
-    return 1 if _is_before(a, b) else -1
+    return 1 if is_before(a, b) else -1
 
 
 @kernel
 def _crossing(corners, origin, direction):
     """Return (sign, t): +1 if the face's normal points along the direction, -1 if against it, 0 for a miss."""
-    a = _difference(corners[0], origin)
-    b = _difference(corners[1], origin)
-    c = _difference(corners[2], origin)
+    a = difference(corners[0], origin)
+    b = difference(corners[1], origin)
+    c = difference(corners[2], origin)
     side = _side(direction, a, b)
     if side != _side(direction, b, c) or side != _side(direction, c, a):
         return 0, 0.0
-    normal = _cross(_difference(b, a), _difference(c, a))
-    slope = _dot(normal, direction)
+    normal = cross(difference(b, a), difference(c, a))
+    slope = dot(normal, direction)
     if slope == 0:
         return 0, 0.0
-    return 1 if slope > 0 else -1, _dot(normal, a) / slope
+    return 1 if slope > 0 else -1, dot(normal, a) / slope
 
 
 @kernel
-def _in_one_plane(own, corners, flatness):
+def in_one_plane(own, corners, flatness):
     """Return whether all corners of a face lie in the plane of the point's own face."""
-    normal = _cross(_difference(own[1], own[0]), _difference(own[2], own[0]))
-    limit = flatness * np.sqrt(_dot(normal, normal))
+    normal = cross(difference(own[1], own[0]), difference(own[2], own[0]))
+    limit = flatness * np.sqrt(dot(normal, normal))
     for corner in range(3):  # noqa: SIM110 - kernels spell out their loops
-        if abs(_dot(normal, _difference(corners[corner], own[0]))) > limit:
+        if abs(dot(normal, difference(corners[corner], own[0]))) > limit:
             return False
     return True
 
@@ -238,7 +242,7 @@ def _count_faces(origins, directions, reach, own, faces, corners, boxes, flatnes
                 continue
             own_face = own[ray]
             if own_face >= 0 and (
-                face == own_face or _in_one_plane(corners[own_face], corners[face], flatness[own_face])
+                face == own_face or in_one_plane(corners[own_face], corners[face], flatness[own_face])
             ):
                 continue
             counts[ray] += 1

@@ -9,7 +9,7 @@ from softshadow.scene import Scene, scene_names
 from strategies import floor_scenes
 from techniques.drawn_frames import Drawn, cast_rays, draw
 
-OVERLAPPING = {"overlapping", "open-tube"}
+OVERLAPPING = {"overlapping", "soft-overlap", "open-tube"}
 
 
 def parity_and_count(scene: Scene) -> tuple[Drawn, np.ndarray, np.ndarray]:

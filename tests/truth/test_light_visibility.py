@@ -13,7 +13,7 @@ from softshadow.scene import Disc, Light, LightShape, Mesh, Rectangle, Scene, Sc
 from softshadow.scene import shapes as meshes
 from softshadow.testing.strategies import meshes as any_mesh
 from softshadow.truth import casting_faces_between, light_classes, light_visibility
-from softshadow.truth.light_visibility import FEW, METHODS
+from softshadow.truth.light_visibility import METHODS
 from strategies import closed_meshes, coordinates, open_meshes
 
 SHAPES = (Rectangle((1, 0, 0), (0, 0, 1)), Disc(0.5, (0, 1, 0)), Sphere(0.5), Segment((1, 0, 0.5)))
@@ -174,7 +174,7 @@ def test_error_of_the_rays_falls_with_their_number(shape: LightShape) -> None:
 
 
 @pytest.mark.interpreted
-@pytest.mark.parametrize("samples", [1, 3, FEW, 5 * FEW])
+@pytest.mark.parametrize("samples", [1, 3, 20])
 def test_rays_together_find_what_single_rays_find(samples: int) -> None:
     """A light so small that all its samples see the same: what its centre sees."""
     points = on_the_floor(20)
