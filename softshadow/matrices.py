@@ -17,6 +17,7 @@ Real = type[np.floating]
 FLOAT: Real = np.float32
 # in GL, overflow gives infinities without an error
 silent = np.errstate(all="ignore")
+LEAST_W = 1 / 1024  # of `receiver_view`: this share of the way from the light to the receiver's plane is cut off
 SHORTEST_AXIS = 1e-4  # glRotate ignores an axis that is not longer (Mesa, math/m_matrix.c)
 
 
@@ -181,6 +182,43 @@ def _normalized(v: np.ndarray) -> np.ndarray:
 
 def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]], a.dtype)
+
+
+def receiver_view(world_to_receiver: np.ndarray, plane: np.ndarray, light: np.ndarray, highest: float) -> np.ndarray:
+    """Return the projection that sees a flat receiver from a light, filling the clip volume with the receiver's outline.
+
+    It is the planar shadow matrix followed by the receiver's own coordinates, and its depths are so that clipping
+    leaves what casts properly: depth -1 is the receiver's plane, 1 almost the light. What lies behind the plane would
+    cast a false shadow, and what lies behind the light an anti-shadow; both are outside.
+
+    Parameters
+    ----------
+    world_to_receiver : (4, 4)   world space to (u, v, 0, 1); 0 <= u, v <= 1 is the receiver's outline
+    plane : (4,)                 of the receiver, with a normal of length 1; either orientation
+    light : (4,)                 (L, 1) a point, (D, 0) the direction towards the light
+    highest : float              for a direction: distance from the plane at which casters are cut off, in world units
+
+    Returns
+    -------
+    (4, 4) float64
+
+    Raises
+    ------
+    ValueError                   the light lies in the plane
+
+    References
+    ----------
+    Heckbert & Herf 1997, "Simulating soft shadows with graphics hardware", CMU-CS-97-104.
+    """
+    flattened = planar_shadow(plane, light)
+    oriented = np.asarray(plane, np.float64) * np.sign(plane @ light)
+    height = float(oriented @ light)
+    view = world_to_receiver @ flattened / height
+    # for a point light, 1 - w is the share of the way from the plane to the light, and z w = (1 - w) / (1/least - 1)
+    view[2] = oriented / (highest if light[3] == 0 else height / light[3] * (1 / LEAST_W - 1))
+    to_clip = np.diag([2.0, 2.0, 2.0, 1.0])
+    to_clip[:3, 3] = -1
+    return np.asarray(to_clip @ view)
 
 
 def planar_shadow(plane: np.ndarray, light: np.ndarray) -> np.ndarray:

@@ -11,10 +11,14 @@ from softshadow.techniques import (
     map,
     map_cube,
     map_pcf,
+    map_sampled,
     map_silhouette,
     planar,
+    planar_accumulated,
+    planar_nested,
     shadow_polygons,
     volume_parity,
+    volume_sampled,
     volume_zfail,
     volume_zpass,
     volume_zpass_plus,
@@ -39,6 +43,20 @@ REGISTER = {
             "planar",
             "Blinn 1988, Me and my (fake) shadow",
             planar.steps,
+        ),
+        Technique(
+            "planar-accumulated",
+            "Soft planar shadows by accumulation",
+            "planar",
+            "Heckbert & Herf 1997, Simulating soft shadows with graphics hardware",
+            planar_accumulated.steps,
+        ),
+        Technique(
+            "planar-nested",
+            "Nested planar shadows",
+            "planar",
+            "Gooch et al. 1999, Interactive technical illustration",
+            planar_nested.steps,
         ),
         Technique(
             "blob",
@@ -76,6 +94,13 @@ REGISTER = {
             volume_parity.steps,
         ),
         Technique(
+            "volume-sampled",
+            "Shadow volumes of points of the light",
+            "volume",
+            "Brotman & Badler 1984, Generating soft shadows with a depth buffer algorithm",
+            volume_sampled.steps,
+        ),
+        Technique(
             "map",
             "Shadow map",
             "map",
@@ -88,6 +113,13 @@ REGISTER = {
             "map",
             "Reeves, Salesin & Cook 1987, Rendering antialiased shadows with depth maps",
             map_pcf.steps,
+        ),
+        Technique(
+            "map-sampled",
+            "Shadow maps of points of the light",
+            "map",
+            "Haeberli & Akeley 1990, The accumulation buffer",
+            map_sampled.steps,
         ),
         Technique(
             "map-cube",
@@ -113,8 +145,8 @@ def names() -> list[str]:
     Examples
     --------
     >>> print(*names())
-    shadow-polygons planar blob volume-zpass volume-zfail volume-zpass-plus volume-parity map map-pcf map-cube
-    map-silhouette
+    shadow-polygons planar planar-accumulated planar-nested blob volume-zpass volume-zfail volume-zpass-plus
+    volume-parity volume-sampled map map-pcf map-sampled map-cube map-silhouette
     """
     return list(REGISTER)
 

@@ -14,8 +14,14 @@ from softshadow.techniques import drawing
 from softshadow.techniques.map_lookups import clear_coordinates, draw_looked_up
 
 
-def visibility_texture(gl: Any, size: tuple[int, int]) -> int:
-    """Return a bound float texture of the window's size."""
+def upload_visibility(gl: Any, visibility: np.ndarray) -> int:
+    """Return a bound texture whose texels have a visibility (h, w) float32, first row = bottom, in all channels."""
+    height, width = visibility.shape
+    return visibility_texture(gl, (width, height), np.repeat(visibility[..., None], 4, axis=2))
+
+
+def visibility_texture(gl: Any, size: tuple[int, int], texels: np.ndarray | None = None) -> int:
+    """Return a bound float texture of the window's size, with texels (h, w, 4) float32 if they are given."""
     name: int = gl.glGenTextures(1)
     gl.glBindTexture(gl.GL_TEXTURE_2D, name)
     for parameter, value in (
@@ -25,7 +31,7 @@ def visibility_texture(gl: Any, size: tuple[int, int]) -> int:
         (gl.GL_TEXTURE_WRAP_T, gl.GL_CLAMP_TO_EDGE),
     ):
         gl.glTexParameteri(gl.GL_TEXTURE_2D, parameter, value)
-    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA32F, *size, 0, gl.GL_RGBA, gl.GL_FLOAT, None)
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA32F, *size, 0, gl.GL_RGBA, gl.GL_FLOAT, texels)
     return name
 
 
@@ -68,9 +74,14 @@ def texture_and_depth_attached(gl: Any, texture: int, size: tuple[int, int]) -> 
     gl.glDeleteRenderbuffers(1, [depths])
 
 
-def add_light_times(gl: Any, scene: Scene, size: tuple[int, int], light: Light, visibility: int) -> None:
-    """Add a light times the alpha of a visibility texture, looked up at each pixel's place in the window."""
-    drawing.set_camera(gl, scene.camera, size)
+def add_light_times(
+    gl: Any, scene: Scene, size: tuple[int, int], light: Light, visibility: int, far: str = "finite"
+) -> None:
+    """Add a light times the alpha of a visibility texture, looked up at each pixel's place in the window.
+
+    `far` is that of the depths in the depth buffer (`drawing.set_camera`).
+    """
+    drawing.set_camera(gl, scene.camera, size, far)
     drawing.light_by(gl, scene, [light], ambient=False, cones=False)
     gl.glEnable(gl.GL_TEXTURE_2D)
     gl.glBindTexture(gl.GL_TEXTURE_2D, visibility)
