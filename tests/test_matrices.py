@@ -100,3 +100,29 @@ def test_made_matrices_have_the_bits_of_mesa(maker):
     with gl.create_context(4, 4):
         ours = program(gl)
     assert ours.tobytes() == run_on_mesa(program, (4, 4)).returned.tobytes()
+
+
+def test_a_receiver_seen_from_a_light_fills_the_clip_volume():
+    """Points between the plane and the light land where their ray meets the receiver; others are clipped."""
+    random = np.random.default_rng(1997)
+    for _ in range(200):
+        axes, _ = np.linalg.qr(random.normal(size=(3, 3)))
+        corner, lengths = random.normal(size=3), random.uniform(0.5, 2, 2)
+        plane = np.append(axes[2], -axes[2] @ corner) * random.choice([-1, 1])
+        to_receiver = np.zeros((4, 4))
+        to_receiver[3, 3] = 1
+        for row in range(2):
+            to_receiver[row] = np.append(axes[row], -axes[row] @ corner) / lengths[row]
+        height = random.uniform(1, 5)
+        light = np.append(corner + random.normal(size=2) @ axes[:2] + height * axes[2], 1)
+        view = matrices.receiver_view(to_receiver, plane, light, 1.0)
+        on_plane, t = random.uniform(0, 1, 2), random.uniform(-0.2, 1.2)
+        target = corner + on_plane * lengths @ axes[:2]
+        clip = view @ np.append(target + t * (light[:3] - target), 1)
+        # the numbers are of the size 10, and are multiplied a few times
+        assert clip[3] == pytest.approx(1 - t, abs=1e-11)
+        assert clip[:2] == pytest.approx((2 * on_plane - 1) * clip[3], abs=1e-11)
+        assert (abs(clip[2]) <= clip[3] + 1e-11) == (0 <= t <= 1 - matrices.LEAST_W)
+        distant = matrices.receiver_view(to_receiver, plane, np.append(axes[2] + 0.3 * axes[0], 0), 2.0)
+        above = distant @ np.append(target + t * (axes[2] + 0.3 * axes[0]), 1)
+        assert above == pytest.approx(np.array([*(2 * on_plane - 1), 2 * t / 2.0 - 1, 1]), abs=1e-11)

@@ -128,6 +128,26 @@ STOPS = (
         "One map for each direction, for lights that stand among their casters; here five of the six are empty.",
     ),
     Stop(
+        "Soft shadows by planar shadows of points of the light",
+        "planar-accumulated",
+        "The mean of planar shadows of 16 points, summed up in a texture of the floor: bands where the points are few.",
+    ),
+    Stop(
+        "Nested planar shadows",
+        "planar-nested",
+        "Hard shadows on parallel planes, laid over each other: soft far from the foot of the light, not far from casters.",
+    ),
+    Stop(
+        "Soft shadows by shadow volumes of points of the light",
+        "volume-sampled",
+        "One shadow volume for each of nine points: the share of points that are seen is how much light arrives.",
+    ),
+    Stop(
+        "Soft shadows by shadow maps of points of the light",
+        "map-sampled",
+        "One shadow map for each of nine points: the same picture as with volumes, as far as the texels allow.",
+    ),
+    Stop(
         "Shadow silhouette map",
         "map-silhouette",
         "The map also stores points of the silhouette: even with this coarse map the edges are straight.",

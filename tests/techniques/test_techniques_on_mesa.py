@@ -33,6 +33,11 @@ VARIANTS: list[tuple[str, dict[str, Any]]] = [
     ("map-pcf", {"kernel": 1, "bilinear": True, "outside": "shadow"}),
     ("map-cube", {"map_size": 64}),
     ("map-silhouette", {"map_size": 64}),
+    ("volume-sampled", {"samples": 4}),
+    ("map-sampled", {"samples": 3, "pattern": "sobol", "map_size": 64}),
+    ("planar-accumulated", {"samples": 4, "texture_size": 64}),
+    ("planar-accumulated", {"samples": 5, "pattern": "jittered", "method": "accumulation"}),
+    ("planar-nested", {"layers": 3, "texture_size": 64}),
     ("map", {"surface": "midpoint", "map_size": 64, "factor": 0.0, "normal_bias": 0.02}),
 ]
 
