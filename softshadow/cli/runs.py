@@ -1,4 +1,4 @@
-"""``softshadow render``, ``steps`` and ``pixel``: draw a scene with one technique, and show the result."""
+"""``softshadow render``, ``steps``, ``pixel`` and ``section``: draw a scene, and show the result."""
 
 from __future__ import annotations
 
@@ -164,3 +164,36 @@ def pixel(
     else:
         click.echo(history)
         click.echo(sentence)
+
+
+@click.command(epilog=examples("softshadow section --scene soft-slab", "softshadow section 300 330 -o torus.svg"))
+@click.argument("x", type=int, required=False)
+@click.argument("y", type=int, required=False)
+@scene_arguments("640x480")
+@click.option("-o", "--output", metavar="FILE.svg", default="section.svg", show_default=True, help="The drawing.")
+@force
+@as_json
+def section(
+    x: int | None, y: int | None, scene: str | None, mesh: str | None, light: tuple[float, ...] | None,
+    size: tuple[int, int], output: str, force: bool, as_json: bool,
+) -> None:  # fmt: skip
+    """Draw a scene cut by a plane, with its shadow volumes and wedges.
+
+    The plane is vertical, through the light and the casters; or, with X and Y, through the light, the eye and what this
+    pixel shows. Then the counts along the line of sight are drawn, too.
+    """
+    from softshadow.report import cross_section, save_svg
+
+    if (x is None) != (y is None):
+        raise click.UsageError("expected both X and Y, or neither")
+    pixel = None if x is None or y is None else (x, y)
+    with print_warnings_once():
+        drawing = cross_section(load_scene(scene=scene, mesh=mesh, light=light), pixel, size)
+    written = save_svg(drawing, output, force)
+    if as_json:
+        crossings = [{"caster": each.caster, "step": each.step, "count": each.count} for each in drawing.crossings]
+        print_json("section", written=written, crossings=crossings)
+        return
+    for each in drawing.crossings:
+        click.echo(f"{each.step:+d} = {each.count}  {each.caster}")
+    click.echo(written)

@@ -33,6 +33,7 @@ from softshadow.inspection.explanation import explain
 from softshadow.inspection.hard_truth import hard_visibility
 from softshadow.inspection.pictures import notebook_display
 from softshadow.inspection.step import sheet_of
+from softshadow.report import CrossSection, cross_section
 from softshadow.runs.archive import RunRecord, read_npz
 from softshadow.runs.saving import save
 from softshadow.scene import Scene
@@ -153,6 +154,19 @@ class Run:
         has_visibility = "visibility" in self.maps and "valid" in self.maps
         valid = has_visibility and bool(self.valid[history.y, history.x])
         return explain(history, float(self.visibility[history.y, history.x]) if has_visibility else None, valid)
+
+    def cross_section(self, x: int, y: int, light: str | None = None) -> CrossSection:
+        """Return the plane through the eye, a light and the point that a pixel shows, with the counts on the way there.
+
+        Parameters
+        ----------
+        light : str                  name; the first one by default
+
+        Raises
+        ------
+        ValueError                   the pixel is outside the picture or shows no surface, or there is no such light
+        """
+        return cross_section(self.scene, (x, y), self.size, light)
 
     @cached_property
     def ledger(self) -> Ledger:

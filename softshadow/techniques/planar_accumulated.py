@@ -10,8 +10,8 @@ that of Haeberli & Akeley 1990.
 Slides: Zimányi & Valient, Mäkké tiene, Heckbert a Herf; Moldoveanu "umbre 2".
 
 Known failures: receivers have to be flat, casters have no shadow on themselves or on each other; n points give n + 1
-shades (banding); the number of pictures is that of receivers times points. accumulation: the buffer has 16 bits, so with
-many points each loses a part of its last bit.
+shades (banding); the number of pictures is that of receivers times points. accumulation: the buffer has 16 bits, so
+with many points each loses a part of its last bit.
 """
 
 from dataclasses import replace
