@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from softshadow.inspection.pictures import stencil_palette
     from softshadow.inspection.soft_truth import SoftTruth, soft_truth
     from softshadow.pipeline import explain_paths, set_threads, use_short_cuts
+    from softshadow.report import cross_section
     from softshadow.runs import Run, load_run, run
     from softshadow.scene import (
         Camera,
@@ -85,6 +86,7 @@ __all__ = [
     "TJunction",
     "UnweldedMesh",
     "Warning",
+    "cross_section",
     "describe",
     "explain_paths",
     "failures",
@@ -112,6 +114,7 @@ _HOMES = {
     "softshadow.inspection.pictures": ("stencil_palette",),
     "softshadow.inspection.soft_truth": ("SoftTruth", "soft_truth"),
     "softshadow.pipeline": ("explain_paths", "set_threads", "use_short_cuts"),
+    "softshadow.report": ("cross_section",),
     "softshadow.runs": ("Run", "load_run", "run"),
     "softshadow.scene": (
         "Camera", "Disc", "Light", "Material", "Mesh", "Rectangle", "Scene", "SceneObject", "Segment", "Sphere",
