@@ -185,7 +185,7 @@ def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def receiver_view(world_to_receiver: np.ndarray, plane: np.ndarray, light: np.ndarray, highest: float) -> np.ndarray:
-    """Return the projection that sees a flat receiver from a light, filling the clip volume with the receiver's outline.
+    """Return the projection that sees a flat receiver from a light; the receiver's outline fills the clip volume.
 
     It is the planar shadow matrix followed by the receiver's own coordinates, and its depths are so that clipping
     leaves what casts properly: depth -1 is the receiver's plane, 1 almost the light. What lies behind the plane would

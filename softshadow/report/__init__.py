@@ -4,12 +4,14 @@ Pages load nothing from the network: styles and script are in them, and pictures
 """
 
 from softshadow.report.commands import options_spelled, scene_spelled
-from softshadow.report.cross_section import Crossing, CrossSection, cross_section
 from softshadow.report.cross_section_svg import save_svg, svg_of
+from softshadow.report.cross_sections import Crossing, CrossSection, cross_section
 from softshadow.report.failure_page import FailurePage, write_failure_page
 from softshadow.report.page import Section, folder_writer, named, sections
 from softshadow.report.run_page import RunPage, write_run_page
 from softshadow.report.tour_page import TourPage, Visit, write_tour_page
+
+CrossSection._repr_svg_ = svg_of  # type: ignore[method-assign]
 
 __all__ = [
     "CrossSection",

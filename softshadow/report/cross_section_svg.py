@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from softshadow.inspection.files import MARK, write_whole
-from softshadow.report.cross_section import CrossSection
+from softshadow.report.cross_sections import CrossSection
 
 WIDTH = 720  # of the drawing, in CSS pixels
 MARGIN = 0.06  # round what is drawn, as a share of its size

@@ -135,7 +135,7 @@ STOPS = (
     Stop(
         "Nested planar shadows",
         "planar-nested",
-        "Hard shadows on parallel planes, laid over each other: soft far from the foot of the light, not far from casters.",
+        "Hard shadows on parallel planes, laid over each other: soft far from the light's foot, not far from casters.",
     ),
     Stop(
         "Soft shadows by shadow volumes of points of the light",

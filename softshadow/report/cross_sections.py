@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -98,10 +99,10 @@ class CrossSection:
                     pieces.append((np.stack([start, end]), visible_share((start + end) / 2, self.ends, segments)))
         return pieces
 
-    def _repr_svg_(self) -> str:
-        from softshadow.report.cross_section_svg import svg_of
+    if TYPE_CHECKING:
+        # softshadow.report attaches this: its module imports this one
 
-        return svg_of(self)
+        def _repr_svg_(self, /) -> str: ...
 
 
 def cross_section(
