@@ -24,6 +24,7 @@ from softshadow.cli.listings import listings
 from softshadow.cli.lists import scenes, techniques
 from softshadow.cli.machine import doctor, warmup
 from softshadow.cli.runs import pixel, render, section, steps
+from softshadow.cli.soft import compare
 from softshadow.cli.tours import tour
 from softshadow.errors import SoftShadowError
 
@@ -94,7 +95,21 @@ def main(traceback: bool) -> None:
     """Real-time shadow algorithms, step by step, on a software rasterizer that explains every pixel."""
 
 
-for command in (tour, render, steps, pixel, section, techniques, scenes, listings, failures, bench, warmup, doctor):
+for command in (
+    tour,
+    render,
+    steps,
+    pixel,
+    section,
+    compare,
+    techniques,
+    scenes,
+    listings,
+    failures,
+    bench,
+    warmup,
+    doctor,
+):
     main.add_command(command)
 
 

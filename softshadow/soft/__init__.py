@@ -1,0 +1,19 @@
+"""All techniques beside the truth of soft shadows: their errors, how fast these fall, and the laws of the penumbra."""
+
+from softshadow.soft.convergence import Convergence, convergence, save_convergence_plot
+from softshadow.soft.penumbra_laws import LAWS, Law, LawResult, law_table
+from softshadow.soft.technique_errors import TechniqueError, compare_techniques, contact_sheet_of, soft_candidates
+
+__all__ = [
+    "LAWS",
+    "Convergence",
+    "Law",
+    "LawResult",
+    "TechniqueError",
+    "compare_techniques",
+    "contact_sheet_of",
+    "convergence",
+    "law_table",
+    "save_convergence_plot",
+    "soft_candidates",
+]
