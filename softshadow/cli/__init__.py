@@ -96,20 +96,8 @@ def main(traceback: bool) -> None:
 
 
 for command in (
-    tour,
-    render,
-    steps,
-    pixel,
-    section,
-    compare,
-    techniques,
-    scenes,
-    listings,
-    failures,
-    bench,
-    warmup,
-    doctor,
-):
+    tour, render, steps, pixel, section, compare, techniques, scenes, listings, failures, bench, warmup, doctor,
+):  # fmt: skip
     main.add_command(command)
 
 

@@ -13,11 +13,11 @@ from softshadow.cli.console import print_json, print_warnings_once, say, say_if_
 
 @click.command(
     epilog=examples(
-        "softshadow compare --all-soft --scene soft-slab --size 160x120",
-        "softshadow compare volume-sampled map-sampled --scene soft-torus --samples 64 --size 160x120",
+        "softshadow compare soft-slab --all-soft --size 160x120",
+        "softshadow compare soft-torus volume-sampled map-sampled --samples 64 --size 160x120",
     )
 )
-@click.argument("names", metavar="[TECHNIQUE]...", nargs=-1)
+@click.argument("names", metavar="[SCENE] [TECHNIQUE]...", nargs=-1)
 @scene_arguments("320x240")
 @click.option("--all-soft", is_flag=True, help="All techniques that draw soft edges, and two hard ones.")
 @click.option("--samples", type=click.IntRange(1), default=16, show_default=True, help="Points of each light.")
@@ -28,7 +28,7 @@ from softshadow.cli.console import print_json, print_warnings_once, say, say_if_
     "-o",
     "--output",
     metavar="FOLDER/",
-    help="Also write pictures of the errors, and a plot of the slopes if asked for.",
+    help="Also write pictures of the errors, and a plot of the slopes.",
 )
 @force
 @as_json
@@ -54,6 +54,7 @@ def compare(
         soft_candidates,
     )
 
+    scene, names = _scene_of(scene, names)
     if all_soft == bool(names):
         raise click.UsageError("expected names of techniques, or --all-soft")
     folder = None if output is None else Path(output)
@@ -102,6 +103,15 @@ def compare(
         table("laws of the penumbra: its width", ["technique", "law", "measured", "by the law", ""], rows)
     for path in written:
         say(f"written: {path}")
+
+
+def _scene_of(scene: str | None, names: tuple[str, ...]) -> tuple[str | None, tuple[str, ...]]:
+    """Return the scene, which may be the first name, and the names of techniques."""
+    from softshadow import techniques
+
+    if scene is None and names and names[0] not in techniques.names():
+        return names[0], names[1:]
+    return scene, names
 
 
 def _facts(result: Any) -> dict[str, Any]:

@@ -68,7 +68,7 @@ def test_errors_of_random_points_fall_with_the_root_and_of_grids_faster(slab):
     }
     # the mean of n independent values has an error of n to the power of -1/2; three seeds leave a tenth or two of noise
     assert -0.75 < by_pattern["random"].slope < -0.3
-    # a straight edge parallel to the rows of a grid of k x k points: an error of 1 / k, as for random points, but smaller
+    # an edge parallel to the rows of a grid of k x k points: an error of 1 / k, as for random points, but smaller
     assert by_pattern["grid"].rms[-1] < by_pattern["random"].rms[-1]
     assert by_pattern["grid"].rms[0] > by_pattern["grid"].rms[1] > by_pattern["grid"].rms[2]
 
