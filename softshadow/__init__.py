@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from softshadow import gl, testing
     from softshadow.errors import (
+        CoarseDepth,
         CounterSaturated,
         DegenerateFaces,
         FarFromOrigin,
@@ -56,6 +57,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "Camera",
+    "CoarseDepth",
     "CounterSaturated",
     "DegenerateFaces",
     "Disc",
@@ -107,9 +109,10 @@ _MODULES = ("gl", "testing")
 _RENAMED = {"failures": ("softshadow.gallery", "GALLERY"), "technique_names": ("softshadow.techniques", "names")}
 _HOMES = {
     "softshadow.errors": (
-        "CounterSaturated", "DegenerateFaces", "FarFromOrigin", "HistoryCut", "InsideOutMesh", "LightInsideCaster",
-        "MeshError", "MisorientedMesh", "NearClipZPass", "NonManifoldMesh", "OpenMesh", "OutsideLightFrustum",
-        "PartlyReadFile", "SceneError", "SoftShadowError", "StateError", "TJunction", "UnweldedMesh", "Warning",
+        "CoarseDepth", "CounterSaturated", "DegenerateFaces", "FarFromOrigin", "HistoryCut", "InsideOutMesh",
+        "LightInsideCaster", "MeshError", "MisorientedMesh", "NearClipZPass", "NonManifoldMesh", "OpenMesh",
+        "OutsideLightFrustum", "PartlyReadFile", "SceneError", "SoftShadowError", "StateError", "TJunction",
+        "UnweldedMesh", "Warning",
     ),
     "softshadow.inspection.pictures": ("stencil_palette",),
     "softshadow.inspection.soft_truth": ("SoftTruth", "soft_truth"),

@@ -74,7 +74,11 @@ class OutsideLightFrustum(Warning):
 
 
 class CounterSaturated(Warning):
-    """A stencil count reached its largest value (or wrapped): larger counts are lost."""
+    """A stencil count reached its largest value, or wrapped round to 0: larger counts are lost."""
+
+
+class CoarseDepth(Warning):
+    """The camera's near plane is so close that the depth buffer cannot tell the surfaces of the scene apart."""
 
 
 class HistoryCut(Warning):

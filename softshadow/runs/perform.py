@@ -19,6 +19,7 @@ from softshadow.framebuffer import LARGEST_SIDE
 from softshadow.inspection import Replay, Step, Steps
 from softshadow.inspection.replay import BUDGET
 from softshadow.pipeline.commands import Draw
+from softshadow.runs.lost_counts import lost_counts
 from softshadow.runs.result import Run
 from softshadow.scene import Scene
 from softshadow.techniques import Technique
@@ -73,6 +74,7 @@ def run(
     steps = Steps([Step(i, title, maps[i], context.frame, replay) for i, (title, _) in enumerate(context.frame.steps)])
     if not any(isinstance(message, CounterSaturated) for message in own):
         own += saturated(steps, stencil_bits)
+    own += lost_counts(technique.name, scene, (width, height), options, stencil_bits)
     for message in own:
         warnings.warn(message, stacklevel=2)
     return Run(technique.name, scene, (width, height), options, tuple(own), steps, context.frame)

@@ -10,18 +10,50 @@ from softshadow.scene.scene import Scene, SceneObject
 
 # at this many times its size from the origin, a mesh keeps 14 of float32's 24 bits: 0.1 pixel in a large picture
 FAR = 1000
+# bits of the window's depth buffer, and the step between two depths, as a share of the casters' size, that shows
+DEPTH_BITS, COARSE = 24, 5e-4
 # float64 rounding of the volume of a mesh of size 1 that encloses nothing, such as two faces back to back
 NO_VOLUME = 1e-12
 
 
 def scene_warnings(scene: Scene) -> list[errors.Warning]:
-    """Return warnings about casters that leak or count wrongly and lights inside casters, without issuing them."""
+    """Return warnings about what leaks, counts wrongly or is too far or too near for float32, without issuing them."""
     warnings = list(scene.notes)
+    warnings += _distance_warnings(scene)
     for caster in scene.casters:
         warnings += _mesh_warnings(caster)
         warnings += _inside_out_warnings(caster)
         warnings += _light_warnings(caster, scene)
     return warnings
+
+
+def _distance_warnings(scene: Scene) -> Iterator[errors.Warning]:
+    """Yield what float32 and the depth buffer cannot hold: a scene or a light far away, a camera's near plane."""
+    vertices = np.concatenate([thing.world_positions for thing in scene.casters or scene.objects])
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    size, reach = float((high - low).max()), float(np.abs(vertices).max())
+    if reach > FAR * size:
+        yield errors.FarFromOrigin(
+            f"scene {scene.name}: world coordinates up to {reach:g} for casters of size {size:g}: GL's matrices are "
+            f"float32 and keep places to {np.spacing(np.float32(reach)):.2g} only; move everything to the origin"
+        )
+    for light in scene.lights:
+        distance = float(np.linalg.norm(light.position[:3] - (low + high) / 2))
+        if not light.is_directional and distance > FAR * size:
+            yield errors.FarFromOrigin(
+                f"{light.name}: the light is {distance:g} away from casters of size {size:g}: float32 cannot tell the "
+                f"depths in its shadow maps apart; make it a light at infinity (w = 0)"
+            )
+    camera = scene.camera
+    seen = np.concatenate([thing.world_positions for thing in scene.objects])
+    farthest = min(float(((seen - camera.eye) @ -camera.frame[2]).max()), camera.far)
+    step = farthest * farthest / (camera.near * (1 << DEPTH_BITS))
+    if size > 0 and step > COARSE * size:
+        yield errors.CoarseDepth(
+            f"scene {scene.name}: with the near plane at {camera.near:g}, two depths at the distance {farthest:.3g} "
+            f"differ by {step:.2g} at least: surfaces and shadow volumes nearer to each other are mixed up; move the "
+            f"near plane away from the eye"
+        )
 
 
 def _mesh_warnings(caster: SceneObject) -> Iterator[errors.Warning]:

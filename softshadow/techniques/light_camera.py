@@ -15,7 +15,8 @@ from softshadow.scene import Light, Scene
 WIDEST = np.tan(np.radians(60.0))
 # room round the casters, so that their silhouette stays off the border texels
 MARGIN = 1.05
-# smallest near / far: a light next to a caster keeps half of the 24 bits of depth
+# smallest near / far: a light next to a caster keeps half of the 24 bits of depth; for a parallel map the smallest
+# width or depth, as a share of the casters' size
 NEAREST = 1e-3
 # smallest far / near: with planes closer together, depths would be small differences of large float32 numbers
 LEAST_RATIO = 2
@@ -100,8 +101,9 @@ def any_up(forward: np.ndarray) -> np.ndarray:
 
 def parallel_camera(middle: np.ndarray, forward: np.ndarray, up: np.ndarray, seen: np.ndarray) -> LightCamera:
     """Return the camera of a directional light; `seen` are the casters' vertices in its view, round the middle."""
-    half = MARGIN * max(float(np.abs(seen[:, :2]).max()), NEAREST)
-    depth = MARGIN * max(float(np.abs(seen[:, 2]).max()), NEAREST)
+    size = float(np.abs(seen).max())
+    half = MARGIN * max(float(np.abs(seen[:, :2]).max()), NEAREST * size)
+    depth = MARGIN * max(float(np.abs(seen[:, 2]).max()), NEAREST * size)
     eye = middle - 2 * depth * forward / np.linalg.norm(forward)
     return LightCamera(eye, middle, up, half, depth, 3 * depth, parallel=True)
 

@@ -13,13 +13,15 @@ leaves its face, so neighbouring faces meet without a gap, but texels span a wid
 at its edge.
 """
 
+import warnings
 from typing import Any
 
 import numpy as np
 
-from softshadow.errors import SceneError
+from softshadow.errors import OutsideLightFrustum, SceneError
 from softshadow.scene import Light, Scene
 from softshadow.techniques import depth_maps, drawing
+from softshadow.techniques.clipping import clip_to_planes
 from softshadow.techniques.light_camera import MARGIN, NEAREST, LightCamera
 from softshadow.techniques.technique import Steps
 from softshadow.techniques.visibility_buffer import add_light_times, draw_visibility, set_uniforms
@@ -35,6 +37,9 @@ FACES = (
     ("-z", (0, 0, -1), (0, -1, 0)),
 )
 NO_CONE = -2.0  # less than any cosine
+# across all casters: with fewer texels a shadow is hardly more than a few squares; and the size of the casters as a
+# share of their distance: where they are nearer, it is the size of the map that is small
+FEW_TEXELS, DISTANT = 24, 0.1
 
 
 def steps(
@@ -60,6 +65,7 @@ def steps(
             raise SceneError(
                 f"light {light.name!r} is at infinity; map-cube expected point lights (map takes directions)"
             )
+        warn_of_distances(scene, light, map_size)
 
     # pass 1: the depth of the casters, seen from the light to each of six sides
     cube_maps = []
@@ -140,6 +146,37 @@ def near_and_far(scene: Scene, light: Light) -> tuple[float, float]:
     vertices = np.concatenate([thing.world_positions for thing in scene.casters or scene.objects])
     far = MARGIN * float(np.abs(vertices - light.position[:3]).max())
     return NEAREST * far, far
+
+
+def warn_of_distances(scene: Scene, light: Light, map_size: int) -> None:
+    """Warn of casters so far from the light that they cover few texels, or so near that the near plane cuts them."""
+    vertices = np.concatenate([thing.world_positions for thing in scene.casters or scene.objects])
+    size = float(np.ptp(vertices, axis=0).max())
+    distance = float(np.linalg.norm((vertices.min(axis=0) + vertices.max(axis=0)) / 2 - light.position[:3]))
+    texels = map_size / 2 * size / max(distance, size)
+    if texels < FEW_TEXELS and size < DISTANT * distance:
+        warnings.warn(
+            f"light {light.name!r}: all casters together cover about {texels:.2g} texels of a face of its cube map; "
+            "the technique map frames them with the whole map",
+            OutsideLightFrustum,
+            stacklevel=3,
+        )
+    near, _ = near_and_far(scene, light)
+    planes = [
+        np.append(-sign * axis, near + sign * axis @ light.position[:3]) for axis in np.eye(3) for sign in (-1, 1)
+    ]
+    names = [
+        caster.name
+        for caster in scene.casters
+        if len(clip_to_planes(caster.world_positions[caster.mesh.triangles], np.array(planes)))
+    ]
+    if names:
+        warnings.warn(
+            f"light {light.name!r}: {', '.join(names)} comes nearer to it than {near:.3g}, where its maps begin: what "
+            "is nearer casts no shadow; move the light away from it",
+            OutsideLightFrustum,
+            stacklevel=3,
+        )
 
 
 def depth_of_distance(scene: Scene, light: Light) -> dict[str, float]:

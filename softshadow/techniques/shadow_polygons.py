@@ -40,7 +40,7 @@ def steps(
     *,
     size: tuple[int, int],
     form: Annotated[Form, "what is flattened: every casting face, or the silhouettes"] = "faces",
-    method: Annotated[Method, "how faces and polygons share their planes"] = "offset",
+    method: Annotated[Method, "how faces and polygons share their planes"] = "decal",
     factor: Annotated[float, "offset: first argument of glPolygonOffset; negative is nearer"] = -1.0,
     units: Annotated[float, "offset: second argument of glPolygonOffset"] = -1.0,
     combine: Annotated[
@@ -58,7 +58,7 @@ def draw(
     size: tuple[int, int],
     polygons: Sequence[Sequence[DetailPolygons]],
     *,
-    method: Method = "offset",
+    method: Method = "decal",
     offset: tuple[float, float] = (-1.0, -1.0),
     combine: Combine = "add",
 ) -> Steps:

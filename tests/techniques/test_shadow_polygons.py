@@ -71,7 +71,7 @@ def test_depth_off_marks_what_stands_before_a_shadow() -> None:
 
 def test_without_an_offset_faces_and_polygons_fight() -> None:
     right = draw("shadow-polygons", SCENE, method="decal").shadow
-    fighting = draw("shadow-polygons", SCENE, factor=0.0, units=0.0).shadow
+    fighting = draw("shadow-polygons", SCENE, method="offset", factor=0.0, units=0.0).shadow
     floor = cast_rays(SCENE).objects == 0
     assert 0 < (fighting & floor).sum() < (right & floor).sum()
 
