@@ -128,7 +128,7 @@ def cross_section(
     Examples
     --------
     >>> import softshadow as ss
-    >>> section = ss.cross_section("boxes", pixel=(330, 290))
+    >>> section = ss.cross_section("boxes", pixel=(432, 233))
     >>> [crossing.step for crossing in section.crossings]
     [1]
     """

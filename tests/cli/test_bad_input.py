@@ -105,7 +105,7 @@ def test_real_bad_model_is_refused_in_one_line_or_drawn_with_a_named_warning(fil
     ("words", "said"),
     [
         (["render", "volume-zfial"], "did you mean 'volume-zfail'?"),
-        (["render", "nope"], "unknown technique 'nope': expected one of shadow-polygons, planar, blob"),
+        (["render", "nope"], "unknown technique 'nope': expected one of shadow-polygons, planar, planar-accumulated"),
         (["techniques", "mapp"], "did you mean 'map'?"),
         (["render", "map", "--scene", "boxs"], "did you mean 'boxes'?"),
         (["render", "map", "--scene", "Boxes"], "did you mean 'boxes'?"),
