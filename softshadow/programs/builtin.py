@@ -3,9 +3,12 @@
 from softshadow.programs.blinn_phong import BLINN_PHONG
 from softshadow.programs.blinn_phong_shadowed import BLINN_PHONG_SHADOWED, BLINN_PHONG_SHADOWED_5X5
 from softshadow.programs.cube_visibility import CUBE_VISIBILITY
+from softshadow.programs.filterable_depth import BOX_BLUR, DEPTH_EXPONENTIAL, DEPTH_MOMENTS
+from softshadow.programs.filtered_visibility import EXPONENTIAL_VISIBILITY, VARIANCE_VISIBILITY
 from softshadow.programs.map_visibility import MAP_VISIBILITY, MAP_VISIBILITY_BILINEAR
 from softshadow.programs.shadow_map import SHADOW_MAP
 from softshadow.programs.silhouette_visibility import SILHOUETTE_VISIBILITY
+from softshadow.programs.soft_visibility import SOFT_VISIBILITY
 
 BUILTIN = (
     BLINN_PHONG,
@@ -16,4 +19,10 @@ BUILTIN = (
     MAP_VISIBILITY_BILINEAR,
     CUBE_VISIBILITY,
     SILHOUETTE_VISIBILITY,
+    SOFT_VISIBILITY,
+    DEPTH_MOMENTS,
+    DEPTH_EXPONENTIAL,
+    BOX_BLUR,
+    VARIANCE_VISIBILITY,
+    EXPONENTIAL_VISIBILITY,
 )

@@ -10,9 +10,12 @@ from softshadow.techniques import (
     blob,
     map,
     map_cube,
+    map_exponential,
     map_pcf,
+    map_pcss,
     map_sampled,
     map_silhouette,
+    map_variance,
     planar,
     planar_accumulated,
     planar_nested,
@@ -122,6 +125,27 @@ REGISTER = {
             map_sampled.steps,
         ),
         Technique(
+            "map-pcss",
+            "Shadow map, percentage-closer soft shadows",
+            "map",
+            "Fernando 2005, Percentage-closer soft shadows",
+            map_pcss.steps,
+        ),
+        Technique(
+            "map-variance",
+            "Variance shadow map",
+            "map",
+            "Donnelly & Lauritzen 2006, Variance shadow maps",
+            map_variance.steps,
+        ),
+        Technique(
+            "map-exponential",
+            "Exponential shadow map",
+            "map",
+            "Annen et al. 2008, Exponential shadow maps",
+            map_exponential.steps,
+        ),
+        Technique(
             "map-cube",
             "Shadow maps to all six sides",
             "map",
@@ -146,7 +170,7 @@ def names() -> list[str]:
     --------
     >>> print(*names())
     shadow-polygons planar planar-accumulated planar-nested blob volume-zpass volume-zfail volume-zpass-plus
-    volume-parity volume-sampled map map-pcf map-sampled map-cube map-silhouette
+    volume-parity volume-sampled map map-pcf map-sampled map-pcss map-variance map-exponential map-cube map-silhouette
     """
     return list(REGISTER)
 
