@@ -4,9 +4,9 @@ The width of a penumbra follows from three distances along the light's view: lig
 light's own size. "soft-visibility" finds the blocker first, as the mean distance of all texels nearer than the receiver
 in the region of the map through which the light can be seen, and then compares at points of a region of that width.
 
-The points of a region are those of a grid, with every row and column moved on by its share of a cell (Chiu, Shirley &
-Wang 1994, "Multi-jittered sampling", before the jitter). No two of n² points have the same s or t, so an edge along the
-map's axes, too, gives n² steps.
+The n² points of a region are those of a grid, each moved within its cell so that no two have the same s or t: by the
+number of its row along s, and of its column along t, in steps of `stride` (Chiu, Shirley & Wang 1994, "Multi-jittered
+sampling", without the jitter). So edges of all directions give more than n steps.
 
 All comparisons are with the plane of the receiver, which `dFdx` and `dFdy` give: window depth is an affine function of
 the place in the map, so a flat receiver does not shadow itself in a region of any width.
@@ -39,6 +39,8 @@ uniform float far;
 uniform int parallel;  // 1: orthographic
 uniform int search;    // points on a side of the region of the blockers
 uniform int taps;      // and of the region that is as wide as the penumbra
+uniform int searchStride;
+uniform int tapsStride;
 uniform float bias;
 uniform float behind;  // visibility behind the light
 uniform float cone;    // squared radius of a spot light's disc in the map
@@ -50,9 +52,10 @@ float distanceAt(float depth)
     return parallel == 1 ? near + depth * range : near * far / (far - depth * range);
 }
 
-float onLight(int i, int j, int n)  // from -1 to 1: in part i of n, at its part j
+float onLight(int i, int j, int n, int stride)  // from -1 to 1: in part i of n, at one of its n places
 {
-    return 2.0 * (float(i) + (float(j) + 0.5) / float(n)) / float(n) - 1.0;
+    float place = (mod(float(j * stride), float(n)) + 0.5) / float(n);
+    return 2.0 * (float(i) + place) / float(n) - 1.0;
 }
 
 void main()
@@ -75,8 +78,8 @@ void main()
     float reach = max(1.0 / near - 1.0 / own, 0.0);
     for (int j = 0; j < search; j++)
         for (int i = 0; i < search; i++) {
-            float a = onLight(i, j, search);
-            float b = onLight(j, i, search);
+            float a = onLight(i, j, search, searchStride);
+            float b = onLight(j, i, search, searchStride);
             vec2 off = (a * lightU.st + b * lightV.st) * reach;
             float stored = texture2D(shadowMap, projected.st + off).r;
             bool lit = min(depth + off.s * slope.s + off.t * slope.t, 1.0) <= stored;
@@ -97,8 +100,8 @@ void main()
         float passed = 0.0;
         for (int j = 0; j < taps; j++)
             for (int i = 0; i < taps; i++) {
-                float a = onLight(i, j, taps);
-                float b = onLight(j, i, taps);
+                float a = onLight(i, j, taps, tapsStride);
+                float b = onLight(j, i, taps, tapsStride);
                 vec2 off = (a * lightU.st + b * lightV.st) * reach;
                 float stored = texture2D(shadowMap, projected.st + off).r;
                 bool lit = min(depth + off.s * slope.s + off.t * slope.t, 1.0) <= stored;
@@ -133,7 +136,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
 
         blockers, total = np.zeros_like(own), np.zeros_like(own)
         reach = np.maximum(one / real(uniforms["near"]) - one / own, zero)
-        for lit, stored in comparisons(plane, reach, uniforms, uniforms["search"]):
+        for lit, stored in comparisons(plane, reach, uniforms, "search"):
             blockers += ~lit
             total += np.where(lit, zero, distance_at(stored))
 
@@ -141,7 +144,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
         own, blocker = own[shadowed], total[shadowed] / blockers[shadowed]
         reach = np.maximum(one / blocker - one / own, zero)
         compared, passed = 0, np.zeros_like(own)
-        for lit, _ in comparisons(plane[shadowed], reach, uniforms, uniforms["taps"]):
+        for lit, _ in comparisons(plane[shadowed], reach, uniforms, "taps"):
             compared += 1
             passed += lit
 
@@ -178,7 +181,7 @@ def plane_slopes(projected: np.ndarray) -> np.ndarray:
 
 
 def comparisons(
-    plane: np.ndarray, reach: np.ndarray, uniforms: Mapping[str, Any], side: int
+    plane: np.ndarray, reach: np.ndarray, uniforms: Mapping[str, Any], region: str
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Yield for each point of a region whether it is lit (N,), and the depth stored there (N,).
 
@@ -186,15 +189,15 @@ def comparisons(
     ----------
     plane : (N, 5)               s, t, depth, and the slopes of depth in s and t
     reach : (N,)                 the region's size, in that of the light
-    side : int                   points on a side of the region
+    region : str                 the uniform that has the number of points on a side: "search" or "taps"
     """
-    real = plane.dtype.type
+    real, side, stride = plane.dtype.type, uniforms[region], uniforms[f"{region}Stride"]
     s, t, depth, s_slope, t_slope = plane.T
     u, v = (np.array(uniforms[name][:2], plane.dtype) for name in ("lightU", "lightV"))
     place, stored = np.zeros((len(plane), 3), plane.dtype, order="F"), np.empty((len(plane), 1), plane.dtype)
     for j in range(side):
         for i in range(side):
-            a, b = on_light(real(i), real(j), real(side)), on_light(real(j), real(i), real(side))
+            a, b = real(on_light(i, j, side, stride)), real(on_light(j, i, side, stride))
             if uniforms["disc"] and a * a + b * b > 1:
                 continue
             s_off, t_off = (a * u[0] + b * v[0]) * reach, (a * u[1] + b * v[1]) * reach
@@ -203,10 +206,10 @@ def comparisons(
             yield np.minimum(depth + s_off * s_slope + t_off * t_slope, real(1)) <= stored[:, 0], stored[:, 0]
 
 
-def on_light(i: Any, j: Any, n: Any) -> Any:
-    """Return a coordinate from -1 to 1: in part i of n equal parts, at the middle of its part j of n."""
-    half = type(n)(0.5)
-    return type(n)(2) * (i + (j + half) / n) / n - type(n)(1)
+def on_light(i: int, j: int, n: int, stride: int) -> np.float32:
+    """Return a coordinate from -1 to 1: in part i of n equal parts, at one of its n places, which depends on j."""
+    place = np.float32(j * stride % n + 0.5) / np.float32(n)
+    return np.float32(2) * (np.float32(i) + place) / np.float32(n) - np.float32(1)
 
 
 SOFT_VISIBILITY = Program(
@@ -224,6 +227,8 @@ SOFT_VISIBILITY = Program(
         "parallel": 0,
         "search": 1,
         "taps": 1,
+        "searchStride": 1,
+        "tapsStride": 1,
         "bias": 0.0,
         "behind": 1.0,
         "cone": float("inf"),
