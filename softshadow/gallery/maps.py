@@ -104,6 +104,15 @@ FAILURES = (
         wrong_inside_faces, COUNTED, why_floor=AT_CREASES,
     ),
     Failure(
+        "light-bleeding", "Light where the shadows of two casters overlap", "maps", "Donnelly & Lauritzen 2006",
+        "The bound by mean and variance is the share of lit texels for two depths; with a third one, that of a receiver "
+        "behind both casters, it is too large. A reduction counts small bounds as 0, and narrows every ramp.",
+        lambda: Scene.named("soft-overlap"),
+        Setting("map-variance", {"map_size": 1024, "blur": 4}),
+        Setting("map-variance", {"map_size": 1024, "blur": 4, "bleed": 0.5}),
+        wrong_colors, COUNTED,
+    ),
+    Failure(
         "linear-filtered-depth", "Depths are filtered before they are compared", "maps", "E46, CA:518-519, SK:384",
         "The mean of a near and a far depth belongs to no surface. Points beyond the edge of a caster are compared "
         "with it, and the shadow grows.",

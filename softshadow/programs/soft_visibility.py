@@ -9,7 +9,8 @@ number of its row along s, and of its column along t, in steps of `stride` (Chiu
 sampling", without the jitter). So edges of all directions give more than n steps.
 
 All comparisons are with the plane of the receiver, which `dFdx` and `dFdy` give: window depth is an affine function of
-the place in the map, so a flat receiver does not shadow itself in a region of any width.
+the place in the map, so a flat receiver does not shadow itself in a region of any width. A side that is turned away from
+the light is compared by its depth alone, because the light sees other surfaces there.
 
 References: Fernando 2005, "Percentage-closer soft shadows"; Isidoro 2006, "Shadow mapping: GPU-based tips and
 techniques" (receiver plane depth bias).
@@ -68,7 +69,7 @@ void main()
     vec3 y = dFdy(projected);
     float area = x.s * y.t - x.t * y.s;
     vec2 slope = vec2(0.0);
-    if (area != 0.0) {
+    if (area > 0.0) {  // the camera sees the side that the light sees
         slope.s = clamp((x.p * y.t - x.t * y.p) / area, -STEEPEST, STEEPEST);
         slope.t = clamp((x.s * y.p - x.p * y.s) / area, -STEEPEST, STEEPEST);
     }
@@ -168,7 +169,8 @@ def distances(uniforms: Mapping[str, Any], real: Any) -> Callable[[np.ndarray], 
 def plane_slopes(projected: np.ndarray) -> np.ndarray:
     """Return (N, 2) how window depth changes with s and t on the plane of each pixel; N is that of 2x2 blocks.
 
-    The columns of `projected` are s, t and depth. Derivatives are differences in the row and the column of a block.
+    The columns of `projected` are s, t and depth. Derivatives are differences in the row and the column of a block. The
+    slopes are 0 where the map's picture of the plane is mirrored in the window: the light sees its other side.
     """
     blocks = projected.reshape(-1, 2, 2, 3)
     x = np.broadcast_to(blocks[:, :, 1:] - blocks[:, :, :1], blocks.shape).reshape(-1, 3).T
@@ -176,7 +178,7 @@ def plane_slopes(projected: np.ndarray) -> np.ndarray:
     area = x[0] * y[1] - x[1] * y[0]
     slopes = np.stack([(x[2] * y[1] - x[1] * y[2]) / area, (x[0] * y[2] - x[2] * y[0]) / area], axis=1)
     steepest = projected.dtype.type(STEEPEST)
-    limited: np.ndarray = np.where(area[:, None] != 0, np.clip(slopes, -steepest, steepest), 0)
+    limited: np.ndarray = np.where(area[:, None] > 0, np.clip(slopes, -steepest, steepest), 0)
     return limited
 
 

@@ -123,6 +123,24 @@ STOPS = (
         "The share of 3 x 3 comparisons that are lit: an edge that is equally soft near the caster and far from it.",
     ),
     Stop(
+        "Shadow map, percentage-closer soft shadows",
+        "map-pcss",
+        "The square is as wide as the penumbra of an area light: sharp at the feet of casters, soft far behind them. "
+        "A point light has hard shadows.",
+    ),
+    Stop(
+        "Variance shadow map",
+        "map-variance",
+        "Mean and variance of the depths, blurred once: look for light where one shadow crosses another.",
+        {"blur": 4},
+    ),
+    Stop(
+        "Exponential shadow map",
+        "map-exponential",
+        "Powers of the depths, blurred once: with this small exponent, light leaks in right behind the casters.",
+        {"exponent": 20.0},
+    ),
+    Stop(
         "Shadow maps to all six sides",
         "map-cube",
         "One map for each direction, for lights that stand among their casters; here five of the six are empty.",

@@ -18,7 +18,7 @@ KNOWN = {
     "parity-overlap", "decr-before-incr", "overflow-256", "stencil-test-forgotten", "culling-left-on",
     "less-in-lit-pass", "mask-1", "acne", "peter-panning", "jagged-edges", "linear-filtered-depth", "edge-smear",
     "factor-on-whole-color", "map-larger-than-window", "missing-clear", "t-junction-leak", "open-mesh-leak",
-    "vertex-distance-cap", "omni-light", "pcf-bias",
+    "vertex-distance-cap", "omni-light", "pcf-bias", "light-bleeding",
 }  # fmt: skip
 
 

@@ -41,6 +41,10 @@ def counted(technique: str, scene: Scene, **options: Any) -> tuple[dict[str, int
         # and one that writes the visibility; a cube of six maps is drawn face by face
         ("map-pcf", {}, 3, 3 + 1, 4),
         ("map-silhouette", {}, 3, 3 + 1, 4),
+        ("map-pcss", {}, 3, 3 + 1, 4),
+        # maps that are filtered hold the receivers, too
+        ("map-variance", {}, 3 + 1, 3 + 1, 4),
+        ("map-exponential", {}, 3 + 1, 3 + 1, 4),
         ("map-cube", {}, 3, 3 + 6, 9),
     ],
 )
