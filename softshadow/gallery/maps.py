@@ -105,8 +105,8 @@ FAILURES = (
     ),
     Failure(
         "light-bleeding", "Light where the shadows of two casters overlap", "maps", "Donnelly & Lauritzen 2006",
-        "The bound by mean and variance is the share of lit texels for two depths; with a third one, that of a receiver "
-        "behind both casters, it is too large. A reduction counts small bounds as 0, and narrows every ramp.",
+        "The bound by mean and variance is the share of lit texels if there are two depths; for a receiver behind two "
+        "casters it is too large. A reduction counts small bounds as 0, which also narrows every ramp.",
         lambda: Scene.named("soft-overlap"),
         Setting("map-variance", {"map_size": 1024, "blur": 4}),
         Setting("map-variance", {"map_size": 1024, "blur": 4, "bleed": 0.5}),

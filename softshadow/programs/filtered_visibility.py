@@ -1,9 +1,9 @@
 """Visibility of a light by a filtered map: what the mean around a place tells about the depths it was made of.
 
-"variance-visibility" has the mean of depths and of squared depths, hence the variance, and returns an upper bound of the
-share of texels that are at least as far as the receiver (Chebyshev's inequality, one-sided). "exponential-visibility"
-has the mean of powers, which the farthest texels dominate; divided by the receiver's own power it is their share, if no
-texel is farther than the receiver.
+"variance-visibility" has the mean of depths and of squared depths, hence the variance, and returns an upper bound of
+the share of texels that are at least as far as the receiver (Chebyshev's inequality, one-sided).
+"exponential-visibility" has the mean of powers, which the farthest texels dominate; divided by the receiver's own power
+it is their share, if no texel is farther than the receiver.
 
 References: Donnelly & Lauritzen 2006, "Variance shadow maps", eq. 5; Annen et al. 2008, "Exponential shadow maps".
 """

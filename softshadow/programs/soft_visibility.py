@@ -1,16 +1,17 @@
 """Visibility of an area light by one shadow map: the share of lit comparisons in a region as wide as the penumbra.
 
-The width of a penumbra follows from three distances along the light's view: light to blocker, light to receiver, and the
-light's own size. "soft-visibility" finds the blocker first, as the mean distance of all texels nearer than the receiver
-in the region of the map through which the light can be seen, and then compares at points of a region of that width.
+The width of a penumbra follows from three distances along the light's view: light to blocker, light to receiver, and
+the light's own size. "soft-visibility" finds the blocker first, as the mean distance of all texels nearer than the
+receiver in the region of the map through which the light can be seen, and then compares at points of a region of that
+width.
 
 The n² points of a region are those of a grid, each moved within its cell so that no two have the same s or t: by the
 number of its row along s, and of its column along t, in steps of `stride` (Chiu, Shirley & Wang 1994, "Multi-jittered
 sampling", without the jitter). So edges of all directions give more than n steps.
 
 All comparisons are with the plane of the receiver, which `dFdx` and `dFdy` give: window depth is an affine function of
-the place in the map, so a flat receiver does not shadow itself in a region of any width. A side that is turned away from
-the light is compared by its depth alone, because the light sees other surfaces there.
+the place in the map, so a flat receiver does not shadow itself in a region of any width. A side that is turned away
+from the light is compared by its depth alone, because the light sees other surfaces there.
 
 References: Fernando 2005, "Percentage-closer soft shadows"; Isidoro 2006, "Shadow mapping: GPU-based tips and
 techniques" (receiver plane depth bias).

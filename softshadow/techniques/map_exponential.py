@@ -1,9 +1,9 @@
 """Exponential shadow maps: the comparison of two depths as the quotient of their powers, which may be filtered.
 
-A comparison is 1 if the stored depth z is at least the receiver's d, else 0. If no z is greater than d, e^(c (z - d)) is
-nearly that: 1 where they are equal, and small where z is less, the smaller the greater c. It is a product of e^(c z),
-which does not depend on the receiver and is therefore stored in a map and blurred, and of e^(-c d). So a single lookup
-of the mean gives the share of the texels at the receiver's own depth.
+A comparison is 1 if the stored depth z is at least the receiver's d, else 0. If no z is greater than d, e^(c (z - d))
+is nearly that: 1 where they are equal, and small where z is less, the smaller the greater c. It is a product of e^(c
+z), which does not depend on the receiver and is therefore stored in a map and blurred, and of e^(-c d). So a single
+lookup of the mean gives the share of the texels at the receiver's own depth.
 
 Paper: Annen, Mertens, Seidel, Flerackers & Kautz 2008, "Exponential shadow maps".
 Slides: none; Andújar, Shadow mapping, has the comparison that it replaces.

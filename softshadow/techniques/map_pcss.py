@@ -6,8 +6,8 @@ at distance d_b and a receiver at d_r. A shadow map has the distance of blockers
 the region of the map through which it can see the light; takes the mean of their distances as d_b; and is then compared
 with the texels of a region of width w, as in percentage-closer filtering.
 
-Paper: Fernando 2005, "Percentage-closer soft shadows"; the bias is that of Isidoro 2006, "Shadow mapping: GPU-based tips
-and techniques".
+Paper: Fernando 2005, "Percentage-closer soft shadows"; the bias is that of Isidoro 2006, "Shadow mapping: GPU-based
+tips and techniques".
 Slides: none; Andújar, Shadow mapping, and Zimányi & Valient, Mäkké tiene, have its two halves.
 
 The map is drawn from the light's centre. The regions have the shape of the light as this camera sees it: an ellipse for
@@ -20,7 +20,8 @@ of a single comparison. A receiver that is not flat within the region still shad
 Known failures: of several blockers at different distances only the mean counts, so a shadow is too soft or too sharp
 where they overlap; the map has what the centre of the light sees, so parts of casters that are hidden from there block
 nothing (light leaks through at their feet); the search misses casters that are thinner than the distance of its points;
-and visibility has as many steps as there are taps, of which a wide penumbra shows bands.
+a part of the light below the horizon of a face counts as seen; and visibility has as many steps as there are taps, of
+which a wide penumbra shows bands.
 """
 
 import math
@@ -80,7 +81,9 @@ def steps(
         gl.glBindTexture(gl.GL_TEXTURE_2D, shadow_maps[number])
         set_map_coordinates(gl, camera, 0.0)
         n_search, n_taps = (1, 1) if light.shape is None else (search, taps)
-        set_uniforms(gl, program, search=n_search, searchStride=stride(n_search), taps=n_taps, tapsStride=stride(n_taps))
+        set_uniforms(
+            gl, program, search=n_search, searchStride=stride(n_search), taps=n_taps, tapsStride=stride(n_taps)
+        )
         set_uniforms(gl, program, **light_uniforms(light, camera))
         set_uniforms(gl, program, near=camera.near, far=camera.far, parallel=int(camera.parallel))
         set_uniforms(gl, program, bias=bias, behind=behind(light, outside), cone=disc(light, camera))
@@ -115,7 +118,7 @@ def half_axes(light: Light, camera: LightCamera) -> tuple[np.ndarray, np.ndarray
 def stride(side: int) -> int:
     """Return the number without a common divisor with `side` that is nearest to its golden section.
 
-    Steps of it visit all places, and spread those of neighbouring rows (rms error of half planes: 0.012 for a side of 8;
-    with steps of 1 it is 0.020).
+    Steps of it visit all places, and spread those of neighbouring rows. For a side of 8, the shares of points in half
+    planes have an RMS error of 0.012; with steps of 1 it is 0.020.
     """
     return min((step for step in range(1, side + 1) if math.gcd(step, side) == 1), key=lambda s: abs(s - GOLDEN * side))

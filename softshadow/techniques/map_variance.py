@@ -1,17 +1,17 @@
 """Variance shadow maps: from mean and variance of the depths round a point, a bound of the share that is lit.
 
-Depths may not be filtered before they are compared, but moments may: the mean of the depths d round a point, and that of
-their squares. They tell the variance, and Chebyshev's inequality then bounds the share of texels at least as far as a
-receiver at depth t behind the mean: variance / (variance + (t - mean)²). The map is blurred once, whatever the number of
-points that look it up, and the lookup is a single one with GL_LINEAR.
+Depths may not be filtered before they are compared, but moments may: the mean of the depths d round a point, and that
+of their squares. They tell the variance, and Chebyshev's inequality then bounds the share of texels at least as far as
+a receiver at depth t behind the mean: variance / (variance + (t - mean)²). The map is blurred once, whatever the number
+of points that look it up, and the lookup is a single one with GL_LINEAR.
 
 Paper: Donnelly & Lauritzen 2006, "Variance shadow maps"; the bleeding reduction is that of Lauritzen 2007, "Summed-area
 variance shadow maps".
 Slides: none; Andújar, Shadow mapping, has the comparison that it replaces.
 
 With one flat blocker parallel to a flat receiver, the bound is the share itself: the picture is that of `map-pcf`,
-bilinear, with a kernel of 2 blur + 1. On slopes the variance is that of the slope, so no slope offset is needed; a least
-variance stands in for the rounding of the moments, and takes the place of a bias.
+bilinear, with a kernel of 2 blur + 1. On slopes the variance is that of the slope, so no slope offset is needed; a
+least variance stands in for the rounding of the moments, and takes the place of a bias.
 
 Known failures: light bleeding (where two blockers at different depths overlap, the bound is far above the share: the
 upper blocker's penumbra shows as a light band in the lower one's shadow; `bleed` cuts the bound off and makes penumbrae

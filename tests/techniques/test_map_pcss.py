@@ -100,9 +100,7 @@ def test_visibility_is_a_share_for_every_shape(shape: LightShape) -> None:
 def in_circle(side: int) -> int:
     """Number of points of a region that are within the unit circle."""
     step, indices = stride(side), range(side)
-    return sum(
-        on_light(i, j, side, step) ** 2 + on_light(j, i, side, step) ** 2 <= 1 for i in indices for j in indices
-    )
+    return sum(on_light(i, j, side, step) ** 2 + on_light(j, i, side, step) ** 2 <= 1 for i in indices for j in indices)
 
 
 @pytest.mark.parametrize("side", range(1, 65))
