@@ -1,5 +1,6 @@
 """Filtered maps in programs: what moments and powers tell about the depths that they were made of."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -7,6 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mesa_points import same_bits
+from programs.test_map_visibility import SIDE, coordinates, on_mesa
 from softshadow import programs
 from softshadow import tokens as gl
 from softshadow.image import FORMATS, Image
@@ -117,3 +120,49 @@ def test_cone_and_back_of_the_light_are_as_for_other_maps(name: str) -> None:
     texture = float_texture(np.full((1, 1, 2), 1.0))
     seen = shaded(name, inputs, shadowMap=texture, cone=0.1, behind=0.25, steepness=0.0)
     assert seen[:, 3].tolist() == [1, 0, 0.25]
+
+
+def random_map(on: Any) -> None:
+    """Bind a float texture of depths and squares, filtered linearly, with a border."""
+    on.glBindTexture(on.GL_TEXTURE_2D, on.glGenTextures(1))
+    for parameter, value in (
+        (on.GL_TEXTURE_MIN_FILTER, on.GL_LINEAR),
+        (on.GL_TEXTURE_MAG_FILTER, on.GL_LINEAR),
+        (on.GL_TEXTURE_WRAP_S, on.GL_CLAMP_TO_BORDER),
+        (on.GL_TEXTURE_WRAP_T, on.GL_CLAMP_TO_BORDER),
+    ):
+        on.glTexParameteri(on.GL_TEXTURE_2D, parameter, value)
+    on.glTexParameterfv(on.GL_TEXTURE_2D, on.GL_TEXTURE_BORDER_COLOR, (1.0, 1.0, 0.0, 1.0))
+    texels = random_texels()
+    on.glTexImage2D(on.GL_TEXTURE_2D, 0, on.GL_RGBA32F, SIDE, SIDE, 0, on.GL_RGBA, on.GL_FLOAT, texels)
+
+
+def random_texels() -> np.ndarray:
+    depths = np.random.default_rng(8).random((SIDE, SIDE), np.float32)
+    return np.stack([depths, depths * depths, depths, depths], axis=-1)
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize(
+    ("name", "own"),
+    [
+        ("variance-visibility", {"leastVariance": 1e-4, "bleed": 0.2, "bias": 0.01}),
+        ("exponential-visibility", {"steepness": 30.5, "bias": 0.01}),
+        ("depth-moments", {}),
+        ("depth-exponential", {"steepness": 90.25}),
+        ("box-blur", {"radius": 2, "stepS": 1 / SIDE, "stepT": 0.0}),
+    ],
+)
+def test_program_is_its_glsl_twin(name: str, own: dict[str, Any]) -> None:
+    placed = coordinates(9)
+    uniforms = own | ({"behind": 0.25, "cone": 0.3} if name.endswith("visibility") else {})
+    texture = float_texture(random_texels())
+    sampler = Sampler(
+        min_filter=gl.GL_LINEAR,
+        mag_filter=gl.GL_LINEAR,
+        wrap_s=gl.GL_CLAMP_TO_BORDER,
+        wrap_t=gl.GL_CLAMP_TO_BORDER,
+        border_color=(1.0, 1.0, 0.0, 1.0),
+    )
+    maps = dict.fromkeys(programs.get(name).samplers, replace(texture, sampler=sampler))
+    assert same_bits(shaded(name, placed, **uniforms, **maps), on_mesa(name, placed, uniforms, random_map))
