@@ -4,6 +4,8 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
+import numpy as np
+
 from softshadow.scene import Light, Scene
 from softshadow.techniques import depth_maps, drawing
 from softshadow.techniques.light_camera import LightCamera
@@ -28,7 +30,7 @@ def draw_lit_by_program(
     program : int                writes the visibility of a light as alpha
     look_up : (number of the light, light, camera) -> None
                                  binds the light's map, and sets uniforms and the texture matrix
-    shown : names of the maps that the program writes as red, green and blue
+    shown : names of the maps that the program writes as red, green and blue; 0 where nothing is drawn
     """
     # the camera's picture, first as if all of it were in shadow
     drawing.begin_frame(gl, scene)
@@ -46,7 +48,8 @@ def draw_lit_by_program(
         look_up_light = partial(look_up, number, light, camera)
         visibility, values = draw_visibility(gl, scene, size, program, look_up_light, normal_bias)
         lit.append(values[..., 3])
-        maps = {drawing.title(name, scene, light): values[..., channel] for channel, name in enumerate(shown)}
+        found = np.where(valid[..., None], values, np.float32(0))
+        maps = {drawing.title(name, scene, light): found[..., channel] for channel, name in enumerate(shown)}
         maps[drawing.title("unknown", scene, light)] = valid & depth_maps.unknown(scene, light, camera, points)
         yield drawing.title("find how much of the light each point sees", scene, light), maps
 

@@ -14,7 +14,8 @@ than 1 and no share of anything; the map "quotient" shows it. The paper then com
 Known failures: light bleeds in where caster and receiver touch, because e^(c (z - d)) is near 1 if z is near d: with an
 exponent c, shadows fade within 1 / c of the depth range behind their caster. A large c mends that, but e^c has to be a
 float: an exponent that overflows is refused. The ramp is no penumbra; on a slope the mean of powers is greater than the
-power of the mean, so that edges of shadows grow lighter; and texels behind the receiver make it lit.
+power of the mean, so that edges of shadows grow lighter; texels behind the receiver make it lit; and where the far
+plane of the light's camera cuts a receiver, a line is up to a tenth darker.
 """
 
 import math

@@ -15,8 +15,9 @@ least variance stands in for the rounding of the moments, and takes the place of
 
 Known failures: light bleeding (where two blockers at different depths overlap, the bound is far above the share: the
 upper blocker's penumbra shows as a light band in the lower one's shadow; `bleed` cuts the bound off and makes penumbrae
-narrower); the ramp is no penumbra; a receiver that casts no shadow casts one on what lies behind it; and shadows that
-are nearer to their caster than the square root of the least variance fade.
+narrower); the ramp is no penumbra; where the far plane of the light's camera cuts a receiver, a line is up to a tenth
+darker; a receiver that casts no shadow casts one on what lies behind it; and shadows that are nearer to their caster
+than the square root of the least variance fade.
 """
 
 from typing import Annotated, Any

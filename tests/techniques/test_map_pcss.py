@@ -9,7 +9,7 @@ import softshadow as ss
 from softshadow.programs.soft_visibility import on_light
 from softshadow.scene import Camera, Disc, Light, LightShape, Rectangle, Scene, SceneObject, Segment, placement, shapes
 from softshadow.techniques import drawing
-from softshadow.techniques.map_pcss import stride
+from softshadow.techniques.map_pcss import SHOWN, stride
 from techniques.drawn_frames import Drawn, cast_rays, draw
 
 SIZE = (160, 120)
@@ -151,3 +151,10 @@ def test_the_mean_of_two_blockers_is_neither() -> None:
     scene = Scene.named("soft-overlap")
     compared = ss.run("map-pcss", scene, size=SIZE).compare(truth="soft")
     assert compared.parts["umbra"].max > 0.2
+
+
+def test_maps_are_0_where_nothing_is_drawn() -> None:
+    drawn = draw("map-pcss", SLAB)
+    sky = ~drawn.maps["valid"]
+    assert sky.any()
+    assert all((drawn.maps[name][sky] == 0).all() for name in SHOWN)
