@@ -160,6 +160,14 @@ class KernelDispatcher(NumbaDispatcher):
         self._types_active_call.add(result)
         return result
 
+    def get_call_template(self, args: Any, kws: Any) -> Any:
+        """Return how another kernel calls this one.
+
+        A whole number written as an argument has the type of all others: Numba would compile this kernel again for it.
+        """
+        args, kws = [plain_type(each) for each in args], {name: plain_type(each) for name, each in kws.items()}
+        return super().get_call_template(args, kws)
+
     def _compile_for_args(self, *args: Any, **kws: Any) -> Any:
         """Return the machine code for these arguments; Numba calls this when they are of new types."""
         with contextlib.suppress(*OTHER_VERSION):
@@ -178,6 +186,11 @@ class KernelDispatcher(NumbaDispatcher):
                     self.targetctx.insert_user_function(result.entry_point, result.fndesc, [result.library])
                     self.add_overload(result)
             return None if result is None else result.entry_point
+
+
+def plain_type(kind: Any) -> Any:
+    """Return the type of all numbers like a constant one."""
+    return types.unliteral(kind) if isinstance(kind, types.IntegerLiteral) else kind
 
 
 def type_of(value: Any) -> Any:

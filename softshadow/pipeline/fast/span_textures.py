@@ -352,7 +352,7 @@ def sample_in_float(switches, numbers, unit, number, count, texels, room, whole)
         red, green, blue, alpha = texel_of_level(switches, numbers, unit, number, level, linear, s, t, r, texels)
         weight = room[WEIGHT + n]
         if weight > ZERO:
-            level += 1
+            level = np.int32(level + ONE_TEXEL)
             a, b, c, d = texel_of_level(switches, numbers, unit, number, level, linear, s, t, r, texels)
             red, green = weight * (a - red) + red, weight * (b - green) + green
             blue, alpha = weight * (c - blue) + blue, weight * (d - alpha) + alpha

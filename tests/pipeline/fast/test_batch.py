@@ -1,5 +1,6 @@
 """Draws that wait and are processed together leave the bits of draws carried out one by one."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -9,12 +10,14 @@ from hypothesis import strategies as st
 
 from softshadow import gl
 from softshadow.context import Context
+from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline import choose, queue, set_threads, threads, use_short_cuts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch import geometry
 from softshadow.pipeline.fast.batch.geometry import Setting
 from softshadow.pipeline.fast.batch.matrices import invert
 from softshadow.pipeline.fast.batch.table import Run
+from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.memory import threads as pool
 from softshadow.pipeline.records import Geometry
 from softshadow.programs import inverse
@@ -193,6 +196,39 @@ def test_short_programs_leave_the_bits_of_single_draws(seed):
     with use_short_cuts(False):
         expected = Program(seed).draw(states=1, draws=3)
     assert same_buffers(Program(seed).draw(states=1, draws=3), expected)
+
+
+@given(seeds)
+def test_a_lit_mesh_has_the_colours_of_the_textbook(seed):
+    """The mesh has three blocks of `light_block`, the last one with fewer vertices."""
+    geometries = []
+    program, rng = Program(seed), np.random.default_rng(seed)
+
+    def compared(run: Run, setting: Setting, draws: list[Draw], target: Framebuffer) -> tuple[Geometry, int]:
+        result = geometry_of(run, setting, draws, target)
+        geometries.append((result[0], process_geometry(draws[0], target, context.storage)))
+        return result
+
+    context, geometry_of = gl.create_context(SIZE, SIZE), queue.geometry_of
+    program.set_lighting()
+    gl.glEnable(gl.GL_LIGHTING)
+    program.set_matrices()
+    for array, point, width in (
+        (gl.GL_VERTEX_ARRAY, partial(gl.glVertexPointer, 3), 3), (gl.GL_NORMAL_ARRAY, gl.glNormalPointer, 3),
+        (gl.GL_COLOR_ARRAY, partial(gl.glColorPointer, 4), 4),
+    ):  # fmt: skip
+        if array == gl.GL_VERTEX_ARRAY or program.chance(0.8):
+            gl.glEnableClientState(array)
+            point(gl.GL_FLOAT, 0, rng.uniform(-1, 1, (150, width)).astype(np.float32))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(queue, "geometry_of", compared)
+        gl.glDrawArrays(gl.GL_TRIANGLES, 0, 150)
+        gl.glFinish()
+    for ours, expected in geometries:
+        np.testing.assert_array_equal(ours.values, expected.values)
+        assert (ours.back is None) == (expected.back is None)
+        if ours.back is not None:
+            np.testing.assert_array_equal(ours.back, expected.back)
 
 
 @given(seeds)

@@ -1,7 +1,7 @@
-"""Lighting of the vertices of many draws; equals `geometry.geometry.process_geometry`, see fast/test_batch.py.
+"""The state of lighting as numbers; equals `geometry.geometry.process_geometry`, see fast/test_batch.py.
 
-One vertex after the other, with the operations of `softshadow.programs.lighting` in the same order. The state of each
-`Lighting` becomes rows of numbers once (`LightingRows`); what a draw adds, its matrices, is in `place_lights`.
+The state of each `Lighting` becomes rows of numbers once (`LightingRows`); what a draw adds, its matrices, is in
+`place_lights`. The kernels that light vertices are in `light_block`.
 """
 
 from __future__ import annotations
@@ -14,15 +14,12 @@ import numpy as np
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.programs.lighting import (
-    LARGEST_SHININESS,
-    SMALLEST_SCALE,
     enabled_lights,
     has_highlights,
     in_object_space,
     needs_eye_position,
     normalize,
 )
-from softshadow.programs.llvmpipe_math import power
 from softshadow.programs.reflectances import followed, vector
 from softshadow.state import Lighting, LightState, MaterialState
 
@@ -35,7 +32,10 @@ MATERIAL_AMBIENT, MATERIAL_DIFFUSE, MATERIAL_SPECULAR, EMISSION, SHININESS, MODE
 N_LIGHTS, LOCAL_VIEWER, NORMALIZES, RESCALES, HIGHLIGHTS, NEEDS_EYE, OBJECT_SPACE, FOLLOWS_FRONT, FOLLOWS_BACK = range(
     9
 )
-FOLLOWS = {"ambient": 1, "diffuse": 2, "specular": 4, "emission": 8}
+FOLLOWS_AMBIENT, FOLLOWS_DIFFUSE, FOLLOWS_SPECULAR, FOLLOWS_EMISSION = 1, 2, 4, 8  # bits of the last two flags
+FOLLOWS = {
+    "ambient": FOLLOWS_AMBIENT, "diffuse": FOLLOWS_DIFFUSE, "specular": FOLLOWS_SPECULAR, "emission": FOLLOWS_EMISSION,
+}  # fmt: skip
 # columns of a light of a draw: position or direction, half vector
 PLACED, HALF_VECTOR, PLACED_COLUMNS = 0, 3, 6
 
@@ -88,12 +88,6 @@ def root_of(x):
 
 
 @kernel
-def power_of(x, exponent):
-    """Return x to the power of the exponent, as llvmpipe approximates it; a kernel, since it is used twice."""
-    return power(x, exponent)
-
-
-@kernel
 def dot3(a, b, c, x, y, z):
     """Return the dot product of two vectors, added from the last component to the first."""
     return (c * z + b * y) + a * x
@@ -137,115 +131,6 @@ def place_lights(lights, n_lights, modelview, to_object, object_space, placed):
             over_w = ONE / w
             x, y, z = x * over_w, y * over_w, z * over_w
         placed[n, PLACED], placed[n, PLACED + 1], placed[n, PLACED + 2] = x, y, z
-
-
-@inlined
-def lit_normal(flags, to_object, object_space, length_preserving, x, y, z):
-    """Return a normal in eye or object space, normalized or rescaled."""
-    m = to_object
-    if not object_space:
-        x, y, z = (
-            dot3(x, y, z, m[0, 0], m[1, 0], m[2, 0]),
-            dot3(x, y, z, m[0, 1], m[1, 1], m[2, 1]),
-            dot3(x, y, z, m[0, 2], m[1, 2], m[2, 2]),
-        )
-    if flags[NORMALIZES]:
-        factor = root_of(dot3(x, y, z, x, y, z))
-        return x * factor, y * factor, z * factor
-    if flags[RESCALES] and not object_space and not length_preserving:
-        squared = (m[2, 0] * m[2, 0] + m[2, 1] * m[2, 1]) + m[2, 2] * m[2, 2]
-        factor = ONE / np.sqrt(squared if squared >= SMALLEST_SCALE else ONE)
-        return x * factor, y * factor, z * factor
-    return x, y, z
-
-
-@kernel
-def reflectance(materials, side, follows, bit, column, color, channel):
-    """Return a channel of a material colour: the vertex colour's where the material follows it."""
-    return color[channel] if follows & bit else materials[side, column + channel]
-
-
-@inlined
-def light_vertex(
-    lights, materials, side, flags, placed, eye_x, eye_y, eye_z, nx, ny, nz, color, separate, out, highlight
-):
-    """Write the lit colour (4,) of a vertex with a normal to `out`, and the separate highlight (3,) to `highlight`.
-
-    `side` is 0 for the front material, 1 for the back material; `color` (4,) is the vertex colour.
-    """
-    follows = flags[FOLLOWS_BACK if side else FOLLOWS_FRONT]
-    for c in range(3):
-        ambient = reflectance(materials, side, follows, 1, MATERIAL_AMBIENT, color, c)
-        out[c] = materials[side, MODEL_AMBIENT + c] * ambient + reflectance(
-            materials, side, follows, 8, EMISSION, color, c
-        )
-        highlight[c] = ZERO
-    for n in range(flags[N_LIGHTS]):
-        x, y, z = placed[n, PLACED], placed[n, PLACED + 1], placed[n, PLACED + 2]
-        hx, hy, hz = placed[n, HALF_VECTOR], placed[n, HALF_VECTOR + 1], placed[n, HALF_VECTOR + 2]
-        is_positional, squared = lights[n, POSITION + 3] != ZERO, ZERO
-        if is_positional:
-            x, y, z = x - eye_x, y - eye_y, z - eye_z
-            squared = dot3(x, y, z, x, y, z)
-            over_distance = root_of(squared)
-            x, y, z = x * over_distance, y * over_distance, z * over_distance
-            hx, hy, hz = x, y, z + ONE
-        if flags[LOCAL_VIEWER] and flags[HIGHLIGHTS]:
-            factor = root_of(dot3(eye_x, eye_y, eye_z, eye_x, eye_y, eye_z))
-            hx, hy, hz = x - eye_x * factor, y - eye_y * factor, z - eye_z * factor
-        if is_positional or (flags[LOCAL_VIEWER] and flags[HIGHLIGHTS]):
-            factor = root_of(dot3(hx, hy, hz, hx, hy, hz))
-            hx, hy, hz = hx * factor, hy * factor, hz * factor
-        attenuates, attenuation = False, ONE
-        if lights[n, HAS_SPOT] != ZERO:
-            spot = dot3(
-                -x, -y, -z, lights[n, SPOT_DIRECTION], lights[n, SPOT_DIRECTION + 1], lights[n, SPOT_DIRECTION + 2]
-            )
-            inside = ONE if lights[n, COSINE] < spot else ZERO
-            attenuates, attenuation = True, inside * power_of(abs(spot), lights[n, SPOT_EXPONENT])
-        if lights[n, HAS_POLYNOMIAL] != ZERO:
-            distance = np.sqrt(squared)
-            one = root_of(squared) * distance
-            polynomial = (lights[n, QUADRATIC] * squared + lights[n, LINEAR] * distance) + lights[n, CONSTANT] * one
-            by_distance = ONE / polynomial
-            attenuation = by_distance * attenuation if attenuates else by_distance
-            attenuates = True
-        towards_light = dot3(nx, ny, nz, x, y, z)
-        diffuse, specular = positive(towards_light), ZERO
-        if flags[HIGHLIGHTS] or attenuates:
-            shininess = materials[side, SHININESS] if flags[HIGHLIGHTS] else towards_light
-            towards_half = dot3(nx, ny, nz, hx, hy, hz) if flags[HIGHLIGHTS] else towards_light
-            if not towards_light <= ZERO:
-                limited = -LARGEST_SHININESS if shininess < -LARGEST_SHININESS else shininess
-                limited = LARGEST_SHININESS if limited > LARGEST_SHININESS else limited
-                specular = power_of(positive(towards_half), limited)
-        elif towards_light > ZERO:
-            specular = ONE
-        if attenuates:
-            diffuse, specular = diffuse * attenuation, specular * attenuation
-        for c in range(3):
-            ambient_part = lights[n, AMBIENT + c] * reflectance(materials, side, follows, 1, MATERIAL_AMBIENT, color, c)
-            if attenuates:
-                ambient_part = attenuation * ambient_part
-            rgb = ambient_part + out[c]
-            rgb = (
-                diffuse
-                * (lights[n, DIFFUSE + c] * reflectance(materials, side, follows, 2, MATERIAL_DIFFUSE, color, c))
-                + rgb
-            )
-            shine = specular * (
-                lights[n, SPECULAR + c] * reflectance(materials, side, follows, 4, MATERIAL_SPECULAR, color, c)
-            )
-            if separate:
-                highlight[c] = shine + highlight[c]
-            else:
-                rgb = shine + rgb
-            out[c] = rgb
-    out[3] = reflectance(materials, side, follows, 2, MATERIAL_DIFFUSE, color, 3)
-    for c in range(4):
-        out[c] = clamped(out[c])
-    for c in range(3):
-        highlight[c] = clamped(highlight[c])
 
 
 @kernel

@@ -9,15 +9,8 @@ import numpy as np
 
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ZERO
-from softshadow.pipeline.fast.batch.lighting import (
-    N_LIGHTS,
-    NEEDS_EYE,
-    OBJECT_SPACE,
-    clamped,
-    light_vertex,
-    lit_normal,
-    place_lights,
-)
+from softshadow.pipeline.fast.batch.light_block import light_vertices
+from softshadow.pipeline.fast.batch.lighting import N_LIGHTS, NEEDS_EYE, OBJECT_SPACE, clamped, place_lights
 from softshadow.pipeline.fast.batch.matrices import invert, multiply
 from softshadow.pipeline.geometry.clip import outcode
 from softshadow.pipeline.geometry.vertex import clip_position, window_position
@@ -110,10 +103,12 @@ def process_vertices(
             codes[v] = outcode(clip[v, 0], clip[v, 1], clip[v, 2], clip[v, 3]) & ~layout.ignored
             window_position(clip, v, scale, shift, window)
         if layout.lit:
-            lighting = numbers[d, LIGHTING]
-            light_draw(
-                first, last, layout, numbers[d, KIND], row, lights[lighting], materials[lighting], flags[lighting],
-                placed[d], positions, colors, normals, values, back,
+            lighting, kind = numbers[d, LIGHTING], numbers[d, KIND]
+            light_vertices(
+                first, last, layout.two_side, layout.separate, in_object_space(layout, flags[lighting], kind),
+                not kind & ~LENGTH_PRESERVING, modelview, matrix_at(row, INVERSE), row[NORMAL:PRODUCT],
+                row[COLOR:NORMAL], lights[lighting], materials[lighting], flags[lighting], placed[d], positions,
+                colors, normals, values, back,
             )  # fmt: skip
         else:
             for vertex in range(first, last):
@@ -139,45 +134,6 @@ def process_vertices(
             for vertex in range(first, last):
                 for c in range(7 if layout.separate else 4, column):
                     back[vertex, c] = values[vertex, c]
-
-
-@kernel
-def light_draw(
-    first, last, layout, kind, row, lights, materials, flags, placed, positions, colors, normals, values, back
-):  # fmt: skip
-    """Write the lit colours of the vertices [first, last), which belong to one draw."""
-    color, lit_color, highlight = np.empty(4, values.dtype), np.empty(4, values.dtype), np.empty(3, values.dtype)
-    modelview, to_object = matrix_at(row, MODELVIEW), matrix_at(row, INVERSE)
-    object_space, keeps_length = in_object_space(layout, flags, kind), not kind & ~LENGTH_PRESERVING
-    for c in range(4):
-        color[c] = row[COLOR + c]
-    nx, ny, nz = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2]
-    for vertex in range(first, last):
-        v = np.uint64(vertex)
-        eye_x, eye_y, eye_z = ZERO, ZERO, ZERO
-        if flags[NEEDS_EYE]:
-            x, y, z, w = positions[v, 0], positions[v, 1], positions[v, 2], positions[v, 3]
-            eye_x, eye_y = transformed(modelview, 0, x, y, z, w), transformed(modelview, 1, x, y, z, w)
-            eye_z = transformed(modelview, 2, x, y, z, w)
-        if layout.colors:
-            for c in range(4):
-                color[c] = colors[v, c]
-        if layout.normals:
-            nx, ny, nz = normals[v, 0], normals[v, 1], normals[v, 2]
-        unit_x, unit_y, unit_z = lit_normal(flags, to_object, object_space, keeps_length, nx, ny, nz)
-        for side in range(2 if layout.two_side else 1):
-            if side == 1:
-                unit_x, unit_y, unit_z = -unit_x, -unit_y, -unit_z
-            light_vertex(
-                lights, materials, side, flags, placed, eye_x, eye_y, eye_z, unit_x, unit_y, unit_z, color,
-                layout.separate, lit_color, highlight,
-            )  # fmt: skip
-            for c in range(7 if layout.separate else 4):
-                value = lit_color[c] if c < 4 else highlight[c - 4]
-                if side == 0:
-                    values[v, c] = value
-                else:
-                    back[v, c] = value
 
 
 @kernel
