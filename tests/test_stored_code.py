@@ -15,7 +15,7 @@ from softshadow.jit.stored_code import type_of
 KERNELS = """
 import sys
 import numpy as np
-from softshadow.jit import kernel, stored_code
+from softshadow.jit import allocating_kernel, kernel, stored_code
 
 @kernel
 def inner(x):
@@ -26,6 +26,18 @@ def outer(x):
     return inner(x) + 100
 
 @kernel
+def many_calls(x):
+    return inner(0) + inner(1) + inner(x)
+
+@kernel
+def row_sum(array):
+    total = 0.0
+    for i in range(array.shape[0]):
+        row = array[i]
+        total += row[0] + row[1]
+    return total
+
+@allocating_kernel
 def several(array, names):
     if array.shape[0] == 0:
         raise ValueError("empty")
@@ -101,6 +113,16 @@ def test_another_version_of_numba_loads_kernels_in_its_own_way(run: Any) -> None
     run(RUN)
     other = "del stored_code.StoredResults.rebuild_without_compiler\n"
     assert run(other + RUN) == RESULT.format(True)
+
+
+def test_constant_arguments_do_not_compile_a_kernel_again(run: Any) -> None:
+    assert run("print(many_calls(2), len(inner.signatures))") == "9 1"
+
+
+def test_only_allocating_kernels_count_references(run: Any) -> None:
+    code = "several(np.ones(2), (4.0, 2)); row_sum(np.ones((2, 2)))\n"
+    code += "print(*['NRT_decref' in next(iter(each.inspect_llvm().values())) for each in (several, row_sum)])"
+    assert run(code) == "True False"
 
 
 def test_wrong_arguments_have_numbas_own_message(run: Any) -> None:

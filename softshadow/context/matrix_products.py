@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from softshadow import matrices
-from softshadow.jit import kernel
+from softshadow.jit import allocating_kernel, kernel
 
 IDENTITY, PUSH, TRANSLATE, SCALE, ROTATE, LOOK_AT, LOAD, MULTIPLY = range(8)
 SIZES = (1, 1, 4, 4, 6, 10, 17, 17)  # numbers of each operation in the queue, its code included
@@ -19,7 +19,7 @@ SHORTEST_AXIS = np.float32(matrices.SHORTEST_AXIS)
 single = np.float32
 
 
-@kernel
+@allocating_kernel
 def carry_out(queue: np.ndarray, end: int, levels: np.ndarray, level: int) -> int:
     """Carry out the operations before `end` on the matrices (N, 4, 4) float32; return the level of the last one.
 

@@ -20,13 +20,24 @@ OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrap
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile a function of the fragment, vertex or geometry loops (decorator).
 
-    IEEE arithmetic as written (no fastmath), no bounds or division checks, no interpreter lock (nogil).
+    IEEE arithmetic as written (no fastmath), no bounds or division checks, no interpreter lock (nogil). A kernel makes
+    no arrays: so references to arrays need not be counted, which took longer than many a loop.
     With ``NUMBA_DISABLE_JIT=1`` the function stays plain Python.
     """
+    return _dispatcher_of(function, counts_references=False)
+
+
+def allocating_kernel(function: Callable[..., Any]) -> Any:
+    """Compile a function that makes arrays (decorator), else as `kernel`; loops in it should call kernels."""
+    return _dispatcher_of(function, counts_references=True)
+
+
+def _dispatcher_of(function: Callable[..., Any], *, counts_references: bool) -> Any:
     config: Any = numba.config  # type checkers do not see its settings, which Numba creates at import
     if config.DISABLE_JIT:
         return function
-    dispatcher = KernelDispatcher(function, targetoptions={"nopython": True, "boundscheck": None, **OPTIONS})  # as njit
+    options = {"nopython": True, "boundscheck": None, "_nrt": counts_references, **OPTIONS}  # the first two as in njit
+    dispatcher = KernelDispatcher(function, targetoptions=options)
     folder = cache_folder()
     if folder:
         users_folder = config.CACHE_DIR

@@ -161,7 +161,10 @@ def find_neighbors(faces, places, sizes, kinds, seamless, neighbors):
 def corner_in_block(corners, n):
     """Return whether a pixel in the 2x2 block of pixel n has a texel beyond a corner."""
     first = n - n % PIXELS_OF_A_BLOCK
-    return corners[first : first + PIXELS_OF_A_BLOCK].max() >= 0
+    largest = corners[first]
+    for i in range(first + 1, min(first + PIXELS_OF_A_BLOCK, corners.shape[0])):
+        largest = max(largest, corners[i])
+    return largest >= 0
 
 
 @kernel

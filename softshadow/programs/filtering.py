@@ -14,7 +14,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.image import Format, Image
-from softshadow.jit import inlined, kernel
+from softshadow.jit import allocating_kernel, inlined, kernel
 from softshadow.pixels import LARGEST_SAMPLED, LARGEST_UINT, sampled_depth
 from softshadow.programs.wrapping import (
     FIXED_POINT_WRAPS,
@@ -144,7 +144,7 @@ def mix_fixed_point(weight, a, b):
     return a + (((b - a) * weight * 128 + 16384) >> 15)
 
 
-@kernel
+@allocating_kernel
 def gather_texels(columns, rows, cells, width, border, unit, sources, out):
     """Write the texels at columns and rows (N,) to `out` (GL_NEAREST); `unit` is the value of one cell unit."""
     places, texels = np.empty(len(columns), np.uint32), cells.reshape(-1)

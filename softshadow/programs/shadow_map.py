@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import allocating_kernel
 from softshadow.programs.program import Program, Varyings, VertexInputs
 from softshadow.programs.sampling import divide, sample
 from softshadow.programs.texture_coordinates import transform
@@ -68,7 +68,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
     compare(np.ascontiguousarray(inputs.T), projected.T, stored[:, 0], ambient, bias, out.T)
 
 
-@kernel
+@allocating_kernel
 def compare(inputs, projected, stored, ambient, bias, out):
     """Write the lit or shadowed colours to `out` (4, N) from inputs (8, N), projected (3, N) and stored depths (N,)."""
     lit = np.empty(len(stored), np.bool_)

@@ -7,7 +7,7 @@ hid the sample before.
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import allocating_kernel, kernel
 from softshadow.truth.light_view import (
     FLAT,
     box_meets_ray,
@@ -26,7 +26,7 @@ LEVELS = 5  # from a face that hides a sample up to the node where the search fo
 HUGE = 1e300  # in place of an infinite slope
 
 
-@kernel
+@allocating_kernel
 def measure_light(
     points, kind, center, half_u, half_v, own, viewer, corners, boxes, flatness, closed, sets, first, most_pieces,
     most_faces, visible, exact,

@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import allocating_kernel, kernel
 from softshadow.scene import SceneObject
 from softshadow.truth.triangle_tree import TriangleTree, build_tree
 
@@ -216,7 +216,7 @@ def in_one_plane(own, corners, flatness):
     return True
 
 
-@kernel
+@allocating_kernel
 def _count_faces(origins, directions, reach, own, faces, corners, boxes, flatness, closed, counts):
     first_leaf = len(boxes) // 2
     stack = np.empty(128, dtype=np.int64)
@@ -248,7 +248,7 @@ def _count_faces(origins, directions, reach, own, faces, corners, boxes, flatnes
             counts[ray] += 1
 
 
-@kernel
+@allocating_kernel
 def _find_first_faces(origins, directions, corners, boxes, flatness, leaves, distances):
     first_leaf = len(boxes) // 2
     stack = np.empty(128, dtype=np.int64)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import allocating_kernel
 from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.fast.fragment_numbers import (
     ALL,
@@ -73,7 +73,7 @@ def any_state_kernel(writes_ids: int) -> FillKernel:
 def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
     """Return the kernel that tests stencil values or not, and writes ids or not; loops that it lacks cost no time."""
 
-    @kernel
+    @allocating_kernel
     def fill(
         which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, region, depth_range, pitch, depth, stencil,
         ids,

@@ -15,7 +15,6 @@ from softshadow.jit import kernel
 from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import (
-    FLOAT_ROWS,
     MASK,
     NEXT,
     SIZE,
@@ -23,7 +22,7 @@ from softshadow.pipeline.fast.fragment_block import (
     SPAN_PLACE,
     SPAN_ROW,
     SPAN_START,
-    WHOLE_ROWS,
+    block_memory,
 )
 from softshadow.pipeline.fast.span_colors import ALPHA_ROW, shade_block
 from softshadow.pipeline.fast.span_state import SpanState, span_state
@@ -54,7 +53,7 @@ def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry)
         shade_spans(
             planes.values, planes.place, *spans, len(spans.row), False, geometry.flat, numbers.switches,
             numbers.numbers, *numbers.texels, pixels, triangles.depth, triangles.front, NO_OPS, ZERO, ONE, NO_DEPTH,
-            NO_STENCIL,
+            NO_STENCIL, *block_memory.arrays,
         )  # fmt: skip
 
     def shade(spans: Spans) -> None:
@@ -85,16 +84,15 @@ def covered_state(state: State, target: Framebuffer, geometry: Geometry) -> Span
 @kernel
 def shade_spans(
     planes, place, rows, lefts, triangles, starts, n_all, may_overlap, flat, switches, numbers, texels0, texels1,
-    pixels, depth_planes, faces_front, ops, low, high, depth, stencil,
+    pixels, depth_planes, faces_front, ops, low, high, depth, stencil, room, whole, spans, own_triangles,
 ):  # fmt: skip
     """Shade `n_all` spans, as many at a time as fit into a block, and write them to `pixels` (H, pitch) int32.
 
     Spans that may overlap are blended in their order. With alpha test, their fragments are tested before they are
-    written; the arguments from `depth_planes` on are read for that only.
+    written; the arguments from `depth_planes` to `stencil` are read for that only. The last ones are those of
+    `fragment_block.block_memory`.
     """
-    room, whole = np.empty(FLOAT_ROWS * SIZE, np.float32), np.empty(WHOLE_ROWS * SIZE, np.int32)
     whole[MASK : MASK + np.uint64(SIZE)] = -1
-    spans, own_triangles = np.zeros((4, SIZE + 1), np.int32), np.empty(SIZE, np.int32)
     r, done = 0, np.int64(0)  # the next span, and how many of its fragments are done
     while r < n_all:
         n_spans, n = 0, np.int64(0)
@@ -116,4 +114,4 @@ def shade_spans(
                 ops, spans, n_spans, own_triangles, depth_planes, faces_front, low, high, depth, stencil, ALPHA_ROW,
                 room, whole,
             )  # fmt: skip
-        write_block(spans, n_spans, may_overlap, switches, whole, pixels)
+        write_block(spans, n_spans, may_overlap, switches, ops[0, 0] != 0, whole, pixels)

@@ -14,8 +14,9 @@ import numpy as np
 
 from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.fast.fixed_function_spans import NO_DEPTH, NO_STENCIL, covered_state, shade_spans
-from softshadow.pipeline.fast.span_state import COMPARISONS, SpanState
-from softshadow.pipeline.fast.span_tests import N_OPS, WANTED, collect_passing_spans
+from softshadow.pipeline.fast.fragment_block import block_memory
+from softshadow.pipeline.fast.span_state import SpanState
+from softshadow.pipeline.fast.span_tests import N_OPS, collect_passing_spans, span_tests
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, sort_into_bands
@@ -74,16 +75,17 @@ def draw_forward(
     fragments : about how many fragments there are; many are shared by several threads in bands of rows
     """
     depth, stencil = target.depth, target.stencil
-    tests = (
-        ops_numbers(front, back), *depth_range_of(state, np.float32),
-        NO_DEPTH if depth is None else depth.cells, NO_STENCIL if stencil is None else stencil.cells,
+    buffers = (
+        *depth_range_of(state, np.float32), NO_DEPTH if depth is None else depth.cells,
+        NO_STENCIL if stencil is None else stencil.cells,
     )  # fmt: skip
+    tests, alpha_tests = (*span_tests(front, back), *buffers), (ops_numbers(front, back), *buffers)
     colors = (geometry.flat, *numbers[:2], *numbers.texels, target.colors[0].cells.view(np.int32)[..., 0])
     for begin in range(0, len(geometry.triangles.ids), TRIANGLES):
         triangles = geometry.triangles
         if len(triangles.ids) > TRIANGLES:
             triangles = Setup(*(array[begin : begin + TRIANGLES] for array in triangles))
-        shared = triangles, _planes_of_all(geometry, triangles), region, tests, colors
+        shared = triangles, _planes_of_all(geometry, triangles), region, tests, alpha_tests, colors
         if threads() > 1 and fragments >= WORTH_BANDS and region.end_row - region.first_row > 1 << BAND_ROWS_LOG2:
             _draw_in_bands(*shared)
         else:
@@ -101,30 +103,32 @@ def _planes_of_all(geometry: Geometry, triangles: Setup) -> np.ndarray:
     return planes
 
 
-def _draw_in_bands(triangles: Setup, planes: np.ndarray, region: Region, tests: Numbers, colors: Numbers) -> None:
+def _draw_in_bands(triangles: Setup, planes: np.ndarray, region: Region, *numbers: Numbers) -> None:
     """Draw the triangles in bands of rows, which several threads share."""
     bins = sort_into_bands(triangles.corners, [(0, len(triangles.ids))], region)
     bands = np.flatnonzero(np.diff(bins.starts)).tolist()
 
     def draw_band(n: int) -> None:
-        _draw_rows(bins.of(bands[n]), *bins.rows_of(bands[n], region), triangles, planes, region, tests, colors)
+        _draw_rows(bins.of(bands[n]), *bins.rows_of(bands[n], region), triangles, planes, region, *numbers)
 
     share(draw_band, len(bands))
 
 
 def _draw_rows(
     order: np.ndarray, first_row: int, end_row: int, triangles: Setup, planes: np.ndarray, region: Region,
-    tests: Numbers, colors: Numbers,
+    tests: Numbers, alpha_tests: Numbers, colors: Numbers,
 ) -> None:  # fmt: skip
     """Draw the triangles with the numbers `order` (n,) into the rows [first_row, end_row)."""
     corners, depth_planes, faces_front = triangles.corners, triangles.depth, triangles.front
-    spans, m, row = _lists.spans, 0, first_row
+    spans, memory, columns, m, row = _lists.spans, block_memory.arrays, np.empty((2, end_row), np.int32), 0, first_row
     while m < len(order):
         m, row, n_spans = collect_passing_spans(
             order, m, row, region.left, region.right, first_row, end_row, region.downwards, corners, depth_planes,
-            faces_front, *tests, *spans,
+            faces_front, *tests, *spans, *memory[:2], *columns,
         )  # fmt: skip
-        shade_spans(planes, _in_order, *spans, n_spans, True, *colors, depth_planes, faces_front, *tests)
+        shade_spans(
+            planes, _in_order, *spans, n_spans, True, *colors, depth_planes, faces_front, *alpha_tests, *memory
+        )  # fmt: skip
 
 
 def ops_numbers(front: FragmentOps, back: FragmentOps) -> np.ndarray:
@@ -134,6 +138,5 @@ def ops_numbers(front: FragmentOps, back: FragmentOps) -> np.ndarray:
         if len(_ops_numbers) >= KEPT:
             _ops_numbers.clear()
         numbers = _ops_numbers[front, back] = np.empty((2, N_OPS), np.int64)
-        for row, ops in zip(numbers, (front, back), strict=True):
-            row[:WANTED], row[WANTED] = ops, COMPARISONS[ops.depth_func]
+        numbers[:] = front, back
     return numbers

@@ -9,13 +9,15 @@ constant distances: so the compiler knows that they do not overlap. Row numbers 
 indices is compiled in.
 """
 
+import threading
+
 import numpy as np
 
 from softshadow.jit import kernel
 from softshadow.pipeline.constants import ONE
 
 SIZE = 192  # fragments; with 12 to 20 rows in use by one step, they fit into 32 KB
-LONG_SPAN = 8  # fragments; from this length on, a loop per column pays
+LONG_RUN = 8  # fragments of one triangle; from this number on, a loop per column pays
 COLUMNS = 16  # interpolated at most: two colours, coordinates of two units, fog
 
 
@@ -24,10 +26,10 @@ def _rows(first: int, count: int) -> list[np.uint64]:
 
 
 # rows of `room`: the inputs of the fragment stage, of which the first four become the colour, and then
-W, COLUMN, S, T, R, SQUARED, QUADS, WEIGHT, DEPTH = _rows(COLUMNS, 9)
-TEXEL, TEXEL_GREEN, TEXEL_BLUE, TEXEL_ALPHA = _rows(COLUMNS + 9, 4)  # red, green, blue, alpha
+W, COLUMN, LINE, S, T, R, SQUARED, QUADS, WEIGHT, DEPTH = _rows(COLUMNS, 10)
+TEXEL, TEXEL_GREEN, TEXEL_BLUE, TEXEL_ALPHA = _rows(COLUMNS + 10, 4)  # red, green, blue, alpha
 ROW = np.uint64(SIZE)
-FLOAT_ROWS = COLUMNS + 13
+FLOAT_ROWS = COLUMNS + 14
 # rows of `whole`; those of the s axis, and then of the t axis
 LENGTH, FIRST, SECOND, FRACTION = _rows(0, 4)
 T_AXIS = np.uint64(4 * SIZE)
@@ -40,37 +42,54 @@ SPAN_ROW, SPAN_LEFT, SPAN_PLACE, SPAN_START = range(4)
 NEXT = np.uint64(1)
 
 
+class BlockMemory(threading.local):
+    """The memory of a block, for each thread: `room`, `whole`, its list of spans and their triangles (SIZE,)."""
+
+    def __init__(self) -> None:
+        self.arrays = (
+            np.empty(FLOAT_ROWS * SIZE, np.float32), np.empty(WHOLE_ROWS * SIZE, np.int32),
+            np.zeros((4, SIZE + 1), np.int32), np.empty(SIZE, np.int32),
+        )  # fmt: skip
+
+
+block_memory = BlockMemory()
+
+
 @kernel
 def interpolate_block(planes, spans, n_spans, flat, needed, room):
-    """Write W, COLUMN and the columns whose bits are set in `needed`; planes (P, 3, k + 1) as `attribute_planes`."""
-    k = flat.shape[0]
-    for s in range(np.uint64(n_spans)):
-        first, end = np.uint64(spans[SPAN_START, s]), np.uint64(spans[SPAN_START, s + NEXT])
-        own, j = planes[np.uint64(spans[SPAN_PLACE, s])], np.float32(spans[SPAN_ROW, s])
-        at_origin, per_column, per_row = own[0], own[1], own[2]
-        shift = np.int32(spans[SPAN_LEFT, s] - spans[SPAN_START, s])
-        if end - first < LONG_SPAN:
-            for n in range(first, end):
-                i = np.float32(np.int32(n) + shift)
-                room[COLUMN + n] = i
-                w = ONE / ((per_column[k] * i + at_origin[k]) + per_row[k] * j)
-                room[W + n] = w
-                for c in range(k):
-                    value = at_origin[c] if flat[c] else ((per_column[c] * i + at_origin[c]) + per_row[c] * j) * w
-                    room[np.uint64(c) * ROW + n] = value
-            continue
-        start, slope, row_term = at_origin[k], per_column[k], per_row[k] * j
+    """Write W, COLUMN, LINE and the columns whose bits are set in `needed`; planes (P, 3, k + 1) as `attribute_planes`.
+
+    COLUMN and LINE are the pixel's column and row. The spans of one triangle, one after the other, go together.
+    """
+    k, s, n_all = np.uint64(flat.shape[0]), np.uint64(0), np.uint64(n_spans)
+    while s < n_all:
+        place, first = spans[SPAN_PLACE, s], np.uint64(spans[SPAN_START, s])
+        end = first
+        while s < n_all and spans[SPAN_PLACE, s] == place:
+            begin, end, j = end, np.uint64(spans[SPAN_START, s + NEXT]), np.float32(spans[SPAN_ROW, s])
+            shift = np.int32(spans[SPAN_LEFT, s] - spans[SPAN_START, s])
+            for n in range(begin, end):
+                room[COLUMN + n], room[LINE + n] = np.float32(np.int32(np.int32(n) + shift)), j
+            s += NEXT
+        p = np.uint64(place)
+        start, slope, slope_down = planes[p, 0, k], planes[p, 1, k], planes[p, 2, k]
         for n in range(first, end):
-            i = np.float32(np.int32(np.int32(n) + shift))
-            room[COLUMN + n] = i
-            room[W + n] = ONE / ((slope * i + start) + row_term)
+            room[W + n] = ONE / ((slope * room[COLUMN + n] + start) + slope_down * room[LINE + n])
+        if end - first < LONG_RUN:
+            for n in range(first, end):
+                i, j, w = room[COLUMN + n], room[LINE + n], room[W + n]
+                for c in range(k):
+                    value = planes[p, 0, c]
+                    room[c * ROW + n] = value if flat[c] else ((planes[p, 1, c] * i + value) + planes[p, 2, c] * j) * w
+            continue
         for c in range(k):
-            if not (needed >> c) & 1:
+            if not (needed >> np.int64(c)) & 1:
                 continue
-            start, slope, row_term, row = at_origin[c], per_column[c], per_row[c] * j, np.uint64(c) * ROW
+            start, slope, slope_down, row = planes[p, 0, c], planes[p, 1, c], planes[p, 2, c], c * ROW
             if flat[c]:
                 for n in range(first, end):
                     room[row + n] = start
             else:
                 for n in range(first, end):
-                    room[row + n] = ((slope * room[COLUMN + n] + start) + row_term) * room[W + n]
+                    value = (slope * room[COLUMN + n] + start) + slope_down * room[LINE + n]
+                    room[row + n] = value * room[W + n]

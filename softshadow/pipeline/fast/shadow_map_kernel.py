@@ -13,7 +13,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
-from softshadow.jit import kernel
+from softshadow.jit import allocating_kernel
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.records import Geometry, Spans
 from softshadow.pipeline.shade.blend import FOUR_BYTES
@@ -78,7 +78,7 @@ def _is_plain(texture: Texture) -> bool:
     return nearest and image is not None and image.format.kind == "depth" and is_complete(texture)
 
 
-@kernel
+@allocating_kernel
 def shade_and_write_spans(
     planes, place, rows, lefts, triangles, starts, coordinates, flat, cells, border, unit, sources, sizes_and_wraps,
     ambient, bias, writable, pixels,

@@ -46,18 +46,16 @@ def write_squared_steps(planes, spans, n_spans, column, is_flat, width, height, 
 
     `column` is the number of the coordinate s; t and q are the next one and the third next.
     """
-    k, wide, high = planes.shape[2] - 1, np.float32(width), np.float32(height)
+    k, wide, high = np.uint64(planes.shape[2] - 1), np.float32(width), np.float32(height)
+    c, d, e = np.uint64(column), np.uint64(column + 1), np.uint64(column + 3)
     for m in range(np.uint64(n_spans)):
         first, end = spans[SPAN_START, m], spans[SPAN_START, m + NEXT]
         left, row = spans[SPAN_LEFT, m], spans[SPAN_ROW, m] & ~1
-        own = planes[np.uint64(spans[SPAN_PLACE, m])]
-        upper, lower = np.float32(row), np.float32(row + 1)
-        w0, dw, w_upper, w_lower = own[0, k], own[1, k], own[2, k] * upper, own[2, k] * lower
-        s0, ds, s_upper, s_lower = own[0, column], own[1, column], own[2, column] * upper, own[2, column] * lower
-        c = column + 1
-        t0, dt, t_upper, t_lower = own[0, c], own[1, c], own[2, c] * upper, own[2, c] * lower
-        c = column + 3
-        q0, dq, q_upper, q_lower = own[0, c], own[1, c], own[2, c] * upper, own[2, c] * lower
+        p, upper, lower = np.uint64(spans[SPAN_PLACE, m]), np.float32(row), np.float32(row + 1)
+        w0, dw, w_upper, w_lower = planes[p, 0, k], planes[p, 1, k], planes[p, 2, k] * upper, planes[p, 2, k] * lower
+        s0, ds, s_upper, s_lower = planes[p, 0, c], planes[p, 1, c], planes[p, 2, c] * upper, planes[p, 2, c] * lower
+        t0, dt, t_upper, t_lower = planes[p, 0, d], planes[p, 1, d], planes[p, 2, d] * upper, planes[p, 2, d] * lower
+        q0, dq, q_upper, q_lower = planes[p, 0, e], planes[p, 1, e], planes[p, 2, e] * upper, planes[p, 2, e] * lower
         even, n_quads = left & ~1, ((left + end - first - 1) >> 1) - (left >> 1) + 1
         for b in range(np.uint64(n_quads)):
             if is_flat:

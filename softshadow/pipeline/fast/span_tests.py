@@ -1,8 +1,12 @@
 """Depth, stencil and alpha test of spans; equals `raster.ordered.process_fragments`, see fast/test_forward.py.
 
-Without stencil test, a comparison of depths is a set of results that pass (less, equal, greater): one loop for all
-comparisons. With it, fragments are processed one by one.
+The tests are numbers (`fragment_numbers`), so that a few loops without branches serve all states. Only with alpha test,
+which needs colours, fragments are processed one by one.
 """
+
+from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,24 +14,60 @@ from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import (
     DEPTH,
-    FLOAT_ROWS,
     MASK,
     NEXT,
     SIZE,
     SPAN_LEFT,
     SPAN_ROW,
     SPAN_START,
-    WHOLE_ROWS,
 )
-from softshadow.pipeline.fast.span_textures import EQUAL, GREATER, LESS, UNORDERED
-from softshadow.pipeline.raster.coverage import bounds, row_span
+from softshadow.pipeline.fast.fragment_numbers import (
+    DEPTH_WRITE,
+    LARGEST,
+    READ,
+    REF,
+    SFAIL,
+    WRITE,
+    ZFAIL,
+    ZPASS,
+    depth_of,
+    depth_passes,
+    depth_test_of,
+    numbers_of,
+    stencil_passes,
+    stencil_test_of,
+    stencil_update_of,
+    updated,
+)
+from softshadow.pipeline.raster.coverage import bounds, row_spans
 from softshadow.pipeline.raster.depth import depth_at, depth_units
-from softshadow.pipeline.raster.fragment_ops import NO_ALPHA, FragmentOps, process_fragment
+from softshadow.pipeline.raster.fragment_ops import FragmentOps, process_fragment
 from softshadow.pipeline.records import PASSED, DepthRange
 
 LARGEST_BYTE = np.float32(255)
-WANTED = len(FragmentOps._fields)  # in the numbers of a facing, behind the fields: which results of the depth test pass
-N_OPS = WANTED + 1
+N_OPS = len(FragmentOps._fields)
+
+
+class SpanTests(NamedTuple):
+    """The tests of a draw's fragments as numbers.
+
+    depth, stencil: which tests there are, none of them where the alpha test comes first, which needs colours; numbers,
+    byte_numbers: see `fragment_numbers.numbers_of`; depth_largest: the integer that z = 1 becomes.
+    """
+
+    depth: int
+    stencil: int
+    numbers: np.ndarray
+    byte_numbers: np.ndarray
+    depth_largest: int
+
+
+def span_tests(front: FragmentOps, back: FragmentOps) -> SpanTests:
+    """Return the tests of the spans of both facings, which differ in stencil operations only."""
+    tested = not front.alpha_test
+    return SpanTests(
+        front.depth_test * tested, front.stencil_test * tested, *numbers_of(front, back), front.depth_largest
+    )
 
 
 @inlined
@@ -41,53 +81,46 @@ def ops_of(numbers):
 
 @kernel
 def collect_passing_spans(
-    order, m, row, region_left, region_right, first_row, end_row, downwards, corners, planes, faces_front, ops, low,
-    high, depth, stencil, rows, lefts, triangles, starts,
+    order, m, row, region_left, region_right, first_row, end_row, downwards, corners, planes, faces_front,
+    tests_depth, tests_stencil, numbers, byte_numbers, largest, low, high, depth, stencil, rows, lefts, triangles,
+    starts, room, whole, first_columns, end_columns,
 ):  # fmt: skip
     """Test the fragments of triangles in drawing order, and write the spans of those that pass.
-
-    With alpha test, which needs colours, nothing is tested, and the spans are all fragments.
 
     Parameters
     ----------
     order : (n,) int32, numbers of triangles, of which ``order[m]`` is the first, from `row` on
-    ops : (2, N_OPS) of front and back
+    tests_depth, ..., largest : the fields of `SpanTests`
     rows, lefts, triangles, starts : receive the spans, see `records.Spans`
+    room, whole : of a block; first_columns, end_columns : (end_row,) int32, scratch
 
     Returns
     -------
     m, row, n_spans : where to go on, since the arrays were full, and how many spans there are
     """
-    room, whole = np.empty(FLOAT_ROWS * SIZE, np.float32), np.empty(WHOLE_ROWS * SIZE, np.int32)
-    tests = ops[0, 0] == 0 and (ops[0, 2] | ops[0, 8] | ops[1, 2] | ops[1, 8]) != 0
-    n_spans, fragments = 0, np.int64(0)
-    no_depth, no_stencil = depth.shape[0] < end_row, stencil.shape[0] < end_row
+    depth_range, n_spans, fragments = DepthRange(low, high), 0, np.int64(0)
     starts[0] = 0
     while m < order.shape[0]:
         t = np.uint64(order[m])
         first, end = bounds(corners, t)
-        row, end, numbers, plane = (
-            max(row, max(first, first_row)),
-            min(end, end_row),
-            ops[1 - faces_front[t]],
-            planes[t],
-        )
+        row, end, f = max(row, max(first, first_row)), min(end, end_row), np.uint64(faces_front[t])
+        row_spans(corners, t, row, end, downwards, region_left, region_right, first_columns, end_columns)
         while row < end:
-            left, right = row_span(corners, t, row, downwards)
-            left, right = max(left, region_left), min(right, region_right)
+            j = np.uint64(row)
+            left, right = np.int64(first_columns[j]), np.int64(end_columns[j])
             if left < right and n_spans + ((right - left) >> 1) + 2 + (right - left) // SIZE > rows.shape[0]:
                 return m, row, n_spans
-            if left < right and not tests:
+            if left < right and not (tests_depth or tests_stencil):
                 s, fragments = np.uint64(n_spans), fragments + right - left
                 rows[s], lefts[s], triangles[s], starts[s + NEXT] = row, left, t, fragments
                 n_spans += 1
                 left = right
             while left < right:
                 length = np.uint64(min(right - left, SIZE))
-                own_depth, own_stencil = depth[0 if no_depth else row], stencil[0 if no_stencil else row]
                 every, some = test_span(
-                    numbers, plane, low, high, row, left, length, own_depth, own_stencil, room, whole
-                )
+                    tests_depth, tests_stencil, numbers, byte_numbers, largest, f, planes, t, depth_range, j, left,
+                    length, depth, stencil, room, whole,
+                )  # fmt: skip
                 n = np.uint64(0)
                 while some and n < length:
                     while n < length and not whole[MASK + n]:
@@ -106,50 +139,57 @@ def collect_passing_spans(
     return m, row, n_spans
 
 
-@inlined
-def test_span(numbers, plane, low, high, row, left, length, depth, stencil, room, whole):
-    """Test up to SIZE fragments of a span without alpha test; return whether all and whether some of them pass.
+@kernel
+def test_span(
+    tests_depth, tests_stencil, numbers, byte_numbers, largest, f, planes, t, depth_range, j, left, length, depth,
+    stencil, room, whole,
+):  # fmt: skip
+    """Test up to SIZE fragments of row `j` of triangle `t`; return whether all and whether some of them pass.
 
-    `numbers` are those of the facing, `plane` is (z at pixel (0, 0), dz/di, dz/dj, offset), `depth` and `stencil` the
-    rows of the buffers. MASK receives which fragments pass.
+    `f` is the facing. MASK receives which fragments pass.
     """
-    ops, first = ops_of(numbers), np.uint64(left)
-    z0, dz, dz_row, offset, j = plane[0], plane[1], plane[2], plane[3], np.float32(np.int32(row))
-    scale, shift = np.float32(ops.depth_largest), np.int32(left)
-    for n in range(length):
-        z = depth_at(z0, dz, dz_row, offset, np.float32(np.int32(np.int32(n) + shift)), j)
-        z = z if z < high else high
-        room[DEPTH + n] = z if z > low else low
-    if ops.depth_largest:
+    first, row_at, shift = np.uint64(left), np.float32(np.int32(j)), np.int32(left)
+    if tests_depth:
+        z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
         for n in range(length):
-            room[DEPTH + n] = np.rint(room[DEPTH + n] * scale)
-    every, some, wanted = np.int32(-1), np.int32(0), np.int32(numbers[WANTED])
-    if ops.stencil_test:
+            column = np.int32(np.int32(n) + shift)
+            room[DEPTH + n] = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
+        depth_test = depth_test_of(numbers, f)
         for n in range(length):
-            i = first + n
-            stored = depth[i] if ops.depth_test else ZERO
-            verdict, s, stored_z = process_fragment(ops, True, NO_ALPHA, room[DEPTH + n], stored, stencil[i])
-            stencil[i] = s
-            if ops.depth_write:
-                depth[i] = stored_z
-            passed = np.int32(-1) if verdict == PASSED else np.int32(0)
-            whole[MASK + n], every, some = passed, every & passed, some | passed
-    elif ops.depth_test:
-        for n in range(length):
-            z, stored = room[DEPTH + n], depth[first + n]
-            result = LESS if z < stored else EQUAL if z == stored else GREATER if z > stored else UNORDERED
-            passed = np.int32(-1) if result & wanted else np.int32(0)
-            whole[MASK + n] = passed
-            every &= passed
-            some |= passed
-        if ops.depth_write and some:
-            for n in range(length):
-                depth[first + n] = room[DEPTH + n] if whole[MASK + n] else depth[first + n]
+            whole[MASK + n] = depth_passes(depth_test, room[DEPTH + n], depth[j, first + n])
     else:
         for n in range(length):
             whole[MASK + n] = -1
-        some = every
+    if tests_stencil:
+        update_stencil(byte_numbers, f, j, first, length, stencil, whole)
+    every, some = np.int32(-1), np.int32(0)
+    for n in range(length):
+        every &= whole[MASK + n]
+        some |= whole[MASK + n]
+    if numbers[f, DEPTH_WRITE] and some:
+        for n in range(length):
+            depth[j, first + n] = room[DEPTH + n] if whole[MASK + n] else depth[j, first + n]
     return every != 0, some != 0
+
+
+@kernel
+def update_stencil(numbers, f, j, first, length, stencil, whole):
+    """Test and update stencil values from column `first` on; MASK, where the depth test passes, becomes where both do.
+
+    `numbers` are the bytes of `fragment_numbers.numbers_of`.
+    """
+    test, ref, read = stencil_test_of(numbers, f), numbers[f, REF], numbers[f, READ]
+    write, most = numbers[f, WRITE], numbers[f, LARGEST]
+    sfail, zfail = stencil_update_of(numbers, f, SFAIL), stencil_update_of(numbers, f, ZFAIL)
+    zpass = stencil_update_of(numbers, f, ZPASS)
+    for n in range(length):
+        hit, s = whole[MASK + n], stencil[j, first + n]
+        allowed = stencil_passes(test, ref, np.uint8(s & read))
+        passing, failing, denied = updated(zpass, s, most), updated(zfail, s, most), updated(sfail, s, most)
+        after = passing if hit else failing
+        after = after if allowed else denied
+        stencil[j, first + n] = np.uint8(s ^ np.uint8(np.uint8(s ^ after) & write))
+        whole[MASK + n] = hit if allowed else 0
 
 
 @kernel

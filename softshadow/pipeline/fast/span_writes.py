@@ -35,19 +35,20 @@ from softshadow.pipeline.fast.span_state import (
 )
 from softshadow.tokens import GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_MAX, GL_MIN
 
-REPLICATED, COLORS = np.int32(0x01010101), np.int32(0x00FFFFFF)  # an alpha times the first is in all four bytes
+REPLICATED = np.int32(0x01010101)  # an alpha times this is in all four bytes
+COLORS, ALL_BITS = np.int32(0x00FFFFFF), np.int32(-1)
 BYTES = np.uint64(4)  # per pixel
 BYTE, HALF_BYTE, LARGEST = np.int32(255), np.uint16(128), np.uint16(255)
 
 
 @inlined
-def write_block(spans, n_spans, may_overlap, switches, whole, pixels):
-    """Write PACKED where MASK is set, blended with `pixels` (H, pitch) int32, as if span by span.
+def write_block(spans, n_spans, may_overlap, switches, is_masked, whole, pixels):
+    """Write PACKED, blended with `pixels` (H, pitch) int32, as if span by span; if `is_masked`, where MASK is set.
 
     Spans that do not overlap, such as those of one triangle, are blended together.
     """
     if switches[BLENDS] == NO_BLENDING:
-        write_spans(spans, 0, n_spans, PACKED, np.int32(switches[WRITABLE]), whole, pixels)
+        write_spans(spans, 0, n_spans, PACKED, np.int32(switches[WRITABLE]), is_masked, whole, pixels)
         return
     first = 0
     while first < n_spans:
@@ -58,7 +59,7 @@ def write_block(spans, n_spans, may_overlap, switches, whole, pixels):
                 end += 1
         read_spans(spans, first, end, whole, pixels)
         blend_pixels(switches, spans[SPAN_START, np.uint64(first)], spans[SPAN_START, np.uint64(end)], whole)
-        write_spans(spans, first, end, OTHER, np.int32(switches[WRITABLE]), whole, pixels)
+        write_spans(spans, first, end, OTHER, np.int32(switches[WRITABLE]), is_masked, whole, pixels)
         first = end
 
 
@@ -67,20 +68,27 @@ def read_spans(spans, first, end, whole, pixels):
     """Write the pixels of the spans [first, end) to TARGET."""
     for s in range(np.uint64(first), np.uint64(end)):
         start, length = np.uint64(spans[SPAN_START, s]), np.uint64(spans[SPAN_START, s + NEXT] - spans[SPAN_START, s])
-        row, left = pixels[np.uint64(spans[SPAN_ROW, s])], np.uint64(spans[SPAN_LEFT, s])
+        row, left = np.uint64(spans[SPAN_ROW, s]), np.uint64(spans[SPAN_LEFT, s])
         for n in range(length):
-            whole[TARGET + start + n] = row[left + n]
+            whole[TARGET + start + n] = pixels[row, left + n]
 
 
 @kernel
-def write_spans(spans, first, end, source, writable, whole, pixels):
-    """Write the row `source` to the pixels of the spans [first, end), the bits of `writable` where MASK is set."""
+def write_spans(spans, first, end, source, writable, is_masked, whole, pixels):
+    """Write the row `source` to the pixels of the spans [first, end), the bits of `writable`.
+
+    If `is_masked`, only where MASK is set.
+    """
     for s in range(np.uint64(first), np.uint64(end)):
         start, length = np.uint64(spans[SPAN_START, s]), np.uint64(spans[SPAN_START, s + NEXT] - spans[SPAN_START, s])
-        row, left = pixels[np.uint64(spans[SPAN_ROW, s])], np.uint64(spans[SPAN_LEFT, s])
-        for n in range(length):
-            bits = writable & whole[MASK + start + n]
-            row[left + n] = (row[left + n] & ~bits) | (whole[source + start + n] & bits)
+        row, left = np.uint64(spans[SPAN_ROW, s]), np.uint64(spans[SPAN_LEFT, s])
+        if writable == ALL_BITS and not is_masked:
+            for n in range(length):
+                pixels[row, left + n] = whole[source + start + n]
+        else:
+            for n in range(length):
+                bits = writable & whole[MASK + start + n]
+                pixels[row, left + n] = (pixels[row, left + n] & ~bits) | (whole[source + start + n] & bits)
 
 
 @kernel

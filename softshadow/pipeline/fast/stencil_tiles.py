@@ -7,7 +7,7 @@ the depth test in floats, 16 to a vector, then the stencil update in bytes, 32 t
 import numpy as np
 
 from softshadow.image import Image
-from softshadow.jit import kernel
+from softshadow.jit import allocating_kernel
 from softshadow.pipeline.fast.any_state import CHUNK, CHUNK_LOG2
 from softshadow.pipeline.fast.fragment_numbers import (
     ALL,
@@ -71,7 +71,7 @@ def tiles_kernel(depth_image: Image | None = None) -> FillKernel:
     return fill_kernel
 
 
-@kernel
+@allocating_kernel
 def fill_in_tiles(
     ops, byte_ops, largest, corners, planes, faces, numbers, region, depth_range, lows, highs, width, pitch, columns,
     depth, stencil,

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.image import Image
-from softshadow.jit import inlined, kernel, read_only
+from softshadow.jit import allocating_kernel, inlined, kernel, read_only
 from softshadow.pipeline.constants import HALF, ONE, ZERO
 from softshadow.pipeline.geometry.facing import count_drawn, culling, facing_and_area, snap_vertices, vertices_of
 from softshadow.pipeline.memory.scratch import scratch
@@ -122,7 +122,7 @@ def empty_setup(n_triangles: int, real: np.dtype) -> Setup:
     )
 
 
-@kernel
+@allocating_kernel
 def half_away(values):
     """Return numbers rounded to whole ones, a half away from zero.
 

@@ -39,31 +39,35 @@ def attribute_planes(window, values, back, vertices, front, needed, flat, provok
     (T, 3) are vertex numbers in the order of positive area, as for depth, `front` (T,) facing, `needed` (P,) the
     triangles that are needed, ``provoking[ids[t]]`` the vertex that flat columns take.
     """
-    k = values.shape[1]
-    for n in range(needed.shape[0]):
-        t, at_origin, per_column, per_row = needed[n], planes[n, 0], planes[n, 1], planes[n, 2]
-        v0, v1, v2 = vertices[t, 0], vertices[t, 1], vertices[t, 2]
-        source = values if front[t] else back
-        if v2 < 0:
-            line_or_point_planes(window, source, v0, v1, at_origin, per_column, per_row)
+    k = np.uint64(values.shape[1])
+    for number in range(needed.shape[0]):  # no views of rows: each would be counted as a reference, which takes longer
+        n = np.uint64(number)
+        t = np.uint64(needed[n])
+        first, second, third, is_front = vertices[t, 0], vertices[t, 1], vertices[t, 2], front[t] != 0
+        v0, v1, v2 = np.uint64(first), np.uint64(second), np.uint64(third)
+        if third < 0:
+            line_or_point_planes(window, values if is_front else back, first, second, planes[n])
         else:
             x, y, w0, w1, w2 = window[v0, 0], window[v0, 1], window[v0, 3], window[v1, 3], window[v2, 3]
-            dx01, dy01, dx20, dy20, over_area = edge_differences(window, np.uint64(v0), np.uint64(v1), np.uint64(v2))
+            dx01, dy01, dx20, dy20, over_area = edge_differences(window, v0, v1, v2)
             dx01, dy01, dx20, dy20 = dx01 * over_area, dy01 * over_area, dx20 * over_area, dy20 * over_area
-            a0, a1, a2 = source[v0], source[v1], source[v2]
             for c in range(k):
-                at_origin[c], per_column[c], per_row[c] = plane(
-                    x, y, dx01, dy01, dx20, dy20, a0[c] * w0, a1[c] * w1, a2[c] * w2
+                a0 = values[v0, c] if is_front else back[v0, c]
+                a1 = values[v1, c] if is_front else back[v1, c]
+                a2 = values[v2, c] if is_front else back[v2, c]
+                planes[n, 0, c], planes[n, 1, c], planes[n, 2, c] = plane(
+                    x, y, dx01, dy01, dx20, dy20, a0 * w0, a1 * w1, a2 * w2
                 )
-            at_origin[k], per_column[k], per_row[k] = plane(x, y, dx01, dy01, dx20, dy20, w0, w1, w2)
+            planes[n, 0, k], planes[n, 1, k], planes[n, 2, k] = plane(x, y, dx01, dy01, dx20, dy20, w0, w1, w2)
         for c in range(k):
             if flat[c]:
-                at_origin[c] = source[provoking[ids[t]], c]
+                source = np.uint64(provoking[ids[t]])
+                planes[n, 0, c] = values[source, c] if is_front else back[source, c]
 
 
 @inlined
-def line_or_point_planes(window, values, a, b, at_origin, per_column, per_row):
-    """Fill the planes (k + 1,) of a line from vertex `a` to `b`, or of a point (`b` is -1), constant ones."""
+def line_or_point_planes(window, values, a, b, planes):
+    """Fill the planes (3, k + 1) of a line from vertex `a` to `b`, or of a point (`b` is -1), constant ones."""
     k = values.shape[1]
     is_point = b < 0
     b = a if is_point else b
@@ -73,9 +77,9 @@ def line_or_point_planes(window, values, a, b, at_origin, per_column, per_row):
         value0 = values[a, c] * w0 if c < k else w0
         value1 = values[b, c] * w1 if c < k else w1
         if is_point:
-            at_origin[c], per_column[c], per_row[c] = value0, ZERO, ZERO
+            planes[0, c], planes[1, c], planes[2, c] = value0, ZERO, ZERO
         else:
-            at_origin[c], per_column[c], per_row[c] = line_plane(
+            planes[0, c], planes[1, c], planes[2, c] = line_plane(
                 window[a, 0], window[a, 1], dx, dy, over_area, value0, value1
             )
 

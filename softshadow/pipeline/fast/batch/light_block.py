@@ -8,7 +8,7 @@ constant length need no remainder; what the lanes behind the last vertex hold is
 
 import numpy as np
 
-from softshadow.jit import inlined, kernel
+from softshadow.jit import allocating_kernel, inlined, kernel
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.batch.lighting import (
     AMBIENT,
@@ -62,7 +62,7 @@ COLOR, OWN_AMBIENT, OWN_DIFFUSE, OWN_SPECULAR, LIT, HIGHLIGHT = (np.uint64(row *
 ROWS = 41
 
 
-@kernel
+@allocating_kernel
 def light_vertices(
     first, last, two_side, separate, object_space, keeps_length, modelview, to_object, normal, color, lights,
     materials, flags, placed, positions, colors, normals, values, back,

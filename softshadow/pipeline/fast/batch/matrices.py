@@ -5,7 +5,7 @@ The product and the inverses have the operations of `softshadow.matrices` and `s
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import allocating_kernel, kernel
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.programs.inverse import AFFINE, ANGLE_PRESERVING, SMALLEST_DETERMINANT, UNIFORM_SCALE, WITHOUT_ROTATION
 
@@ -93,7 +93,7 @@ def _invert_linear(m, out):
     return True
 
 
-@kernel
+@allocating_kernel
 def _invert_general(m, out):
     """Write the inverse by Gaussian elimination; pivoting only swaps adjacent rows, from the bottom up."""
     rows = np.empty((4, 8), m.dtype)

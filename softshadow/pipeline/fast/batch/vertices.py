@@ -45,7 +45,7 @@ class Layout(NamedTuple):
     ignored: int
 
 
-@kernel
+@inlined
 def matrix_at(row, column):
     """Return a matrix (4, 4) in a draw's row."""
     return row[column : column + 16].reshape(4, 4)
