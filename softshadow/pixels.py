@@ -11,12 +11,14 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.image import Format
+from softshadow.jit import kernel, read_only
 from softshadow.pixel_store import COMPONENTS, PACKED_TYPES
 
 F32 = np.float32
 LARGEST_UINT = (1 << 32) - 1
 LARGEST_24 = (1 << 24) - 1
 LARGEST_SAMPLED = (1 << 23) - 1  # llvmpipe samples the upper 23 bits of 32-bit depth
+LARGE = 1 << 18  # bytes of an image from which calling a kernel pays
 CHANNEL = {"R": 0, "G": 1, "B": 2, "A": 3}
 
 
@@ -57,7 +59,8 @@ def depth_as_float(cells: np.ndarray, format: Format) -> np.ndarray:
     if format.largest == (1 << 16) - 1:
         return sampled_depth(cells, format)
     if cells.dtype == F32 and format.largest == LARGEST_24:  # both exact in float32, so the quotient is rounded once
-        return np.minimum(cells, F32(LARGEST_24)) / F32(LARGEST_24)
+        units = np.minimum(cells, F32(LARGEST_24))
+        return np.divide(units, F32(LARGEST_24), out=units)
     return (np.minimum(cells.astype(np.float64), format.largest) / format.largest).astype(F32)
 
 
@@ -178,9 +181,21 @@ def _swizzled(rgba: np.ndarray, sources: str, one: int) -> np.ndarray:
     if sources == "RGBA":
         return rgba
     out = np.empty((*rgba.shape[:-1], len(sources)), rgba.dtype)
+    if sources == "RGB" and rgba.dtype == np.uint8 and rgba.ndim == 3 and rgba.size >= LARGE:
+        copy_rgb(read_only(rgba), out)
+        return out
     for channel, source in enumerate(sources):
         out[..., channel] = rgba[..., CHANNEL[source]] if source in CHANNEL else one * int(source)
     return out
+
+
+@kernel
+def copy_rgb(rgba: np.ndarray, rgb: np.ndarray) -> None:
+    """Write the first three channels of pixels (h, w, 4) to (h, w, 3); NumPy would take one channel after the other."""
+    for y in range(rgba.shape[0]):
+        for x in range(rgba.shape[1]):
+            j, i = np.uint64(y), np.uint64(x)
+            rgb[j, i, 0], rgb[j, i, 1], rgb[j, i, 2] = rgba[j, i, 0], rgba[j, i, 1], rgba[j, i, 2]
 
 
 def unpack_color(pixels: np.ndarray, pixel_format: int, format: Format) -> np.ndarray:
