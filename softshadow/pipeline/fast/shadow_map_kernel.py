@@ -18,7 +18,7 @@ from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.records import Geometry, Spans
 from softshadow.pipeline.shade.blend import FOUR_BYTES
 from softshadow.pipeline.shade.color_writes import as_pixels, pack_bytes, writable_bits, write_pixels
-from softshadow.pipeline.shade.interpolate import AttributePlanes, interpolate
+from softshadow.pipeline.shade.interpolate import AttributePlanes, coordinates_of, interpolate
 from softshadow.pipeline.shade.shading import attribute_planes_of
 from softshadow.programs.filtering import gather_texels, sources_of, texels_of, wraps_of
 from softshadow.programs.sampling import divide_all, is_complete
@@ -56,8 +56,8 @@ def shadow_map_shader(state: State, target: Framebuffer, geometry: Geometry) -> 
 
     def shade_part(spans: Spans, planes: AttributePlanes) -> None:
         shade_and_write_spans(
-            planes.values, planes.place, *spans, planes.coordinates, geometry.flat, *texels, sources, sizes_and_wraps,
-            ambient, bias, writable, pixels,
+            planes.values, planes.place, *spans, coordinates_of(spans, real), geometry.flat, *texels, sources,
+            sizes_and_wraps, ambient, bias, writable, pixels,
         )  # fmt: skip
 
     def shade(spans: Spans) -> None:

@@ -17,18 +17,13 @@ from softshadow.pipeline.records import Setup, Spans
 
 LONG_SPAN = 8  # fragments; from this length on, a loop per column pays
 TRIANGLES_PER_TASK = 1 << 12  # whose planes are computed by one thread in one go
-BLOCK = 2  # rows and columns of a block of pixels, which may reach over the edge
 
 
 class AttributePlanes(NamedTuple):
-    """The planes of visible triangles: values (P, 3, k + 1); `place` (T,): the row of each triangle's planes.
-
-    `coordinates` holds 0, 1, 2 ... in the precision of the values, as far as rows and columns go.
-    """
+    """The planes of visible triangles: values (P, 3, k + 1); `place` (T,): the row of each triangle's planes."""
 
     values: np.ndarray
     place: np.ndarray
-    coordinates: np.ndarray
 
 
 @kernel
@@ -149,8 +144,13 @@ def planes_of(
         )  # fmt: skip
 
     share(fill_part, len(parts))
+    return AttributePlanes(planes, place)
+
+
+def coordinates_of(spans: Spans, dtype: np.dtype) -> np.ndarray:
+    """Return 0, 1, 2 ... as numbers of a type, as far as the rows and columns of the spans go."""
     largest = max(spans.row.max(initial=0), (spans.left + np.diff(spans.start)).max(initial=0))
-    return AttributePlanes(planes, place, np.arange(largest + BLOCK, dtype=window.dtype))
+    return np.arange(largest + 1, dtype=dtype)
 
 
 @kernel
@@ -170,5 +170,6 @@ def number_in_order(triangles, place, needed):
 def inputs_at(spans: Spans, planes: AttributePlanes, flat: np.ndarray) -> np.ndarray:
     """Return the inputs (n, k) of a program's fragment stage: a row per fragment, each column contiguous."""
     out = scratch((len(flat) + 1, spans.fragments), planes.values.dtype)
-    interpolate(planes.values, planes.place, *spans, planes.coordinates, flat, out)
+    coordinates = coordinates_of(spans, planes.values.dtype)
+    interpolate(planes.values, planes.place, *spans, coordinates, flat, out)
     return out[:-1].T

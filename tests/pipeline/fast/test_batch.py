@@ -238,6 +238,7 @@ def test_threads_and_small_runs_make_no_difference(seed):
         patch.setattr(pool, "PART_SIZE", 5)
         patch.setattr(queue, "MOST_DRAWS", 3)
         patch.setattr(geometry, "SMALL", 8)
+        patch.setattr(geometry, "VERTICES_PER_TASK", 5)
         set_threads(3)
         try:
             assert same_buffers(Program(seed).draw(), expected)

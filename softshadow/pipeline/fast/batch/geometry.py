@@ -40,6 +40,7 @@ from softshadow.programs import Program
 from softshadow.programs.fixed_function import is_separate
 
 REAL = np.dtype(np.float32)
+VERTICES_PER_TASK = 1 << 13  # that a thread processes in one go
 SMALL = 1 << 12  # vertices, and triangles, of a run that one kernel sets up
 
 
@@ -104,7 +105,7 @@ def geometry_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Frame
             return unset._replace(triangles=Setup(*[array[:n_drawn] for array in setup])), area >> 8
     else:
         prepare_draws(*inputs[:3], table.lights, table.flags, placed)
-        parts = parts_of(n)
+        parts = parts_of(n, VERTICES_PER_TASK)
         share(lambda part: process_vertices(*parts[part], *inputs, *outputs), len(parts))
         if width == 3:
             n_triangles = assemble_draws(table.numbers, table.indices, codes, triangles, provoking)
