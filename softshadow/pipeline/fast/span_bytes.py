@@ -1,0 +1,128 @@
+"""Textures of bytes, filtered for a block of fragments; equals `shade.shading.shade`, see fast/test_span_shading.py.
+
+As llvmpipe does it, in integers: two channels in each of two 32-bit numbers.
+"""
+
+import numpy as np
+
+from softshadow.jit import kernel
+from softshadow.pipeline.fast.fragment_block import (
+    CORNER_00,
+    CORNER_01,
+    CORNER_10,
+    CORNER_11,
+    FILTERED,
+    FIRST,
+    FRACTION,
+    LEVEL,
+    LINEAR,
+    LOWER,
+    OFFSET,
+    PITCH,
+    SECOND,
+    STEPS,
+    T_AXIS,
+    TEXEL,
+    TEXEL_ALPHA,
+    TEXEL_BLUE,
+    TEXEL_GREEN,
+    WEIGHT,
+    S,
+    T,
+)
+from softshadow.pipeline.fast.span_places import NOTHING, ONE_TEXEL, linear_places, nearest_places, write_places
+from softshadow.pipeline.fast.span_state import LOD_MODE, MAG_LINEAR, MIN_LINEAR, NO_LEVELS, WRAP_S, WRAP_T
+from softshadow.programs.filtering import UNORM8_STEP
+
+BYTE = np.int32(255)
+EVEN, HALVES = np.int32(0x00FF00FF), np.int32(0x00800080)  # two bytes of a pixel, and the rounding of both
+WEIGHT_STEPS = np.float32(256.0)
+
+
+@kernel
+def filter_level(switches, unit, count, texels, room, whole):
+    """Write FILTERED: the four bytes of each fragment's LEVEL, linear where LINEAR is 1, else nearest."""
+    write_places(switches, unit, count, whole)
+    wrap_s, wrap_t = switches[unit + WRAP_S], switches[unit + WRAP_T]
+    small, large = switches[unit + MIN_LINEAR], switches[unit + MAG_LINEAR]
+    if switches[unit + LOD_MODE] == NO_LEVELS:
+        small = large
+    if not small and not large:
+        nearest_places(S, np.uint64(0), wrap_s, FIRST, count, room, whole)
+        nearest_places(T, T_AXIS, wrap_t, FIRST, count, room, whole)
+        for n in range(np.uint64(count)):
+            j = np.int32(whole[T_AXIS + FIRST + n] * whole[PITCH + n])
+            whole[FILTERED + n] = np.int32(whole[OFFSET + n] + j) + whole[FIRST + n]
+        gather(texels, FILTERED, count, whole)
+        return
+    linear_places(S, np.uint64(0), wrap_s, count, room, whole)
+    linear_places(T, T_AXIS, wrap_t, count, room, whole)
+    if small != large:  # the nearest texel is the mixture of this texel with itself
+        nearest_places(S, np.uint64(0), wrap_s, CORNER_00, count, room, whole)
+        nearest_places(T, T_AXIS, wrap_t, CORNER_00, count, room, whole)
+        for axis in (np.uint64(0), T_AXIS):
+            for n in range(np.uint64(count)):
+                is_linear, texel = whole[LINEAR + n] != NOTHING, whole[axis + CORNER_00 + n]
+                whole[axis + FIRST + n] = whole[axis + FIRST + n] if is_linear else texel
+                whole[axis + SECOND + n] = whole[axis + SECOND + n] if is_linear else texel
+                whole[axis + FRACTION + n] = whole[axis + FRACTION + n] if is_linear else NOTHING
+    for n in range(np.uint64(count)):
+        upper = np.int32(whole[OFFSET + n] + np.int32(whole[T_AXIS + FIRST + n] * whole[PITCH + n]))
+        lower = np.int32(whole[OFFSET + n] + np.int32(whole[T_AXIS + SECOND + n] * whole[PITCH + n]))
+        whole[CORNER_00 + n], whole[CORNER_10 + n] = upper + whole[FIRST + n], upper + whole[SECOND + n]
+        whole[CORNER_01 + n], whole[CORNER_11 + n] = lower + whole[FIRST + n], lower + whole[SECOND + n]
+    gather(texels, CORNER_00, count, whole)
+    gather(texels, CORNER_10, count, whole)
+    gather(texels, CORNER_01, count, whole)
+    gather(texels, CORNER_11, count, whole)
+    for n in range(np.uint64(count)):
+        x, y = whole[FRACTION + n], whole[T_AXIS + FRACTION + n]
+        first = mix_bytes_of(x, whole[CORNER_00 + n], whole[CORNER_10 + n])
+        whole[FILTERED + n] = mix_bytes_of(y, first, mix_bytes_of(x, whole[CORNER_01 + n], whole[CORNER_11 + n]))
+
+
+@kernel
+def gather(texels, row, count, whole):
+    """Replace the places in a row by the texels there."""
+    largest = np.uint32(len(texels) - 1)
+    for n in range(np.uint64(count)):
+        whole[row + n] = texels[np.uint64(min(np.uint32(whole[row + n]), largest))]
+
+
+@kernel
+def begin_upper_level(count, room, whole):
+    """Write STEPS, and let LEVEL be the upper level where its weight is not 0; return whether it is anywhere."""
+    mixed = NOTHING
+    for n in range(np.uint64(count)):
+        steps = np.int32(room[WEIGHT + n] * WEIGHT_STEPS)
+        whole[STEPS + n] = steps
+        mixed |= steps
+    if mixed:
+        for n in range(np.uint64(count)):
+            whole[LOWER + n] = whole[FILTERED + n]
+            whole[LEVEL + n] += ONE_TEXEL if whole[STEPS + n] > NOTHING else NOTHING
+    return mixed != NOTHING
+
+
+@kernel
+def unpack_texels(mixed, count, room, whole):
+    """Write the filtered bytes as floats; `mixed`: first those of two levels are mixed."""
+    if mixed:
+        for n in range(np.uint64(count)):
+            whole[FILTERED + n] = mix_bytes_of(whole[STEPS + n], whole[LOWER + n], whole[FILTERED + n])
+    for n in range(np.uint64(count)):
+        texel = whole[FILTERED + n]
+        room[TEXEL + n] = np.float32(texel & BYTE) * UNORM8_STEP
+        room[TEXEL_GREEN + n] = np.float32(np.int32(texel >> 8) & BYTE) * UNORM8_STEP
+        room[TEXEL_BLUE + n] = np.float32(np.int32(texel >> 16) & BYTE) * UNORM8_STEP
+        room[TEXEL_ALPHA + n] = np.float32(np.int32(texel >> 24) & BYTE) * UNORM8_STEP
+
+
+@kernel
+def mix_bytes_of(weight, a, b):
+    """Return `filtering.mix_fixed_point` of four bytes: a * (256 - weight) + b * weight + 128, divided by 256."""
+    even, odd = np.int32(a & EVEN), np.int32(np.int32(a >> 8) & EVEN)
+    more_even, more_odd = np.int32(b & EVEN), np.int32(np.int32(b >> 8) & EVEN)
+    even = np.int32(np.int32(np.int32(np.int32(more_even - even) * weight) + np.int32(even << 8)) + HALVES)
+    odd = np.int32(np.int32(np.int32(np.int32(more_odd - odd) * weight) + np.int32(odd << 8)) + HALVES)
+    return np.int32(np.int32(np.int32(even >> 8) & EVEN) | np.int32(odd & ~EVEN))

@@ -1,0 +1,157 @@
+"""Textures filtered in float for a block of fragments; equals `shade.shading.shade`, see fast/test_span_shading.py.
+
+The nearest depth is compared in a few loops (`compare_nearest_depths`); everything else, with borders and comparisons
+of filtered depths, goes texel by texel (`sample_in_float`), with the functions of `softshadow.programs.wrapping`.
+"""
+
+import numpy as np
+
+from softshadow.jit import kernel
+from softshadow.pipeline.constants import ONE, ZERO
+from softshadow.pipeline.fast.fragment_block import (
+    FILTERED,
+    FIRST,
+    LENGTH,
+    LEVEL,
+    LINEAR,
+    PITCH,
+    T_AXIS,
+    TEXEL,
+    TEXEL_ALPHA,
+    TEXEL_BLUE,
+    TEXEL_GREEN,
+    WEIGHT,
+    R,
+    S,
+    T,
+    W,
+)
+from softshadow.pipeline.fast.span_places import ONE_TEXEL, nearest_places, write_places
+from softshadow.pipeline.fast.span_state import (
+    BORDER,
+    CLAMPED,
+    COMPARISON,
+    HEIGHT,
+    IS_DEPTH,
+    LEVEL_OFFSETS,
+    PACKED_LEVELS,
+    ROW_LENGTH,
+    STEP,
+    WIDTH,
+    WRAP_S,
+    WRAP_T,
+)
+from softshadow.programs.wrapping import linear_texels, nearest_texel
+
+LESS, EQUAL, GREATER, UNORDERED, CODES = np.int32(1), np.int32(2), np.int32(4), np.int32(8), np.int32(15)
+NO_BORDER = np.int32(-1)  # as a place: outside the image
+
+
+@kernel
+def compare_nearest_depths(switches, numbers, unit, number, count, texels, room, whole):
+    """Write 0 or 1 for R compared with the nearest depth, as `filtering.compare_depth`."""
+    write_places(switches, unit, count, whole)
+    wrap_s, wrap_t = switches[unit + WRAP_S], switches[unit + WRAP_T]
+    nearest_places(S, np.uint64(0), wrap_s, FIRST, count, room, whole)
+    nearest_places(T, T_AXIS, wrap_t, FIRST, count, room, whole)
+    for n in range(np.uint64(count)):
+        i, j = whole[FIRST + n], whole[T_AXIS + FIRST + n]
+        inside = (np.uint32(i) < np.uint32(whole[LENGTH + n])) & (np.uint32(j) < np.uint32(whole[T_AXIS + LENGTH + n]))
+        whole[FILTERED + n] = np.int32(np.int32(j * whole[PITCH + n]) + i) if inside else NO_BORDER
+    depths, border, step = texels.view(np.float32), numbers[number + BORDER], numbers[number + STEP]
+    largest = np.uint32(len(texels) - 1)
+    for n in range(np.uint64(count)):
+        room[W + n] = depths[np.uint64(min(np.uint32(whole[FILTERED + n]), largest))]
+    clamped, wanted = switches[unit + CLAMPED] != 0, np.int32(switches[unit + COMPARISON]) & CODES
+    for n in range(np.uint64(count)):
+        depth = room[W + n] * step if whole[FILTERED + n] != NO_BORDER else border
+        r = room[R + n]
+        if clamped:
+            r = r if r > ZERO else ZERO
+            r = r if r < ONE else ONE
+        code = LESS if r < depth else EQUAL if r == depth else GREATER if r > depth else UNORDERED
+        room[TEXEL + n] = ONE if code & wanted else ZERO
+
+
+@kernel
+def sample_in_float(switches, numbers, unit, number, count, texels, room, whole):
+    """Write the texels fragment by fragment, filtered in float, with borders and comparisons of depths."""
+    for m in range(count):
+        n = np.uint64(m)
+        level, linear = whole[LEVEL + n], whole[LINEAR + n] != 0
+        s, t, r = room[S + n], room[T + n], room[R + n]
+        red, green, blue, alpha = texel_of_level(switches, numbers, unit, number, level, linear, s, t, r, texels)
+        weight = room[WEIGHT + n]
+        if weight > ZERO:
+            level = np.int32(level + ONE_TEXEL)
+            a, b, c, d = texel_of_level(switches, numbers, unit, number, level, linear, s, t, r, texels)
+            red, green = weight * (a - red) + red, weight * (b - green) + green
+            blue, alpha = weight * (c - blue) + blue, weight * (d - alpha) + alpha
+        room[TEXEL + n], room[TEXEL_GREEN + n], room[TEXEL_BLUE + n], room[TEXEL_ALPHA + n] = red, green, blue, alpha
+
+
+@kernel
+def texel_of_level(switches, numbers, unit, number, level, linear, s, t, r, texels):
+    """Return the four stored channels of one level at (s, t), filtered; of depths, only the first one counts."""
+    width, height, pitch = switches[unit + WIDTH], switches[unit + HEIGHT], switches[unit + ROW_LENGTH]
+    offset = 0
+    if switches[unit + PACKED_LEVELS]:
+        width, height = max(width >> level, 1), max(height >> level, 1)
+        pitch, offset = width, switches[unit + LEVEL_OFFSETS + level]
+    if switches[unit + CLAMPED] != 0 and switches[unit + COMPARISON]:
+        r = r if r > ZERO else ZERO
+        r = r if r < ONE else ONE
+    if not linear:
+        i, j = nearest_texel(s, width, switches[unit + WRAP_S]), nearest_texel(t, height, switches[unit + WRAP_T])
+        place = place_of(np.int64(i), np.int64(j), width, height, pitch, offset, texels)
+        return channels_of(switches, numbers, unit, number, place, r, ONE, texels)
+    i0, i1, x = linear_texels(s, width, switches[unit + WRAP_S])
+    j0, j1, y = linear_texels(t, height, switches[unit + WRAP_T])
+    at_00 = place_of(np.int64(i0), np.int64(j0), width, height, pitch, offset, texels)
+    at_10 = place_of(np.int64(i1), np.int64(j0), width, height, pitch, offset, texels)
+    at_01 = place_of(np.int64(i0), np.int64(j1), width, height, pitch, offset, texels)
+    at_11 = place_of(np.int64(i1), np.int64(j1), width, height, pitch, offset, texels)
+    if switches[unit + COMPARISON]:
+        rest = ONE - x
+        lower = channels_of(switches, numbers, unit, number, at_00, r, rest, texels)[0]
+        lower = channels_of(switches, numbers, unit, number, at_10, r, x, texels)[0] + lower
+        upper = channels_of(switches, numbers, unit, number, at_01, r, rest, texels)[0]
+        upper = channels_of(switches, numbers, unit, number, at_11, r, x, texels)[0] + upper
+        lit = y * (upper - lower) + lower
+        return lit, lit, lit, lit
+    a0, a1, a2, a3 = channels_of(switches, numbers, unit, number, at_00, r, ONE, texels)
+    b0, b1, b2, b3 = channels_of(switches, numbers, unit, number, at_10, r, ONE, texels)
+    a0, a1, a2, a3 = x * (b0 - a0) + a0, x * (b1 - a1) + a1, x * (b2 - a2) + a2, x * (b3 - a3) + a3
+    c0, c1, c2, c3 = channels_of(switches, numbers, unit, number, at_01, r, ONE, texels)
+    d0, d1, d2, d3 = channels_of(switches, numbers, unit, number, at_11, r, ONE, texels)
+    c0, c1, c2, c3 = x * (d0 - c0) + c0, x * (d1 - c1) + c1, x * (d2 - c2) + c2, x * (d3 - c3) + c3
+    return y * (c0 - a0) + a0, y * (c1 - a1) + a1, y * (c2 - a2) + a2, y * (c3 - a3) + a3
+
+
+@kernel
+def place_of(i, j, width, height, pitch, offset, texels):
+    """Return where a texel is stored, -1 outside the image."""
+    if i >= 0 and i < width and j >= 0 and j < height:
+        return min(offset + j * pitch + i, len(texels) - 1)
+    return np.int64(-1)
+
+
+@kernel
+def channels_of(switches, numbers, unit, number, place, r, share, texels):
+    """Return the channels of a texel, or of the border; with a comparison, `share` where it holds, else 0."""
+    step = numbers[number + STEP]
+    if not switches[unit + IS_DEPTH]:
+        if place < 0:
+            at = number + BORDER
+            return numbers[at], numbers[at + 1], numbers[at + 2], numbers[at + 3]
+        texel = np.int64(texels[np.uint64(place)])
+        red, green = np.float32(np.int32(texel & 255)) * step, np.float32(np.int32(texel >> 8 & 255)) * step
+        blue, alpha = np.float32(np.int32(texel >> 16 & 255)) * step, np.float32(np.int32(texel >> 24 & 255)) * step
+        return red, green, blue, alpha
+    depth = numbers[number + BORDER]
+    if place >= 0:
+        depth = texels.view(np.float32)[np.uint64(place)] * step
+    if switches[unit + COMPARISON]:
+        code = LESS if r < depth else EQUAL if r == depth else GREATER if r > depth else UNORDERED
+        depth = share if code & np.int32(switches[unit + COMPARISON]) & CODES else ZERO
+    return depth, depth, depth, depth
