@@ -9,6 +9,8 @@ from softshadow.programs.map_visibility import MAP_VISIBILITY, MAP_VISIBILITY_BI
 from softshadow.programs.shadow_map import SHADOW_MAP
 from softshadow.programs.silhouette_visibility import SILHOUETTE_VISIBILITY
 from softshadow.programs.soft_visibility import SOFT_VISIBILITY
+from softshadow.programs.wedge import WEDGE_DISC, WEDGE_RECTANGLE, WEDGE_SEGMENT, WEDGE_SPHERE, WEDGE_VISIBILITY
+from softshadow.programs.window_lookup import POSITION, VOLUME_SIDE
 
 BUILTIN = (
     BLINN_PHONG,
@@ -25,4 +27,11 @@ BUILTIN = (
     BOX_BLUR,
     VARIANCE_VISIBILITY,
     EXPONENTIAL_VISIBILITY,
+    POSITION,
+    VOLUME_SIDE,
+    WEDGE_RECTANGLE,
+    WEDGE_DISC,
+    WEDGE_SPHERE,
+    WEDGE_SEGMENT,
+    WEDGE_VISIBILITY,
 )
