@@ -12,6 +12,7 @@ if TYPE_CHECKING:
         CoarseDepth,
         CounterSaturated,
         DegenerateFaces,
+        EdgeNearLight,
         FarFromOrigin,
         HistoryCut,
         InsideOutMesh,
@@ -61,6 +62,7 @@ __all__ = [
     "CounterSaturated",
     "DegenerateFaces",
     "Disc",
+    "EdgeNearLight",
     "FarFromOrigin",
     "HistoryCut",
     "InsideOutMesh",
@@ -109,10 +111,10 @@ _MODULES = ("gl", "testing")
 _RENAMED = {"failures": ("softshadow.gallery", "GALLERY"), "technique_names": ("softshadow.techniques", "names")}
 _HOMES = {
     "softshadow.errors": (
-        "CoarseDepth", "CounterSaturated", "DegenerateFaces", "FarFromOrigin", "HistoryCut", "InsideOutMesh",
-        "LightInsideCaster", "MeshError", "MisorientedMesh", "NearClipZPass", "NonManifoldMesh", "OpenMesh",
-        "OutsideLightFrustum", "PartlyReadFile", "SceneError", "SoftShadowError", "StateError", "TJunction",
-        "UnweldedMesh", "Warning",
+        "CoarseDepth", "CounterSaturated", "DegenerateFaces", "EdgeNearLight", "FarFromOrigin", "HistoryCut",
+        "InsideOutMesh", "LightInsideCaster", "MeshError", "MisorientedMesh", "NearClipZPass", "NonManifoldMesh",
+        "OpenMesh", "OutsideLightFrustum", "PartlyReadFile", "SceneError", "SoftShadowError", "StateError",
+        "TJunction", "UnweldedMesh", "Warning",
     ),
     "softshadow.inspection.pictures": ("stencil_palette",),
     "softshadow.inspection.soft_truth": ("SoftTruth", "soft_truth"),

@@ -73,6 +73,10 @@ class OutsideLightFrustum(Warning):
     """A point light stands among its casters: whatever its single shadow map does not cover counts as lit."""
 
 
+class EdgeNearLight(Warning):
+    """An area light is so near to the line of a silhouette edge that the edge's penumbra wedge is all of space."""
+
+
 class CounterSaturated(Warning):
     """A stencil count reached its largest value, or wrapped round to 0: larger counts are lost."""
 

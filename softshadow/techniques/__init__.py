@@ -22,6 +22,7 @@ from softshadow.techniques import (
     shadow_polygons,
     volume_parity,
     volume_sampled,
+    volume_wedges,
     volume_zfail,
     volume_zpass,
     volume_zpass_plus,
@@ -104,6 +105,13 @@ REGISTER = {
             volume_sampled.steps,
         ),
         Technique(
+            "volume-wedges",
+            "Penumbra wedges",
+            "volume",
+            "Assarsson & Akenine-Möller 2003, A geometry-based soft shadow volume algorithm using graphics hardware",
+            volume_wedges.steps,
+        ),
+        Technique(
             "map",
             "Shadow map",
             "map",
@@ -171,6 +179,7 @@ def names() -> list[str]:
     >>> print(*names())
     shadow-polygons planar planar-accumulated planar-nested blob volume-zpass volume-zfail volume-zpass-plus
     volume-parity volume-sampled map map-pcf map-sampled map-pcss map-variance map-exponential map-cube map-silhouette
+    volume-parity volume-sampled volume-wedges map map-pcf map-sampled map-cube map-silhouette
     """
     return list(REGISTER)
 

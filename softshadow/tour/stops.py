@@ -107,6 +107,11 @@ STOPS = (
         "One stencil bit, inverted at every face: light leaks in where two volumes overlap.",
     ),
     Stop(
+        "Penumbra wedges",
+        "volume-wedges",
+        "Volumes, corrected by what each silhouette edge hides of an area light; that of a point light is hard.",
+    ),
+    Stop(
         "Shadow map",
         "map",
         "Depths as the light sees them, compared for each pixel: blocky edges, but no extruded geometry.",

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 import softshadow as ss
-from softshadow.scene import Light, Scene, SceneObject, placement, shapes
+from softshadow.scene import Light, Scene, SceneObject, Sphere, placement, shapes
 
 pytestmark = pytest.mark.filterwarnings("ignore::softshadow.Warning")
 
@@ -36,6 +36,8 @@ def counted(technique: str, scene: Scene, **options: Any) -> tuple[dict[str, int
         ("volume-zpass", {"two_sided": True}, 2, 2 + 1, 3),
         ("volume-zfail", {"two_sided": True}, 2, 2 + 1, 3),
         ("volume-parity", {}, 2, 2 + 1, 3),
+        # and the points and the visibility; the light is a point, so there are no wedges
+        ("volume-wedges", {}, 4, 4 + 2, 6),
         # the light's depth pass; the camera's pass is two here, as it is for volumes: ambient, and what the light adds
         ("map", {}, 2, 2 + 1, 3),
         # and one that writes the visibility; a cube of six maps is drawn face by face
@@ -64,9 +66,18 @@ def test_the_near_plane_count_takes_one_pass_more_of_what_is_before_it() -> None
     assert passes[1] < CASTERS  # only what stands between the light and the near rectangle
 
 
+def test_wedges_are_one_pass_and_caps_are_drawn_apart_from_sides() -> None:
+    lights = [replace(light, shape=Sphere(0.1)) for light in SCENE.lights]
+    drawn, passes = counted("volume-wedges", replace(SCENE, lights=lights))
+    assert len(passes) == 1 + 8
+    assert passes.count(frozenset({"wedges"})) == 1
+    assert {drawn[name] for name in CASTERS} == {4 + 2 + 2}
+
+
 @pytest.mark.parametrize(
     ("technique", "options", "each_light"),
     [
+        ("volume-wedges", {}, 1 + 2 + 2),
         ("volume-zpass", {}, 2 + 1),
         ("volume-zfail", {}, 2 + 1),
         ("volume-zfail", {"two_sided": True}, 1 + 1),

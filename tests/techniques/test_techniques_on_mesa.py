@@ -25,6 +25,7 @@ VARIANTS: list[tuple[str, dict[str, Any]]] = [
     ("volume-zpass", {"choose": "split-plane", "two_sided": True}),
     ("volume-zpass-plus", {}),
     ("volume-parity", {}),
+    ("volume-wedges", {}),
     ("map", {}),
     ("map", {"filter": "linear", "map_size": 64}),
     ("map", {"storage": "copy", "map_size": 48}),
