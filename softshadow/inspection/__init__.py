@@ -10,6 +10,7 @@ from softshadow.inspection.ledger import Counts, Ledger, ledger_of
 from softshadow.inspection.replay import Buffers, Replay
 from softshadow.inspection.soft_truth import SoftTruth, soft_truth
 from softshadow.inspection.step import DrawSummary, Step, Steps
+from softshadow.inspection.wedge_contributions import WedgeContribution, WedgeContributions, wedge_contributions
 
 __all__ = [
     "Buffers",
@@ -24,9 +25,12 @@ __all__ = [
     "SoftTruth",
     "Step",
     "Steps",
+    "WedgeContribution",
+    "WedgeContributions",
     "compare",
     "difference",
     "ledger_of",
     "pixel_history",
     "soft_truth",
+    "wedge_contributions",
 ]

@@ -22,11 +22,13 @@ from softshadow.inspection import (
     SoftTruth,
     Step,
     Steps,
+    WedgeContributions,
     compare,
     difference,
     ledger_of,
     pixel_history,
     soft_truth,
+    wedge_contributions,
 )
 from softshadow.inspection.comparison import jumps
 from softshadow.inspection.explanation import explain
@@ -153,7 +155,38 @@ class Run:
         history = self.pixel(x, y)
         has_visibility = "visibility" in self.maps and "valid" in self.maps
         valid = has_visibility and bool(self.valid[history.y, history.x])
-        return explain(history, float(self.visibility[history.y, history.x]) if has_visibility else None, valid)
+        text = explain(history, float(self.visibility[history.y, history.x]) if has_visibility else None, valid)
+        if self.technique != "volume-wedges" or not valid or not 0 < self.visibility[history.y, history.x] < 1:
+            return text
+        numbers = [number for number, light in enumerate(self.scene.lights) if light.shape is not None]
+        return " ".join([text, *(str(self.contributions(history.x, history.y, number)) for number in numbers)])
+
+    def contributions(self, x: int, y: int, light: int = 0) -> WedgeContributions:
+        """Return what each penumbra wedge of a light contributes at a pixel of a run of "volume-wedges".
+
+        The sum is computed in double precision, for the point and the hard count that the run has stored; it is the map
+        "coverage" but for rounding.
+
+        Parameters
+        ----------
+        light : int                  index in the scene
+
+        Raises
+        ------
+        StateError                   another technique, or no surface at the pixel
+        ValueError                   the pixel is outside the picture, or there is no such light
+        """
+        if not (0 <= x < self.size[0] and 0 <= y < self.size[1]):
+            raise ValueError(f"contributions({x}, {y}): outside the picture of {self.size[0]} x {self.size[1]} pixels")
+        if not 0 <= light < len(self.scene.lights):
+            raise ValueError(f"light={light}: expected 0 to {len(self.scene.lights) - 1}")
+        source = self.scene.lights[light]
+        of_light = "" if len(self.scene.lights) == 1 else f": {source.name}"
+        positions, counts = self._map(f"positions{of_light}"), self._map(f"count{of_light}")
+        if not self.valid[y, x]:
+            raise StateError(f"contributions({x}, {y}): expected a pixel that shows a surface")
+        point = positions[y, x].astype(np.float64) + source.position[:3] * source.position[3]
+        return wedge_contributions(self.scene, source, point, float(counts[y, x]))
 
     def cross_section(self, x: int, y: int, light: str | None = None) -> CrossSection:
         """Return the plane through the eye, a light and the point that a pixel shows, with the counts on the way there.
