@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from softshadow.errors import nearest
-from softshadow.gallery import maps, meshes, planar, stencil, volumes
+from softshadow.gallery import maps, meshes, planar, soft, stencil, volumes
 from softshadow.gallery.calls import AlteredCall
 from softshadow.gallery.failure import Failure, Setting
 from softshadow.inspection.tables import html_table, text_table
@@ -59,4 +59,6 @@ class Gallery(Mapping[str, Failure]):
         return [[each.name, each.family, each.title] for each in self.values()]
 
 
-GALLERY = Gallery((*planar.FAILURES, *volumes.FAILURES, *stencil.FAILURES, *meshes.FAILURES, *maps.FAILURES))
+GALLERY = Gallery(
+    (*planar.FAILURES, *volumes.FAILURES, *stencil.FAILURES, *meshes.FAILURES, *maps.FAILURES, *soft.FAILURES)
+)

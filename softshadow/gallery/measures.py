@@ -13,6 +13,8 @@ from softshadow.techniques.planar import DARKNESS
 
 COUNTED = "pixels whose colour is not that of the lights they see"  # `wrong_colors` and its variants, in words
 NEARLY = 8  # levels of 255: two roundings in each channel, and highlights that are clamped
+SHARE = "pixels whose visibility is off by more than 0.1"  # `wrong_share`, in words
+OFF = 0.1
 ROUNDING = 2  # levels of 255: a sum of lights is rounded once, or once for each light and for the ambient light
 
 
@@ -20,6 +22,12 @@ def wrong_colors(run: Run) -> np.ndarray:
     """Return where the colour is not that of the lights that are visible by ray casting."""
     truth = expected(run.scene, run.size)
     return differ(run.image, truth.image) & differ(run.image, truth.added) & truth.sure
+
+
+def wrong_share(run: Run) -> np.ndarray:
+    """Return where the visibility is not the share of the light that is visible, off outlines."""
+    comparison = run.compare(truth="soft")
+    return (np.abs(comparison.error) > OFF) & ~comparison.band
 
 
 def wrong_on_receivers(run: Run) -> np.ndarray:
