@@ -95,6 +95,15 @@ def test_a_tiny_light_gives_the_hard_picture_where_its_visibility_is_0_or_1(shap
     assert (wedges.image == zfail.image)[hard].all()
 
 
+@pytest.mark.parametrize("name", ["eye-in-shadow", "near-cut", "light-between", "open-tube", "overlapping", "torus"])
+def test_planes_of_sides_count_as_the_depth_test_does(name: str) -> None:
+    scene = with_light(Scene.named(name), shape=Sphere(1e-6))
+    wedges, zfail = draw("volume-wedges", scene, SIZE), draw("volume-zfail", scene, SIZE)
+    counted = next(zfail.stencil[title] for title in zfail.titles if title.startswith("count front faces"))
+    # but for single pixels on edges of the hard shadow
+    assert ((wedges.maps["count"] != counted) & wedges.maps["valid"]).sum() <= 1
+
+
 def test_spot_lights_and_several_lights() -> None:
     scene = Scene.named("boxes")
     lights = (
