@@ -15,8 +15,9 @@ of volumes are not tested against the depth buffer, but by the sign that the wed
 happens else. A light without a shape has no wedges, and gives the shadows of z-fail.
 
 Known failures: the silhouette is that of the light's centre, so casters whose silhouette changes over the light get
-wrong penumbrae, the more the nearer and larger the light is; what two casters cover is added, where they overlap too
-(0.8 of the light for 0.4); an edge near the light has all of space as its wedge.
+wrong penumbrae, the more the nearer and larger the light is; a face whose plane cuts the light sees the part below its
+own horizon, too; what two casters cover is added, where they overlap too (0.8 of the light for 0.4); an edge near the
+light has all of space as its wedge.
 """
 
 import warnings

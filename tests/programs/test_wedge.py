@@ -126,6 +126,7 @@ def test_the_other_passes_are_their_glsl_twins(name: str) -> None:
     assert same_bits(ours, on_mesa(name, uniforms, cells, texcoord))
 
 
+@pytest.mark.interpreted
 @pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: type(shape).__name__)
 def test_shares_are_the_areas_in_float64(shape: LightShape) -> None:
     points, edges = drawn_edges(5)
@@ -141,6 +142,7 @@ def test_shares_are_the_areas_in_float64(shape: LightShape) -> None:
     assert not given[~inside].any()
 
 
+@pytest.mark.interpreted
 def test_the_angle_is_right_to_float_precision() -> None:
     angles = np.linspace(0, np.pi, 2001)
     computed = [float(angle(np.float32(np.sin(a)), np.float32(np.cos(a)))) for a in angles]
