@@ -116,8 +116,7 @@ def edge_texture(gl: Any, edges: SilhouetteEdges, light: Light) -> EdgeTexture:
     row, column = np.divmod(number, width)
     for end in (0, 1):
         texels[2 * row + end, column, :3] = edges.ends[:, end] - light.position[:3]
-    name = visibility_texture(gl, (width, rows))
-    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA32F, width, rows, 0, gl.GL_RGBA, gl.GL_FLOAT, texels)
+    name = visibility_texture(gl, (width, rows), texels)
     places = np.column_stack([(column + 0.5) / width, (2 * row + 0.5) / rows]).astype(np.float32)
     return EdgeTexture(name, 1 / rows, places)
 
