@@ -20,6 +20,8 @@ KNOWN = {
     "factor-on-whole-color", "map-larger-than-window", "missing-clear", "t-junction-leak", "open-mesh-leak",
     "vertex-distance-cap", "omni-light", "pcf-bias", "light-bleeding",
     "vertex-distance-cap", "omni-light", "pcf-bias", "wedges-by-depth",
+    "vertex-distance-cap", "omni-light", "pcf-bias", "wedges-by-depth", "wedge-overlap",
+    "centre-silhouette",
 }  # fmt: skip
 
 

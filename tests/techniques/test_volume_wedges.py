@@ -137,6 +137,7 @@ def test_maps_add_up() -> None:
     assert (maps["wedges"] > 2).any()
 
 
+@pytest.mark.filterwarnings("ignore::softshadow.CoarseDepth")
 def test_count_and_wedges_have_to_agree_at_the_edge_of_the_hard_shadow() -> None:
     # so small a near distance leaves few depths for the scene, and near edges the depth test errs
     scene = replace(Scene.named("soft-slab"), camera=replace(CAMERA, near=0.001))
