@@ -178,8 +178,8 @@ def names() -> list[str]:
     --------
     >>> print(*names())
     shadow-polygons planar planar-accumulated planar-nested blob volume-zpass volume-zfail volume-zpass-plus
-    volume-parity volume-sampled map map-pcf map-sampled map-pcss map-variance map-exponential map-cube map-silhouette
-    volume-parity volume-sampled volume-wedges map map-pcf map-sampled map-cube map-silhouette
+    volume-parity volume-sampled volume-wedges map map-pcf map-sampled map-pcss map-variance map-exponential map-cube
+    map-silhouette
     """
     return list(REGISTER)
 

@@ -18,9 +18,7 @@ KNOWN = {
     "parity-overlap", "decr-before-incr", "overflow-256", "stencil-test-forgotten", "culling-left-on",
     "less-in-lit-pass", "mask-1", "acne", "peter-panning", "jagged-edges", "linear-filtered-depth", "edge-smear",
     "factor-on-whole-color", "map-larger-than-window", "missing-clear", "t-junction-leak", "open-mesh-leak",
-    "vertex-distance-cap", "omni-light", "pcf-bias", "light-bleeding",
-    "vertex-distance-cap", "omni-light", "pcf-bias", "wedges-by-depth",
-    "vertex-distance-cap", "omni-light", "pcf-bias", "wedges-by-depth", "wedge-overlap",
+    "vertex-distance-cap", "omni-light", "pcf-bias", "light-bleeding", "wedges-by-depth", "wedge-overlap",
     "centre-silhouette",
 }  # fmt: skip
 
