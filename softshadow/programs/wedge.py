@@ -58,15 +58,15 @@ def shade_shape(kind: int) -> Callable[[np.ndarray, Mapping[str, Any], np.ndarra
         light = np.array([uniforms["axisU"], uniforms["axisV"], uniforms["normal"]], inputs.dtype)
         points = at_window_place(uniforms["positions"], inputs)
         starts, ends = edge_ends(inputs, uniforms)
-        add_shares(kind, light, real(uniforms["radius"]), points.T, starts.T, ends.T, out.T)
+        view = np.empty((4, 3), out.dtype)
+        add_shares(kind, light, real(uniforms["radius"]), points.T, starts.T, ends.T, view, out.T)
 
     return shade
 
 
 @kernel
-def add_shares(kind, light, radius, points, starts, ends, out):
-    """Write the results to `out` (4, N) for points, starts and ends of edges (4, N)."""
-    view = np.empty((4, 3), out.dtype)
+def add_shares(kind, light, radius, points, starts, ends, view, out):
+    """Write the results to `out` (4, N) for points, starts and ends of edges (4, N); `view` (4, 3) is scratch."""
     for n in range(points.shape[1]):
         point = (points[0, n], points[1, n], points[2, n])
         share, meets = ZERO, False
