@@ -74,6 +74,8 @@ def draw_forward(
     front, back : the per-fragment operations of each facing
     fragments : about how many fragments there are; many are shared by several threads in bands of rows
     """
+    if region.first_row >= region.end_row:
+        return
     depth, stencil = target.depth, target.stencil
     buffers = (
         *depth_range_of(state, np.float32), NO_DEPTH if depth is None else depth.cells,
