@@ -34,6 +34,7 @@ from softshadow.inspection.comparison import jumps
 from softshadow.inspection.explanation import explain
 from softshadow.inspection.hard_truth import hard_visibility
 from softshadow.inspection.pictures import notebook_display
+from softshadow.inspection.soft_reasons import soft_reasons
 from softshadow.inspection.step import sheet_of
 from softshadow.report import CrossSection, cross_section
 from softshadow.runs.archive import RunRecord, read_npz
@@ -156,8 +157,10 @@ class Run:
         has_visibility = "visibility" in self.maps and "valid" in self.maps
         valid = has_visibility and bool(self.valid[history.y, history.x])
         text = explain(history, float(self.visibility[history.y, history.x]) if has_visibility else None, valid)
-        if self.technique != "volume-wedges" or not valid or not 0 < self.visibility[history.y, history.x] < 1:
+        if not valid or not 0 < self.visibility[history.y, history.x] < 1:
             return text
+        if self.technique != "volume-wedges":
+            return " ".join([text, *soft_reasons(self.scene, self.maps, self.options, history.x, history.y)])
         numbers = [number for number, light in enumerate(self.scene.lights) if light.shape is not None]
         return " ".join([text, *(str(self.contributions(history.x, history.y, number)) for number in numbers)])
 

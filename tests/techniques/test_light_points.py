@@ -158,3 +158,21 @@ def test_points_of_the_light_agree_with_rays():
     expected = np.mean([truth.counts[0] == 0 for truth in truths], axis=0).astype(np.float32)
     assert sure.sum() > 500
     assert np.array_equal(drawn.maps["visibility"][sure], expected[sure])
+
+
+@pytest.mark.parametrize(
+    ("technique", "options"), [("volume-sampled", {}), ("map-sampled", {"map_size": 1024}), ("planar-accumulated", {})]
+)
+def test_a_further_caster_takes_light_and_never_gives_any(technique, options):
+    """Not so for wedges, which may give back what another caster hides, and for the mean blocker of map-pcss."""
+    scene = Scene.named("soft-overlap")
+    fewer = replace(scene, objects=tuple(thing for thing in scene.objects if thing.name != "lower"))
+    with_both, with_one = (draw(technique, each, SIZE, samples=9, **options) for each in (scene, fewer))
+    # the floor, seen in both pictures: the further caster hides a part of it from the camera, too
+    floor = cast_rays(scene, SIZE).objects == 0
+    both = with_both.maps["valid"] & with_one.maps["valid"] & floor
+    # a frame round more casters has larger texels: their rounding may move the edge of a map by a pixel
+    both &= off_edges(with_one.maps["visibility"]) if technique == "map-sampled" else True
+    gained = (with_both.maps["visibility"] - with_one.maps["visibility"])[both]
+    assert gained.max() <= (1e-6 if technique == "planar-accumulated" else 0)  # linear filtering rounds
+    assert gained.min() < 0
