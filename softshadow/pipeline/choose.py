@@ -49,7 +49,7 @@ except ModuleNotFoundError:  # the folder can be deleted: the textbook draws eve
 WORTH_BANDS = 1_000_000  # fragments from which sorting and the hand-over to threads are small against the work
 SMALL_TRIANGLE = 100  # fragments that take as long as a small triangle
 WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volumes are long and thin
-BANDS_PER_THREAD = 4  # so that the other threads can make up for one that takes longer
+BANDS_PER_THREAD = 2  # more would balance the threads better, but a triangle is set up again in each band that it meets
 FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangle: finding their spans would cost more
 # draws of so many triangles are cheaper to fill, shading each visible pixel once, than to draw triangle by triangle
 MANY_TRIANGLES = 4096
