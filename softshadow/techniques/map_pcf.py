@@ -13,7 +13,7 @@ depth, so the slope offset grows with the square: factor 2 r + 1 for (2 r + 1)²
 
 Known failures: the ramp is no penumbra, it is as wide as the square everywhere, near the caster and far from it; the
 larger offset takes shadows off their casters (factor = 1 leaves acne instead); points that the light does not see are
-unknown, as with a single comparison.
+unknown, as with a single comparison; where faces nearly lie along the light, grey veins remain on their lit side.
 """
 
 from typing import Annotated, Any

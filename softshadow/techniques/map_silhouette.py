@@ -11,7 +11,9 @@ A straight silhouette is reproduced exactly. In a cell without a point, the midd
 that of the nearest texel; the map "fall-back" shows the pixels in such cells whose corners differ.
 
 Known failures: a cell holds one point, so where two silhouettes cross one of them has steps again; the edges of the
-mesh have to be known; four texels are compared, so the slope offset is twice that of a single comparison.
+mesh have to be known; four texels are compared, so the slope offset is twice that of a single comparison; on casters
+their own silhouette leaves teeth of acne along convex edges: there a plain map of 2048 texels is better, while on the
+floor this one with 128 texels has a fifteenth of its errors.
 """
 
 from typing import Any

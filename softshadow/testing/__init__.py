@@ -3,7 +3,7 @@
 `softshadow.testing.strategies` generates scenes with Hypothesis; it is not imported here because it needs that package.
 """
 
-from softshadow.testing.agreement import Agreement, Truth, agreement, cast_truth
+from softshadow.testing.agreement import Agreement, Truth, agreement, agreement_of, cast_truth
 from softshadow.testing.comparison import (
     BufferDifference,
     ProgramComparison,
@@ -37,6 +37,7 @@ __all__ = [
     "ProgramResult",
     "Truth",
     "agreement",
+    "agreement_of",
     "cast_truth",
     "compare",
     "diff_programs",

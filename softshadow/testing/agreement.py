@@ -178,12 +178,52 @@ def agreement(run: Run, truth: Truth | None = None, width: int = 1) -> list[Agre
         raise ValueError("truth: expected that of the run's own scene and size")
     agreements = []
     for index, seen in enumerate(run.lights):
-        band = truth.band(index, width)
-        if "map_size" in run.options:
-            band |= truth.texel_band(index, run.options["map_size"], width)
         name = "unknown" if len(run.lights) == 1 else f"unknown: {seen.name}"
-        unknown = run.maps.get(name, np.zeros_like(run.valid))
-        compared = run.valid & ~unknown & (truth.objects >= 0)
-        wrong = compared & ((seen.visibility == 1) != truth.lit(index))
-        agreements.append(Agreement(seen.name, band, wrong, compared))
+        known = run.valid & ~run.maps.get(name, np.zeros_like(run.valid))
+        map_size = run.options.get("map_size")
+        agreements.append(agreement_of(seen.visibility == 1, truth, known, index, width=width, map_size=map_size))
     return agreements
+
+
+def agreement_of(
+    lit: np.ndarray,
+    truth: Truth,
+    known: np.ndarray | None = None,
+    light: int = 0,
+    *,
+    width: int = 1,
+    map_size: int | None = None,
+) -> Agreement:
+    """Return the agreement of any renderer's shadows with ray casting, for one light.
+
+    Parameters
+    ----------
+    lit : (H, W) bool            where the renderer says that the light is visible; row 0 on top
+    truth : Truth                of the scene that it has drawn, from the same camera (`cast_truth`)
+    known : (H, W) bool          where it says so at all; everywhere by default
+    light : int                  index in the scene
+    width, map_size : int        the band: pixels, and texels of a shadow map on a side
+
+    Raises
+    ------
+    ValueError                   arrays of another size than the truth, or no such light
+
+    Examples
+    --------
+    >>> import softshadow as ss
+    >>> from softshadow.testing import agreement_of, cast_truth
+    >>> truth = cast_truth(ss.Scene.named("boxes"), (64, 48))
+    >>> agreement_of(truth.counts[0] == 0, truth).off_band
+    0
+    """
+    shape = truth.objects.shape
+    if np.shape(lit) != shape or (known is not None and np.shape(known) != shape):
+        raise ValueError(f"lit, known: expected arrays of shape {shape}, that of the truth")
+    if not 0 <= light < len(truth.counts):
+        raise ValueError(f"light={light}: the scene has {len(truth.counts)}")
+    band = truth.band(light, width)
+    if map_size is not None:
+        band |= truth.texel_band(light, map_size, width)
+    compared = (truth.objects >= 0) & (True if known is None else np.asarray(known, bool))
+    wrong = compared & (np.asarray(lit, bool) != truth.lit(light))
+    return Agreement(truth.scene.lights[light].name, band, wrong, compared)

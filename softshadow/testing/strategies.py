@@ -37,6 +37,7 @@ __all__ = [
     "floor_scenes",
     "lights",
     "meshes",
+    "overlapping_scenes",
     "scenes",
     "scenes_from_within",
     "sheets",
@@ -138,6 +139,26 @@ def floor_scenes(draw: st.DrawFn, lights: int = 1) -> Scene:
         draw(_lights_above(lights)),
         (_floor(), *draw(_solids_above())),
     )
+
+
+@st.composite
+def overlapping_scenes(draw: st.DrawFn) -> Scene:
+    """Return a floor with two or four slabs, one above the other, lit from above: their shadows always overlap.
+
+    The middle of every slab lies on one ray from the light, so some points of the floor are in as many shadow volumes
+    as there are slabs, an even number: a renderer that tells only lit from shadow, or odd from even, is found out.
+    """
+    light = draw(_lights_above(1))[0]
+    foot = np.array([draw(coordinates(-0.5, 0.5)), 0.0, draw(coordinates(-0.5, 0.5))])
+    towards = light.position[:3] - light.position[3] * foot
+    objects = [_floor()]
+    for index in range(draw(st.sampled_from([2, 4]))):
+        height = 1.6 + 0.4 * index  # so high that the camera sees what lies under the slabs
+        middle = foot + towards * height / towards[1]
+        slab = shapes.box(draw(st.sampled_from([1.2, 1.4, 1.6])), 0.1, draw(st.sampled_from([1.2, 1.4, 1.6])))
+        place = placement(tuple(middle), (draw(st.integers(0, 89)), 0, 1, 0))
+        objects.append(SceneObject(slab, place, name=f"slab {index}"))
+    return Scene("drawn", Camera((5, 6, 8), (0, 0.7, 0), near=1, far=40), (light,), tuple(objects))
 
 
 @st.composite

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import softshadow as ss
-from softshadow.testing import agreement, cast_truth
+from softshadow.testing import agreement, agreement_of, cast_truth
 from softshadow.testing.agreement import changes_nearby
 
 SIZE = (96, 72)
@@ -98,3 +98,17 @@ def test_the_truth_of_another_scene_or_size_is_refused() -> None:
     for truth in (cast_truth(ss.Scene.named("boxes"), SIZE), cast_truth(run.scene, (8, 6))):
         with pytest.raises(ValueError, match=re.escape("truth: expected that of the run's own scene and size")):
             agreement(run, truth)
+
+
+def test_arrays_of_any_renderer_are_compared() -> None:
+    truth = cast_truth(ss.Scene.named("overlapping"), SIZE)
+    right = agreement_of(truth.counts[0] == 0, truth)
+    assert (right.off_band, right.on_band) == (0, 0)
+    parity = agreement_of(truth.counts[0] % 2 == 0, truth)
+    assert parity.off_band > 0
+    unknown = agreement_of(truth.counts[0] % 2 == 0, truth, known=truth.counts[0] < 2)
+    assert unknown.off_band == 0
+    with pytest.raises(ValueError, match="expected arrays of shape"):
+        agreement_of(np.zeros((2, 2), bool), truth)
+    with pytest.raises(ValueError, match="light=1: the scene has 1"):
+        agreement_of(truth.counts[0] == 0, truth, light=1)

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, Phase, find, given, settings
 
 from softshadow.scene import Camera, Mesh, Scene
-from softshadow.testing import strategies
+from softshadow.testing import cast_truth, strategies
 
 FIND = settings(max_examples=300, phases=[Phase.generate], suppress_health_check=list(HealthCheck))
 
@@ -84,3 +84,12 @@ def test_without_hypothesis_an_error_says_what_to_install() -> None:
     )
     said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout
     assert "needs Hypothesis: pip install 'softshadow[properties]'" in said
+
+
+@given(strategies.overlapping_scenes())
+def test_slabs_above_each_other_overlap_as_often_as_there_are_slabs(scene):
+    truth = cast_truth(scene, (64, 48))
+    assert truth.counts[0].max() == len(scene.casters)
+    # what writes a 1 in place of the parity is found out in every example
+    wrong = (truth.counts[0] & 1) != (truth.counts[0] > 0)
+    assert (wrong & ~truth.band()).any()
