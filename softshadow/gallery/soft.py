@@ -62,7 +62,7 @@ FAILURES = (
         "from the floor, so it is there even where the two touch.",
         post_on_floor,
         Setting("planar-nested"),
-        Setting("planar-accumulated", {"samples": 64, "texture_size": 2048}),
+        Setting("volume-sampled", {"samples": 64}),
         wrong_share, SHARE,
     ),
     Failure(
