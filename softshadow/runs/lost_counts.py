@@ -7,6 +7,7 @@ picture shows light there, and nothing in it says that it is wrong.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from softshadow.inspection.hard_truth import hard_counts, seen_faces
 from softshadow.scene import Scene
 
 GRID = 96  # pixels on the longer side that rays are cast from
+KEPT = 8  # scenes whose counts are kept
 FEW = 16  # counters of so few values are always checked: one body that folds over itself can exceed them
 
 
@@ -28,12 +30,8 @@ def lost_counts(
     values = 2 if technique == "volume-parity" else 1 << stencil_bits
     if values > FEW and most_overlaps(scene) < values:
         return []
-    shrunk = -(-max(size) // GRID)
-    grid = max(1, size[0] // shrunk), max(1, size[1] // shrunk)
-    objects, triangles, points = seen_faces(scene, grid)
     found = []
-    for light in scene.lights:
-        counts = hard_counts(scene, light, objects, triangles, points)
+    for light, counts in zip(scene.lights, sampled_counts(scene, size), strict=True):
         lost = (counts > 0) & (counts % values == 0)
         if lost.any():
             share = float(lost.sum() / max(1, (counts > 0).sum()))
@@ -48,6 +46,15 @@ def lost_counts(
     return found
 
 
+@lru_cache(maxsize=KEPT)
+def sampled_counts(scene: Scene, size: tuple[int, int]) -> list[np.ndarray]:
+    """Return for each light the counts (N,) at some of the pixels; scenes do not change, and are often drawn again."""
+    shrunk = -(-max(size) // GRID)
+    objects, triangles, points = seen_faces(scene, (max(1, size[0] // shrunk), max(1, size[1] // shrunk)))
+    return [hard_counts(scene, light, objects, triangles, points) for light in scene.lights]
+
+
+@lru_cache(maxsize=KEPT)
 def most_overlaps(scene: Scene) -> int:
     """Return how many volumes can overlap if no closed body folds over itself: bodies, and faces of open ones."""
     total = 0
