@@ -42,6 +42,7 @@ def compare(
     The reference is the part of each light that a pixel's point sees: an exact area where the blockers can be clipped,
     else the share of many rays. The table splits the error by umbra, penumbra and lit.
     """
+    from softshadow import techniques
     from softshadow.inspection.files import write_whole
     from softshadow.inspection.pictures import save_png
     from softshadow.inspection.soft_truth import soft_truth
@@ -57,12 +58,14 @@ def compare(
     scene, names = _scene_of(scene, names)
     if all_soft == bool(names):
         raise click.UsageError("expected names of techniques, or --all-soft")
-    folder = None if output is None else Path(output)
-    if folder is not None:
-        folder.mkdir(parents=True, exist_ok=True)
     chosen = soft_candidates() if all_soft else names
+    for name in chosen:
+        techniques.get(name)  # before the truth is computed, which may take a while
+    folder = None if output is None else Path(output)
     with print_warnings_once():
         drawn = load_scene(scene, mesh, light, default="soft-slab")
+        if folder is not None:
+            folder.mkdir(parents=True, exist_ok=True)
         say_if_compiling()
         truth = soft_truth(drawn, size)
         results = compare_techniques(drawn, truth, chosen, samples=samples, seconds=seconds)

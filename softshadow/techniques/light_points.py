@@ -53,10 +53,17 @@ def add_mean(
     far : str                    as given to `drawing.set_camera`
     """
     share = (seen / n_points).astype(np.float32)
+    add_share(gl, scene, size, light, share, far)
+    return share
+
+
+def add_share(
+    gl: Any, scene: Scene, size: tuple[int, int], light: Light, share: np.ndarray, far: str = "finite"
+) -> None:
+    """Add a light times its share (h, w) float32 at each pixel, which is 0 outside the cone of a spot light."""
     texture = upload_visibility(gl, share)
     add_light_times(gl, scene, size, light, texture, far)
     gl.glDeleteTextures([texture])
-    return share
 
 
 def finish_title(scene: Scene, light: Light) -> str:

@@ -24,7 +24,6 @@ from softshadow.scene.light_samples import Pattern
 from softshadow.techniques import drawing, light_points, planar, receiver_textures
 from softshadow.techniques.flattened import others
 from softshadow.techniques.technique import Range, Steps
-from softshadow.techniques.visibility_buffer import add_light_times
 
 
 def steps(
@@ -82,10 +81,9 @@ def draw_with_shares(gl: Any, scene: Scene, size: tuple[int, int], shares: list[
 
     seen = []
     for light, share in zip(scene.lights, shares, strict=True):
-        visibility, values = receiver_textures.draw_shares(gl, scene, size, share)
-        add_light_times(gl, scene, size, light, visibility)
-        gl.glDeleteTextures([visibility])
-        seen.append(values * drawing.within_cone(scene, light, depth, size))
+        values = receiver_textures.draw_shares(gl, scene, size, share)
+        seen.append(values * np.float32(drawing.within_cone(scene, light, depth, size)))
+        light_points.add_share(gl, scene, size, light, seen[-1])
         yield light_points.finish_title(scene, light), drawing.visibility_maps(scene, seen, valid)
 
 

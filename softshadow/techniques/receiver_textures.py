@@ -27,8 +27,10 @@ def view_of(scene: Scene, receiver: SceneObject, light: np.ndarray, shift: float
     plane[3] -= shift
     if plane @ light <= 0:
         return None
-    vertices = np.concatenate([thing.world_positions for thing in scene.objects])
-    highest = 2 * float(np.ptp(vertices, axis=0).max())
+    highest = 0.0
+    if light[3] == 0:
+        vertices = np.concatenate([thing.world_positions for thing in scene.objects])
+        highest = 2 * float(np.ptp(vertices, axis=0).max())
     return matrices.receiver_view(world_to_receiver(receiver), plane, light, highest)
 
 
@@ -62,10 +64,8 @@ def count_covered(
     return covered
 
 
-def draw_shares(
-    gl: Any, scene: Scene, size: tuple[int, int], shares: dict[str, np.ndarray], far: str = "finite"
-) -> tuple[int, np.ndarray]:
-    """Return a visibility texture with what the receivers' textures say, and its values (h, w) float32.
+def draw_shares(gl: Any, scene: Scene, size: tuple[int, int], shares: dict[str, np.ndarray]) -> np.ndarray:
+    """Return what the receivers' textures say at each pixel of the window, (h, w) float32, first row = bottom.
 
     Other objects and the background see all of the light.
 
@@ -77,7 +77,7 @@ def draw_shares(
     with texture_and_depth_attached(gl, visibility, size):
         gl.glClearColor(1.0, 1.0, 1.0, 1.0)
         gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
-        drawing.set_camera(gl, scene.camera, size, far)
+        drawing.set_camera(gl, scene.camera, size)
         gl.glDisable(gl.GL_LIGHTING)
         gl.glColor4f(1.0, 1.0, 1.0, 1.0)
         drawing.draw_shapes(gl, [thing for thing in scene.objects if thing.name not in shares])
@@ -99,7 +99,9 @@ def draw_shares(
         gl.glMatrixMode(gl.GL_MODELVIEW)
     gl.glClearColor(*scene.background, 1.0)
     gl.glBindTexture(gl.GL_TEXTURE_2D, visibility)
-    return visibility, gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, gl.GL_FLOAT)[..., 3]
+    values: np.ndarray = gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, gl.GL_FLOAT)[..., 3]
+    gl.glDeleteTextures([visibility])
+    return values
 
 
 def share_texture(gl: Any, share: np.ndarray) -> int:

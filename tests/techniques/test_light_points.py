@@ -176,3 +176,28 @@ def test_a_further_caster_takes_light_and_never_gives_any(technique, options):
     gained = (with_both.maps["visibility"] - with_one.maps["visibility"])[both]
     assert gained.max() <= (1e-6 if technique == "planar-accumulated" else 0)  # linear filtering rounds
     assert gained.min() < 0
+
+
+EXACT = (*SAMPLED, "planar-nested", "volume-wedges", "map-pcss")
+BOUNDS = ("map-variance", "map-exponential")  # which reach 0 beside the light's map only
+IN_THE_DARK = [(technique, name) for technique in EXACT for name in ("spotlight", "sunlight", "soft-slab")]
+
+
+@pytest.mark.parametrize(("technique", "name"), [*IN_THE_DARK, *((technique, "spotlight") for technique in BOUNDS)])
+def test_where_no_light_is_visible_none_is_added(technique, name):
+    """As outside the cone of a spot light, which the program and the picture must leave out alike."""
+    drawn = draw(technique, Scene.named(name), SIZE)
+    dark = drawn.maps["valid"] & (drawn.maps["visibility"] == 0)
+    without_light = drawn.color["draw the scene without the light"]
+    assert dark.sum() > 20
+    assert np.array_equal(drawn.image[dark], without_light[dark])
+
+
+@pytest.mark.parametrize("technique", ["planar-accumulated", "planar-nested"])
+def test_a_spot_light_lights_its_cone_only(technique):
+    options = {"samples": 1} if technique == "planar-accumulated" else {"layers": 1}
+    drawn = draw(technique, Scene.named("spotlight"), SIZE, texture_size=1024, **options).maps
+    hard = draw("planar", Scene.named("spotlight"), SIZE).maps
+    both = drawn["valid"] & hard["valid"] & off_edges(hard["visibility"])
+    assert np.array_equal(drawn["visibility"][both] > 0.5, hard["visibility"][both] > 0.5)
+    assert (hard["visibility"][both] == 0).sum() > 100
