@@ -194,7 +194,7 @@ def attenuation(
         spot = dot(np.atleast_2d(-direction), spot_direction)
         inside = np.where(cosine < spot, ONE, ZERO)
         spot_power = power(abs(spot), np.full_like(spot, light.spot_exponent))
-        factor = inside * spot_power
+        factor = np.where(inside != ZERO, spot_power, ZERO)  # not a product: NaN at the light's own place becomes 0
         parts = {"spot": spot_power, "inside": inside}
     if squared_distance is not None:
         parts["distance"] = reciprocal_root(squared_distance)
@@ -265,7 +265,7 @@ def shade_side(
             rgb = shine + rgb
     primary = np.empty((4, n), np.float32)
     primary[:3], primary[3] = rgb, reflectance("diffuse")[:, 3]
-    return Colors(clamp_colors(primary).T, clamp_colors(highlight).T if separate else None)
+    return Colors(clamp_lit_colors(primary).T, clamp_lit_colors(highlight).T if separate else None)
 
 
 def lit_factors(
@@ -286,7 +286,13 @@ def lit_factors(
 
 
 def clamp_colors(colors: np.ndarray) -> np.ndarray:
-    """Return colours in [0, 1]; NaN becomes 0."""
+    """Return colours that are not lit in [0, 1]; NaN becomes 0."""
     distinct = colors[:1] if colors.strides[0] == 0 else colors  # stride 0: one colour for all vertices
     clamped: np.ndarray = np.fmin(np.fmax(distinct, ZERO), ONE)
     return np.broadcast_to(clamped, colors.shape)
+
+
+def clamp_lit_colors(colors: np.ndarray) -> np.ndarray:
+    """Return lit colours in [0, 1]; NaN, as at the place of a light with attenuation, becomes 1 as in Mesa."""
+    clamped: np.ndarray = np.fmax(np.fmin(colors, ONE), ZERO)
+    return clamped

@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
+import softshadow as ss
 from softshadow.testing import compare
 
 pytestmark = pytest.mark.mesa
@@ -250,3 +251,50 @@ def test_numbers_without_a_place_in_an_int_are_answered_as_by_mesa(number):
         return [np.ravel(answer).tolist() for answer in answers]
 
     same_answers(program)
+
+
+@pytest.mark.parametrize("local_viewer", [0, 1])
+@pytest.mark.parametrize("cutoff", [180, 90, 30])
+@pytest.mark.parametrize("attenuation", [(1, 0, 0), (1, 0.2, 0), (0, 1, 0), (0.5, 0, 0.3)])
+def test_a_vertex_at_the_place_of_a_light_has_the_color_of_mesa(attenuation, cutoff, local_viewer):
+    def program(gl):
+        gl.glEnable(gl.GL_LIGHTING)
+        gl.glEnable(gl.GL_LIGHT0)
+        gl.glLightfv(gl.GL_LIGHT0, gl.GL_POSITION, [0, 0, 0, 1])
+        gl.glLightfv(gl.GL_LIGHT0, gl.GL_AMBIENT, [0.3, 0.3, 0.3, 1])
+        gl.glLightf(gl.GL_LIGHT0, gl.GL_SPOT_CUTOFF, cutoff)
+        for name, value in zip(("CONSTANT", "LINEAR", "QUADRATIC"), attenuation, strict=True):
+            gl.glLightf(gl.GL_LIGHT0, getattr(gl, f"GL_{name}_ATTENUATION"), value)
+        gl.glLightModeli(gl.GL_LIGHT_MODEL_LOCAL_VIEWER, local_viewer)
+        gl.glMaterialfv(gl.GL_FRONT, gl.GL_SPECULAR, [1, 1, 1, 1])
+        for exponent, shininess in ((0, 0), (5, 0), (0, 10), (5, 10)):
+            gl.glLightf(gl.GL_LIGHT0, gl.GL_SPOT_EXPONENT, exponent)
+            gl.glMaterialf(gl.GL_FRONT, gl.GL_SHININESS, shininess)
+            gl.glNormal3f(0, 0, 1)
+            gl.glBegin(gl.GL_TRIANGLES)
+            for vertex in ((0, 0, 0), (1, 0, 0), (0, 1, -0.5)):
+                gl.glVertex3f(*vertex)
+            gl.glEnd()
+            gl.glRotatef(90, 0, 0, 1)  # turns about the light
+
+    for short_cuts in (False, "always"):
+        with ss.use_short_cuts(short_cuts):
+            comparison = compare(program, (33, 20))
+        assert comparison, str(comparison)
+
+
+@pytest.mark.parametrize("color", [(np.nan, 0.5, -np.nan, 1.0), (np.inf, -np.inf, 2.0, np.nan)])
+def test_colors_that_are_no_numbers_are_clamped_as_in_mesa(color):
+    def program(gl):
+        gl.glColor4f(*color)
+        gl.glRectf(-1, -1, 1, 0)
+        gl.glEnable(gl.GL_LIGHTING)
+        gl.glLightModelfv(gl.GL_LIGHT_MODEL_AMBIENT, color)
+        gl.glRectf(-1, 0, 0, 1)
+        gl.glEnable(gl.GL_COLOR_MATERIAL)
+        gl.glRectf(0, 0, 1, 1)
+
+    for short_cuts in (False, "always"):
+        with ss.use_short_cuts(short_cuts):
+            comparison = compare(program, (16, 16))
+        assert comparison, str(comparison)

@@ -43,7 +43,7 @@ from softshadow.pipeline.fast.batch.lighting import (
     SPECULAR,
     SPOT_DIRECTION,
     SPOT_EXPONENT,
-    clamped,
+    clamped_lit,
     dot3,
     positive,
     root_of,
@@ -267,7 +267,7 @@ def write_attenuation(light, room):
             room[BASE + n], room[EXPONENT + n] = abs(spot), exponent
         raise_rows(room)
         for n in range(LANES):
-            room[ATTENUATION + n] *= room[RAISED + n]
+            room[ATTENUATION + n] = room[RAISED + n] if room[ATTENUATION + n] != ZERO else ZERO
     else:
         for n in range(LANES):
             room[ATTENUATION + n] = ONE
@@ -294,10 +294,10 @@ def write_colors(start, count, separate, room, values):
     """Write the colours and highlights of a block to the rows of `values`, clamped."""
     for n in range(count):
         v = start + n
-        values[v, 0], values[v, 1] = clamped(room[LIT + n]), clamped(room[LIT + Y + n])
-        values[v, 2], values[v, 3] = clamped(room[LIT + Z + n]), clamped(room[OWN_DIFFUSE + W + n])
+        values[v, 0], values[v, 1] = clamped_lit(room[LIT + n]), clamped_lit(room[LIT + Y + n])
+        values[v, 2], values[v, 3] = clamped_lit(room[LIT + Z + n]), clamped_lit(room[OWN_DIFFUSE + W + n])
     if separate:
         for n in range(count):
             v = start + n
-            values[v, 4], values[v, 5] = clamped(room[HIGHLIGHT + n]), clamped(room[HIGHLIGHT + Y + n])
-            values[v, 6] = clamped(room[HIGHLIGHT + Z + n])
+            values[v, 4], values[v, 5] = clamped_lit(room[HIGHLIGHT + n]), clamped_lit(room[HIGHLIGHT + Y + n])
+            values[v, 6] = clamped_lit(room[HIGHLIGHT + Z + n])

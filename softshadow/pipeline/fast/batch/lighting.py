@@ -135,6 +135,13 @@ def place_lights(lights, n_lights, modelview, to_object, object_space, placed):
 
 @kernel
 def clamped(value):
-    """Return a number in [0, 1]; NaN becomes 0."""
+    """Return a number of a colour that is not lit in [0, 1]; NaN becomes 0."""
     value = value if value > ZERO else ZERO
     return value if value < ONE else ONE
+
+
+@kernel
+def clamped_lit(value):
+    """Return a number of a lit colour in [0, 1]; NaN becomes 1."""
+    value = value if value < ONE else ONE
+    return value if value > ZERO else ZERO
