@@ -135,7 +135,7 @@ class Context:
         self.hints: dict[int, int] = {}  # those that are not GL_DONT_CARE
         self.pack_store, self.unpack_store = PixelStore(), PixelStore()
         # the highest name returned by glGen*, per kind; an object exists in storage once it has been bound
-        self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query", "buffer"), 0)
+        self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query", "buffer", "list"), 0)
         self.renderbuffer = 0
         self.query_targets: dict[int, int] = {}  # name: target of the queries that have been begun
 

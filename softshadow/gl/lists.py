@@ -1,7 +1,7 @@
 """Display lists: calls that are recorded and carried out later.
 
 A list records the calls decorated by `in_lists`; arrays are read while the list is compiled. At its end, primitives
-become arrays (`list_primitives`).
+become arrays (`list_compiling`).
 """
 
 from __future__ import annotations
@@ -16,15 +16,18 @@ from softshadow import tokens as gl
 from softshadow.context import Context, DisplayList, current, thread
 from softshadow.gl.calls import in_lists, record, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.list_primitives import carry_out, with_primitives
+from softshadow.gl.list_compiling import with_primitives
+from softshadow.gl.list_primitives import carry_out
+from softshadow.gl.names import reserve
 
 DEEPEST_LIST = 64
+LARGEST_NAME = 2**32 - 1
 NAME_TYPES = range(gl.GL_BYTE, gl.GL_FLOAT + 1)
 MODES = (gl.GL_COMPILE, gl.GL_COMPILE_AND_EXECUTE)
 
 
 def glGenLists(range: int) -> int | None:
-    """Return the first of `range` consecutive unused names, and create empty lists of these names."""
+    """Return the first of `range` consecutive names never used before, and create empty lists of these names."""
     context = outside_begin("glGenLists")
     if context is None:
         return None
@@ -34,9 +37,12 @@ def glGenLists(range: int) -> int | None:
         return None
     if range == 0:
         return 0
-    first = 1
-    while any(first + i in context.lists for i in np.arange(range)):
-        first += 1
+    first = context.names["list"] + 1
+    if first + range > LARGEST_NAME:  # then Mesa looks for a gap
+        first = 1
+        while any(first + i in context.lists for i in np.arange(range)):
+            first += 1
+    reserve(context, "list", first + range - 1)
     for name in np.arange(first, first + range).tolist():
         context.lists[name] = DisplayList(name, gl.GL_COMPILE)
     return first
@@ -65,6 +71,7 @@ def glEndList() -> None:
     if compiled is not None:
         compiled.calls = with_primitives(context, compiled.calls)
         context.lists[compiled.name] = compiled
+        reserve(context, "list", compiled.name)
     if outside_begin("glEndList") is None:
         return
     context.flush()

@@ -30,6 +30,7 @@ NORMAL_TYPES = (gl.GL_BYTE, *POSITION_TYPES)
 LARGEST_STRIDE = 2048  # Mesa's GL_MAX_VERTEX_ATTRIB_STRIDE
 ARRAYS = {gl.GL_VERTEX_ARRAY: "position", gl.GL_NORMAL_ARRAY: "normal", gl.GL_COLOR_ARRAY: "color"}
 CLIENT_STATES = (*ARRAYS, gl.GL_TEXTURE_COORD_ARRAY)
+ABSENT_ARRAYS = (gl.GL_INDEX_ARRAY, gl.GL_EDGE_FLAG_ARRAY, gl.GL_SECONDARY_COLOR_ARRAY, gl.GL_FOG_COORD_ARRAY)
 # glInterleavedArrays: components of texture coordinate, colour (key of `COLORS`), normal and position
 INTERLEAVED = {
     gl.GL_V2F: (0, "", 0, 2), gl.GL_V3F: (0, "", 0, 3), gl.GL_C4UB_V2F: (0, "4ub", 0, 2),
@@ -55,13 +56,28 @@ def glDisableClientState(array: int) -> None:
 
 def _client_state(operation: str, array: int, on: bool) -> None:
     context = outside_begin(operation)
+    if context is None or (array in ABSENT_ARRAYS and not on):  # they are always disabled
+        return
     expected = "GL_VERTEX_ARRAY, GL_NORMAL_ARRAY, GL_COLOR_ARRAY or GL_TEXTURE_COORD_ARRAY"
-    if context is not None and is_one_of(operation, "array", array, CLIENT_STATES, expected):
-        arrays = context.arrays
-        key = ARRAYS.get(array) or f"texcoord{arrays.active_unit}"
-        if (key in arrays.enabled) != on:
-            (arrays.enabled.add if on else arrays.enabled.discard)(key)
-            arrays.active = None
+    if is_one_of(operation, "array", array, CLIENT_STATES, expected):
+        switch_array(context.arrays, array, on)
+
+
+def switch_array(arrays: ClientArrays, array: int, on: bool) -> None:
+    """Enable or disable an array; that of texture coordinates is the array of the active unit."""
+    key = _key_of(arrays, array)
+    if (key in arrays.enabled) != on:
+        (arrays.enabled.add if on else arrays.enabled.discard)(key)
+        arrays.active = None
+
+
+def is_array_enabled(arrays: ClientArrays, array: int) -> bool:
+    """Return whether an array is enabled."""
+    return _key_of(arrays, array) in arrays.enabled
+
+
+def _key_of(arrays: ClientArrays, array: int) -> str:
+    return ARRAYS.get(array) or f"texcoord{arrays.active_unit}"
 
 
 def glClientActiveTexture(texture: int) -> None:
