@@ -120,6 +120,32 @@ def client_image(
     return image_view(memory, store, width, height, format, type, operation)
 
 
+def bitmap_rows(bitmap: Any, store: PixelStore, width: int, height: int, operation: str) -> np.ndarray:
+    """Return the bits (height, width) of a bitmap in client memory, first row = bottom row; the highest bit is left.
+
+    Raises
+    ------
+    ValueError
+        The memory is too small; the message gives the size needed.
+    """
+    if isinstance(bitmap, bytes | bytearray | memoryview):
+        raw = np.frombuffer(bitmap, np.uint8)
+    else:
+        raw = np.ascontiguousarray(bitmap, None if isinstance(bitmap, np.ndarray) else np.uint8).reshape(-1)
+        raw = raw.view(np.uint8)
+    step = -(-(store.row_length or width) // (8 * store.alignment)) * store.alignment
+    needed = (store.skip_rows + height - 1) * step + -(-(store.skip_pixels + width) // 8)
+    if raw.nbytes < needed:
+        raise ValueError(f"{operation}: the bitmap has {raw.nbytes} bytes; {width} x {height} bits need {needed}")
+    first = store.skip_rows * step
+    rows = np.zeros((height, max(step, -(-(store.skip_pixels + width) // 8))), np.uint8)
+    for row in range(height):
+        part = raw[first + row * step : first + row * step + rows.shape[1]]
+        rows[row, : len(part)] = part
+    bits: np.ndarray = np.unpackbits(rows, axis=1)[:, store.skip_pixels : store.skip_pixels + width].astype(bool)
+    return bits
+
+
 def output_array(
     array: Any, store: PixelStore, width: int, height: int, format: int, type: int, operation: str
 ) -> tuple[np.ndarray, np.ndarray]:

@@ -12,6 +12,7 @@ from softshadow.context.context import (
     thread,
 )
 from softshadow.context.matrix_stacks import MatrixStack
+from softshadow.context.raster_position import RasterPosition
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 
 __all__ = [
@@ -25,6 +26,7 @@ __all__ = [
     "Frame",
     "MatrixStack",
     "Primitive",
+    "RasterPosition",
     "VertexBuffer",
     "current",
     "make_current",

@@ -16,6 +16,7 @@ from softshadow import tokens as gl
 from softshadow.context.arrays import BufferObject, ClientArrays
 from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.pending_attributes import PendingAttributes
+from softshadow.context.raster_position import INITIAL_RASTER_POSITION, RasterPosition
 from softshadow.context.recording import Frame
 from softshadow.context.state_groups import StateGroups, affects_draws
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
@@ -35,13 +36,14 @@ MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE:
 
 @dataclass
 class CurrentVertex:
-    """The current colour, normal and texture coordinates, which each new vertex gets."""
+    """The current colour, normal and texture coordinates, which each new vertex gets, and the raster position."""
 
     color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
     texcoords: list[tuple[float, float, float, float]] = field(
         default_factory=lambda: [(0.0, 0.0, 0.0, 1.0)] * TEXTURE_UNITS
     )
+    raster: RasterPosition = INITIAL_RASTER_POSITION
 
 
 @dataclass
@@ -134,6 +136,7 @@ class Context:
         self.list_depth = 0  # nesting of lists that call each other
         self.hints: dict[int, int] = {}  # those that are not GL_DONT_CARE
         self.pack_store, self.unpack_store = PixelStore(), PixelStore()
+        self.pixel_zoom = (1.0, 1.0)
         # the highest name returned by glGen*, per kind; an object exists in storage once it has been bound
         self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query", "buffer", "list"), 0)
         self.renderbuffer = 0

@@ -19,6 +19,7 @@ from softshadow.context import Context, current, make_current
 from softshadow.gl.accumulation import *
 from softshadow.gl.array_draws import *
 from softshadow.gl.attributes import *
+from softshadow.gl.bitmaps import *
 from softshadow.gl.blits import *
 from softshadow.gl.buffers import *
 from softshadow.gl.capabilities import *
@@ -36,10 +37,12 @@ from softshadow.gl.lighting import *
 from softshadow.gl.lists import *
 from softshadow.gl.materials import *
 from softshadow.gl.occlusion import *
+from softshadow.gl.pixel_rectangles import *
 from softshadow.gl.pixels import *
 from softshadow.gl.programs import *
 from softshadow.gl.pyopengl import *
 from softshadow.gl.queries import *
+from softshadow.gl.raster_position import *
 from softshadow.gl.rasterization import *
 from softshadow.gl.renderbuffers import *
 from softshadow.gl.texture_coordinates import *

@@ -49,6 +49,7 @@ class SavedAttributes(NamedTuple):
     list_base: int
     draw_buffers: tuple[int, ...]
     read_buffer: int
+    pixel_zoom: tuple[float, float]
     samplers: dict[tuple[int, int], Sampler]  # of the bound textures, by (target, key in the storage)
 
 
@@ -77,6 +78,7 @@ def glPushAttrib(mask: int) -> None:
             list_base=context.list_base,
             draw_buffers=_draw_buffers(framebuffers[state.draw_framebuffer]),
             read_buffer=framebuffers[state.read_framebuffer].read_buffer,
+            pixel_zoom=context.pixel_zoom,
             samplers=_bound_samplers(context, state) if mask & gl.GL_TEXTURE_BIT else {},
         )
     )
@@ -91,7 +93,7 @@ def _changed_since_push(context: Context, state: State) -> int:
 
 
 def _copy_of(current: CurrentVertex) -> CurrentVertex:
-    return CurrentVertex(current.color, current.normal, current.texcoords.copy())
+    return CurrentVertex(current.color, current.normal, current.texcoords.copy(), current.raster)
 
 
 def _bound_samplers(context: Context, state: State) -> dict[tuple[int, int], Sampler]:
@@ -155,6 +157,8 @@ def _restore(context: Context, bit: int, saved: SavedAttributes) -> None:
         context.hints = copy(saved.hints)
     elif bit == gl.GL_LIST_BIT:
         context.list_base = saved.list_base
+    elif bit == gl.GL_PIXEL_MODE_BIT:
+        context.pixel_zoom = saved.pixel_zoom
     elif bit == gl.GL_TRANSFORM_BIT:
         context.matrix_mode = saved.matrix_mode
     elif bit == gl.GL_ENABLE_BIT and saved.state.lighting.color_material and not now.lighting.color_material:

@@ -194,6 +194,13 @@ QUERIES: dict[str, Read] = {
     "GL_CURRENT_COLOR": lambda c: c.current.color,
     "GL_CURRENT_NORMAL": lambda c: c.current.normal,
     "GL_CURRENT_TEXTURE_COORDS": lambda c: c.current.texcoords[c.active_unit],
+    "GL_CURRENT_RASTER_POSITION": lambda c: c.current.raster.window,
+    "GL_CURRENT_RASTER_POSITION_VALID": lambda c: c.current.raster.valid,
+    "GL_CURRENT_RASTER_DISTANCE": lambda c: c.current.raster.distance,
+    "GL_CURRENT_RASTER_COLOR": lambda c: c.current.raster.color,
+    "GL_CURRENT_RASTER_TEXTURE_COORDS": lambda c: c.current.raster.texcoords[c.active_unit],
+    "GL_ZOOM_X": lambda c: c.pixel_zoom[0],
+    "GL_ZOOM_Y": lambda c: c.pixel_zoom[1],
     "GL_ACTIVE_TEXTURE": lambda c: gl.GL_TEXTURE0 + c.active_unit,
     "GL_CLIENT_ACTIVE_TEXTURE": lambda c: gl.GL_TEXTURE0 + c.arrays.active_unit,
     **client_array("VERTEX", gl.GL_VERTEX_ARRAY),
@@ -261,6 +268,7 @@ NORMALIZED = {
     for name in (
         "GL_DEPTH_RANGE", "GL_DEPTH_CLEAR_VALUE", "GL_COLOR_CLEAR_VALUE", "GL_ACCUM_CLEAR_VALUE", "GL_CURRENT_COLOR",
         "GL_CURRENT_NORMAL", "GL_BLEND_COLOR", "GL_FOG_COLOR", "GL_LIGHT_MODEL_AMBIENT", "GL_ALPHA_TEST_REF",
+        "GL_CURRENT_RASTER_COLOR",
         "GL_MODELVIEW_MATRIX", "GL_PROJECTION_MATRIX", "GL_TEXTURE_MATRIX",
         "GL_TRANSPOSE_MODELVIEW_MATRIX", "GL_TRANSPOSE_PROJECTION_MATRIX", "GL_TRANSPOSE_TEXTURE_MATRIX",
     )

@@ -34,6 +34,8 @@ SINGLE: dict[str, tuple[Any, ...]] = {
  "glActiveStencilFaceEXT": ("GL_BACK",),
     "glStencilFuncSeparateATI": ("GL_LESS", "GL_EQUAL", 2, 15),
     "glActiveTexture": ("GL_TEXTURE1",), "glAlphaFunc": ("GL_LESS", 0.5),
+    "glBitmap": (8, 4, 0.0, 0.0, 2.0, 0.0, bytes(32)), "glPixelZoom": (2.0, -1.5),
+    "glCopyPixels": (0, 0, 4, 4, "GL_COLOR"), "glDrawPixels": (4, 4, *TEXELS, BYTES),
     "glBegin": ("GL_QUADS",), "glBeginQuery": ("GL_SAMPLES_PASSED", "@query"),
     "glBindFramebuffer": ("GL_FRAMEBUFFER", "@framebuffer"), "glBindRenderbuffer": ("GL_RENDERBUFFER", "@renderbuffer"),
     "glBindTexture": ("GL_TEXTURE_2D", "@texture"), "glBlendColor": (0.1, 0.2, 0.3, 0.4),
@@ -96,7 +98,8 @@ def families() -> dict[str, tuple[Any, ...]]:
     calls: dict[str, tuple[Any, ...]] = {}
     whole, real = (1, 2, 3, 4), (0.5, 0.25, -0.75, 1.0)
     for name, lengths, types in (
-        ("glVertex", (2, 3, 4), "dfis"), ("glTexCoord", (1, 2, 3, 4), "dfis"), ("glNormal", (3,), "bdfis"),
+        ("glVertex", (2, 3, 4), "dfis"), ("glRasterPos", (2, 3, 4), "dfis"), ("glWindowPos", (2, 3), "dfis"),
+        ("glTexCoord", (1, 2, 3, 4), "dfis"), ("glNormal", (3,), "bdfis"),
         ("glColor", (3, 4), ("b", "d", "f", "i", "s", "ub", "ui", "us")),
     ):  # fmt: skip
         for length in lengths:
@@ -219,7 +222,8 @@ def prepare(gl: Any) -> World:
 LEFT_OUT = {
     "glArrayElement": (-1, 40, 99999), "glBufferData": (40, 99999), "glDrawArrays": (-1, 40, 99999),
     "glDrawElements": (40, 99999), "glDrawRangeElements": (40, 99999), "glMultiDrawArrays": (40, 99999),
-    "glTexImage2D": (40,), "glUniform1i": (40,), "glInterleavedArrays": (99999,),
+    "glTexImage2D": (40,), "glUniform1i": (40,), "glInterleavedArrays": (99999,), "glBitmap": (40, 99999),
+    "glDrawPixels": (40, 99999), "glCopyPixels": (99999,),
 }  # fmt: skip
 
 

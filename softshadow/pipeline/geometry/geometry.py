@@ -30,7 +30,7 @@ from softshadow.pipeline.mesa.polygon_rules import offset_is_on
 from softshadow.pipeline.records import Geometry
 from softshadow.programs import VertexInputs
 from softshadow.programs.inverse import inverse
-from softshadow.state import Cull, Polygon, Viewport
+from softshadow.state import ClipPlanes, Cull, Polygon, Viewport
 
 
 class Positions(NamedTuple):
@@ -160,12 +160,16 @@ def _outlined(geometry: Geometry, clipped: Clipped, command: Draw, target: Frame
 
 
 def user_planes(command: Draw) -> np.ndarray:
-    """Return the enabled clip planes (P, 4) in clip space: those of eye space times the inverse projection."""
-    planes = command.state.clip_planes
+    """Return the enabled clip planes (P, 4) in clip space."""
+    return planes_in_clip_space(command.state.clip_planes, command.projection, command.projection_kind)
+
+
+def planes_in_clip_space(planes: ClipPlanes, projection: np.ndarray, projection_kind: int) -> np.ndarray:
+    """Return the enabled planes (P, 4): those of eye space times the inverse projection."""
     enabled = [equation for on, equation in zip(planes.enabled, planes.equations, strict=True) if on]
     in_clip_space = np.empty((len(enabled), 4), np.float32)
     if enabled:
-        m = inverse(command.projection, command.projection_kind)
+        m = inverse(projection, projection_kind)
         for row, (a, b, c, d) in zip(in_clip_space, np.array(enabled, np.float32), strict=True):
             row[:] = ((a * m[0] + b * m[1]) + c * m[2]) + d * m[3]
     return in_clip_space

@@ -1,0 +1,142 @@
+"""glDrawPixels, glCopyPixels and glPixelZoom give the buffers of Mesa."""
+
+import numpy as np
+import pytest
+
+from mesa.random_images import PIXEL_FORMATS, PIXEL_TYPES
+from softshadow.testing import compare
+
+pytestmark = pytest.mark.mesa
+
+
+def check(program, size=(64, 48)):
+    comparison = compare(program, size)
+    assert comparison, str(comparison)
+
+
+def state(gl, seed):
+    """Some state of fragments, and of vertices that must not matter."""
+    gl.glClearColor(0.1, 0.2, 0.3, 1)
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
+    gl.glPixelStorei(gl.GL_UNPACK_ALIGNMENT, 1)
+    gl.glRectf(-0.5, -0.5, 0.2, 0.3)
+    if seed % 3 == 1:
+        gl.glEnable(gl.GL_BLEND)
+        gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
+        gl.glEnable(gl.GL_LIGHTING)
+        gl.glRotatef(30, 1, 0, 0)
+    if seed % 3 == 2:
+        for capability in (gl.GL_ALPHA_TEST, gl.GL_SCISSOR_TEST, gl.GL_DEPTH_TEST, gl.GL_CULL_FACE):
+            gl.glEnable(capability)
+        gl.glAlphaFunc(gl.GL_GREATER, 0.3)
+        gl.glScissor(5, 7, 40, 30)
+        gl.glCullFace(gl.GL_FRONT_AND_BACK)
+
+
+@pytest.mark.parametrize("kind", sorted(PIXEL_TYPES))
+@pytest.mark.parametrize("pixel_format", sorted(PIXEL_FORMATS))
+def test_every_format_and_type(pixel_format, kind):
+    rng = np.random.default_rng(len(pixel_format) + len(kind))
+    shape = (9, 13, PIXEL_FORMATS[pixel_format])
+    if kind == "GL_FLOAT":
+        pixels = rng.uniform(-0.1, 1.1, shape).astype(np.float32)
+    else:
+        limits = np.iinfo(PIXEL_TYPES[kind])
+        pixels = rng.integers(limits.min, limits.max, shape, dtype=PIXEL_TYPES[kind], endpoint=True)
+
+    def program(gl):
+        gl.glPixelStorei(gl.GL_UNPACK_ALIGNMENT, 1)
+        gl.glWindowPos2i(3, 4)
+        gl.glDrawPixels(13, 9, getattr(gl, pixel_format), getattr(gl, kind), pixels)
+
+    check(program, (20, 16))
+
+
+@pytest.mark.parametrize("zoom", [(1, 1), (2, 3), (-1, 1), (1, -2), (0.5, 0.5), (1.7, -2.3), (-0.3, 4.1)])
+@pytest.mark.parametrize("seed", range(3))
+def test_zoomed_rectangles(zoom, seed):
+    def program(gl):
+        rng = np.random.default_rng(seed)
+        state(gl, seed)
+        gl.glPixelZoom(*zoom)
+        pixels = rng.integers(0, 256, (7, 11, 4), dtype=np.uint8)
+        for place in ((-0.1, 0.2), (0.5, -0.3), (-0.83, -0.71), (1.5, 0)):
+            gl.glRasterPos3f(*place, rng.uniform(-1, 1))
+            gl.glDrawPixels(11, 7, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, pixels)
+
+    check(program)
+
+
+@pytest.mark.parametrize("zoom", [(1, 1), (2, 2), (-1, 1), (1.7, -2.3)])
+@pytest.mark.parametrize("seed", range(3))
+def test_copied_rectangles(zoom, seed):
+    def program(gl):
+        rng = np.random.default_rng(seed)
+        state(gl, seed)
+        gl.glWindowPos2i(0, 0)
+        gl.glDrawPixels(64, 40, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, rng.integers(0, 256, (40, 64, 4), dtype=np.uint8))
+        gl.glPixelZoom(*zoom)
+        for rectangle in ((3, 4, 15, 9), (10, 12, 20, 6), (50, 40, 14, 8), (0, 0, 12, 9), (100, 0, 4, 4), (5, 5, 0, 3)):
+            gl.glWindowPos2f(*rng.uniform(0, 40, 2))
+            gl.glCopyPixels(*rectangle, gl.GL_COLOR)
+
+    check(program)
+
+
+def test_lists_and_the_attribute_stack():
+    pixels = np.random.default_rng(5).integers(0, 256, (4, 4, 3), dtype=np.uint8)
+
+    def program(gl):
+        gl.glPixelStorei(gl.GL_UNPACK_ALIGNMENT, 1)
+        gl.glNewList(1, gl.GL_COMPILE)
+        gl.glPixelZoom(3, 2)
+        gl.glDrawPixels(4, 4, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, pixels)
+        gl.glEndList()
+        gl.glWindowPos2i(2, 2)
+        gl.glPushAttrib(gl.GL_PIXEL_MODE_BIT)
+        gl.glCallList(1)
+        zoomed = float(gl.glGetFloatv(gl.GL_ZOOM_X))
+        gl.glPopAttrib()
+        gl.glWindowPos2i(20, 2)
+        gl.glDrawPixels(4, 4, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, pixels)
+        return [zoomed, float(gl.glGetFloatv(gl.GL_ZOOM_X)), float(gl.glGetFloatv(gl.GL_ZOOM_Y))]
+
+    check(program)
+
+
+@pytest.mark.parametrize("winding", ["GL_CCW", "GL_CW"])
+@pytest.mark.parametrize("in_framebuffer_object", [False, True])
+def test_the_stencil_of_two_sides_and_framebuffer_objects(in_framebuffer_object, winding):
+    pixels = np.random.default_rng(5).integers(0, 256, (5, 4, 4), dtype=np.uint8)
+
+    def program(gl):
+        if in_framebuffer_object:
+            texture, framebuffer = gl.glGenTextures(1), gl.glGenFramebuffers(1)
+            gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
+            image = (0, gl.GL_RGBA8, 30, 20, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, None)
+            gl.glTexImage2D(gl.GL_TEXTURE_2D, *image)
+            gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
+            gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, texture, 0)
+            renderbuffer = gl.glGenRenderbuffers(1)
+            gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, renderbuffer)
+            gl.glRenderbufferStorage(gl.GL_RENDERBUFFER, gl.GL_DEPTH24_STENCIL8, 30, 20)
+            attachment = (gl.GL_DEPTH_STENCIL_ATTACHMENT, gl.GL_RENDERBUFFER, renderbuffer)
+            gl.glFramebufferRenderbuffer(gl.GL_FRAMEBUFFER, *attachment)
+            gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
+        gl.glFrontFace(getattr(gl, winding))
+        gl.glEnable(gl.GL_STENCIL_TEST)
+        gl.glStencilOpSeparate(gl.GL_FRONT, gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR)
+        gl.glStencilOpSeparate(gl.GL_BACK, gl.GL_KEEP, gl.GL_KEEP, gl.GL_INVERT)
+        gl.glWindowPos2i(2, 3)
+        gl.glDrawPixels(4, 5, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, pixels)
+        gl.glBitmap(8, 2, -10, 0, 0, 0, bytes([255, 0, 0, 0, 129, 0, 0, 0]))
+        gl.glPixelZoom(2.3, -1.35)
+        gl.glDrawPixels(4, 5, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, pixels)
+        gl.glCopyPixels(2, 3, 3, 2, gl.GL_COLOR)
+        rectangle = (0, 0, 30, 20)
+        return [
+            gl.glReadPixels(*rectangle, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE),
+            gl.glReadPixels(*rectangle, gl.GL_STENCIL_INDEX, gl.GL_UNSIGNED_BYTE),
+        ]
+
+    check(program, (30, 20))
