@@ -51,6 +51,7 @@ if TYPE_CHECKING:
         scene_names,
     )
     from softshadow.scene.light_samples import light_samples
+    from softshadow.space import shadow_geometry
     from softshadow.techniques import describe
     from softshadow.techniques import names as technique_names
 
@@ -100,6 +101,7 @@ __all__ = [
     "run",
     "scene_names",
     "set_threads",
+    "shadow_geometry",
     "soft_truth",
     "stencil_palette",
     "technique_names",
@@ -126,6 +128,7 @@ _HOMES = {
         "scene_names",
     ),
     "softshadow.scene.light_samples": ("light_samples",),
+    "softshadow.space": ("shadow_geometry",),
     "softshadow.techniques": ("describe",),
 }  # fmt: skip
 _HOME = {name: (module, name) for module, names in _HOMES.items() for name in names} | _RENAMED

@@ -10,6 +10,7 @@ from softshadow.report.failure_page import FailurePage, write_failure_page
 from softshadow.report.page import Section, folder_writer, named, sections
 from softshadow.report.run_page import RunPage, write_run_page
 from softshadow.report.tour_page import TourPage, Visit, write_tour_page
+from softshadow.report.view3d import View3D, view3d_document, view3d_of
 
 CrossSection._repr_svg_ = svg_of  # type: ignore[method-assign]
 
@@ -20,6 +21,7 @@ __all__ = [
     "RunPage",
     "Section",
     "TourPage",
+    "View3D",
     "Visit",
     "cross_section",
     "folder_writer",
@@ -29,6 +31,8 @@ __all__ = [
     "scene_spelled",
     "sections",
     "svg_of",
+    "view3d_document",
+    "view3d_of",
     "write_failure_page",
     "write_run_page",
     "write_tour_page",

@@ -23,6 +23,7 @@ from softshadow.inspection import (
     Step,
     Steps,
     WedgeContributions,
+    buffer_files,
     compare,
     difference,
     ledger_of,
@@ -36,10 +37,11 @@ from softshadow.inspection.hard_truth import hard_visibility
 from softshadow.inspection.pictures import notebook_display
 from softshadow.inspection.soft_reasons import soft_reasons
 from softshadow.inspection.step import sheet_of
-from softshadow.report import CrossSection, cross_section
+from softshadow.report import CrossSection, View3D, cross_section, view3d_of
 from softshadow.runs.archive import RunRecord, read_npz
 from softshadow.runs.saving import save
 from softshadow.scene import Scene
+from softshadow.space import LineOfSight, ShadowGeometry, geometry_of_run, line_of_sight
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,6 +206,47 @@ class Run:
         """
         return cross_section(self.scene, (x, y), self.size, light)
 
+    def geometry(self, light: str | None = None, distance: float | None = None) -> ShadowGeometry:
+        """Return what the technique builds in space: silhouettes, volumes, light frusta, wedges, and the objects.
+
+        Parameters
+        ----------
+        light : str                  name; all lights by default
+        distance : float             as in `shadow_geometry`
+        """
+        return geometry_of_run(self, light, distance)
+
+    def line_of_sight(self, x: int, y: int, light: str | None = None) -> LineOfSight:
+        """Return the line from the eye through a pixel, with the faces of volumes that the technique counts along it.
+
+        Parameters
+        ----------
+        light : str                  name; the first one by default
+
+        Raises
+        ------
+        ValueError                   the pixel is outside the picture, or there is no such light
+        """
+        return line_of_sight(self, x, y, light)
+
+    def view3d(self, x: int | None = None, y: int | None = None, light: str | None = None) -> View3D:
+        """Return a view in three dimensions of the geometry, and of the line of sight of a pixel with its crossings.
+
+        A notebook displays it, and its method `save` writes it as a page.
+
+        Parameters
+        ----------
+        x, y : int                   of the pixel; without them the page begins without one
+        light : str                  name; the first one by default
+
+        Raises
+        ------
+        ValueError                   the pixel is outside the picture, or there is no such light
+        """
+        if (x is None) != (y is None):
+            raise ValueError(f"view3d(x={x}, y={y}): expected both x and y, or neither")
+        return view3d_of(self, None if x is None or y is None else (x, y), light)
+
     @cached_property
     def ledger(self) -> Ledger:
         """Draws, triangles, fragments by verdict and stencil updates of every step; the frame is replayed for it."""
@@ -253,8 +296,8 @@ class Run:
     def save(self, path: str | os.PathLike[str], force: bool = False) -> Path:
         """Write the run to a file or folder, and return the path.
 
-        ``.png`` is the picture, ``.npz`` everything (`load_run` reads it), ``.html`` the report; a folder gets
-        pictures of every step, the GL state of each, and the npz.
+        ``.png`` is the picture, ``.npz`` everything (`load_run` reads it), ``.html`` the report; ``.glb`` and ``.ply``
+        are the `geometry`; a folder gets pictures of every step, the GL state of each, and the npz.
 
         Raises
         ------
@@ -264,6 +307,27 @@ class Run:
         """
         record = RunRecord(self.technique, self.scene, self.options, self.warnings, self.steps, self.frame)
         return save(record, path, force)
+
+    def export(
+        self, buffer: str, path: str | os.PathLike[str], step: int | str | None = None, force: bool = False
+    ) -> Path:
+        """Write one buffer or map to a file, and return the path.
+
+        ``.npz`` holds the array under its name. ``.exr`` holds floats (depth in channel Z) and whole numbers (stencil)
+        exactly, and colours divided by 255. ``.png`` is the picture that reports show: colours and stencil values are
+        exact, depths are stretched to greys.
+
+        Parameters
+        ----------
+        buffer : str                 "color", "depth", "stencil", or the name of a map
+        step : int or str            number or title; by default the last one that has the buffer
+
+        Raises
+        ------
+        ValueError                   another file name extension, no such buffer, or not in this step
+        SoftShadowError              EXR without the package for it, or the file cannot be written; see `save`
+        """
+        return buffer_files.export(self.steps, buffer, path, step, force)
 
     def __repr__(self) -> str:
         width, height = self.size

@@ -1,4 +1,4 @@
-"""Saving a run: as a picture, as an npz, as a report, or as a folder of pictures."""
+"""Saving a run: as a picture, as an npz, as a report, as geometry, or as a folder of pictures."""
 
 from __future__ import annotations
 
@@ -15,8 +15,10 @@ from softshadow.inspection.pictures import depth_picture, map_pictures, save_png
 from softshadow.inspection.step import sheet_of
 from softshadow.report import RunPage, write_run_page
 from softshadow.runs.archive import RunRecord, write_npz
+from softshadow.space import EXTENSIONS as MODELS
+from softshadow.space import geometry_of_run, write_model
 
-EXTENSIONS = (".png", ".npz", ".html")
+EXTENSIONS = (".png", ".npz", ".html", *MODELS)
 
 
 def save(run: RunRecord, path: str | os.PathLike[str], force: bool) -> Path:
@@ -50,6 +52,9 @@ def write_file(run: RunRecord, path: Path) -> None:
         save_png(run.steps[-1].image, path)
     elif extension == ".npz":
         write_npz(run, path)
+    elif extension in MODELS:
+        geometry = geometry_of_run(run)
+        write_model(geometry.pieces, geometry.scene, path)
     else:
         ledger = ledger_of(run.frame)
         write_run_page(

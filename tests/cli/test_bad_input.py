@@ -126,7 +126,7 @@ def test_real_bad_model_is_refused_in_one_line_or_drawn_with_a_named_warning(fil
         (["tour", "--size", "0x9"], "size=(0, 9): expected a width from 1 to 16384 pixels"),
         (["pixel", "map", "16", "0", "--size", "16x12"], "x=16: expected a whole number from 0 to 15"),
         (["pixel", "map", "0", "12", "--size", "16x12"], "y=12: expected a whole number from 0 to 11"),
-        (["render", "map", "-o", "a.gif"], "a.gif: expected an ending of .png, .npz, .html, or a folder"),
+        (["render", "map", "-o", "a.gif"], "a.gif: expected an ending of .png, .npz, .html, .glb, .ply, or a folder"),
         (["render", "map", "-o", "no/a.png"], "no/a.png: the folder no does not exist"),
         (["tour", "-o", "no/tour"], "no/tour: the folder no does not exist"),
     ],
