@@ -19,6 +19,8 @@ import click
 import softshadow
 from softshadow.cli.arguments import examples
 from softshadow.cli.bench import bench
+from softshadow.cli.cards import cards
+from softshadow.cli.exports import export, view3d
 from softshadow.cli.failures import failures
 from softshadow.cli.listings import listings
 from softshadow.cli.lists import scenes, techniques
@@ -96,7 +98,8 @@ def main(traceback: bool) -> None:
 
 
 for command in (
-    tour, render, steps, pixel, section, compare, techniques, scenes, listings, failures, bench, warmup, doctor,
+    tour, render, steps, pixel, section, view3d, export, cards, compare, techniques, scenes, listings, failures, bench,
+    warmup, doctor,
 ):  # fmt: skip
     main.add_command(command)
 

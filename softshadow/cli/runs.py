@@ -52,7 +52,10 @@ def _about(run: Run) -> dict[str, Any]:
 @scene_arguments("640x480")
 @technique_options
 @click.option(
-    "-o", "--output", metavar="OUT", help="A .png, .html or .npz file, or a folder/.  [default: TECHNIQUE.png]"
+    "-o",
+    "--output",
+    metavar="OUT",
+    help="A .png, .html, .npz, .glb or .ply file, or a folder/.  [default: TECHNIQUE.png]",
 )
 @click.option(
     "--explain-path", is_flag=True, help="Also print which way every draw went through the pipeline, and why."
@@ -65,8 +68,8 @@ def render(
 ) -> None:  # fmt: skip
     """Draw a scene with a technique and write the result.
 
-    The suffix of OUT selects the result: an image (.png), a report (.html), all buffers (.npz), or a folder with an
-    image of every step.
+    The suffix of OUT selects the result: an image (.png), a report (.html), all buffers (.npz), the geometry of the
+    shadows (.glb, .ply), or a folder with an image of every step.
     """
     from softshadow.pipeline import explain_paths
     from softshadow.runs.saving import check_path

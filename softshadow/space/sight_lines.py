@@ -18,6 +18,7 @@ from softshadow.scene import Light, Scene
 from softshadow.space.shadow_parts import DrawnRun, light_named
 
 COUNTERS = (gl.GL_INCR, gl.GL_DECR, gl.GL_INCR_WRAP, gl.GL_DECR_WRAP, gl.GL_INVERT)
+REACHED = ("passed", "depth failed")  # verdicts of fragments that the depth test has decided
 # techniques whose stencil counts the volumes of each light once; what others draw is not counted, or for many points
 COUNTING = ("volume-zpass", "volume-zpass-plus", "volume-zfail", "volume-parity")
 
@@ -123,8 +124,9 @@ def line_of_sight(run: DrawnRun, x: int, y: int, light: str | None = None) -> Li
     own = _steps_of(run, source)
     found: list[tuple[HistoryRow, FaceCrossing]] = []
     for row in rows:
-        if row.step in own and row.draw is not None and _counter(draws[row.draw], row) is not None:
-            found.append((row, _crossing(row, draws[row.draw], scene, sight)))
+        reached = row.draw is not None and row.verdict in REACHED  # neither culled nor clipped
+        if reached and row.step in own and _counter(_draw_of(row, draws), row) is not None:
+            found.append((row, _crossing(row, _draw_of(row, draws), scene, sight)))
     counted = [(row, crossing) for row, crossing in found if _is_counted(row, draws)]
     last = max(own)
     end = int(run.steps[last].stencil[y, x])
@@ -138,11 +140,7 @@ def line_of_sight(run: DrawnRun, x: int, y: int, light: str | None = None) -> Li
         values = _mask(draws, row) + 1
         count = (count ^ 1) if inverts else (count + crossing.change) % values
         crossings.append(_with_count(crossing, count))
-    others = [
-        _with_count(crossing, None)
-        for row, crossing in found
-        if row.verdict != "culled" and not _is_counted(row, draws)
-    ]
+    others = [_with_count(crossing, None) for row, crossing in found if not _is_counted(row, draws)]
     return LineOfSight(
         x, y, source.name, eye, near_point, point, start, tuple(crossings),
         tuple(sorted(others, key=lambda each: each.z)), end, inverts,
@@ -174,6 +172,11 @@ def _steps_of(run: DrawnRun, light: Light) -> set[int]:
     return {index for index in steps if run.steps[index].title.endswith(f": {light.name}")}
 
 
+def _draw_of(row: HistoryRow, draws: list[Draw]) -> Draw:
+    assert row.draw is not None
+    return draws[row.draw]
+
+
 def _counter(draw: Draw, row: HistoryRow) -> tuple[int, int] | None:
     """Return the stencil operations of a face where the depth test fails and passes; None if it does not count.
 
@@ -188,16 +191,14 @@ def _counter(draw: Draw, row: HistoryRow) -> tuple[int, int] | None:
 
 
 def _is_counted(row: HistoryRow, draws: list[Draw]) -> bool:
-    assert row.draw is not None
-    ops = _counter(draws[row.draw], row)
+    ops = _counter(_draw_of(row, draws), row)
     assert ops is not None
     return (row.verdict == "depth failed" and ops[0] in COUNTERS) or (row.verdict == "passed" and ops[1] in COUNTERS)
 
 
 def _mask(draws: list[Draw], row: HistoryRow) -> int:
     """Return the bits of the stencil value that a row may change."""
-    assert row.draw is not None
-    return draws[row.draw].state.stencil.front.write_mask
+    return _draw_of(row, draws).state.stencil.front.write_mask
 
 
 def _crossing(row: HistoryRow, draw: Draw, scene: Scene, sight: Sight) -> FaceCrossing:

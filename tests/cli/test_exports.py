@@ -1,0 +1,48 @@
+"""``export`` and ``view3d``: the files that they write, and what they print."""
+
+import numpy as np
+import pytest
+import trimesh
+
+from cli.invocation import error_of, invoke, invoke_ok, json_of
+
+SMALL = ["--scene", "boxes", "--size", "48x36"]
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_export_writes_the_buffer_of_a_step(here):
+    assert invoke_ok("export", "volume-zfail", "stencil", *SMALL, "--step", "1").stdout == "stencil.npz\n"
+    with np.load(here / "stencil.npz") as stored:
+        assert stored["stencil"].max() == 2
+    told = json_of("export", "map", "ZS", *SMALL, "-o", "map.exr", "-O", "map_size=32")
+    assert (told["written"], told["buffer"], told["technique"]) == ("map.exr", "ZS", "map")
+    invoke_ok("export", "volume-zfail", "depth", *SMALL, "--step", "count back faces", "-o", "depth.png")
+
+
+def test_export_tells_what_was_wrong():
+    assert "did you mean 'stencil'" in error_of("export", "volume-zfail", "stencl", *SMALL)
+    assert "expected a name that ends in .npz" in error_of("export", "volume-zfail", "depth", "-o", "a.tif")
+    assert "--step '9': step 9: there are 4" in error_of("export", "volume-zfail", "depth", *SMALL, "--step", "9")
+    assert "did you mean" in error_of("export", "volume-zfail", "depth", *SMALL, "--step", "count back face")
+
+
+def test_view3d_writes_a_page_and_prints_the_count(here):
+    lines = invoke_ok("view3d", "volume-zpass", 32, 17, *SMALL).stdout.splitlines()
+    assert lines[0] == "pixel 32, 17, light light: the count starts from 0"
+    assert lines[-1] == "volume-zpass-3d.html"
+    told = json_of("view3d", "volume-zpass", 32, 17, *SMALL, "--of-light", "light")
+    assert len(told["crossings"]) == len(lines) - 2
+    assert invoke_ok("view3d", "map", *SMALL, "-o", "map.glb").stdout == "map.glb\n"
+    assert "frustum/light" in trimesh.load_scene(here / "map.glb").geometry
+    assert invoke("view3d", "map", 3, *SMALL).exit_code == 2
+
+
+def test_render_writes_geometry(here):
+    assert invoke_ok("render", "volume-zfail", *SMALL, "-o", "volume.glb").stdout == "volume.glb\n"
+    assert "volume/light/tower/sides" in trimesh.load_scene(here / "volume.glb").geometry
+    invoke_ok("render", "volume-zfail", *SMALL, "-o", "volume.ply")
