@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from softshadow.inspection.pictures import stencil_palette
     from softshadow.inspection.soft_truth import SoftTruth, soft_truth
     from softshadow.pipeline import explain_paths, set_threads, use_short_cuts
-    from softshadow.report import cross_section
+    from softshadow.report import counting_cards, cross_section
     from softshadow.runs import Run, load_run, run
     from softshadow.scene import (
         Camera,
@@ -91,6 +91,7 @@ __all__ = [
     "TJunction",
     "UnweldedMesh",
     "Warning",
+    "counting_cards",
     "cross_section",
     "describe",
     "explain_paths",
@@ -121,7 +122,7 @@ _HOMES = {
     "softshadow.inspection.pictures": ("stencil_palette",),
     "softshadow.inspection.soft_truth": ("SoftTruth", "soft_truth"),
     "softshadow.pipeline": ("explain_paths", "set_threads", "use_short_cuts"),
-    "softshadow.report": ("cross_section",),
+    "softshadow.report": ("counting_cards", "cross_section"),
     "softshadow.runs": ("Run", "load_run", "run"),
     "softshadow.scene": (
         "Camera", "Disc", "Light", "Material", "Mesh", "Rectangle", "Scene", "SceneObject", "Segment", "Sphere",

@@ -3,7 +3,9 @@
 Pages load nothing from the network: styles and script are in them, and pictures too, or in a folder beside the page.
 """
 
+from softshadow.report.card_choice import CountingCards, counting_cards
 from softshadow.report.commands import options_spelled, scene_spelled
+from softshadow.report.counting_card import CountingCard
 from softshadow.report.cross_section_svg import save_svg, svg_of
 from softshadow.report.cross_sections import Crossing, CrossSection, cross_section
 from softshadow.report.failure_page import FailurePage, write_failure_page
@@ -15,6 +17,8 @@ from softshadow.report.view3d import View3D, view3d_document, view3d_of
 CrossSection._repr_svg_ = svg_of  # type: ignore[method-assign]
 
 __all__ = [
+    "CountingCard",
+    "CountingCards",
     "CrossSection",
     "Crossing",
     "FailurePage",
@@ -23,6 +27,7 @@ __all__ = [
     "TourPage",
     "View3D",
     "Visit",
+    "counting_cards",
     "cross_section",
     "folder_writer",
     "named",

@@ -46,3 +46,13 @@ def test_render_writes_geometry(here):
     assert invoke_ok("render", "volume-zfail", *SMALL, "-o", "volume.glb").stdout == "volume.glb\n"
     assert "volume/light/tower/sides" in trimesh.load_scene(here / "volume.glb").geometry
     invoke_ok("render", "volume-zfail", *SMALL, "-o", "volume.ply")
+
+
+def test_cards_are_written_and_their_answers_told(here):
+    arguments = ["cards", "volume-zfail", "--scene", "boxes", "--size", "96x72", "-n", "2"]
+    assert invoke_ok(*arguments).stdout == "cards.pdf\n"
+    told = json_of(*arguments, "--seed", "3", "-o", "cards.png")
+    assert told["written"] == "cards.png"
+    assert len(told["cards"]) == 2
+    assert all(card["stencil"] == [0, *card["counts"]][-1] for card in told["cards"])
+    assert "counts no faces" in error_of("cards", "map", "--size", "48x36")

@@ -143,7 +143,7 @@ def test_run_save_writes_glb_and_ply(tmp_path):
     file = loaded(run.save(tmp_path / "volume.glb"))
     assert set(file.geometry) == set(run.geometry().names)
     ply = run.save(tmp_path / "volume.ply")
-    mesh = trimesh.load(ply)
+    mesh = trimesh.load_mesh(ply)
     surfaces = [piece for piece in run.geometry() if isinstance(piece, Surface)]
     assert len(mesh.faces) == sum(len(piece.triangles) for piece in surfaces)
     assert b"comment piece 0: receiver/floor" in ply.read_bytes()[:4096]
@@ -185,4 +185,4 @@ def test_names_with_odd_characters_survive(tmp_path):
         scene = Scene("odd", plain.camera, [light], plain.objects)
         geometry = shadow_geometry(scene)
     assert f"silhouette/{light.name}/cube" in loaded(geometry.save(tmp_path / "a.glb")).geometry
-    assert len(trimesh.load(geometry.save(tmp_path / "a.ply")).faces)
+    assert len(trimesh.load_mesh(geometry.save(tmp_path / "a.ply")).faces)
