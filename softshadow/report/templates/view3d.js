@@ -76,6 +76,8 @@
 
   function ball(place, color, radius = view.marker) {
     const mesh = new THREE.Mesh(new THREE.SphereGeometry(radius * size, 16, 12), plain(color));
+    Object.assign(mesh.material, {transparent: true, depthTest: false});  // seen through what stands before it
+    mesh.renderOrder = 1;
     mesh.position.copy(vector(place));
     sight.add(mesh);
   }
@@ -94,7 +96,7 @@
     sprite.scale.set(LABEL * canvas.width / canvas.height, LABEL, 1);
     sprite.center.set(0.5, -0.4 - 1.05 * row);  // labels of neighbouring crossings stand one above the other
     sprite.position.copy(vector(place));
-    sprite.renderOrder = 1;
+    sprite.renderOrder = 2;
     sight.add(sprite);
   }
 
