@@ -93,8 +93,8 @@ def shadow_geometry(
     --------
     >>> import softshadow as ss
     >>> geometry = ss.shadow_geometry("boxes")
-    >>> geometry.names[-4:]
-    ['silhouette/lamp/gate', 'volume/lamp/gate/sides', 'volume/lamp/gate/light cap', 'volume/lamp/gate/dark cap']
+    >>> geometry.names[-3:]
+    ['volume/light/block/sides', 'volume/light/block/light cap', 'volume/light/block/dark cap']
     """
     scene = Scene.named(scene) if isinstance(scene, str) else scene
     for part in parts:

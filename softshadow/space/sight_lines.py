@@ -7,7 +7,7 @@ the surface where passing fragments are counted, from infinity to the surface wh
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,7 +17,8 @@ from softshadow.pipeline.commands import Draw
 from softshadow.scene import Light, Scene
 from softshadow.space.shadow_parts import DrawnRun, light_named
 
-COUNTERS = (gl.GL_INCR, gl.GL_DECR, gl.GL_INCR_WRAP, gl.GL_DECR_WRAP, gl.GL_INVERT)
+# stencil operations that count, and what they change; GL_INVERT turns a parity round
+COUNTERS = {gl.GL_INCR: 1, gl.GL_DECR: -1, gl.GL_INCR_WRAP: 1, gl.GL_DECR_WRAP: -1, gl.GL_INVERT: 1}
 REACHED = ("passed", "depth failed")  # verdicts of fragments that the depth test has decided
 # techniques whose stencil counts the volumes of each light once; what others draw is not counted, or for many points
 COUNTING = ("volume-zpass", "volume-zpass-plus", "volume-zfail", "volume-parity")
@@ -126,21 +127,23 @@ def line_of_sight(run: DrawnRun, x: int, y: int, light: str | None = None) -> Li
     for row in rows:
         reached = row.draw is not None and row.verdict in REACHED  # neither culled nor clipped
         if reached and row.step in own and _counter(_draw_of(row, draws), row) is not None:
-            found.append((row, _crossing(row, _draw_of(row, draws), scene, sight)))
-    counted = [(row, crossing) for row, crossing in found if _is_counted(row, draws)]
+            found.append((row, _crossing(row, draws, scene, sight)))
+    counted = [(row, crossing) for row, crossing in found if _operation(row, draws) in COUNTERS]
     last = max(own)
     end = int(run.steps[last].stencil[y, x])
-    start = counted[0][0].stencil_before & _mask(draws, counted[0][0]) if counted else end
+    # the highest bit may be a mark, which the counters leave alone
+    largest = _draw_of(counted[0][0], draws).state.stencil.front.write_mask if counted else 0xFF
+    largest &= 2**frame.stencil_bits - 1
+    start = counted[0][0].stencil_before & largest if counted else end
     inverts = run.technique == "volume-parity"
     # passing fragments from the eye on, then failing ones from infinity on
     passed = sorted((pair for pair in counted if pair[0].verdict == "passed"), key=lambda pair: pair[1].z)
     failed = sorted((pair for pair in counted if pair[0].verdict != "passed"), key=lambda pair: -pair[1].z)
     crossings, count = [], start
-    for row, crossing in passed + failed:
-        values = _mask(draws, row) + 1
-        count = (count ^ 1) if inverts else (count + crossing.change) % values
-        crossings.append(_with_count(crossing, count))
-    others = [_with_count(crossing, None) for row, crossing in found if not _is_counted(row, draws)]
+    for _, crossing in passed + failed:
+        count = (count ^ 1) if inverts else (count + crossing.change) % (largest + 1)
+        crossings.append(replace(crossing, count=count))
+    others = [replace(crossing, change=0) for row, crossing in found if _operation(row, draws) not in COUNTERS]
     return LineOfSight(
         x, y, source.name, eye, near_point, point, start, tuple(crossings),
         tuple(sorted(others, key=lambda each: each.z)), end, inverts,
@@ -190,18 +193,15 @@ def _counter(draw: Draw, row: HistoryRow) -> tuple[int, int] | None:
     return ops if (ops[0] in COUNTERS) != (ops[1] in COUNTERS) else None
 
 
-def _is_counted(row: HistoryRow, draws: list[Draw]) -> bool:
+def _operation(row: HistoryRow, draws: list[Draw]) -> int:
+    """Return the stencil operation that a fragment has caused."""
     ops = _counter(_draw_of(row, draws), row)
     assert ops is not None
-    return (row.verdict == "depth failed" and ops[0] in COUNTERS) or (row.verdict == "passed" and ops[1] in COUNTERS)
+    return ops[row.verdict == "passed"]
 
 
-def _mask(draws: list[Draw], row: HistoryRow) -> int:
-    """Return the bits of the stencil value that a row may change."""
-    return _draw_of(row, draws).state.stencil.front.write_mask
-
-
-def _crossing(row: HistoryRow, draw: Draw, scene: Scene, sight: Sight) -> FaceCrossing:
+def _crossing(row: HistoryRow, draws: list[Draw], scene: Scene, sight: Sight) -> FaceCrossing:
+    draw = _draw_of(row, draws)
     caster = next(thing for thing in scene.casters if thing.name == row.object)
     assert row.triangle is not None
     assert row.z is not None
@@ -213,14 +213,9 @@ def _crossing(row: HistoryRow, draw: Draw, scene: Scene, sight: Sight) -> FaceCr
     else:
         part = "dark cap"
     quads = draw.mode == gl.GL_QUADS
-    change = row.stencil_after - row.stencil_before
-    if abs(change) > 1:  # the counter wrapped
-        change = -1 if change > 0 else 1
+    # a counter that has stopped at its largest value, or at 0, changes nothing
+    change = COUNTERS.get(_operation(row, draws), 0) if row.stencil_after != row.stencil_before else 0
     return FaceCrossing(
         sight.place(row.z), change, None, row.object, part, row.triangle // 2 if quads else row.triangle,
         bool(row.front_facing), row.z, row.title,
     )  # fmt: skip
-
-
-def _with_count(crossing: FaceCrossing, count: int | None) -> FaceCrossing:
-    return FaceCrossing(**{**vars(crossing), "count": count, "change": crossing.change if count is not None else 0})

@@ -4,9 +4,12 @@ import warnings
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import softshadow as ss
 from softshadow.space import line_of_sight
+from strategies import floor_scenes
 
 SIZE = (96, 72)
 VARIANTS = [
@@ -16,7 +19,10 @@ VARIANTS = [
     ("volume-zpass", "eye-in-shadow", {"start": "preload"}),
     ("volume-zpass", "eye-in-shadow", {"start": "eye"}),
     ("volume-zpass-plus", "eye-in-shadow", {}),
+    ("volume-zpass", "torus", {"two_sided": True, "ops": "saturate"}),
+    ("volume-zpass", "eye-in-shadow", {"stencil_bits": 1}),
     ("volume-zfail", "torus", {}),
+    ("volume-zfail", "overlapping", {"stencil_bits": 2, "ops": "saturate"}),
     ("volume-zfail", "overlapping", {"generator": "per-polygon"}),
     ("volume-zfail", "sunlight", {"far": "clamp"}),
     ("volume-zfail", "open-tube", {"far": "finite"}),
@@ -49,8 +55,23 @@ def test_the_count_along_the_line_is_the_stencil_value(technique, scene, options
             assert count == line.end == stencil[y, x], (light.name, x, y)
             counted += len(line.crossings)
             steps = np.diff([line.start, *(each.count for each in line.crossings)])
-            assert line.inverts or (steps % 256 == np.array([each.change for each in line.crossings]) % 256).all()
+            values = 2 ** options.get("stencil_bits", 8)
+            changes = np.array([each.change for each in line.crossings], int)
+            assert line.inverts or not ((steps - changes) % values).any()
     assert counted
+
+
+@settings(max_examples=12)
+@given(floor_scenes(), st.sampled_from(["volume-zpass", "volume-zfail"]), st.randoms(use_true_random=False))
+def test_the_count_is_the_stencil_value_in_random_scenes(scene, technique, random):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ss.Warning)
+        run = ss.run(technique, scene, (32, 24))
+    light = scene.lights[-1].name
+    for _ in range(10):
+        x, y = random.randrange(32), random.randrange(24)
+        line = run.line_of_sight(x, y, light)
+        assert (line.crossings[-1].count if line.crossings else line.start) == line.end == run.stencil[y, x]
 
 
 @pytest.mark.parametrize("technique", ["volume-zpass", "volume-zfail"])
