@@ -1,7 +1,8 @@
 """The command line: ``softshadow COMMAND``. Results go to stdout, messages to stderr.
 
-Exit codes: 0 success, 1 a check failed, 2 wrong usage, 3 bad input, 130 interrupted, 143 ended by SIGTERM. Modules that
-are slow to import are imported inside the commands, so that ``--help`` is fast.
+Exit codes: 0 success, 1 a check failed, 2 wrong usage (a word of the command line), 3 bad input (a file, a folder, a
+scene that the technique cannot draw), 130 interrupted, 143 ended by SIGTERM. Modules that are slow to import are
+imported inside the commands, so that ``--help`` is fast.
 """
 
 from __future__ import annotations
@@ -20,17 +21,18 @@ import softshadow
 from softshadow.cli.arguments import examples
 from softshadow.cli.bench import bench
 from softshadow.cli.cards import cards
+from softshadow.cli.compare import compare
+from softshadow.cli.console import say, say_marked
 from softshadow.cli.exports import export, view3d
 from softshadow.cli.failures import failures
 from softshadow.cli.listings import listings
 from softshadow.cli.lists import scenes, techniques
 from softshadow.cli.machine import doctor, warmup
 from softshadow.cli.runs import pixel, render, section, steps
-from softshadow.cli.soft import compare
 from softshadow.cli.tours import tour
 from softshadow.errors import SoftShadowError
 
-BAD_INPUT, INTERRUPTED, TERMINATED = 3, 130, 143
+WRONG_USAGE, BAD_INPUT, INTERRUPTED, TERMINATED = 2, 3, 130, 143
 OPTION_NAMES = {"force=True": "--force"}  # Python arguments in error messages, and the options they correspond to
 
 
@@ -40,26 +42,59 @@ class InputError(click.ClickException):
     exit_code = BAD_INPUT
 
     def show(self, file: Any = None) -> None:
-        """Print the message in the form of all other errors."""
-        click.echo(f"error: {self.message}", err=True)
+        """Print the message."""
+        say_marked("error", self.message)
+
+
+class UsageError(InputError):
+    """Wrong usage, reported with the command whose help explains it."""
+
+    exit_code = WRONG_USAGE
+
+    def __init__(self, message: str, command: str) -> None:
+        super().__init__(message)
+        self.command = command
+
+    def show(self, file: Any = None) -> None:
+        """Print the message."""
+        super().show(file)
+        say(f"help: {self.command} --help")
 
 
 class CommandGroup(click.Group):
-    """The group of all commands; errors caused by the user's input become one line and an exit code."""
+    """The group of all commands; errors caused by the user become one line and an exit code."""
+
+    def make_context(self, info_name: str | None, args: list[str], *more: Any, **extra: Any) -> click.Context:
+        """Read the arguments before the command."""
+        try:
+            return super().make_context(info_name, args, *more, **extra)
+        except click.exceptions.NoArgsIsHelpError:
+            raise
+        except click.UsageError as error:
+            raise UsageError(error.format_message(), info_name or "softshadow") from None
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run the command; print errors of this package as one line, with their exit code."""
+        """Run the command; print errors of its arguments and of this package as one line, with their exit code."""
         try:
             with exit_on_sigterm():
                 return super().invoke(ctx)
+        except click.UsageError as error:
+            command = error.ctx.command_path if error.ctx else _command_path(ctx)
+            raise UsageError(error.format_message(), command) from None
         except (SoftShadowError, ValueError, TypeError, OSError, MemoryError) as error:
             # EPIPE: the reader, such as head, has closed the pipe; click then ends silently
             if ctx.params.get("traceback") or getattr(error, "errno", None) == errno.EPIPE:
                 raise
+            if isinstance(error, ValueError | TypeError):
+                raise UsageError(_message(error), _command_path(ctx)) from None
             raise InputError(_message(error)) from None
         except KeyboardInterrupt:
-            click.echo("interrupted", err=True)
+            say("interrupted")
             raise click.exceptions.Exit(INTERRUPTED) from None
+
+
+def _command_path(ctx: click.Context) -> str:
+    return " ".join(filter(None, (ctx.command_path, ctx.invoked_subcommand)))
 
 
 @contextmanager
@@ -89,7 +124,11 @@ def _message(error: BaseException) -> str:
 @click.group(
     cls=CommandGroup,
     context_settings={"help_option_names": ["-h", "--help"]},
-    epilog=examples("softshadow tour", "softshadow pixel volume-zfail 160 170 --size 320x240"),
+    epilog=examples(
+        "softshadow tour",
+        "softshadow render volume-zfail --scene boxes",
+        "softshadow pixel volume-zfail 160 170 --size 320x240",
+    ),
 )
 @click.version_option(softshadow.__version__, "-V", "--version", prog_name="softshadow")
 @click.option("--traceback", is_flag=True, help="Show the Python traceback of an error, for a bug report.")

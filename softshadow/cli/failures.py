@@ -7,51 +7,60 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from softshadow.cli.arguments import Size, as_json, examples, force
-from softshadow.cli.console import print_json, say, say_if_compiling, table
+from softshadow.cli.arguments import Size, as_json, check_opened, examples, force, open_file, output_option
+from softshadow.cli.console import print_json, say_if_compiling, say_written, show, table
+from softshadow.cli.names import FailureName
 
 if TYPE_CHECKING:
     from softshadow.gallery import Failure
 
 
-@click.command(epilog=examples("softshadow failures", "softshadow failures mask-1 -o mask-1.png"))
-@click.argument("name", required=False)
-@click.option("--numbers", is_flag=True, help="Draw all failures, and list the numbers of wrong pixels.")
-@click.option("--size", type=Size(), default="240x180", show_default=True, help="Size of each image in pixels.")
-@click.option(
-    "-o", "--output", metavar="OUT", help="Write both images side by side (.png), or the description as a page (.html)."
+@click.command(
+    epilog=examples(
+        "softshadow failures",
+        "softshadow failures mask-1 -o mask-1.png",
+        "softshadow failures mask-1 --numbers",
+    )
 )
+@click.argument("name", type=FailureName(), metavar="[FAILURE]", required=False)
+@click.option("--numbers", is_flag=True, help="Draw all failures, or the named one, and list the wrong pixels.")
+@click.option("--size", type=Size(), default="240x180", show_default=True, help="Size of each image in pixels.")
+@output_option("Write both images side by side (.png), or the description as a page (.html).")
+@open_file
 @force
 @as_json
 def failures(
-    name: str | None, numbers: bool, size: tuple[int, int], output: str | None, force: bool, as_json: bool
-) -> None:
-    """List known failures, or show one next to its cure."""
+    name: str | None, numbers: bool, size: tuple[int, int], output: str | None, opened: bool, force: bool,
+    as_json: bool,
+) -> None:  # fmt: skip
+    """List known failures, or show one next to its cure.
+
+    With --numbers, only the numbers of wrong pixels are printed, of one failure or of all.
+    """
     from softshadow import failures as gallery
 
-    if name is None:
-        if output:
-            raise click.UsageError("--output: expected the NAME of a failure")
-        _list([failure.at(size) for failure in gallery.values()], numbers, as_json)
+    check_opened(opened, output)
+    if output and (name is None or numbers):
+        raise click.UsageError("--output: expected the name of a FAILURE, and no --numbers")
+    if name is None or numbers:
+        chosen = list(gallery.values()) if name is None else [gallery[name]]
+        _list([failure.at(size) for failure in chosen], numbers, as_json)
         return
-    if name not in gallery:
-        from softshadow.errors import nearest
-
-        raise ValueError(f"unknown failure {name!r}: {nearest(name, gallery)}")
     failure = gallery[name].at(size)
     if output:
         _refuse(output, force)
     say_if_compiling()
     if output:
         _write(failure, output, force)
-        say(f"written: {output}")
+        say_written(output, opened=opened)
     if as_json:
         histories = {side: run.pixel(*failure.pixel).to_dicts() for side, run in _sides(failure)}
         print_json("failures", written=output, size=size, history=histories, failures=[_with_numbers(failure)])
         return
-    click.echo(failure.explain())
+    show(failure.explain())
     for side, run in _sides(failure):
-        click.echo(f"\n{side}, {run.pixel(*failure.pixel)}")
+        click.echo(f"\n{side}:")
+        show(run.pixel(*failure.pixel))
 
 
 def _sides(failure: Failure) -> list[tuple[str, Any]]:

@@ -7,89 +7,151 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from softshadow.cli.arguments import Size, as_json, examples, force
-from softshadow.cli.console import CHECK_FAILED, print_json, say, say_if_compiling, table
+from softshadow.cli.arguments import (
+    Pixel,
+    Size,
+    as_json,
+    check_opened,
+    examples,
+    force,
+    open_file,
+    output_option,
+)
+from softshadow.cli.console import CHECK_FAILED, print_json, say_if_compiling, say_written, show, show_code, table
+from softshadow.cli.names import ListingName
+from softshadow.cli.runs import print_steps, stencil_histograms, step_facts
 
 if TYPE_CHECKING:
-    import numpy as np
-
     from softshadow.inspection.history import PixelHistory
     from softshadow.listings import Listing
-    from softshadow.testing import BufferDifference, ProgramResult
+    from softshadow.runs import Run
+    from softshadow.testing import BufferDifference
 
 
 @click.command(
-    epilog=examples("softshadow listings", "softshadow listings volume-zpass --printed -o zpass-as-printed.png")
+    epilog=examples(
+        "softshadow listings",
+        "softshadow listings volume-zpass",
+        "softshadow listings volume-zpass --printed -o zpass-as-printed.png",
+        "softshadow listings planar-stencil --pixel 60,80",
+    )
 )
-@click.argument("name", required=False)
+@click.argument("name", type=ListingName(), metavar="[LISTING]", required=False)
 @click.option("--printed", is_flag=True, help="Run it as printed on the slide, without corrections.")
+@click.option("--pixel", type=Pixel(), help="Print the history of a pixel: X from the left, Y from the top.")
 @click.option("--on", type=click.Choice(["mesa"]), help="Run it on Mesa as well, and show the first different pixel.")
 @click.option("--size", type=Size(), default="128x128", show_default=True, help="Window size in pixels.")
-@click.option(
-    "-o", "--output", metavar="OUT", help="A .png file, or a folder/ with one image per buffer.  [default: NAME.png]"
-)
+@output_option("Write the buffers after each step as one .png, or into a folder/ with state and buffers.")
+@open_file
 @force
 @as_json
 @click.pass_context
 def listings(
-    context: click.Context, name: str | None, printed: bool, on: str | None, size: tuple[int, int],
-    output: str | None, force: bool, as_json: bool,
+    context: click.Context, name: str | None, printed: bool, pixel: tuple[int, int] | None, on: str | None,
+    size: tuple[int, int], output: str | None, opened: bool, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
-    """List the course's GL listings, or run one.
+    """List the course's GL listings, or show one: its code, its steps, and the effect of its corrections.
 
-    It writes the buffers as an image, and prints the effect of the corrections.
+    The numbers before each line of the code are the steps that execute it, and its line in the file.
     """
     from softshadow import listings as registry
-    from softshadow import testing
 
+    check_opened(opened, output)
     if name is None:
-        if printed or on or output:
-            raise click.UsageError("--printed, --on and --output: expected the NAME of a listing")
+        if printed or on or output or pixel:
+            raise click.UsageError("--printed, --pixel, --on and --output: expected the name of a LISTING")
         _list([registry.get(each) for each in registry.names()], as_json)
         return
     listing = registry.get(name)
-    target = output or f"{name}{'-printed' if printed else ''}.png"
-    _refuse(target, force)
+    if output:
+        _refuse(output, force)
     say_if_compiling()
-    program = listing.printed if printed else listing.corrected
-    result, frame = testing.run_recorded(program, size)
-    differences = testing.differences(result, testing.run_on_mesa(program, size)) if on else ()
-    history = testing.history_of_first(frame, differences)
-    corrected, histories = _effect_of_corrections(listing, size)
-    _write(target, result, force)
-    pixels = _stencil_histogram(result.stencil)
+    run = _run(listing, printed, size)
+    differences, first = _on_mesa(listing, printed, size) if on else ((), None)
     if as_json:
-        print_json(
-            "listings", written=target, printed=printed, size=size, stencil_counts=pixels, on=on,
-            differences=[vars(each) for each in differences], history=history.to_dicts() if history else [],
-            correcting=[vars(each) for each in corrected], **_about(listing),
-        )  # fmt: skip
+        history = run.pixel(*pixel) if pixel else None
+        _print_json(listing, run, printed, on, differences, first, history, output)
+    elif pixel:
+        show(run.pixel(*pixel))
     else:
-        say(f"{listing.title} ({listing.slide}), {'as printed' if printed else 'as corrected'}; written: {target}")
-        table("Stencil buffer", ["stencil", "pixels"], [[value, str(number)] for value, number in pixels.items()])
-        _print_corrections(listing, corrected, histories)
-        if on:
-            click.echo("\n".join(map(str, differences)) or "no pixel differs on Mesa")
-        if history:
-            click.echo(history)
+        _print(listing, run, printed)
+    if on and not as_json:
+        click.echo("\n".join(map(str, differences)) or "no pixel differs on Mesa")
+        if first:
+            show(first)
+    if output:
+        say_written(_write(output, run, force), opened=opened)
     if differences:
         context.exit(CHECK_FAILED)
 
 
-def _print_corrections(
-    listing: Listing, corrected: tuple[BufferDifference, ...], histories: list[PixelHistory]
-) -> None:
-    """Print the corrections, the number of pixels they change, and both histories of the first such pixel."""
+def _run(listing: Listing, printed: bool, size: tuple[int, int]) -> Run:
+    from softshadow.gallery.course_stage import listing_scene, listing_technique
+    from softshadow.gallery.expected import without_warnings
+    from softshadow.runs import run
+
+    with without_warnings():
+        return run(listing_technique(listing, () if printed else listing.corrections), listing_scene(listing), size)
+
+
+def _on_mesa(
+    listing: Listing, printed: bool, size: tuple[int, int]
+) -> tuple[tuple[BufferDifference, ...], PixelHistory | None]:
+    """Return the differences from Mesa, and the history of the first different pixel."""
+    from softshadow import testing
+
+    program = listing.printed if printed else listing.corrected
+    result, frame = testing.run_recorded(program, size)
+    differences = testing.differences(result, testing.run_on_mesa(program, size))
+    return differences, testing.history_of_first(frame, differences)
+
+
+# -- output ------------------------------------------------------------------------------------------------------------
+def _print(listing: Listing, run: Run, printed: bool) -> None:
+    from softshadow.listings.source import code_of
+
+    version = "as printed" if printed else "as corrected" if listing.corrections else "nothing to correct"
+    show(f"{listing.name}: {listing.title} ({listing.slide}), {version}")
+    for excerpt in code_of(listing, () if printed else None):
+        click.echo()
+        show_code(
+            f"{excerpt.file}: {excerpt.function}",
+            [(" ".join(map(str, line.steps)), line.number, line.text) for line in excerpt.lines],
+        )
+    click.echo()
+    print_steps(run)
     if not listing.corrections:
-        click.echo("\nno corrections")
         return
-    click.echo("")
+    click.echo()
     table("Corrections", ["number", "correction"], [list(each) for each in listing.corrections.items()])
+    changed, pixel = _effect_of_corrections(listing, run.size)
     click.echo("\nas printed and as corrected:")
-    click.echo("\n".join(map(str, corrected)) or "no pixel differs")
-    for which, history in zip(("as printed", "as corrected"), histories, strict=False):
-        click.echo(f"\n{which}, {history}")
-    click.echo("")
+    click.echo("\n".join(map(str, changed)) or "no pixel differs")
+    for which, as_printed in (("as printed", True), ("as corrected", False)):
+        if pixel:
+            click.echo(f"\n{which}:")
+            show(_run(listing, as_printed, run.size).pixel(*pixel))
+
+
+def _print_json(
+    listing: Listing, run: Run, printed: bool, on: str | None, differences: tuple[BufferDifference, ...],
+    first: PixelHistory | None, history: PixelHistory | None, output: str | None,
+) -> None:  # fmt: skip
+    from softshadow.listings.source import code_of
+
+    corrected, _ = _effect_of_corrections(listing, run.size)
+    print_json(
+        "listings", written=output, printed=printed, size=run.size,
+        stencil_counts={str(value): pixels for value, pixels in stencil_histograms(run)[-1].items()}, on=on,
+        differences=[vars(each) for each in differences], history=first.to_dicts() if first else [],
+        correcting=[vars(each) for each in corrected], steps=step_facts(run),
+        fragments=history.to_dicts() if history else None,
+        code=[
+            {"file": each.file, "function": each.function, "lines": [vars(line) for line in each.lines]}
+            for each in code_of(listing, () if printed else None)
+        ],
+        **_about(listing),
+    )  # fmt: skip
 
 
 def _list(listings: list[Listing], as_json: bool) -> None:
@@ -112,23 +174,17 @@ def _about(listing: Listing) -> dict[str, Any]:
 
 def _effect_of_corrections(
     listing: Listing, size: tuple[int, int]
-) -> tuple[tuple[BufferDifference, ...], list[PixelHistory]]:
-    """Return the differences between the printed and the corrected listing, and both histories of the first pixel."""
+) -> tuple[tuple[BufferDifference, ...], tuple[int, int] | None]:
+    """Return the differences between the printed and the corrected listing, and the first such pixel of the window."""
     from softshadow.testing import differences, history_of_first, run_recorded
 
-    (printed, before), (corrected, after) = (
-        run_recorded(program, size) for program in (listing.printed, listing.corrected)
-    )
+    (printed, frame), (corrected, _) = (run_recorded(program, size) for program in (listing.printed, listing.corrected))
     changes = differences(printed, corrected)
-    return changes, [each for frame in (before, after) if (each := history_of_first(frame, changes))]
+    history = history_of_first(frame, changes)
+    return changes, (history.x, history.y) if history else None
 
 
-def _stencil_histogram(stencil: np.ndarray) -> dict[str, int]:
-    import numpy as np
-
-    return {str(value): int(pixels) for value, pixels in zip(*np.unique(stencil, return_counts=True), strict=True)}
-
-
+# -- files -------------------------------------------------------------------------------------------------------------
 def _refuse(target: str, force: bool) -> None:
     """Check before drawing that the images may be written."""
     from softshadow.inspection.files import is_folder, refuse_foreign
@@ -140,25 +196,19 @@ def _refuse(target: str, force: bool) -> None:
     refuse_foreign(Path(target), force)
 
 
-def _write(target: str, result: ProgramResult, force: bool) -> None:
-    """Write the three buffers as one image, side by side, or as three images in a folder."""
-    from functools import partial
+def _write(target: str, run: Run, force: bool) -> Path:
+    """Write the buffers after each step: one image with a row for each, or a folder as `Run.save` writes it."""
+    from softshadow.inspection.files import is_folder, write_whole
+    from softshadow.inspection.pictures import contact_sheet, depth_picture, map_pictures, save_png
 
-    from softshadow.inspection.files import is_folder, refuse_foreign, write_whole
-    from softshadow.inspection.pictures import contact_sheet, depth_picture, save_png
-
-    pictures = {
-        "image": result.color[::-1, :, :3],
-        "depth": depth_picture(result.depth[::-1], clear=2**24 - 1),
-        "stencil": result.stencil[::-1],
-    }
     if is_folder(target):
-        folder = Path(target)
-        folder.mkdir(parents=True, exist_ok=True)
-        files = {folder / f"{name}.png": picture for name, picture in pictures.items()}
-    else:
-        files = {Path(target): contact_sheet([("colour, depth, stencil", tuple(pictures.values()))])}
-    for path in files:  # check all files before writing the first one
-        refuse_foreign(path, force)
-    for path, picture in files.items():
-        write_whole(path, partial(save_png, picture), force)
+        return run.save(target, force)
+    rows = [
+        (
+            f"{step.index}  {', '.join([step.title, *step.maps])}",
+            (step.image, depth_picture(step.depth), step.stencil, *map_pictures(step.maps).values()),
+        )
+        for step in run.steps
+    ]
+    sheet = contact_sheet(rows)
+    return write_whole(Path(target), lambda path: save_png(sheet, path), force)

@@ -5,11 +5,12 @@ from __future__ import annotations
 import click
 
 from softshadow.cli.arguments import as_json, examples
-from softshadow.cli.console import print_json, table
+from softshadow.cli.console import print_json, show, table
+from softshadow.cli.names import TechniqueName
 
 
 @click.command(epilog=examples("softshadow techniques", "softshadow techniques map"))
-@click.argument("name", required=False)
+@click.argument("name", type=TechniqueName(), metavar="[TECHNIQUE]", required=False)
 @as_json
 def techniques(name: str | None, as_json: bool) -> None:
     """List the techniques, or describe one and its options."""
@@ -33,7 +34,7 @@ def techniques(name: str | None, as_json: bool) -> None:
         ]
         print_json("techniques", techniques=rows)
     elif name:
-        click.echo(registry.describe(name))
+        show(registry.describe(name))
     else:
         table("Techniques", ["name", "title", "paper"], [[each.name, each.title, each.paper] for each in entries])
 

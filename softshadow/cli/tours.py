@@ -9,8 +9,16 @@ from contextlib import contextmanager, nullcontext
 
 import click
 
-from softshadow.cli.arguments import as_json, examples, force, load_scene, scene_arguments, scene_arguments_text
-from softshadow.cli.console import print_json, print_warnings_once, say, say_if_compiling
+from softshadow.cli.arguments import (
+    SceneArguments,
+    as_json,
+    examples,
+    force,
+    open_file,
+    output_option,
+    scene_arguments,
+)
+from softshadow.cli.console import print_json, print_warnings_once, say, say_if_compiling, say_written
 
 
 @contextmanager
@@ -33,13 +41,11 @@ def _progress(stops: int) -> Iterator[Callable[[str], None]]:
 
 @click.command(epilog=examples("softshadow tour", "softshadow tour --mesh bunny.obj --size 320x240 -o bunny-tour"))
 @scene_arguments("240x180")
-@click.option("-o", "--output", metavar="FOLDER", default="softshadow-tour", show_default=True, help="Output folder.")
+@output_option("Output folder.", "FOLDER", default="softshadow-tour", show_default=True)
+@open_file
 @force
 @as_json
-def tour(
-    scene: str | None, mesh: str | None, light: tuple[float, ...] | None, size: tuple[int, int], output: str,
-    force: bool, as_json: bool,
-) -> None:  # fmt: skip
+def tour(scene: SceneArguments, size: tuple[int, int], output: str, opened: bool, force: bool, as_json: bool) -> None:
     """Draw a scene with every technique, as an HTML page.
 
     The output folder holds the page, index.html, and images and buffers of every step.
@@ -53,15 +59,14 @@ def tour(
             from softshadow.tour.stops import STOPS
             from softshadow.tour.writing import write_tour
 
-            tour_scene = load_scene(scene, mesh, light)
-            arguments = scene_arguments_text(scene, mesh, light, size)
+            tour_scene = scene.load()
+            arguments = scene.text(size)
             with _progress(len(STOPS)) as show:
                 index = write_tour(tour_scene, size, output, force=force, progress=show, arguments=arguments)
     seconds = time.perf_counter() - start
     runs = len(list(index.parent.glob("*/run.npz")))
-    say(f"{runs} runs in {seconds:.1f} s; open the page in a browser.")
+    say(f"{runs} runs in {seconds:.1f} s")
     say(f"To explain a pixel:  softshadow pixel volume-zfail {size[0] // 2} {size[1] * 3 // 4} {arguments}")
     if as_json:
         print_json("tour", index=index, runs=runs, seconds=seconds, scene=tour_scene.name, size=size)
-    else:
-        click.echo(index)
+    say_written(index, opened=opened)

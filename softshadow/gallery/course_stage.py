@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Iterable
 from typing import Any
 
 from softshadow.gallery.failure import Setting
-from softshadow.listings import get
-from softshadow.listings.stage import AMBIENT, FAR, FIELD_OF_VIEW, NEAR, Stage
+from softshadow.listings import Listing, get
+from softshadow.listings.stage import AMBIENT, FAR, FIELD_OF_VIEW, NEAR, STAGE, Stage
 from softshadow.scene import Camera, Light, Material, Scene, SceneObject
 from softshadow.techniques import Steps, Technique
 
@@ -27,6 +29,26 @@ def scene_of(stage: Stage, name: str) -> Scene:
     )
 
 
+def listing_scene(listing: Listing) -> Scene:
+    """Return the stage that a listing draws by default as a scene."""
+    stage = inspect.signature(listing.calls).parameters.get("stage")
+    return scene_of(STAGE if stage is None else stage.default, f"stage of {listing.name}")
+
+
+def listing_technique(listing: Listing, corrected: Iterable[str], **arguments: Any) -> Technique:
+    """Return a listing as a technique, with some of its corrections; its steps are those of the listing.
+
+    Parameters
+    ----------
+    arguments                    of the listing's function, like its stage
+    """
+
+    def steps(gl: Any, scene: Scene, *, size: tuple[int, int]) -> Steps:
+        yield from listing.steps(gl, corrected, **arguments)
+
+    return Technique(f"listing {listing.name}", listing.title, listing.family, listing.slide, steps, {})
+
+
 def as_listed(name: str, without: str = "", **arguments: Any) -> Setting:
     """Return a corrected listing as a setting of a failure, with one correction left out if wanted.
 
@@ -37,10 +59,5 @@ def as_listed(name: str, without: str = "", **arguments: Any) -> Setting:
     arguments                    of the listing's function, like its stage
     """
     listing = get(name)
-    program = listing.without(without) if without else listing.corrected
-
-    def steps(gl: Any, scene: Scene, *, size: tuple[int, int]) -> Steps:
-        program(gl, **arguments)
-        yield listing.title
-
-    return Setting(Technique(f"listing {name}", listing.title, listing.family, listing.slide, steps, {}))
+    corrected = [number for number in listing.corrections if number != without]
+    return Setting(listing_technique(listing, corrected, **arguments))

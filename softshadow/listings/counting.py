@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from softshadow.listings.listing import Steps
 from softshadow.listings.stage import Stage, begin_frame, draw, draw_faces
 from softshadow.scene import shadow_volume
 
@@ -30,11 +31,12 @@ def draw_volumes(gl: Any, stage: Stage, closed: bool = False) -> None:
             draw_faces(gl, thing, volume.light_cap)
 
 
-def ambient_scene(gl: Any, stage: Stage, far: float | None = None) -> None:
+def ambient_scene(gl: Any, stage: Stage, far: float | None = None) -> Steps:
     """Pasul 1 (RO1:175-191): the scene without light, colour and depth."""
     begin_frame(gl, stage, far)  # "initializeaza z-buffer si stencil-buffer": E61, by glClear
     gl.glDisable(gl.GL_LIGHTING)
     draw(gl, stage.scene)
+    yield "Pasul 1: the scene without light"
 
 
 def begin_count(gl: Any, corrected: frozenset[str]) -> None:
@@ -48,16 +50,18 @@ def begin_count(gl: Any, corrected: frozenset[str]) -> None:
     gl.glStencilFunc(gl.GL_ALWAYS, 0x0, 0xFF)
 
 
-def count_passes(gl: Any, corrected: frozenset[str], stage: Stage) -> None:
+def count_passes(gl: Any, corrected: frozenset[str], stage: Stage) -> Steps:
     """Pasul 2 and Pasul 3 of z-pass (RO1:195-256)."""
     begin_count(gl, corrected)
     gl.glCullFace(gl.GL_BACK)  # nu sunt rasterizate poligoanele PUN
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR)
     draw_volumes(gl, stage)
+    yield "Pasul 2: count front faces up"
 
     gl.glCullFace(gl.GL_FRONT)  # nu sunt rasterizate poligoanele PUV
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_DECR)
     draw_volumes(gl, stage)
+    yield "Pasul 3: count back faces down"
 
 
 def volumes_around_eye(stage: Stage) -> int:
@@ -71,7 +75,7 @@ def volumes_around_eye(stage: Stage) -> int:
     return volumes
 
 
-def start_at_near_plane(gl: Any, stage: Stage) -> None:
+def start_at_near_plane(gl: Any, stage: Stage) -> Steps:
     """E10: write into each pixel the number of volumes that contain its point of the near plane.
 
     A ray from that point leaves each of these volumes; any other volume that it enters it leaves again. So it meets as
@@ -84,9 +88,10 @@ def start_at_near_plane(gl: Any, stage: Stage) -> None:
         gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, operation)
         draw_volumes(gl, stage, closed=True)
     gl.glEnable(gl.GL_DEPTH_TEST)
+    yield "start the count at the near plane"
 
 
-def lit_scene(gl: Any, corrected: frozenset[str], stage: Stage) -> None:
+def lit_scene(gl: Any, corrected: frozenset[str], stage: Stage) -> Steps:
     """Pasul 4 (RO1:260-277): the scene with light where the count is 0."""
     if "E2" in corrected:
         gl.glDepthFunc(gl.GL_LEQUAL)  # E2: not printed; the second draw has equal depth
@@ -97,3 +102,4 @@ def lit_scene(gl: Any, corrected: frozenset[str], stage: Stage) -> None:
     gl.glColorMask(gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE, gl.GL_TRUE)
     gl.glEnable(gl.GL_LIGHTING)
     draw(gl, stage.scene)
+    yield "Pasul 4: add the light where the count is 0"

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.listings.listing import Listing
+from softshadow.listings.listing import Listing, Steps
 from softshadow.listings.slide_shader import NAME as SLIDE_SHADER
 from softshadow.listings.stage import AMBIENT, STAGE, Stage, begin_frame, draw, set_camera
 
@@ -21,11 +21,13 @@ ALMOST_NO_BIAS = 0.0005  # in the map's depth, 0 to 1: the least that E52 needs 
 # -- CA ----------------------------------------------------------------------------------------------------------------
 def shadow_map(
     gl: Any, corrected: frozenset[str], stage: Stage = STAGE, *, offset: bool = True, map_size: int = MAP_SIZE
-) -> list[np.ndarray]:
+) -> Steps:
     """CA:498-637: the four slides as one program; returns the map of pass 1, (h, w) float32."""
     begin_frame(gl, stage)
     gl.glDisable(gl.GL_LIGHTING)
     texture = set_up(gl, corrected, map_size=map_size)
+    yield "the set-up"
+
     # Pas 1. Actualització del shadow map
     if "E62" in corrected:
         framebuffer = begin_framebuffer(gl, texture)
@@ -37,6 +39,7 @@ def shadow_map(
         gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
         gl.glCopyTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 0, 0, map_size, map_size)
     stored = gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT)
+    yield "Pas 1: the shadow map", {"shadow map": stored}
 
     # Restaurar càmera i viewport
     restore(gl, stage)
@@ -48,13 +51,14 @@ def shadow_map(
     use(gl, program, light_matrix(gl, stage), 0.0 if offset and "E48" in corrected else 0.01, AMBIENT)
     draw(gl, stage.scene, unlit=1.0)
     gl.glUseProgram(0)
+    yield "Pas 2: the scene, compared with the map"
     return [stored]
 
 
-def map_with_bias(gl: Any, corrected: frozenset[str]) -> list[np.ndarray]:
+def map_with_bias(gl: Any, corrected: frozenset[str]) -> Steps:
     """CA:620: the bias alone, "només si no hem usat glPolygonOffset"."""
     # E49: 0.01 of the depth range is a different distance at every depth; an offset follows the slope
-    return shadow_map(gl, frozenset({"E46", "E47", "E48", "E62"}), offset="E49" in corrected)
+    return (yield from shadow_map(gl, frozenset({"E46", "E47", "E48", "E62"}), offset="E49" in corrected))
 
 
 def set_up(gl: Any, corrected: frozenset[str], start: float = 0.0, map_size: int = MAP_SIZE) -> int:
@@ -148,11 +152,12 @@ def end_framebuffer(gl: Any, framebuffer: int) -> None:
 
 
 # -- RO2 ---------------------------------------------------------------------------------------------------------------
-def two_stages(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> list[np.ndarray]:
+def two_stages(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """RO2:24-85, Etapa I and Etapa II; returns ZS, (h, w) float32."""
     begin_frame(gl, stage)
     gl.glDisable(gl.GL_LIGHTING)
     stored = first_stage(gl, corrected, stage)
+    yield "Etapa I: ZS from the light", {"ZS": stored}
 
     # Etapa II
     matrix = light_matrix(gl, stage) if "E50" in corrected else view_of_light(gl, stage)
@@ -168,6 +173,7 @@ def two_stages(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> list
         use(gl, gl.program("shadow-map"), matrix, bias, SHADOW_FACTOR)
         draw(gl, stage.scene, unlit=1.0)
     gl.glUseProgram(0)
+    yield "Etapa II: the picture from the eye"
     return [stored]
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.listings.listing import Listing
+from softshadow.listings.listing import Listing, Steps
 from softshadow.listings.projection import along_direction, along_rays, from_point, onto_ground
 from softshadow.listings.stage import LOW_LAMP, OVER_THE_EDGE, STAGE, Stage, Thing, begin_frame, draw, draw_faces
 from softshadow.scene import Mesh, casting_faces
@@ -22,7 +22,9 @@ def multiply(gl: Any, matrix: np.ndarray) -> None:
     gl.glMultMatrixf(np.ascontiguousarray(matrix.T, np.float32))
 
 
-def three_steps(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, projection: np.ndarray | None = None) -> None:
+def three_steps(
+    gl: Any, corrected: frozenset[str], stage: Stage = STAGE, projection: np.ndarray | None = None
+) -> Steps:
     """CA:60-96, Ombres per projecció (un pla): receiver, flattened occluder without depth test, occluder."""
     begin_frame(gl, stage)
     if "E33" in corrected:
@@ -31,6 +33,7 @@ def three_steps(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, projec
         gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
     # 1. Dibuixar receptor
     draw(gl, stage.receiver)
+    yield "1. the receiver"
 
     # 2. Dibuixar l'oclusor projectat (ombra)
     if "E33" in corrected:
@@ -45,32 +48,36 @@ def three_steps(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, projec
     gl.glPopMatrix()
     if "E33" in corrected:
         gl.glDisable(gl.GL_STENCIL_TEST)
+    yield "2. the flattened occluder"
 
     # 3. Dibuixar oclusor
     gl.glEnable(gl.GL_LIGHTING)
     gl.glEnable(gl.GL_DEPTH_TEST)
     draw(gl, stage.occluder if "E34" in corrected else stage.emitter)  # E34: printed "dibuixa(emissor)"
+    yield "3. the occluder"
 
 
-def matrix_from_point(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+def matrix_from_point(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """CA:371-383, Projecció respecte punt: the three steps with this matrix on the ground's plane."""
     # E35: (0, 1, 0, 0), with the light on its positive side, gives w < 0 everywhere
     plane = (0.0, -1.0, 0.0, 0.0) if "E35" in corrected else GROUND
-    three_steps(gl, frozenset({"E33", "E34"}), stage, from_point(plane, stage.light))
+    yield from three_steps(gl, frozenset({"E33", "E34"}), stage, from_point(plane, stage.light))
 
 
-def matrix_along_direction(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+def matrix_along_direction(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """CA:385-396, Projecció en la direcció (x,y,z): the three steps with this matrix, the lamp far away."""
     towards = np.array(stage.light[:3]) - np.array(stage.target)
     # E36: "la direcció" reads as the direction in which light travels; w > 0 needs the direction towards the light
     direction = towards if "E36" in corrected else -towards
-    three_steps(gl, frozenset({"E33", "E34"}), stage, along_direction(GROUND, direction.tolist()))
+    yield from three_steps(gl, frozenset({"E33", "E34"}), stage, along_direction(GROUND, direction.tolist()))
 
 
-def rays(gl: Any, corrected: frozenset[str], stage: Stage = LOW_LAMP) -> None:
+def rays(gl: Any, corrected: frozenset[str], stage: Stage = LOW_LAMP) -> Steps:
     """SK:139-153, Projekčné tiene: every vertex along its ray onto y = 0, the lamp low among the casters."""
     begin_frame(gl, stage)
     draw(gl, stage.receiver)
+    yield "the receiver"
+
     gl.glDisable(gl.GL_LIGHTING)
     gl.glDisable(gl.GL_DEPTH_TEST)
     if "E21" in corrected:
@@ -81,9 +88,12 @@ def rays(gl: Any, corrected: frozenset[str], stage: Stage = LOW_LAMP) -> None:
         gl.glPopMatrix()
     else:
         draw(gl, [flattened(thing, stage) for thing in stage.occluder])
+    yield "the occluders along their rays"
+
     gl.glEnable(gl.GL_LIGHTING)
     gl.glEnable(gl.GL_DEPTH_TEST)
     draw(gl, stage.occluder)
+    yield "the occluders"
 
 
 def flattened(thing: Thing, stage: Stage) -> Thing:
@@ -94,11 +104,12 @@ def flattened(thing: Thing, stage: Stage) -> Thing:
     )
 
 
-def with_offset(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+def with_offset(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """CA:147-168 and CA:706-727, CastShadows::paintGL. In the second printing drawReceiver() is commented out."""
     begin_frame(gl, stage)
     # 1. Dibuixar receptor
     draw(gl, stage.receiver)
+    yield "1. the receiver"
 
     # 2. Dibuixar l'oclusor projectat (ombra)
     gl.glDisable(gl.GL_LIGHTING)  # phongShader->setUniform("shadow", true)
@@ -107,15 +118,17 @@ def with_offset(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Non
     gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
     gl.glPolygonOffset(-1, -1)
     draw(gl, stage.occluder)
+    yield "2. the flattened occluder"
 
     # 3. Dibuixar oclusor
     gl.glEnable(gl.GL_LIGHTING)  # phongShader->setUniform("shadow", false)
     gl.glPopMatrix()  # phongShader->setUniform("modelMatrix", identity)
     gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
     draw(gl, stage.occluder)
+    yield "3. the occluder"
 
 
-def with_stencil(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, mask: int = 1) -> None:
+def with_stencil(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, mask: int = 1) -> Steps:
     """CA:292-359, Ombres per projecció (amb stencil), right as printed (E41); CA:743-784 has the mask 255 in step 2."""
     begin_frame(gl, stage)
     # 1. Dibuixa el receptor al color buffer i al stencil buffer
@@ -123,6 +136,7 @@ def with_stencil(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, mask:
     gl.glStencilFunc(gl.GL_ALWAYS, 1, 1)
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
     draw(gl, stage.receiver)
+    yield "1. the receiver, marked in the stencil buffer"
 
     # 2. Dibuixa oclusor per netejar l'stencil a les zones a l'ombra
     gl.glDisable(gl.GL_DEPTH_TEST)
@@ -133,6 +147,7 @@ def with_stencil(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, mask:
     multiply(gl, onto_ground(stage.light))
     draw(gl, stage.occluder)
     gl.glPopMatrix()
+    yield "2. clear the marks in the shadow"
 
     # 3. Dibuixa la part fosca del receptor
     gl.glEnable(gl.GL_DEPTH_TEST)
@@ -141,23 +156,27 @@ def with_stencil(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, mask:
     gl.glDisable(gl.GL_LIGHTING)
     gl.glStencilFunc(gl.GL_EQUAL, 0, 1)
     draw(gl, stage.receiver)
+    yield "3. the dark part of the receiver"
 
     # 4. Dibuixa l'oclusor
     gl.glEnable(gl.GL_LIGHTING)
     gl.glDepthFunc(gl.GL_LESS)
     gl.glDisable(gl.GL_STENCIL_TEST)
     draw(gl, stage.occluder)
+    yield "4. the occluder"
 
 
-def with_stencil_255(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+def with_stencil_255(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """CA:743-784: glStencilFunc(GL_EQUAL, 1, 255) in step 2; its comment "1 = 1?" is true for both masks."""
-    with_stencil(gl, corrected, stage, mask=255)
+    yield from with_stencil(gl, corrected, stage, mask=255)
 
 
-def darkened(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+def darkened(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """SK:163-171, Základný algoritmus: render the scene, then for each receiver the flattened casters in dark."""
     begin_frame(gl, stage)
     draw(gl, stage.receiver if "E60" in corrected else stage.scene)  # render scenu (uplné osvetlenie)
+    yield "the lit receiver" if "E60" in corrected else "the lit scene"
+
     gl.glDisable(gl.GL_LIGHTING)
     if "E60" in corrected:
         gl.glDisable(gl.GL_DEPTH_TEST)  # E60: the depths of receiver and shadow are equal but for rounding
@@ -165,16 +184,21 @@ def darkened(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
     multiply(gl, onto_ground(stage.light))  # vynasobenie s aktuálnou transformáciou (modelview)
     draw(gl, stage.occluder)  # render vyznačenú (occluder) geometriu, darken/black
     gl.glPopMatrix()
+    yield "the flattened occluder"
+
     if "E60" in corrected:
         gl.glEnable(gl.GL_DEPTH_TEST)
         gl.glEnable(gl.GL_LIGHTING)
         draw(gl, stage.occluder)  # E60: casters are drawn after their shadows
+        yield "the occluder"
 
 
-def shadow_polygons(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+def shadow_polygons(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """RO1:41-68, Umbre planare, functia Update: the scene, then the polygons of own and cast shadows over it."""
     begin_frame(gl, stage)
     draw(gl, stage.scene)  # 1. Se cere rasterizarea poligoanelor scenei.
+    yield "1. the polygons of the scene"
+
     gl.glDisable(gl.GL_LIGHTING)
     if "E15" in corrected:
         gl.glDepthFunc(gl.GL_LEQUAL)  # E15: nearer objects must stay in front of the shadow polygons
@@ -191,9 +215,10 @@ def shadow_polygons(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) ->
         multiply(gl, onto_ground(stage.light))
         draw_faces(gl, thing, thing.mesh.triangles[lit])  # umbră purtată: a lit face, projected
         gl.glPopMatrix()
+    yield "2., 3. the shadow polygons"
 
 
-def projected_faces(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_EDGE) -> None:
+def projected_faces(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_EDGE) -> Steps:
     """RO1:43, "proiectând în scenă, din poziția sursei, toate poligoanele": every lit face, wherever it lies."""
     begin_frame(gl, stage)
     if "E16" in corrected:
@@ -201,6 +226,8 @@ def projected_faces(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_
         gl.glStencilFunc(gl.GL_ALWAYS, 1, 255)
         gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
     draw(gl, stage.receiver)
+    yield "the receiver"
+
     gl.glStencilFunc(gl.GL_EQUAL, 1, 255)
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_KEEP)
     gl.glDisable(gl.GL_LIGHTING)
@@ -213,10 +240,13 @@ def projected_faces(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_
         multiply(gl, onto_ground(stage.light))
         draw_faces(gl, thing, thing.mesh.triangles[lit])
         gl.glPopMatrix()
+    yield "the projected faces"
+
     gl.glDisable(gl.GL_STENCIL_TEST)
     gl.glEnable(gl.GL_LIGHTING)
     gl.glEnable(gl.GL_DEPTH_TEST)
     draw(gl, stage.occluder)
+    yield "the occluders"
 
 
 LISTINGS = (

@@ -17,7 +17,7 @@ from softshadow.listings.counting import (
     start_at_near_plane,
     volumes_around_eye,
 )
-from softshadow.listings.listing import Listing
+from softshadow.listings.listing import Listing, Steps
 from softshadow.listings.stage import (
     DOWN_THE_AXIS,
     FAR,
@@ -32,72 +32,89 @@ from softshadow.listings.stage import (
 from softshadow.scene import casting_faces
 
 
-def z_pass(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+def z_pass(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """RO1:169-277: count up at the front faces before the visible surface, down at the back faces."""
-    ambient_scene(gl, stage)
-    count_passes(gl, corrected, stage)
+    yield from ambient_scene(gl, stage)
+    yield from count_passes(gl, corrected, stage)
     if "E3" in corrected:
         gl.glCullFace(gl.GL_BACK)  # E3: or step 4 draws back faces only
-    lit_scene(gl, corrected, stage)
+    yield from lit_scene(gl, corrected, stage)
 
 
-def z_pass_decrement_first(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+def z_pass_decrement_first(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """RO1:195-236 with Pasul 3 before Pasul 2: the slide does not forbid it, and GL_DECR stops at 0."""
     up, down = (gl.GL_INCR_WRAP, gl.GL_DECR_WRAP) if "E11" in corrected else (gl.GL_INCR, gl.GL_DECR)
-    ambient_scene(gl, stage)
+    yield from ambient_scene(gl, stage)
     begin_count(gl, frozenset({"E1"}))
     gl.glCullFace(gl.GL_FRONT)
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, down)
     draw_volumes(gl, stage)
+    yield "Pasul 3: count back faces down"
+
     gl.glCullFace(gl.GL_BACK)
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, up)
     draw_volumes(gl, stage)
-    lit_scene(gl, frozenset({"E2"}), stage)
+    yield "Pasul 2: count front faces up"
+    yield from lit_scene(gl, frozenset({"E2"}), stage)
 
 
-def z_pass_general(gl: Any, corrected: frozenset[str], stage: Stage = NEAR_SHADOW) -> None:
+def z_pass_general(gl: Any, corrected: frozenset[str], stage: Stage = NEAR_SHADOW) -> Steps:
     """RO1:281-289, Cazul general: the eye in shadow; the stencil buffer starts at the number of volumes around it."""
-    ambient_scene(gl, stage)
+    yield from ambient_scene(gl, stage)
     if "E10" in corrected:
-        start_at_near_plane(gl, stage)
+        yield from start_at_near_plane(gl, stage)
     else:
         gl.glClearStencil(volumes_around_eye(stage))
         gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
+        yield "start the count at the eye"
     begin_count(gl, frozenset({"E1"}))
-    for cull, operation in ((gl.GL_BACK, gl.GL_INCR_WRAP), (gl.GL_FRONT, gl.GL_DECR_WRAP)):
-        gl.glCullFace(cull)
-        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, operation)
-        draw_volumes(gl, stage, closed=True)
     gl.glCullFace(gl.GL_BACK)
-    lit_scene(gl, frozenset({"E2"}), stage)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR_WRAP)
+    draw_volumes(gl, stage, closed=True)
+    yield "Pasul 2: count front faces up"
+
+    gl.glCullFace(gl.GL_FRONT)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_DECR_WRAP)
+    draw_volumes(gl, stage, closed=True)
+    yield "Pasul 3: count back faces down"
+
+    gl.glCullFace(gl.GL_BACK)
+    yield from lit_scene(gl, frozenset({"E2"}), stage)
 
 
-def z_fail(gl: Any, corrected: frozenset[str], stage: Stage = DOWN_THE_AXIS) -> None:
+def z_fail(gl: Any, corrected: frozenset[str], stage: Stage = DOWN_THE_AXIS) -> Steps:
     """RO1:289-353, Carmack's reverse: count behind the visible surface, back faces up and front faces down."""
     # E8: "volumul este decupat la marginile volumului vizual" (RO1:83): faces behind the far plane are lost
-    ambient_scene(gl, stage, None if "E8" in corrected else FAR)
+    yield from ambient_scene(gl, stage, None if "E8" in corrected else FAR)
     closed = "E6" in corrected  # E6: the "poligoane de umbră" are only the sides; a closed volume has caps, too
     begin_count(gl, corrected)
     gl.glCullFace(gl.GL_FRONT)  # nu sunt rasterizate polig PUV
     gl.glStencilOp(gl.GL_KEEP, gl.GL_INCR, gl.GL_KEEP)
     draw_volumes(gl, stage, closed)
+    yield "Pasul 2: count back faces up"
 
     gl.glCullFace(gl.GL_BACK)  # E5: the slide's comment says front faces; its call is right
     gl.glStencilOp(gl.GL_KEEP, gl.GL_DECR, gl.GL_KEEP)
     draw_volumes(gl, stage, closed)
-    lit_scene(gl, corrected, stage)
+    yield "Pasul 3: count front faces down"
+
+    yield from lit_scene(gl, corrected, stage)
 
 
-def bounded(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_TABLE) -> None:
+def bounded(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_TABLE) -> Steps:
     """RO1:77-82 with depth fail: one volume for each lit polygon, which ends at that polygon scaled from the light."""
-    ambient_scene(gl, stage, None)
+    yield from ambient_scene(gl, stage, None)
     begin_count(gl, frozenset({"E1"}))
-    for cull, operation in ((gl.GL_FRONT, gl.GL_INCR_WRAP), (gl.GL_BACK, gl.GL_DECR_WRAP)):
+    for cull, operation, title in (
+        (gl.GL_FRONT, gl.GL_INCR_WRAP, "Pasul 2: count back faces up"),
+        (gl.GL_BACK, gl.GL_DECR_WRAP, "Pasul 3: count front faces down"),
+    ):
         gl.glCullFace(cull)
         gl.glStencilOp(gl.GL_KEEP, operation, gl.GL_KEEP)
         for thing in stage.occluder:
             draw_bounded_volumes(gl, thing, stage, by_plane="E7" in corrected)
-    lit_scene(gl, frozenset({"E2"}), stage)
+        yield title
+    yield from lit_scene(gl, frozenset({"E2"}), stage)
 
 
 def draw_bounded_volumes(gl: Any, thing: Thing, stage: Stage, by_plane: bool) -> None:
@@ -125,16 +142,19 @@ def draw_bounded_volumes(gl: Any, thing: Thing, stage: Stage, by_plane: bool) ->
         gl.glEnd()
 
 
-def five_passes(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+def five_passes(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """CA:398-492, Volums d'ombra: depth, front faces, back faces, dark scene, lit scene."""
     up, down, closed = gl.GL_INCR, gl.GL_DECR, False
     begin_frame(gl, stage, None)
     # 1. Dibuixa l'escena al z-buffer
     gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
     draw(gl, stage.scene)
+    yield "1. the scene into the depth buffer"
 
     if "E40" in corrected:
-        start_at_near_plane(gl, stage)  # E40: the count is right only if the near rectangle lies outside all volumes
+        yield from start_at_near_plane(
+            gl, stage
+        )  # E40: the count is right only if the near rectangle lies outside all volumes
         up, down, closed = gl.GL_INCR_WRAP, gl.GL_DECR_WRAP, True
 
     # 2. Dibuixa al stencil les cares frontals del volum
@@ -145,11 +165,13 @@ def five_passes(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Non
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, up)
     gl.glCullFace(gl.GL_BACK)
     draw_volumes(gl, stage, closed)
+    yield "2. count front faces up"
 
     # 3. Dibuixa al stencil les cares posteriors del volum
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, down)
     gl.glCullFace(gl.GL_FRONT)
     draw_volumes(gl, stage, closed)
+    yield "3. count back faces down"
 
     # 4. Dibuixa al color buffer la part fosca de l'escena
     gl.glDepthMask(gl.GL_TRUE)
@@ -163,11 +185,13 @@ def five_passes(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Non
         gl.glStencilFunc(gl.GL_EQUAL, 1, 1)  # E38: the last bit is the parity: two volumes look like none
     gl.glDisable(gl.GL_LIGHTING)
     draw(gl, stage.scene)
+    yield "4. the dark part of the scene"
 
     # 5. Dibuixem al color buffer la part clara de l'escena
     gl.glStencilFunc(gl.GL_EQUAL, 0, 0xFF if "E38" in corrected else 1)
     gl.glEnable(gl.GL_LIGHTING)
     draw(gl, stage.scene)
+    yield "5. the light part of the scene"
 
     # 6. Restaura l'estat inicial
     gl.glDepthFunc(gl.GL_LESS)
@@ -175,11 +199,12 @@ def five_passes(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Non
     if "E63" in corrected:
         gl.glDisable(gl.GL_CULL_FACE)  # E63: "initial state" has no culling
     draw_mark(gl)
+    yield "6. the initial state again"
 
 
-def five_passes_in_shadow(gl: Any, corrected: frozenset[str]) -> None:
+def five_passes_in_shadow(gl: Any, corrected: frozenset[str]) -> Steps:
     """CA:398-492 with the eye near the shadows, a case that the slide does not mention."""
-    five_passes(gl, corrected | {"E38", "E63"}, NEAR_SHADOW)
+    yield from five_passes(gl, corrected | {"E38", "E63"}, NEAR_SHADOW)
 
 
 def draw_mark(gl: Any) -> None:
@@ -196,10 +221,12 @@ def draw_mark(gl: Any) -> None:
     gl.glEnd()
 
 
-def in_out_counter(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> None:
+def in_out_counter(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """SK:261-286: the two cases of the counter and the eight steps; the light is added to the ambient picture."""
-    ambient_scene(gl, stage)  # vyčisti stencil buffer; renderuj scenu bez difuzneho/spec osvetlenia
-    count_passes(gl, frozenset({"E1"}), stage)
+    for title in ambient_scene(gl, stage):  # vyčisti stencil buffer; renderuj scenu bez difuzneho/spec osvetlenia
+        yield unnumbered(title)
+    for title in count_passes(gl, frozenset({"E1"}), stage):  # "render" predných, potom zadných stien tieňových telies
+        yield unnumbered(title)
     gl.glCullFace(gl.GL_BACK)
     # "Counter == 0: osvetleny, Counter >= 0: tineny": both hold at 0. E20: dark is where it is > 0
     gl.glStencilFunc(gl.GL_EQUAL if "E20" in corrected else gl.GL_GREATER, 0, 0xFF)
@@ -211,6 +238,12 @@ def in_out_counter(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> 
     gl.glEnable(gl.GL_LIGHTING)
     gl.glLightModelfv(gl.GL_LIGHT_MODEL_AMBIENT, (0.0, 0.0, 0.0, 1.0))  # len s diffuse/spec zložkou
     draw(gl, stage.scene)
+    yield "add the light where the counter is 0"
+
+
+def unnumbered(title: Any) -> str:
+    """Return the title of a step without its number on another slide."""
+    return str(title).partition(": ")[2]
 
 
 COUNTED = "stencil test and culling are enabled before counting"

@@ -35,7 +35,7 @@ class TechniqueError:
     ----------
     technique : str
     options : dict               those that differ from the defaults
-    seconds : float              of the second drawing, the steps' maps included; the first may compile
+    seconds : float              of the second drawing, the steps' maps included; the first may compile; 0 if not timed
     comparison : Comparison      its error map, and its figures split by umbra, penumbra and lit
     run : Run
     """
@@ -102,11 +102,11 @@ def error_of(scene: Scene, truth: SoftTruth, name: str, **options: Any) -> Techn
     return TechniqueError(name, options, elapsed, drawn.compare(truth=truth), drawn)
 
 
-def error_in_time(scene: Scene, truth: SoftTruth, name: str, seconds: float) -> TechniqueError:
+def error_in_time(scene: Scene, truth: SoftTruth, name: str, seconds: float, **options: Any) -> TechniqueError:
     """Return the error of a sampling technique with the most samples that it draws in a time: a power of two."""
-    found = error_of(scene, truth, name, samples=1)
+    found = error_of(scene, truth, name, samples=1, **options)
     while found.seconds < seconds and found.options["samples"] < MOST_SAMPLES:
-        following = error_of(scene, truth, name, samples=2 * found.options["samples"])
+        following = error_of(scene, truth, name, **options | {"samples": 2 * found.options["samples"]})
         if following.seconds > seconds:
             break
         found = following
@@ -121,7 +121,8 @@ def contact_sheet_of(results: Sequence[TechniqueError]) -> np.ndarray:
     rows = []
     for result in results:
         parts = result.comparison.parts
-        title = f"{result.label}: {result.seconds:.2f} s, RMS {parts['all'].rms:.3f}"
+        timed = f"{result.seconds:.2f} s, " if result.seconds else ""
+        title = f"{result.label}: {timed}RMS {parts['all'].rms:.3f}"
         visibility = visibility_picture(result.run.visibility, result.run.valid)
         rows.append((title, [result.run.image, visibility, error_picture(result.comparison.error)]))
     return contact_sheet(rows)

@@ -24,7 +24,11 @@ def test_unknown_correction_is_told_those_that_there_are():
 
 
 def test_program_gets_the_corrections_that_it_was_asked_for():
-    listing = Listing("x", "x", "tools", "CA:1", lambda gl, corrected: sorted(corrected), {"E1": "", "E2": ""})
+    def calls(gl, corrected):
+        yield "the only step"
+        return sorted(corrected)
+
+    listing = Listing("x", "x", "tools", "CA:1", calls, {"E1": "", "E2": ""})
     programs = (listing.printed, listing.corrected, listing.with_only("E1"), listing.without("E1"))
     assert [program(None) for program in programs] == [[], ["E1", "E2"], ["E1"], ["E2"]]
 

@@ -1,0 +1,297 @@
+"""``softshadow compare``: two techniques on one scene, or any number of them beside the true shadow."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from softshadow.cli.arguments import (
+    ChosenTechnique,
+    SceneArguments,
+    as_json,
+    check_opened,
+    chosen_techniques,
+    examples,
+    force,
+    open_file,
+    output_option,
+    scene_arguments,
+    technique_options,
+)
+from softshadow.cli.console import (
+    CHECK_FAILED,
+    print_json,
+    print_warnings_once,
+    say_if_compiling,
+    say_marked,
+    say_written,
+    table,
+)
+from softshadow.cli.names import TechniqueChoice
+
+if TYPE_CHECKING:
+    from softshadow.inspection.comparison import Comparison, ErrorSummary
+    from softshadow.inspection.soft_truth import SoftTruth
+    from softshadow.scene import Scene
+    from softshadow.soft import Convergence, LawResult, TechniqueError
+
+SAMPLES = 16  # of each light, for techniques that sample lights
+SPLIT = ("umbra", "penumbra", "lit")
+
+
+@click.command(
+    epilog=examples(
+        "softshadow compare volume-zfail map --scene torus -o difference.png",
+        "softshadow compare map:map_size=256 map:map_size=1024 --truth hard",
+        "softshadow compare volume-zfail --truth hard --scene boxes --max-wrong 0",
+        "softshadow compare --all-soft --scene soft-slab --size 80x60",
+    )
+)
+@click.argument("names", metavar="TECHNIQUE[:KEY=VALUE,...]...", type=TechniqueChoice(), nargs=-1)
+@click.option("--truth", type=click.Choice(["hard", "soft"]), help="Compare with the true shadow.")
+@scene_arguments("320x240")
+@technique_options
+@click.option("--all-soft", is_flag=True, help="All techniques that draw soft edges, and two hard ones; truth soft.")
+@click.option("--samples", type=click.IntRange(1), help="Truth soft: points of each light.  [default: 16]")
+@click.option(
+    "--seconds", type=click.FloatRange(0, min_open=True), help="Truth soft: as many points as fit in this time."
+)
+@click.option("--slopes", is_flag=True, help="Truth soft: also fit how the error falls with the number of points.")
+@click.option("--laws", is_flag=True, help="Truth soft: also measure the laws of the penumbra.")
+@click.option(
+    "--max-wrong", type=click.IntRange(0), metavar="N", help="Exit with 1 if more pixels are wrong off the band."
+)
+@click.option("--max-rms", type=click.FloatRange(0), metavar="X", help="Exit with 1 if the RMS error is larger.")
+@output_option("Also write pictures of the errors (.png), a page (.html), or a folder/ with a plot of the slopes, too.")
+@open_file
+@force
+@as_json
+@click.pass_context
+def compare(
+    context: click.Context, names: tuple[str, ...], truth: str | None, scene: SceneArguments, size: tuple[int, int],
+    options: tuple[str, ...], all_soft: bool, samples: int | None, seconds: float | None, slopes: bool, laws: bool,
+    max_wrong: int | None, max_rms: float | None, output: str | None, opened: bool, force: bool, as_json: bool,
+) -> None:  # fmt: skip
+    """Compare the shadows of two techniques, or of any number with the true shadow.
+
+    Without --truth, two techniques are compared, and the second is the reference. The truth "hard" is ray casting to
+    the centre of each light. The truth "soft" is the part of each light that a pixel's point sees: an exact area where
+    the blockers can be clipped, else the share of many rays.
+
+    An error is a difference of visibilities, from 0 to 1; a pixel is wrong if it is off by more than 0.1. The band is
+    the outline of the reference's shadows, a pixel wide: there, rays and fragments may decide differently.
+    """
+    from softshadow.soft import convergence, law_table, soft_candidates
+
+    truth = "soft" if all_soft and truth is None else truth
+    _check_usage(names, truth, all_soft, (samples, seconds, slopes or None, laws or None), slopes, output)
+    check_opened(opened, output)
+    chosen = chosen_techniques(soft_candidates() if all_soft else names, options)
+    if output:
+        _check_output(output, force)
+    fitted: list[Convergence] = []
+    measured: list[LawResult] = []
+    with print_warnings_once():
+        drawn = scene.load(default="soft-slab" if truth == "soft" else "torus")
+        say_if_compiling()
+        if truth == "soft":
+            from softshadow.inspection import soft_truth
+
+            reference = soft_truth(drawn, size)
+            against = str(reference)
+            results = [_beside_soft_truth(drawn, reference, each, samples or SAMPLES, seconds) for each in chosen]
+            sampled = dict.fromkeys(each.technique for each in results if "samples" in each.options)
+            fitted = [one for name in sampled for one in convergence(drawn, reference, name)] if slopes else []
+            measured = law_table([each.name for each in chosen]) if laws else []
+        else:
+            against, results = _beside_hard_truth_or_second(drawn, size, chosen, truth)
+    exceeded = [text for each in results for text in _exceeded(each, max_wrong, max_rms)]
+    written = _write(output, f"{drawn.name}, against {against}", results, fitted, force) if output else []
+    if as_json:
+        _print_json(drawn.name, size, truth, against, results, fitted, measured, exceeded, written, output)
+    else:
+        _print(f"{drawn.name}, against {against}", results, fitted, measured, timed=truth == "soft")
+    say_written(*written, opened=opened)
+    for text in exceeded:
+        say_marked("error", text)
+    if exceeded:
+        context.exit(CHECK_FAILED)
+
+
+def _check_usage(
+    names: Sequence[str], truth: str | None, all_soft: bool, soft_only: Sequence[Any], slopes: bool, output: str | None
+) -> None:
+    if all_soft and (names or truth != "soft"):
+        raise click.UsageError("--all-soft: expected no name of a technique beside it, and no truth but soft")
+    if truth is None and len(names) != 2:
+        raise click.UsageError(f"expected two techniques, or --truth hard or soft; got {' '.join(names) or 'none'}")
+    if not names and not all_soft:
+        raise click.UsageError("expected names of techniques, or --all-soft")
+    if truth != "soft" and any(each is not None for each in soft_only):
+        raise click.UsageError("--samples, --seconds, --slopes and --laws: expected --truth soft beside them")
+    if slopes and output is not None and Path(output).suffix.lower() in (".png", ".html"):
+        raise click.UsageError(f"--output {output}: expected a folder/, which also holds the plot of --slopes")
+
+
+# -- the comparisons ---------------------------------------------------------------------------------------------------
+def _beside_soft_truth(
+    scene: Scene, truth: SoftTruth, chosen: ChosenTechnique, samples: int, seconds: float | None
+) -> TechniqueError:
+    from softshadow import techniques
+    from softshadow.soft import error_in_time, error_of
+
+    if "samples" not in techniques.get(chosen.name).options or "samples" in chosen.options:
+        return error_of(scene, truth, chosen.name, **chosen.options)
+    if seconds is not None:
+        return error_in_time(scene, truth, chosen.name, seconds, **chosen.options)
+    return error_of(scene, truth, chosen.name, samples=samples, **chosen.options)
+
+
+def _beside_hard_truth_or_second(
+    scene: Scene, size: tuple[int, int], chosen: Sequence[ChosenTechnique], truth: str | None
+) -> tuple[str, list[TechniqueError]]:
+    """Return the reference's name, and the errors: against ray casting, or of the first technique against the last."""
+    from softshadow.runs import run
+    from softshadow.soft import TechniqueError
+
+    runs = [run(each.name, scene, size, **each.options) for each in chosen]
+    if truth == "hard":
+        comparisons = [each.compare(truth="hard") for each in runs]
+        against = comparisons[0].against
+    else:
+        comparisons, against = [runs[0].compare(runs[1])], chosen[1].label
+    return against, [
+        TechniqueError(each.name, each.options, 0.0, comparison, drawn)
+        for each, comparison, drawn in zip(chosen, comparisons, runs, strict=False)
+    ]
+
+
+def _off_band(comparison: Comparison) -> ErrorSummary:
+    return comparison.part(comparison.compared & ~comparison.band)
+
+
+def _exceeded(result: TechniqueError, max_wrong: int | None, max_rms: float | None) -> list[str]:
+    """Return a sentence for each bound that a technique exceeds."""
+    wrong, rms = _off_band(result.comparison).wrong, result.comparison.rms
+    texts = []
+    if max_wrong is not None and wrong > max_wrong:
+        texts.append(f"{result.label}: {wrong} wrong pixels off the band; expected at most {max_wrong}")
+    if max_rms is not None and rms > max_rms:
+        texts.append(f"{result.label}: RMS error {rms:.6g}; expected at most {max_rms:g}")
+    return texts
+
+
+# -- tables and JSON ---------------------------------------------------------------------------------------------------
+def _print(
+    title: str, results: Sequence[TechniqueError], fitted: Sequence[Convergence], measured: Sequence[LawResult],
+    timed: bool,
+) -> None:  # fmt: skip
+    if len(results) == 1:
+        table(f"{results[0].label}, {title}", ["pixels that are", "number", "max", "RMS", "wrong"], split(results[0]))
+    else:
+        table(title, *summary(results, timed))
+    if fitted:
+        rows = [[each.technique, each.pattern, f"{each.slope:.2f}"] for each in fitted]
+        table("RMS error falls like samples to the power of", ["technique", "points", "slope"], rows)
+    if measured:
+        rows = [
+            [each.technique, each.law.name, f"{each.before:.2f} -> {each.after:.2f}",
+             f"{each.law.before.penumbra:.2f} -> {each.law.after.penumbra:.2f}",
+             "holds" if each.holds else "direction only" if each.direction_holds else "no"]
+            for each in measured
+        ]  # fmt: skip
+        table("laws of the penumbra: its width", ["technique", "law", "measured", "by the law", ""], rows)
+
+
+def split(result: TechniqueError) -> list[list[str]]:
+    """Return the errors of a technique split by the reference's shadow, as rows of a table."""
+    parts = result.comparison.parts
+    rows = {"compared": parts["all"], "off the band": _off_band(result.comparison)}
+    rows |= {name: parts[name] for name in SPLIT} | {"on the band": parts["band"]}
+    return [
+        [name, str(part.pixels), f"{part.max:.3f}", f"{part.rms:.4f}", str(part.wrong)] for name, part in rows.items()
+    ]
+
+
+def summary(results: Sequence[TechniqueError], timed: bool) -> tuple[list[str], list[list[str]]]:
+    """Return heads and rows of a table with a row for each technique."""
+    columns = ["technique", "s", "RMS", "max", *(f"RMS {name}" for name in SPLIT), "wrong", "wrong off band"]
+    rows = []
+    for each in results:
+        parts = each.comparison.parts
+        rows.append(
+            [each.label, f"{each.seconds:.3f}", f"{parts['all'].rms:.4f}", f"{parts['all'].max:.3f}",
+             *(f"{parts[name].rms:.4f}" for name in SPLIT), str(parts["all"].wrong),
+             str(_off_band(each.comparison).wrong)]
+        )  # fmt: skip
+    if not timed:
+        columns, rows = [columns[0], *columns[2:]], [[row[0], *row[2:]] for row in rows]
+    return columns, rows
+
+
+def _print_json(
+    scene: str, size: tuple[int, int], truth: str | None, against: str, results: Sequence[TechniqueError],
+    fitted: Sequence[Convergence], measured: Sequence[LawResult], exceeded: Sequence[str], written: Sequence[Path],
+    output: str | None,
+) -> None:  # fmt: skip
+    print_json(
+        "compare", scene=scene, size=size, truth=None if truth is None else against, against=against, written=written,
+        exceeded=exceeded, techniques=[_facts(each, timed=truth == "soft") for each in results],
+        slopes=[{"technique": each.technique, "pattern": each.pattern, "slope": each.slope} for each in fitted],
+        laws=[
+            {"technique": each.technique, "law": each.law.name, "before": each.before, "after": each.after,
+             "expected_before": each.law.before.penumbra, "expected_after": each.law.after.penumbra,
+             "holds": each.holds}
+            for each in measured
+        ],
+    )  # fmt: skip
+
+
+def _facts(result: TechniqueError, timed: bool) -> dict[str, Any]:
+    parts = result.comparison.parts | {"off_band": _off_band(result.comparison)}
+    return {
+        "technique": result.technique,
+        "options": result.options,
+        "seconds": result.seconds if timed else None,
+        "parts": {name: vars(part) for name, part in parts.items()},
+    }
+
+
+# -- files -------------------------------------------------------------------------------------------------------------
+def _check_output(output: str, force: bool) -> None:
+    """Check before drawing that the output may be written."""
+    from softshadow.inspection.files import is_folder, refuse_foreign
+
+    if is_folder(output):
+        return
+    if Path(output).suffix.lower() not in (".png", ".html"):
+        raise ValueError(f"{output}: expected an ending of .png or .html, or a folder (a path that ends in /)")
+    refuse_foreign(Path(output), force)
+
+
+def _write(
+    output: str, title: str, results: Sequence[TechniqueError], fitted: Sequence[Convergence], force: bool
+) -> list[Path]:
+    """Write the pictures of the errors, as one file or into a folder, and return the paths."""
+    from softshadow.inspection.files import is_folder, write_whole
+    from softshadow.inspection.pictures import save_png
+    from softshadow.soft import contact_sheet_of, save_convergence_plot
+
+    sheet = contact_sheet_of(results)
+    path = Path(output)
+    if path.suffix.lower() == ".html":
+        from softshadow.cli.compare_page import write_page
+
+        tables = [(each.label, split(each)) for each in results]
+        return [write_whole(path, lambda temporary: write_page(title, tables, sheet, temporary), force)]
+    if not is_folder(output):
+        return [write_whole(path, lambda temporary: save_png(sheet, temporary), force)]
+    path.mkdir(parents=True, exist_ok=True)
+    written = [write_whole(path / "errors.png", lambda temporary: save_png(sheet, temporary), force)]
+    if fitted:
+        plot = path / "slopes.svg"
+        written.append(write_whole(plot, lambda temporary: save_convergence_plot(fitted, temporary), force))
+    return written
