@@ -11,7 +11,8 @@ import click
 
 from softshadow.cli.arguments import Size, as_json, examples
 from softshadow.cli.bench_corpus import bench_corpus, is_of_corpus
-from softshadow.cli.console import CHECK_FAILED, print_json, print_warnings_once, say, table
+from softshadow.cli.console import CHECK_FAILED, print_json, print_warnings_once, say, say_written, table
+from softshadow.errors import SoftShadowError
 
 if TYPE_CHECKING:
     from softshadow.bench.growth import Growth
@@ -89,6 +90,7 @@ def bench(
         from softshadow.bench.plot import save_plot
 
         save_plot(plot, report, growths)
+        say_written(plot)
     if as_json:
         _print_json(report, growths, changes)
     else:
@@ -137,7 +139,7 @@ def _earlier(file: str) -> Report:
     try:
         return from_json(json.loads(Path(file).read_text(encoding="utf-8")))
     except ValueError as error:
-        raise ValueError(f"{file}: {error}") from None
+        raise SoftShadowError(f"{file}: {error}") from None
 
 
 def _measure(

@@ -190,7 +190,7 @@ def _print(
     timed: bool,
 ) -> None:  # fmt: skip
     if len(results) == 1:
-        table(f"{results[0].label}, {title}", ["pixels that are", "number", "max", "RMS", "wrong"], split(results[0]))
+        table(f"{results[0].label} on {title}", ["pixels that are", "number", "max", "RMS", "wrong"], split(results[0]))
     else:
         table(title, *summary(results, timed))
     if fitted:
@@ -218,14 +218,14 @@ def split(result: TechniqueError) -> list[list[str]]:
 
 def summary(results: Sequence[TechniqueError], timed: bool) -> tuple[list[str], list[list[str]]]:
     """Return heads and rows of a table with a row for each technique."""
-    columns = ["technique", "s", "RMS", "max", *(f"RMS {name}" for name in SPLIT), "wrong", "wrong off band"]
+    columns = ["technique", "s", "max", "RMS", "wrong", "wrong off band", *(f"RMS {name}" for name in SPLIT)]
     rows = []
     for each in results:
         parts = each.comparison.parts
         rows.append(
-            [each.label, f"{each.seconds:.3f}", f"{parts['all'].rms:.4f}", f"{parts['all'].max:.3f}",
-             *(f"{parts[name].rms:.4f}" for name in SPLIT), str(parts["all"].wrong),
-             str(_off_band(each.comparison).wrong)]
+            [each.label, f"{each.seconds:.3f}", f"{parts['all'].max:.3f}", f"{parts['all'].rms:.4f}",
+             str(parts["all"].wrong), str(_off_band(each.comparison).wrong),
+             *(f"{parts[name].rms:.4f}" for name in SPLIT)]
         )  # fmt: skip
     if not timed:
         columns, rows = [columns[0], *columns[2:]], [[row[0], *row[2:]] for row in rows]

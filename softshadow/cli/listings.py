@@ -68,6 +68,7 @@ def listings(
     say_if_compiling()
     run = _run(listing, printed, size)
     differences, first = _on_mesa(listing, printed, size) if on else ((), None)
+    written = [_write(output, run, force)] if output else []
     if as_json:
         history = run.pixel(*pixel) if pixel else None
         _print_json(listing, run, printed, on, differences, first, history, output)
@@ -79,8 +80,7 @@ def listings(
         click.echo("\n".join(map(str, differences)) or "no pixel differs on Mesa")
         if first:
             show(first)
-    if output:
-        say_written(_write(output, run, force), opened=opened)
+    say_written(*written, opened=opened)
     if differences:
         context.exit(CHECK_FAILED)
 

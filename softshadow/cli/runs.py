@@ -126,12 +126,12 @@ def steps(
     """Print statistics and stencil counts of every step."""
     check_opened(opened, output)
     run = _draw(technique, scene, size, options)
+    written = [run.save(str(Path(output)) + "/", force=force)] if output else []
     if as_json:
         print_json("steps", steps=step_facts(run), **_about(run))
     else:
         print_steps(run)
-    if output:
-        say_written(run.save(str(Path(output)) + "/", force=force), opened=opened)
+    say_written(*written, opened=opened)
 
 
 def step_facts(run: Run) -> list[dict[str, Any]]:
