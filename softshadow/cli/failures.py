@@ -35,7 +35,8 @@ def failures(
 ) -> None:  # fmt: skip
     """List known failures, or show one next to its cure.
 
-    With --numbers, only the numbers of wrong pixels are printed, of one failure or of all.
+    With --numbers, only the numbers of wrong pixels are printed, of one failure or of all: with the failure, with the
+    cure, and with the cure where pixels are not counted, as at creases.
     """
     from softshadow import failures as gallery
 
@@ -75,13 +76,13 @@ def _list(failures: list[Failure], numbers: bool, as_json: bool) -> None:
         return
     columns = ["name", "family", "what goes wrong"]
     if numbers:
-        columns[2:2] = ["wrong pixels", "cured"]
+        columns[2:2] = ["wrong pixels", "cured", "not counted"]
     table("Failures", columns, [_row(each, numbers) for each in failures])
 
 
 def _row(failure: Failure, numbers: bool) -> list[str]:
-    pixels = [str(failure.number_wrong), str(failure.number_cured)] if numbers else []
-    return [failure.name, failure.family, *pixels, failure.title]
+    pixels = (failure.number_wrong, failure.number_cured, failure.number_uncounted) if numbers else ()
+    return [failure.name, failure.family, *map(str, pixels), failure.title]
 
 
 def _about(failure: Failure) -> dict[str, Any]:
@@ -100,6 +101,7 @@ def _with_numbers(failure: Failure) -> dict[str, Any]:
         "counted": failure.counted,
         "number_wrong": failure.number_wrong,
         "number_cured": failure.number_cured,
+        "number_uncounted": failure.number_uncounted,
         "floor": failure.floor,
         "why_floor": failure.why_floor,
         "pixel": failure.pixel if failure.number_wrong > failure.number_cured else None,

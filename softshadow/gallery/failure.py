@@ -13,7 +13,7 @@ from softshadow import techniques
 from softshadow.gallery.call_difference import call_difference
 from softshadow.gallery.calls import AlteredCall, Call, recorded
 from softshadow.gallery.expected import without_warnings
-from softshadow.gallery.measures import deepest, share_of_light
+from softshadow.gallery.measures import STRICTER, deepest, share_of_light
 from softshadow.inspection.explanation import explain
 from softshadow.inspection.pictures import notebook_display
 from softshadow.runs import Run, run
@@ -58,7 +58,7 @@ class Failure:
     measure : callable           returns the wrong pixels of a run, (H, W) bool
     counted : str                which pixels count as wrong, in words
     floor : int                  the most wrong pixels that the cure leaves, in pictures of the default size
-    why_floor : str              why it leaves some there, or in larger pictures
+    why_floor : str              why it leaves some there, or in larger pictures, or where the measure does not count
     flat : bool                  whether lit surfaces have their plain colour, as in the listings of shadow maps
     size : (width, height)
     """
@@ -118,6 +118,24 @@ class Failure:
         return int(self.wrong_pixels(self.cured).sum())
 
     @cached_property
+    def number_uncounted(self) -> int:
+        """Number of wrong pixels with the cure that `number_cured` leaves out: at creases, or on casters."""
+        strict = STRICTER.get(self.measure)
+        return (
+            int((strict(replace(self.cured, scene=self.scene)) & ~self.wrong_pixels(self.cured)).sum()) if strict else 0
+        )
+
+    @property
+    def remark(self) -> str:
+        """What the cure leaves wrong, and why; empty if nothing."""
+        why = f" ({self.why_floor})" if self.why_floor else ""
+        parts = [self.why_floor] if self.number_cured and self.why_floor else []
+        if self.number_uncounted:
+            plural = "" if self.number_uncounted == 1 else "s"
+            parts.append(f"not counted: {self.number_uncounted} wrong pixel{plural}{'' if parts else why}")
+        return "; ".join(parts)
+
+    @cached_property
     def pixel(self) -> tuple[int, int]:
         """x, y of the pixel to look at, amid pixels that are wrong with the failure and right with the cure.
 
@@ -145,7 +163,7 @@ class Failure:
 
     def explain(self) -> str:
         """Return a text: reason, numbers of wrong pixels, cure, and an explanation of `pixel` in both runs."""
-        remark = f" ({self.why_floor})" if self.number_cured and self.why_floor else ""
+        remark = f": {self.remark}" if self.remark else ""
         return "\n".join(
             [
                 f"{self.name}: {self.title} ({self.reference})",

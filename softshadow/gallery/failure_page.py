@@ -22,7 +22,7 @@ def write_page(failure: Failure, path: Path) -> None:
         failure.counted,
         failure.number_wrong,
         failure.number_cured,
-        failure.why_floor,
+        failure.remark,
         failure.diff,
         np.asarray(failure.picture()),
         (

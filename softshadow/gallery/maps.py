@@ -6,16 +6,16 @@ from softshadow.gallery.course_stage import as_listed, scene_of
 from softshadow.gallery.failure import Failure, Setting
 from softshadow.gallery.measures import (
     COUNTED,
-    grown_shadow,
     wrong_colors,
     wrong_flat_colors,
     wrong_flat_light,
+    wrong_flat_light_anywhere,
     wrong_inside_faces,
     wrong_on_receivers,
 )
-from softshadow.listings.stage import STAGE, Thing
+from softshadow.listings.stage import STAGE, Thing, moved
 from softshadow.scene import Scene
-from softshadow.scene.shapes import floor
+from softshadow.scene.shapes import box, floor
 
 # `why_floor` of failures whose cure is not perfect in large pictures
 AT_CREASES = "single pixels within a texel of a crease or an edge"
@@ -23,6 +23,9 @@ AT_CREASES = "single pixels within a texel of a crease or an edge"
 FILTERED = {"kernel": 5, "map_size": 2048}
 # a floor that extends beyond the light's view on all sides
 WIDE = replace(STAGE, receiver=(Thing(floor(9), STAGE.receiver[0].color),), occluder=STAGE.occluder[:1])
+LIGHT = "pixels that are lit but dark, or in shadow but bright"
+# a panel far above the floor: the mean of both depths is far from either
+PANEL = replace(STAGE, occluder=(Thing(moved(box(1.4, 0.04, 1.4, name="panel"), 0.0, 1.0, 0.0), (0.9, 0.4, 0.2)),))
 # a box whose shadow lies inside the view of the listings' light
 ONE_BOX = replace(STAGE, occluder=STAGE.occluder[:1])
 
@@ -67,7 +70,7 @@ FAILURES = (
         lambda: scene_of(ONE_BOX, "one box"),
         as_listed("map", "E48", stage=ONE_BOX),
         as_listed("map", stage=ONE_BOX),
-        wrong_flat_light, "pixels that are lit but dark, or in shadow but bright", flat=True, why_floor=AT_CREASES,
+        wrong_flat_light, LIGHT, flat=True, why_floor=AT_CREASES,
     ),
     Failure(
         "light-view-only", "Texel coordinates from the light's view matrix alone", "maps", "E50, RO2:28-39, RO2:65-83",
@@ -76,7 +79,7 @@ FAILURES = (
         lambda: scene_of(ONE_BOX, "one box"),
         as_listed("map-two-stages", "E50", stage=ONE_BOX),
         as_listed("map-two-stages", stage=ONE_BOX),
-        wrong_flat_light, "pixels that are lit but dark, or in shadow but bright", flat=True, why_floor=AT_CREASES,
+        wrong_flat_light, LIGHT, flat=True, why_floor=AT_CREASES,
     ),
     Failure(
         "map-not-cleared", "The map is cleared to 0 instead of 1", "maps", "E51, RO2:43",
@@ -84,7 +87,7 @@ FAILURES = (
         lambda: scene_of(ONE_BOX, "one box"),
         as_listed("map-two-stages", "E51", stage=ONE_BOX),
         as_listed("map-two-stages", stage=ONE_BOX),
-        wrong_flat_light, "pixels that are lit but dark, or in shadow but bright", flat=True, why_floor=AT_CREASES,
+        wrong_flat_light, LIGHT, flat=True, why_floor=AT_CREASES,
     ),
     Failure(
         "jagged-edges", "Edges have steps as large as a texel", "maps", "SK:382-383, CA:639",
@@ -92,7 +95,7 @@ FAILURES = (
         lambda: Scene.named("boxes"),
         Setting("map", {"map_size": 32}),
         Setting("map", {"map_size": 2048}),
-        wrong_on_receivers, "floor pixels whose colour is not that of the lights they see",
+        wrong_on_receivers, "floor pixels whose colour is not that of the lights they see", why_floor=AT_CREASES,
     ),
     Failure(
         "pcf-bias", "An offset for one texel with a filter over many", "maps", "SK:385-401, CA:620",
@@ -116,10 +119,11 @@ FAILURES = (
         "linear-filtered-depth", "Depths are filtered before they are compared", "maps", "E46, CA:518-519, SK:384",
         "The mean of a near and a far depth belongs to no surface. Points beyond the edge of a caster are compared "
         "with it, and the shadow grows.",
-        lambda: scene_of(ONE_BOX, "one box"),
-        as_listed("map", "E46", stage=ONE_BOX, map_size=32),
-        as_listed("map", stage=ONE_BOX, map_size=32),
-        grown_shadow, "floor pixels that are lit but dark", flat=True, why_floor=AT_CREASES,
+        lambda: scene_of(PANEL, "a panel over a floor"),
+        as_listed("map", "E46", stage=PANEL, map_size=24),
+        as_listed("map", stage=PANEL, map_size=24),
+        wrong_flat_light_anywhere, LIGHT, floor=5,
+        why_floor="edges have steps as large as a texel: see jagged-edges", flat=True,
     ),
     Failure(
         "edge-smear", "GL_CLAMP_TO_EDGE extends the map's edge over the scene", "maps", "E47, CA:516-517",
@@ -127,7 +131,7 @@ FAILURES = (
         lambda: scene_of(WIDE, "a box on a wide floor"),
         as_listed("map", "E47", stage=WIDE),
         as_listed("map", stage=WIDE),
-        wrong_flat_light, "pixels that are lit but dark, or in shadow but bright", flat=True, why_floor=AT_CREASES,
+        wrong_flat_light, LIGHT, flat=True, why_floor=AT_CREASES,
     ),
     Failure(
         "omni-light", "One map for a light among its casters", "maps", "E55, RO1:24, CA:803",
@@ -135,7 +139,7 @@ FAILURES = (
         lambda: Scene.named("light-between"),
         Setting("map"),
         Setting("map-cube"),
-        wrong_inside_faces, COUNTED,
+        wrong_inside_faces, COUNTED, why_floor=AT_CREASES,
     ),
     Failure(
         "factor-on-whole-color", "The factor dims the whole colour", "maps", "E53, RO2:85",

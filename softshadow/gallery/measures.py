@@ -5,6 +5,8 @@ Shadow edges are left out: within a pixel of them, ray casting and rasterization
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from softshadow.gallery.expected import expected
@@ -15,6 +17,7 @@ COUNTED = "pixels whose colour is not that of the lights they see"  # `wrong_col
 NEARLY = 8  # levels of 255: two roundings in each channel, and highlights that are clamped
 SHARE = "pixels whose visibility is off by more than 0.1"  # `wrong_share`, in words
 OFF = 0.1
+Measure = Callable[[Run], np.ndarray]
 ROUNDING = 2  # levels of 255: a sum of lights is rounded once, or once for each light and for the ambient light
 
 
@@ -41,21 +44,25 @@ def wrong_inside_faces(run: Run) -> np.ndarray:
 
 
 def wrong_flat_colors(run: Run) -> np.ndarray:
-    """Return where the colour is neither the surface's own in light nor its ambient share in shadow."""
-    truth = expected(run.scene, run.size, flat=True)
-    return differ(run.image, truth.image) & truth.sure & truth.inside_faces
+    """Return where the colour is neither the surface's own in light nor its ambient share in shadow, off creases."""
+    return wrong_flat_colors_anywhere(run) & expected(run.scene, run.size, flat=True).inside_faces
 
 
 def wrong_flat_light(run: Run) -> np.ndarray:
+    """Return where a lit surface is darker than its own colour, or a shadowed one is not, off creases."""
+    return wrong_flat_light_anywhere(run) & expected(run.scene, run.size, flat=True).inside_faces
+
+
+def wrong_flat_light_anywhere(run: Run) -> np.ndarray:
     """Return where a lit surface is darker than its own colour, or a shadowed one is not."""
     truth = expected(run.scene, run.size, flat=True)
-    return (differ(run.image, truth.lit) != truth.shadow) & truth.sure & truth.inside_faces
+    return (differ(run.image, truth.lit) != truth.shadow) & truth.sure
 
 
-def grown_shadow(run: Run) -> np.ndarray:
-    """Return where lit receivers are darker than their own colour."""
+def wrong_flat_colors_anywhere(run: Run) -> np.ndarray:
+    """Return where the colour is neither the surface's own in light nor its ambient share in shadow."""
     truth = expected(run.scene, run.size, flat=True)
-    return differ(run.image, truth.lit) & ~truth.shadow & truth.receiver & truth.on_receivers
+    return differ(run.image, truth.image) & truth.sure
 
 
 def wrong_paint(run: Run) -> np.ndarray:
@@ -65,34 +72,22 @@ def wrong_paint(run: Run) -> np.ndarray:
     return (painted != (truth.shadow & truth.receiver)) & truth.on_receivers
 
 
-def wrong_paint_on_receivers(run: Run) -> np.ndarray:
-    """Return `wrong_paint` on receivers."""
-    return wrong_paint(run) & expected(run.scene, run.size).receiver
-
-
-def painted_lit(run: Run) -> np.ndarray:
-    """Return where shadow is painted on lit receivers."""
-    return wrong_paint_on_receivers(run) & ~expected(run.scene, run.size).shadow
-
-
-def painted_background(run: Run) -> np.ndarray:
-    """Return where shadow is painted on the background."""
-    truth = expected(run.scene, run.size)
-    return wrong_paint(run) & ~truth.seen
-
-
-def painted_casters(run: Run) -> np.ndarray:
-    """Return where shadow is painted over a nearer caster, off creases."""
-    truth = expected(run.scene, run.size)
-    return wrong_paint(run) & truth.seen & ~truth.receiver & truth.inside_faces
-
-
 def darkened_twice(run: Run) -> np.ndarray:
     """Return where a shadow on a receiver is darker than one layer of shadow."""
     truth = expected(run.scene, run.size)
     one_layer = truth.lit * (1 - DARKNESS)
     darker = (run.image < one_layer - ROUNDING).any(axis=-1)
     return darker & truth.receiver & truth.on_receivers
+
+
+# measures that leave pixels out, and the same without leaving them out
+STRICTER: dict[Measure, Measure] = {
+    wrong_on_receivers: wrong_colors,
+    wrong_inside_faces: wrong_colors,
+    wrong_flat_colors: wrong_flat_colors_anywhere,
+    wrong_flat_light: wrong_flat_light_anywhere,
+    darkened_twice: wrong_paint,
+}
 
 
 def share_of_light(run: Run, x: int, y: int, flat: bool) -> float:

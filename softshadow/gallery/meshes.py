@@ -47,6 +47,7 @@ FAILURES = (
         Setting("map", {"cull": "front"}),
         Setting("map"),
         wrong_on_receivers, "floor pixels whose colour is not that of the lights they see",
+        why_floor="on the tube itself, of whose single sheet a map lights both sides",
     ),
     Failure(
         "open-mesh-parity", "Every layer of an open mesh counts", "meshes", "E12, E13, E38",

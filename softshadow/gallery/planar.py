@@ -10,17 +10,15 @@ from softshadow.gallery.failure import Failure, Setting
 from softshadow.gallery.measures import (
     COUNTED,
     darkened_twice,
-    painted_background,
-    painted_casters,
-    painted_lit,
     wrong_colors,
     wrong_paint,
-    wrong_paint_on_receivers,
 )
 from softshadow.listings.stage import LOW_LAMP, STAGE, Thing, moved
 from softshadow.scene import Scene, SceneObject
 from softshadow.scene.shapes import box, floor
 
+# in words: what `wrong_paint` counts
+PAINTED = "pixels that are painted where no shadow falls on the floor, or not painted where one does"
 BLENDED = {"method": "stencil-blend"}
 
 # a lamp below a slab: no ray that meets the slab returns to the floor
@@ -38,6 +36,9 @@ IN_THE_AIR = replace(
         Thing(moved(box(0.7, 0.7, 0.7, name="upper box"), 0.1, 2.2, -0.1), (0.2, 0.5, 0.9)),
     ),
 )
+
+# the same on a floor that their shadows do not leave
+OVER_A_WIDE_FLOOR = replace(IN_THE_AIR, receiver=(Thing(floor(9), STAGE.receiver[0].color),))
 
 # a box below the floor, on rays that reach the floor unblocked
 UNDER_THE_FLOOR = replace(
@@ -66,15 +67,15 @@ FAILURES = (
         lambda: Scene.named("torus"),
         Setting("planar", {"method": "offset", "factor": 0.0, "units": 0.0}),
         Setting("planar", {"method": "offset"}),
-        wrong_paint, "shadow pixels that are not painted, or painted pixels without shadow",
+        wrong_paint, PAINTED,
     ),
     Failure(
         "offset-too-large", "The offset lifts the shadow in front of other objects", "planar", "SK:116",
         "A large offset moves the shadow so far towards the eye that it hides objects that are nearer than the floor.",
-        lambda: scene_of(IN_THE_AIR, "boxes in the air"),
+        lambda: scene_of(OVER_A_WIDE_FLOOR, "boxes over a wide floor"),
         Setting("planar", {"method": "offset", "units": -400000.0}),
         Setting("planar", {"method": "offset"}),
-        painted_casters, "caster pixels that are painted over by a shadow behind them",
+        wrong_paint, PAINTED,
     ),
     Failure(
         "double-blending", "Overlapping layers darken twice", "planar", "SK:199",
@@ -95,7 +96,7 @@ FAILURES = (
             AlteredCall("glStencilFunc(GL_EQUAL, 1, 255)", "glStencilFunc(GL_ALWAYS, 1, 255)"),
         )),
         Setting("planar", BLENDED),
-        painted_background, "background pixels that are painted with shadow",
+        wrong_paint, PAINTED,
     ),
     Failure(
         "anti-shadow", "Objects behind the light cast a shadow", "planar", "E21, SK:175-180",
@@ -103,7 +104,7 @@ FAILURES = (
         lambda: scene_of(UNDER_A_SLAB, "lamp under a slab"),
         as_listed("planar-rays", "E21", stage=UNDER_A_SLAB),
         as_listed("planar-rays", stage=UNDER_A_SLAB),
-        wrong_paint, "pixels that are painted but lit, or in shadow but not painted",
+        wrong_paint, PAINTED,
     ),
     Failure(
         "false-shadow", "Objects behind the receiver cast a shadow on it", "planar", "E16, E21",
@@ -111,7 +112,7 @@ FAILURES = (
         lambda: scene_of(UNDER_THE_FLOOR, "a box below the floor"),
         Setting("planar", {"clip": False}),
         Setting("planar"),
-        painted_lit, "pixels that are painted with shadow but lit",
+        wrong_paint, PAINTED,
     ),
     Failure(
         "wrong-matrix-sign", "The matrix has the wrong sign, and the shadow is missing", "planar", "E35, CA:369-383",
@@ -119,7 +120,7 @@ FAILURES = (
         lambda: Scene.named("boxes"),
         Setting("planar", {}, (AlteredCall("glMultMatrixd", with_other_sign),)),
         Setting("planar"),
-        wrong_paint, "shadow pixels that are not painted, or painted pixels without shadow",
+        wrong_paint, PAINTED,
     ),
     Failure(
         "light-direction", "The light's direction is reversed", "planar", "E36, CA:385-396",
@@ -127,7 +128,7 @@ FAILURES = (
         lambda: Scene.named("sunlight"),
         Setting("planar", {}, (AlteredCall("glMultMatrixd", with_other_sign),)),
         Setting("planar"),
-        wrong_paint, "shadow pixels that are not painted, or painted pixels without shadow",
+        wrong_paint, PAINTED,
     ),
     Failure(
         "cpu-division", "Vertices divided by w before GL clips", "planar", "E21, SK:139-153",
@@ -136,7 +137,7 @@ FAILURES = (
         lambda: scene_of(BESIDE_A_POST, "lamp beside a post"),
         as_listed("planar-rays", "E21", stage=BESIDE_A_POST),
         as_listed("planar-rays", stage=BESIDE_A_POST),
-        wrong_paint_on_receivers, "pixels that are painted but lit, or in shadow but not painted",
+        wrong_paint, PAINTED,
     ),
     Failure(
         "painting-over-nearer", "Shadow is painted over nearer objects", "planar", "E15, RO1:64-68",
@@ -144,7 +145,7 @@ FAILURES = (
         lambda: scene_of(IN_THE_AIR, "boxes in the air"),
         as_listed("planar-polygons", "E15", stage=IN_THE_AIR),
         as_listed("planar-polygons", stage=IN_THE_AIR),
-        painted_casters, "caster pixels that are painted over by a shadow behind them",
+        wrong_paint, PAINTED, floor=16, why_floor="own-shadow polygons reach a pixel over the edges of their faces",
     ),
     Failure(
         "casters-before-shadow", "The scene is drawn before its shadows", "planar", "E60, SK:163-171",
@@ -153,7 +154,7 @@ FAILURES = (
         lambda: scene_of(IN_THE_AIR, "boxes in the air"),
         as_listed("planar-darken", "E60", stage=IN_THE_AIR),
         as_listed("planar-darken", stage=IN_THE_AIR),
-        wrong_paint_on_receivers, "floor pixels that are painted but lit, or in shadow but not painted",
+        wrong_paint, PAINTED,
     ),
     Failure(
         "no-self-shadow", "Casters have no shadows on themselves or on each other", "planar", "SK:182-183, RO1:71",

@@ -22,23 +22,34 @@ def multiply(gl: Any, matrix: np.ndarray) -> None:
     gl.glMultMatrixf(np.ascontiguousarray(matrix.T, np.float32))
 
 
+def mark(gl: Any) -> None:
+    """Let the draws that follow mark their pixels with 1 in the stencil buffer."""
+    gl.glEnable(gl.GL_STENCIL_TEST)
+    gl.glStencilFunc(gl.GL_ALWAYS, 1, 255)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
+
+
+def draw_where_marked(gl: Any) -> None:
+    """Let the draws that follow change marked pixels only, and no mark."""
+    gl.glEnable(gl.GL_STENCIL_TEST)
+    gl.glStencilFunc(gl.GL_EQUAL, 1, 255)
+    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_KEEP)
+
+
 def three_steps(
     gl: Any, corrected: frozenset[str], stage: Stage = STAGE, projection: np.ndarray | None = None
 ) -> Steps:
     """CA:60-96, Ombres per projecció (un pla): receiver, flattened occluder without depth test, occluder."""
     begin_frame(gl, stage)
     if "E33" in corrected:
-        gl.glEnable(gl.GL_STENCIL_TEST)  # E33: the flattened occluder may reach beyond the receiver's edge
-        gl.glStencilFunc(gl.GL_ALWAYS, 1, 255)
-        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
+        mark(gl)  # E33: the flattened occluder may reach beyond the receiver's edge
     # 1. Dibuixar receptor
     draw(gl, stage.receiver)
     yield "1. the receiver"
 
     # 2. Dibuixar l'oclusor projectat (ombra)
     if "E33" in corrected:
-        gl.glStencilFunc(gl.GL_EQUAL, 1, 255)
-        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_KEEP)
+        draw_where_marked(gl)
     gl.glDisable(gl.GL_LIGHTING)
     gl.glDisable(gl.GL_DEPTH_TEST)
     gl.glMatrixMode(gl.GL_MODELVIEW)
@@ -75,9 +86,13 @@ def matrix_along_direction(gl: Any, corrected: frozenset[str], stage: Stage = ST
 def rays(gl: Any, corrected: frozenset[str], stage: Stage = LOW_LAMP) -> Steps:
     """SK:139-153, Projekčné tiene: every vertex along its ray onto y = 0, the lamp low among the casters."""
     begin_frame(gl, stage)
+    if "E33" in corrected:
+        mark(gl)  # E33: the shadow of a caster that reaches up to the lamp is infinite
     draw(gl, stage.receiver)
     yield "the receiver"
 
+    if "E33" in corrected:
+        draw_where_marked(gl)
     gl.glDisable(gl.GL_LIGHTING)
     gl.glDisable(gl.GL_DEPTH_TEST)
     if "E21" in corrected:
@@ -88,6 +103,8 @@ def rays(gl: Any, corrected: frozenset[str], stage: Stage = LOW_LAMP) -> Steps:
         gl.glPopMatrix()
     else:
         draw(gl, [flattened(thing, stage) for thing in stage.occluder])
+    if "E33" in corrected:
+        gl.glDisable(gl.GL_STENCIL_TEST)
     yield "the occluders along their rays"
 
     gl.glEnable(gl.GL_LIGHTING)
@@ -107,17 +124,23 @@ def flattened(thing: Thing, stage: Stage) -> Thing:
 def with_offset(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """CA:147-168 and CA:706-727, CastShadows::paintGL. In the second printing drawReceiver() is commented out."""
     begin_frame(gl, stage)
+    if "E33" in corrected:
+        mark(gl)  # E33, as in the version without an offset
     # 1. Dibuixar receptor
     draw(gl, stage.receiver)
     yield "1. the receiver"
 
     # 2. Dibuixar l'oclusor projectat (ombra)
+    if "E33" in corrected:
+        draw_where_marked(gl)
     gl.glDisable(gl.GL_LIGHTING)  # phongShader->setUniform("shadow", true)
     gl.glPushMatrix()
     multiply(gl, onto_ground(stage.light))  # phongShader->setUniform("modelMatrix", ...)
     gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
     gl.glPolygonOffset(-1, -1)
     draw(gl, stage.occluder)
+    if "E33" in corrected:
+        gl.glDisable(gl.GL_STENCIL_TEST)
     yield "2. the flattened occluder"
 
     # 3. Dibuixar oclusor
@@ -174,9 +197,17 @@ def with_stencil_255(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -
 def darkened(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """SK:163-171, Základný algoritmus: render the scene, then for each receiver the flattened casters in dark."""
     begin_frame(gl, stage)
-    draw(gl, stage.receiver if "E60" in corrected else stage.scene)  # render scenu (uplné osvetlenie)
+    if "E33" in corrected:
+        mark(gl)  # E33: the flattened casters may reach beyond the receiver's edge
+    draw(gl, stage.receiver)  # render scenu (uplné osvetlenie)
+    if "E33" in corrected:
+        gl.glDisable(gl.GL_STENCIL_TEST)
+    if "E60" not in corrected:
+        draw(gl, stage.occluder)  # E60: the scene is the casters, too
     yield "the lit receiver" if "E60" in corrected else "the lit scene"
 
+    if "E33" in corrected:
+        draw_where_marked(gl)
     gl.glDisable(gl.GL_LIGHTING)
     if "E60" in corrected:
         gl.glDisable(gl.GL_DEPTH_TEST)  # E60: the depths of receiver and shadow are equal but for rounding
@@ -184,6 +215,8 @@ def darkened(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     multiply(gl, onto_ground(stage.light))  # vynasobenie s aktuálnou transformáciou (modelview)
     draw(gl, stage.occluder)  # render vyznačenú (occluder) geometriu, darken/black
     gl.glPopMatrix()
+    if "E33" in corrected:
+        gl.glDisable(gl.GL_STENCIL_TEST)
     yield "the flattened occluder"
 
     if "E60" in corrected:
@@ -196,7 +229,12 @@ def darkened(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
 def shadow_polygons(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """RO1:41-68, Umbre planare, functia Update: the scene, then the polygons of own and cast shadows over it."""
     begin_frame(gl, stage)
-    draw(gl, stage.scene)  # 1. Se cere rasterizarea poligoanelor scenei.
+    if "E16" in corrected:
+        mark(gl)  # E16: a projection ends where its receiver does
+    draw(gl, stage.receiver)  # 1. Se cere rasterizarea poligoanelor scenei.
+    if "E16" in corrected:
+        gl.glDisable(gl.GL_STENCIL_TEST)
+    draw(gl, stage.occluder)
     yield "1. the polygons of the scene"
 
     gl.glDisable(gl.GL_LIGHTING)
@@ -211,10 +249,13 @@ def shadow_polygons(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) ->
         lit = casting_faces(thing.mesh, np.array(stage.light)).facing
         unlit = np.setdiff1d(np.arange(len(thing.mesh.triangles)), lit)
         draw_faces(gl, thing, thing.mesh.triangles[unlit])  # umbră proprie: the face itself
+        if "E16" in corrected:
+            draw_where_marked(gl)
         gl.glPushMatrix()
         multiply(gl, onto_ground(stage.light))
         draw_faces(gl, thing, thing.mesh.triangles[lit])  # umbră purtată: a lit face, projected
         gl.glPopMatrix()
+        gl.glDisable(gl.GL_STENCIL_TEST)
     yield "2., 3. the shadow polygons"
 
 
@@ -222,14 +263,12 @@ def projected_faces(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_
     """RO1:43, "proiectând în scenă, din poziția sursei, toate poligoanele": every lit face, wherever it lies."""
     begin_frame(gl, stage)
     if "E16" in corrected:
-        gl.glEnable(gl.GL_STENCIL_TEST)  # E16: a projection ends where its receiver does
-        gl.glStencilFunc(gl.GL_ALWAYS, 1, 255)
-        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
+        mark(gl)  # E16: a projection ends where its receiver does
     draw(gl, stage.receiver)
     yield "the receiver"
 
-    gl.glStencilFunc(gl.GL_EQUAL, 1, 255)
-    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_KEEP)
+    if "E16" in corrected:
+        draw_where_marked(gl)
     gl.glDisable(gl.GL_LIGHTING)
     gl.glDisable(gl.GL_DEPTH_TEST)
     for thing in stage.occluder:
@@ -249,10 +288,11 @@ def projected_faces(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_
     yield "the occluders"
 
 
+ON_RECEIVER = "a stencil mark keeps the shadow on the receiver"
 LISTINGS = (
     Listing(
         "planar", "Projection onto one plane, depth test off", "planar", "CA:60-96", three_steps,
-        {"E33": "a stencil mark keeps the shadow on the receiver", "E34": "the occluder is drawn last, not the lamp"},
+        {"E33": ON_RECEIVER, "E34": "the occluder is drawn last, not the lamp"},
     ),
     Listing(
         "planar-point", "Matrix of a light at a point", "planar", "CA:371-383", matrix_from_point,
@@ -264,18 +304,24 @@ LISTINGS = (
     ),
     Listing(
         "planar-rays", "Vertices along rays onto the ground", "planar", "SK:139-180", rays,
-        {"E21": "casters above the lamp or below the ground cast nothing"},
+        {"E21": "casters above the lamp or below the ground cast nothing", "E33": ON_RECEIVER},
     ),
-    Listing("planar-offset", "Projection with polygon offset", "planar", "CA:147-168, CA:706-727", with_offset),
+    Listing(
+        "planar-offset", "Projection with polygon offset", "planar", "CA:147-168, CA:706-727", with_offset,
+        {"E33": ON_RECEIVER},
+    ),
     Listing("planar-stencil", "Projection with stencil, mask 1", "planar", "CA:292-359", with_stencil),
     Listing("planar-stencil-255", "Projection with stencil, mask 255", "planar", "CA:743-784", with_stencil_255),
     Listing(
         "planar-darken", "The basic algorithm", "planar", "SK:163-171", darkened,
-        {"E60": "receiver, shadow, casters, in this order"},
+        {"E33": ON_RECEIVER, "E60": "receiver, shadow, casters, in this order"},
     ),
     Listing(
         "planar-polygons", "Shadow polygons", "planar", "RO1:41-68", shadow_polygons,
-        {"E15": "GL_LEQUAL and a polygon offset instead of no depth test"},
+        {
+            "E15": "GL_LEQUAL and a polygon offset instead of no depth test",
+            "E16": "a projection ends where its receiver does",
+        },
     ),
     Listing(
         "planar-faces", "Every lit face projected", "planar", "RO1:43", projected_faces,

@@ -7,7 +7,7 @@ import pytest
 
 import softshadow as ss
 from softshadow.gallery import Failure
-from softshadow.gallery.measures import deepest, differ
+from softshadow.gallery.measures import STRICTER, darkened_twice, deepest, differ, wrong_paint
 
 MOST_LINES = 60  # of a diff: a cure is a call, an option, or at most a pass of its own
 
@@ -37,6 +37,32 @@ def test_pixels_are_wrong_with_the_failure_and_right_with_the_cure(failure: Fail
     assert failure.number_wrong > max(0, failure.floor)
     assert failure.number_cured <= failure.floor
     assert failure.why_floor or not failure.floor
+
+
+def test_planar_cure_paints_where_shadow_falls_and_nowhere_else(failure: Failure) -> None:
+    """Whatever the entry counts: over the floor's edge, over nearer casters, and on lit places."""
+    if (
+        failure.family == "planar"
+        and failure.with_cure.technique != "volume-zfail"
+        and failure.name != "modulative-lights"
+    ):
+        assert wrong_paint(replace(failure.cured, scene=failure.scene)).sum() <= failure.floor
+
+
+def test_wrong_pixels_that_a_measure_leaves_out_are_told(failure: Failure) -> None:
+    strict = STRICTER.get(failure.measure, failure.measure)
+    wrong = strict(replace(failure.cured, scene=failure.scene)).sum()
+    assert failure.number_cured + failure.number_uncounted >= wrong
+    assert (str(failure.number_uncounted) in failure.remark) == (failure.number_uncounted > 0)
+    assert failure.why_floor or not failure.number_uncounted
+    assert failure.remark in failure.explain()
+
+
+def test_cure_is_better_everywhere_than_its_failure(failure: Failure) -> None:
+    """Also by the measure that leaves nothing out."""
+    strict = STRICTER.get(failure.measure, failure.measure)
+    wrong, cured = (strict(replace(run, scene=failure.scene)).sum() for run in (failure.wrong, failure.cured))
+    assert 2 * cured < wrong or failure.measure is darkened_twice
 
 
 def test_pixel_to_click_has_two_colors(failure: Failure) -> None:
