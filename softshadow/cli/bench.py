@@ -60,7 +60,10 @@ def bench(
     context: click.Context, names: tuple[str, ...], against: tuple[str, ...], threads: list[int], rounds: int,
     size: tuple[int, int] | None, scaling: str | None, starts: bool, plot: str | None, as_json: bool,
 ) -> None:  # fmt: skip
-    """Measure frame times of workloads, or list them; with the name calls, measure single GL calls."""
+    """Measure frame times of workloads, or list them.
+
+    With the name calls, single GL calls are measured.
+    """
     from softshadow.bench.peers import peers_for
     from softshadow.bench.regression import time_changes
     from softshadow.bench.workloads import select_workloads

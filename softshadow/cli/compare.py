@@ -75,7 +75,7 @@ def compare(
     options: tuple[str, ...], all_soft: bool, samples: int | None, seconds: float | None, slopes: bool, laws: bool,
     max_wrong: int | None, max_rms: float | None, output: str | None, opened: bool, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
-    """Compare the shadows of two techniques, or of any number with the true shadow.
+    """Compare techniques with each other, or with the true shadow.
 
     Without --truth, two techniques are compared, and the second is the reference. The truth "hard" is ray casting to
     the centre of each light. The truth "soft" is the part of each light that a pixel's point sees: an exact area where
@@ -102,18 +102,21 @@ def compare(
 
             reference = soft_truth(drawn, size)
             against = str(reference)
-            results = [_beside_soft_truth(drawn, reference, each, samples or SAMPLES, seconds) for each in chosen]
+            shown = results = [
+                _beside_soft_truth(drawn, reference, each, samples or SAMPLES, seconds) for each in chosen
+            ]
             sampled = dict.fromkeys(each.technique for each in results if "samples" in each.options)
             fitted = [one for name in sampled for one in convergence(drawn, reference, name)] if slopes else []
             measured = law_table([each.name for each in chosen]) if laws else []
         else:
-            against, results = _beside_hard_truth_or_second(drawn, size, chosen, truth)
+            against, results, shown = _beside_hard_truth_or_second(drawn, size, chosen, truth)
     exceeded = [text for each in results for text in _exceeded(each, max_wrong, max_rms)]
-    written = _write(output, f"{drawn.name}, against {against}", results, fitted, force) if output else []
+    title = f"{drawn.name}, against {against}"
+    written = _write(output, title, results, shown, fitted, force) if output else []
     if as_json:
         _print_json(drawn.name, size, truth, against, results, fitted, measured, exceeded, written, output)
     else:
-        _print(f"{drawn.name}, against {against}", results, fitted, measured, timed=truth == "soft")
+        _print(title, results, fitted, measured, timed=truth == "soft")
     say_written(*written, opened=opened)
     for text in exceeded:
         say_marked("error", text)
@@ -152,8 +155,8 @@ def _beside_soft_truth(
 
 def _beside_hard_truth_or_second(
     scene: Scene, size: tuple[int, int], chosen: Sequence[ChosenTechnique], truth: str | None
-) -> tuple[str, list[TechniqueError]]:
-    """Return the reference's name, and the errors: against ray casting, or of the first technique against the last."""
+) -> tuple[str, list[TechniqueError], list[TechniqueError]]:
+    """Return the reference's name, the errors, and what pictures show: the same, or both of two techniques."""
     from softshadow.runs import run
     from softshadow.soft import TechniqueError
 
@@ -163,10 +166,14 @@ def _beside_hard_truth_or_second(
         against = comparisons[0].against
     else:
         comparisons, against = [runs[0].compare(runs[1])], chosen[1].label
-    return against, [
+    results = [
         TechniqueError(each.name, each.options, 0.0, comparison, drawn)
         for each, comparison, drawn in zip(chosen, comparisons, runs, strict=False)
     ]
+    if truth is not None:
+        return against, results, results
+    second = TechniqueError(chosen[1].name, chosen[1].options, 0.0, runs[1].compare(runs[1]), runs[1])
+    return against, results, [*results, second]
 
 
 def _off_band(comparison: Comparison) -> ErrorSummary:
@@ -273,14 +280,15 @@ def _check_output(output: str, force: bool) -> None:
 
 
 def _write(
-    output: str, title: str, results: Sequence[TechniqueError], fitted: Sequence[Convergence], force: bool
-) -> list[Path]:
+    output: str, title: str, results: Sequence[TechniqueError], shown: Sequence[TechniqueError],
+    fitted: Sequence[Convergence], force: bool,
+) -> list[Path]:  # fmt: skip
     """Write the pictures of the errors, as one file or into a folder, and return the paths."""
     from softshadow.inspection.files import is_folder, write_whole
     from softshadow.inspection.pictures import save_png
     from softshadow.soft import contact_sheet_of, save_convergence_plot
 
-    sheet = contact_sheet_of(results)
+    sheet = contact_sheet_of(shown)
     path = Path(output)
     if path.suffix.lower() == ".html":
         from softshadow.cli.compare_page import write_page

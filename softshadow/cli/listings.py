@@ -50,9 +50,10 @@ def listings(
     context: click.Context, name: str | None, printed: bool, pixel: tuple[int, int] | None, on: str | None,
     size: tuple[int, int], output: str | None, opened: bool, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
-    """List the course's GL listings, or show one: its code, its steps, and the effect of its corrections.
+    """List the course's GL listings, or show one.
 
-    The numbers before each line of the code are the steps that execute it, and its line in the file.
+    Prints the code, the steps, and the effect of the corrections. The numbers before each line of the code are the
+    steps that execute it, and its line in the file.
     """
     from softshadow import listings as registry
 
@@ -205,7 +206,7 @@ def _write(target: str, run: Run, force: bool) -> Path:
         return run.save(target, force)
     rows = [
         (
-            f"{step.index}  {', '.join([step.title, *step.maps])}",
+            f"{step.index}  {step.title}{''.join(f' [{name}]' for name in step.maps)}",
             (step.image, depth_picture(step.depth), step.stencil, *map_pictures(step.maps).values()),
         )
         for step in run.steps

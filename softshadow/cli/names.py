@@ -111,10 +111,15 @@ def complete_files(ctx: click.Context, param: click.Parameter, incomplete: str) 
 
 
 def complete_options(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Return the options of the technique that stands before, each as KEY=, and its choices as KEY=VALUE."""
+    """Return the options of the techniques that stand before, each as KEY=, and its choices as KEY=VALUE."""
     from softshadow import techniques
 
-    name = ctx.params.get("technique")
-    known = techniques.get(name).options if name in techniques.names() else {}
-    texts = [f"{key}={choice}" for key, option in known.items() for choice in option.choices or ("",)]
-    return [CompletionItem(text) for text in texts if text.startswith(incomplete)]
+    words = [ctx.params.get("technique"), *(ctx.params.get("names") or ()), *ctx.args]  # args: what is not parsed yet
+    names = [name for word in words if word and (name := word.partition(":")[0]) in techniques.names()]
+    texts = [
+        f"{key}={choice}"
+        for name in names
+        for key, option in techniques.get(name).options.items()
+        for choice in option.choices or ("",)
+    ]
+    return [CompletionItem(text) for text in dict.fromkeys(texts) if text.startswith(incomplete)]

@@ -214,10 +214,10 @@ def section(
     x: int | None, y: int | None, scene: SceneArguments, size: tuple[int, int], output: str, opened: bool, force: bool,
     as_json: bool,
 ) -> None:  # fmt: skip
-    """Draw a scene cut by a plane, with its shadow volumes and wedges.
+    """Draw a scene cut by a plane, with its volumes.
 
-    The plane is vertical, through the light and the casters; or, with X and Y, through the light, the eye and what this
-    pixel shows. Then the counts along the line of sight are drawn, too.
+    Penumbra wedges of area lights are drawn, too. The plane is vertical, through the light and the casters; or, with X
+    and Y, through the light, the eye and what this pixel shows. Then the counts along the line of sight are drawn, too.
     """
     from softshadow.report import cross_section, save_svg
 

@@ -1,6 +1,7 @@
 """Call the command line inside this process, so that kernels are compiled only once."""
 
 import json
+import re
 from typing import Any
 
 from click.testing import CliRunner, Result
@@ -31,11 +32,18 @@ def json_of(*arguments: object) -> dict[str, Any]:
     return result
 
 
-def error_of(*arguments: object) -> str:
+def error_of(*arguments: object, exit_code: int = 3) -> str:
     """Return the message of a command that must reject bad input with exit code 3 and an empty stdout."""
     result = invoke(*arguments)
-    assert result.exit_code == 3, result.output
+    assert result.exit_code == exit_code, result.output
     assert result.stdout == ""
     errors = [line for line in result.stderr.splitlines() if not line.startswith(("warning: ", "compiling "))]
     assert errors[0].startswith("error: ")
     return "\n".join(errors).removeprefix("error: ")
+
+
+def usage_error_of(*arguments: object) -> str:
+    """Return the message of a command that must refuse its arguments with exit code 2, and name the help."""
+    message, helped = error_of(*arguments, exit_code=2).splitlines()
+    assert re.fullmatch(r"help: softshadow( [a-z]+)? --help", helped)
+    return message

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from softshadow.cli import console
-from softshadow.errors import OpenMesh, PartlyReadFile
+from softshadow.errors import OpenMesh, PartlyReadFile, SoftShadowError
 
 ROWS = [["7", "[bold]duck[/bold].obj", ":smile:"], ["1234", "b", ""]]
 
@@ -30,15 +30,69 @@ def test_table_in_a_pipe_is_plain_columns(capsys: pytest.CaptureFixture) -> None
     assert second.split() == ["1234", "b"]
 
 
-def test_table_on_a_terminal_is_ruled_and_takes_brackets_as_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
-    terminal = Terminal()
-    monkeypatch.setattr(sys, "stdout", terminal)
-    monkeypatch.setenv("COLUMNS", "80")
+@pytest.fixture
+def terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
+    """Stdout is a terminal without colours."""
+    stream = Terminal()
+    monkeypatch.setattr(sys, "stdout", stream)
     monkeypatch.setenv("NO_COLOR", "1")
+    return stream
+
+
+def test_table_on_a_terminal_has_a_title_and_takes_brackets_as_they_are(
+    terminal: Terminal, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
     console.table("Files", ["faces", "file", "note"], ROWS)
-    lines = terminal.getvalue().splitlines()
-    assert "Files" in lines[0]
-    assert "│     7 │ [bold]duck[/bold].obj │ :smile: │" in lines
+    title, heads, first, _ = terminal.getvalue().splitlines()
+    assert (title, heads.split()) == ("Files", ["faces", "file", "note"])
+    assert first == "    7  [bold]duck[/bold].obj  :smile:"
+
+
+@pytest.mark.parametrize("columns", [40, 60, 80, 120])
+def test_table_loses_nothing_at_any_width(columns: int, terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", str(columns))
+    counts = "  ".join(f"{value}: {1000 + value}" for value in range(30))
+    console.table("Steps", ["step", "title", "draws", "stencil: pixels"], [["0", "count back faces", "3", counts]])
+    text = terminal.getvalue()
+    assert max(map(len, text.splitlines())) <= columns
+    assert [f"{value}: {1000 + value}" in text for value in range(30)] == [True] * 30
+    assert "count back faces" in text
+
+
+def test_verdicts_are_coloured_unless_that_is_unwanted(
+    terminal: Terminal, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    for unwanted in ("NO_COLOR", "TERM"):
+        monkeypatch.setenv("NO_COLOR", "1" if unwanted == "NO_COLOR" else "")
+        monkeypatch.setenv("TERM", "dumb" if unwanted == "TERM" else "xterm")
+        console.table("Pixel", ["verdict"], [["passed"]])
+    assert "\x1b" not in terminal.getvalue()
+    monkeypatch.setenv("TERM", "xterm")
+    console.table("Pixel", ["verdict"], [["passed"], ["depth failed"]])
+    assert "\x1b[32mpassed" in terminal.getvalue()
+    assert "\x1b[31mdepth failed" in terminal.getvalue()
+
+
+def test_code_is_wrapped_below_its_indentation(terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "40")
+    console.show_code("maps.py: use", [("0 1", 7, "    call(first_argument, second_argument)"), ("", 8, "")])
+    assert terminal.getvalue().splitlines()[1:3] == [
+        "  0 1    7      call(first_argument,",
+        "                    second_argument)",
+    ]
+
+
+def test_written_files_are_named_and_opened(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr("webbrowser.open", lambda address: opened.append(address) or len(opened) == 1)
+    console.say_written(tmp_path, tmp_path / "a.png", opened=True)
+    assert capsys.readouterr().err == f"written: {tmp_path}/\nwritten: {tmp_path}/a.png\n"
+    assert opened == [(tmp_path / "a.png").as_uri()]
+    with pytest.raises(SoftShadowError, match="is written, but no browser was found"):
+        console.say_written(tmp_path / "a.png", opened=True)
 
 
 def test_warning_is_said_once_by_name(capsys: pytest.CaptureFixture) -> None:

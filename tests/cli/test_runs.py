@@ -1,6 +1,8 @@
 """``softshadow render``, ``steps`` and ``pixel``: images, reports, tables and the history of a pixel."""
 
+import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,7 +11,7 @@ from PIL import Image
 import softshadow as ss
 from cli.invocation import invoke_ok, json_of
 from paths import SCENES, shared_file
-from softshadow.cli.arguments import scene_arguments_text
+from softshadow.cli.arguments import SceneArguments
 
 SIZE = (48, 36)
 SMALL = ("--size", "48x36")
@@ -27,7 +29,8 @@ def zfail() -> ss.Run:
 
 
 def test_picture_is_named_by_the_technique_and_its_path_is_printed(zfail: ss.Run) -> None:
-    assert invoke_ok("render", "volume-zfail", *SMALL).stdout == "volume-zfail.png\n"
+    answer = invoke_ok("render", "volume-zfail", *SMALL)
+    assert (answer.stdout, answer.stderr) == ("", "written: volume-zfail.png\n")
     with Image.open("volume-zfail.png") as picture:
         np.testing.assert_array_equal(np.asarray(picture), zfail.image)
 
@@ -61,7 +64,6 @@ def test_explain_path_tells_the_way_of_every_draw() -> None:
     assert all(path["reasons"] for path in paths)
     printed = invoke_ok("render", "volume-zfail", *SMALL, "--explain-path", "--force").stdout
     assert printed.count("no colour is written or tested") == sum("chunks" in path["way"] for path in paths)
-    assert printed.endswith("volume-zfail.png\n")
 
 
 def test_json_of_render_tells_what_was_drawn_and_written(zfail: ss.Run) -> None:
@@ -93,10 +95,61 @@ def test_light_replaces_the_lights_of_a_scene() -> None:
     assert ss.load_run("a.npz").scene.lights[0].position.tolist() == [0, 9, 0.5, 1]
 
 
+def test_repeated_light_is_several_lights() -> None:
+    invoke_ok("render", "volume-zfail", *SMALL, "--light=2,5,3", "--light=-2,5,1,0", "-o", "a.npz")
+    lights = ss.load_run("a.npz").scene.lights
+    assert [light.position.tolist() for light in lights] == [[2, 5, 3, 1], [-2, 5, 1, 0]]
+    assert [light.name for light in lights] == ["light 1", "light 2"]
+
+
+def test_camera_is_that_of_the_scene_but_for_what_is_given() -> None:
+    invoke_ok("render", "map", *SMALL, "--scene", "boxes", "--eye=3,4,5", "--fov", "60", "-o", "a.npz")
+    camera, own = ss.load_run("a.npz").scene.camera, ss.Scene.named("boxes").camera
+    assert (camera.eye.tolist(), camera.fov_y) == ([3, 4, 5], 60)
+    assert camera.target.tolist() == own.target.tolist()
+    invoke_ok("render", "map", *SMALL, "--mesh", SCENES / "crate.obj", "--target=0,1,0", "-o", "a.npz")
+    assert ss.load_run("a.npz").scene.camera.target.tolist() == [0, 1, 0]
+
+
 def test_arguments_are_spelled_as_the_shell_takes_them() -> None:
-    assert scene_arguments_text(None, None, None, (4, 3)) == "--scene torus --size 4x3"
-    assert scene_arguments_text("boxes", None, (-1.0, 2.5, 3.0), (4, 3)) == "--scene boxes --light=-1,2.5,3 --size 4x3"
-    assert scene_arguments_text(None, "my duck.glb", None, (4, 3)) == "--mesh 'my duck.glb' --size 4x3"
+    assert SceneArguments().text((4, 3)) == "--scene torus --size 4x3"
+    lit = SceneArguments("boxes", lights=((-1.0, 2.5, 3.0), (0.0, 1.0, 0.0, 0.0)))
+    assert lit.text((4, 3)) == "--scene boxes --light=-1,2.5,3 --light=0,1,0,0 --size 4x3"
+    seen = SceneArguments(mesh="my duck.glb", eye=(1.0, 2.0, -3.5), target=(0.0, 0.0, 0.0), fov=50.0)
+    assert seen.text((4, 3)) == "--mesh 'my duck.glb' --eye=1,2,-3.5 --target=0,0,0 --fov=50 --size 4x3"
+
+
+def test_all_techniques_are_drawn_into_a_folder(here: Path) -> None:
+    answer = json_of_all("--scene", "room", "--size", "24x18", "-O", "map_size=32")
+    drawn = [each["technique"] for each in answer["techniques"]]
+    assert drawn + [each["technique"] for each in answer["left_out"]] == ss.technique_names()
+    assert {path.name for path in (here / "all-techniques").iterdir()} == {
+        "sheet.png", *(f"{name}.png" for name in drawn)
+    }  # fmt: skip
+    with Image.open("all-techniques/map.png") as picture:
+        expected = ss.run("map", "room", (24, 18), map_size=32).image
+        np.testing.assert_array_equal(np.asarray(picture), expected)
+
+
+def test_technique_that_refuses_the_scene_is_left_out(here: Path) -> None:
+    answer = invoke_ok("render", "--all", "--scene", "sunlight", "--size", "24x18", "-o", "sun/")
+    assert "left out: map-cube: " in answer.stderr
+    assert answer.stderr.endswith("written: sun/\nwritten: sun/sheet.png\n")
+    assert not Path("sun/map-cube.png").exists()
+
+
+def json_of_all(*words: str) -> dict[str, Any]:
+    answer = json.loads(invoke_ok("render", "--all", *words, "--json").stdout)
+    assert answer["schema"] == "softshadow/render-all/1"
+    return answer
+
+
+def test_written_file_is_opened(monkeypatch: pytest.MonkeyPatch, here: Path) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr("webbrowser.open", lambda address: opened.append(address) or True)
+    invoke_ok("render", "planar", *SMALL, "-o", "a.html", "--open")
+    invoke_ok("section", "--scene", "boxes", "--open")
+    assert opened == [(here / "a.html").as_uri(), (here / "section.svg").as_uri()]
 
 
 def test_steps_are_counted_as_in_the_ledger(zfail: ss.Run) -> None:

@@ -25,17 +25,18 @@ def names(folder: Path) -> set[str]:
     return {str(path.relative_to(folder)) for path in folder.rglob("*")}
 
 
-def test_page_is_named_on_stdout_and_the_stops_on_stderr(here: Path) -> None:
+def test_page_and_stops_are_named_on_stderr(here: Path) -> None:
     answer = invoke_ok("tour", *SMALL)
-    assert answer.stdout == "softshadow-tour/index.html\n"
+    assert answer.stdout == ""
+    assert answer.stderr.splitlines()[-1] == "written: softshadow-tour/index.html"
     assert [stop.title for stop in STOPS if stop.title not in answer.stderr.splitlines()] == []
     assert {path.name for path in here.iterdir()} == {"softshadow-tour"}
 
 
 def test_question_that_the_tour_suggests_is_answered() -> None:
-    answer = invoke_ok("tour", *SMALL, "--scene", "boxes", "--light=-2,5,1")
-    suggested = answer.stderr.rsplit("softshadow ", 1)[1].split()
-    assert suggested[-5:] == ["--scene", "boxes", "--light=-2,5,1", *SMALL]
+    answer = invoke_ok("tour", *SMALL, "--scene", "boxes", "--light=-2,5,1", "--eye=0,3,7", "--fov", "50")
+    suggested = answer.stderr.rsplit("softshadow ", 1)[1].splitlines()[0].split()
+    assert suggested[-7:] == ["--scene", "boxes", "--light=-2,5,1", "--eye=0,3,7", "--fov=50", *SMALL]
     invoke_ok(*suggested)
 
 
