@@ -22,6 +22,7 @@ ASKED = {
     "render": ["planar", "-o", "a.png"],
     "steps": ["planar"],
     "pixel": ["planar", "3", "4"],
+    "compare": ["planar", "map"],
     "techniques": [],
     "scenes": [],
     "listings": [],
@@ -54,8 +55,10 @@ def test_line_of_the_page_runs(line: str) -> None:
     program, command, *arguments = shlex.split(line.split(" > ")[0])
     assert program == "softshadow"
     # later sizes win; the pixels are those of the full size
-    sized = command in ("tour", "render", "steps") or (command == "bench" and arguments)
-    invoke_ok(command, *arguments, *(["--size", "48x36"] if sized else []))
+    sized = command in ("tour", "render", "steps", "section") or (command == "bench" and arguments)
+    size = "24x18" if command == "compare" else "48x36"
+    sized |= command == "compare" and "--max-wrong" not in arguments
+    invoke_ok(command, *arguments, *(["--size", size] if sized else []))
 
 
 def test_every_command_is_on_the_page() -> None:
@@ -72,7 +75,7 @@ def test_printed_tables_and_sentences_are_what_is_printed() -> None:
 def test_keys_of_the_json_are_those_of_the_page(command: str) -> None:
     row = re.search(rf"\| `softshadow/{command}/1` \| (.*) \|", PAGE)[1]
     keys, _, keys_of_rows = row.partition(": ")
-    size = ["--size", "16x12"] if command in ("tour", "render", "steps", "pixel") else []
+    size = ["--size", "16x12"] if command in ("tour", "render", "steps", "pixel", "compare") else []
     answer = json_of(command, *ASKED[command], *size)
     shared = SHARED if command in ("render", "steps", "pixel") else {"schema"}
     assert set(answer) == shared | set(re.findall(r"`(.*?)`", keys))

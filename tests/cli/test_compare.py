@@ -54,26 +54,31 @@ def test_soft_techniques_are_compared_with_the_soft_truth() -> None:
     assert [each["technique"] for each in answer["techniques"]] == list(soft_candidates())
     samples = {each["options"].get("samples") for each in answer["techniques"]}
     assert samples == {None, 4}
-    words = ("volume-sampled:samples=9", "--truth", "soft", "--size", "24x18", "--slopes", "--laws")
-    answer = json_of("compare", *words, "-o", "out/")
+    answer = json_of("compare", "volume-sampled:samples=9", "--truth", "soft", "--size", "24x18")
     assert answer["techniques"][0]["options"] == {"samples": 9}
+
+
+@pytest.mark.slow  # a hundred runs
+def test_slopes_and_laws_are_measured_and_plotted() -> None:
+    words = ("volume-sampled", "--truth", "soft", "--size", "24x18", "--slopes", "--laws")
+    answer = json_of("compare", *words, "-o", "out/")
     assert answer["slopes"]
     assert answer["laws"]
     assert {path.name for path in Path("out").iterdir()} == {"errors.png", "slopes.svg"}
 
 
 @pytest.mark.parametrize(
-    ("bound", "exceeded"),
+    ("technique", "bound", "exceeded"),
     [
-        (("--max-wrong", "0"), False),
-        (("--max-rms", "1"), False),
-        (("--max-rms", "0"), True),
+        ("volume-zfail", ("--max-wrong", "0"), False),
+        ("map", ("--max-rms", "1"), False),
+        ("map", ("--max-rms", "0"), True),
     ],
 )
-def test_error_beyond_a_bound_is_exit_code_1(bound: tuple[str, str], exceeded: bool) -> None:
-    answer = invoke("compare", "volume-zfail", "--truth", "hard", "--scene", "torus", *SMALL, *bound)
+def test_error_beyond_a_bound_is_exit_code_1(technique: str, bound: tuple[str, str], exceeded: bool) -> None:
+    answer = invoke("compare", technique, "--truth", "hard", *SMALL, *bound)
     assert answer.exit_code == exceeded
-    assert ("error: volume-zfail: RMS error" in answer.stderr) == exceeded
+    assert ("error: map: RMS error" in answer.stderr) == exceeded
     assert "compared" in answer.stdout
 
 

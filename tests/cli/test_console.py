@@ -30,19 +30,17 @@ def test_table_in_a_pipe_is_plain_columns(capsys: pytest.CaptureFixture) -> None
     assert second.split() == ["1234", "b"]
 
 
-@pytest.fixture
-def terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
-    """Stdout is a terminal without colours."""
+def terminal_for(monkeypatch: pytest.MonkeyPatch, columns: int = 80) -> Terminal:
+    """Make stdout a terminal without colours, until the test ends."""
     stream = Terminal()
     monkeypatch.setattr(sys, "stdout", stream)
     monkeypatch.setenv("NO_COLOR", "1")
+    monkeypatch.setenv("COLUMNS", str(columns))
     return stream
 
 
-def test_table_on_a_terminal_has_a_title_and_takes_brackets_as_they_are(
-    terminal: Terminal, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("COLUMNS", "80")
+def test_table_on_a_terminal_has_a_title_and_takes_brackets_as_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = terminal_for(monkeypatch)
     console.table("Files", ["faces", "file", "note"], ROWS)
     title, heads, first, _ = terminal.getvalue().splitlines()
     assert (title, heads.split()) == ("Files", ["faces", "file", "note"])
@@ -50,8 +48,8 @@ def test_table_on_a_terminal_has_a_title_and_takes_brackets_as_they_are(
 
 
 @pytest.mark.parametrize("columns", [40, 60, 80, 120])
-def test_table_loses_nothing_at_any_width(columns: int, terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", str(columns))
+def test_table_loses_nothing_at_any_width(columns: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = terminal_for(monkeypatch, columns)
     counts = "  ".join(f"{value}: {1000 + value}" for value in range(30))
     console.table("Steps", ["step", "title", "draws", "stencil: pixels"], [["0", "count back faces", "3", counts]])
     text = terminal.getvalue()
@@ -60,12 +58,11 @@ def test_table_loses_nothing_at_any_width(columns: int, terminal: Terminal, monk
     assert "count back faces" in text
 
 
-def test_verdicts_are_coloured_unless_that_is_unwanted(
-    terminal: Terminal, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
-) -> None:
-    for unwanted in ("NO_COLOR", "TERM"):
-        monkeypatch.setenv("NO_COLOR", "1" if unwanted == "NO_COLOR" else "")
-        monkeypatch.setenv("TERM", "dumb" if unwanted == "TERM" else "xterm")
+def test_verdicts_are_coloured_unless_that_is_unwanted(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = terminal_for(monkeypatch)
+    for no_color, term in (("1", "xterm"), ("", "dumb")):
+        monkeypatch.setenv("NO_COLOR", no_color)
+        monkeypatch.setenv("TERM", term)
         console.table("Pixel", ["verdict"], [["passed"]])
     assert "\x1b" not in terminal.getvalue()
     monkeypatch.setenv("TERM", "xterm")
@@ -74,8 +71,8 @@ def test_verdicts_are_coloured_unless_that_is_unwanted(
     assert "\x1b[31mdepth failed" in terminal.getvalue()
 
 
-def test_code_is_wrapped_below_its_indentation(terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "40")
+def test_code_is_wrapped_below_its_indentation(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = terminal_for(monkeypatch, 40)
     console.show_code("maps.py: use", [("0 1", 7, "    call(first_argument, second_argument)"), ("", 8, "")])
     assert terminal.getvalue().splitlines()[1:3] == [
         "  0 1    7      call(first_argument,",

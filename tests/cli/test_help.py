@@ -15,9 +15,10 @@ from softshadow import __version__
 from softshadow.cli import main
 
 COMMANDS = list(main.commands)
-SLOW = ("warmup", "bench")  # compile every state that they draw with
+SLOW = ("warmup", "bench", "tour")  # draw with all techniques, or compile every state that they draw with
 SMALL = {
-    **{command: ["--size", "48x36"] for command in ("tour", "render", "steps")},
+    **{command: ["--size", "48x36"] for command in ("tour", "render", "steps", "failures", "listings")},
+    "compare": ["--size", "24x18"],
     "bench": ["--size", "48x36", "--rounds", "1"],
 }
 HEAVY = ("numpy", "numba", "trimesh", "PIL", "pydantic", "jinja2", "rich")
@@ -29,15 +30,18 @@ def examples(command: str) -> list[str]:
     return [line.strip() for line in epilog.partition("Examples:")[2].strip().splitlines()]
 
 
-def test_every_command_shows_two_examples() -> None:
-    assert [command for command in ["", *COMMANDS] if len(examples(command)) != 2] == []
+def test_every_command_shows_examples_one_in_a_line() -> None:
+    assert [command for command in ["", *COMMANDS] if not 2 <= len(examples(command)) <= 4] == []
+    for command in ["", *COMMANDS]:
+        shown = invoke_ok(*([command] if command else []), "--help").stdout.splitlines()
+        assert [line for line in examples(command) if f"    {line}" not in shown] == []
     assert all(line.startswith("softshadow ") for command in ["", *COMMANDS] for line in examples(command))
 
 
 @pytest.mark.parametrize(
     "line",
     [
-        pytest.param(line, marks=[pytest.mark.slow] if command in SLOW else [])
+        pytest.param(line, marks=[pytest.mark.slow] if line.split()[1] in SLOW else [])
         for command in ["", *COMMANDS]
         for line in examples(command)
     ],
@@ -46,7 +50,9 @@ def test_example_of_help_runs(line: str, tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.chdir(tmp_path)
     shutil.copy(SCENES / "crate.obj", "bunny.obj")
     _, command, *arguments = shlex.split(line)
-    invoke_ok(command, *arguments, *SMALL.get(command, []))
+    small = SMALL.get(command, []) if arguments else []  # a list has no size
+    small = ["--size", "120x90"] if command == "listings" and "--pixel" in arguments else small
+    invoke_ok(command, *arguments, *small)
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -85,7 +91,12 @@ def test_module_is_the_program() -> None:
     ("words", "said"),
     [
         (["rendr"], "Did you mean 'render'?"),
-        (["render"], "Missing argument 'TECHNIQUE'"),
+        (["render"], "expected the name of a TECHNIQUE, or --all"),
+        (["steps"], "Missing argument 'TECHNIQUE'"),
+        (["render", "map", "--all"], "expected the name of a TECHNIQUE, or --all"),
+        (["render", "map", "--eye", "1,2"], "expected X,Y,Z"),
+        (["listings", "map", "--pixel", "1"], "expected X,Y in pixels, as in 160,170"),
+        (["--sise"], "No such option"),
         (["render", "map", "--sise", "4x4"], "No such option"),
         (["render", "map", "--size", "640"], "expected WIDTHxHEIGHT in pixels, as in 640x480"),
         (["render", "map", "--size", "axb"], "expected WIDTHxHEIGHT in pixels, as in 640x480"),
@@ -101,7 +112,15 @@ def test_wrong_usage_is_exit_code_2_and_says_what_was_expected(words: list[str],
     answer = invoke(*words)
     assert answer.exit_code == 2
     assert said in answer.stderr
+    assert answer.stderr.startswith("error: ")
+    assert answer.stderr.splitlines()[-1].startswith("help: softshadow")
     assert answer.stdout == ""
+
+
+def test_program_without_arguments_shows_its_help() -> None:
+    answer = invoke()
+    assert answer.exit_code == 2
+    assert "Usage: softshadow" in answer.output
 
 
 @pytest.mark.skipif(not hasattr(os, "pipe"), reason="no pipes")

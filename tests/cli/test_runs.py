@@ -120,14 +120,14 @@ def test_arguments_are_spelled_as_the_shell_takes_them() -> None:
 
 
 def test_all_techniques_are_drawn_into_a_folder(here: Path) -> None:
-    answer = json_of_all("--scene", "room", "--size", "24x18", "-O", "map_size=32")
+    answer = json_of_all("--scene", "boxes", "--size", "24x18", "-O", "map_size=32")
     drawn = [each["technique"] for each in answer["techniques"]]
     assert drawn + [each["technique"] for each in answer["left_out"]] == ss.technique_names()
     assert {path.name for path in (here / "all-techniques").iterdir()} == {
         "sheet.png", *(f"{name}.png" for name in drawn)
     }  # fmt: skip
     with Image.open("all-techniques/map.png") as picture:
-        expected = ss.run("map", "room", (24, 18), map_size=32).image
+        expected = ss.run("map", "boxes", (24, 18), map_size=32).image
         np.testing.assert_array_equal(np.asarray(picture), expected)
 
 
