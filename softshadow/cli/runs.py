@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from softshadow.runs import Run
 
 
-def _draw(technique: str, scene: SceneArguments, size: tuple[int, int], options: tuple[str, ...]) -> Run:
+def _draw(technique: str, size: tuple[int, int], options: tuple[str, ...], scene: SceneArguments) -> Run:
     from softshadow.runs import run
 
     values = parse_options(technique, options)
@@ -90,7 +90,7 @@ def render(
     target = output or f"{technique}.png"
     check_path(target, force)
     with explain_paths() as paths:
-        run = _draw(technique, scene, size, options)
+        run = _draw(technique, size, options, scene)
     written = run.save(target, force=force)
     if as_json:
         shadowed = float(run.shadow_mask.mean()) if "visibility" in run.maps else None
@@ -125,7 +125,7 @@ def steps(
 ) -> None:  # fmt: skip
     """Print statistics and stencil counts of every step."""
     check_opened(opened, output)
-    run = _draw(technique, scene, size, options)
+    run = _draw(technique, size, options, scene)
     written = [run.save(str(Path(output)) + "/", force=force)] if output else []
     if as_json:
         print_json("steps", steps=step_facts(run), **_about(run))
@@ -189,7 +189,7 @@ def pixel(
     Lists every fragment at the pixel. X counts from the left, Y from the top. For the pixels of a listing, see
     `softshadow listings NAME --pixel X,Y`.
     """
-    run = _draw(technique, scene, size, options)
+    run = _draw(technique, size, options, scene)
     with print_warnings_once():
         history = run.pixel(x, y)
         sentence = run.explain(x, y)

@@ -55,10 +55,10 @@ def test_line_of_the_page_runs(line: str) -> None:
     program, command, *arguments = shlex.split(line.split(" > ")[0])
     assert program == "softshadow"
     # later sizes win; the pixels are those of the full size
-    sized = command in ("tour", "render", "steps", "section") or (command == "bench" and arguments)
-    size = "24x18" if command == "compare" else "48x36"
-    sized |= command == "compare" and "--max-wrong" not in arguments
-    invoke_ok(command, *arguments, *(["--size", size] if sized else []))
+    sized = command in ("tour", "render", "steps") or (command in ("bench", "failures") and arguments)
+    size = {"compare": "24x18"}.get(command, "48x36" if sized else None)
+    size = "80x60" if command == "failures" and size else size
+    invoke_ok(command, *arguments, *(["--size", size] if size else []))
 
 
 def test_every_command_is_on_the_page() -> None:
