@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import click
 
-from softshadow.cli.arguments import as_json, examples, force, scene_arguments, technique_options
-from softshadow.cli.console import print_json
+from softshadow.cli.arguments import SceneArguments, as_json, examples, force, scene_arguments, technique_options
+from softshadow.cli.console import print_json, say_written
+from softshadow.cli.names import TechniqueName
 from softshadow.cli.runs import _about, _draw
 
 
@@ -16,7 +15,7 @@ from softshadow.cli.runs import _about, _draw
         "softshadow cards volume-zfail --scene boxes -n 3", "softshadow cards volume-zpass --seed 7 -n 1 -o cards.png"
     )
 )
-@click.argument("technique")
+@click.argument("technique", type=TechniqueName())
 @scene_arguments("320x240")
 @technique_options
 @click.option("-n", "--number", type=click.IntRange(1), default=6, show_default=True, help="How many cards.")
@@ -26,7 +25,7 @@ from softshadow.cli.runs import _about, _draw
 @as_json
 def cards(
     technique: str, size: tuple[int, int], options: tuple[str, ...], number: int, seed: int, output: str, force: bool,
-    as_json: bool, **scene_arguments: Any,
+    as_json: bool, scene: SceneArguments,
 ) -> None:  # fmt: skip
     """Make cards on which students count the faces along a line of sight.
 
@@ -35,7 +34,7 @@ def cards(
     """
     from softshadow.report import counting_cards
 
-    run = _draw(technique, size, options, **scene_arguments)
+    run = _draw(technique, size, options, scene)
     made = counting_cards(run, number, seed)
     written = made.save(output, force)
     if as_json:
@@ -45,4 +44,4 @@ def cards(
         ]
         print_json("cards", written=written, cards=answers, **_about(run))
     else:
-        click.echo(written)
+        say_written(written)

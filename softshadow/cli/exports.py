@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import click
 
 from softshadow.cli.arguments import (
+    SceneArguments,
     as_json,
     examples,
     force,
     scene_arguments,
     technique_options,
 )
-from softshadow.cli.console import print_json
+from softshadow.cli.console import print_json, say_written
+from softshadow.cli.names import TechniqueName
 from softshadow.cli.runs import _about, _draw
 
 
@@ -23,7 +23,7 @@ from softshadow.cli.runs import _about, _draw
         "softshadow export map ZS -o shadow-map.png --scene boxes",
     )
 )
-@click.argument("technique")
+@click.argument("technique", type=TechniqueName())
 @click.argument("buffer")
 @scene_arguments("640x480")
 @technique_options
@@ -33,7 +33,7 @@ from softshadow.cli.runs import _about, _draw
 @as_json
 def export(
     technique: str, buffer: str, size: tuple[int, int], options: tuple[str, ...], output: str | None,
-    step: str | None, force: bool, as_json: bool, **scene_arguments: Any,
+    step: str | None, force: bool, as_json: bool, scene: SceneArguments,
 ) -> None:  # fmt: skip
     """Write one buffer or map of a run to a file.
 
@@ -44,7 +44,7 @@ def export(
 
     target = output or f"{buffer}.npz"
     check_extension(target)
-    run = _draw(technique, size, options, **scene_arguments)
+    run = _draw(technique, size, options, scene)
     chosen = int(step) if step is not None and step.lstrip("-").isdigit() else step
     try:
         written = run.export(buffer, target, chosen, force)
@@ -53,13 +53,13 @@ def export(
     if as_json:
         print_json("export", written=written, buffer=buffer, step=chosen, **_about(run))
     else:
-        click.echo(written)
+        say_written(written)
 
 
 @click.command(
     epilog=examples("softshadow view3d volume-zfail 300 300", "softshadow view3d map --scene boxes -o map.html")
 )
-@click.argument("technique")
+@click.argument("technique", type=TechniqueName())
 @click.argument("x", type=int, required=False)
 @click.argument("y", type=int, required=False)
 @scene_arguments("640x480")
@@ -72,7 +72,7 @@ def export(
 @as_json
 def view3d(
     technique: str, x: int | None, y: int | None, size: tuple[int, int], options: tuple[str, ...],
-    output: str | None, of_light: str | None, force: bool, as_json: bool, **scene_arguments: Any,
+    output: str | None, of_light: str | None, force: bool, as_json: bool, scene: SceneArguments,
 ) -> None:  # fmt: skip
     """Show what a technique builds in three dimensions, and the counted faces along a pixel's line of sight.
 
@@ -80,7 +80,7 @@ def view3d(
     """
     if (x is None) != (y is None):
         raise click.UsageError("expected both X and Y, or neither")
-    run = _draw(technique, size, options, **scene_arguments)
+    run = _draw(technique, size, options, scene)
     view = run.view3d(x, y, of_light)
     written = view.save(output or f"{technique}-3d.html", force)
     if as_json:
@@ -98,4 +98,4 @@ def view3d(
         return
     if view.line is not None:
         click.echo(view.line)
-    click.echo(written)
+    say_written(written)
