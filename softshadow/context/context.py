@@ -23,7 +23,7 @@ from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage
 from softshadow.frozen import create, evolve
-from softshadow.pipeline.commands import Clear, Command, Draw, Vertices
+from softshadow.pipeline.commands import Clear, Command, Draw, Origin, Vertices
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
@@ -120,6 +120,7 @@ class Context:
         self.programs: dict[int, Program] = {}
         self.uniforms: dict[int, dict[str, Any]] = {}
         self.labels: list[str] = []
+        self.origin: Origin | None = None  # what the primitives of the next draws were made from
         self.primitive: Primitive | None = None  # between glBegin and glEnd
         self.vertex_buffer = VertexBuffer(self._carry_out, self.objects)  # immediate mode
         self.arrays = ClientArrays()
@@ -405,6 +406,7 @@ class Context:
             joined_start=0,
             linear=False,
             offset_mode=0,
+            origin=self.origin,
         )
 
     def end_step(self, title: str) -> None:

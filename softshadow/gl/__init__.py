@@ -109,7 +109,7 @@ def create_context(
 
 def __dir__() -> list[str]:
     """Return the public names."""
-    own = ("Context", "GLError", "create_context", "program")
+    own = ("Context", "GLError", "create_context", "describe_primitives", "program")
     spelled = (name for name, value in globals().items() if name.startswith(("gl", "GL_")) and not ismodule(value))
     return sorted({*own, *spelled})
 

@@ -1,10 +1,16 @@
-"""Debug groups, which name the draws inside them."""
+"""Debug groups, which name the draws inside them, and descriptions of primitives."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+import numpy as np
+
 from softshadow import tokens as gl
+from softshadow.context import current
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.pipeline.commands import Origin
 
 LONGEST_NAME = 4096  # Mesa's GL_MAX_DEBUG_MESSAGE_LENGTH
 DEEPEST_GROUP = 63  # of GL's 64 groups the first is the default one
@@ -38,4 +44,28 @@ def glPopDebugGroup() -> None:
         context.labels.pop()
 
 
-__all__ = spelled_like_gl(globals())
+def describe_primitives(
+    part: str,
+    feature: str = "",
+    numbers: np.ndarray | None = None,
+    casters: Sequence[str] = (),
+    owners: np.ndarray | None = None,
+) -> None:
+    """Say what the primitives of the next draws were made from; pixel histories show it. Not a function of OpenGL.
+
+    Parameters
+    ----------
+    part : str                   what they are, for example "volume side"; "" ends the description
+    feature : "face" or "edge"   what `numbers` count
+    numbers : (P,) int           the face or edge of a mesh that each primitive (triangle or quad) was made from
+    casters : names              of the objects that the meshes belong to
+    owners : (P,) int            the place in `casters` for each primitive; the first if missing
+    """
+    arrays = [None if array is None else np.array(array, np.int32) for array in (numbers, owners)]
+    for array in arrays:
+        if array is not None:
+            array.setflags(write=False)
+    current().origin = Origin(part, feature, arrays[0], tuple(casters), arrays[1]) if part else None
+
+
+__all__ = [*spelled_like_gl(globals()), "describe_primitives"]

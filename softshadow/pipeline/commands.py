@@ -33,6 +33,23 @@ class Vertices:
 
 
 @dataclass(frozen=True, eq=False)
+class Origin:
+    """What the primitives of a draw were made from, as its caller has described them; it changes no pixel.
+
+    `part` says what they are ("volume side", "near cap", "flattened face" ...); `feature` is "face" or "edge", and
+    `numbers` (P,) int32 has the number of this face or edge of a mesh for each primitive, None if these are the numbers
+    of the primitives. `casters` are the names of the objects that the meshes belong to, and `owners` (P,) int32 the
+    place in them for each primitive, None for the first.
+    """
+
+    part: str
+    feature: str = ""
+    numbers: np.ndarray | None = None
+    casters: tuple[str, ...] = ()
+    owners: np.ndarray | None = None
+
+
+@dataclass(frozen=True, eq=False)
 class Draw:
     """Primitives, with everything that determines their pixels.
 
@@ -42,7 +59,7 @@ class Draw:
     they may be older. Where Mesa joins draws of several debug groups into one, `joined_positions`
     (N, 4) are those of all of them and `joined_start` is the number of this draw's first vertex among them. `linear`:
     clipping interpolates values without perspective. `offset_mode` is the polygon mode whose offset unfilled
-    polygons get if an earlier draw has decided it, else 0.
+    polygons get if an earlier draw has decided it, else 0. `origin` tells what the primitives were made from.
     """
 
     state: State
@@ -63,6 +80,7 @@ class Draw:
     joined_start: int = 0
     linear: bool = False
     offset_mode: int = 0
+    origin: Origin | None = None
 
 
 @dataclass(frozen=True, eq=False)

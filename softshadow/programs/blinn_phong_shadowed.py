@@ -18,6 +18,7 @@ from softshadow.programs.blinn_phong import BLINN_PHONG, shade_visible
 from softshadow.programs.blinn_phong import vertex as blinn_phong_vertex
 from softshadow.programs.percentage_closer import count_lit
 from softshadow.programs.program import Program, Varyings, VertexInputs
+from softshadow.programs.reads import note_depths
 from softshadow.programs.sampling import divide
 from softshadow.programs.texture_coordinates import transform
 
@@ -95,6 +96,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], radius: int, out: np.
     real = inputs.dtype.type
     projected = divide(inputs[:, 10:])
     true_depth = projected[:, 2] - real(uniforms["bias"])
+    note_depths(uniforms["shadowMap"], true_depth, uniforms["bias"])
     lit = count_lit(uniforms["shadowMap"], projected, true_depth, radius, real(uniforms["texel"]))
     lit *= real(share(radius))
     shade_visible(inputs, uniforms, lit, out)

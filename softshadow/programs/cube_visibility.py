@@ -15,6 +15,7 @@ import numpy as np
 
 from softshadow.programs.map_visibility import VERTEX, vertex
 from softshadow.programs.program import Program
+from softshadow.programs.reads import note_depths
 from softshadow.programs.sampling import sample
 from softshadow.programs.texture_coordinates import dot
 
@@ -47,9 +48,11 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
     away = np.ascontiguousarray(inputs[:, :3])
     stored = np.empty_like(out)
     with np.errstate(all="ignore"):  # the vector is 0 at the light itself
-        sample(uniforms["shadowMap"], away, stored)
         depth = real(uniforms["farthest"]) - real(uniforms["nearness"]) / np.abs(away).max(axis=1)
-        visible = np.minimum(depth - real(uniforms["bias"]), real(1)) <= stored[:, 0]
+        depth = np.minimum(depth - real(uniforms["bias"]), real(1))
+        note_depths(uniforms["shadowMap"], depth, uniforms["bias"])
+        sample(uniforms["shadowMap"], away, stored)
+        visible = depth <= stored[:, 0]
         size = np.sqrt(dot(away, away))
         visible &= ~(dot(away, np.array(uniforms["axis"], inputs.dtype)) < real(uniforms["cosine"]) * size)
     out[:] = visible[:, None]

@@ -18,6 +18,7 @@ import numpy as np
 from softshadow.programs.fog import exp2
 from softshadow.programs.map_visibility import VERTEX, vertex
 from softshadow.programs.program import Program
+from softshadow.programs.reads import note_depths
 from softshadow.programs.sampling import sample
 
 # texture coordinates (N, 4), texels (N, 4), depths (N,), uniforms -> three channels: two for inspection, the visibility
@@ -65,8 +66,9 @@ def visibility_by(look_up: Lookup) -> Callable[[np.ndarray, Mapping[str, Any], n
         place, texels = np.zeros((len(inputs), 3), inputs.dtype, order="F"), np.empty_like(out, order="F")
         with np.errstate(all="ignore"):  # q = 0 gives infinities, as in GL
             np.divide(inputs[:, :2], inputs[:, 3:], out=place[:, :2])
-            sample(uniforms["shadowMap"], place, texels)
             depth = np.minimum(inputs[:, 2] - real(uniforms["bias"]), real(1))
+            note_depths(uniforms["shadowMap"], depth, uniforms["bias"])
+            sample(uniforms["shadowMap"], place, texels)
             out[:, 0], out[:, 1], visible = look_up(texels, depth, uniforms)
             off = place[:, :2] - real(0.5)
             visible[off[:, 0] * off[:, 0] + off[:, 1] * off[:, 1] > real(uniforms["cone"])] = 0

@@ -17,6 +17,7 @@ import numpy as np
 
 from softshadow.programs.percentage_closer import count_lit
 from softshadow.programs.program import Program, Varyings, VertexInputs
+from softshadow.programs.reads import note_depths, note_weights
 from softshadow.programs.sampling import divide, sample
 from softshadow.programs.texture_coordinates import transform
 from softshadow.texture import Texture
@@ -100,6 +101,7 @@ def visibility_by(share: Share) -> Callable[[np.ndarray, Mapping[str, Any], np.n
         with np.errstate(all="ignore"):  # q = 0 gives infinities, as in GL
             projected = divide(inputs)
             depth = np.minimum(projected[:, 2] - real(uniforms["bias"]), real(1))
+            note_depths(uniforms["shadowMap"], depth, uniforms["bias"])
             visible = share(uniforms["shadowMap"], projected, depth, uniforms["radius"], real(uniforms["side"]))
             off = projected[:, :2] - real(0.5)
             visible[off[:, 0] * off[:, 0] + off[:, 1] * off[:, 1] > real(uniforms["cone"])] = 0
@@ -131,6 +133,7 @@ def bilinear_share(texture: Texture, projected: np.ndarray, depth: np.ndarray, r
         for i in range(width + 1):
             at = np.array([i - radius, j - radius], projected.dtype)
             place[:, :2] = (first + at + real(0.5)) * (real(1) / side)
+            note_weights(texture, weights[i, :, 0], weights[j, :, 1])
             sample(texture, place, stored)
             row += np.where(depth <= stored[:, 0], weights[i, :, 0], real(0))
         lit += weights[j, :, 1] * row

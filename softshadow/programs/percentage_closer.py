@@ -16,6 +16,7 @@ import numpy as np
 from softshadow.jit import inlined, kernel
 from softshadow.programs.filtering import CONSTANT_ZERO, RED, STEP_OF_23_BITS, fetch, sources_of, texels_of, wraps_of
 from softshadow.programs.program import needs_blocks
+from softshadow.programs.reads import is_noting
 from softshadow.programs.sampling import is_complete, sample
 from softshadow.programs.wrapping import nearest_texels
 from softshadow.texture import Texture
@@ -41,7 +42,7 @@ def count_lit(texture: Texture, projected: np.ndarray, depths: np.ndarray, radiu
         return (depths <= stored[:, 0]).astype(projected.dtype)
     lit = np.zeros(len(projected), projected.dtype)
     offsets = np.arange(-radius, radius + 1).astype(projected.dtype) * texel
-    if is_plain(texture):
+    if is_plain(texture) and not is_noting():
         image, sampler = texture.base(), texture.sampler
         assert image is not None
         cells, border, unit = texels_of(image, sampler, projected.dtype)

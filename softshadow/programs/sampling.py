@@ -18,6 +18,7 @@ from softshadow.programs.cube_filtering import HEAVIEST, LINEAR, NEAREST, PIXELS
 from softshadow.programs.filtering import UNORM8_STEP, in_8_bits, sample_image, wraps_of
 from softshadow.programs.level_of_detail import FILTERS, Levels, select_levels, squared_texels_per_pixel
 from softshadow.programs.program import needs_blocks
+from softshadow.programs.reads import note_read
 from softshadow.programs.wrapping import ONE
 from softshadow.texture import Texture
 from softshadow.tokens import GL_CLAMP_TO_EDGE, GL_LINEAR, GL_NONE, GL_TEXTURE_CUBE_MAP
@@ -136,6 +137,7 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
         sample_level(lookup, 0, sampler.mag_filter, out)
     else:
         sample_levels(lookup, levels_of(texture, coordinates), out)
+    note_read(texture, coordinates, out)
 
 
 def levels_of(texture: Texture, coordinates: np.ndarray) -> Levels:

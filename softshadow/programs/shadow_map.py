@@ -15,6 +15,7 @@ import numpy as np
 
 from softshadow.jit import allocating_kernel
 from softshadow.programs.program import Program, Varyings, VertexInputs
+from softshadow.programs.reads import note_depths
 from softshadow.programs.sampling import divide, sample
 from softshadow.programs.texture_coordinates import transform
 
@@ -63,8 +64,9 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
     """Fill `out` (N, 4) with the lit or the shadowed colours."""
     projected = divide(inputs[:, 4:])
     stored = np.empty((len(out), 1), out.dtype)
-    sample(uniforms["shadowMap"], projected, stored)
     ambient, bias = np.array(uniforms["ambient"], inputs.dtype), inputs.dtype.type(uniforms["bias"])
+    note_depths(uniforms["shadowMap"], projected[:, 2] - bias, bias)
+    sample(uniforms["shadowMap"], projected, stored)
     compare(np.ascontiguousarray(inputs.T), projected.T, stored[:, 0], ambient, bias, out.T)
 
 

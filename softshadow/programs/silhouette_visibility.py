@@ -20,6 +20,7 @@ import numpy as np
 
 from softshadow.programs.map_visibility import VERTEX, vertex
 from softshadow.programs.program import Program
+from softshadow.programs.reads import note_depths
 from softshadow.programs.sampling import divide, sample
 from softshadow.texture import Texture
 
@@ -90,6 +91,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
     with np.errstate(all="ignore"):  # q = 0 gives infinities, as in GL
         projected = divide(inputs)
         depth = np.minimum(projected[:, 2] - real(uniforms["bias"]), real(1))
+        note_depths(uniforms["shadowMap"], depth, uniforms["bias"])
         side = real(uniforms["side"])
         place = projected[:, :2] * side - real(0.5)
         cell = np.floor(place)

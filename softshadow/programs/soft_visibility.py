@@ -26,6 +26,7 @@ import numpy as np
 
 from softshadow.programs.map_visibility import VERTEX, vertex
 from softshadow.programs.program import Program
+from softshadow.programs.reads import note_depths
 from softshadow.programs.sampling import divide, sample
 
 STEEPEST = 1e6  # of a receiver's plane, in window depths per side of the map; seen edge-on it would be infinite
@@ -138,7 +139,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
 
         blockers, total = np.zeros_like(own), np.zeros_like(own)
         reach = np.maximum(one / real(uniforms["near"]) - one / own, zero)
-        for lit, stored in comparisons(plane, reach, uniforms, "search"):
+        for lit, stored in comparisons(plane, reach, uniforms, "search", None):
             blockers += ~lit
             total += np.where(lit, zero, distance_at(stored))
 
@@ -146,7 +147,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
         own, blocker = own[shadowed], total[shadowed] / blockers[shadowed]
         reach = np.maximum(one / blocker - one / own, zero)
         compared, passed = 0, np.zeros_like(own)
-        for lit, _ in comparisons(plane[shadowed], reach, uniforms, "taps"):
+        for lit, _ in comparisons(plane[shadowed], reach, uniforms, "taps", shadowed):
             compared += 1
             passed += lit
 
@@ -184,7 +185,7 @@ def plane_slopes(projected: np.ndarray) -> np.ndarray:
 
 
 def comparisons(
-    plane: np.ndarray, reach: np.ndarray, uniforms: Mapping[str, Any], region: str
+    plane: np.ndarray, reach: np.ndarray, uniforms: Mapping[str, Any], region: str, rows: np.ndarray | None
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Yield for each point of a region whether it is lit (N,), and the depth stored there (N,).
 
@@ -193,6 +194,7 @@ def comparisons(
     plane : (N, 5)               s, t, depth, and the slopes of depth in s and t
     reach : (N,)                 the region's size, in that of the light
     region : str                 the uniform that has the number of points on a side: "search" or "taps"
+    rows : (N,) or None          which fragments they are; None for all
     """
     real, side, stride = plane.dtype.type, uniforms[region], uniforms[f"{region}Stride"]
     s, t, depth, s_slope, t_slope = plane.T
@@ -205,8 +207,10 @@ def comparisons(
                 continue
             s_off, t_off = (a * u[0] + b * v[0]) * reach, (a * u[1] + b * v[1]) * reach
             place[:, 0], place[:, 1] = s + s_off, t + t_off
+            own = np.minimum(depth + s_off * s_slope + t_off * t_slope, real(1))
+            note_depths(uniforms["shadowMap"], own, uniforms["bias"], rows=rows, purpose=region)
             sample(uniforms["shadowMap"], place, stored)
-            yield np.minimum(depth + s_off * s_slope + t_off * t_slope, real(1)) <= stored[:, 0], stored[:, 0]
+            yield own <= stored[:, 0], stored[:, 0]
 
 
 def on_light(i: int, j: int, n: int, stride: int) -> np.float32:

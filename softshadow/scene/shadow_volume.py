@@ -45,12 +45,19 @@ class ShadowVolume:
     far_vertices : (V, 4) float32        the end of the volume behind each vertex of the mesh. The dark cap is the light
                                          cap over these vertices, reversed. (0, 4) without caps, and if all of them are
                                          one point at infinity
+    side_feature, side_numbers : (S,) int32   the "edge" of the mesh's topology that each side begins at, or the "face"
+                                         whose volume it bounds
+    cap_faces, cap_faces_reversed : (C,), (R,) int32   the faces of the mesh that the triangles of the caps are
     """
 
     light_cap: np.ndarray
     light_cap_reversed: np.ndarray
     sides: np.ndarray
     far_vertices: np.ndarray
+    side_feature: str
+    side_numbers: np.ndarray
+    cap_faces: np.ndarray
+    cap_faces_reversed: np.ndarray
 
     def __post_init__(self) -> None:
         for array in (self.light_cap, self.light_cap_reversed, self.sides, self.far_vertices):
@@ -92,15 +99,22 @@ def shadow_volume(
     light = homogeneous_light(light)
     faces = casting_faces(mesh, light)
     far = _far_vertices(mesh, light, faces, extrusion)
-    u, v = (_polygon_edges(mesh, faces) if generator == "per-polygon" else _silhouette_edges(mesh, faces)).T
+    if generator == "per-polygon":
+        edges, of = _polygon_edges(mesh, faces), ("face", np.repeat(np.concatenate([faces.facing, faces.reversed]), 3))
+    else:
+        outline = silhouette_of(mesh, faces)
+        edges = np.repeat(outline.edges, outline.multiplicity, axis=0)
+        of = ("edge", np.repeat(outline.numbers, outline.multiplicity))
+    u, v = edges.T
     one_far_point = bool(light[3] == 0) and extrusion == "infinite"
     corners = [_near(mesh, v), _near(mesh, u), far[u]] + ([] if one_far_point else [far[v]])
     sides = np.stack(corners, axis=1)
     if not caps:
         no_cap = np.zeros((0, 3), dtype=np.int32)
-        return ShadowVolume(no_cap, no_cap, sides, far[:0])
+        return ShadowVolume(no_cap, no_cap, sides, far[:0], *of, faces.facing[:0], faces.reversed[:0])
     far_vertices = far[:0] if one_far_point else far
-    return ShadowVolume(mesh.triangles[faces.facing], mesh.triangles[faces.reversed], sides, far_vertices)
+    caps_of = mesh.triangles[faces.facing], mesh.triangles[faces.reversed]
+    return ShadowVolume(*caps_of, sides, far_vertices, *of, faces.facing, faces.reversed)
 
 
 def _near(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:
@@ -114,11 +128,6 @@ def _polygon_edges(mesh: Mesh, faces: CastingFaces) -> np.ndarray:
     """Return (3 (C + R), 2): the edges of the casting faces, counter-clockwise as seen from the light."""
     triangles = np.concatenate([mesh.triangles[faces.facing], mesh.triangles[faces.reversed][:, ::-1]])
     return np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2)
-
-
-def _silhouette_edges(mesh: Mesh, faces: CastingFaces) -> np.ndarray:
-    outline = silhouette_of(mesh, faces)
-    return np.repeat(outline.edges, outline.multiplicity, axis=0)
 
 
 def _far_vertices(

@@ -33,10 +33,12 @@ class Silhouette:
     ----------
     edges : (S, 2) int32          vertices u, v of the mesh
     multiplicity : (S,) int32     casting faces with the edge u to v minus those with v to u; at least 1
+    numbers : (S,) int32          which edge of the mesh's topology each is
     """
 
     edges: np.ndarray
     multiplicity: np.ndarray
+    numbers: np.ndarray
 
 
 def light_distances(mesh: Mesh, light: np.ndarray) -> np.ndarray:
@@ -90,7 +92,7 @@ def silhouette_of(mesh: Mesh, faces: CastingFaces) -> Silhouette:
     edges = topology.representatives[topology.edges[outline]]
     backward = sums[outline] < 0
     edges[backward] = edges[backward, ::-1]
-    return Silhouette(edges, np.abs(sums[outline]))
+    return Silhouette(edges, np.abs(sums[outline]), outline.astype(np.int32))
 
 
 def homogeneous_light(light: np.ndarray) -> np.ndarray:

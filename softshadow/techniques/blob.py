@@ -76,7 +76,7 @@ def draw_blob(gl: Any, caster: SceneObject, receiver: SceneObject, radius: float
     taken = darkness * (1 - height / (fade * size))
     if caster is receiver or height < 0 or taken <= 0:
         return
-    with drawing.debug_group(gl, caster):
+    with drawing.debug_group(gl, caster), drawing.made_of(gl, "blob", "", casters=[caster]):
         gl.glPushMatrix()
         gl.glMultMatrixd(drawing.column_major(disc_to_world(center, receiver.plane, radius * size)))
         gl.glBegin(gl.GL_TRIANGLE_FAN)

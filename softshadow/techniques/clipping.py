@@ -7,6 +7,11 @@ import numpy as np
 
 
 def clip_triangles(triangles: np.ndarray, plane: np.ndarray) -> np.ndarray:
+    """Return the parts of the triangles on the positive side of a plane, see `clip_with_sources`."""
+    return clip_with_sources(triangles, plane)[0]
+
+
+def clip_with_sources(triangles: np.ndarray, plane: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the parts of the triangles on the positive side of a plane, as triangles of the same orientation.
 
     Parameters
@@ -17,6 +22,7 @@ def clip_triangles(triangles: np.ndarray, plane: np.ndarray) -> np.ndarray:
     Returns
     -------
     (U, 3, 3) float64            U ≤ 2·T; two triangles with a common edge have the same cut point on it, bit for bit
+    (U,) int                     which triangle each is a part of
 
     References
     ----------
@@ -25,7 +31,7 @@ def clip_triangles(triangles: np.ndarray, plane: np.ndarray) -> np.ndarray:
     distance = triangles @ plane[:3] + plane[3]
     inside = distance >= 0
     corners_inside = inside.sum(axis=1)
-    pieces = [triangles[corners_inside == 3]]
+    pieces, sources = [triangles[corners_inside == 3]], [np.flatnonzero(corners_inside == 3)]
     for number in (1, 2):
         cut = corners_inside == number
         # rotate the corners so that the single one, inside or outside, comes first
@@ -38,12 +44,14 @@ def clip_triangles(triangles: np.ndarray, plane: np.ndarray) -> np.ndarray:
             to_second = _crossing(first, height[:, 0], second, height[:, 1])
             to_third = _crossing(first, height[:, 0], third, height[:, 2])
             pieces.append(np.stack([first, to_second, to_third], axis=1))
+            sources.append(np.flatnonzero(cut))
         else:
             from_second = _crossing(second, height[:, 1], first, height[:, 0])
             from_third = _crossing(third, height[:, 2], first, height[:, 0])
             pieces.append(np.stack([from_second, second, third], axis=1))
             pieces.append(np.stack([from_second, third, from_third], axis=1))
-    return np.concatenate(pieces)
+            sources += [np.flatnonzero(cut)] * 2
+    return np.concatenate(pieces), np.concatenate(sources)
 
 
 def _crossing(inner: np.ndarray, above: np.ndarray, outer: np.ndarray, below: np.ndarray) -> np.ndarray:
@@ -53,9 +61,16 @@ def _crossing(inner: np.ndarray, above: np.ndarray, outer: np.ndarray, below: np
 
 def clip_to_planes(triangles: np.ndarray, planes: np.ndarray) -> np.ndarray:
     """Return the parts of the triangles on the positive side of every plane (K, 4)."""
+    return clip_to_planes_with_sources(triangles, planes)[0]
+
+
+def clip_to_planes_with_sources(triangles: np.ndarray, planes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the parts (U, 3, 3) on the positive side of every plane (K, 4), and the triangle of each (U,)."""
+    sources = np.arange(len(triangles))
     for plane in planes:
-        triangles = clip_triangles(triangles, plane)
-    return triangles
+        triangles, of = clip_with_sources(triangles, plane)
+        sources = sources[of]
+    return triangles, sources
 
 
 def clip_segments(segments: np.ndarray, plane: np.ndarray) -> np.ndarray:

@@ -11,7 +11,7 @@ Atherton, Weiler & Greenberg 1978, "Polygon shadow generation", for shadows as d
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from softshadow.errors import SceneError
 from softshadow.scene import CastingFaces, Light, Scene, SceneObject
 from softshadow.scene.plane import FLAT
 from softshadow.scene.silhouette import light_distances
-from softshadow.techniques.clipping import clip_to_planes, pyramid_between
+from softshadow.techniques.clipping import clip_to_planes, clip_to_planes_with_sources, pyramid_between
 from softshadow.techniques.flattened import flattened_points
 from softshadow.techniques.lit_faces import LitFaces, lit_faces, reached_faces, turned_triangles
 from softshadow.techniques.silhouette_polygons import inside_of_silhouettes
@@ -44,12 +44,16 @@ class DetailPolygons:
     cast : (N, 3, 3) float64      world space; triangles in shadow on faces that the light reaches, counter-clockwise
                                   seen from the light; in the form "faces" those of different casters may overlap
     faces : (N,) int32            the face that each triangle of `cast` lies on, ascending
+    casters, caster_faces : (N,) int32   place among the scene's casters, and face, that each triangle is the shadow
+                                  of; -1 in the form "silhouettes", whose triangles may be shadows of several
     """
 
     own: np.ndarray
     own_reversed: np.ndarray
     cast: np.ndarray
     faces: np.ndarray
+    casters: np.ndarray
+    caster_faces: np.ndarray
 
 
 def shadow_polygons(scene: Scene, light: Light, form: Form = "faces") -> tuple[DetailPolygons, ...]:
@@ -98,14 +102,22 @@ def polygons_on(
     flat = FLAT * float(np.ptp(thing.world_positions, axis=0).max())
     numbers = np.concatenate([reached.facing, reached.reversed])
     on_faces = [cast_on(face, light, casters, form, flat) for face in turned_triangles(thing, reached)]
-    faces = np.repeat(numbers, [len(polygons) for polygons in on_faces])
+    faces = np.repeat(numbers, [len(each.polygons) for each in on_faces])
     order = np.argsort(faces, kind="stable")
-    cast = np.concatenate([np.zeros((0, 3, 3)), *on_faces])[order]
-    return DetailPolygons(own, own_reversed, cast, faces[order])
+    cast = np.concatenate([np.zeros((0, 3, 3)), *(each.polygons for each in on_faces)])[order]
+    sources = np.concatenate([np.zeros((0, 2), np.int32), *(each.sources for each in on_faces)])[order]
+    return DetailPolygons(own, own_reversed, cast, faces[order], *np.ascontiguousarray(sources.T))
 
 
-def cast_on(face: np.ndarray, light: Light, casters: Sequence[LitFaces], form: Form, flat: float) -> np.ndarray:
-    """Return the shadow polygons (N, 3, 3) of the casters on a face (3, 3) that is turned towards the light.
+class CastPolygons(NamedTuple):
+    """Shadow polygons (N, 3, 3) on one face, and the caster and the face of it that each is the shadow of (N, 2)."""
+
+    polygons: np.ndarray
+    sources: np.ndarray
+
+
+def cast_on(face: np.ndarray, light: Light, casters: Sequence[LitFaces], form: Form, flat: float) -> CastPolygons:
+    """Return the shadow polygons of the casters on a face (3, 3) that is turned towards the light.
 
     Faces within a distance of `flat` from the face's plane cast nothing on it: the face itself, and those beside it.
     """
@@ -113,16 +125,22 @@ def cast_on(face: np.ndarray, light: Light, casters: Sequence[LitFaces], form: F
     normal = np.cross(face[1] - face[0], face[2] - face[0])
     doubled_area = float(np.linalg.norm(normal))
     plane = pyramid[-1] / doubled_area
-    met = [caster.triangles[faces_between(caster.triangles, pyramid, flat * doubled_area)] for caster in casters]
+    between = [faces_between(caster.triangles, pyramid, flat * doubled_area) for caster in casters]
+    met = [caster.triangles[chosen] for caster, chosen in zip(casters, between, strict=True)]
     if form == "silhouettes":
         shading = [caster for caster, triangles in zip(casters, met, strict=True) if len(triangles)]
         polygons = clip_to_planes(inside_of_silhouettes(shading, face, plane, light, flat), pyramid[:-1])
+        sources = np.full((len(polygons), 2), -1, np.int32)
     else:
         # the pyramid lies between the face and the light: c1 >= 0 and c2 > 0 hold inside
-        clipped = clip_to_planes(np.concatenate([np.zeros((0, 3, 3)), *met]), pyramid)
+        clipped, of = clip_to_planes_with_sources(np.concatenate([np.zeros((0, 3, 3)), *met]), pyramid)
         polygons = flattened_points(clipped, plane, light.position)
+        numbers = [np.concatenate([c.faces.facing, c.faces.reversed])[i] for c, i in zip(casters, between, strict=True)]
+        owners = np.repeat(np.arange(len(casters)), [len(each) for each in numbers])
+        sources = np.column_stack([owners, np.concatenate([np.zeros(0, np.int32), *numbers])])[of].astype(np.int32)
     areas = np.linalg.norm(np.cross(polygons[:, 1] - polygons[:, 0], polygons[:, 2] - polygons[:, 0]), axis=1)
-    return polygons[areas > SLIVER * doubled_area]
+    large = areas > SLIVER * doubled_area
+    return CastPolygons(polygons[large], sources[large])
 
 
 def faces_between(triangles: np.ndarray, pyramid: np.ndarray, flat: float) -> np.ndarray:

@@ -3,7 +3,7 @@
 Every draw is inside a debug group with the name of its object, so that a recorded or traced frame says what it drew.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -125,7 +125,8 @@ def darken_picture(gl: Any, share: float) -> None:
     gl.glEnable(gl.GL_BLEND)
     gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
     gl.glColor4f(0.0, 0.0, 0.0, share)
-    gl.glRectf(-1.0, -1.0, 1.0, 1.0)
+    with made_of(gl, "rectangle over the picture", ""):
+        gl.glRectf(-1.0, -1.0, 1.0, 1.0)
     gl.glDisable(gl.GL_BLEND)
     gl.glEnable(gl.GL_DEPTH_TEST)
     for mode in (gl.GL_PROJECTION, gl.GL_MODELVIEW):
@@ -157,6 +158,25 @@ def debug_group(gl: Any, thing: SceneObject) -> Iterator[None]:
     gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, thing.name)
     yield
     gl.glPopDebugGroup()
+
+
+@contextmanager
+def made_of(
+    gl: Any,
+    part: str,
+    feature: str = "face",
+    numbers: Any = None,
+    casters: Sequence[SceneObject] = (),
+    owners: Any = None,
+) -> Iterator[None]:
+    """Say what the primitives drawn inside are made of, for pixel histories; see `gl.describe_primitives`."""
+    describe = getattr(gl, "describe_primitives", None)  # other namespaces have no histories
+    if describe is None:
+        yield
+        return
+    describe(part, feature, numbers, [caster.name for caster in casters], owners)
+    yield
+    describe("")
 
 
 def draw_objects(gl: Any, objects: Iterable[SceneObject], emission: bool = True) -> None:

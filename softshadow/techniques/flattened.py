@@ -11,7 +11,7 @@ import numpy as np
 from softshadow import matrices
 from softshadow.scene import Light, Scene, SceneObject
 from softshadow.techniques import drawing
-from softshadow.techniques.clipping import clip_to_planes
+from softshadow.techniques.clipping import clip_to_planes_with_sources
 from softshadow.techniques.technique import Steps
 
 
@@ -60,23 +60,32 @@ def draw_flattened(gl: Any, scene: Scene, receiver: SceneObject, light: Light, c
         if caster is receiver:
             continue
         with drawing.object_space(gl, caster):
-            triangles = proper_part(caster, receiver, light) if clip else None
-            if triangles is None:
-                drawing.draw_mesh(gl, caster, shaded=False)
-            else:
-                drawing.draw_polygons(gl, triangles)
+            proper = proper_part(caster, receiver, light) if clip else None
+            triangles, faces = (None, None) if proper is None else proper
+            with drawing.made_of(gl, "flattened face", "face", faces, [caster]):
+                if triangles is None:
+                    drawing.draw_mesh(gl, caster, shaded=False)
+                else:
+                    drawing.draw_polygons(gl, triangles)
     gl.glPopMatrix()
 
 
-def proper_part(caster: SceneObject, receiver: SceneObject, light: Light) -> np.ndarray | None:
-    """Return the part of a caster that casts properly, (N, 3, 3) float32 in its own space; None if all of it does."""
+def proper_part(caster: SceneObject, receiver: SceneObject, light: Light) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return the part of a caster that casts properly, None if all of it does.
+
+    Returns
+    -------
+    (N, 3, 3) float32            in its own space
+    (N,) int                     the face that each triangle is a part of
+    """
     assert receiver.plane is not None
     planes = proper_planes(receiver.plane, light.position) @ caster.object_to_world
     mesh = caster.mesh
     if (mesh.positions @ planes[:, :3].T + planes[:, 3] >= 0).all():
         return None
     triangles = mesh.positions[mesh.triangles].astype(np.float64)
-    return np.ascontiguousarray(clip_to_planes(triangles, planes), np.float32)
+    parts, faces = clip_to_planes_with_sources(triangles, planes)
+    return np.ascontiguousarray(parts, np.float32), faces
 
 
 def draw_the_casters(

@@ -11,7 +11,7 @@ import numpy as np
 from softshadow import matrices
 from softshadow.scene import Camera, Light, Scene, SceneObject
 from softshadow.scene.shadow_volume import casting_faces
-from softshadow.techniques.clipping import clip_to_planes, pyramid_between
+from softshadow.techniques.clipping import clip_to_planes_with_sources, pyramid_between
 from softshadow.truth import casting_faces_between
 
 # under GL_DEPTH_CLAMP the near plane clips nothing, so the count starts next to the eye
@@ -61,11 +61,19 @@ def eye_count(scene: Scene, light: Light, casters: Sequence[SceneObject]) -> int
     return int(casting_faces_between(scene.camera.eye[None], light.position, casters)[0])
 
 
-def faces_before(caster: SceneObject, light: Light, rectangle: np.ndarray) -> np.ndarray:
-    """Return the parts of casting faces between the light and a rectangle (4, 3), (N, 3, 3) float64 in world space."""
+def faces_before(caster: SceneObject, light: Light, rectangle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the parts of casting faces between the light and a rectangle (4, 3).
+
+    Returns
+    -------
+    (N, 3, 3) float64            in world space
+    (N,) int                     the face of the caster's mesh that each is a part of
+    """
     faces = casting_faces(caster.mesh, light.in_object_space(caster.object_to_world))
-    triangles = caster.world_positions[caster.mesh.triangles[np.concatenate([faces.facing, faces.reversed])]]
-    return clip_to_planes(triangles, pyramid_between(light.position, rectangle))
+    numbers = np.concatenate([faces.facing, faces.reversed])
+    triangles = caster.world_positions[caster.mesh.triangles[numbers]]
+    parts, sources = clip_to_planes_with_sources(triangles, pyramid_between(light.position, rectangle))
+    return parts, numbers[sources]
 
 
 def seen_edge_on(light: Light, rectangle: np.ndarray) -> bool:
@@ -83,11 +91,13 @@ def shadows_near_rectangle(caster: SceneObject, light: Light, camera: Camera, si
     rectangle = corners(camera, size, far)
     if seen_edge_on(light, rectangle):
         return bool(counts_by_rays(camera, light, [caster], size, far).any())
-    return len(faces_before(caster, light, rectangle)) > 0
+    return len(faces_before(caster, light, rectangle)[0]) > 0
 
 
-def near_cap(caster: SceneObject, light: Light, camera: Camera, size: tuple[int, int]) -> np.ndarray:
+def near_cap(caster: SceneObject, light: Light, camera: Camera, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
     """Return the casting faces flattened by S(Λ) onto the near rectangle, (N, 3, 3) float32 in eye space.
+
+    The second array (N,) has the face of the caster's mesh that each is a part of.
 
     A point of the rectangle is in as many volumes as triangles cover it. They are flattened in double precision:
     float32 matrices are wrong by a pixel when the near plane is close to the eye.
@@ -96,7 +106,7 @@ def near_cap(caster: SceneObject, light: Light, camera: Camera, size: tuple[int,
     world_to_eye[:3, :3] = camera.frame
     world_to_eye[:3, 3] = -camera.frame @ camera.eye
     plane = np.array([0, 0, 1, camera.near])
-    faces = faces_before(caster, light, corners(camera, size, "infinite"))
+    faces, numbers = faces_before(caster, light, corners(camera, size, "infinite"))
     matrix = matrices.planar_shadow(plane, world_to_eye @ light.position) @ world_to_eye
     flattened = faces @ matrix[:, :3].T + matrix[:, 3]
-    return np.ascontiguousarray(flattened[..., :3] / flattened[..., 3:], np.float32)
+    return np.ascontiguousarray(flattened[..., :3] / flattened[..., 3:], np.float32), numbers

@@ -84,11 +84,11 @@ def draw(
         begin_marks(gl)
         for thing, details in zip(scene.objects, on_objects, strict=True):
             if method == "offset":
-                with_offset(gl, thing, details, offset)
+                with_offset(gl, scene, thing, details, offset)
             elif method == "decal":
-                as_decals(gl, thing, details)
+                as_decals(gl, scene, thing, details)
             else:
-                without_depth(gl, thing, details)
+                without_depth(gl, scene, thing, details)
         end_marks(gl)
         lit.append((drawing.read_stencil(gl, size) & SHADOW == 0) & drawing.within_cone(scene, light, depth, size))
         yield drawing.title("mark the shadow polygons", scene, light)
@@ -107,16 +107,18 @@ def draw(
 # -- polygons over faces -----------------------------------------------------------------------------------------------
 
 
-def with_offset(gl: Any, thing: SceneObject, details: DetailPolygons, offset: tuple[float, float]) -> None:
+def with_offset(
+    gl: Any, scene: Scene, thing: SceneObject, details: DetailPolygons, offset: tuple[float, float]
+) -> None:
     """Mark the polygons of an object where they are visible, drawn a little nearer than the faces they lie on."""
     gl.glEnable(gl.GL_POLYGON_OFFSET_FILL)
     gl.glPolygonOffset(*offset)
     draw_own(gl, thing, details)
-    draw_cast(gl, thing, details.cast)
+    draw_cast(gl, scene, thing, details)
     gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
 
 
-def as_decals(gl: Any, thing: SceneObject, details: DetailPolygons) -> None:
+def as_decals(gl: Any, scene: Scene, thing: SceneObject, details: DetailPolygons) -> None:
     """Mark each visible face, draw its polygons there without the depth test, then clear the mark."""
     draw_own(gl, thing, details)  # these are the faces themselves, so their depths are equal bit for bit
     for face in np.unique(details.faces):
@@ -126,7 +128,7 @@ def as_decals(gl: Any, thing: SceneObject, details: DetailPolygons) -> None:
         gl.glStencilMask(SHADOW)
         gl.glStencilFunc(gl.GL_EQUAL, FACE | SHADOW, FACE)
         gl.glDisable(gl.GL_DEPTH_TEST)
-        draw_cast(gl, thing, details.cast[details.faces == face])
+        draw_cast(gl, scene, thing, details, np.flatnonzero(details.faces == face))
         gl.glEnable(gl.GL_DEPTH_TEST)
         gl.glStencilMask(FACE)
         gl.glStencilFunc(gl.GL_ALWAYS, 0, 0xFF)
@@ -135,36 +137,39 @@ def as_decals(gl: Any, thing: SceneObject, details: DetailPolygons) -> None:
     gl.glStencilFunc(gl.GL_ALWAYS, SHADOW, 0xFF)
 
 
-def without_depth(gl: Any, thing: SceneObject, details: DetailPolygons) -> None:
+def without_depth(gl: Any, scene: Scene, thing: SceneObject, details: DetailPolygons) -> None:
     """Mark the polygons of an object everywhere in the picture, behind other faces, too (E15)."""
     gl.glDisable(gl.GL_DEPTH_TEST)
     draw_own(gl, thing, details)
-    draw_cast(gl, thing, details.cast)
+    draw_cast(gl, scene, thing, details)
     gl.glEnable(gl.GL_DEPTH_TEST)
 
 
 def draw_own(gl: Any, thing: SceneObject, details: DetailPolygons) -> None:
     """Draw the dark sides of the faces that are in their own shadow."""
     gl.glEnable(gl.GL_CULL_FACE)
-    draw_faces(gl, thing, details.own)
+    draw_faces(gl, thing, details.own, "face in its own shadow")
     gl.glFrontFace(gl.GL_CW)
-    draw_faces(gl, thing, details.own_reversed)
+    draw_faces(gl, thing, details.own_reversed, "face in its own shadow")
     gl.glFrontFace(gl.GL_CCW)
     gl.glDisable(gl.GL_CULL_FACE)
 
 
-def draw_faces(gl: Any, thing: SceneObject, faces: Sequence[int] | np.ndarray) -> None:
+def draw_faces(gl: Any, thing: SceneObject, faces: Sequence[int] | np.ndarray, part: str = "marked face") -> None:
     """Draw some faces of an object with the vertices of the object itself."""
-    with drawing.object_space(gl, thing):
+    with drawing.object_space(gl, thing), drawing.made_of(gl, part, "face", faces, [thing]):
         drawing.draw_triangles(gl, thing.mesh.positions, np.ascontiguousarray(thing.mesh.triangles[faces]))
 
 
-def draw_cast(gl: Any, thing: SceneObject, polygons: np.ndarray) -> None:
-    """Draw polygons (N, 3, 3) on an object: on a caster one-sided, since its back is in its own shadow anyway."""
+def draw_cast(
+    gl: Any, scene: Scene, thing: SceneObject, details: DetailPolygons, chosen: np.ndarray | slice = slice(None)
+) -> None:
+    """Draw the chosen polygons on an object: on a caster one-sided, since its back is in its own shadow anyway."""
     if thing.casts:
         gl.glEnable(gl.GL_CULL_FACE)
-    with drawing.debug_group(gl, thing):
-        drawing.draw_polygons(gl, np.ascontiguousarray(polygons, np.float32))
+    origin = details.caster_faces[chosen], scene.casters, details.casters[chosen]
+    with drawing.debug_group(gl, thing), drawing.made_of(gl, "shadow polygon", "face", *origin):
+        drawing.draw_polygons(gl, np.ascontiguousarray(details.cast[chosen], np.float32))
     gl.glDisable(gl.GL_CULL_FACE)
 
 

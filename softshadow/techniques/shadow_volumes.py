@@ -5,7 +5,7 @@ cap is then, bit for bit, that of the surface it lies on.
 """
 
 import warnings
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
@@ -84,19 +84,28 @@ def draw_volumes(
         with drawing.object_space(gl, item.caster):
             gl.glFrontFace(gl.GL_CCW)
             if sides:
-                drawing.draw_polygons(gl, volume.sides)
+                draw_sides(gl, item)
             # caps repeat the surface's vertices in the surface's order, for equal depths; where that order is clockwise
             # seen from outside, glFrontFace is reversed instead
-            for positions, is_drawn, front_face, reversed_front_face in (
-                (volume.far_vertices, dark_caps and len(volume.far_vertices), gl.GL_CW, gl.GL_CCW),
-                (item.caster.mesh.positions, light_caps, gl.GL_CCW, gl.GL_CW),
+            for part, positions, is_drawn, front_face, reversed_front_face in (
+                ("far cap", volume.far_vertices, dark_caps and len(volume.far_vertices), gl.GL_CW, gl.GL_CCW),
+                ("near cap", item.caster.mesh.positions, light_caps, gl.GL_CCW, gl.GL_CW),
             ):
                 if is_drawn:
                     gl.glFrontFace(front_face)
-                    drawing.draw_triangles(gl, positions, volume.light_cap)
+                    with drawing.made_of(gl, part, "face", volume.cap_faces, [item.caster]):
+                        drawing.draw_triangles(gl, positions, volume.light_cap)
                     gl.glFrontFace(reversed_front_face)
-                    drawing.draw_triangles(gl, positions, volume.light_cap_reversed)
+                    with drawing.made_of(gl, part, "face", volume.cap_faces_reversed, [item.caster]):
+                        drawing.draw_triangles(gl, positions, volume.light_cap_reversed)
             gl.glFrontFace(gl.GL_CCW)
+
+
+def draw_sides(gl: Any, item: CasterVolume, draw: Callable[[Any, np.ndarray], None] = drawing.draw_polygons) -> None:
+    """Draw the sides of a volume in the space of its caster."""
+    volume = item.volume
+    with drawing.made_of(gl, "volume side", volume.side_feature, volume.side_numbers, [item.caster]):
+        draw(gl, volume.sides)
 
 
 def counting_ops(gl: Any, ops: Ops) -> tuple[int, int]:

@@ -84,7 +84,8 @@ def write_stencil(gl: Any, values: np.ndarray, size: tuple[int, int]) -> None:
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
     for value in np.unique(values[values > 0]).tolist():
         gl.glStencilFunc(gl.GL_ALWAYS, value, 0xFF)
-        drawing.draw_polygons(gl, row_spans(values == value))
+        with drawing.made_of(gl, "start value", ""):
+            drawing.draw_polygons(gl, row_spans(values == value))
     gl.glStencilFunc(gl.GL_ALWAYS, 0, 0xFF)
     gl.glEnable(gl.GL_DEPTH_TEST)
     gl.glEnable(gl.GL_CULL_FACE)

@@ -78,7 +78,7 @@ def steps(
         if light.shape is not None:
             wedges = wedges_of(edges, light)
             with wedge_passes.behind_points(gl, scene, buffers, size):
-                wedge_passes.add_wedges(gl, wedges, light, buffers, texture)
+                wedge_passes.add_wedges(gl, scene, light, edges, wedges, buffers, texture)
         taken, given, number, covered = np.moveaxis(wedge_passes.read_texture(gl, buffers.covered), 2, 0)
         yield (
             drawing.title("add what each wedge takes or gives back", scene, light),

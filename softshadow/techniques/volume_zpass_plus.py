@@ -115,7 +115,9 @@ def draw_near_caps(gl: Any, scene: Scene, light: Light, size: tuple[int, int]) -
     gl.glLoadIdentity()  # eye space
     for caster in scene.casters:
         with drawing.debug_group(gl, caster):
-            drawing.draw_polygons(gl, near_rectangle.near_cap(caster, light, scene.camera, size))
+            triangles, faces = near_rectangle.near_cap(caster, light, scene.camera, size)
+            with drawing.made_of(gl, "cap in the near rectangle", "face", faces, [caster]):
+                drawing.draw_polygons(gl, triangles)
     gl.glPopMatrix()
     gl.glDisable(gl.GL_DEPTH_CLAMP)
     gl.glEnable(gl.GL_DEPTH_TEST)

@@ -7,6 +7,7 @@ and wedges are closed, and only those of their faces count that are behind the v
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy as np
 from softshadow.scene import Light, LightShape, Scene, Sphere
 from softshadow.scene.light_coverage import flat_axes
 from softshadow.scene.penumbra_wedge import PenumbraWedges, SilhouetteEdges, wedge_polyhedra
-from softshadow.techniques import drawing
+from softshadow.techniques import drawing, shadow_volumes
 from softshadow.techniques.map_lookups import clear_coordinates, draw_looked_up
 from softshadow.techniques.shadow_volumes import CasterVolume, draw_volumes
 from softshadow.techniques.visibility_buffer import draw_visibility, set_uniforms, visibility_texture
@@ -192,13 +193,21 @@ def draw_sides(gl: Any, volumes: Sequence[CasterVolume], places: np.ndarray) -> 
     """Draw the sides of volumes with the places of their edges, which are in the same order."""
     first = 0
     for item in volumes:
-        sides = item.volume.sides
+        of_volume = places[first : first + len(item.volume.sides)]
         with drawing.object_space(gl, item.caster):
-            draw_at_places(gl, sides, places[first : first + len(sides)])
-        first += len(sides)
+            shadow_volumes.draw_sides(gl, item, partial(draw_at_places, places=of_volume))
+        first += len(of_volume)
 
 
-def add_wedges(gl: Any, wedges: PenumbraWedges, light: Light, buffers: WedgeBuffers, edges: EdgeTexture) -> None:
+def add_wedges(
+    gl: Any,
+    scene: Scene,
+    light: Light,
+    silhouettes: SilhouetteEdges,
+    wedges: PenumbraWedges,
+    buffers: WedgeBuffers,
+    edges: EdgeTexture,
+) -> None:
     """Add what every edge takes of the light or gives back, at the points in its wedge.
 
     A wedge is convex: drawn by its back faces, it meets each pixel once, and points in it are in front of them.
@@ -209,7 +218,8 @@ def add_wedges(gl: Any, wedges: PenumbraWedges, light: Light, buffers: WedgeBuff
     set_uniforms(gl, program, **shape_uniforms(light.shape))
     gl.glCullFace(gl.GL_FRONT)
     gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, "wedges")
-    draw_at_places(gl, triangles, edges.places[owners])
+    with drawing.made_of(gl, "wedge", "edge", owners, scene.casters, silhouettes.casters[owners]):
+        draw_at_places(gl, triangles, edges.places[owners])
     gl.glPopDebugGroup()
 
 

@@ -200,7 +200,7 @@ def mark_behind(gl: Any, item: CasterVolume, plane: np.ndarray, mark: int) -> No
     gl.glDisable(gl.GL_CULL_FACE)
     gl.glStencilFunc(gl.GL_ALWAYS, mark, 0xFF)
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_REPLACE)
-    with drawing.debug_group(gl, item.caster):
+    with drawing.debug_group(gl, item.caster), drawing.made_of(gl, "split plane", "", casters=[item.caster]):
         drawing.draw_polygons(gl, whole_plane(plane))
     gl.glStencilFunc(gl.GL_ALWAYS, 0, 0xFF)
     gl.glDepthFunc(gl.GL_EQUAL)

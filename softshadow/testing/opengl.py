@@ -128,6 +128,9 @@ class MesaGL:
         code, self._pending = self._pending or int(GL.glGetError()), GL.GL_NO_ERROR
         return code
 
+    def describe_primitives(self, part: str, *details: Any) -> None:
+        """Do nothing: descriptions of primitives are for pixel histories, and change no pixel."""
+
     def program(self, name: str) -> int:
         """Return a GL program compiled from the GLSL of the softshadow program `name`, once per context."""
         if name not in self._programs:
