@@ -75,7 +75,7 @@ class Frame:
     `steps` holds (title, number of commands until its end). A bounded recording (`history_bytes`, None for all) keeps
     between half of these bytes and all of them: `start` is the storage before the first command that it still has,
     None if that is the first one of all, and `dropped` the number of commands before it. Steps that have ended before
-    it are dropped, too; `dropped_steps` is their number.
+    it are dropped, too; `dropped_steps` is their number. `answers` keeps what questions about the frame have computed.
     """
 
     size: tuple[int, int]
@@ -88,6 +88,7 @@ class Frame:
     dropped: int = 0
     dropped_steps: int = 0
     history_bytes: int | None = None
+    answers: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         self._older, self._newer = Contents(), Contents()  # before and after the mark

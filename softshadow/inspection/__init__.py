@@ -5,7 +5,8 @@ All of it comes from replaying the recorded commands with the pipeline's own fun
 
 from softshadow.inspection.comparison import Comparison, compare
 from softshadow.inspection.difference import Difference, difference
-from softshadow.inspection.history import HistoryRow, PixelHistory, pixel_history
+from softshadow.inspection.history import PixelHistory, pixel_history, texel_history
+from softshadow.inspection.history_row import HistoryRow
 from softshadow.inspection.ledger import Counts, Ledger, ledger_of
 from softshadow.inspection.replay import Buffers, Replay
 from softshadow.inspection.soft_truth import SoftTruth, soft_truth
@@ -32,5 +33,6 @@ __all__ = [
     "ledger_of",
     "pixel_history",
     "soft_truth",
+    "texel_history",
     "wedge_contributions",
 ]

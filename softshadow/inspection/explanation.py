@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from softshadow.inspection.history import CLEARED, CULLED, HistoryRow, PixelHistory
+from softshadow.inspection.history import PixelHistory
+from softshadow.inspection.history_row import CLEARED, CULLED, HistoryRow
 
 
 def explain(history: PixelHistory, visibility: float | None, valid: bool) -> str:

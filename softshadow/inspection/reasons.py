@@ -75,6 +75,12 @@ def culled_reason(front: bool, state: State) -> str:
     return f"{facing}-facing triangle, and GL_CULL_FACE is on with {token_name(state.cull.face)}: no fragment"
 
 
+def cut_reason(plane: str) -> str:
+    """Return why a triangle has no fragment at a pixel that it would cover."""
+    where = {"near plane": "in front of the near plane", "far plane": "beyond the far plane"}
+    return f"cut away by clipping: here it lies {where.get(plane, f'on the outer side of {plane}')}"
+
+
 def clear_reason(command: Clear, window: Framebuffer) -> str:
     """Return what a clear writes to a pixel inside its scissor box."""
     state, written = command.state, []
