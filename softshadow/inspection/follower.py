@@ -14,7 +14,7 @@ from softshadow.framebuffer import DEFAULT, Attachment, Framebuffer
 from softshadow.image import Image
 from softshadow.inspection.clipped import cut_away_at
 from softshadow.inspection.history_row import CLEARED, CLIPPED, CULLED, WRITTEN, HistoryRow
-from softshadow.inspection.map_lookups import MapLookup, map_lookups, texels_read
+from softshadow.inspection.map_lookups import FACES, MapLookup, map_lookups, texels_read
 from softshadow.inspection.one_pixel import Cells, Fragment, OnePixel, shown_color
 from softshadow.inspection.reasons import clear_reason, culled_reason, cut_reason, fragment_reason, outside
 from softshadow.inspection.row_fields import lights_of, origin_fields, source_color
@@ -22,6 +22,7 @@ from softshadow.inspection.step import object_of
 from softshadow.inspection.timeline import Event, Timeline
 from softshadow.pipeline.commands import Clear, CopyToTexture, Draw
 from softshadow.pipeline.records import SCISSORED, VERDICTS
+from softshadow.texture import Texture
 
 NO_FRAGMENT = {"draw": None, "object": "", "triangle": None, "front_facing": None, "z": None}
 DECIDED = ("passed", "alpha failed")  # the verdicts of fragments whose lookups matter
@@ -206,9 +207,20 @@ class Follower:
         if fragment.color is not None and "visibility" in command.program_name:  # these programs return it as alpha
             visible = float(fragment.color[0, 3])
         own = map_lookups(fragment.reads, fragment.place, visible, light)
-        return own or tuple(
-            replace(lookup, light=light or lookup.light) for lookup in self._lookups_behind(event, fragment)
-        )
+        textures = {read.texture.name: read.texture for read in fragment.reads}
+        if own:
+            return tuple(self._with_caster(each, textures[each.texture], event.index) for each in own)
+        return tuple(replace(each, light=light or each.light) for each in self._lookups_behind(event, fragment))
+
+    def _with_caster(self, lookup: MapLookup, texture: Texture, before: int) -> MapLookup:
+        """Return a lookup with the caster that was drawn into the texel which decides it."""
+        tap = lookup.deciding_tap
+        image = texture.base(FACES.index(tap.face) if tap.face else 0)
+        stands_for = None if image is None else self.timeline.stand_in(image)
+        if stands_for is None or not tap.inside or stands_for.format.kind != "depth":
+            return lookup
+        row = self._row_left(stands_for, tap.gl_y, tap.x, before)
+        return lookup if row is None else replace(lookup, caster=row.caster or row.object, caster_triangle=row.triangle)
 
     def _lookups_behind(self, event: Event, fragment: Fragment) -> tuple[MapLookup, ...]:
         """Return the lookups of the fragments that left the texels which a fragment has read."""
@@ -218,14 +230,27 @@ class Follower:
                 continue
             texel = max(texels, key=lambda each: each.weight)
             image = self.timeline.stand_in(texel.image)
-            if image is None or not any(writes(each, image) for each in self.timeline.events):
-                continue
-            source = Follower(self.timeline, texel.row, texel.column, self.lights)
-            rows = list(source.rows(partial(writes, image=image), event.index))
-            left = next((row for row in reversed(rows) if row.color_written), None)
-            if left is not None and left.lookups:
-                return left.lookups
+            lookups = () if image is None else self._lookups_left(image, texel.row, texel.column, event.index)
+            if lookups:
+                return lookups
         return ()
+
+    def _lookups_left(self, image: Image, row: int, column: int, before: int) -> tuple[MapLookup, ...]:
+        """Return the lookups of the fragment that has left a texel as it is before a command."""
+        left = self._row_left(image, row, column, before)
+        return () if left is None else left.lookups
+
+    def _row_left(self, image: Image, row: int, column: int, before: int) -> HistoryRow | None:
+        """Return the row of the fragment that has left a texel as it is before a command; None after a clear."""
+        writers = [each.index for each in self.timeline.events if each.index < before and writes(each, image)]
+        key = id(image), row, column, max(writers, default=-1)
+        if writers and key not in self.timeline.left:
+            self.timeline.left[key] = None  # a draw may read what it writes to
+            follower = Follower(self.timeline, row, column, self.lights)
+            for each in follower.rows(partial(writes, image=image), key[-1] + 1):
+                if each.verdict in ("passed", CLEARED):
+                    self.timeline.left[key] = each if each.verdict == "passed" else None
+        return self.timeline.left.get(key)
 
 
 def _is_of(image: Image, target: Framebuffer) -> bool:

@@ -21,8 +21,10 @@ def heads_and_cells(rows: Sequence[HistoryRow]) -> tuple[list[str], list[list[st
 
 
 def reason_of(row: HistoryRow) -> str:
-    """Return the tests of a row and its lookups, in words."""
-    return "; ".join([row.reason, *(lookup_words(lookup) for lookup in row.lookups)])
+    """Return what the row's triangle was made from, its tests and its lookups, in words."""
+    made = f"{row.name}: " if row.part else ""
+    offset = f"z was {row.z_before_offset:.6f} before the polygon offset; " if row.z_before_offset is not None else ""
+    return made + offset + "; ".join([row.reason, *(lookup_words(lookup) for lookup in row.lookups)])
 
 
 def text_of(heads: list[str], cells: list[list[str]], reasons: list[str]) -> str:
@@ -59,21 +61,13 @@ def _changed(before: str, after: str) -> str:
     return f"{before} -> {after}" if before != after else after
 
 
-def _part(row: HistoryRow) -> str:
-    feature = f" e{row.edge}" if row.edge is not None else "" if row.face is None else f" f{row.face}"
-    caster = f" of {row.caster}" if row.caster and row.caster != row.object else ""
-    return f"{row.part}{caster}{feature}" or "-"
-
-
 COLUMNS: dict[str, Callable[[HistoryRow], str]] = {
     "step": lambda row: str(row.step),
     "draw": lambda row: _whole(row.draw),
     "object": lambda row: row.object or "-",
-    "part": _part,
     "triangle": lambda row: _whole(row.triangle),
     "facing": lambda row: "-" if row.front_facing is None else "front" if row.front_facing else "back",
     "z": lambda row: _number(row.z),
-    "before offset": lambda row: _number(row.z_before_offset),
     "stored z": lambda row: _number(row.stored_z),
     "stencil": lambda row: _changed(str(row.stencil_before), str(row.stencil_after)),
     "source": lambda row: "-" if row.color_source == row.color_after else color_text(row.color_source),

@@ -22,6 +22,11 @@ def lookup_words(lookup: MapLookup) -> str:
     return words
 
 
+def drawn_words(lookup: MapLookup) -> str:
+    """Return what was drawn into the texel that decides."""
+    return f" (drawn by {lookup.caster}, triangle {lookup.caster_triangle})" if lookup.caster else ""
+
+
 def map_name(lookup: MapLookup) -> str:
     """Return the name of the map: by its light, or the texture's."""
     name = f"the map of {lookup.light}" if lookup.light else f"texture {lookup.texture}"
@@ -54,8 +59,8 @@ def one_tap(lookup: MapLookup) -> str:
     """Return the words for a single comparison."""
     depth = lookup.depth or 0.0
     stored, own = unlike(lookup.stored, depth)
-    own = own_depth(lookup, depth, own)
-    return f"{place_words(lookup)} stores {stored}, this point has {own}: {outcome(lookup, bool(lookup.lit))}"
+    found = f"{place_words(lookup)} stores {stored}{drawn_words(lookup)}"
+    return f"{found}, this point has {own_depth(lookup, depth, own)}: {outcome(lookup, bool(lookup.lit))}"
 
 
 def taps(lookup: MapLookup) -> str:
@@ -78,7 +83,8 @@ def taps(lookup: MapLookup) -> str:
         )
     if lookup.silhouette_point is not None:
         s, t = lookup.silhouette_point
-        words.append(f"the silhouette point ({s:.2g}, {t:.2g}) of the cell decides which of these corners counts")
+        part = "lit" if lookup.lit else "shadowed"
+        words.append(f"the silhouette point ({s:.2g}, {t:.2g}) of the cell puts this point into the {part} part")
     return "; ".join(words)
 
 
@@ -87,6 +93,6 @@ def filtered(lookup: MapLookup) -> str:
     means = ", ".join(f"{value:.{DIGITS}g}" for value in lookup.values[:2])
     own = own_depth(lookup, lookup.depth or 0.0, f"{lookup.depth or 0.0:.{DIGITS}g}")
     return (
-        f"the filtered {map_name(lookup)} has {means} around texel ({lookup.x}, {lookup.y}), this point has {own}: "
+        f"{map_name(lookup)}, filtered, has {means} around texel ({lookup.x}, {lookup.y}), this point has {own}: "
         f"{lookup.lit:.2g} of the light is found visible"
     )

@@ -70,6 +70,8 @@ class MapLookup:
     values : tuple               the channels of the last read
     silhouette_point : tuple or None    s and t of the silhouette point in the cell of texels
     taps : tuple of Tap
+    caster, caster_triangle      the object, and its triangle, that was drawn last into the texel of the middle tap, or
+                                 of the first one in shadow; "" and None where nothing was drawn
     """
 
     texture: int
@@ -87,6 +89,17 @@ class MapLookup:
     values: tuple[float, ...]
     silhouette_point: tuple[float, float] | None
     taps: tuple[Tap, ...]
+    caster: str = ""
+    caster_triangle: int | None = None
+
+    @property
+    def deciding_tap(self) -> Tap:
+        """The first tap in shadow, else the middle one."""
+        dark = [tap for tap in self.taps if tap.lit is False and tap.purpose != "search"]
+        middle = next(
+            (tap for tap in self.taps if (tap.x, tap.y, tap.face) == (self.x, self.y, self.face)), self.taps[0]
+        )
+        return dark[0] if dark and middle.lit is not False else middle
 
 
 class Texel(NamedTuple):
@@ -116,7 +129,7 @@ def map_lookups(reads: Iterable[Read], place: int, visible: float | None, light:
     points = [reads for reads in by_texture.values() if reads[0].compared is None and len(reads) > 1]
     if len(found) == 1 and points:  # a silhouette map beside the depth map: the first read is the cell's own
         s, t = (float(c) for c in points[0][0].values[place][:2])
-        found[0] = replace(found[0], silhouette_point=(s, t))
+        found[0] = replace(found[0], silhouette_point=(s, t), lit=visible)
     return tuple(found)
 
 

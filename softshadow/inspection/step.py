@@ -13,9 +13,9 @@ from softshadow.context import Frame
 from softshadow.errors import nearest
 from softshadow.inspection.pictures import contact_sheet, depth_picture, notebook_display
 from softshadow.inspection.replay import Buffers, Replay
+from softshadow.inspection.step_state import StepState, step_state
 from softshadow.pipeline.commands import Clear, Command, Draw
 from softshadow.pipeline.geometry.draw_primitives import primitive_count
-from softshadow.state import State
 from softshadow.tokens import token_name
 
 MODES = ("GL_POINTS", "GL_LINES", "GL_LINE_LOOP", "GL_LINE_STRIP", "GL_TRIANGLES", "GL_TRIANGLE_STRIP",
@@ -78,13 +78,18 @@ class Step:
         """The recorded commands of the step."""
         return self.frame.commands[self.first_command : self.frame.steps[self.index][1]]
 
-    @property
-    def state(self) -> State:
-        """The state of the last draw or clear up to the end of the step; printed, it is the GL calls that set it."""
-        for command in reversed(self.frame.commands[: self.frame.steps[self.index][1]]):
+    @cached_property
+    def state(self) -> StepState:
+        """The state of the last draw or clear up to the end of the step; printed, it is the GL calls that set it.
+
+        It has the matrices, the samplers of bound textures and the uniforms of the program, too.
+        """
+        end = self.frame.steps[self.index][1]
+        for index in range(end - 1, -1, -1):
+            command = self.frame.commands[index]
             if isinstance(command, Draw | Clear):
-                return command.state
-        return State()
+                return step_state(command, self.frame.commands[:index])
+        return StepState()
 
     @property
     def draws(self) -> tuple[DrawSummary, ...]:

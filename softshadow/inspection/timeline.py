@@ -10,6 +10,7 @@ from bisect import bisect_right
 from collections import OrderedDict
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -70,6 +71,7 @@ class Timeline:
     events : list of Event
     before : dict              what an image held before its first event, by the identity of the image
     images : list              for each step, the images of all textures at its end, by (texture, face, level)
+    left : dict                rows found so far that have left a texel, by image, row, column and last event
     """
 
     def __init__(self, frame: Frame) -> None:
@@ -79,6 +81,7 @@ class Timeline:
         self.images: list[dict[tuple[int, int, int], Image]] = []
         self._stand_ins: WeakKeyDictionary[Image, Image] = WeakKeyDictionary()
         self._readers: dict[int, list[tuple[dict[tuple[int, int], Image], tuple[int, int]]]] = {}
+        self.left: dict[tuple[int, int, int, int], Any] = {}
         self._cut: dict[int, CutTriangles | None] = {}
         self._geometry: OrderedDict[int, tuple[Geometry, int]] = OrderedDict()
         self._size = size_of(frame)

@@ -29,17 +29,21 @@ from softshadow.inspection import (
     ledger_of,
     pixel_history,
     soft_truth,
+    texel_history,
     wedge_contributions,
 )
+from softshadow.inspection.causes import Cause
 from softshadow.inspection.comparison import jumps
-from softshadow.inspection.explanation import explain
+from softshadow.inspection.fragment_maps import FragmentMaps, fragment_maps
 from softshadow.inspection.hard_truth import hard_visibility
 from softshadow.inspection.pictures import notebook_display
-from softshadow.inspection.soft_reasons import soft_reasons
+from softshadow.inspection.shadow_kinds import shadow_kinds
 from softshadow.inspection.step import sheet_of
 from softshadow.report import CrossSection, View3D, cross_section, view3d_of
 from softshadow.runs.archive import RunRecord, read_npz
+from softshadow.runs.map_texels import image_of_map
 from softshadow.runs.saving import save
+from softshadow.runs.why import causes_at, explained
 from softshadow.scene import Scene
 from softshadow.space import LineOfSight, ShadowGeometry, geometry_of_run, line_of_sight
 
@@ -144,27 +148,74 @@ class Run:
         return difference(self.steps[a].buffers, self.steps[b].buffers)
 
     # -- questions -----------------------------------------------------------------------------------------------------
-    def pixel(self, x: int, y: int) -> PixelHistory:
-        """Return every fragment generated at a pixel of the window: x from the left, y from the top.
+    def pixel(self, x: int, y: int, framebuffer: int = 0) -> PixelHistory:
+        """Return every fragment generated at a pixel: x from the left, y from the top.
+
+        Parameters
+        ----------
+        framebuffer : int            name of a framebuffer object; the window by default
 
         Raises
         ------
-        ValueError                   the pixel is outside the picture
+        ValueError                   the pixel is outside the framebuffer, or nothing was drawn to it
         """
-        return pixel_history(self.frame, x, y)
+        return pixel_history(self.frame, x, y, framebuffer, [light.name for light in self.scene.lights])
+
+    def map_pixel(self, name: str, x: int, y: int) -> PixelHistory:
+        """Return every fragment generated at a texel of a map, like ``run.map_pixel("ZS", 211, 340)``.
+
+        The last row that passed has the object and the triangle that the texel stores.
+
+        Parameters
+        ----------
+        name : str                   of a map that was drawn as a texture; a cube map has one for each face, "ZS +x"
+        x, y : int                   of the texel ``run.maps[name][y, x]``
+
+        Raises
+        ------
+        StateError                   there is no such map, or it was not read from a texture
+        ValueError                   outside the map
+        """
+        image, commands = image_of_map(self.steps, name)
+        return texel_history(self.frame, image, x, y, commands, name, [light.name for light in self.scene.lights])
 
     def explain(self, x: int, y: int) -> str:
-        """Return one sentence that says why a pixel is lit or in shadow."""
-        history = self.pixel(x, y)
-        has_visibility = "visibility" in self.maps and "valid" in self.maps
-        valid = has_visibility and bool(self.valid[history.y, history.x])
-        text = explain(history, float(self.visibility[history.y, history.x]) if has_visibility else None, valid)
-        if not valid or not 0 < self.visibility[history.y, history.x] < 1:
+        """Return one sentence that says why a pixel is lit or in shadow, and a second one with numbers if it is soft.
+
+        It names the step, the test or lookup that decided it, and the object that casts the shadow.
+        """
+        text = explained(self.frame, self.pixel(x, y), self.scene, self.maps, self.options)
+        if self.technique != "volume-wedges" or not self.valid[y, x] or not 0 < self.visibility[y, x] < 1:
             return text
-        if self.technique != "volume-wedges":
-            return " ".join([text, *soft_reasons(self.scene, self.maps, self.options, history.x, history.y)])
         numbers = [number for number, light in enumerate(self.scene.lights) if light.shape is not None]
-        return " ".join([text, *(str(self.contributions(history.x, history.y, number)) for number in numbers)])
+        return " ".join([text, *(str(self.contributions(x, y, number)) for number in numbers)])
+
+    def causes(self, x: int, y: int) -> tuple[Cause, ...]:
+        """Return why each hidden light does not reach what a pixel shows, or only in part; empty where it is lit."""
+        return causes_at(self.frame, self.pixel(x, y), self.scene, self.maps)
+
+    def fragments(self, step: int | str, framebuffer: int = 0) -> FragmentMaps:
+        """Return how many fragments a step has drawn at each pixel, by verdict, and the last fragment of each pixel.
+
+        Parameters
+        ----------
+        step : int or str            index or title
+        framebuffer : int            name of a framebuffer object; the window by default
+        """
+        return fragment_maps(self.steps[step], framebuffer)
+
+    def shadow_kinds(self, light: int = 0) -> np.ndarray:
+        """Return (H, W) uint8: 0 where a light is fully visible, 1 in own shadow, 2 in cast shadow.
+
+        A surface in its own shadow is turned away from the light. Where shadow is, the technique has decided; of which
+        kind it is, ray casting.
+
+        Parameters
+        ----------
+        light : int                  index in the scene
+        """
+        hidden = self.valid & (self.lights[light].visibility < 1)
+        return shadow_kinds(self.scene, self.scene.lights[light], hidden)
 
     def contributions(self, x: int, y: int, light: int = 0) -> WedgeContributions:
         """Return what each penumbra wedge of a light contributes at a pixel of a run of "volume-wedges".
