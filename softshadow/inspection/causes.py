@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from softshadow.inspection.history_row import CLEARED, HistoryRow
+from softshadow.inspection.history_table import color_text
 from softshadow.inspection.lookup_words import lookup_words
 
 VOLUME_PARTS = ("volume side", "near cap", "far cap", "cap in the near rectangle", "wedge")
@@ -47,22 +48,26 @@ def surface_row(rows: Sequence[HistoryRow]) -> HistoryRow | None:
 
 def cause_of(rows: Sequence[HistoryRow], light: str, surface: HistoryRow) -> Cause:
     """Return why a light does not reach a surface, as far as the rows tell it; the kind is then "cast shadow"."""
-    adding = [row for row in rows if row.lights == (light,) and is_same_surface(row, surface) and not row.part]
+    of_surface = [row for row in rows if is_same_surface(row, surface) and not row.part]
+    adding = [row for row in of_surface if row.lights == (light,)]
     for row in reversed(adding):
         if row.verdict == "stencil failed":
             return stencil_cause(rows, light, row)
         if row.verdict == "alpha failed" or (row.verdict == "passed" and row.lookups):
             return lookup_cause(light, row)
-        if row.verdict == "passed" and row.color_source is not None and not any(row.color_source):
-            return Cause(light, "cast shadow", (), row, "the pass that adds the light adds black")
     painted = [row for row in rows if row.part in PAINTED_PARTS and row.color_written and follows(rows, row, surface)]
     if painted:
         casters = tuple(dict.fromkeys(row.caster for row in painted if row.caster))
         if not casters:  # a rectangle over the picture, where marks are left
             return stencil_cause(rows, light, painted[-1])
         return Cause(light, "cast shadow", casters, painted[-1], f"{painted[-1].name} is painted over it")
-    if not surface.lights and "stencil test" in surface.reason:  # the dark part of a receiver
-        return stencil_cause(rows, light, surface)
+    dark = [row for row in of_surface if row.color_written and not row.lights and "stencil test" in row.reason]
+    if dark:  # the surface was drawn again without light
+        return stencil_cause(rows, light, dark[-1])
+    blended = [row for row in adding if row.color_written]
+    if blended:
+        color = color_text(blended[-1].color_source) if any(blended[-1].color_source or ()) else "black"
+        return Cause(light, "cast shadow", (), blended[-1], f"the pass that adds the light blends {color}")
     return Cause(light, "unknown", (), surface, tests_of(surface))
 
 

@@ -51,8 +51,10 @@ def explain(
         word = _by_light(lights)
     if not causes:
         return f"{history.heading} is {word}: {_described(surface)}."
-    several = len(lights or ()) > 1
-    return f"{history.heading} is {word}: {'; '.join(_caused(cause, surface, several) for cause in causes)}."
+    words = {cause.light: _caused(cause, surface) for cause in causes}
+    if len(set(words.values())) == 1:
+        return f"{history.heading} is {word}: {words.popitem()[1]}."
+    return f"{history.heading} is {word}: {'; '.join(f'{light}: {text}' for light, text in words.items())}."
 
 
 def _by_light(lights: Mapping[str, float]) -> str:
@@ -74,26 +76,19 @@ def _described(row: HistoryRow) -> str:
     return f"in step {row.title!r} ({row.name}), {'; '.join(words)}"
 
 
-def _caused(cause: Cause, surface: HistoryRow, several: bool) -> str:
+def _caused(cause: Cause, surface: HistoryRow) -> str:
     """Return the words for one hidden light."""
-    on = f"{surface.object or 'the surface'}, triangle {surface.triangle}"
-    of_light = cause.light or "the light"
-    if cause.kind == "outside the cone":
-        words = f"it is outside the cone of {of_light}"
-    elif cause.kind == "own shadow":
-        words = f"own shadow: {on} is turned away from {of_light}"
-    elif cause.kind == "unseen":
-        words = f"the map of {of_light} does not decide here"
-    elif cause.casters:
-        self_cast = " on itself" if surface.object in cause.casters else ""
-        words = f"cast by {and_list(cause.casters)}{self_cast or f' on {on}'}"
-    else:
-        words = f"on {on}"
-    if several and cause.kind not in ("outside the cone", "own shadow", "unseen"):
-        words = f"{cause.light}: {words}"
-    if cause.row is None:
-        return words
-    return f"{words}: in step {cause.row.title!r}, {cause.evidence}" if cause.evidence else words
+    number = "" if surface.triangle is None else f" (triangle {surface.triangle})"
+    on = f"{surface.object or 'the surface'}{number}"
+    words = {
+        "outside the cone": f"it is outside the cone of {cause.light}",
+        "own shadow": f"own shadow, {on} is turned away from {cause.light}",
+        "unseen": f"the map of {cause.light} does not decide about {on}",
+    }.get(cause.kind, "")
+    if not words:
+        itself = surface.object in cause.casters
+        words = f"cast by {and_list(cause.casters)} on {f'itself{number}' if itself else on}" if cause.casters else on
+    return f"{words}: in step {cause.row.title!r}, {cause.evidence}" if cause.row and cause.evidence else words
 
 
 def causes_of(frame: Frame, history: PixelHistory, scene: Scene, hidden: Mapping[str, float]) -> tuple[Cause, ...]:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any
 
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.framebuffer import DEFAULT, Attachment, Framebuffer
+from softshadow.framebuffer import Attachment, Framebuffer
 from softshadow.image import Image
 from softshadow.inspection.clipped import cut_away_at
 from softshadow.inspection.history_row import CLEARED, CLIPPED, CULLED, WRITTEN, HistoryRow
@@ -28,23 +27,31 @@ NO_FRAGMENT = {"draw": None, "object": "", "triangle": None, "front_facing": Non
 DECIDED = ("passed", "alpha failed")  # the verdicts of fragments whose lookups matter
 
 
-def draws_to(event: Event, framebuffer: int) -> bool:
-    """Return whether an event may change a framebuffer."""
-    if event.target is not None:
-        return event.target.name == framebuffer
-    return framebuffer == DEFAULT  # a copy; those to other framebuffers are known by their images
-
-
 def images_of(event: Event) -> list[Image]:
     """Return the images that an event may change."""
     if event.target is not None:
-        return [each.image for each in event.target.attachments.values()]
+        return images_in(event.target)
     return [each.image for each in event.written]
+
+
+def images_in(target: Framebuffer) -> list[Image]:
+    """Return the images of a framebuffer."""
+    return [each.image for each in target.attachments.values()]
 
 
 def writes(event: Event, image: Image) -> bool:
     """Return whether an event may change an image."""
     return any(each is image for each in images_of(event))
+
+
+def needed_images(events: Sequence[Event], shown: Collection[int]) -> set[int]:
+    """Return the identities of images and of all that are drawn to together with them."""
+    wanted = set(shown)
+    for event in reversed(events):
+        images = {id(image) for image in images_of(event)}
+        if event.target is not None and images & wanted:
+            wanted |= images
+    return wanted
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,32 +63,37 @@ class Follower:
     column: int
     lights: tuple[str, ...]
 
-    def rows(self, shows: Callable[[Event], bool], before: int | None = None) -> Iterator[HistoryRow]:
-        """Yield the rows of the events that are shown, among those before a command."""
+    def rows(
+        self, of: Collection[Image], before: int | None = None, framebuffer: int | None = None
+    ) -> Iterator[HistoryRow]:
+        """Yield the rows of all events that may change the pixel of some images.
+
+        Parameters
+        ----------
+        before : int                 the number of commands that count; all by default
+        framebuffer : int            leave out draws and clears through any other framebuffer
+        """
         events = [event for event in self.timeline.events if before is None or event.index < before]
-        wanted = self._images_of(events, shows)
+        shown = {id(image) for image in of}
+        wanted = needed_images(events, shown)
         pixel = OnePixel(self.timeline, self.row, self.column)
         for event in events:
-            is_shown = shows(event)
-            if event.target is None:
-                yield from self._written_rows(event, pixel, wanted, is_shown)
-            elif any(id(image) in wanted for image in images_of(event)) and pixel.is_in(event.target):
-                rows = (
-                    self._draw_rows(event, pixel) if isinstance(event.command, Draw) else self._clear_rows(event, pixel)
-                )
-                yield from (row for row in rows if is_shown)
-
-    def _images_of(self, events: list[Event], shows: Callable[[Event], bool]) -> set[int]:
-        """Return the identities of the images that the shown events depend on."""
-        wanted: set[int] = set()
-        for event in reversed(events):
             images = {id(image) for image in images_of(event)}
-            if event.target is not None and (shows(event) or images & wanted):
-                wanted |= images
-            elif shows(event) and event.target is None:
-                window = {id(each.image) for each in self.timeline.window.attachments.values()}
-                wanted |= images & window
-        return wanted
+            if not images & wanted or not self._is_in(event):
+                continue
+            if event.target is None:
+                yield from self._written_rows(event, pixel, wanted, bool(images & shown))
+                continue
+            rows = self._draw_rows if isinstance(event.command, Draw) else self._clear_rows
+            is_shown = images & shown and framebuffer in (None, event.target.name)
+            yield from (row for row in rows(event, pixel) if is_shown)
+
+    def _is_in(self, event: Event) -> bool:
+        """Return whether what an event may change has this pixel."""
+        width, height = (
+            event.target.size if event.target else (event.written[0].image.width, event.written[0].image.height)
+        )
+        return self.row < height and self.column < width
 
     # -- rows of one event ---------------------------------------------------------------------------------------------
     def _row(self, event: Event, target: Framebuffer, before: Cells, after: Cells, **fields: Any) -> HistoryRow:
@@ -101,8 +113,6 @@ class Follower:
     def _written_rows(self, event: Event, pixel: OnePixel, wanted: set[int], is_shown: bool) -> Iterator[HistoryRow]:
         """Yield the row of a copy or a blit, if it has changed the pixel."""
         written = [each for each in event.written if id(each.image) in wanted]
-        if not written or not (self.row < written[0].image.height and self.column < written[0].image.width):
-            return
         if is_shown and isinstance(event.command, CopyToTexture):
             yield from self._copied_rows(event, event.command)
         target = self.timeline.window if _is_of(written[0].image, self.timeline.window) else _only(written[0].image)
@@ -123,7 +133,7 @@ class Follower:
         height = target.size[1]
         row = height - 1 - (command.y + up) if target.flipped else command.y + up
         source = Follower(self.timeline, row, command.x + column, self.lights)
-        rows = list(source.rows(partial(draws_to, framebuffer=command.framebuffer), event.index))
+        rows = list(source.rows(images_in(target), event.index, command.framebuffer))
         last_clear = max((n for n, each in enumerate(rows) if each.verdict == CLEARED), default=0)
         yield from rows[last_clear:]
 
@@ -247,7 +257,7 @@ class Follower:
         if writers and key not in self.timeline.left:
             self.timeline.left[key] = None  # a draw may read what it writes to
             follower = Follower(self.timeline, row, column, self.lights)
-            for each in follower.rows(partial(writes, image=image), key[-1] + 1):
+            for each in follower.rows([image], key[-1] + 1):
                 if each.verdict in ("passed", CLEARED):
                     self.timeline.left[key] = each if each.verdict == "passed" else None
         return self.timeline.left.get(key)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,17 +15,17 @@ import numpy as np
 from softshadow.context import Frame
 from softshadow.framebuffer import DEFAULT
 from softshadow.image import Image
-from softshadow.inspection.follower import Follower, draws_to, writes
+from softshadow.inspection.follower import Follower, images_in
 from softshadow.inspection.history_row import HistoryRow
 from softshadow.inspection.history_table import heads_and_cells, html_of, text_of
-from softshadow.inspection.timeline import Timeline, timeline_of
+from softshadow.inspection.timeline import timeline_of
 
 
 @dataclass(frozen=True)
 class PixelHistory:
     """All rows of one pixel, in order; x counts from the left, y from the top, and `gl_y` from the bottom.
 
-    `where` names what the pixel belongs to, if it is not the window.
+    `where` names what the pixel belongs to, if it is not the window; `kind` is "pixel" or "texel".
     """
 
     x: int
@@ -34,6 +33,7 @@ class PixelHistory:
     gl_y: int
     rows: tuple[HistoryRow, ...]
     where: str = ""
+    kind: str = "pixel"
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -51,8 +51,8 @@ class PixelHistory:
     @property
     def heading(self) -> str:
         """The pixel in both row orders."""
-        kind, of = ("texel", f" of {self.where}") if self.where else ("pixel", "")
-        return f"{kind} x={self.x} y={self.y} (GL y={self.gl_y}){of}"
+        of = f" of {self.where}" if self.where else ""
+        return f"{self.kind} x={self.x} y={self.y} (GL y={self.gl_y}){of}"
 
     def __str__(self) -> str:
         return f"{self.heading}\n{text_of(*heads_and_cells(self.rows))}"
@@ -67,7 +67,7 @@ def pixel_history(frame: Frame, x: int, y: int, framebuffer: int = DEFAULT, ligh
     Parameters
     ----------
     x, y : int                   column, and row from the top
-    framebuffer : int            its name; the window by default
+    framebuffer : int            its name; the window by default. Where its size has changed, the last one counts
     lights : names               of GL_LIGHT0, GL_LIGHT1 ...
 
     Raises
@@ -75,20 +75,19 @@ def pixel_history(frame: Frame, x: int, y: int, framebuffer: int = DEFAULT, ligh
     ValueError                   outside the framebuffer, or not whole numbers; or nothing was drawn to it
     """
     timeline = timeline_of(frame)
-    targets = {event.index: event.target for event in timeline.events if draws_to(event, framebuffer)}
+    targets = [event.target for event in timeline.events if event.target and event.target.name == framebuffer]
     if framebuffer == DEFAULT:
-        width, height = frame.size
-    elif not targets:
-        raise ValueError(f"framebuffer={framebuffer}: nothing was drawn to it; expected {_framebuffers(timeline)}")
-    else:
-        width, height = np.max([target.size for target in targets.values() if target], axis=0)
-    check_pixel(x, y, int(width), int(height))
-    flipped = framebuffer == DEFAULT
-    row = int(y) if flipped else int(height) - 1 - int(y)
-    follower = Follower(timeline, row, int(x), tuple(lights))
-    rows = follower.rows(partial(draws_to, framebuffer=framebuffer))
-    where = "" if flipped else f"framebuffer {framebuffer}"
-    return PixelHistory(int(x), int(y), int(height) - 1 - int(y), tuple(rows), where)
+        targets = [timeline.window]
+    if not targets:
+        names = sorted({event.target.name for event in timeline.events if event.target is not None})
+        raise ValueError(f"framebuffer={framebuffer}: nothing was drawn to it; expected one of {names}")
+    width, height = targets[-1].size
+    check_pixel(x, y, width, height)
+    row = int(y) if targets[0].flipped else height - 1 - int(y)
+    images = {id(image): image for target in targets for image in images_in(target)}
+    rows = Follower(timeline, row, int(x), tuple(lights)).rows(list(images.values()), framebuffer=framebuffer)
+    where = "" if framebuffer == DEFAULT else f"framebuffer {framebuffer}"
+    return PixelHistory(int(x), int(y), height - 1 - int(y), tuple(rows), where)
 
 
 def texel_history(
@@ -109,8 +108,8 @@ def texel_history(
     """
     check_pixel(x, y, image.width, image.height)
     row = image.height - 1 - int(y)
-    follower = Follower(timeline_of(frame), row, int(x), tuple(lights))
-    return PixelHistory(int(x), int(y), row, tuple(follower.rows(partial(writes, image=image), before)), where)
+    rows = Follower(timeline_of(frame), row, int(x), tuple(lights)).rows([image], before)
+    return PixelHistory(int(x), int(y), row, tuple(rows), where, "texel")
 
 
 def check_pixel(x: Any, y: Any, width: int, height: int) -> None:
@@ -118,8 +117,3 @@ def check_pixel(x: Any, y: Any, width: int, height: int) -> None:
     for name, value, end in (("x", x, width), ("y", y, height)):
         if isinstance(value, bool) or not isinstance(value, int | np.integer) or not 0 <= value < end:
             raise ValueError(f"{name}={value!r}: expected a whole number from 0 to {end - 1}")
-
-
-def _framebuffers(timeline: Timeline) -> str:
-    names = sorted({event.target.name for event in timeline.events if event.target is not None})
-    return "one of " + ", ".join(map(str, names))

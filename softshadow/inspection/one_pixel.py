@@ -87,11 +87,6 @@ class OnePixel:
         """Write a cell as it is stored."""
         self.image(image).cells[0, 0] = value
 
-    def is_in(self, target: Framebuffer) -> bool:
-        """Return whether a framebuffer has this pixel."""
-        width, height = target.size
-        return self.row < height and self.column < width
-
     def target(self, target: Framebuffer) -> Framebuffer:
         """Return the framebuffer that has the cells instead of the images."""
         attachments = {point: replace(each, image=self.image(each.image)) for point, each in target.attachments.items()}

@@ -1,4 +1,4 @@
-"""Own and cast shadow, pixel by pixel: a surface that is turned away from a light, and one that something else hides."""
+"""Own and cast shadow, pixel by pixel: of a surface that is turned away from a light, and of one that is hidden."""
 
 from __future__ import annotations
 

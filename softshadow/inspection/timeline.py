@@ -86,7 +86,8 @@ class Timeline:
         self._geometry: OrderedDict[int, tuple[Geometry, int]] = OrderedDict()
         self._size = size_of(frame)
         self._storage = frame.fresh_storage()
-        self._attached = {command.texture for command in frame.commands if isinstance(command, commands.AttachTexture)}
+        drawn_to = commands.AttachTexture | commands.CopyToTexture
+        self._followed = {command.texture for command in frame.commands if isinstance(command, drawn_to)}
         self.window = self._target(self._storage.window)
         self._replay()
 
@@ -123,7 +124,7 @@ class Timeline:
             self.events.append(replace(event, target=self._target(target), textures=textures))
             execute(command, storage)
             return
-        is_target = getattr(command, "texture", None) in (None, *self._attached)
+        is_target = getattr(command, "texture", None) in (None, *self._followed)
         for image in changed_images(command, storage):
             self._keep_for_readers(image)
             if is_target:

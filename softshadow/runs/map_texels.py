@@ -55,4 +55,5 @@ def texels_like(image: Image, values: np.ndarray) -> np.ndarray | None:
     cells = image.read_cells[::-1, : image.width]
     if image.format.kind == "depth":
         return depth_as_float(np.ascontiguousarray(cells), image.format)
-    return cells[..., : values.shape[2]] if values.ndim > 2 else cells[..., ALPHA]
+    channels = cells[..., : values.shape[2]] if values.ndim > 2 else cells[..., ALPHA]
+    return channels if image.format.kind == "float" else channels.astype(np.float32) / np.float32(255)

@@ -40,6 +40,6 @@ def explained(
     visibility = float(maps["visibility"][y, x]) if has_visibility else None
     shares = visibility_of_lights(scene, maps, x, y)
     text = explain(history, visibility, valid, shares, causes_at(frame, history, scene, maps))
-    if not valid or visibility is None or not 0 < visibility < 1:
+    if not valid or visibility is None or visibility >= 1:
         return text
     return " ".join([text, *soft_reasons(scene, maps, options, x, y)])
