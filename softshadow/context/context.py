@@ -323,7 +323,7 @@ class Context:
         """Collect triangles or quads of immediate mode, to draw them together with pairs that follow."""
         if not self.vertex_buffer.can_join(mode):
             self.vertex_buffer.begin_joined_pairs(self._draw_command(mode, vertices))
-        self.vertex_buffer.join("/".join(self.labels) if self.labels else "", vertices)
+        self.vertex_buffer.join("/".join(self.labels) if self.labels else "", self.origin, vertices)
 
     # -- current values ------------------------------------------------------------------------------------------------
     def attribute(self, name: str) -> Any:

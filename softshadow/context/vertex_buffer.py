@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from softshadow.framebuffer import Storage
-from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.pipeline.commands import Draw, Origin, Vertices
 from softshadow.pipeline.geometry.geometry import offset_mode_of
 from softshadow.pipeline.mesa.driver_draws import SEPARATE, CollectedPairs, DriverDraw, JoinedPairs
 
@@ -137,10 +137,10 @@ class VertexBuffer:
         self.draw_joined_pairs()
         self.joined_pairs = JoinedPairs(first)
 
-    def join(self, label: str, vertices: Vertices) -> None:
+    def join(self, label: str, origin: Origin | None, vertices: Vertices) -> None:
         """Add the vertices of a pair to the joined pairs; `label` names the debug groups they belong to."""
         assert self.joined_pairs is not None
-        self.joined_pairs.parts.append((label, vertices))
+        self.joined_pairs.parts.append(((label, origin), vertices))
 
     def end_pair(self, mode: int, vertices: int) -> None:
         """Count a glBegin ... glEnd pair; draw if it is empty and of another mode, or the 64th."""

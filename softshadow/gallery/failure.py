@@ -14,7 +14,7 @@ from softshadow.gallery.call_difference import call_difference
 from softshadow.gallery.calls import AlteredCall, Call, recorded
 from softshadow.gallery.expected import without_warnings
 from softshadow.gallery.measures import STRICTER, deepest, share_of_light
-from softshadow.inspection.explanation import explain
+from softshadow.inspection.explanation import causes_of, explain
 from softshadow.inspection.pictures import notebook_display
 from softshadow.runs import Run, run
 from softshadow.scene import Scene
@@ -186,7 +186,9 @@ class Failure:
         x, y = self.pixel
         history = run.pixel(x, y)
         colored = any(row.color_written for row in history)
-        return explain(history, share_of_light(replace(run, scene=self.scene), x, y, self.flat), colored)
+        share = share_of_light(replace(run, scene=self.scene), x, y, self.flat)
+        hidden = {light.name: share for light in self.scene.lights if share < 1}
+        return explain(history, share, colored, causes=causes_of(run.frame, history, self.scene, hidden))
 
     def picture(self) -> Image:
         """Return both pictures side by side, with a ring around `pixel`."""

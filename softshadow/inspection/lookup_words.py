@@ -43,7 +43,7 @@ def place_words(lookup: MapLookup) -> str:
 
 def own_depth(lookup: MapLookup, depth: float, digits: str) -> str:
     """Return the depth of the point, with the bias that has been subtracted from it."""
-    if not lookup.bias:
+    if not lookup.bias or depth >= 1:  # beyond the far plane as on it
         return digits
     return f"{depth + lookup.bias:.{DIGITS}g} - {lookup.bias:g} bias"
 

@@ -14,6 +14,8 @@ from softshadow.inspection.fragment_maps import fragment_maps
 
 pytestmark = pytest.mark.interpreted
 
+COUNTED = ("passed", "alpha failed", "stencil failed", "depth failed")
+
 
 def steps_of(frame):
     replay = Replay(frame)

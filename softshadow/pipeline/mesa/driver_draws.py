@@ -19,7 +19,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.frozen import evolve
-from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.pipeline.commands import Draw, Origin, Vertices
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, offset_is_on
 
 CORNERS = {gl.GL_TRIANGLES: 3, gl.GL_QUADS: 4}  # vertices per primitive, for the modes whose pairs are joined
@@ -31,11 +31,11 @@ MAX_PAIRS = 64  # that Mesa collects before it draws (VBO_MAX_PRIM)
 class JoinedPairs:
     """Joined pairs that are not drawn yet: `first` is the command of the first one, with the state of all.
 
-    `parts` holds the debug groups and the vertices of each pair.
+    `parts` holds the debug groups, the origin and the vertices of each pair.
     """
 
     first: Draw
-    parts: list[tuple[str, Vertices]] = field(default_factory=list)
+    parts: list[tuple[tuple[str, Origin | None], Vertices]] = field(default_factory=list)
 
     @property
     def n_vertices(self) -> int:
@@ -48,18 +48,17 @@ class JoinedPairs:
         return self.n_vertices % CORNERS[self.first.mode] == 0
 
     def commands(self) -> list[Draw]:
-        """Return the draws: one if all pairs are in the same debug groups, else one for each change of groups."""
-        if len(self.parts) == 1 and self.parts[0] == (self.first.label, self.first.vertices):
+        """Return the draws: one if debug groups and origins of all pairs are equal, else one for each change."""
+        if len(self.parts) == 1 and self.parts[0] == ((self.first.label, self.first.origin), self.first.vertices):
             return [self.first]
-        groups = [(label, [part for _, part in parts]) for label, parts in groupby(self.parts, lambda part: part[0])]
+        groups = [(told, [part for _, part in parts]) for told, parts in groupby(self.parts, lambda part: part[0])]
         if len(groups) == 1:
             return [evolve(self.first, vertices=join_vertices(groups[0][1]))]
         whole = join_vertices([vertices for _, vertices in self.parts]).position
         commands, start = [], 0
-        for label, parts in groups:
-            vertices = join_vertices(parts)
-            part = evolve(self.first, vertices=vertices, label=label, joined_positions=whole, joined_start=start)
-            commands.append(part)
+        for (label, origin), parts in groups:
+            vertices, told = join_vertices(parts), {"label": label, "origin": origin}
+            commands.append(evolve(self.first, vertices=vertices, joined_positions=whole, joined_start=start, **told))
             start += len(vertices.position)
         return commands
 
