@@ -48,6 +48,11 @@ def _whole(value: int | None) -> str:
     return "-" if value is None else str(value)
 
 
+def _triangle(row: HistoryRow) -> str:
+    facing = {True: " front", False: " back", None: ""}[row.front_facing]
+    return f"{_whole(row.triangle)}{facing}"
+
+
 def color_text(color: Color | None) -> str:
     """Return a colour as #rrggbb, or the floats of a float buffer."""
     if not color:
@@ -65,8 +70,7 @@ COLUMNS: dict[str, Callable[[HistoryRow], str]] = {
     "step": lambda row: str(row.step),
     "draw": lambda row: _whole(row.draw),
     "object": lambda row: row.object or "-",
-    "triangle": lambda row: _whole(row.triangle),
-    "facing": lambda row: "-" if row.front_facing is None else "front" if row.front_facing else "back",
+    "triangle": _triangle,
     "z": lambda row: _number(row.z),
     "stored z": lambda row: _number(row.stored_z),
     "stencil": lambda row: _changed(str(row.stencil_before), str(row.stencil_after)),

@@ -57,6 +57,14 @@ def test_last_row_of_a_listing_equals_its_buffers(name):
             assert (row.depth_after, row.stencil_after) == (window.depth[y, x], window.stencil[y, x])
 
 
+@pytest.mark.parametrize("scene", SCENES)
+@each_technique
+def test_table_fits_in_100_columns(name, scene):
+    drawn = run(name, scene)
+    for x, y in some(drawn.shadow_mask, 3):
+        assert max(map(len, str(drawn.pixel(x, y)).splitlines())) <= 100
+
+
 @each_technique
 def test_rows_are_plain_data_for_json(name):
     drawn = run(name, "boxes")
