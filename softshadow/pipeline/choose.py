@@ -36,9 +36,9 @@ try:
     from softshadow.pipeline.fast.depth_only import Chunk, chunks_of
     from softshadow.pipeline.fast.fixed_function_spans import SPAN_KERNELS, fixed_function_shader
     from softshadow.pipeline.fast.forward import draw_forward, forward_state
-    from softshadow.pipeline.fast.hierarchical_z import order_independent
+    from softshadow.pipeline.fast.hierarchical_z import only_counts, order_independent
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
-    from softshadow.pipeline.fast.stencil_tiles import tiles_kernel
+    from softshadow.pipeline.fast.stencil_tiles import SHARED_TRIANGLES, shared_tiles_kernel, tiles_kernel
     from softshadow.pipeline.fast.unordered_blend import triangles_without_overlaps
     from softshadow.pipeline.fast.visibility_cache import cached_fill
 
@@ -234,12 +234,24 @@ def choose_fill(
         path.fill, kernel = "vectors", any_state_kernel(writes_ids)
     if in_tiles:
         bands_pay = n_fragments >= WORTH_BANDS_IN_TILES
+        if bands_pay and threads() > 1 and _shares_triangles(front, back, n_triangles, n_fragments):
+            path.fill += ", triangles shared"
+            return FillChoice(shared_tiles_kernel(depth), 0)
     else:
         bands_pay = work >= WORTH_BANDS
     if counts is not None or not bands_pay or not _bands_pay(region, n_fragments):
         return FillChoice(kernel, 0)
     path.fill += " in bands"
     return FillChoice(kernel, _band_rows_log2(region, n_fragments))
+
+
+def _shares_triangles(front: FragmentOps, back: FragmentOps, n_triangles: int, n_fragments: int) -> bool:
+    """Return whether threads share the triangles of a fill in tiles: they are many, and of few fragments each.
+
+    In bands of rows, a triangle is set up again in each band that it meets; but rows stay in the cache.
+    """
+    is_many = n_triangles >= SHARED_TRIANGLES * threads() and n_fragments < FEW_FRAGMENTS * n_triangles
+    return is_many and only_counts(front, back)
 
 
 def _bands_pay(region: Region, fragments: int) -> bool:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.jit import allocating_kernel
+from softshadow.jit import kernel
 from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.fast.fragment_numbers import (
     ALL,
@@ -65,6 +65,7 @@ def any_state_kernel(writes_ids: int) -> FillKernel:
         KERNELS[bool(tests_stencil), bool(writes_ids)](
             writes_ids, *numbers_of(front, back), front.depth_largest, triangles.corners, triangles.depth,
             triangles.front, numbers, region, depth_range, pitch, depth, stencil, ids,
+            *np.empty((2, region.end_row), np.int32), np.empty(max(pitch, CHUNK), np.uint8), np.empty(CHUNK, np.uint8),
         )  # fmt: skip
 
     return fill_kernel
@@ -73,15 +74,13 @@ def any_state_kernel(writes_ids: int) -> FillKernel:
 def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
     """Return the kernel that tests stencil values or not, and writes ids or not; loops that it lacks cost no time."""
 
-    @allocating_kernel
+    @kernel
     def fill(
         which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, region, depth_range, pitch, depth, stencil,
-        ids,
+        ids, lefts, rights, passed, covered,
     ):  # fmt: skip
-        # `ops` are the numbers of both facings, `pitch` the columns that all buffers have
+        # `ops` are the numbers of both facings, `pitch` the columns that all buffers have; the last four are scratch
         last_start = pitch - CHUNK
-        lefts, rights = np.empty(region.end_row, np.int32), np.empty(region.end_row, np.int32)
-        passed, covered = np.empty(max(pitch, CHUNK), np.uint8), np.empty(CHUNK, np.uint8)
         n = 0
         while n < numbers.shape[0]:
             n = fill_small(

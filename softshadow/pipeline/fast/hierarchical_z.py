@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.image import Image
-from softshadow.jit import kernel
-from softshadow.pipeline.fast.fragment_numbers import ZFAIL_OP, ZPASS_OP, update_of, updated
+from softshadow.jit import inlined, kernel
+from softshadow.pipeline.fast.fragment_numbers import LARGEST, UNMASKED_REF, ZFAIL_OP, ZPASS_OP, update_of, updated
 from softshadow.pipeline.raster.depth import depth_at, depth_units
 from softshadow.pipeline.raster.fragment_ops import (
     ALWAYS,
@@ -84,6 +84,11 @@ def order_independent(front: FragmentOps, back: FragmentOps) -> bool:
     return len(used) <= 1 or used <= WRAPPING
 
 
+def only_counts(front: FragmentOps, back: FragmentOps) -> bool:
+    """Return whether an order-independent state only adds and subtracts modulo 2**bits."""
+    return {op for ops in (front, back) for op in (ops.zfail, ops.zpass)} <= {KEEP} | WRAPPING
+
+
 @kernel
 def rows_of(tile_row, region):
     """Return first and end row of a row of tiles, within the region."""
@@ -138,6 +143,23 @@ def find_bounds(depth, first, end, left, right, scratch):
     return lowest, highest
 
 
+@inlined
+def write_tile_bounds(depth, tile_row, tile, lows, highs, width, scratch):
+    """Write the bounds of a whole tile, as they outlive the region of a draw."""
+    lows[tile_row, tile], highs[tile_row, tile] = find_bounds(
+        depth, tile_row << ROWS_LOG2, min((tile_row + 1) << ROWS_LOG2, depth.shape[0]), tile << COLUMNS_LOG2,
+        min((tile + 1) << COLUMNS_LOG2, width), scratch,
+    )  # fmt: skip
+
+
+@kernel
+def complete_bounds(depth, tile_row, region, lows, highs, width, scratch):
+    """Write the bounds that are missing in a row of tiles of the region."""
+    for tile in range(region.left >> COLUMNS_LOG2, ((region.right - 1) >> COLUMNS_LOG2) + 1):
+        if np.isnan(lows[tile_row, tile]):
+            write_tile_bounds(depth, tile_row, tile, lows, highs, width, scratch)
+
+
 @kernel
 def outcome(
     func, zfail, zpass, depth_range, largest, z0, dz, dz_row, offset, left, right, first, end, stored_low, stored_high
@@ -176,8 +198,10 @@ def common_op(ops):
 
 
 @kernel
-def apply_pending_updates(op, ref, largest, pending, first_tile_row, region, stencil):
-    """Apply the pending updates to whole tiles; `pending` begins with the row of tiles `first_tile_row`."""
+def apply_pending_updates(ops, byte_ops, pending, region, stencil):
+    """Apply the pending updates to whole tiles; row 0 of `pending` is the first row of tiles of the region."""
+    op, ref, largest = common_op(ops), byte_ops[0, UNMASKED_REF], byte_ops[0, LARGEST]
+    first_tile_row = region.first_row >> ROWS_LOG2
     for tile_row in range(pending.shape[0]):
         top, bottom = rows_of(first_tile_row + tile_row, region)
         for tile in range(pending.shape[1]):

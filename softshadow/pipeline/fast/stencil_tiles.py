@@ -4,17 +4,18 @@ Tiles that their depth bounds (`hierarchical_z.py`) do not decide are filled row
 the depth test in floats, 16 to a vector, then the stencil update in bytes, 32 to a vector.
 """
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from softshadow.image import Image
-from softshadow.jit import allocating_kernel
+from softshadow.jit import kernel
 from softshadow.pipeline.fast.any_state import CHUNK, CHUNK_LOG2
 from softshadow.pipeline.fast.fragment_numbers import (
     ALL,
     DEPTH_FUNC,
     LARGEST,
     NONE,
-    UNMASKED_REF,
     ZFAIL,
     ZFAIL_OP,
     ZPASS,
@@ -34,19 +35,25 @@ from softshadow.pipeline.fast.hierarchical_z import (
     PASS,
     ROWS,
     ROWS_LOG2,
+    TileBounds,
     apply_pending_updates,
     columns_of_tile,
     common_op,
-    find_bounds,
+    complete_bounds,
     outcome,
     rows_of,
     tile_bounds,
+    write_tile_bounds,
 )  # fmt: skip
 from softshadow.pipeline.fast.small_triangles import columns_of, fill_small
+from softshadow.pipeline.memory.scratch import scratch
+from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.coverage import bounds, row_spans
 from softshadow.pipeline.raster.fill import FillKernel
 from softshadow.pipeline.raster.fragment_ops import ALWAYS, DECR_WRAP, INCR_WRAP, LESS, FragmentOps
 from softshadow.pipeline.records import DepthRange, FillBuffers, Region, Setup
+
+SHARED_TRIANGLES = 1 << 9  # that a thread takes in one go, where threads share the triangles
 
 
 def tiles_kernel(depth_image: Image | None = None) -> FillKernel:
@@ -61,38 +68,92 @@ def tiles_kernel(depth_image: Image | None = None) -> FillKernel:
         depth_range: DepthRange,
         buffers: FillBuffers,
     ) -> None:
-        depth, stencil = buffers.depth, buffers.stencil
-        fill_in_tiles(
-            *numbers_of(front, back), front.depth_largest, triangles.corners, triangles.depth, triangles.front, numbers,
-            region, depth_range, *tile_bounds(depth_image, depth.shape, depth.dtype),
-            min(depth.shape[1], stencil.shape[1]), buffers.columns, depth, stencil,
-        )  # fmt: skip
+        rest = region, depth_range, buffers, _bounds_of(depth_image, buffers)
+        _fill_chunks([numbers], numbers_of(front, back), front.depth_largest, triangles, *rest, buffers.stencil)
 
     return fill_kernel
 
 
-@allocating_kernel
+def shared_tiles_kernel(depth_image: Image | None = None) -> FillKernel:
+    """Return the same for threads that share the triangles, under a state that `only_counts`.
+
+    Sums do not depend on their order: all threads but one count in buffers of their own, which are added at the end. So
+    no triangle is set up twice, as where threads share the rows.
+    """
+
+    def fill_kernel(
+        front: FragmentOps,
+        back: FragmentOps,
+        triangles: Setup,
+        numbers: np.ndarray,
+        region: Region,
+        depth_range: DepthRange,
+        buffers: FillBuffers,
+    ) -> None:
+        bounds, rows = _bounds_of(depth_image, buffers), slice(region.first_row, region.end_row)
+        room = np.empty((threads(), 3, COLUMNS), buffers.depth.dtype)
+        tile_rows = range(region.first_row >> ROWS_LOG2, ((region.end_row - 1) >> ROWS_LOG2) + 1)
+
+        def complete(n: int) -> None:  # each n has rows of its own
+            for tile_row in tile_rows[n :: threads()]:
+                complete_bounds(buffers.depth, tile_row, region, *bounds, room[n])
+
+        share(complete, threads())
+        chunks = iter([numbers[at : at + SHARED_TRIANGLES] for at in range(0, len(numbers), SHARED_TRIANGLES)])
+        counts = [buffers.stencil, *(scratch(buffers.stencil.shape, np.uint8) for _ in range(1, threads()))]
+
+        def fill_some(n: int) -> None:
+            if n:
+                counts[n][rows] = 0
+            ops = numbers_of(front, back), front.depth_largest
+            _fill_chunks(chunks, *ops, triangles, region, depth_range, buffers, bounds, counts[n])
+
+        share(fill_some, threads())
+        for each in counts[1:]:
+            buffers.stencil[rows] += each[rows]
+        if front.stencil_largest < ALL:
+            buffers.stencil[rows] &= np.uint8(front.stencil_largest)
+
+    return fill_kernel
+
+
+def _bounds_of(depth_image: Image | None, buffers: FillBuffers) -> TileBounds:
+    return tile_bounds(depth_image, buffers.depth.shape, buffers.depth.dtype)
+
+
+def _fill_chunks(
+    chunks: Iterable[np.ndarray], numbers: tuple[np.ndarray, np.ndarray], largest: int, triangles: Setup,
+    region: Region, depth_range: DepthRange, buffers: FillBuffers, bounds: TileBounds, stencil: np.ndarray,
+) -> None:  # fmt: skip
+    """Fill triangles, a chunk of their numbers after the other, and apply what is pending after the last."""
+    depth, first_tile_row = buffers.depth, region.first_row >> ROWS_LOG2
+    tiles = max(-(-region.end_row >> ROWS_LOG2) - first_tile_row, 0), max(-(-region.right >> COLUMNS_LOG2), 0)
+    pending, room = np.zeros(tiles, np.int32), np.empty((3, COLUMNS), depth.dtype)
+    bytes_of_rows = np.empty(ROWS * COLUMNS, np.uint8), np.empty(CHUNK, np.uint8)
+    lefts, rights = np.empty((2, region.end_row), np.int32)
+    pitch = min(depth.shape[1], stencil.shape[1])
+    for chunk in chunks:
+        fill_in_tiles(
+            *numbers, largest, triangles.corners, triangles.depth, triangles.front, chunk, region, depth_range, *bounds,
+            pitch, buffers.columns, depth, stencil, pending, room, *bytes_of_rows, lefts, rights,
+        )  # fmt: skip
+    apply_pending_updates(*numbers, pending, region, stencil)
+
+
+@kernel
 def fill_in_tiles(
     ops, byte_ops, largest, corners, planes, faces, numbers, region, depth_range, lows, highs, width, pitch, columns,
-    depth, stencil,
+    depth, stencil, pending, room, passed, covered, lefts, rights,
 ):  # fmt: skip
     """Fill triangles under a state that is `order_independent`; small ones bypass the tiles.
 
     `ops` are the numbers of both facings, `lows`, `highs` and `width` the tile bounds, `pitch` the columns that both
-    buffers have.
+    buffers have; `pending` receives the updates of whole tiles, the arrays behind it are scratch.
     """
-    op, ref, most = common_op(ops), byte_ops[0, UNMASKED_REF], byte_ops[0, LARGEST]
+    op, most = common_op(ops), byte_ops[0, LARGEST]
     func, depth_test = ops[0, DEPTH_FUNC], depth_test_of(ops, np.uint64(0))
     last_start = pitch - CHUNK
     first_tile_row = region.first_row >> ROWS_LOG2
-    tile_rows, tile_columns = (
-        ((region.end_row - 1) >> ROWS_LOG2) + 1 - first_tile_row,
-        ((region.right - 1) >> COLUMNS_LOG2) + 1,
-    )
-    pending = np.zeros((max(tile_rows, 0), max(tile_columns, 0)), np.int32)
-    scratch = np.empty((3, COLUMNS), depth.dtype)
-    passed, covered = np.empty(ROWS * COLUMNS, np.uint8), np.empty(CHUNK, np.uint8)
-    lefts, rights = np.empty(region.end_row, np.int32), np.empty(region.end_row, np.int32)
     n = 0
     while n < numbers.shape[0]:
         n = fill_small(
@@ -132,11 +193,7 @@ def fill_in_tiles(
                 tile_left, tile_right = columns_of_tile(tile, region)
                 left, right = max(outer_left, tile_left), min(outer_right, tile_right)
                 if func != ALWAYS and np.isnan(lows[tile_row, tile]):
-                    # of the whole tile, as the bounds outlive the region
-                    lows[tile_row, tile], highs[tile_row, tile] = find_bounds(
-                        depth, tile_row << ROWS_LOG2, min((tile_row + 1) << ROWS_LOG2, depth.shape[0]),
-                        tile << COLUMNS_LOG2, min((tile + 1) << COLUMNS_LOG2, width), scratch,
-                    )  # fmt: skip
+                    write_tile_bounds(depth, tile_row, tile, lows, highs, width, room)
                 what = outcome(
                     func, zfail, zpass, depth_range, largest, z0, dz, dz_row, offset, columns[left],
                     columns[right - 1], columns[first_here], columns[end_here - 1], lows[tile_row, tile],
@@ -211,4 +268,3 @@ def fill_in_tiles(
                             inside = ALL if np.uint8(np.uint8(k) - np.uint8(begin)) < count else NONE
                             s = stencil[j, i]
                             stencil[j, i] = np.uint8(s ^ np.uint8(np.uint8(s ^ updated(update, s, most)) & inside))
-    apply_pending_updates(op, ref, most, pending, first_tile_row, region, stencil)

@@ -64,13 +64,3 @@ def vertices_of(triangles, t):
     """Return the numbers of a triangle's vertices, unsigned: no wrap-around of negative indices is compiled in."""
     n = np.uint64(t)
     return np.uint64(triangles[n, 0]), np.uint64(triangles[n, 1]), np.uint64(triangles[n, 2])
-
-
-@kernel
-def count_drawn(snapped, triangles, first, end, culled, positive_is_front):
-    """Return how many of the triangles [first, end) have an area and are not culled."""
-    n_drawn = 0
-    for t in range(first, end):
-        facing, _ = facing_and_area(snapped, *vertices_of(triangles, t), culled, positive_is_front)
-        n_drawn += 1 if facing >= 0 else 0
-    return n_drawn

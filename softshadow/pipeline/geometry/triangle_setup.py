@@ -7,7 +7,7 @@ import numpy as np
 from softshadow.image import Image
 from softshadow.jit import allocating_kernel, inlined, kernel, read_only
 from softshadow.pipeline.constants import HALF, ONE, ZERO
-from softshadow.pipeline.geometry.facing import count_drawn, culling, facing_and_area, snap_vertices, vertices_of
+from softshadow.pipeline.geometry.facing import culling, facing_and_area, snap_vertices, vertices_of
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.mesa.polygon_rules import offset_is_on
@@ -82,17 +82,19 @@ def set_up(window: np.ndarray, triangles: np.ndarray, cull: Cull, offset: Offset
     """
     facing, (snapped, _) = stored_culling(cull, flipped), snapped_vertices(window)
     triangles, parts = read_only(triangles), parts_of(len(triangles))
-    if len(parts) > 1:
-        n_drawn = share(lambda n: count_drawn(snapped, triangles, *parts[n], *facing), len(parts))
-        first_rows = np.cumsum([0, *n_drawn])  # of each part
-    else:
-        first_rows = np.array([0, len(triangles)])  # of all; some may not be drawn
-    setup = empty_setup(first_rows[-1], window.dtype)
+    setup = empty_setup(len(triangles), window.dtype)
     ends = share(
-        lambda n: set_up_triangles(window, snapped, triangles, *parts[n], *facing, offset, first_rows[n], *setup),
+        lambda n: set_up_triangles(window, snapped, triangles, *parts[n], *facing, offset, parts[n][0], *setup),
         len(parts),
     )
-    return Setup(*(array[: ends[-1][0]] for array in setup))
+    n_drawn = int(ends[0][0])
+    for (first, _), (end, _) in zip(parts[1:], ends[1:], strict=True):  # over those that are not drawn
+        rows = slice(n_drawn, n_drawn + int(end) - first)
+        if rows.start != first:
+            for array in setup:
+                array[rows] = array[first:end]
+        n_drawn = rows.stop
+    return Setup(*(array[:n_drawn] for array in setup))
 
 
 def stored_culling(cull: Cull, flipped: bool) -> tuple[int, int]:

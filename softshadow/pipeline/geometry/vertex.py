@@ -9,8 +9,6 @@ from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.state import Viewport
 
-VERTICES_PER_SPARE = 8  # for each so many, room is left for one new vertex of clipping; unwritten memory costs nothing
-
 
 def to_clip(model_view_projection: np.ndarray, positions: np.ndarray) -> np.ndarray:
     """Return the clip positions (V, 4) of object positions (V, 4)."""
@@ -45,7 +43,7 @@ def process_vertices(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return `to_clip`, `outcodes` and `to_window` of object positions (V, 4)."""
     clip = scratch(positions.shape, positions.dtype)
-    window = np.empty((len(positions) + len(positions) // VERTICES_PER_SPARE, 4), positions.dtype)[: len(positions)]
+    window = scratch(positions.shape, positions.dtype)
     codes = scratch(len(positions), np.int32)
     scale, shift = scale_and_shift(viewport, framebuffer_height, flipped, positions.dtype)
     planes, ignored = user_planes.astype(positions.dtype), NEAR_FAR if depth_clamp else 0
@@ -63,13 +61,9 @@ def process_vertices(
 
 
 def append_rows(window: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Return `window` with `rows` appended; without a copy where `process_vertices` has left room."""
-    n_window, with_room = len(window), window.base
-    if with_room is None or with_room.ndim != 2 or len(with_room) < n_window + len(rows):
-        return np.concatenate([window, rows])
-    with_room[n_window : n_window + len(rows)] = rows
-    extended: np.ndarray = with_room[: n_window + len(rows)]
-    return extended
+    """Return `window` with `rows` appended, in pooled memory."""
+    joined = scratch((len(window) + len(rows), 4), window.dtype)
+    return np.concatenate([window, rows], out=joined)
 
 
 def scale_and_shift(

@@ -8,12 +8,13 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextvars import copy_context
+from itertools import pairwise
 from threading import Lock
 from typing import TypeVar, cast
 
 Result = TypeVar("Result")
 
-PART_SIZE = 1 << 15  # vertices or triangles; they take some tenths of a millisecond
+PART_SIZE = 1 << 14  # vertices or triangles; they take some tenths of a millisecond
 
 VARIABLE = "SOFTSHADOW_THREADS"
 
@@ -82,12 +83,14 @@ def share(work: Callable[[int], Result], n_pieces: int) -> list[Result]:
 def parts_of(n_items: int, size: int | None = None) -> list[tuple[int, int]]:
     """Return first and end of parts of ``range(n_items)``: one part for one thread, else parts of `size` (PART_SIZE).
 
-    A part should take longer than its hand-over to another thread.
+    They are about equal, and as many for each thread. A part should take longer than its hand-over to another thread.
     """
-    size = size or PART_SIZE
-    if threads() == 1:
+    n_parts, n_threads = -(-n_items // (size or PART_SIZE)), threads()
+    if n_threads == 1 or n_parts <= 1:
         return [(0, n_items)]
-    return [(first, min(first + size, n_items)) for first in range(0, max(n_items, 1), size)]
+    n_parts = -(-n_parts // n_threads) * n_threads
+    cuts = [n_items * n // n_parts for n in range(n_parts + 1)]
+    return [(first, end) for first, end in pairwise(cuts) if first < end]
 
 
 def share_chunks(work: Callable[[int, int], None], n_items: int, size: int) -> None:

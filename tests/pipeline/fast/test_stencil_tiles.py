@@ -9,8 +9,17 @@ from softshadow import tokens as gl
 from softshadow.pipeline import choose, set_threads, threads, use_short_cuts
 from softshadow.pipeline.choose import Plan, choose_fill
 from softshadow.pipeline.draw_path import DrawPath
+from softshadow.pipeline.fast import stencil_tiles
 from softshadow.pipeline.fast.fragment_numbers import update_of, updated
-from softshadow.pipeline.fast.hierarchical_z import FAIL, MIXED, PASS, decide, find_bounds, order_independent
+from softshadow.pipeline.fast.hierarchical_z import (
+    FAIL,
+    MIXED,
+    PASS,
+    decide,
+    find_bounds,
+    only_counts,
+    order_independent,
+)  # fmt: skip
 from softshadow.pipeline.geometry.triangle_setup import MAX_SLOPE, Offset, set_up
 from softshadow.pipeline.raster import fill as fill_stage
 from softshadow.pipeline.raster.coverage import bounds, row_span, row_spans
@@ -127,6 +136,36 @@ def test_tiles_in_bands_leave_the_same_bits(seed):
             assert_same(buffers_after(seed, "d24"), buffers_of_the_textbook(seed, "d24"))
         finally:
             set_threads(before)
+
+
+@given(seeds, st.sampled_from(sorted(LARGEST)))
+def test_threads_that_share_the_triangles_leave_the_same_bits(seed, depth_format):
+    before = threads()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(stencil_tiles, "SHARED_TRIANGLES", 3)
+        patch.setattr(choose, "WORTH_BANDS_IN_TILES", 0)
+        patch.setattr(choose, "_shares_triangles", lambda front, back, *_: only_counts(front, back))
+        try:
+            set_threads(3)
+            assert_same(buffers_after(seed, depth_format), buffers_of_the_textbook(seed, depth_format))
+        finally:
+            set_threads(before)
+
+
+def test_many_small_triangles_are_shared_where_updates_are_sums():
+    before, region = threads(), Region(0, 640, 0, 480, 1)
+    try:
+        set_threads(2)
+        for front, n_triangles, shares in (
+            (facing(), 10_000, True),
+            (facing(), 100, False),
+            (facing(zfail=gl.GL_INCR), 10_000, False),
+        ):
+            plan = Plan(False, False, front, front, DrawPath("", gl.GL_TRIANGLES))
+            choose_fill(plan, n_triangles, 10**6, region)
+            assert ("shared" in plan.path.fill) == shares
+    finally:
+        set_threads(before)
 
 
 @pytest.mark.interpreted

@@ -32,7 +32,7 @@ from softshadow.pipeline.geometry.lines import clip_lines
 from softshadow.pipeline.geometry.points import clip_points
 from softshadow.pipeline.geometry.program import program_of
 from softshadow.pipeline.geometry.triangle_setup import NO_TRIANGLES, Offset, set_up_triangles, stored_culling
-from softshadow.pipeline.geometry.vertex import VERTICES_PER_SPARE, append_rows, scale_and_shift, to_window
+from softshadow.pipeline.geometry.vertex import append_rows, scale_and_shift, to_window
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.records import Geometry, Setup
@@ -79,7 +79,7 @@ def geometry_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Frame
     n, most, width = int(table.numbers[-1, END]), _most_primitives(draws), width_of(command.mode)
     k, is_small = len(setting.flat), width == 3 and max(n, most) <= SMALL and not has_float_units(command, target)
     clip, codes, values = scratch((n, 4), REAL), scratch(n, np.int32), scratch((n, k), REAL)
-    window = np.empty((n + n // VERTICES_PER_SPARE, 4), REAL)[:n]
+    window = scratch((n, 4), REAL)
     back = scratch((n, k), REAL) if table.layout.two_side else None
     placed = np.zeros((len(table.rows), table.lights.shape[1], PLACED_COLUMNS), REAL)
     outputs = (clip, codes, window, values, values if back is None else back)
@@ -88,7 +88,7 @@ def geometry_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Frame
         table.planes, table.unit_rows, table.positions, table.colors, table.normals, table.texcoords, setting.scale,
         setting.shift,
     )  # fmt: skip
-    triangles, provoking = np.empty((most, 3), np.int32), np.empty(most, np.int32)
+    triangles, provoking = scratch((most, 3), np.int32), scratch(most, np.int32)
     unset = Geometry(
         NO_TRIANGLES, window, values, back, setting.flat, provoking, provoking, setting.program, setting.uniforms
     )

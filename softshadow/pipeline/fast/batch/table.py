@@ -40,6 +40,7 @@ from softshadow.pipeline.fast.batch.vertices import (
 from softshadow.pipeline.geometry.clip import NEAR_FAR
 from softshadow.pipeline.geometry.polygon_mode import is_filled
 from softshadow.pipeline.geometry.program import bound_textures
+from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.mesa.rectangles import start_of_last_nine
 from softshadow.programs import reflectances
 from softshadow.programs.fixed_function import Unit, is_separate, needs_vertex_color, units_in_use
@@ -267,8 +268,10 @@ NO_ROWS, NO_INDICES = np.empty((0, 4), np.float32), np.empty(0, np.int32)
 def _joined(parts: list[np.ndarray], is_array: bool, nothing: np.ndarray = NO_ROWS) -> np.ndarray:
     if not is_array or not parts:
         return read_only(nothing)
-    joined = parts[0] if len(parts) == 1 else np.concatenate(parts)
-    return read_only(np.ascontiguousarray(joined))
+    if len(parts) == 1:
+        return read_only(np.ascontiguousarray(parts[0]))
+    joined = scratch((sum(map(len, parts)), *parts[0].shape[1:]), parts[0].dtype)
+    return read_only(np.concatenate(parts, out=joined))
 
 
 def _numbers(draws: Sequence[Draw], run: Run) -> tuple[np.ndarray, list[Lighting]]:
