@@ -15,12 +15,12 @@ from copy import copy
 from typing import NamedTuple
 
 from softshadow import tokens as gl
-from softshadow.context import Context, CurrentVertex
+from softshadow.context import Context, CurrentVertex, thread
 from softshadow.framebuffer import Framebuffer
 from softshadow.frozen import evolve
 from softshadow.gl.attribute_groups import GROUPS, changed_groups, needs_calls, with_group
-from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.errors import fail, outside_begin
+from softshadow.gl.calls import is_allowed, spelled_like_gl
+from softshadow.gl.errors import fail
 from softshadow.gl.framebuffers import glDrawBuffer, glDrawBuffers, glReadBuffer
 from softshadow.gl.materials import start_to_follow
 from softshadow.gl.textures import BINDINGS
@@ -53,33 +53,32 @@ class SavedAttributes(NamedTuple):
     samplers: dict[tuple[int, int], Sampler]  # of the bound textures, by (target, key in the storage)
 
 
-@in_lists
 def glPushAttrib(mask: int) -> None:
     """Save the groups of state in `mask` until the matching pop."""
-    context = outside_begin("glPushAttrib")
-    if context is None:
+    context = thread.context
+    if not (context.ready or is_allowed(context, glPushAttrib, mask)):
         return
     if len(context.attribute_stack) == DEEPEST_ATTRIBUTES:
         fail(gl.GL_STACK_OVERFLOW, "glPushAttrib", f"this stack holds {DEEPEST_ATTRIBUTES} entries")
         return
     touched = _changed_since_push(context, context.state)
-    if mask & (gl.GL_CURRENT_BIT | gl.GL_LIGHTING_BIT):
+    if mask & (gl.GL_CURRENT_BIT | gl.GL_LIGHTING_BIT) and context.pending.old_values:
         context.update_current()
     framebuffers, state = context.objects.framebuffers, context.state
     context.attribute_stack.append(
-        SavedAttributes(
-            mask=int(mask),
-            touched=touched,
-            state=state,
-            current=_copy_of(context.current),
-            hints=copy(context.hints) if context.hints else {},
-            matrix_mode=context.matrix_mode,
-            active_unit=context.active_unit,
-            list_base=context.list_base,
-            draw_buffers=_draw_buffers(framebuffers[state.draw_framebuffer]),
-            read_buffer=framebuffers[state.read_framebuffer].read_buffer,
-            pixel_zoom=context.pixel_zoom,
-            samplers=_bound_samplers(context, state) if mask & gl.GL_TEXTURE_BIT else {},
+        SavedAttributes(  # in the order of its fields
+            int(mask),
+            touched,
+            state,
+            _copy_of(context.current),
+            copy(context.hints) if context.hints else {},
+            context.matrix_mode,
+            context.active_unit,
+            context.list_base,
+            _draw_buffers(framebuffers[state.draw_framebuffer]),
+            framebuffers[state.read_framebuffer].read_buffer,
+            context.pixel_zoom,
+            _bound_samplers(context, state) if mask & gl.GL_TEXTURE_BIT else {},
         )
     )
     context.touched, context.state_at_push = 0, state
@@ -116,26 +115,27 @@ def _bound_names(units: tuple[TextureUnit, ...]) -> list[tuple[int, int]]:
     return names
 
 
-@in_lists
 def glPopAttrib() -> None:
     """Restore the groups of state saved by the last push."""
-    context = outside_begin("glPopAttrib")
-    if context is None:
+    context = thread.context
+    if not (context.ready or is_allowed(context, glPopAttrib)):
         return
     if not context.attribute_stack:
         fail(gl.GL_STACK_UNDERFLOW, "glPopAttrib", "there was no glPushAttrib before it")
         return
     context.flush()
     saved: SavedAttributes = context.attribute_stack.pop()
-    if saved.mask & gl.GL_CURRENT_BIT:
+    if saved.mask & gl.GL_CURRENT_BIT and context.pending.old_values:
         context.update_current()
-    mask = saved.mask & _changed_since_push(context, context.state)
+    state = context.state
+    mask = saved.mask & _changed_since_push(context, state)
     if mask:
         for bit in GROUPS:
             if mask & bit:
                 _restore(context, bit, saved)
         _restore_buffers(context, mask, saved)
-    context.touched, context.state_at_push = saved.touched, context.state
+        state = context.state
+    context.touched, context.state_at_push = saved.touched, state
 
 
 def _restore(context: Context, bit: int, saved: SavedAttributes) -> None:

@@ -35,7 +35,8 @@ def glBegin(mode: int) -> None:
     context = thread.context
     if not (context.ready or is_allowed(context, glBegin, mode)):
         return
-    if is_one_of("glBegin", "mode", mode, MODES, A_MODE) and can_draw(context, "glBegin"):
+    is_mode = mode in MODES or is_one_of("glBegin", "mode", mode, MODES, A_MODE)
+    if is_mode and (context.groups[""].fields["draw_framebuffer"] == DEFAULT or can_draw(context, "glBegin")):
         begin(context, int(mode))
 
 

@@ -72,9 +72,9 @@ def glMaterialf(face: int, pname: int, param: float) -> None:
     context = thread.context
     if context.compiled_list is not None:
         record(context, glMaterialf, face, pname, param)
-    elif is_one_of("glMaterialf", "pname", pname, (gl.GL_SHININESS,), "GL_SHININESS") and is_one_of(
-        "glMaterialf", "face", face, FACES, A_FACE
-    ):
+    elif (
+        pname == gl.GL_SHININESS or is_one_of("glMaterialf", "pname", pname, (gl.GL_SHININESS,), "GL_SHININESS")
+    ) and (face in SIDES or is_one_of("glMaterialf", "face", face, FACES, A_FACE)):
         _set_shininess("glMaterialf", context, face, param)
 
 
@@ -96,14 +96,16 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
     if not context.ready:
         context.flush()
         context.ready = context.primitive is None and context.compiled_list is None
+    old_values = context.pending.old_values
     for side in SIDES[face]:
-        material, fixed = context.material(side), followed(context, side)
+        fixed = followed(context, side)
         free = {field: value for field, value in fields.items() if field not in fixed} if fixed else fields
         for field in free:
             name = NAMES[side, field]
-            if name not in context.pending.old_values:
+            if name not in old_values:
                 context.remember_attribute(name)
         if context.primitive is not None:
+            material = context.material(side)
             for field, value in free.items():
                 name = NAMES[side, field]
                 carry_attribute(context, name, np.size(value))

@@ -39,11 +39,12 @@ class Cut(NamedTuple):
 
 def begin(context: Context, mode: int) -> None:
     """Begin a primitive. Attributes set before its first vertex are constant for all its vertices."""
-    if "position" not in context.vertex_buffer.sizes:
-        context.vertex_buffer.sizes.clear()
+    sizes = context.vertex_buffer.sizes
+    if "position" not in sizes:
+        sizes.clear()
         if context.pending.names:
             context.reset_attributes()
-    materials = {name for name in context.vertex_buffer.sizes if "." in name}
+    materials = {name for name in sizes if "." in name} if sizes else set()
     context.ready = False
     context.primitive = Primitive(mode, context.list_depth > 0, materials)
 
