@@ -160,13 +160,15 @@ class Image:
         if self._pending_rows:
             with _writing:  # several threads may sample one texture
                 for first, rows in self._pending_rows:
-                    self._cells[first : first + len(rows)] = rows
+                    cells = self._cells if rows.ndim == self._cells.ndim else self._cells.view(rows.dtype)[..., 0]
+                    cells[first : first + len(rows)] = rows
                 self._pending_rows = []
 
     def write_later(self, first_row: int, rows: np.ndarray, version: Hashable) -> None:
         """Store whole rows, to be written when the cells are taken; `version` is the token of all cells after that.
 
-        `rows` (n, pitch), or an array broadcast to this shape, must not change afterwards.
+        `rows` (n, pitch), or an array broadcast to this shape, must not change afterwards. Pixels of four bytes are
+        numbers of 32 bits.
         """
         if len(rows) == self.height:
             self._pending_rows = []  # all cells would be overwritten

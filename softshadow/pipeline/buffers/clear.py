@@ -30,7 +30,9 @@ def clear(command: Clear, storage: Storage) -> None:
         color = np.array(state.color.clear, np.float32)
         value = to_unorm8(color) if image.format.kind == "unorm8" else color
         written = np.array(state.color.mask) & np.array(image.format.written)
-        if written.all() and image.format.kind == "unorm8":
+        if written.all() and image.format.kind == "unorm8" and _is_all_of(image, region):
+            image.write_later(0, np.broadcast_to(as_pixels(value), image.shape), None)
+        elif written.all() and image.format.kind == "unorm8":
             as_pixels(image.cells)[where] = as_pixels(value)
         else:
             for channel in np.flatnonzero(written):
@@ -53,11 +55,15 @@ def clear(command: Clear, storage: Storage) -> None:
 
 def write_region(image: Image, region: Region, value: float) -> None:
     """Write a value to a region of depth or stencil cells; a clear of all cells gets a version token of the value."""
-    if (region.left, region.right, region.first_row, region.end_row) == (0, image.width, 0, image.height):
+    if _is_all_of(image, region):
         cell = np.array(value, image.format.dtype)
         image.write_later(0, np.broadcast_to(cell, image.shape), (cell.tobytes(), image.format, image.shape))
     else:
         image.cells[region.first_row : region.end_row, region.left : region.right] = value
+
+
+def _is_all_of(image: Image, region: Region) -> bool:
+    return (region.left, region.right, region.first_row, region.end_row) == (0, image.width, 0, image.height)
 
 
 def clear_depth(value: float, depth: Image) -> float:

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from softshadow import gl
+from softshadow.pipeline import use_short_cuts
 from softshadow.pipeline.fast import any_state, stencil_tiles
 from softshadow.pipeline.raster.fragment_ops import NO_ALPHA, FragmentOps, process_fragment
 
@@ -71,7 +72,7 @@ def draw_with_all_kernels() -> None:
 @pytest.fixture(scope="module")
 def kernels() -> dict[str, str]:
     """Return the machine code of the fill kernels by name, compiled for float32."""
-    with gl.create_context(64, 48):
+    with gl.create_context(64, 48), use_short_cuts("always"):
         draw_with_all_kernels()
     fills = {name: any_state.KERNELS[key] for name, key in NAMES.items()} | {"tiles": stencil_tiles.fill_in_tiles}
     texts = {}
