@@ -38,7 +38,7 @@ try:
     from softshadow.pipeline.fast.forward import draw_forward, forward_state
     from softshadow.pipeline.fast.hierarchical_z import only_counts, order_independent
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
-    from softshadow.pipeline.fast.stencil_tiles import SHARED_TRIANGLES, shared_tiles_kernel, tiles_kernel
+    from softshadow.pipeline.fast.stencil_tiles import shared_tiles_kernel, tiles_kernel
     from softshadow.pipeline.fast.unordered_blend import triangles_without_overlaps
     from softshadow.pipeline.fast.visibility_cache import cached_fill
 
@@ -48,6 +48,7 @@ except ModuleNotFoundError:  # the folder can be deleted: the textbook draws eve
 
 WORTH_BANDS = 1_000_000  # fragments from which sorting and the hand-over to threads are small against the work
 SMALL_TRIANGLE = 100  # fragments that take as long as a small triangle
+WORTH_SHARING = 64  # triangles for each thread, from which threads share them in place of bands of rows
 WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volumes are long and thin
 BANDS_PER_THREAD = 2  # more would balance the threads better, but a triangle is set up again in each band that it meets
 FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangle: finding their spans would cost more
@@ -250,7 +251,7 @@ def _shares_triangles(front: FragmentOps, back: FragmentOps, n_triangles: int, n
 
     In bands of rows, a triangle is set up again in each band that it meets; but rows stay in the cache.
     """
-    is_many = n_triangles >= SHARED_TRIANGLES * threads() and n_fragments < FEW_FRAGMENTS * n_triangles
+    is_many = n_triangles >= WORTH_SHARING * threads() and n_fragments < FEW_FRAGMENTS * n_triangles
     return is_many and only_counts(front, back)
 
 

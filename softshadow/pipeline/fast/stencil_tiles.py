@@ -53,7 +53,8 @@ from softshadow.pipeline.raster.fill import FillKernel
 from softshadow.pipeline.raster.fragment_ops import ALWAYS, DECR_WRAP, INCR_WRAP, LESS, FragmentOps
 from softshadow.pipeline.records import DepthRange, FillBuffers, Region, Setup
 
-SHARED_TRIANGLES = 1 << 9  # that a thread takes in one go, where threads share the triangles
+SHARED_TRIANGLES = 1 << 9  # that a thread takes in one go at most, where threads share the triangles
+CHUNKS_PER_THREAD = 8
 
 
 def tiles_kernel(depth_image: Image | None = None) -> FillKernel:
@@ -99,7 +100,8 @@ def shared_tiles_kernel(depth_image: Image | None = None) -> FillKernel:
                 complete_bounds(buffers.depth, tile_row, region, *bounds, room[n])
 
         share(complete, threads())
-        chunks = iter([numbers[at : at + SHARED_TRIANGLES] for at in range(0, len(numbers), SHARED_TRIANGLES)])
+        size = min(len(numbers) // (CHUNKS_PER_THREAD * threads()) + 1, SHARED_TRIANGLES)
+        chunks = iter([numbers[at : at + size] for at in range(0, len(numbers), size)])
         counts = [buffers.stencil, *(scratch(buffers.stencil.shape, np.uint8) for _ in range(1, threads()))]
 
         def fill_some(n: int) -> None:
