@@ -32,7 +32,7 @@ _memcmp.restype = ctypes.c_int
 # -- arrays ------------------------------------------------------------------------------------------------------------
 def vertex_array(slot: int, rows: np.ndarray, layout: ArrayLayout, owner: Any) -> VertexArray:
     """Return the user's array of an attribute; `rows` keeps its memory alive, so its address stays valid."""
-    root = _owner(rows) if is_immutable(rows) else None
+    root = owner_of(rows) if is_immutable(rows) else None
     if not rows.flags.c_contiguous or not rows.size:
         return VertexArray(slot, rows, layout, owner, root is not None, root)
     return VertexArray(slot, rows, layout, owner, root is not None, root, rows.ctypes.data, rows.strides[0])
@@ -40,11 +40,11 @@ def vertex_array(slot: int, rows: np.ndarray, layout: ArrayLayout, owner: Any) -
 
 def is_immutable(array: np.ndarray) -> bool:
     """Return whether nobody can write to the memory of an array; False if its owner is unknown."""
-    owner = _owner(array)
+    owner = owner_of(array)
     return not owner.flags.writeable and (owner.base is None or isinstance(owner.base, bytes))
 
 
-def _owner(rows: np.ndarray) -> np.ndarray:
+def owner_of(rows: np.ndarray) -> np.ndarray:
     """Return the array at the end of the chain of bases, which owns the memory or wraps a foreign buffer."""
     while isinstance(rows.base, np.ndarray):
         rows = rows.base
@@ -136,12 +136,13 @@ def _fingerprint(rows: np.ndarray) -> tuple[Any, ...]:
 def _fixed(array: VertexArray, context: Context) -> RowSnapshot:
     """Return a snapshot of all rows of an array that nobody can change: the array itself, or a conversion."""
     rows = array.rows
-    key = (array.slot, id(_owner(rows)), rows.__array_interface__["data"][0], rows.strides, rows.shape, rows.dtype.char)
+    owner, address = owner_of(rows), rows.__array_interface__["data"][0]
+    key = (array.slot, id(owner), address, rows.strides, rows.shape, rows.dtype.char)
     found = context.arrays.snapshots.use(key)
     if found is None:
         snapshot = RowSnapshot(array.slot, 0, len(rows), _converted(rows, array.slot, context))
-        found = snapshot, _owner(rows)  # no other array can get the id of the owner
-        context.arrays.snapshots.put(key, found, snapshot.bytes + _owner(rows).nbytes)
+        found = snapshot, owner  # no other array can get the id of the owner
+        context.arrays.snapshots.put(key, found, snapshot.bytes + owner.nbytes)
     kept: RowSnapshot = found[0]
     return kept
 

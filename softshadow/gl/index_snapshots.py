@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.context import Context
-from softshadow.gl.array_snapshots import SMALL, same_memory
+from softshadow.gl.array_snapshots import SMALL, is_immutable, owner_of, same_memory
 from softshadow.gl.buffers import offset_of
 
 BYTES_BEFORE = 64  # at both ends of the content; arrays with equal ones are compared
@@ -64,9 +64,12 @@ def snapshot_indices(context: Context, operation: str, count: int, dtype: np.dty
             lambda: _taken(context, operation, count, _numbers_at(bound.content, offset, dtype)),
         )
         return stored
-    key = id(indices), count, dtype.char
+    is_fixed = isinstance(indices, np.ndarray) and indices.flags.c_contiguous and is_immutable(indices)
+    owner = owner_of(indices) if is_fixed else indices
+    place = indices.__array_interface__["data"][0] if is_fixed else id(indices)  # views of an owner are equal by place
+    key = place, is_fixed, count, dtype.char, indices.dtype.char if is_fixed else ""
     known: IndexArray | None = arrays.indices.get(key)
-    if known is not None and known.owner is indices:
+    if known is not None and known.owner is owner:
         if known.flat is None:
             return known.snapshot
         if indices.dtype is known.dtype:
@@ -82,7 +85,9 @@ def snapshot_indices(context: Context, operation: str, count: int, dtype: np.dty
     else:
         numbers = np.ravel(indices)[:count]
     snapshot = _taken(context, operation, count, numbers)
-    if isinstance(indices, np.ndarray) and indices.flags.c_contiguous and numbers.size:
+    if is_fixed:
+        arrays.indices.put(key, IndexArray(owner, None, None, 0, snapshot), owner.nbytes + 2 * snapshot.raw.nbytes)
+    elif isinstance(indices, np.ndarray) and indices.flags.c_contiguous and numbers.size:
         flat = indices.reshape(-1)[:count]
         entry = IndexArray(indices, indices.dtype, flat, flat.ctypes.data, snapshot)
         arrays.indices.put(key, entry, indices.nbytes + 2 * snapshot.raw.nbytes)
@@ -103,18 +108,21 @@ def _taken(context: Context, operation: str, count: int, numbers: np.ndarray) ->
     numbers = numbers[:count]
     if len(numbers) < count:
         raise ValueError(f"{operation}(count={count}): got only {len(numbers)} indices")
-    raw = numbers.copy()
-    raw.setflags(write=False)
-    as_bytes = raw.view(np.uint8) if raw.size else raw
+    numbers = np.ascontiguousarray(numbers)
+    as_bytes = numbers.view(np.uint8) if numbers.size else numbers
     pool = context.arrays.snapshots
-    key = "indices", raw.dtype.char, count, as_bytes[:BYTES_BEFORE].tobytes(), as_bytes[-BYTES_BEFORE:].tobytes()
-    content = raw.tobytes() if raw.nbytes <= SMALL else None
-    address = 0 if content is not None else raw.ctypes.data
+    key = "indices", numbers.dtype.char, count, as_bytes[:BYTES_BEFORE].tobytes(), as_bytes[-BYTES_BEFORE:].tobytes()
+    content = numbers.tobytes() if numbers.nbytes <= SMALL else None
     found: IndexSnapshot | None = pool.use(key)
     if found is not None and (
-        content == found.content if content is not None else same_memory(address, found.address, raw.nbytes)
+        content == found.content
+        if content is not None
+        else same_memory(numbers.ctypes.data, found.address, numbers.nbytes)
     ):
         return found
+    raw = numbers.copy()
+    raw.setflags(write=False)
+    address = 0 if content is not None else raw.ctypes.data
     if raw.dtype in (np.int32, np.uint32):
         copy = raw.view(np.int32)
     else:
