@@ -161,8 +161,8 @@ def default_framebuffer(
 class Storage:
     """The objects of one context by name: framebuffers (0 is the window), textures, renderbuffers and query results.
 
-    `visibility_cache` speeds up draws that repeat earlier ones (`softshadow.pipeline.fast.visibility_cache`), with the
-    same result.
+    `visibility_cache` and `geometry_cache` speed up draws that repeat earlier ones (`softshadow.pipeline.fast`), with
+    the same result.
     """
 
     framebuffers: dict[int, Framebuffer]
@@ -171,6 +171,7 @@ class Storage:
     queries: dict[int, int] = field(default_factory=dict)
     active_query: int = 0
     visibility_cache: Any = None
+    geometry_cache: Any = None
 
     @property
     def window(self) -> Framebuffer:

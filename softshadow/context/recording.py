@@ -172,4 +172,5 @@ def copy_storage(storage: Storage) -> Storage:
         renderbuffers={name: copied(image) for name, image in storage.renderbuffers.items()},
         queries=dict(storage.queries),
         visibility_cache=None,
+        geometry_cache=None,
     )

@@ -30,14 +30,15 @@ from softshadow.pipeline.choose import (
     WithoutOverlaps,
     choose_fill,
     choose_forward,
+    choose_geometry,
     choose_shading,
+    fill_colorless,
     plan_draw,
     tests_alpha,
     use_short_cuts,
 )
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.draw_path import DrawPath, explain_paths
-from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.memory.threads import set_threads, threads
 from softshadow.pipeline.raster.fill import fill, fill_buffers, no_ids
 from softshadow.pipeline.raster.ordered import list_fragments, process_fragments
@@ -90,11 +91,11 @@ def draw(command: Draw, storage: Storage, counts: FragmentCounts | None = None) 
         raise StateError(f"framebuffer {target.name} has nothing attached to draw to")
     plan = plan_draw(command, target, counts is not None)
     with np.errstate(all="ignore"):  # infinities of vertices that clipping removes; interpreted kernels would warn
-        if plan.chunks_of:
-            for triangles, ranges, region, fragments in plan.chunks_of(command, target):
+        if plan.in_chunks:
+            for triangles, ranges, region, fragments in fill_colorless(plan, command, target):
                 _fill(plan, command.state, target, triangles, region, fragments, ranges=ranges)
             return
-        draw_geometry(plan, command, target, storage, process_geometry(command, target, storage), counts)
+        draw_geometry(plan, command, target, storage, choose_geometry(plan, command, target, storage), counts)
 
 
 def draw_geometry(

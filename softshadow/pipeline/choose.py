@@ -20,12 +20,14 @@ from softshadow.image import Image
 from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.draw_path import DrawPath, begin_path, is_explained
+from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.geometry.polygon_mode import is_filled
 from softshadow.pipeline.memory.threads import threads
 from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2
 from softshadow.pipeline.raster.fill import FillKernel, textbook_kernel
 from softshadow.pipeline.raster.fragment_ops import FragmentOps, fragment_ops
+from softshadow.pipeline.raster.region import depth_range_of
 from softshadow.pipeline.records import FragmentCounts, Geometry, Region, Spans
 from softshadow.pipeline.shade.shading import shade_and_write
 from softshadow.state import State
@@ -33,10 +35,12 @@ from softshadow.state import State
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS, any_state_kernel
     from softshadow.pipeline.fast.batch.table import Run, can_begin_run
-    from softshadow.pipeline.fast.depth_only import Chunk, chunks_of
+    from softshadow.pipeline.fast.depth_only import Chunk, chunks_of, fill_in_blocks, window_mesh
     from softshadow.pipeline.fast.fixed_function_spans import SPAN_KERNELS, fixed_function_shader
     from softshadow.pipeline.fast.forward import draw_forward, forward_state
+    from softshadow.pipeline.fast.geometry_cache import cached_geometry
     from softshadow.pipeline.fast.hierarchical_z import only_counts, order_independent
+    from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL, map_visibility_shader
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
     from softshadow.pipeline.fast.stencil_tiles import shared_tiles_kernel, tiles_kernel
     from softshadow.pipeline.fast.unordered_blend import triangles_without_overlaps
@@ -105,9 +109,10 @@ class Plan(NamedTuple):
     """What the state decides about a draw.
 
     in_order: fragments are tested and written one by one; writes_color: colours may change; front, back: the
-    per-fragment operations of each facing. The short cuts to take, or None: chunks_of sets up some triangles at a time,
-    cached_fill looks for an equal fill, without_overlaps finds out whether blended fragments overlap; forward: whether
-    the draw may go triangle by triangle from coverage to pixels.
+    per-fragment operations of each facing; counting: whether fragments are counted. The short cuts to take, or None:
+    cached_fill looks for an equal fill, without_overlaps finds out whether blended fragments overlap; in_chunks:
+    whether some triangles are set up and filled at a time; forward: whether the draw may go triangle by triangle from
+    coverage to pixels.
     """
 
     in_order: bool
@@ -115,10 +120,11 @@ class Plan(NamedTuple):
     front: FragmentOps
     back: FragmentOps
     path: DrawPath
-    chunks_of: Callable[[Draw, Framebuffer], Iterator[Chunk]] | None = None
+    in_chunks: bool = False
     cached_fill: Callable[..., tuple[Spans, bool]] | None = None
     without_overlaps: WithoutOverlaps | None = None
     forward: bool = False
+    counting: bool = False
 
 
 def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
@@ -127,7 +133,7 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
     front = fragment_ops(state, target.depth, target.stencil, True)
     back = fragment_ops(state, target.depth, target.stencil, False)
     in_order, writes_color = needs_order(state), bool(target.colors) and any(state.color.mask)
-    plan = Plan(in_order, writes_color, front, back, path)
+    plan = Plan(in_order, writes_color, front, back, path, counting=counting)
     path.way = "in order" if in_order else "opaque"
     if not in_order:
         path.note("neither blending nor alpha test: fragments are tested before any is shaded")
@@ -143,7 +149,7 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
         return plan._replace(forward=True)
     elif writes_no_colors(command, target):
         path.way, path.reasons = "depth and stencil only, in chunks", ["no colour is written or tested"]
-        return plan._replace(chunks_of=chunks_of)
+        return plan._replace(in_chunks=True)
     elif writes_color:
         return plan._replace(cached_fill=cached_fill, forward=True)
     return plan
@@ -165,6 +171,16 @@ def begin_run(command: Draw, target: Framebuffer, storage: Storage) -> Run | Non
     if colorless and len(command.vertices.position) >= LONG_DRAW:
         return None
     return Run(command, storage, not colorless)
+
+
+def choose_geometry(plan: Plan, command: Draw, target: Framebuffer, storage: Storage) -> Geometry:
+    """Return the triangles of a draw; with short cuts, those of an equal earlier draw if they are cached."""
+    if plan.counting or not _short_cuts.get():
+        return process_geometry(command, target, storage)
+    geometry, was_cached = cached_geometry(command, target, storage)
+    if was_cached:
+        plan.path.note("an equal draw has set up its triangles before")
+    return geometry
 
 
 def needs_order(state: State) -> bool:
@@ -276,6 +292,26 @@ def _band_rows_log2(region: Region, fragments: int) -> int:
     return max(BAND_ROWS_LOG2, rows.bit_length() - 1)
 
 
+def fill_colorless(plan: Plan, command: Draw, target: Framebuffer) -> Iterator[Chunk]:
+    """Yield the triangles of a draw without colours in chunks to fill; fill them here where blocks of them pay.
+
+    Blocks are for one thread, and for triangles without many layers: `FillChoice` has bands for those.
+    """
+    mesh, front, back = window_mesh(command, target), plan.front, plan.back
+    if mesh.region.first_row >= mesh.region.end_row:
+        return
+    tests_stencil, writes_depth = front.stencil_test or back.stencil_test, front.depth_write or back.depth_write
+    fragments, depth = mesh.fragments(), target.depth
+    in_blocks = threads() == 1 and writes_depth and not tests_stencil and mesh.units is None
+    if depth is None or not in_blocks or _has_layers(mesh.region, fragments):
+        yield from chunks_of(mesh)
+    elif not _pays(FILL_KERNELS, fragments + SMALL_TRIANGLE * len(mesh.clipped.triangles)):
+        yield from chunks_of(mesh)
+    else:
+        plan.path.fill = "vectors"
+        fill_in_blocks(mesh, front, back, depth_range_of(command.state, mesh.window.dtype.type), depth.cells)
+
+
 def choose_forward(
     plan: Plan, state: State, target: Framebuffer, geometry: Geometry, region: Region, fragments: int
 ) -> Callable[[], None] | None:
@@ -301,11 +337,28 @@ def choose_shading(plan: Plan, state: State, target: Framebuffer, geometry: Geom
             plan.path.shading = "shadow-map kernel"
             plan.path.note("plain depth map and one buffer of bytes without blending")
             return shader
+        visibility = map_visibility_shader(state, target, geometry)
+        if visibility is not None:
+            return lambda spans: _shade_visibility(visibility, plan, state, target, geometry, spans)
         fixed = fixed_function_shader(state, target, geometry)
         if fixed is not None:
             return lambda spans: _shade_fixed_function(fixed, plan, state, target, geometry, spans)
     plan.path.shading = "program"
     return lambda spans: shade_and_write(state, target, geometry, spans, ordered=False)
+
+
+def _shade_visibility(
+    shader: Callable[[Spans], None], plan: Plan, state: State, target: Framebuffer, geometry: Geometry, spans: Spans
+) -> None:
+    """Shade with the kernel of the visibility in a map, or with the program until compiling it pays."""
+    if _pays(VISIBILITY_KERNEL, spans.fragments):
+        plan.path.shading = "map-visibility kernel"
+        plan.path.note("a single comparison with a plain depth map, and one buffer of floats without blending")
+        shader(spans)
+        return
+    plan.path.shading = "program"
+    plan.path.note("too few comparisons with maps were made so far to compile their kernel")
+    shade_and_write(state, target, geometry, spans, ordered=False)
 
 
 def _shade_fixed_function(

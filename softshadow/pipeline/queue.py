@@ -17,6 +17,7 @@ try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
     from softshadow.pipeline.fast.batch.geometry import Setting, geometry_of, setting_of
     from softshadow.pipeline.fast.batch.table import BATCH_KERNELS, Run, key_of
+    from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL
 except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
     pass
 
@@ -37,6 +38,7 @@ class DrawQueue:
         self._storage, self._compiles = storage, compiles
         if compiles and SHORT_CUTS_EXIST:
             FILL_KERNELS.want()
+            VISIBILITY_KERNEL.want()
         self._run: Run | None = None
         self._draws: list[Draw] = []
         self._n_vertices = 0

@@ -97,17 +97,22 @@ def visibility_by(share: Share) -> Callable[[np.ndarray, Mapping[str, Any], np.n
     """Return a fragment stage that fills `out` (N, 4) with the share of lit comparisons."""
 
     def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
-        real = inputs.dtype.type
-        with np.errstate(all="ignore"):  # q = 0 gives infinities, as in GL
-            projected = divide(inputs)
-            depth = np.minimum(projected[:, 2] - real(uniforms["bias"]), real(1))
-            note_depths(uniforms["shadowMap"], depth, uniforms["bias"])
-            visible = share(uniforms["shadowMap"], projected, depth, uniforms["radius"], real(uniforms["side"]))
-            off = projected[:, :2] - real(0.5)
-            visible[off[:, 0] * off[:, 0] + off[:, 1] * off[:, 1] > real(uniforms["cone"])] = 0
-        out[:] = np.where(inputs[:, 3] > 0, visible, real(uniforms["behind"]))[:, None]
+        out[:] = visibility_in(uniforms["shadowMap"], share, inputs, uniforms)[:, None]
 
     return shade
+
+
+def visibility_in(texture: Texture, share: Share, inputs: np.ndarray, uniforms: Mapping[str, Any]) -> np.ndarray:
+    """Return the visibility (N,) of places (N, 4) in a map."""
+    real = inputs.dtype.type
+    with np.errstate(all="ignore"):  # q = 0 gives infinities, as in GL
+        projected = divide(inputs)
+        depth = np.minimum(projected[:, 2] - real(uniforms["bias"]), real(1))
+        note_depths(texture, depth, uniforms["bias"])
+        visible = share(texture, projected, depth, uniforms["radius"], real(uniforms["side"]))
+        off = projected[:, :2] - real(0.5)
+        visible[off[:, 0] * off[:, 0] + off[:, 1] * off[:, 1] > real(uniforms["cone"])] = 0
+    return np.where(inputs[:, 3] > 0, visible, real(uniforms["behind"]))
 
 
 def box_share(texture: Texture, projected: np.ndarray, depth: np.ndarray, radius: int, side: Any) -> np.ndarray:

@@ -85,6 +85,7 @@ class OwnSession:
             set_threads(threads_before)
             self._context.frame.commands.clear()
             clear_visibility_cache(self._context.storage)
+            self._context.storage.geometry_cache = None
             make_current(context)
 
 

@@ -10,8 +10,9 @@ from programs.test_builtin import D24, IDENTITY, depth_map, texture_of
 from softshadow import programs
 from softshadow import tokens as gl
 from softshadow.programs import VertexInputs
+from softshadow.programs.texture_coordinates import transform
 
-BOX, BILINEAR = "map-visibility", "map-visibility-bilinear"
+BOX, BILINEAR, EIGHT = "map-visibility", "map-visibility-bilinear", "map-visibility-8"
 SIDE = 16
 
 
@@ -35,11 +36,14 @@ def visibility(name: str, placed: np.ndarray, uniforms: dict[str, Any]) -> np.nd
     return out[:, 0]
 
 
-def on_mesa(name: str, placed: np.ndarray, uniforms: dict[str, Any], setup: Any) -> np.ndarray:
+def on_mesa(
+    name: str, placed: np.ndarray, uniforms: dict[str, Any], setup: Any, matrices: Any = lambda on: None
+) -> np.ndarray:
     def use_program(on: Any) -> None:
         setup(on)
         for mode in (on.GL_MODELVIEW, on.GL_PROJECTION, on.GL_TEXTURE):
             load(on, mode, IDENTITY)
+        matrices(on)
         program = on.program(name)
         on.glUseProgram(program)
         for uniform, value in uniforms.items():
@@ -65,6 +69,46 @@ def test_map_visibility_is_its_glsl_twin(name: str, radius: int) -> None:
     assert len(np.unique(ours)) > (2 if radius == 0 and name == BOX else 8)
     mesa = on_mesa(name, placed, uniforms, texture_of(depths, gl.GL_NEAREST))
     assert same_bits(np.repeat(ours[:, None], 4, axis=1), mesa)
+
+
+def eight_maps(depths: np.ndarray, maps: int) -> tuple[np.ndarray, list[np.ndarray]]:
+    """Return texture matrices (8, 4, 4), and what "map-visibility" finds in each of the first maps."""
+    matrices = (np.eye(4) + np.random.default_rng(maps).normal(0, 0.2, (8, 4, 4))).astype(np.float32)
+    uniforms = {"side": float(SIDE), "bias": 0.01, "behind": 0.25}
+    places = [transform(matrices[i], coordinates(7)) for i in range(maps)]
+    found = [
+        visibility(BOX, places[i], {**uniforms, "shadowMap": depth_map(np.floor(depths[i] * D24))}) for i in range(maps)
+    ]
+    return matrices, found
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize("maps", [1, 3, 8])
+def test_eight_maps_give_the_sum_here_and_on_mesa(maps: int) -> None:
+    depths = np.random.default_rng(maps).random((8, SIDE, SIDE), np.float32)
+    matrices, found = eight_maps(depths, maps)
+    expected = np.sum(found, axis=0, dtype=np.float32)
+    program = programs.get(EIGHT)
+    placed, empty = coordinates(7), np.zeros((POINTS, 4), np.float32)
+    uniforms = {"maps": maps, "bias": 0.01, "behind": 0.25, **{f"shadowMap{i}": i for i in range(8)}}
+    textures = {f"shadowMap{i}": depth_map(np.floor(depths[i] * D24)) for i in range(8)}
+    inputs = VertexInputs(empty, empty, empty[:, :3], (placed,), IDENTITY, IDENTITY, tuple(matrices), uniforms)
+    ours = np.empty_like(empty)
+    with np.errstate(all="ignore"):
+        program.shade(program.vertex(inputs).values, {**program.uniforms, **uniforms, **textures}, ours)
+    assert same_bits(ours, np.repeat(expected[:, None], 4, axis=1))
+
+    def setup(on: Any) -> None:
+        for unit in reversed(range(8)):
+            on.glActiveTexture(on.GL_TEXTURE0 + unit)
+            texture_of(depths[unit], gl.GL_NEAREST)(on)
+
+    def matrices_too(on: Any) -> None:
+        for unit in reversed(range(8)):
+            on.glActiveTexture(on.GL_TEXTURE0 + unit)
+            load(on, on.GL_TEXTURE, matrices[unit])
+
+    assert same_bits(ours, on_mesa(EIGHT, placed, uniforms, setup, matrices_too))
 
 
 @pytest.mark.parametrize("radius", [0, 1, 2])

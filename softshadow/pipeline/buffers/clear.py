@@ -34,6 +34,8 @@ def clear(command: Clear, storage: Storage) -> None:
             image.write_later(0, np.broadcast_to(as_pixels(value), image.shape), None)
         elif written.all() and image.format.kind == "unorm8":
             as_pixels(image.cells)[where] = as_pixels(value)
+        elif written.all():  # a row at a time: pixel by pixel takes ten times as long
+            image.cells[where] = np.tile(value, (max(region.right - region.left, 0), 1))
         else:
             for channel in np.flatnonzero(written):
                 image.cells[where][..., channel] = value[channel]

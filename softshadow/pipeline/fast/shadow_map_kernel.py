@@ -8,12 +8,13 @@ few hundred fragments at a time go through the same functions and stay in the fi
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
-from softshadow.jit import allocating_kernel
+from softshadow.jit import allocating_kernel, kernel
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.records import Geometry, Spans
 from softshadow.pipeline.shade.blend import FOUR_BYTES
@@ -32,93 +33,121 @@ AT_A_TIME = 384  # fragments; 30 KB from planes to pixels
 VARYINGS = 8  # color and texCoord
 
 
+class MapTexels(NamedTuple):
+    """The texels of a map, the arguments of `gather_texels` and `nearest_texels`; `sources` (1,): that of the red."""
+
+    cells: np.ndarray
+    border: np.ndarray
+    unit: Any
+    sources: np.ndarray
+    width: int
+    height: int
+    wrap_s: int
+    wrap_t: int
+
+
 def shadow_map_shader(state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None] | None:
     """Return the function that shades and writes spans of a draw, or None where `shade_and_write_spans` cannot.
 
     It can for float32, a depth map with GL_NEAREST and without GL's own comparison, and one colour buffer of bytes
     without blending.
     """
-    map_ = geometry.uniforms.get("shadowMap")
-    if geometry.program.shade is not SHADOW_MAP.shade or not isinstance(map_, Texture) or not _is_plain(map_):
+    if geometry.program.shade is not SHADOW_MAP.shade or not writes_one_buffer(state, target, "unorm8"):
         return None
-    image, real = map_.base(), geometry.window.dtype
-    blends = state.blend.enabled or state.blend.logic_enabled
-    if blends or real != np.float32 or len(target.colors) != 1 or image is None or image.cells.dtype != real:
+    texels, real, color = plain_map(geometry), geometry.window.dtype, target.colors[0]
+    if texels is None or color.format.base not in FOUR_BYTES:
         return None
-    color = target.colors[0]
-    if color.format.kind != "unorm8" or color.format.base not in FOUR_BYTES:
-        return None
-    sources = sources_of(image, map_.sampler)[:1]
-    texels = texels_of(image, map_.sampler, real)
-    sizes_and_wraps = (image.width, image.height, *wraps_of(map_.sampler, map_.images.get((0, 0)) or image))
     ambient, bias = np.array(geometry.uniforms["ambient"], real), real.type(geometry.uniforms["bias"])
     writable, pixels = writable_bits(state, color), as_pixels(color.cells)
 
     def shade_part(spans: Spans, planes: AttributePlanes) -> None:
         shade_and_write_spans(
-            planes.values, planes.place, *spans, coordinates_of(spans, real), geometry.flat, *texels, sources,
-            sizes_and_wraps, ambient, bias, writable, pixels,
-        )  # fmt: skip
+            *planes, *spans, coordinates_of(spans, real), geometry.flat, texels, ambient, bias, writable, pixels
+        )
 
-    def shade(spans: Spans) -> None:
-        planes = attribute_planes_of(geometry, spans)
-        if threads() == 1:
-            shade_part(spans, planes)
-        else:
-            parts = spans.chunks(PART)
-            share(lambda n: shade_part(spans.part(parts[n], parts[n + 1]), planes), len(parts) - 1)
-
-    return shade
+    return lambda spans: shade_in_parts(geometry, spans, shade_part)
 
 
-def _is_plain(texture: Texture) -> bool:
-    """Return whether a lookup reads the nearest texel of the base level."""
-    sampler, image = texture.sampler, texture.base()
+def writes_one_buffer(state: State, target: Framebuffer, kind: str) -> bool:
+    """Return whether a draw writes a single colour buffer of a kind, and does not blend."""
+    blends = state.blend.enabled or state.blend.logic_enabled
+    return not blends and len(target.colors) == 1 and target.colors[0].format.kind == kind
+
+
+def plain_map(geometry: Geometry, name: str = "shadowMap") -> MapTexels | None:
+    """Return the texels of a sampler's map if a lookup reads the nearest depth of its base level in float32."""
+    map_, real = geometry.uniforms.get(name), geometry.window.dtype
+    if not isinstance(map_, Texture):
+        return None
+    image, sampler = map_.base(), map_.sampler
     nearest = sampler.min_filter == sampler.mag_filter == gl.GL_NEAREST and sampler.compare_mode == gl.GL_NONE
-    return nearest and image is not None and image.format.kind == "depth" and is_complete(texture)
+    if not nearest or image is None or image.format.kind != "depth" or not is_complete(map_):
+        return None
+    if real != np.float32 or image.format.dtype != real:
+        return None
+    wraps = wraps_of(sampler, map_.images.get((0, 0)) or image)
+    sources = sources_of(image, sampler)[:1]
+    return MapTexels(*texels_of(image, sampler, real), sources, image.width, image.height, *wraps)
+
+
+def shade_in_parts(geometry: Geometry, spans: Spans, shade_part: Callable[[Spans, AttributePlanes], None]) -> None:
+    """Shade all spans, in parts where several threads draw."""
+    planes = attribute_planes_of(geometry, spans)
+    if threads() == 1:
+        shade_part(spans, planes)
+    else:
+        parts = spans.chunks(PART)
+        share(lambda n: shade_part(spans.part(parts[n], parts[n + 1]), planes), len(parts) - 1)
 
 
 @allocating_kernel
 def shade_and_write_spans(
-    planes, place, rows, lefts, triangles, starts, coordinates, flat, cells, border, unit, sources, sizes_and_wraps,
-    ambient, bias, writable, pixels,
-):  # fmt: skip
-    """Interpolate, look up the map, compare, and write the spans' pixels (H, pitch) of 32 bits.
-
-    `sources` (1,) says where the red of a texel comes from, `sizes_and_wraps` are width, height and a wrap code each;
-    the others are those of the kernels that are called.
-    """
-    width, height, wrap_s, wrap_t = sizes_and_wraps
+    planes, place, rows, lefts, triangles, starts, coordinates, flat, texels, ambient, bias, writable, pixels
+):
+    """Interpolate, look up the map, compare, and write the spans' pixels (H, pitch) of 32 bits."""
     room = np.empty((VARYINGS + 1) * AT_A_TIME, planes.dtype)
-    own_rows, own_lefts, own_triangles = (
-        np.empty(AT_A_TIME, np.int32),
-        np.empty(AT_A_TIME, np.int32),
-        np.empty(AT_A_TIME, np.int32),
-    )
-    own_starts = np.zeros(AT_A_TIME + 1, np.int64)
+    block, own_starts = np.empty((3, AT_A_TIME), np.int32), np.zeros(AT_A_TIME + 1, np.int64)
     places, depths = np.empty(3 * AT_A_TIME, planes.dtype), np.empty(AT_A_TIME, planes.dtype)
-    columns_of_texels, rows_of_texels = np.empty(AT_A_TIME, np.int32), np.empty(AT_A_TIME, np.int32)
     colors, packed = np.empty(4 * AT_A_TIME, planes.dtype), np.empty(AT_A_TIME, np.int32)
-    r, done = 0, np.int64(0)  # the next span, and how many of its fragments are done
+    r, done = 0, np.int64(0)
     while r < rows.shape[0]:
-        count, n = 0, np.int64(0)
-        while r < rows.shape[0] and n < AT_A_TIME:  # as many spans as there is room for; the last may go on afterwards
-            length = min(starts[r + 1] - starts[r] - done, AT_A_TIME - n)
-            own_rows[count], own_lefts[count], own_triangles[count] = rows[r], lefts[r] + done, triangles[r]
-            done, n, count = done + length, n + length, count + 1
-            own_starts[count] = n
-            if done == starts[r + 1] - starts[r]:
-                r, done = r + 1, np.int64(0)
-        where = own_rows[:count], own_lefts[:count], own_starts[: count + 1]
+        r, done, count, n = take_spans(rows, lefts, triangles, starts, r, done, block, own_starts)
+        where = block[0, :count], block[1, :count], own_starts[: count + 1]
         inputs = room[: (VARYINGS + 1) * n].reshape(VARYINGS + 1, n)
         projected, stored, shaded = places[: 3 * n].reshape(3, n), depths[:n], colors[: 4 * n].reshape(4, n)
-        interpolate(planes, place, where[0], where[1], own_triangles[:count], where[2], coordinates, flat, inputs)
-        divide_all(inputs[4:8], projected)
-        nearest_texels(projected[0], width, wrap_s, columns_of_texels[:n])
-        nearest_texels(projected[1], height, wrap_t, rows_of_texels[:n])
-        gather_texels(
-            columns_of_texels[:n], rows_of_texels[:n], cells, width, border, unit, sources, stored.reshape(1, n)
-        )
+        interpolate(planes, place, where[0], where[1], block[2, :count], where[2], coordinates, flat, inputs)
+        look_up(inputs[4:8], texels, projected, stored)
         compare(inputs, projected, stored, ambient, bias, shaded)
         pack_bytes(shaded, packed[:n])
         write_pixels(where[0], where[1], where[2], packed[:n].view(np.uint32), writable, pixels)
+
+
+@kernel
+def take_spans(rows, lefts, triangles, starts, r, done, block, own_starts):
+    """Write the next spans to `block` (3, AT_A_TIME): row, first column, triangle; and where they start, from 0 on.
+
+    `r` is the next span, `done` how many of its fragments are done. Return both for the block after this one, and the
+    numbers of spans and fragments: as many as there is room for.
+    """
+    count, n = 0, np.int64(0)
+    while r < rows.shape[0] and n < AT_A_TIME:  # the last span may go on in the next block
+        length = min(starts[r + 1] - starts[r] - done, AT_A_TIME - n)
+        block[0, count], block[1, count], block[2, count] = rows[r], lefts[r] + done, triangles[r]
+        done, n, count = done + length, n + length, count + 1
+        own_starts[count] = n
+        if done == starts[r + 1] - starts[r]:
+            r, done = r + 1, np.int64(0)
+    return r, done, count, n
+
+
+@allocating_kernel
+def look_up(coordinates, texels, projected, stored):
+    """Write s / q, t / q and r / q of coordinates (4, N), and the map's depth there (N,)."""
+    columns, rows = np.empty(len(stored), np.int32), np.empty(len(stored), np.int32)
+    divide_all(coordinates, projected)
+    nearest_texels(projected[0], texels.width, texels.wrap_s, columns)
+    nearest_texels(projected[1], texels.height, texels.wrap_t, rows)
+    gather_texels(
+        columns, rows, texels.cells, texels.width, texels.border, texels.unit, texels.sources,
+        stored.reshape(1, len(stored)),
+    )  # fmt: skip

@@ -103,6 +103,7 @@ class VisibilityCache:
         if entry is None or not entry.inputs.same_as(inputs):
             return None
         self.entries[key] = self.entries.pop(key)
+        entry.inputs = inputs  # the same arrays as at the next draw, if the triangles are cached, too
         entry.hits += 1
         self.seen[key[0]] = True
         return entry

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -28,7 +29,7 @@ from softshadow.pipeline.geometry.triangle_setup import (
 from softshadow.pipeline.geometry.vertex import append_rows, process_vertices, to_window
 from softshadow.pipeline.mesa.polygon_rules import offset_is_on
 from softshadow.pipeline.records import Geometry
-from softshadow.programs import VertexInputs
+from softshadow.programs import Program, Varyings, VertexInputs
 from softshadow.programs.inverse import inverse
 from softshadow.state import ClipPlanes, Cull, Polygon, Viewport
 
@@ -42,17 +43,37 @@ class Positions(NamedTuple):
     planes: np.ndarray
 
 
+class VertexOutputs(NamedTuple):
+    """What the program of a draw makes of its vertices; the uniforms include the textures."""
+
+    varyings: Varyings
+    program: Program
+    uniforms: Mapping[str, Any]
+
+
 def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull: Cull | None = None) -> Geometry:
     """Return the triangles of a draw in the window of `target`; lines and points are two triangles each.
 
     `cull` replaces the state's face culling: pixel histories show culled triangles, too.
     """
-    state, vertices = command.state, command.vertices
-    cull = state.cull if cull is None else cull
-    program, uniforms = program_of(command, storage)
+    return triangles_with_outputs(command, target, vertex_outputs(command, storage), cull)
+
+
+def vertex_outputs(command: Draw, storage: Storage) -> VertexOutputs:
+    """Return what the program of a draw makes of its vertices."""
+    vertices, (program, uniforms) = command.vertices, program_of(command, storage)
     arrays = (vertices.position, vertices.color, vertices.normal, vertices.texcoords)
     transforms = (command.modelview, command.projection, command.texture_matrices)
-    varyings = program.vertex(VertexInputs(*arrays, *transforms, uniforms, command.modelview_kind, vertices.materials))
+    inputs = VertexInputs(*arrays, *transforms, uniforms, command.modelview_kind, vertices.materials)
+    return VertexOutputs(program.vertex(inputs), program, uniforms)
+
+
+def triangles_with_outputs(
+    command: Draw, target: Framebuffer, outputs: VertexOutputs, cull: Cull | None = None
+) -> Geometry:
+    """Return the triangles of `process_geometry`, whose vertices have these outputs."""
+    state, varyings = command.state, outputs.varyings
+    cull = state.cull if cull is None else cull
     clip, codes, window, planes = positions_of(command, target)
     columns = varyings.values if varyings.back is None else np.hstack([varyings.values, varyings.back])
     if command.mode in (gl.GL_POINTS, *LINES):
@@ -78,8 +99,8 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull:
         varyings.flat,
         clipped.source,
         provoking[clipped.source],
-        program,
-        uniforms,
+        outputs.program,
+        outputs.uniforms,
     )
     return set_up_primitives(geometry, clipped, command, target, cull)
 

@@ -13,7 +13,7 @@ from softshadow.context import Context
 from softshadow.pipeline import choose, set_threads, threads, use_short_cuts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast import depth_only
-from softshadow.pipeline.fast.depth_only import chunks_of
+from softshadow.pipeline.fast.depth_only import chunks_of, window_mesh
 from softshadow.pipeline.memory import threads as pool
 from softshadow.pipeline.raster.coverage import extent
 from softshadow.pipeline.raster.region import region_of
@@ -64,6 +64,33 @@ def test_chunks_leave_the_bits_of_all_triangles_at_once(seed, depth_format, n_th
             set_threads(before)
 
 
+@given(seeds)
+def test_blocks_leave_the_bits_of_all_triangles_at_once(seed):
+    expected, before = all_at_once(seed, "d24"), threads()
+    with pytest.MonkeyPatch.context() as patch, use_short_cuts("always"):
+        patch.setattr(depth_only, "EVERY", 1)
+        patch.setattr(choose, "LAYERS", 1 << 20)  # so that layers do not need bands
+        set_threads(1)
+        try:
+            assert same_window(draw_without_colors(seed, "d24"), expected)
+        finally:
+            set_threads(before)
+
+
+def test_draws_that_change_depths_alone_are_filled_in_blocks(monkeypatch):
+    filled: list[int] = []
+    monkeypatch.setattr(choose, "fill_in_blocks", lambda mesh, *rest: filled.append(len(mesh.clipped.triangles)))
+    before = threads()
+    set_threads(1)
+    try:
+        with use_short_cuts("always"):
+            for seed in range(10):
+                draw_without_colors(seed, "d24")
+    finally:
+        set_threads(before)
+    assert len(filled) > 2
+
+
 @pytest.mark.interpreted
 @pytest.mark.parametrize("seed", range(2))
 def test_interpreted_chunks_leave_the_same_bits(seed):
@@ -77,7 +104,7 @@ def test_a_chunk_has_the_rows_and_the_area_of_its_triangles(seed):
         if not isinstance(command, Draw):
             continue
         target_region = region_of(command.state, context.storage.window)
-        for triangles, ranges, region, fragments in chunks_of(command, context.storage.window):
+        for triangles, ranges, region, fragments in chunks_of(window_mesh(command, context.storage.window)):
             extents = [extent(triangles.corners, first, end) for first, end in ranges]
             assert fragments == sum(area for *_, area in extents) >> 8
             for first_row, end_row, _ in extents:
