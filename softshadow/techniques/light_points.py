@@ -31,9 +31,16 @@ def lit_from_points(
 ) -> Iterator[tuple[Scene, Light, str]]:
     """Yield for each point of a light the scene with it in place of the light, the point, and words for titles."""
     points = points_of(light, samples, pattern, seed)
-    for number, point in enumerate(points, start=1):
-        words = f"point {number} of {len(points)}" if len(points) > 1 else "the light"
+    for number, point in enumerate(points):
+        words = words_for(number, number + 1, len(points))
         yield replace(scene, lights=tuple(point if other is light else other for other in scene.lights)), point, words
+
+
+def words_for(first: int, end: int, n_points: int) -> str:
+    """Return words for the title of a step with the points [first, end) of so many."""
+    if n_points == 1:
+        return "the light"
+    return f"point {end} of {n_points}" if end - first == 1 else f"points {first + 1} to {end} of {n_points}"
 
 
 def add_mean(

@@ -46,29 +46,56 @@ def draw_visibility(
     """
     visibility = visibility_texture(gl, size)
     with texture_and_depth_attached(gl, visibility, size):
-        gl.glClearColor(1.0, 1.0, 1.0, 1.0)
-        gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
-        drawing.set_camera(gl, scene.camera, size)
-        gl.glDisable(gl.GL_LIGHTING)
-        gl.glUseProgram(program)
-        look_up()
-        draw_looked_up(gl, scene.objects, normal_bias)
-        gl.glUseProgram(0)
-        clear_coordinates(gl)
+        fill_visibility(gl, scene, size, program, look_up, normal_bias)
     gl.glBindTexture(gl.GL_TEXTURE_2D, visibility)
     return visibility, gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, gl.GL_FLOAT)
+
+
+def fill_visibility(
+    gl: Any,
+    scene: Scene,
+    size: tuple[int, int],
+    program: int,
+    look_up: Callable[[], None],
+    normal_bias: float = 0.0,
+    units: int = 1,
+) -> None:
+    """Clear the bound framebuffer, and let a program draw the scene into it.
+
+    The arguments are those of `draw_visibility`; `look_up` binds textures in the first `units` texture units.
+    """
+    gl.glClearColor(1.0, 1.0, 1.0, 1.0)
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
+    drawing.set_camera(gl, scene.camera, size)
+    gl.glDisable(gl.GL_LIGHTING)
+    gl.glUseProgram(program)
+    look_up()
+    draw_looked_up(gl, scene.objects, normal_bias, units=units)
+    gl.glUseProgram(0)
+    clear_coordinates(gl, units)
 
 
 @contextmanager
 def texture_and_depth_attached(gl: Any, texture: int, size: tuple[int, int]) -> Iterator[None]:
     """Draw into a colour texture, with a depth buffer of its own."""
+    framebuffer, depths = bind_with_depth(gl, texture, size)
+    yield
+    delete_framebuffer(gl, framebuffer, depths)
+
+
+def bind_with_depth(gl: Any, texture: int, size: tuple[int, int]) -> tuple[int, int]:
+    """Bind a new framebuffer object with a colour texture; return it and the renderbuffer of its depths."""
     framebuffer, depths = gl.glGenFramebuffers(1), gl.glGenRenderbuffers(1)
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
     gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, depths)
     gl.glRenderbufferStorage(gl.GL_RENDERBUFFER, gl.GL_DEPTH_COMPONENT24, *size)
     gl.glFramebufferRenderbuffer(gl.GL_FRAMEBUFFER, gl.GL_DEPTH_ATTACHMENT, gl.GL_RENDERBUFFER, depths)
     gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, texture, 0)
-    yield
+    return framebuffer, depths
+
+
+def delete_framebuffer(gl: Any, framebuffer: int, depths: int) -> None:
+    """Bind the window, and delete a framebuffer object and its renderbuffer."""
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
     gl.glDeleteFramebuffers(1, [framebuffer])
     gl.glDeleteRenderbuffers(1, [depths])

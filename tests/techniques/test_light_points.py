@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from softshadow.scene import Light, Rectangle, Scene, sample_lights
+from softshadow.pipeline import use_short_cuts
+from softshadow.scene import Disc, Light, Rectangle, Scene, Segment, Sphere, sample_lights
 from techniques.drawn_frames import Drawn, cast_rays, draw
 
 SIZE = (64, 48)
@@ -69,6 +70,46 @@ def test_values_lie_on_the_grid_of_one_over_n(technique):
     values = np.unique(drawn.maps["visibility"])
     assert len(values) > 3
     assert np.isin(values, (np.arange(8) / 7).astype(np.float32)).all()
+
+
+SHAPES = (
+    Rectangle((1, 0.2, 0), (0, 0, 1.1)),
+    Disc(0.6, (0.1, 1, 0.2)),
+    Sphere(0.5),
+    Segment((1, 0.4, -0.3)),
+)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_maps_compared_together_give_the_bits_of_one_after_the_other(seed):
+    rng = np.random.default_rng(seed)
+    scene = Scene.named(["torus", "boxes", "two-lights", "soft-overlap"][seed % 4])
+    lights = tuple(
+        Light(lamp.position[:3] + rng.normal(0, 0.2, 3), lamp.color, lamp.name, shape=SHAPES[rng.integers(4)])
+        for lamp in scene.lights
+    )
+    scene, size = replace(scene, lights=lights), (int(rng.integers(20, 90)), int(rng.integers(20, 70)))
+    options = {
+        "samples": int(rng.integers(2, 30)), "pattern": str(rng.choice(["grid", "jittered", "sobol"])),
+        "map_size": int(rng.integers(16, 200)), "outside": str(rng.choice(["lit", "shadow", "edge"])),
+        "bias": float(rng.choice([0.0, 0.002])), "normal_bias": float(rng.choice([0.0, 0.02])),
+    }  # fmt: skip
+    with use_short_cuts(False):
+        one_by_one = draw("map-sampled", scene, size, together=1, **options)
+    for policy in (True, "always"):
+        with use_short_cuts(policy):
+            together = draw("map-sampled", scene, size, together=int(rng.integers(2, 9)), **options)
+        assert same_pictures(one_by_one, together)
+        for name in one_by_one.maps:
+            assert np.array_equal(one_by_one.maps[name], together.maps[name]), name
+
+
+def test_many_points_are_compared_eight_at_a_time():
+    few, many = (draw("map-sampled", with_area_light("torus"), SIZE, samples=n, map_size=32) for n in (16, 17))
+    assert len(few.titles) == 1 + 16 + 1
+    assert len(many.titles) == 1 + 3 + 1
+    assert "compare with the maps of points 1 to 8 of 17" in many.titles
+    assert "compare with the map of point 17 of 17" in many.titles
 
 
 def test_all_corners_blocked_is_the_umbra_of_a_convex_caster():

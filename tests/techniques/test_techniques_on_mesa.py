@@ -39,6 +39,7 @@ VARIANTS: list[tuple[str, dict[str, Any]]] = [
     ("map-silhouette", {"map_size": 64}),
     ("volume-sampled", {"samples": 4}),
     ("map-sampled", {"samples": 3, "pattern": "sobol", "map_size": 64}),
+    ("map-sampled", {"samples": 11, "together": 8, "map_size": 64, "outside": "edge"}),
     ("planar-accumulated", {"samples": 4, "texture_size": 64}),
     ("planar-accumulated", {"samples": 5, "pattern": "jittered", "method": "accumulation"}),
     ("planar-nested", {"layers": 3, "texture_size": 64}),
