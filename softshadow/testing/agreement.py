@@ -31,9 +31,10 @@ class Truth:
     counts : tuple of (H, W) int32   for each light: the number of casting faces between it and the point. This is the
                                      stencil count that shadow volumes leave. The point's own face and the faces in its
                                      plane are excluded by index
-    unsure : tuple of (H, W) bool    for each light: pixels where the object or the count changes within 1/128 of a
-                                     pixel (by a face too small to reach a neighbouring pixel), and pixels on faces that
-                                     are edge-on to the light, where the sides of volumes lie
+    unsure : tuple of (H, W) bool    for each light: pixels where an edge of an object or a shadow lies within 1/128
+                                     of a pixel (by a face too small to reach a neighbouring pixel), and pixels on faces
+                                     that are edge-on to the light, where the sides of volumes lie
+    unsure_counts : tuple of (H, W) bool   for each light: pixels where the count changes within 1/128 of a pixel
     """
 
     scene: Scene
@@ -42,18 +43,30 @@ class Truth:
     points: np.ndarray
     counts: tuple[np.ndarray, ...]
     unsure: tuple[np.ndarray, ...]
+    unsure_counts: tuple[np.ndarray, ...]
 
     def lit(self, light: int = 0) -> np.ndarray:
         """Return (H, W) bool: where the count of a light is 0 and, for a spot light, the point is in its cone."""
         return (self.counts[light] == 0) & self.scene.lights[light].shines_on(self.points)
 
     def band(self, light: int = 0, width: int = 1) -> np.ndarray:
-        """Return (H, W) bool: where the object, the count or the cone of a light changes within `width` pixels."""
-        values = (self.objects, self.counts[light], self.lit(light))
+        """Return (H, W) bool: where the object, the count or the cone of a light changes within `width` pixels.
+
+        Off it, counts are known. `shadow_band` is narrower: off it, light and shadow are known.
+        """
+        changes = changes_nearby(self.counts[light], width) | self.unsure_counts[light]
+        return self.shadow_band(light, width) | changes
+
+    def shadow_band(self, light: int = 0, width: int = 1) -> np.ndarray:
+        """Return (H, W) bool: where an edge of an object, of the shadow or of the cone lies within `width` pixels.
+
+        Where the count changes inside the shadow, from 1 to 2, there is no edge: both are in shadow.
+        """
+        values = (self.objects, self.lit(light))
         return np.any([self.unsure[light], *(changes_nearby(value, width) for value in values)], axis=0)
 
     def texel_band(self, light: int, map_size: int, width: int = 1) -> np.ndarray:
-        """Return (H, W) bool: where the count of a light changes within `width` texels of its shadow map.
+        """Return (H, W) bool: where an edge of the shadow lies within `width` texels of a light's shadow map.
 
         Each point is moved, in the plane of its face, to the light's rays through the eight neighbouring texels. If
         such a ray does not meet the plane in front of the light, the point belongs to the band as well.
@@ -77,7 +90,7 @@ class Truth:
             met = np.isfinite(step) & (np.full(len(step), camera.parallel) | (step > -1))
             moved = start + np.where(met, step, 0)[:, None] * ray
             there = hard_counts(self.scene, lamp, np.where(met, objects, -1), triangles, moved)
-            band |= ~met | (there != self.counts[light].ravel())
+            band |= ~met | ((there == 0) != (self.counts[light].ravel() == 0))
         return (band & (objects >= 0)).reshape(self.objects.shape)
 
 
@@ -86,11 +99,13 @@ def cast_truth(scene: Scene, size: tuple[int, int]) -> Truth:
     width, height = size
     objects, triangles, points = seen_faces(scene, size)
     counts = [hard_counts(scene, light, objects, triangles, points) for light in scene.lights]
-    unsure = [np.zeros(len(objects), bool) for _ in scene.lights]
+    unsure, unsure_counts = ([np.zeros(len(objects), bool) for _ in scene.lights] for _ in range(2))
     for x, y in product((-SNAP_DISTANCE, SNAP_DISTANCE), repeat=2):
         faces = seen_faces(scene, size, (x, y))
-        for light, count, changes in zip(scene.lights, counts, unsure, strict=True):
-            changes |= (faces[0] != objects) | (hard_counts(scene, light, *faces) != count)
+        for light, count, changes, count_changes in zip(scene.lights, counts, unsure, unsure_counts, strict=True):
+            there = hard_counts(scene, light, *faces)
+            changes |= (faces[0] != objects) | ((there == 0) != (count == 0))
+            count_changes |= there != count
     normals = world_normals(scene, objects, triangles)
     for light, changes in zip(scene.lights, unsure, strict=True):
         towards = light.position[:3] - light.position[3] * points
@@ -98,10 +113,10 @@ def cast_truth(scene: Scene, size: tuple[int, int]) -> Truth:
         changes |= cosine < EDGE_ON
     shape = height, width
     arrays = [objects.reshape(shape), triangles.reshape(shape), points.reshape(*shape, 3)]
-    by_light = [tuple(array.reshape(shape) for array in each) for each in (counts, unsure)]
-    for array in (*arrays, *by_light[0], *by_light[1]):
+    by_light = [tuple(array.reshape(shape) for array in each) for each in (counts, unsure, unsure_counts)]
+    for array in (*arrays, *by_light[0], *by_light[1], *by_light[2]):
         array.setflags(write=False)
-    return Truth(scene, arrays[0], arrays[1], arrays[2], by_light[0], by_light[1])
+    return Truth(scene, arrays[0], arrays[1], arrays[2], by_light[0], by_light[1], by_light[2])
 
 
 def world_normals(scene: Scene, objects: np.ndarray, triangles: np.ndarray) -> np.ndarray:
@@ -221,7 +236,7 @@ def agreement_of(
         raise ValueError(f"lit, known: expected arrays of shape {shape}, that of the truth")
     if not 0 <= light < len(truth.counts):
         raise ValueError(f"light={light}: the scene has {len(truth.counts)}")
-    band = truth.band(light, width)
+    band = truth.shadow_band(light, width)
     if map_size is not None:
         band |= truth.texel_band(light, map_size, width)
     compared = (truth.objects >= 0) & (True if known is None else np.asarray(known, bool))

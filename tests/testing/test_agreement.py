@@ -73,6 +73,19 @@ def test_parity_is_wrong_off_the_band_where_volumes_overlap() -> None:
     assert str(result).startswith(f"light: {result.off_band} of ")
 
 
+@pytest.mark.parametrize("name", ["overlapping", "soft-overlap"])
+def test_a_parity_is_caught_although_the_count_changes_inside_the_shadow(name: str) -> None:
+    """The band is round the edges of the shadow alone: where two volumes begin to overlap, nothing is uncertain."""
+    scene, size = ss.Scene.named(name), (160, 120)
+    truth = cast_truth(scene, size)
+    parity = truth.counts[0] % 2 == 0  # lit, says a renderer that counts modulo 2
+    result = agreement_of(parity, truth)
+    assert result.off_band > 0.85 * result.wrong.sum() > 400
+    inside = changes_nearby(truth.counts[0], 1) & ~changes_nearby(truth.lit(), 1) & ~changes_nearby(truth.objects, 1)
+    assert inside.sum() > 50
+    assert not (result.band & inside & ~truth.unsure[0]).any()
+
+
 def test_every_light_has_its_own_agreement() -> None:
     agreements = agreement(quietly("volume-zfail", ss.Scene.named("two-lights")))
     assert [each.light for each in agreements] == ["warm", "cool"]
