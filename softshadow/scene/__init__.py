@@ -5,7 +5,7 @@ from softshadow.scene.files import load_scene
 from softshadow.scene.light_samples import light_samples, sample_lights
 from softshadow.scene.light_shapes import Disc, LightShape, Rectangle, Segment, Sphere
 from softshadow.scene.lights import Light
-from softshadow.scene.loading import scene_from_mesh
+from softshadow.scene.loading import mesh_from_file, scene_from_mesh
 from softshadow.scene.mesh import Mesh
 from softshadow.scene.named import named_scene, scene_names, scene_title
 from softshadow.scene.placement import placement
@@ -41,8 +41,9 @@ __all__ = [
     "silhouette",
 ]
 
-# attached here, because the modules of these functions import `Scene`; scene.py declares them for type checkers
+# attached here, because the modules of these functions import the class; there it declares them for type checkers
 Scene.named = staticmethod(named_scene)  # type: ignore[method-assign]
 Scene.from_mesh = staticmethod(scene_from_mesh)  # type: ignore[method-assign]
+Mesh.load = staticmethod(mesh_from_file)  # type: ignore[method-assign]
 Scene.load = staticmethod(load_scene)  # type: ignore[method-assign]
 Scene.warnings = scene_warnings  # type: ignore[method-assign]

@@ -1,5 +1,6 @@
 """A model file as a mesh, or as a scene: on a floor, framed by the camera, lit from above."""
 
+import warnings
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -50,6 +51,22 @@ def load_mesh(path: str | PathLike[str]) -> tuple[Mesh, list[PartlyReadFile]]:
     )
     object.__setattr__(mesh, "name", file.name)
     return mesh, notes
+
+
+def mesh_from_file(path: str | PathLike[str]) -> Mesh:
+    """Return the mesh of an OBJ, PLY, STL, OFF, GLB or glTF file, in the coordinate system of the file.
+
+    All bodies become one mesh. Normals, texture coordinates and colours are read; textures and MTL materials are not,
+    and `PartlyReadFile` warns of anything else that is left out. No file outside the model's folder is opened.
+
+    Raises
+    ------
+    MeshError      names the file, what is wrong in it and what was expected
+    """
+    mesh, notes = load_mesh(path)
+    for note in notes:
+        warnings.warn(note, stacklevel=2)
+    return mesh
 
 
 def scene_from_mesh(

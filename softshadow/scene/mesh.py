@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from os import PathLike
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -99,6 +101,12 @@ class Mesh:
         # relative to the middle: far from the origin, large terms cancel and would round the volume away
         corners = self.first_corners - self.first_corners.mean(axis=0)
         return float(np.einsum("ij,ij", corners, self.face_normals)) / 6
+
+    if TYPE_CHECKING:
+        # softshadow.scene attaches this: its module imports this one
+
+        @staticmethod
+        def load(path: str | PathLike[str]) -> "Mesh": ...
 
     def __repr__(self) -> str:
         return f"Mesh({self.name!r}, {len(self.positions)} vertices, {len(self.triangles)} triangles)"

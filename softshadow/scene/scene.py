@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -55,7 +55,7 @@ class Material:
             raise SceneError(f"material: shininess: expected 0 to 128, got {self.shininess:g}")
 
 
-@dataclass(frozen=True, eq=False, init=False)
+@dataclass(frozen=True, eq=False, init=False, repr=False)
 class SceneObject:
     """A mesh placed in the world, with its material.
 
@@ -83,6 +83,8 @@ class SceneObject:
         receives: bool = False,
         name: str = "",
     ) -> None:
+        if not isinstance(mesh, Mesh):
+            raise TypeError(f"mesh={mesh!r}: expected a Mesh, such as those of Mesh.load and of the shapes")
         name = name or mesh.name
         matrix = np.array(np.eye(4) if object_to_world is None else object_to_world, dtype=np.float64)
         if matrix.shape != (4, 4) or not np.isfinite(matrix).all() or (matrix[3] != (0, 0, 0, 1)).any():
@@ -101,6 +103,11 @@ class SceneObject:
             receives=receives,
             name=name,
         )
+
+    def __repr__(self) -> str:
+        place = ", ".join(f"{value:g}" for value in self.object_to_world[:3, 3])
+        roles = [role for role, is_taken in (("casts", self.casts), ("receives", self.receives)) if is_taken]
+        return f"SceneObject({self.name!r}, {self.mesh!r} at ({place}){''.join(f', {role}' for role in roles)})"
 
     @cached_property
     def plane(self) -> np.ndarray | None:
@@ -156,6 +163,10 @@ class Scene:
         background: ArrayLike = (0.62, 0.72, 0.82),
         notes: Sequence[errors.Warning] = (),
     ) -> None:
+        if not isinstance(camera, Camera):
+            raise TypeError(f"scene {name}: camera={camera!r}: expected a Camera")
+        _check_kinds(f"scene {name}: lights", lights, Light)
+        _check_kinds(f"scene {name}: objects", objects, SceneObject)
         _check_names(f"scene {name}: lights", [light.name for light in lights])
         _check_names(f"scene {name}: objects", [item.name for item in objects])
         set_fields(
@@ -199,6 +210,11 @@ class Scene:
         def load(path: str | PathLike[str]) -> "Scene": ...
 
         def warnings(self, /) -> list[errors.Warning]: ...
+
+
+def _check_kinds(key: str, things: Any, kind: type) -> None:
+    if isinstance(things, str) or not isinstance(things, Sequence) or not all(isinstance(x, kind) for x in things):
+        raise TypeError(f"{key}: expected a list of {kind.__name__}, got {things!r}")
 
 
 def _check_names(key: str, names: list[str]) -> None:

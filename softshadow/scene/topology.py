@@ -101,6 +101,9 @@ class Topology:
         """Number of bodies."""
         return int(self.face_bodies.max()) + 1
 
+    def __repr__(self) -> str:
+        return f"Topology({self.describe()})"
+
     def describe(self) -> str:
         """Return one line: closed or open, the number of bodies, and the defects of the mesh."""
         kind = "closed" if self.closed else "open" if self.boundary_edges else "not oriented"

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from paths import shared_file, shared_files
 from softshadow.errors import MeshError, PartlyReadFile, SceneError
-from softshadow.scene import Scene, shapes
+from softshadow.scene import Mesh, Scene, shapes
 from softshadow.scene.loading import load_mesh
 from softshadow.scene.obj_text import drawable_lines
 from softshadow.scene.polygon import quads_are_fans, triangulate
@@ -126,6 +126,15 @@ def test_light_may_be_a_point_or_a_direction(tmp_path: Path) -> None:
 
 
 # -- paths that are not a readable model file --------------------------------------------------------------------------
+
+
+def test_mesh_is_loaded_in_the_coordinates_of_its_file_with_warnings(tmp_path: Path) -> None:
+    file = write(tmp_path, "cube.obj", CUBE_OBJ)
+    loaded, expected = Mesh.load(file), load_mesh(file)[0]
+    np.testing.assert_array_equal(loaded.positions, expected.positions)
+    assert loaded.name == "cube.obj"
+    with pytest.warns(PartlyReadFile):
+        Mesh.load(write(tmp_path, "other.obj", "mtllib ../other.mtl\n" + CUBE_OBJ))
 
 
 def test_missing_file_is_named_with_a_similar_one(tmp_path: Path) -> None:

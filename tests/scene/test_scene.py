@@ -62,6 +62,18 @@ def test_scene_needs_lights_and_objects_of_different_names() -> None:
         Scene("test", CAMERA, [light], [item, item])
 
 
+def test_what_is_no_camera_light_or_object_is_refused_by_name() -> None:
+    camera, light, box = Camera((0, 0, 5), (0, 0, 0)), Light((2, 5, 3)), SceneObject(shapes.box())
+    with pytest.raises(TypeError, match=r"scene s: lights: expected a list of Light, got Light\('light'"):
+        Scene("s", camera, light, [box])
+    with pytest.raises(TypeError, match="scene s: objects: expected a list of SceneObject"):
+        Scene("s", camera, [light], [shapes.box()])  # type: ignore[list-item]
+    with pytest.raises(TypeError, match="scene s: camera=None: expected a Camera"):
+        Scene("s", None, [light], [box])
+    with pytest.raises(TypeError, match=r"mesh='bunny.obj': expected a Mesh, such as"):
+        SceneObject("bunny.obj")
+
+
 def test_shininess_beyond_gl_is_refused() -> None:
     with pytest.raises(SceneError, match="shininess: expected 0 to 128, got 200"):
         Material(shininess=200)
