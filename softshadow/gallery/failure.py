@@ -39,7 +39,7 @@ class Setting:
         """Return the run and its GL calls; warnings are silenced, because the failure is intended."""
         scene = self.make_scene() if self.make_scene else scene
         calls: list[Call] = []
-        technique = self.technique if isinstance(self.technique, Technique) else techniques.get(self.technique)
+        technique = techniques.get(self.technique)
         with without_warnings():
             return run(recorded(technique, self.altered_calls, calls), scene, size, **self.options), calls
 

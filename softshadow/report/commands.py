@@ -29,7 +29,10 @@ def _is_built_in(scene: Scene) -> bool:
 
 
 def options_spelled(technique: str, options: Mapping[str, Any]) -> str:
-    """Return the arguments for the options that differ from the technique's defaults, each after a space."""
-    declared = techniques.get(technique).options
-    changed = [(key, value) for key, value in options.items() if value != declared[key].default]
+    """Return the arguments for the options that differ from the technique's defaults, each after a space.
+
+    Of a technique that is not one of this package, all options are spelled.
+    """
+    declared = techniques.get(technique).options if technique in techniques.names() else {}
+    changed = [(key, value) for key, value in options.items() if key not in declared or value != declared[key].default]
     return "".join(f" -O {shlex.quote(f'{key}={value}')}" for key, value in changed)

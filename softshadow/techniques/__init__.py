@@ -5,6 +5,8 @@ which yields the title of each finished step, some with named maps. Its other ke
 `softshadow.gl`, or any other namespace with the same names.
 """
 
+from collections.abc import Callable
+
 from softshadow.errors import nearest
 from softshadow.techniques import (
     blob,
@@ -27,9 +29,9 @@ from softshadow.techniques import (
     volume_zpass,
     volume_zpass_plus,
 )
-from softshadow.techniques.technique import Option, Steps, Technique
+from softshadow.techniques.technique import Option, Range, Steps, Technique, technique_of
 
-__all__ = ["Option", "Steps", "Technique", "describe", "get", "names"]
+__all__ = ["Option", "Range", "Steps", "Technique", "describe", "get", "is_built_in", "names", "register"]
 
 REGISTER = {
     technique.name: technique
@@ -171,8 +173,11 @@ REGISTER = {
 }
 
 
+BUILT_IN = frozenset(REGISTER)
+
+
 def names() -> list[str]:
-    """Return the names of all techniques.
+    """Return the names of all techniques: the built-in ones, then those that were registered.
 
     Examples
     --------
@@ -184,19 +189,51 @@ def names() -> list[str]:
     return list(REGISTER)
 
 
-def get(name: str) -> Technique:
-    """Return the technique of a name.
+def is_built_in(name: str) -> bool:
+    """Return whether a technique comes with the package; the command line knows no others."""
+    return name in BUILT_IN
+
+
+def register(technique: Technique | Callable[..., Steps], name: str = "") -> Technique:
+    """Give a technique of your own a place beside the built-in ones: `run` finds it by its name.
+
+    It may stand above the function as a decorator. A second technique of the same name takes the place of the first.
+
+    Parameters
+    ----------
+    technique : Technique, or a generator function ``steps(gl, scene, *, size, option=default ...)``
+    name : str                   by default that of the function, with hyphens
+
+    Raises
+    ------
+    ValueError                   a built-in technique has this name
+    TypeError                    see `technique_of`
+    """
+    added = technique if isinstance(technique, Technique) else technique_of(technique, name)
+    if added.name in BUILT_IN:
+        raise ValueError(f"technique {added.name!r} is built in; expected another name")
+    REGISTER[added.name] = added
+    return added
+
+
+def get(technique: str | Technique | Callable[..., Steps]) -> Technique:
+    """Return the technique of a name, the technique that a generator of steps makes, or the technique itself.
 
     Raises
     ------
     ValueError                   unknown name; the message has the nearest one
+    TypeError                    see `technique_of`
     """
-    if name not in REGISTER:
-        raise ValueError(f"unknown technique {name!r}: {nearest(str(name), REGISTER)}")
-    return REGISTER[name]
+    if isinstance(technique, Technique):
+        return technique
+    if not isinstance(technique, str):
+        return technique_of(technique)
+    if technique not in REGISTER:
+        raise ValueError(f"unknown technique {technique!r}: {nearest(technique, REGISTER)}")
+    return REGISTER[technique]
 
 
-def describe(name: str) -> str:
+def describe(name: str | Technique | Callable[..., Steps]) -> str:
     """Return a text on a technique: what it does, its paper, its known failures and its options.
 
     Raises
@@ -204,8 +241,7 @@ def describe(name: str) -> str:
     ValueError                   unknown name; the message has the nearest one
     """
     technique = get(name)
-    module = technique.steps.__globals__
-    lines = [f"{technique.name}: {technique.title}", "", module["__doc__"].strip(), "", "Options:"]
+    lines = [f"{technique.name}: {technique.title}", "", technique.description, "", "Options:"]
     for key, option in technique.options.items():
         default = "chosen to fit" if option.default is None else option.default
         lines += [f"  {key} = {default}", f"      {option.help} ({option.expected})"]

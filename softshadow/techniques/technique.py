@@ -10,6 +10,7 @@ the bounds of a number, and its default.
 
 import inspect
 import math
+import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -83,10 +84,14 @@ Steps = Iterator[str | tuple[str, dict[str, Any]]]
 
 @dataclass(frozen=True)
 class Technique:
-    """One entry of the register.
+    """A way to draw shadows: its name, its generator of steps, and where it comes from.
 
-    ``steps(gl, scene, *, size, **options)`` draws the technique with the calls of `gl` and yields after each step. The
-    options are those that the signature of `steps` declares, unless they are passed as a table.
+    Attributes
+    ----------
+    name, title, family, paper : str
+    steps : callable             ``steps(gl, scene, *, size, **options)`` draws with the calls of `gl`, and yields the
+                                 title of each finished step, or a pair of the title and named maps, first row = bottom
+    options : dict               by name; without it those that the signature of `steps` declares
     """
 
     name: str
@@ -99,6 +104,14 @@ class Technique:
     def __post_init__(self) -> None:
         if self.options is None:
             object.__setattr__(self, "options", options_of(self.steps))
+
+    @property
+    def description(self) -> str:
+        """What the technique does: the text of its file, or of its function where that is not part of the package."""
+        module = sys.modules.get(self.steps.__module__) if hasattr(self.steps, "__module__") else None
+        if module is not None and module.__name__.startswith("softshadow.") and module.__doc__:
+            return module.__doc__.strip()
+        return inspect.getdoc(self.steps) or self.title
 
     def validate_options(self, values: Mapping[str, Any]) -> dict[str, Any]:
         """Return every option of the technique, with its value from `values` or its default.
@@ -120,6 +133,38 @@ class Technique:
         """Return what `validate_options` returns (deprecated: its name before 0.1.0)."""
         warnings.warn("Technique.checked_options is now called validate_options", DeprecationWarning, stacklevel=2)
         return self.validate_options(values)
+
+
+def technique_of(steps: Callable[..., Steps], name: str = "") -> Technique:
+    """Return the technique that a generator of steps makes, with the name and the docstring of the function.
+
+    Examples
+    --------
+    >>> def only_clear(gl, scene, *, size, stencil: Annotated[int, "what to clear to", Range(0, 255)] = 0):
+    ...     "Clear the stencil buffer."
+    ...     gl.glClearStencil(stencil)
+    ...     gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
+    ...     yield "clear"
+    >>> technique = technique_of(only_clear)
+    >>> technique.name, technique.title, list(technique.options)
+    ('only-clear', 'Clear the stencil buffer', ['stencil'])
+
+    Raises
+    ------
+    TypeError                    not a function of these arguments, or an option of another type than bool, int, float,
+                                 str or a Literal of str
+    """
+    try:
+        inspect.signature(steps).bind("gl", "scene", size=(1, 1))
+    except (TypeError, ValueError) as error:
+        raise TypeError(
+            f"technique {steps!r}: expected the name of a technique, a Technique, or a generator function "
+            f"steps(gl, scene, *, size, option=default ...): {error}"
+        ) from None
+    own_name = getattr(steps, "__name__", "")
+    name = name or (own_name.strip("_").replace("_", "-") if own_name.isidentifier() else "own")
+    heading = (inspect.getdoc(steps) or name).splitlines()[0].rstrip(".")
+    return Technique(name, heading, "own", "none", steps)
 
 
 def options_of(steps: Callable[..., Steps]) -> dict[str, Option]:
