@@ -68,7 +68,7 @@ class Contents:
                 self.new_bytes += array.nbytes
 
 
-@dataclass
+@dataclass(repr=False)
 class Frame:
     """The recording: the parameters of the window, every command, and where each step ends.
 
@@ -89,6 +89,10 @@ class Frame:
     dropped_steps: int = 0
     history_bytes: int | None = None
     answers: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    def __repr__(self) -> str:
+        width, height = self.size
+        return f"Frame({width} x {height}, {len(self.commands)} commands, {len(self.steps)} steps)"
 
     def __post_init__(self) -> None:
         self._older, self._newer = Contents(), Contents()  # before and after the mark

@@ -8,6 +8,7 @@ from softshadow.inspection.difference import Difference, difference
 from softshadow.inspection.history import PixelHistory, pixel_history, texel_history
 from softshadow.inspection.history_row import HistoryRow
 from softshadow.inspection.ledger import Counts, Ledger, ledger_of
+from softshadow.inspection.maps import Maps
 from softshadow.inspection.replay import Buffers, Replay
 from softshadow.inspection.soft_truth import SoftTruth, soft_truth
 from softshadow.inspection.step import DrawSummary, Step, Steps
@@ -21,6 +22,7 @@ __all__ = [
     "DrawSummary",
     "HistoryRow",
     "Ledger",
+    "Maps",
     "PixelHistory",
     "Replay",
     "SoftTruth",

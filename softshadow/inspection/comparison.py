@@ -28,7 +28,7 @@ class ErrorSummary:
         return f"{self.pixels} pixels, max {self.max:.4g}, RMS {self.rms:.4g}, {self.wrong} off by more than {WRONG:g}"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Comparison:
     """How a visibility differs from a reference.
 
@@ -75,6 +75,9 @@ class Comparison:
         """The error over all compared pixels, over lit, umbra and penumbra off the band, and on the band."""
         places = {"all": self.compared, "lit": self.lit, "umbra": self.umbra, "penumbra": self.penumbra}
         return {name: self.part(where) for name, where in (places | {"band": self.band}).items()}
+
+    def __repr__(self) -> str:
+        return f"Comparison(against {self.against}: {self.part(self.compared)})"
 
     def __str__(self) -> str:
         return "\n".join([f"against {self.against}", *(f"{name:>9}: {part}" for name, part in self.parts.items())])

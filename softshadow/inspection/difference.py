@@ -9,7 +9,7 @@ import numpy as np
 from softshadow.inspection.replay import Buffers
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Difference:
     """Where the buffers after two steps differ: bool (H, W) per buffer, row 0 on top."""
 
@@ -26,6 +26,9 @@ class Difference:
     def counts(self) -> dict[str, int]:
         """The number of pixels that differ, per buffer."""
         return {name: int(np.count_nonzero(getattr(self, name))) for name in ("image", "depth", "stencil")}
+
+    def __repr__(self) -> str:
+        return f"Difference({self})"
 
     def __str__(self) -> str:
         return ", ".join(f"{name}: {pixels} pixels" for name, pixels in self.counts.items())

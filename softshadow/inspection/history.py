@@ -44,6 +44,9 @@ class PixelHistory:
     def __getitem__(self, index: int) -> HistoryRow:
         return self.rows[index]
 
+    def __repr__(self) -> str:
+        return f"PixelHistory({self.heading}, {len(self)} rows)"
+
     def to_dicts(self) -> list[dict[str, Any]]:
         """Return the rows as plain dictionaries, for JSON; the fields are those of `HistoryRow`."""
         return [asdict(row) for row in self.rows]

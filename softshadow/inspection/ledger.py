@@ -39,7 +39,7 @@ class Counts:
         return sum(self.fragments.values())
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Ledger:
     """The work of every step, in order, and the sum."""
 
@@ -71,6 +71,10 @@ class Ledger:
             }
             for each in (*self.steps, self.total)
         ]
+
+    def __repr__(self) -> str:
+        total = self.total
+        return f"Ledger({len(self.steps)} steps: {total.draws} draws, {total.all_fragments} fragments)"
 
     def __str__(self) -> str:
         from softshadow.inspection.tables import text_table

@@ -27,6 +27,7 @@ CLEAR_DEPTH = (0x26, 0x2B, 0x44)  # where nothing was drawn: not a grey, so that
 UNDEFINED = (0x8A, 0xA0, 0xC8)  # where a visibility is not defined: not a grey, so that it does not look like penumbra
 LABEL_COLOR = (0x22, 0x22, 0x22)
 LABEL_HEIGHT, GAP = 14, 4  # pixels
+MOST_COLUMNS = 3  # of a contact sheet
 
 
 def stencil_palette() -> np.ndarray:
@@ -80,6 +81,8 @@ def map_picture(values: np.ndarray) -> np.ndarray:
     """Return a picture of a map: bool as black and white, uint8 as counts, (H, W, 3) as colours, floats as depths."""
     if values.dtype == np.bool_:
         return np.repeat((values * np.uint8(255))[..., None], 3, axis=2)
+    if values.ndim == 3 and values.shape[2] == 2:  # such as depth and squared depth
+        values = np.concatenate([values, np.zeros_like(values[..., :1])], axis=2)
     if values.ndim == 3:
         return values if values.dtype == np.uint8 else to_bytes(values[..., :3])
     return values if values.dtype == np.uint8 else depth_picture(values)
@@ -104,24 +107,49 @@ def colors_of(picture: np.ndarray) -> np.ndarray:
 
 
 # -- sheets ------------------------------------------------------------------------------------------------------------
-def contact_sheet(rows: Sequence[tuple[str, Sequence[np.ndarray]]], largest_width: int = 972) -> np.ndarray:
-    """Return one picture with a labelled row of pictures for each step, all scaled alike to fill the width.
+def contact_sheet(
+    rows: Sequence[tuple[str, Sequence[np.ndarray] | Mapping[str, np.ndarray]]],
+    largest_width: int = 972,
+    size: tuple[int, int] | None = None,
+) -> np.ndarray:
+    """Return one picture with a labelled row of pictures for each step; pictures of a mapping have their names above.
 
-    They are enlarged, or shrunk, by a whole number.
+    All places are equally large. Pictures of this `size` (width, height; by default that of the first) are enlarged or
+    shrunk by a whole number to fill the width; others are fitted in. A row of more than three goes on below.
     """
-    height, width = rows[0][1][0].shape[:2]
-    columns = max(len(pictures) for _, pictures in rows)
+    named = [(label, row if isinstance(row, Mapping) else {}, _listed(row)) for label, row in rows]
+    height, width = named[0][2][0].shape[:2] if size is None else size[::-1]
+    columns = min(MOST_COLUMNS, max(len(pictures) for _, _, pictures in named))
     room = largest_width // columns - GAP
     times, over = max(1, room // width), max(1, -(-width // room))
     width, height = max(1, width * times // over), max(1, height * times // over)
-    row_height = height + LABEL_HEIGHT + GAP
-    sheet = np.full((len(rows) * row_height - GAP, columns * (width + GAP) - GAP, 3), 255, np.uint8)
-    for row, (_, pictures) in enumerate(rows):
-        top = row * row_height + LABEL_HEIGHT
-        for column, picture in enumerate(pictures):
-            left = column * (width + GAP)
-            sheet[top : top + height, left : left + width] = resized(colors_of(picture), width, height)
-    return labelled(sheet, [(1, row * row_height + 1, label) for row, (label, _) in enumerate(rows)])
+    placed, labels, top = [], [], 0
+    for label, names, pictures in named:
+        if label:
+            labels.append((1, top + 1, label))
+            top += LABEL_HEIGHT
+        titles = list(names)
+        for start in range(0, len(pictures), columns):
+            for column, picture in enumerate(pictures[start : start + columns]):
+                left = column * (width + GAP)
+                if titles:
+                    labels.append((left + 1, top + 1, titles[start + column]))
+                placed.append((left, top + (LABEL_HEIGHT if titles else 0), fitted(colors_of(picture), width, height)))
+            top += height + GAP + (LABEL_HEIGHT if titles else 0)
+    sheet = np.full((top - GAP, columns * (width + GAP) - GAP, 3), 255, np.uint8)
+    for left, upper, picture in placed:
+        sheet[upper : upper + picture.shape[0], left : left + picture.shape[1]] = picture
+    return labelled(sheet, labels)
+
+
+def _listed(row: Sequence[np.ndarray] | Mapping[str, np.ndarray]) -> list[np.ndarray]:
+    return list(row.values() if isinstance(row, Mapping) else row)
+
+
+def fitted(picture: np.ndarray, width: int, height: int) -> np.ndarray:
+    """Return a picture in the largest size of its own shape that fits into a width and a height."""
+    scale = min(width / picture.shape[1], height / picture.shape[0])
+    return resized(picture, max(1, round(picture.shape[1] * scale)), max(1, round(picture.shape[0] * scale)))
 
 
 def resized(picture: np.ndarray, width: int, height: int) -> np.ndarray:

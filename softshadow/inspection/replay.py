@@ -28,6 +28,10 @@ class Buffers(NamedTuple):
     depth: np.ndarray
     stencil: np.ndarray
 
+    def __repr__(self) -> str:
+        height, width = self.stencil.shape
+        return f"Buffers({width} x {height}: color, depth, stencil)"
+
     @property
     def bytes(self) -> int:
         """The size of the buffers in bytes."""

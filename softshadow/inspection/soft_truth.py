@@ -13,7 +13,7 @@ from softshadow.truth import LightVisibility, light_classes, light_visibility
 from softshadow.truth.light_visibility import Method
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class SoftTruth:
     """How much of each light is visible at the pixel centres; read-only arrays (H, W), row 0 on top.
 
@@ -50,6 +50,10 @@ class SoftTruth:
     def classes(self) -> np.ndarray:
         """(H, W) uint8: 0 umbra, where no light is visible; 2 lit, where all are in full; 1 penumbra, in between."""
         return light_classes(self.visibility)
+
+    def __repr__(self) -> str:
+        width, height = self.size
+        return f"SoftTruth(scene {self.scene.name!r}, {width} x {height}, {', '.join(self.methods)})"
 
     def __str__(self) -> str:
         answers = sorted(set(self.methods))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, overload
@@ -11,15 +11,13 @@ import numpy as np
 
 from softshadow.context import Frame
 from softshadow.errors import nearest
-from softshadow.inspection.pictures import contact_sheet, depth_picture, notebook_display
+from softshadow.inspection.maps import Maps
+from softshadow.inspection.pictures import contact_sheet, depth_picture, map_pictures, notebook_display
 from softshadow.inspection.replay import Buffers, Replay
 from softshadow.inspection.step_state import StepState, step_state
-from softshadow.pipeline.commands import Clear, Command, Draw
+from softshadow.pipeline.commands import PRIMITIVES, Clear, Command, Draw
 from softshadow.pipeline.geometry.draw_primitives import primitive_count
 from softshadow.tokens import token_name
-
-MODES = ("GL_POINTS", "GL_LINES", "GL_LINE_LOOP", "GL_LINE_STRIP", "GL_TRIANGLES", "GL_TRIANGLE_STRIP",
-         "GL_TRIANGLE_FAN", "GL_QUADS", "GL_QUAD_STRIP", "GL_POLYGON")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -42,7 +40,7 @@ class Step:
 
     index: int
     title: str
-    maps: dict[str, np.ndarray]
+    maps: Maps
     frame: Frame
     replay: Replay
 
@@ -100,7 +98,7 @@ class Step:
             DrawSummary(
                 first + i,
                 object_of(command),
-                token_name(command.mode, MODES),
+                token_name(command.mode, PRIMITIVES),
                 primitive_count(command),
                 command.state.draw_framebuffer,
             )
@@ -108,18 +106,28 @@ class Step:
         )
 
     def __repr__(self) -> str:
-        return f"Step({self.index}, {self.title!r}, {len(self.draws)} draws)"
+        return f"Step({self.index}, {self.title!r}, {len(self.draws)} {'draw' if len(self.draws) == 1 else 'draws'})"
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        """Return what a notebook displays: colour, depth and stencil after the step."""
+        """Return what a notebook displays: colour, depth and stencil after the step, and its maps."""
         return notebook_display(repr(self), sheet_of([self]))
 
 
-def sheet_of(steps: Iterable[Step]) -> np.ndarray:
-    """Return a contact sheet of steps: a picture with colour, depth and stencil after each."""
-    return contact_sheet(
-        [(f"{step.index}  {step.title}", (step.image, depth_picture(step.depth), step.stencil)) for step in steps]
-    )
+def sheet_of(steps: Sequence[Step]) -> np.ndarray:
+    """Return a contact sheet of steps: a picture with colour, depth, stencil and maps after each."""
+    rows = [(f"{step.index}  {step.title}", shown_buffers(step)) for step in steps]
+    return contact_sheet(rows, size=steps[0].frame.size)
+
+
+def shown_buffers(step: Step) -> dict[str, np.ndarray]:
+    """Return the pictures that show what a step did: the window's buffers and the maps, by name.
+
+    The window is left out of a step that drew into textures only.
+    """
+    maps = map_pictures(step.maps.stored)
+    if maps and all(draw.framebuffer for draw in step.draws):
+        return maps
+    return {"colour": step.image, "depth": depth_picture(step.depth), "stencil": step.stencil, **maps}
 
 
 def object_of(command: Draw) -> str:
@@ -144,10 +152,14 @@ class Steps(Sequence[Step]):
         """The titles of the steps, in order."""
         return [step.title for step in self._steps]
 
+    def _ipython_key_completions_(self) -> list[str]:
+        """Return what completes `run["`."""
+        return self.titles
+
     @property
-    def maps(self) -> dict[str, np.ndarray]:
+    def maps(self) -> Maps:
         """The named maps of all steps; if several steps have one of the same name, the last."""
-        return {name: array for step in self._steps for name, array in step.maps.items()}
+        return Maps((name, array) for step in self._steps for name, array in step.maps.items())
 
     @overload
     def __getitem__(self, key: int | str) -> Step: ...

@@ -12,10 +12,16 @@ from typing import Any
 
 import numpy as np
 
+from softshadow import tokens
 from softshadow.image import Format
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.state import Scissor, State
 from softshadow.texture import Sampler
+from softshadow.tokens import token_name
+
+PRIMITIVES = ("GL_POINTS", "GL_LINES", "GL_LINE_LOOP", "GL_LINE_STRIP", "GL_TRIANGLES", "GL_TRIANGLE_STRIP",
+              "GL_TRIANGLE_FAN", "GL_QUADS", "GL_QUAD_STRIP", "GL_POLYGON")  # fmt: skip
+CLEAR_BITS = ("GL_COLOR_BUFFER_BIT", "GL_DEPTH_BUFFER_BIT", "GL_STENCIL_BUFFER_BIT", "GL_ACCUM_BUFFER_BIT")
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +88,10 @@ class Draw:
     offset_mode: int = 0
     origin: Origin | None = None
 
+    def __repr__(self) -> str:
+        number = len(self.vertices.position) if self.indices is None else len(self.indices)
+        return f"Draw({token_name(self.mode, PRIMITIVES)}, {number} vertices, label {self.label!r})"
+
 
 @dataclass(frozen=True, eq=False)
 class Clear:
@@ -89,6 +99,9 @@ class Clear:
 
     state: State
     mask: int
+
+    def __repr__(self) -> str:
+        return f"Clear({' | '.join(name for name in CLEAR_BITS if self.mask & getattr(tokens, name))})"
 
 
 @dataclass(frozen=True, eq=False)

@@ -41,7 +41,7 @@ class Crossing:
     caster: str
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class CrossSection:
     """A section through a scene. Its coordinates are world units: x to the right, y upwards.
 
@@ -70,6 +70,11 @@ class CrossSection:
     eye: np.ndarray | None
     point: np.ndarray | None
     crossings: tuple[Crossing, ...]
+
+    def __repr__(self) -> str:
+        steps = " ".join(f"{crossing.step:+d}" for crossing in self.crossings)
+        sight = "" if self.point is None else f", line of sight: {steps or 'no crossing'}"
+        return f"CrossSection(scene {self.scene.name!r}, light {self.light.name!r}{sight})"
 
     @property
     def wedges(self) -> np.ndarray:

@@ -17,7 +17,7 @@ import softshadow
 from softshadow import errors
 from softshadow.context import Frame
 from softshadow.errors import SoftShadowError
-from softshadow.inspection import Buffers, Replay, Step, Steps
+from softshadow.inspection import Buffers, Maps, Replay, Step, Steps
 from softshadow.inspection.files import DESCRIPTION
 from softshadow.inspection.recording import Packer, Unpacker
 from softshadow.scene import Scene
@@ -105,7 +105,7 @@ def _record(stored: Any, description: dict[str, Any]) -> RunRecord:
     steps = []
     for index, names in enumerate(description["maps"]):
         replay.cache(index, Buffers(**_read(stored, f"steps/{index}", Buffers._fields)))
-        steps.append(Step(index, frame.steps[index][0], _read(stored, f"maps/{index}", names), frame, replay))
+        steps.append(Step(index, frame.steps[index][0], Maps(_read(stored, f"maps/{index}", names)), frame, replay))
     return RunRecord(
         description["technique"],
         unpacker.unpack(description["scene"]),

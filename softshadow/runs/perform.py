@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import operator
 import os
+import sys
 import threading
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -16,12 +17,14 @@ from softshadow import tokens as gl_tokens
 from softshadow.context import Context, make_current
 from softshadow.errors import CounterSaturated, StateError
 from softshadow.framebuffer import LARGEST_SIDE
-from softshadow.inspection import Replay, Step, Steps
+from softshadow.inspection import Maps, Replay, Step, Steps
 from softshadow.inspection.replay import BUDGET
 from softshadow.pipeline.commands import Draw
+from softshadow.runs.issue_once import issue_once
 from softshadow.runs.lost_counts import lost_counts
 from softshadow.runs.result import Run
 from softshadow.scene import Scene
+from softshadow.techniques import Steps as TechniqueSteps
 from softshadow.techniques import Technique
 
 BYTES_PER_PIXEL = 256  # at the peak; up to 175 were measured, mostly for the inputs of shading with a texture
@@ -30,7 +33,7 @@ _one_at_a_time = threading.RLock()
 
 
 def run(
-    technique: str | Technique,
+    technique: str | Technique | Callable[..., TechniqueSteps],
     scene: Scene | str,
     size: tuple[int, int] = (640, 480),
     *,
@@ -48,7 +51,8 @@ def run(
 
     Parameters
     ----------
-    technique : str or Technique a name of `technique_names`, or a technique of your own
+    technique                    a name of `technique_names`, a Technique, or a generator function
+                                 ``steps(gl, scene, *, size, option=default ...)``
     scene : Scene or str         a scene, or a name of `scene_names`
     size : (width, height)       pixels
     depth_format, stencil_bits, precision, polygon_offset_slope, polygon_offset_unit : as in `gl.create_context`
@@ -57,10 +61,11 @@ def run(
 
     Raises
     ------
-    ValueError, TypeError        an unknown technique, scene or option (with the nearest name), or an invalid size
+    ValueError, TypeError        an unknown technique, scene or option (with the nearest name), or an invalid size; a
+                                 generator that yields no step, or anything else than a title or a title with maps
     StateError                   the buffers do not fit in memory
     """
-    technique = technique if isinstance(technique, Technique) else techniques.get(technique)
+    technique = techniques.get(technique)
     scene = Scene.named(scene) if isinstance(scene, str) else scene
     if not isinstance(scene, Scene):
         raise TypeError(f"scene={scene!r}: expected a Scene or the name of one")
@@ -76,32 +81,43 @@ def run(
         own += saturated(steps, stencil_bits)
     own += lost_counts(technique.name, scene, (width, height), options, stencil_bits)
     for message in own:
-        warnings.warn(message, stacklevel=2)
+        issue_once(message, sys._getframe(1))
     return Run(technique.name, scene, (width, height), options, tuple(own), steps, context.frame)
 
 
 def _draw(
     technique: Technique, scene: Scene, context: Context, replay: Replay, options: Mapping[str, Any]
-) -> tuple[list[dict[str, np.ndarray]], list[Any]]:
+) -> tuple[list[Maps], list[Any]]:
     """Draw the steps in the context; return the maps of each step, and the warnings that were issued meanwhile."""
     from softshadow import gl
 
-    maps: list[dict[str, np.ndarray]] = []
+    maps: list[Maps] = []
     with _one_at_a_time, warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         before = make_current(context)
         try:
-            for index, item in enumerate(technique.steps(gl, scene, size=context.frame.size, **options)):
-                title, named = (item, {}) if isinstance(item, str) else item
+            for index, item in enumerate(technique.steps(gl, scene, size=context.frame.size, **options) or ()):
+                title, named = _title_and_maps(technique.name, item)
                 context.end_step(title)
-                maps.append({name: top_row_first(array) for name, array in named.items()})
+                maps.append(Maps((name, top_row_first(array)) for name, array in named.items()))
                 replay.cache_window(index, context.storage.window)
         finally:
             make_current(before)
+    if not maps:
+        raise ValueError(f'technique {technique.name!r} yielded no step; expected `yield "title"` after each step')
     for warning in caught:  # those of other packages are passed on
         if not isinstance(warning.message, errors.Warning):
             warnings.warn_explicit(warning.message, warning.category, warning.filename, warning.lineno)
     return maps, [warning.message for warning in caught]
+
+
+def _title_and_maps(technique: str, item: Any) -> tuple[str, Mapping[str, Any]]:
+    match item:
+        case str():
+            return item, {}
+        case (str() as title, Mapping() as maps):
+            return title, maps
+    raise TypeError(f"technique {technique!r} yielded {item!r}; expected a title, or (title, {{name: map}})")
 
 
 def top_row_first(array: Any) -> np.ndarray:

@@ -18,6 +18,7 @@ from softshadow.inspection import (
     Comparison,
     Difference,
     Ledger,
+    Maps,
     PixelHistory,
     SoftTruth,
     Step,
@@ -36,11 +37,11 @@ from softshadow.inspection.causes import Cause
 from softshadow.inspection.comparison import jumps
 from softshadow.inspection.fragment_maps import FragmentMaps, fragment_maps
 from softshadow.inspection.hard_truth import hard_visibility
-from softshadow.inspection.pictures import notebook_display
+from softshadow.inspection.maps import summary
 from softshadow.inspection.shadow_kinds import shadow_kinds
-from softshadow.inspection.step import sheet_of
 from softshadow.report import CrossSection, View3D, cross_section, view3d_of
 from softshadow.runs.archive import RunRecord, read_npz
+from softshadow.runs.display import mimebundle
 from softshadow.runs.map_texels import image_of_map
 from softshadow.runs.saving import save
 from softshadow.runs.why import causes_at, explained
@@ -54,6 +55,9 @@ class RunLight:
 
     name: str
     visibility: np.ndarray
+
+    def __repr__(self) -> str:
+        return f"RunLight({self.name!r}, visibility {summary(self.visibility)})"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -97,7 +101,7 @@ class Run:
 
     # -- maps ----------------------------------------------------------------------------------------------------------
     @cached_property
-    def maps(self) -> dict[str, np.ndarray]:
+    def maps(self) -> Maps:
         """The named maps of all steps; if several steps have one of the same name, the last."""
         return self.steps.maps
 
@@ -142,6 +146,10 @@ class Run:
 
     def __iter__(self) -> Iterator[Step]:
         return iter(self.steps)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        """Return what completes `run["`."""
+        return self.steps.titles
 
     def diff(self, a: int | str, b: int | str) -> Difference:
         """Return which pixels differ between the ends of two steps, each by index or title."""
@@ -356,8 +364,11 @@ class Run:
         SoftShadowError              a file exists that this package did not write (`force` overwrites it), or the place
                                      cannot be written; no half-written file is left
         """
-        record = RunRecord(self.technique, self.scene, self.options, self.warnings, self.steps, self.frame)
-        return save(record, path, force)
+        return save(self._record, path, force)
+
+    @property
+    def _record(self) -> RunRecord:
+        return RunRecord(self.technique, self.scene, self.options, self.warnings, self.steps, self.frame)
 
     def export(
         self, buffer: str, path: str | os.PathLike[str], step: int | str | None = None, force: bool = False
@@ -385,8 +396,8 @@ class Run:
         return f"Run({self.technique!r}, scene {self.scene.name!r}, {width} x {height}, {len(self.steps)} steps)"
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        """Return what a notebook displays: the steps as a contact sheet."""
-        return notebook_display(f"{self!r}\n{self.steps!r}", sheet_of(self.steps))
+        """Return what a notebook displays: the report, unless it is too large; the steps as a picture; a text."""
+        return mimebundle(self._record, f"{self!r}\n{self.steps!r}")
 
 
 def load_run(path: str | os.PathLike[str]) -> Run:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
-from softshadow.state.common import BLACK, WHITE, Color
+from softshadow.state.common import BLACK, WHITE, Color, printed_calls
 from softshadow.state.fragments import (
     ALL_BITS,
     BLEND_FACTORS,
@@ -57,7 +57,7 @@ __all__ = [
 TEXTURE_UNITS = 8
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class State:
     """The state that draws depend on, except matrices, current vertex attributes and contents of bound objects."""
 
@@ -79,6 +79,8 @@ class State:
     read_framebuffer: int = 0
     program: int = 0
 
+    __repr__ = printed_calls
+
     def calls(self) -> list[str]:
         """Return the GL calls that set the groups which differ from GL's initial state."""
         initial_state, calls = State(), []
@@ -98,6 +100,3 @@ class State:
                 initial_calls = set(initial.calls())
                 calls += [call for call in value.calls() if call not in initial_calls]
         return calls
-
-    def __str__(self) -> str:
-        return "\n".join(self.calls()) or "# GL's initial state"

@@ -1,4 +1,6 @@
-"""Shared by the groups of the state: colours, and the parts of printed GL calls."""
+"""Shared by the groups of the state: colours, and how a group is printed as GL calls."""
+
+from typing import Any
 
 Color = tuple[float, float, float, float]
 BLACK: Color = (0.0, 0.0, 0.0, 1.0)
@@ -13,3 +15,8 @@ def switch(capability: str, on: bool) -> str:
 def numbers(*values: float) -> str:
     """Return numbers as the arguments of a call."""
     return ", ".join(f"{v:g}" for v in values)
+
+
+def printed_calls(group: Any) -> str:
+    """Return the calls of a state or group, one per line: its `__repr__`, with names in place of tokens."""
+    return "\n".join(group.calls()) or "# GL's initial state"

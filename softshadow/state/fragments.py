@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from softshadow import tokens as gl
-from softshadow.state.common import Color, numbers, switch
+from softshadow.state.common import Color, numbers, printed_calls, switch
 from softshadow.tokens import token_name
 
 ALL_BITS = 0xFF  # initial masks: every bit that a stencil buffer can have
@@ -14,7 +14,7 @@ STENCIL_OPS = ("GL_KEEP", "GL_ZERO", "GL_REPLACE", "GL_INCR", "GL_DECR", "GL_INV
 BLEND_FACTORS = ("GL_ZERO", "GL_ONE")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class AlphaTest:
     """State of glAlphaFunc and GL_ALPHA_TEST."""
 
@@ -22,12 +22,14 @@ class AlphaTest:
     func: int = gl.GL_ALWAYS
     ref: float = 0.0
 
+    __repr__ = printed_calls
+
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""
         return [switch("GL_ALPHA_TEST", self.enabled), f"glAlphaFunc({token_name(self.func)}, {self.ref:g})"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class StencilFace:
     """The state of glStencilFunc, glStencilOp and glStencilMask for one facing."""
 
@@ -38,6 +40,8 @@ class StencilFace:
     zfail: int = gl.GL_KEEP
     zpass: int = gl.GL_KEEP
     write_mask: int = ALL_BITS
+
+    __repr__ = printed_calls
 
     def calls(self, face: str = "") -> list[str]:
         """Return the GL calls that make this state."""
@@ -50,7 +54,7 @@ class StencilFace:
         ]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Stencil:
     """Stencil test of both facings, and the clear value.
 
@@ -66,6 +70,8 @@ class Stencil:
     active_back: bool = False
     other_back: StencilFace = StencilFace()
 
+    __repr__ = printed_calls
+
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""
         if self.two_side:
@@ -79,7 +85,7 @@ class Stencil:
         return [switch("GL_STENCIL_TEST", self.enabled), *faces, f"glClearStencil({self.clear})"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Depth:
     """Depth test, write mask, clear value and GL_DEPTH_CLAMP."""
 
@@ -88,6 +94,8 @@ class Depth:
     write: bool = True
     clear: float = 1.0
     clamp: bool = False
+
+    __repr__ = printed_calls
 
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""
@@ -100,7 +108,7 @@ class Depth:
         ]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Blend:
     """State of blending and of the logical operation on colours."""
 
@@ -115,6 +123,8 @@ class Blend:
     logic_enabled: bool = False
     logic_op: int = gl.GL_COPY
 
+    __repr__ = printed_calls
+
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""
         factors = (self.src_rgb, self.dst_rgb, self.src_alpha, self.dst_alpha)
@@ -128,7 +138,7 @@ class Blend:
         ]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ColorBuffer:
     """Colour mask and clear colours.
 
@@ -140,6 +150,8 @@ class ColorBuffer:
     clear_accum: Color = (0.0, 0.0, 0.0, 0.0)
     dither: bool = True
     multisample: bool = True
+
+    __repr__ = printed_calls
 
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 from softshadow import tokens as gl
-from softshadow.state.common import BLACK, WHITE, Color, numbers, switch
+from softshadow.state.common import BLACK, WHITE, Color, numbers, printed_calls, switch
 from softshadow.tokens import token_name
 
 
@@ -58,7 +58,7 @@ class MaterialState:
 INITIAL_LIGHTS = (LightState(diffuse=WHITE, specular=WHITE), *(LightState() for _ in range(7)))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Lighting:
     """Lights, light model, materials and shade model."""
 
@@ -76,6 +76,8 @@ class Lighting:
     normalize: bool = False
     rescale_normal: bool = False
     shade_model: int = gl.GL_SMOOTH
+
+    __repr__ = printed_calls
 
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""
@@ -102,7 +104,7 @@ class Lighting:
         ]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Fog:
     """State of glFog and GL_FOG."""
 
@@ -112,6 +114,8 @@ class Fog:
     start: float = 0.0
     end: float = 1.0
     color: Color = (0.0, 0.0, 0.0, 0.0)
+
+    __repr__ = printed_calls
 
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""

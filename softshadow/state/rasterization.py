@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from softshadow import tokens as gl
-from softshadow.state.common import Color, numbers, switch
+from softshadow.state.common import Color, numbers, printed_calls, switch
 from softshadow.tokens import token_name
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Viewport:
     """glViewport and glDepthRange, in pixels; y counts from the bottom."""
 
@@ -20,6 +20,8 @@ class Viewport:
     near: float = 0.0
     far: float = 1.0
 
+    __repr__ = printed_calls
+
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""
         return [
@@ -28,7 +30,7 @@ class Viewport:
         ]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Scissor:
     """GL_SCISSOR_TEST and glScissor, in pixels; y counts from the bottom."""
 
@@ -38,6 +40,8 @@ class Scissor:
     width: int = 0
     height: int = 0
 
+    __repr__ = printed_calls
+
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""
         return [
@@ -46,13 +50,15 @@ class Scissor:
         ]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Cull:
     """State of face culling, and which winding is the front."""
 
     enabled: bool = False
     face: int = gl.GL_BACK
     front_face: int = gl.GL_CCW
+
+    __repr__ = printed_calls
 
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""
@@ -63,7 +69,7 @@ class Cull:
         ]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Polygon:
     """Polygon mode, polygon offset, and the sizes of lines and points."""
 
@@ -76,6 +82,8 @@ class Polygon:
     units: float = 0.0
     line_width: float = 1.0
     point_size: float = 1.0
+
+    __repr__ = printed_calls
 
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""
@@ -91,12 +99,14 @@ class Polygon:
         ]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ClipPlanes:
     """User clip planes in eye space, as GL stores them."""
 
     enabled: tuple[bool, ...] = (False,) * 6
     equations: tuple[Color, ...] = ((0.0, 0.0, 0.0, 0.0),) * 6
+
+    __repr__ = printed_calls
 
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""

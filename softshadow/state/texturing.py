@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from softshadow import tokens as gl
-from softshadow.state.common import Color, numbers, switch
+from softshadow.state.common import Color, numbers, printed_calls, switch
 from softshadow.tokens import token_name
 
 
@@ -25,7 +25,7 @@ def _initial_gen() -> tuple[TexGen, TexGen, TexGen, TexGen]:
     return s, t, r, q
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Combine:
     """State of GL_COMBINE for RGB and alpha: function, sources and operands of up to three arguments, scale."""
 
@@ -38,6 +38,8 @@ class Combine:
     rgb_scale: float = 1.0
     alpha_scale: float = 1.0
 
+    __repr__ = printed_calls
+
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""
         settings = [f"GL_COMBINE_RGB, {token_name(self.mode_rgb)}", f"GL_COMBINE_ALPHA, {token_name(self.mode_alpha)}"]
@@ -49,7 +51,7 @@ class Combine:
         return [f"glTexEnvf(GL_TEXTURE_ENV, {setting})" for setting in settings]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class TextureUnit:
     """One texture unit: enabled targets, bound textures, environment, coordinate generation."""
 
@@ -62,6 +64,9 @@ class TextureUnit:
     combine: Combine = Combine()
     lod_bias: float = 0.0
     gen: tuple[TexGen, TexGen, TexGen, TexGen] = field(default_factory=_initial_gen)
+
+    def __repr__(self) -> str:
+        return "\n".join(self.calls(0)[1:])  # a unit does not know its number
 
     def calls(self, index: int) -> list[str]:
         """Return the GL calls that make this state."""
@@ -89,11 +94,13 @@ class TextureUnit:
         return calls
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class CubeMaps:
     """GL_TEXTURE_CUBE_MAP_SEAMLESS: whether linear filters read across the edges of a cube map's faces."""
 
     seamless: bool = False
+
+    __repr__ = printed_calls
 
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""
