@@ -31,6 +31,7 @@ nb_execution_show_tb = True
 nb_execution_timeout = 300
 nb_merge_streams = True
 nb_render_markdown_format = "myst"  # tables made by cells
+nb_mime_priority_overrides = [("*", "image/png", 25)]  # of a run its picture, not a report of 0.3 MB each
 
 smartquotes_action = "qe"  # two hyphens are an option, not a dash
 default_role = "py:obj"

@@ -7,7 +7,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from softshadow import gl, testing
+    from softshadow import gl, notebook, testing
     from softshadow.errors import (
         CoarseDepth,
         CounterSaturated,
@@ -49,10 +49,12 @@ if TYPE_CHECKING:
         Segment,
         Sphere,
         scene_names,
+        shapes,
     )
     from softshadow.scene.light_samples import light_samples
+    from softshadow.scene.placement import placement
+    from softshadow.techniques import Option, Range, Technique, describe, register
     from softshadow.space import shadow_geometry
-    from softshadow.techniques import describe
     from softshadow.techniques import names as technique_names
 
 __version__ = "0.1.0"
@@ -76,8 +78,10 @@ __all__ = [
     "NearClipZPass",
     "NonManifoldMesh",
     "OpenMesh",
+    "Option",
     "OutsideLightFrustum",
     "PartlyReadFile",
+    "Range",
     "Rectangle",
     "Run",
     "Scene",
@@ -89,6 +93,7 @@ __all__ = [
     "Sphere",
     "StateError",
     "TJunction",
+    "Technique",
     "UnweldedMesh",
     "Warning",
     "counting_cards",
@@ -99,10 +104,14 @@ __all__ = [
     "gl",
     "light_samples",
     "load_run",
+    "notebook",
+    "placement",
+    "register",
     "run",
     "scene_names",
     "set_threads",
     "shadow_geometry",
+    "shapes",
     "soft_truth",
     "stencil_palette",
     "technique_names",
@@ -110,7 +119,12 @@ __all__ = [
     "use_short_cuts",
 ]
 
-_MODULES = ("gl", "testing")
+_MODULES = {
+    "gl": "softshadow.gl",
+    "notebook": "softshadow.notebook",
+    "shapes": "softshadow.scene.shapes",
+    "testing": "softshadow.testing",
+}
 _RENAMED = {"failures": ("softshadow.gallery", "GALLERY"), "technique_names": ("softshadow.techniques", "names")}
 _HOMES = {
     "softshadow.errors": (
@@ -129,15 +143,16 @@ _HOMES = {
         "scene_names",
     ),
     "softshadow.scene.light_samples": ("light_samples",),
+    "softshadow.scene.placement": ("placement",),
+    "softshadow.techniques": ("Option", "Range", "Technique", "describe", "register"),
     "softshadow.space": ("shadow_geometry",),
-    "softshadow.techniques": ("describe",),
 }  # fmt: skip
 _HOME = {name: (module, name) for module, names in _HOMES.items() for name in names} | _RENAMED
 
 
 def __getattr__(name: str) -> Any:
     if name in _MODULES:
-        return importlib.import_module(f"softshadow.{name}")
+        return importlib.import_module(_MODULES[name])
     if name not in _HOME:
         raise AttributeError(f"module 'softshadow' has no attribute {name!r}")
     module, name_there = _HOME[name]
@@ -147,4 +162,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted([*__all__, "__version__"])

@@ -32,7 +32,12 @@ def test_every_public_name_is_there():
 def test_no_module_has_the_name_of_a_function_or_class(name):
     """Importing such a module would replace the attribute of the package."""
     is_module = importlib.util.find_spec(f"softshadow.{name}") is not None
-    assert is_module == (name in ("gl", "testing"))
+    assert is_module == (name in ("gl", "notebook", "testing"))
+
+
+def test_dir_lists_the_public_names_alone():
+    assert dir(ss) == sorted([*ss.__all__, "__version__"])
+    assert {"Technique", "shapes", "placement", "notebook"} <= set(dir(ss))
 
 
 def test_names_can_be_imported_first():

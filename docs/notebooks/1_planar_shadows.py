@@ -27,16 +27,19 @@ run = ss.run("planar", scene, size=(320, 240), method="stencil")
 run.image.shape, run.depth.dtype, run.stencil.dtype
 
 # %% [markdown]
+# A run displays itself as a report, which works without Python, too. Click a pixel in it.
+
+# %%
+run
+
+# %% [markdown]
 # ## Step by step
 #
 # A run keeps every buffer after every step: arrays with row 0 at the top, indexed `[y, x]`. The pictures show colour,
 # depth (stretched over the range of the drawn depths) and stencil: 0 dark, 1 orange.
 
 # %%
-for step in run:
-    display(step)
-    values, pixels = np.unique(step.stencil, return_counts=True)
-    print("pixels per stencil value:", dict(zip(values.tolist(), pixels.tolist(), strict=True)))
+axes = ss.notebook.show_steps(run)
 
 # %% [markdown]
 # First, drawing the floor marks its pixels with 1. Then the flattened boxes are drawn with all colours masked; they
@@ -49,15 +52,17 @@ for step in run:
 print(run[1].state)
 
 # %% [markdown]
-# Buffers are ordinary arrays. Here are a row of the stencil buffer across the shadow's edge, and the changes from one
-# step to the next.
+# Buffers are ordinary arrays. Here are a row of the stencil buffer across the shadow's edge, the same edge as a picture
+# with its neighbourhood, and the changes from one step to the next.
 
 # %%
 rows, columns = np.nonzero(run.shadow_mask)
 middle = len(rows) // 2
 x, y = int(columns[middle]), int(rows[middle])
-print(run[1].stencil[y, x - 30 : x + 31])
+edge = x + int(np.argmax(run[1].stencil[y, x:] != run[1].stencil[y, x]))
+print(run[1].stencil[y, edge - 12 : edge + 12])
 print(run.diff(0, 1))
+ax = ss.notebook.show_stencil(run[1], region=(edge - 12, y - 8, 24, 16))
 
 # %% [markdown]
 # ## Why is this pixel dark?
@@ -68,6 +73,13 @@ print(run.diff(0, 1))
 # %%
 print(run.explain(x, y))
 run.pixel(x, y)
+
+# %% [markdown]
+# The same on the blackboard: a cut through the eye, the light and the point that the pixel shows. The floor is darker
+# where it does not see the light.
+
+# %%
+ax = ss.notebook.show_section(run, (x, y))
 
 # %% [markdown]
 # ## Two failures
@@ -102,6 +114,6 @@ assert not comparison.error[~comparison.band].any()
 print(comparison)
 
 # %% [markdown]
-# To go on, try another method (`"depth-off"`, `"offset"`, `"stencil-blend"`, `"texture"`), another scene
-# (`ss.scene_names()`), your own model (`ss.Scene.from_mesh("bunny.obj", light=(2, 5, 3))`), or the next notebook,
-# where casters shadow themselves.
+# To go on, move the light with `ss.notebook.play("planar", "boxes")`, try another method (`"depth-off"`, `"offset"`,
+# `"stencil-blend"`, `"texture"`), another scene (`ss.scene_names()`), your own model (`ss.Scene.from_mesh("bunny.obj",
+# light=(2, 5, 3))`), or the next notebook, where casters shadow themselves.

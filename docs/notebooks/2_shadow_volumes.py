@@ -34,10 +34,14 @@ run = ss.run("volume-zpass", scene, size=(320, 240))
 # the surface point. In the pictures, 0 is dark, 1 orange, 2 blue, and values below 0 are purple.
 
 # %%
-for step in run:
-    display(step)
-    values, pixels = np.unique(step.stencil, return_counts=True)
-    print("pixels per stencil value:", dict(zip(values.tolist(), pixels.tolist(), strict=True)))
+ss.notebook.show_stencil(run["count front faces"])
+ax = ss.notebook.show_stencil(run["count back faces"])
+
+# %% [markdown]
+# The report of the run has all buffers of all steps. Click a pixel in it.
+
+# %%
+run
 
 # %% [markdown]
 # Between the two counting passes, the buffer does not show the shadow yet: front faces have been counted wherever
@@ -56,6 +60,12 @@ print(run["count front faces"].state)
 y, x = (int(n) for n in np.argwhere(run.stencil == run.stencil.max())[0])
 print(run.explain(x, y))
 run.pixel(x, y)
+
+# %% [markdown]
+# The line of sight, on the blackboard: +1 where it enters a volume, −1 where it leaves one.
+
+# %%
+ax = ss.notebook.show_section(run, (x, y))
 
 # %% [markdown]
 # ## Two failures
@@ -97,6 +107,7 @@ print(comparison)
 other.ledger
 
 # %% [markdown]
-# To go on, try the options of `ss.describe("volume-zfail")`, the scene `"eye-in-shadow"` with `start="eye"` and
-# `start="near-plane"`, your own model (`ss.Scene.from_mesh("bunny.obj", light=(2, 5, 3))`), or the next notebook,
-# where a second depth buffer replaces the volumes.
+# To go on, move the light with `ss.notebook.play("volume-zpass", "torus")`, try the options of
+# `ss.describe("volume-zfail")`, the scene `"eye-in-shadow"` with `start="eye"` and `start="near-plane"`, your own
+# model (`ss.Scene.from_mesh("bunny.obj", light=(2, 5, 3))`), or the next notebook, where a second depth buffer
+# replaces the volumes.

@@ -32,18 +32,11 @@ run = ss.run("map", scene, size=(320, 240), map_size=256)
 # is a picture, too. When a shadow is wrong, look at the map first.
 
 # %%
-import matplotlib.pyplot as plt
+run
 
-for step in run:
-    display(step)
-    print("maps:", ", ".join(step.maps) or "none")
-
+# %%
 ZS = run.maps["ZS"]
-plt.imshow(ZS, cmap="gray", vmin=ZS.min(), vmax=1)
-plt.title(
-    f"ZS: {ZS.shape[1]} x {ZS.shape[0]} texels, depths {ZS.min():.3f} to {ZS[ZS < 1].max():.3f}, 1 where nothing is"
-)
-plt.colorbar()
+ax = ss.notebook.show_map(run, "ZS")
 
 # %% [markdown]
 # While the map is drawn, `glPolygonOffset` moves everything a little away from the light. Without it, surfaces would
@@ -111,6 +104,6 @@ elsewhere = ss.Scene("from above", ss.Camera((0.5, 7, 1), (0, 0, 0)), scene.ligh
 assert (ss.run("map", elsewhere, size=(320, 240), map_size=256).maps["ZS"] == ZS).all()
 
 # %% [markdown]
-# To go on, try `map_size`, `bias`, `cull` and the other options of `ss.describe("map")`, a light inside the scene
-# (`"room"`), and `run.compare(truth="hard")`, which shows where, and at how many pixels, the picture differs from ray
-# casting.
+# To go on, move the light and the bias with `ss.notebook.play("map", "torus")`, try `map_size`, `bias`, `cull` and the
+# other options of `ss.describe("map")`, a light inside the scene (`"room"`), and `run.compare(truth="hard")`, which
+# shows where, and at how many pixels, the picture differs from ray casting.
