@@ -130,12 +130,13 @@ def contact_sheet(
             top += LABEL_HEIGHT
         titles = list(names)
         for start in range(0, len(pictures), columns):
-            for column, picture in enumerate(pictures[start : start + columns]):
+            line = [fitted(colors_of(picture), width, height) for picture in pictures[start : start + columns]]
+            for column, picture in enumerate(line):
                 left = column * (width + GAP)
                 if titles:
                     labels.append((left + 1, top + 1, titles[start + column]))
-                placed.append((left, top + (LABEL_HEIGHT if titles else 0), fitted(colors_of(picture), width, height)))
-            top += height + GAP + (LABEL_HEIGHT if titles else 0)
+                placed.append((left, top + (LABEL_HEIGHT if titles else 0), picture))
+            top += max(len(picture) for picture in line) + GAP + (LABEL_HEIGHT if titles else 0)
     sheet = np.full((top - GAP, columns * (width + GAP) - GAP, 3), 255, np.uint8)
     for left, upper, picture in placed:
         sheet[upper : upper + picture.shape[0], left : left + picture.shape[1]] = picture

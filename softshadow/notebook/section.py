@@ -122,9 +122,10 @@ def _draw_sight(ax: Axes, section: CrossSection) -> None:
     for place, words in ((section.eye, "eye"), (section.point, "P")):
         ax.plot(*place, "o", color=RAY, markersize=5)
         label(ax, place, words, RAY)
-    for crossing in section.crossings:
+    for number, crossing in enumerate(section.crossings):
         ax.plot(*crossing.place, "o", color=RAY, markersize=4)
-        label(ax, crossing.place, f"{crossing.step:+d} = {crossing.count}".replace("-", "−"), RAY, below=True)
+        words = f"{crossing.step:+d} = {crossing.count}".replace("-", "−")
+        label(ax, crossing.place, words, RAY, below=number % 2 == 0)  # neighbours on different sides
 
 
 def label(ax: Axes, place: np.ndarray, words: str, color: str, below: bool = False) -> None:
