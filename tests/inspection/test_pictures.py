@@ -88,3 +88,19 @@ def test_contact_sheet_holds_all_rows_within_its_width():
     height, width, _ = sheet.shape
     assert width <= 972
     assert height > 2 * 14
+
+
+def test_named_pictures_of_other_shapes_are_fitted_in_and_go_on_below():
+    window, shadow_map = np.zeros((30, 40, 3), np.uint8), np.full((64, 64), 1, np.uint8)
+    sheet = contact_sheet([("step", dict.fromkeys("abcd", shadow_map)), ("next", {"colour": window})], 400, (40, 30))
+    place = (400 // 3 - 4) // 40 * 40
+    assert sheet.shape[1] == 3 * (place + 4) - 4
+    fitted = (sheet == stencil_palette()[1]).all(axis=2)
+    columns = np.flatnonzero(fitted.any(axis=0))
+    assert columns.max() - 2 * (place + 4) + 1 == place * 3 // 4  # as high as the window's pictures, and square
+    assert np.count_nonzero(fitted) == 4 * (place * 3 // 4) ** 2
+    assert np.count_nonzero((sheet == 0).all(axis=2)) == place * place * 3 // 4
+
+
+def test_maps_of_two_numbers_are_pictures_too():
+    assert map_picture(np.full((5, 7, 2), 0.5, np.float32)).shape == (5, 7, 3)
