@@ -53,8 +53,8 @@ if TYPE_CHECKING:
     )
     from softshadow.scene.light_samples import light_samples
     from softshadow.scene.placement import placement
-    from softshadow.techniques import Option, Range, Technique, describe, register
     from softshadow.space import shadow_geometry
+    from softshadow.techniques import Option, Range, Technique, describe, register
     from softshadow.techniques import names as technique_names
 
 __version__ = "0.1.0"
