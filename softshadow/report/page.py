@@ -26,6 +26,13 @@ from softshadow.inspection.pictures import (
 if TYPE_CHECKING:
     from jinja2 import Environment
 
+# what maps hold, by the first word of their name
+MAP_NOTES = {
+    "visibility": "1 lit, 0 in shadow",
+    "valid": "yes where a visibility is defined",
+    "unknown": "yes where the map does not reach: the light is taken to shine there",
+    "ZS": "the depth map: window z as the light sees the casters",
+}
 SHOWN_COUNTS = 8  # rows of a legend; the remaining counts are summed in one row
 PictureWriter = Callable[[np.ndarray, str], str]  # stores a picture under a name and returns its URL
 
@@ -74,6 +81,11 @@ def named(warnings: Sequence[Warning]) -> list[str]:
     return [f"{type(each).__name__}: {each}" for each in warnings]
 
 
+def map_note(name: str) -> str:
+    """Return what a map holds, in words; empty if its name says so."""
+    return MAP_NOTES.get(name.replace(":", "").split()[0], "")
+
+
 def data_url(picture: np.ndarray, name: str = "") -> str:
     """Return a picture as a data URL (a `PictureWriter` that needs no file)."""
     return f"data:image/png;base64,{base64.b64encode(png(picture)).decode()}"
@@ -116,7 +128,8 @@ def _figures(step: Step, write: PictureWriter) -> list[Figure]:
         figure("stencil", step.stencil, "stencil counts", "stencil", counts=legend(step.stencil)),
     ]
     for number, (name, picture) in enumerate(map_pictures(step.maps).items()):
-        caption = f"map: {name}, {picture.shape[1]} x {picture.shape[0]}"
+        note = f" ({map_note(name)})" if map_note(name) else ""
+        caption = f"map: {name}{note}, {picture.shape[1]} x {picture.shape[0]}"
         if is_visibility(name):
             caption += "; white lit, black in shadow, blue where not defined"
         figures.append(figure(f"map{number}", picture, f"map {name}", caption))

@@ -1,0 +1,258 @@
+// The report: what is chosen (step, pixel, side, overlay), and the elements that show it.
+
+import {readAddress, writeAddress} from "./address.js";
+import {arrayAt, load} from "./arrays.js";
+import {page} from "./data.js";
+import {arrayCsv, copyText, save, savePng} from "./export.js";
+import {historyRows, loadHistory} from "./history.js";
+import {element, fillLegend, list} from "./legend.js";
+import {cellText} from "./numbers.js";
+import {outlineOf, overlayOf} from "./overlays.js";
+import {Panel} from "./panel.js";
+import {canvasOf, differs} from "./pictures.js";
+import {listen} from "./pointing.js";
+import {fillQuestions} from "./questions.js";
+import {arraysOf, comparable, panelsOf, picturesOf, stepIn} from "./shown.js";
+import {fillTable, historyCsv} from "./table.js";
+import {fit, reveal, viewOf, zoomBy, zoomTo} from "./views.js";
+
+const find = id => document.getElementById(id);
+const chosen = {step: 0, marker: null, side: "first", overlay: "none", lines: new Set(), hidden: new Set(page.hidden), row: null};
+const panels = new Map();
+let visible = [];  // panels on the page, in order
+let rendering = 0;  // number of the newest rendering: older ones give way
+
+Object.assign(chosen, {step: page.runs[0].steps.length - 1, ...readAddress()});
+
+// -- pictures ---------------------------------------------------------------------------------------------------------
+async function render() {
+  const turn = ++rendering, {group, panels: wanted} = panelsOf(chosen.side, chosen.step);
+  const steps = page.runs.map(run => run.steps[stepIn(run, chosen.step)]);
+  await load([...arraysOf(wanted), ...steps.flatMap(step => [step.last ?? null, ...Object.values(step.counts ?? {})])]);
+  if (turn !== rendering) return;
+  showStep();
+  fillChoices(wanted);
+  const shown = wanted.filter(({id, picture}) => !chosen.hidden.has(picture.key) && picture.array !== null
+    && (picture.other === undefined || comparable(picture)));
+  visible = shown.map(({id, picture}) => showPanel(id, picture));
+  find("panels").style.setProperty("--group", group);
+  find("panels").classList.toggle("pairs", group === 2);
+  find("panels").replaceChildren(...visible.map(panel => panel.figure));
+  redraw();
+  showValues(chosen.marker);
+  await showHistory(turn);
+}
+
+function showPanel(id, picture) {
+  if (!panels.has(id)) {
+    const panel = new Panel(id);
+    listen(panel, {point: pointAt, choose: choosePlace, move: moveMarker, redraw});
+    panels.set(id, panel);
+  }
+  const panel = panels.get(id), overlay = picture.key === "colour" ? overlayOf(chosen.overlay, picture.run.steps[picture.from]) : null;
+  panel.show(picture, overlay ? [overlay] : []);
+  panel.caption.replaceChildren(...captionOf(picture), ...panelButtons(panel));
+  fillLegend(panel.legend, picture);
+  if (overlay) panel.legend.append(list(overlay.rows));
+  panel.figure.classList.toggle("later", Boolean(picture.blank));
+  return panel;
+}
+
+function captionOf(picture) {
+  const title = element("b", picture.title), words = [];
+  if (picture.caption) words.push(picture.caption);
+  if (picture.other !== undefined) {
+    const [a, b] = [arrayAt(picture.array), arrayAt(picture.other)], n = a.shape[0] * a.shape[1];
+    let different = 0;
+    for (let i = 0; i < n; i++) different += differs(a, b, i);
+    words.push(`${different} of ${n} pixels differ`);
+  } else if (picture.blank) words.push("nothing drawn yet");
+  else if (picture.map && picture.from !== chosen.step) words.push(`of step ${picture.from}`);
+  if (picture.changed) words.push("changed in this step");
+  return [title, element("span", words.join("; "), {className: "words"})];
+}
+
+function panelButtons(panel) {
+  const name = `${panel.picture.run.technique}-${panel.picture.from}-${panel.picture.key.replace(/\W+/g, "-")}`;
+  const buttons = element("span", "", {className: "buttons"});
+  const add = (text, label, action) => {
+    const button = element("button", text, {type: "button", title: label});
+    button.setAttribute("aria-label", `${label}: ${panel.picture.title}`);
+    button.addEventListener("click", action);
+    buttons.append(button);
+  };
+  add("⤢", "larger or smaller", () => { panel.figure.classList.toggle("wide"); redraw(); });
+  add("PNG", "save as PNG", () => savePng(canvasOf(panel.picture), `${name}.png`));
+  add("CSV", "save all values as CSV", () => save(new Blob([arrayCsv(arrayAt(panel.picture.array))], {type: "text/csv"}), `${name}.csv`));
+  return [buttons];
+}
+
+function redraw() {
+  const lines = page.lines.filter(({name}) => chosen.lines.has(name)).map(({color, places}) => [color, places]);
+  if (chosen.row) lines.push(["#ff0", chosen.row]);
+  for (const panel of visible) panel.draw(chosen.marker, lines);
+}
+
+// -- steps ------------------------------------------------------------------------------------------------------------
+function showStep() {
+  const steps = page.runs[0].steps, {title} = steps[chosen.step];
+  find("slider").value = chosen.step;
+  find("slider").setAttribute("aria-valuetext", `step ${chosen.step}: ${title}`);
+  find("title").textContent = `${chosen.step}  ${title}`;
+  find("previous").disabled = chosen.step === 0;
+  find("next").disabled = chosen.step === steps.length - 1;
+  const run = chosen.side === "second" ? page.runs[1] : page.runs[0], step = run.steps[stepIn(run, chosen.step)];
+  find("calls").replaceChildren(...step.state.map(([call, change]) => {
+    const line = element("li", call, {className: change});
+    if (change !== "same") line.append(element("span", change === "new" ? " changed in this step" : " no longer", {className: "note"}));
+    return line;
+  }));
+  find("draws").textContent = step.draws.length ? `Drawn: ${step.draws.join("; ")}.` : "";
+}
+
+function goTo(step) {
+  chosen.step = Math.min(Math.max(step, 0), page.runs[0].steps.length - 1);
+  chosen.row = null;
+  writeAddress(chosen);
+  return render();
+}
+
+function fillChoices(wanted) {
+  const boxes = [...new Map(wanted.map(({picture}) => [picture.key, picture])).values()].map(picture => {
+    const label = element("label"), box = element("input", "", {type: "checkbox", checked: !chosen.hidden.has(picture.key)});
+    box.addEventListener("change", () => { chosen.hidden[box.checked ? "delete" : "add"](picture.key); render(); });
+    label.append(box, picture.title);
+    label.title = picture.note ?? "";
+    if (picture.array === null) label.append(" (left out)"), box.disabled = true;
+    return label;
+  });
+  find("pictures").replaceChildren(element("legend", "Pictures"), ...boxes);
+}
+
+// -- pixels -----------------------------------------------------------------------------------------------------------
+function pointAt(panel, place) {
+  if (place && !panel.isWindow) return showTexel(panel, place);
+  showValues(place && isInside(place) ? place : chosen.marker);
+}
+
+function isInside([x, y]) {
+  return x >= 0 && y >= 0 && x < page.size[0] && y < page.size[1];
+}
+
+function choosePlace(panel, place) {
+  panel.canvas.focus({preventScroll: true});
+  if (panel.isWindow && isInside(place)) mark(place);
+}
+
+function moveMarker(panel, dx, dy) {
+  const [width, height] = page.size, [x, y] = chosen.marker ?? [width >> 1, height >> 1];
+  const place = chosen.marker ? [Math.min(Math.max(x + dx, 0), width - 1), Math.min(Math.max(y + dy, 0), height - 1)] : [x, y];
+  mark(place);
+}
+
+async function mark(place) {
+  chosen.marker = place;
+  chosen.row = null;
+  reveal(viewOf(...page.size), ...place);
+  writeAddress(chosen);
+  redraw();
+  showValues(place);
+  await showHistory(rendering);
+  find("status").textContent = find("values").textContent;
+}
+
+// Return the values of all pictures of a run at a pixel of the window.
+function valuesAt(run, [x, y]) {
+  const [width, height] = page.size;
+  return picturesOf(run, stepIn(run, chosen.step)).map(picture => [picture, arrayAt(picture.array)])
+    .filter(([, array]) => array && array.shape[0] === height && array.shape[1] === width)
+    .map(([{title}, array]) => `${title} ${cellText(array, y * width + x)}`);
+}
+
+function showValues(place) {
+  if (!place) {
+    find("values").textContent = "Choose a pixel: click a picture, or focus it and press an arrow key.";
+    return;
+  }
+  const runs = chosen.side === "first" ? [0] : chosen.side === "second" ? [1] : [0, 1];
+  const texts = runs.map(n => (runs.length > 1 ? `${page.runs[n].name}: ` : "") + valuesAt(page.runs[n], place).join("; "));
+  find("values").textContent = [`x=${place[0]} y=${place[1]} (GL y=${page.size[1] - 1 - place[1]})`, ...texts].join("; ");
+}
+
+function showTexel(panel, [x, y]) {
+  const array = arrayAt(panel.picture.array), [height, width] = array.shape;
+  if (x < 0 || y < 0 || x >= width || y >= height) return;
+  find("values").textContent = `${panel.picture.title}: column ${x}, row ${y} (GL row ${height - 1 - y}); ${cellText(array, y * width + x)}`;
+}
+
+async function showHistory(turn) {
+  for (const [n, run] of page.runs.entries()) {
+    const part = find(`history-${n}`), isShown = chosen.side === "both" || chosen.side === "difference" || n === (chosen.side === "second" ? 1 : 0);
+    part.hidden = !isShown || !chosen.marker;
+    if (part.hidden) continue;
+    const [x, y] = chosen.marker, hint = part.querySelector(".hint");
+    part.querySelector("h2").textContent = `History of pixel x=${x} y=${y}${page.runs.length > 1 ? `, ${run.name}` : ""}`;
+    hint.hidden = Boolean(run.history);
+    part.querySelector(".scroll").hidden = !run.history;
+    if (!run.history) {
+      hint.textContent = `This page has no histories of pixels. In a terminal: ${page.command.replace("X Y", `${x} ${y}`)}`;
+      continue;
+    }
+    await loadHistory(run);
+    if (turn !== rendering) return;
+    const rows = historyRows(run, x, y, stepIn(run, chosen.step));
+    fillTable(part.querySelector("table"), rows, row => { chosen.row = row?.outline ?? null; redraw(); });
+    part.querySelector(".copy").onclick = async event => {
+      const text = historyCsv(rows), copied = await copyText(text);
+      if (!copied) save(new Blob([text], {type: "text/csv"}), `pixel-${x}-${y}.csv`);
+      event.target.textContent = copied ? "copied" : "saved";
+    };
+    part.querySelector(".copy").textContent = "Copy as CSV";
+  }
+}
+
+// -- the elements of the page -----------------------------------------------------------------------------------------
+find("slider").addEventListener("input", event => goTo(Number(event.target.value)));
+find("previous").addEventListener("click", () => goTo(chosen.step - 1));
+find("next").addEventListener("click", () => goTo(chosen.step + 1));
+find("overlay").addEventListener("change", event => { chosen.overlay = event.target.value; render(); });
+for (const radio of document.querySelectorAll("[name=side]")) {
+  radio.checked = radio.value === chosen.side;
+  radio.addEventListener("change", () => { chosen.side = radio.value; writeAddress(chosen); render(); });
+}
+for (const box of document.querySelectorAll("[name=lines]"))
+  box.addEventListener("change", () => { chosen.lines[box.checked ? "add" : "delete"](box.value); redraw(); });
+
+const CELL_WITH_DIGITS = 44;  // CSS pixels
+function zoom(how) {
+  for (const panel of new Map(visible.map(panel => [panel.view, panel])).values()) {
+    const place = panel.isWindow && chosen.marker ? chosen.marker.map(value => value + 0.5) : [panel.view.x, panel.view.y];
+    if (how === "fit") fit(panel.view);
+    else if (how === "digits") zoomTo(panel.view, CELL_WITH_DIGITS, panel.cell, place);
+    else zoomBy(panel.view, how === "in" ? 2 : 0.5, panel.cell);
+  }
+  document.body.classList.toggle("zoomed", visible.some(panel => panel.view.zoom > 1));
+  redraw();
+}
+for (const button of document.querySelectorAll("[data-zoom]")) button.addEventListener("click", () => zoom(button.dataset.zoom));
+
+const KEYS = {",": () => goTo(chosen.step - 1), ".": () => goTo(chosen.step + 1), "+": () => zoom("in"), "-": () => zoom("out"), "0": () => zoom("fit"), "1": () => zoom("digits")};
+const FROM_PAGE = {ArrowLeft: KEYS[","], ArrowRight: KEYS["."]};
+document.addEventListener("keydown", event => {
+  if (event.ctrlKey || event.altKey || event.metaKey || event.target.matches("input:not([type=checkbox], [type=radio]), select, textarea")) return;
+  const action = KEYS[event.key] ?? (event.target === document.body ? FROM_PAGE[event.key] : undefined);
+  if (!action) return;
+  event.preventDefault();
+  action();
+});
+find("theme").addEventListener("change", event => { document.documentElement.dataset.theme = event.target.value; });
+addEventListener("hashchange", () => { Object.assign(chosen, readAddress()); render(); });
+new ResizeObserver(redraw).observe(find("panels"));
+fillQuestions(find("questions"), page.questions, (question, step) => { chosen.marker = [question.x, question.y]; return goTo(step); });
+
+// for tests, and for those who look: the rows of any pixel
+window.softshadow = {page, chosen, goTo, mark, arrayAt, load, async rows(x, y, run = 0) {
+  await loadHistory(page.runs[run]);
+  return historyRows(page.runs[run], x, y);
+}};
+render().then(() => { document.documentElement.dataset.ready = "yes"; });
