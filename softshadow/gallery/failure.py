@@ -82,6 +82,12 @@ class Failure:
         """Return the same failure in pictures of another size."""
         return replace(self, size=size)
 
+    @property
+    def technique(self) -> str:
+        """The name of the technique that fails."""
+        technique = self.with_failure.technique
+        return technique.name if isinstance(technique, Technique) else technique
+
     # -- runs ----------------------------------------------------------------------------------------------------------
     @cached_property
     def scene(self) -> Scene:

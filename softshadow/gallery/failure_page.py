@@ -8,6 +8,7 @@ import numpy as np
 
 from softshadow.gallery.failure import Failure
 from softshadow.report import FailurePage, write_failure_page
+from softshadow.runs.saving import page_of
 
 
 def write_page(failure: Failure, path: Path) -> None:
@@ -26,8 +27,9 @@ def write_page(failure: Failure, path: Path) -> None:
         failure.diff,
         np.asarray(failure.picture()),
         (
-            ("with the failure", failure.wrong.pixel(*failure.pixel)),
-            ("with the cure", failure.cured.pixel(*failure.pixel)),
+            page_of(failure.wrong.record, "failure", {"wrong pixels": failure.wrong_pixels(failure.wrong)}),
+            page_of(failure.cured.record, "cure", {"wrong pixels": failure.wrong_pixels(failure.cured)}),
         ),
+        failure.pixel,
     )
     write_failure_page(page, path)

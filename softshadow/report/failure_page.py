@@ -1,4 +1,4 @@
-"""The page of a failure: why it happens, both pictures, and the history of the pixel that shows it."""
+"""The page of a failure: why it happens, and the report of both runs, with the failure and with its cure."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from softshadow.inspection import PixelHistory
-from softshadow.report.page import data_url, write_page
+from softshadow.report.page import data_url
+from softshadow.report.run_page import RunPage, write_runs
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,7 +18,8 @@ class FailurePage:
     Attributes
     ----------
     picture : (H, W, 3) uint8    both pictures side by side
-    histories : tuple            (label, history) of the ringed pixel, with the failure and with the cure
+    runs : (RunPage, RunPage)    with the failure, and with the cure
+    pixel : (x, y)               to look at
     """
 
     name: str
@@ -33,10 +34,15 @@ class FailurePage:
     why_floor: str
     diff: str
     picture: np.ndarray
-    histories: tuple[tuple[str, PixelHistory], ...]
+    runs: tuple[RunPage, RunPage]
+    pixel: tuple[int, int]
+
+    @property
+    def picture_url(self) -> str:
+        """The picture as a data URL."""
+        return data_url(self.picture)
 
 
 def write_failure_page(failure: FailurePage, path: Path) -> None:
     """Write the page of a failure as one file."""
-    histories = [(label, history._repr_html_()) for label, history in failure.histories]
-    write_page(path, "failure.html", failure=failure, picture=data_url(failure.picture), histories=histories)
+    write_runs(path, failure.runs, failure, f"softshadow failures {failure.name}")

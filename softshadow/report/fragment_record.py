@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 
@@ -26,7 +25,7 @@ from softshadow.pipeline.commands import Clear, Command, Draw
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.geometry.facing import CULL_BACK, CULL_FRONT, culling
 from softshadow.pipeline.geometry.geometry import process_geometry
-from softshadow.pipeline.raster.fragment_ops import FragmentOps, fragment_ops
+from softshadow.pipeline.raster.fragment_ops import fragment_ops
 from softshadow.pipeline.raster.ordered import list_fragments, process_fragments
 from softshadow.pipeline.raster.region import buffer_cells, covered, depth_range_of, region_of
 from softshadow.pipeline.records import (
@@ -43,89 +42,26 @@ from softshadow.pipeline.records import (
 from softshadow.pipeline.shade.blend import compared_alpha
 from softshadow.pipeline.shade.color_writes import color_writer
 from softshadow.pipeline.shade.visible_spans import spans_of
+from softshadow.report.fragment_events import (
+    LINE,
+    ClearEvent,
+    DrawEvent,
+    FragmentRecord,
+    StepCounts,
+    Triangles,
+    WriteEvent,
+)
 from softshadow.report.reason_templates import reason_templates
+from softshadow.state import State
 
 MOST_FRAGMENTS = 8 << 20  # of one draw; more take too much memory
-LINE = 2  # in place of a facing: neither front nor back
-# what the last fragment of a step was, in the map of fates; 0 is no fragment
-FATES = ("no fragment", "drawn", "passed, no colour", "scissor", "alpha failed", "stencil failed", "depth failed",
-         "culled")  # fmt: skip
 DRAWN, PASSED_WITHOUT_COLOR, CULLED = 1, 2, 7
 FATE_OF_VERDICT = {SCISSORED: 3, ALPHA_FAILED: 4, STENCIL_FAILED: 5, DEPTH_FAILED: 6}
+COUNTED_FATES = ("drawn", "depth failed", "stencil failed")
 
 
 class TooManyFragments(Exception):
     """A draw has more fragments than a page can hold."""
-
-
-@dataclass
-class Triangles:
-    """The triangles of a draw that cover pixels: corners (T, 6), depth (T, 4), sides (T, 2): which of the two stencil
-    states applies (1 front), and the facing; ids (T,): number of the primitive in the draw."""
-
-    corners: np.ndarray
-    depth: np.ndarray
-    sides: np.ndarray
-    ids: np.ndarray
-
-
-@dataclass
-class DrawEvent:
-    """A draw: its state as numbers and words, its triangles, and its layers of alpha and colour."""
-
-    step: int
-    draw: int
-    object: str
-    region: Region
-    culled: int
-    depth_range: tuple[float, float]
-    ops: tuple[FragmentOps, FragmentOps]  # back, front
-    words: dict[int, dict[str, str]]  # by facing
-    colored: bool
-    triangles: Triangles
-    alphas: list[np.ndarray] = field(default_factory=list)
-    extra: dict[str, dict[int, str]] = field(default_factory=dict)  # by column of the table: texts by primitive
-    colors: list[tuple[np.ndarray, np.ndarray]] = field(default_factory=list)  # (H, W, 3), and where written (H, W)
-
-
-@dataclass
-class ClearEvent:
-    """A clear: where, the values it writes, None for what it leaves alone, and the words."""
-
-    step: int
-    region: Region
-    color: tuple[list[int], list[bool]] | None
-    depth: float | None
-    stencil: tuple[int, int] | None  # value and mask
-    words: tuple[str, str]  # inside and outside the scissor box
-
-
-@dataclass
-class WriteEvent:
-    """Any other command that changed the window: its buffers afterwards."""
-
-    step: int
-    name: str
-    buffers: tuple[np.ndarray, np.ndarray, np.ndarray]  # colour (H, W, 3), depth in buffer units, stencil
-
-
-@dataclass
-class StepCounts:
-    """The fragments of one step in the window: their number per pixel by fate, and the fate of the last one."""
-
-    last: np.ndarray
-    counts: dict[str, np.ndarray]
-
-
-@dataclass
-class FragmentRecord:
-    """All events of a frame in order; `largest` is the depth of 1 in buffer units, `single` whether depth is float32."""
-
-    start: WriteEvent
-    largest: int
-    single: bool
-    events: list[DrawEvent | ClearEvent | WriteEvent]
-    steps: list[StepCounts]
 
 
 def record_fragments(frame: Frame) -> FragmentRecord:
@@ -153,9 +89,6 @@ def record_fragments(frame: Frame) -> FragmentRecord:
         record.events += _carried_out(command, storage, step, draws, steps[step])
         draws += isinstance(command, Draw)
     return record
-
-
-COUNTED_FATES = ("drawn", "depth failed", "stencil failed")
 
 
 def _carried_out(
@@ -222,56 +155,74 @@ def _draw(command: Draw, storage: Storage, step: int, draw: int, counts: StepCou
         if not len(fragments.row):
             return
         colors = pipeline.shade(geometry, spans_of(fragments))
-    front, back = (fragment_ops(state, window.depth, window.stencil, side) for side in (True, False))
     alpha, alpha_ref = compared_alpha(state, window.color, colors[:, 3])
-    front, back = front._replace(alpha_ref=alpha_ref), back._replace(alpha_ref=alpha_ref)
-    real = geometry.window.dtype.type
+    event = _event(command, window, geometry, np.unique(fragments.triangle), alpha_ref, (step, draw))
+    for layer in _layers(fragments, width):
+        _draw_layer(event, state, window, geometry, fragments, layer, (alpha, colors), counts)
+    yield event
+
+
+def _event(
+    command: Draw, window: Framebuffer, geometry: Geometry, used: np.ndarray, alpha_ref: int, place: tuple[int, int]
+) -> DrawEvent:
+    """Return the event of a draw without its layers; `used` are the triangles that cover pixels."""
+    state, triangles = command.state, geometry.triangles
+    back, front = (
+        fragment_ops(state, window.depth, window.stencil, side)._replace(alpha_ref=alpha_ref)
+        for side in (False, True)
+    )  # fmt: skip
     colored = bool(window.colors) and any(state.color.mask)
-    depth_range, (culled, _) = depth_range_of(state, real), culling(state.cull)
-    facings, used = _facings(geometry), np.unique(fragments.triangle)
-    event = DrawEvent(
-        step, draw, object_of(command), region_of(state, window), culled,
-        (float(depth_range.low), float(depth_range.high)), (back, front), {}, colored,
+    depth_range = depth_range_of(state, geometry.window.dtype.type)
+    sides = np.stack([triangles.front[used], _facings(geometry)[used]], axis=1).astype(np.uint8)
+    words = {
+        facing: reason_templates(state, front if side else back, None if facing == LINE else facing == 1, colored)
+        for side, facing in np.unique(sides, axis=0).tolist()
+    }
+    return DrawEvent(
+        *place, object_of(command), region_of(state, window), culling(state.cull)[0],
+        (float(depth_range.low), float(depth_range.high)), (back, front), words, colored,
         Triangles(
-            geometry.triangles.corners[used], geometry.triangles.depth[used],
-            np.stack([geometry.triangles.front[used], facings[used]], axis=1).astype(np.uint8),
-            geometry.source[geometry.triangles.ids[used]].astype(np.int32),
+            triangles.corners[used], triangles.depth[used], sides,
+            geometry.source[triangles.ids[used]].astype(np.int32),
         ),
     )  # fmt: skip
-    for side, facing in np.unique(event.triangles.sides, axis=0).tolist():
-        ops = front if side else back
-        event.words[facing] = reason_templates(state, ops, None if facing == LINE else bool(facing), colored)
 
-    is_culled = _is_culled(facings, culled)[fragments.triangle]
-    region = event.region
-    is_inside = (fragments.row >= region.first_row) & (fragments.row < region.end_row)
-    is_inside &= (fragments.column >= region.left) & (fragments.column < region.right)
-    columns = np.arange(max(window.depth.cells.shape), dtype=real) if window.depth is not None else None
-    depth, stencil = buffer_cells(window, np.dtype(real))
-    color = window.image(gl.GL_COLOR_ATTACHMENT0)
-    assert color is not None
-    for layer in _layers(fragments, width):
-        # an earlier fragment of the layer is none of the same pixel, so their order does not matter
-        tested = layer[is_inside[layer] & ~is_culled[layer]]
-        part, verdicts = _part(fragments, tested), np.empty(len(tested), np.uint8)
-        process_fragments(
-            front, back, part, alpha[tested], geometry.triangles, depth_range, columns, depth, stencil, verdicts
-        )
+
+def _draw_layer(
+    event: DrawEvent, state: State, window: Framebuffer, geometry: Geometry, fragments: Fragments, layer: np.ndarray,
+    shaded: tuple[np.ndarray, np.ndarray], counts: StepCounts,
+) -> None:  # fmt: skip
+    """Test and write the fragments with the numbers `layer`; no two are of one pixel, so their order does not matter.
+
+    `shaded` has the compared alpha and the colour of every fragment.
+    """
+    shape, region, (alpha, colors) = window.size[::-1], event.region, shaded
+    part, triangles = _part(fragments, layer), geometry.triangles
+    is_culled = _is_culled(_facings(geometry)[part.triangle], event.culled)
+    is_inside = (part.row >= region.first_row) & (part.row < region.end_row)
+    is_inside &= (part.column >= region.left) & (part.column < region.right)
+    is_tested = is_inside & ~is_culled
+    tested, verdicts = layer[is_tested], np.empty(int(is_tested.sum()), np.uint8)
+    real = geometry.window.dtype
+    depth, stencil = buffer_cells(window, real)
+    process_fragments(
+        event.ops[1], event.ops[0], _part(fragments, tested), alpha[tested], triangles,
+        depth_range_of(state, real.type), np.arange(max(depth.shape), dtype=real), depth, stencil, verdicts,
+    )  # fmt: skip
+    fates = np.where(is_culled, np.uint8(CULLED), np.uint8(FATE_OF_VERDICT[SCISSORED]))
+    fates[is_tested] = _fates(verdicts, event.colored)
+    _count(counts, part, fates)
+    if any(ops.alpha_test for ops in event.ops):
+        event.alphas.append(_image(part, alpha[layer], shape))
+    if event.colored:
         passed = tested[verdicts == PASSED]
-        written, spans = _part(fragments, passed), spans_of(_part(fragments, passed))
-        for image in window.colors if colored else ():
-            color_writer(state, image)(spans, colors[passed])
-        fates = np.full(len(fragments.row), FATE_OF_VERDICT[SCISSORED], np.uint8)
-        fates[is_culled] = CULLED
-        fates[tested] = _fates(verdicts, colored)
-        _count(counts, _part(fragments, layer), fates[layer])
-        if front.alpha_test or back.alpha_test:
-            event.alphas.append(_image(_part(fragments, layer), alpha[layer], (height, width)))
-        if colored:
-            values = color.cells[written.row, written.column, :3]
-            is_written = _image(written, np.ones(len(passed), np.uint8), (height, width)) > 0
-            event.colors.append((_image(written, values, (height, width)), is_written))
-    yield event
+        written, color = _part(fragments, passed), window.image(gl.GL_COLOR_ATTACHMENT0)
+        assert color is not None
+        for image in window.colors:
+            color_writer(state, image)(spans_of(written), colors[passed])
+        values = color.cells[written.row, written.column, :3]
+        is_written = _image(written, np.ones(len(passed), np.uint8), shape) > 0
+        event.colors.append((_image(written, values, shape), is_written))
 
 
 def _facings(geometry: Geometry) -> np.ndarray:
@@ -293,8 +244,7 @@ def _layers(fragments: Fragments, width: int) -> Iterator[np.ndarray]:
     starts = np.flatnonzero(np.diff(pixels[order], prepend=-1))
     rank = np.empty(len(pixels), np.int64)
     rank[order] = np.arange(len(pixels)) - np.repeat(starts, np.diff(starts, append=len(pixels)))
-    for layer in range(int(rank.max()) + 1):
-        yield np.flatnonzero(rank == layer)
+    yield from np.split(np.argsort(rank, kind="stable"), np.cumsum(np.bincount(rank))[:-1])
 
 
 def _part(fragments: Fragments, numbers: np.ndarray) -> Fragments:

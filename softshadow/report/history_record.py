@@ -9,14 +9,8 @@ import numpy as np
 
 from softshadow.context import Frame
 from softshadow.inspection import Steps
-from softshadow.report.fragment_record import (
-    ClearEvent,
-    DrawEvent,
-    FragmentRecord,
-    TooManyFragments,
-    WriteEvent,
-    record_fragments,
-)
+from softshadow.report.fragment_events import ClearEvent, DrawEvent, FragmentRecord, WriteEvent
+from softshadow.report.fragment_record import TooManyFragments, record_fragments
 from softshadow.report.packing import Packing
 
 HISTORIES = "histories of the pixels"

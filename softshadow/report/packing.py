@@ -64,7 +64,7 @@ class Packing:
 
 def key_of(array: np.ndarray) -> bytes:
     """Return a digest that equal arrays of one type share."""
-    digest = blake2b(np.ascontiguousarray(array).view(np.uint8), digest_size=16)
+    digest = blake2b(np.ascontiguousarray(array).tobytes(), digest_size=16)
     digest.update(f"{array.dtype} {array.shape}".encode())
     return digest.digest()
 
@@ -93,7 +93,8 @@ def packed_array(array: np.ndarray) -> dict[str, Any]:
 
 def deflated(grid: np.ndarray) -> bytes:
     """Return numbers with their bytes grouped by place, deflated."""
-    return zlib.compress(np.ascontiguousarray(grid.reshape(-1).view(np.uint8).reshape(-1, grid.itemsize).T), LEVEL)
+    by_place = grid.reshape(-1).view(np.uint8).reshape(-1, grid.itemsize).T
+    return zlib.compress(by_place.tobytes(), LEVEL)
 
 
 def row_differences(grid: np.ndarray) -> np.ndarray:

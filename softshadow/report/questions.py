@@ -9,7 +9,7 @@ import numpy as np
 from softshadow.context import Frame
 from softshadow.inspection import PixelHistory, Steps, pixel_history
 from softshadow.inspection.explanation import explain
-from softshadow.report.fragment_record import FATES, FragmentRecord
+from softshadow.report.fragment_events import FATES, FragmentRecord
 
 FEWEST = 12  # pixels that a question's answer must hold for, so that the pixel is no exception
 TESTED = {FATES.index(fate): fate for fate in ("drawn", "stencil failed", "depth failed", "alpha failed")}
@@ -107,7 +107,7 @@ def _test_questions(steps: Steps, record: FragmentRecord, frame: Frame) -> list[
 
 def _number_questions(steps: Steps, record: FragmentRecord, frame: Frame) -> list[Question]:
     """Ask for the number of fragments at a pixel of the step with the most of them at one pixel."""
-    numbers = [sum(each.counts.values()) for each in record.steps]
+    numbers = [np.sum(list(each.counts.values()), axis=0) for each in record.steps]
     most = [int(np.max(number)) for number in numbers]
     step = int(np.argmax(most))
     if most[step] < 2:
@@ -129,7 +129,7 @@ def _light_questions(steps: Steps, frame: Frame) -> list[Question]:
     maps, last = steps.maps, len(steps) - 1
     if "visibility" not in maps or "valid" not in maps:
         return []
-    shadow = maps["valid"] & (maps["visibility"] <= 0)
+    shadow = np.asarray(maps["valid"] & (maps["visibility"] <= 0))
     if shadow.sum() < FEWEST:
         return []
     x, y = middle_of(shadow)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +13,9 @@ from softshadow.errors import Warning
 from softshadow.inspection import Ledger, Step, Steps
 from softshadow.inspection.pictures import CLEAR_DEPTH, UNDEFINED, is_visibility, stencil_palette
 from softshadow.report.commands import options_spelled, scene_spelled
-from softshadow.report.fragment_record import FATES, FragmentRecord
+from softshadow.report.fragment_events import FATES, FragmentRecord
 from softshadow.report.history_record import history_json, recorded
-from softshadow.report.packing import Packing
+from softshadow.report.packing import LIMIT, Packing
 from softshadow.report.page import map_note, named, write_page
 from softshadow.report.questions import questions
 from softshadow.report.script import script_of
@@ -24,6 +24,7 @@ from softshadow.report.wireframe import wireframe
 from softshadow.scene import Scene
 
 SHOWN_MAPS = 4  # that stand on the page from the beginning; the others can be chosen
+MINOR_MAPS = ("valid", "unknown")
 DIFFERENT = (0xD5, 0x5E, 0x00)  # pixels in which two runs differ
 FATE_COLORS = ((0, 0, 0), (0xF0, 0xE4, 0x42), (0x56, 0xB4, 0xE9), (0xBB, 0xBB, 0xBB), (0xCC, 0x79, 0xA7),
                (0xD5, 0x5E, 0x00), (0x00, 0x72, 0xB2), (0x66, 0x66, 0x66))  # fmt: skip
@@ -31,7 +32,14 @@ FATE_COLORS = ((0, 0, 0), (0xF0, 0xE4, 0x42), (0x56, 0xB4, 0xE9), (0xBB, 0xBB, 0
 
 @dataclass(frozen=True, eq=False)
 class RunPage:
-    """What the report of a run shows; `name` is what it is called beside another run, else its technique."""
+    """What the report of a run shows.
+
+    Attributes
+    ----------
+    ledger : Ledger or None      None leaves it out
+    name : str                   what the run is called beside another one; by default its technique
+    more_maps : dict             maps (H, W) of the last step, besides those of the technique
+    """
 
     technique: str
     scene: Scene
@@ -41,6 +49,7 @@ class RunPage:
     steps: Steps
     ledger: Ledger | None
     name: str = ""
+    more_maps: Mapping[str, np.ndarray] = field(default_factory=dict)
 
     @property
     def heading(self) -> str:
@@ -67,14 +76,15 @@ def write_runs(path: Path, runs: Sequence[RunPage], failure: Any = None, command
     command : str                of the command line; by default the one for the history of a pixel
     view3d : str                 HTML of the 3-D view, if there is one
     """
+    start = {"side": "both", "marker": failure.pixel} if failure else {"side": "first"}
     write_page(
-        path, "run.html", run=runs[0], runs=runs, data=page_data(runs), failure=failure, command=command,
+        path, "run.html", run=runs[0], runs=runs, data=page_data(runs, start), failure=failure, command=command,
         view3d=view3d, warnings=named(runs[0].warnings), script=script_of("report.js"),
     )  # fmt: skip
 
 
-def page_data(runs: Sequence[RunPage]) -> dict[str, Any]:
-    """Return what the page's script reads (templates/data.js).
+def page_data(runs: Sequence[RunPage], start: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what the page's script reads (templates/data.js); `start` is what it shows first: side, marker.
 
     Raises
     ------
@@ -84,10 +94,10 @@ def page_data(runs: Sequence[RunPage]) -> dict[str, Any]:
     for other in runs[1:]:
         if other.size != run.size:
             raise ValueError(f"beside: sizes differ, {run.size} and {other.size}; expected the same")
-    packing, texts = Packing(), list[Any]()
+    packing, texts = Packing(LIMIT), list[Any]()
     records = [recorded(each.steps[0].frame, packing) for each in runs]
-    described = [
-        {"name": each.name or each.technique, "technique": each.technique, "steps": _steps(each.steps, record, packing)}
+    described: list[dict[str, Any]] = [
+        {"name": each.name or each.technique, "technique": each.technique, "steps": _steps(each, record, packing)}
         for each, record in zip(runs, records, strict=True)
     ]
     for each, record, description in zip(runs, records, described, strict=True):
@@ -104,17 +114,19 @@ def page_data(runs: Sequence[RunPage]) -> dict[str, Any]:
         "fates": FATES,
         "palette": stencil_palette().tolist(),
         "colors": {"undefined": UNDEFINED, "clear": CLEAR_DEPTH, "different": DIFFERENT, "fates": FATE_COLORS},
+        "start": start,
         "command": f"softshadow pixel {run.technique} X Y {arguments}",
         "notices": packing.notices,
         "arrays": packing.arrays,
     }
 
 
-def _steps(steps: Steps, record: FragmentRecord | None, packing: Packing) -> list[dict[str, Any]]:
+def _steps(run: RunPage, record: FragmentRecord | None, packing: Packing) -> list[dict[str, Any]]:
     """Return what the page knows of each step; if arrays have no room, those of the last steps are kept."""
-    described = []
+    described, steps = [], run.steps
     calls = [step.state.calls() for step in steps]
-    pictures = {step.index: _pictures(step, steps, packing) for step in reversed(steps)}
+    more = {len(steps) - 1: run.more_maps}
+    pictures = {step.index: _pictures(step, steps, packing, more.get(step.index, {})) for step in reversed(steps)}
     for step in steps:
         before = calls[step.index - 1] if step.index else calls[step.index]
         described.append({
@@ -131,11 +143,11 @@ def _steps(steps: Steps, record: FragmentRecord | None, packing: Packing) -> lis
     return described
 
 
-def _pictures(step: Step, steps: Steps, packing: Packing) -> list[dict[str, Any]]:
+def _pictures(step: Step, steps: Steps, packing: Packing, more_maps: Mapping[str, np.ndarray]) -> list[dict[str, Any]]:
     """Return the pictures of a step: its buffers and its maps."""
     buffers = {"colour": step.image, "depth": step.depth, "stencil": step.stencil}
     forms = {"colour": "color", "depth": "depth", "stencil": "counts"}
-    numbers = packing.add(f"buffers of step {step.index}", list(buffers.values())) or [None] * 3
+    numbers = packing.add(f"buffers of step {step.index}", list(buffers.values())) or (None, None, None)
     pictures: list[dict[str, Any]] = []
     for (name, buffer), number in zip(buffers.items(), numbers, strict=True):
         earlier = [getattr(steps[step.index - 1], "image" if name == "colour" else name)] if step.index else []
@@ -143,7 +155,7 @@ def _pictures(step: Step, steps: Steps, packing: Packing) -> list[dict[str, Any]
         blank = _is_blank(buffer) and name != "stencil"
         pictures.append({"key": name, "title": name, "array": number, "form": forms[name], "changed": changed,
                          "blank": blank})  # fmt: skip
-    for name, values in step.maps.items():
+    for name, values in (step.maps | dict(more_maps)).items():
         found = packing.add(f"map {name}", [values])
         pictures.append({
             "key": f"map {name}", "title": name, "array": found[0] if found else None, "form": form_of(name, values),
@@ -171,6 +183,6 @@ def form_of(name: str, values: np.ndarray) -> str:
 
 
 def _hidden(steps: Steps) -> list[str]:
-    """Return the keys of the maps that the reader has to choose first: "valid", and those beyond `SHOWN_MAPS`."""
-    names = [name for name in steps.maps if name != "valid"]
-    return [f"map {name}" for name in (*(["valid"] if "valid" in steps.maps else []), *names[SHOWN_MAPS:])]
+    """Return the keys of the maps that the reader has to choose first: minor ones, and those beyond `SHOWN_MAPS`."""
+    names = [name for name in steps.maps if name.split(":")[0] not in MINOR_MAPS]
+    return [f"map {name}" for name in steps.maps if name not in names[:SHOWN_MAPS]]

@@ -12,7 +12,11 @@ from softshadow.scene import Scene
 
 @dataclass(frozen=True)
 class Visit:
-    """A stop of the tour that has been drawn; `picture` and `npz` are URLs."""
+    """A stop of the tour that has been drawn; `picture`, `report`, `npz` and `error` are URLs.
+
+    `error` is the picture of the difference from ray casting, "" without a visibility; `error_words` tells its extent.
+    `failures` has name and title of the known failures of the technique.
+    """
 
     name: str
     title: str
@@ -24,6 +28,10 @@ class Visit:
     npz: str
     paper: str
     command: str
+    report: str
+    error: str
+    error_words: str
+    failures: list[tuple[str, str]]
 
 
 @dataclass(frozen=True, eq=False)

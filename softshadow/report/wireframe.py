@@ -11,6 +11,7 @@ from softshadow.techniques.light_camera import LightCamera, light_camera
 from softshadow.techniques.shadow_volumes import volumes_of
 
 MOST_LINES = 4000  # of one set; of more, evenly spaced ones are shown
+MOST_EDGES = 40  # of the volumes, whose long edges would hide the picture
 SILHOUETTE, VOLUME, FRUSTUM = "#e69f00", "#56b4e9", "#f0e442"
 # techniques whose maps are drawn by one camera per light
 ONE_CAMERA = ("map", "map-pcf", "map-silhouette", "map-variance", "map-exponential", "map-pcss")
@@ -27,7 +28,7 @@ class Lines:
 
 
 def wireframe(scene: Scene, size: tuple[int, int], technique: str) -> list[Lines]:
-    """Return the lines of every light that can be seen; volumes end at infinity, frustums as the technique draws them."""
+    """Return the lines of every light that can be seen; the edges of volumes go to infinity."""
     sets = []
     for light in scene.lights:
         suffix = f" of {light.name}" if len(scene.lights) > 1 else ""
@@ -46,7 +47,7 @@ def _volume_lines(scene: Scene, light: Light) -> tuple[np.ndarray, np.ndarray]:
     for item in volumes_of(scene, light):
         corners = item.volume.sides.astype(np.float64) @ item.caster.object_to_world.T
         silhouettes.append(corners[:, :2])
-        sides.append(corners[:, 1:3])
+        sides.append(corners[:, 1:3][:: -(-len(corners) // MOST_EDGES) or 1])
     return np.concatenate(silhouettes), np.concatenate(sides)
 
 

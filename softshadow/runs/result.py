@@ -352,23 +352,28 @@ class Run:
         )
 
     # -- files and display ---------------------------------------------------------------------------------------------
-    def save(self, path: str | os.PathLike[str], force: bool = False) -> Path:
+    @property
+    def record(self) -> RunRecord:
+        """Everything that files are written from."""
+        return RunRecord(self.technique, self.scene, self.options, self.warnings, self.steps, self.frame)
+
+    def save(self, path: str | os.PathLike[str], force: bool = False, *, beside: Run | None = None) -> Path:
         """Write the run to a file or folder, and return the path.
 
         ``.png`` is the picture, ``.npz`` everything (`load_run` reads it), ``.html`` the report; ``.glb`` and ``.ply``
         are the `geometry`; a folder gets pictures of every step, the GL state of each, and the npz.
 
+        Parameters
+        ----------
+        beside : Run                 of the same size; the report shows both, and their difference
+
         Raises
         ------
-        ValueError                   another file name extension
+        ValueError                   another file name extension; a run `beside` of another size, or for another file
         SoftShadowError              a file exists that this package did not write (`force` overwrites it), or the place
                                      cannot be written; no half-written file is left
         """
-        return save(self._record, path, force)
-
-    @property
-    def _record(self) -> RunRecord:
-        return RunRecord(self.technique, self.scene, self.options, self.warnings, self.steps, self.frame)
+        return save(self.record, path, force, None if beside is None else beside.record)
 
     def export(
         self, buffer: str, path: str | os.PathLike[str], step: int | str | None = None, force: bool = False
@@ -397,7 +402,7 @@ class Run:
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """Return what a notebook displays: the report, unless it is too large; the steps as a picture; a text."""
-        return mimebundle(self._record, f"{self!r}\n{self.steps!r}")
+        return mimebundle(self.record, f"{self!r}\n{self.steps!r}")
 
 
 def load_run(path: str | os.PathLike[str]) -> Run:

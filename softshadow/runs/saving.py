@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
+
+import numpy as np
 
 import softshadow
 from softshadow.errors import SoftShadowError
@@ -21,13 +24,18 @@ from softshadow.space import geometry_of_run, write_model
 EXTENSIONS = (".png", ".npz", ".html", *MODELS)
 
 
-def save(run: RunRecord, path: str | os.PathLike[str], force: bool) -> Path:
+def save(run: RunRecord, path: str | os.PathLike[str], force: bool, beside: RunRecord | None = None) -> Path:
     """Write a run in the form that the path's extension names; see `Run.save`."""
     target = Path(path)
+    if beside is not None:
+        if target.suffix.lower() != ".html":
+            raise ValueError(f"{path}: a run beside another one is for reports, expected an ending of .html")
+        if beside.frame.size != run.frame.size:
+            raise ValueError(f"beside: sizes differ, {run.frame.size} and {beside.frame.size}; expected the same")
     if is_folder(path):
         return save_folder(run, target, force)
     check_path(path, force)
-    return write_whole(target, partial(write_file, run), force)
+    return write_whole(target, partial(write_file, run, beside=beside), force)
 
 
 def check_path(path: str | os.PathLike[str], force: bool) -> None:
@@ -45,7 +53,7 @@ def check_path(path: str | os.PathLike[str], force: bool) -> None:
     refuse_foreign(Path(path), force)
 
 
-def write_file(run: RunRecord, path: Path) -> None:
+def write_file(run: RunRecord, path: Path, beside: RunRecord | None = None) -> None:
     """Write one file in the form that its extension names."""
     extension = path.suffix.lower()
     if extension == ".png":
@@ -55,11 +63,26 @@ def write_file(run: RunRecord, path: Path) -> None:
     elif extension in MODELS:
         geometry = geometry_of_run(run)
         write_model(geometry.pieces, geometry.scene, path)
+    elif beside is None:
+        write_run_page(page_of(run), path)
     else:
-        ledger = ledger_of(run.frame)
-        write_run_page(
-            RunPage(run.technique, run.scene, run.frame.size, run.options, run.warnings, run.steps, ledger), path
-        )
+        write_run_page(page_of(run, _name(run, beside)), path, page_of(beside, _name(beside, run)))
+
+
+def _name(run: RunRecord, other: RunRecord) -> str:
+    """Return a name that tells a run from another one: its technique, and the options and scene that differ."""
+    options = [f"{key}={value}" for key, value in run.options.items() if other.options.get(key) != value]
+    same_kind = run.technique == other.technique
+    scene = [] if run.scene.name == other.scene.name else [run.scene.name]
+    return " ".join([run.technique, *scene, *(options if same_kind else [])])
+
+
+def page_of(run: RunRecord, name: str = "", more_maps: Mapping[str, np.ndarray] | None = None) -> RunPage:
+    """Return what the report of a run shows: see `RunPage`."""
+    return RunPage(
+        run.technique, run.scene, run.frame.size, run.options, run.warnings, run.steps, ledger_of(run.frame), name,
+        more_maps or {},
+    )  # fmt: skip
 
 
 def save_folder(run: RunRecord, folder: Path, force: bool) -> Path:

@@ -7,8 +7,14 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+
 from softshadow import techniques
 from softshadow.errors import SceneError, SoftShadowError
+from softshadow.gallery import GALLERY
+from softshadow.inspection import compare
+from softshadow.inspection.hard_truth import hard_visibility
+from softshadow.inspection.pictures import UNDEFINED
 from softshadow.report import (
     TourPage,
     Visit,
@@ -24,6 +30,8 @@ from softshadow.runs.perform import checked_size
 from softshadow.scene import Scene
 from softshadow.tour.folder import INDEX, move_tour, refuse_foreign_folder
 from softshadow.tour.stops import STOPS, Stop
+
+TOO_DARK, TOO_BRIGHT, SAME = (0xB3, 0x26, 0x1E), (0x00, 0x5C, 0x94), (0xEE, 0xEE, 0xEE)  # in pictures of differences
 
 
 def write_tour(
@@ -63,6 +71,7 @@ def write_tour(
         raise SoftShadowError(f"{target}: the folder cannot be made ({error.strerror})") from None
     try:
         visits, left_out = [], []
+        truth = hard_visibility(scene, size)
         for stop in STOPS:
             progress(stop.title)
             try:
@@ -71,7 +80,7 @@ def write_tour(
                 progress(f"{stop.title}: left out. {error}")
                 left_out.append((stop.title, error))
                 continue
-            visits.append(_write_stop(stop, result, work, arguments))
+            visits.append(_write_stop(stop, result, truth, work, arguments))
         if not visits:
             raise left_out[0][1]
         reasons = [(title, str(error)) for title, error in left_out]
@@ -84,12 +93,16 @@ def write_tour(
     return target / INDEX
 
 
-def _write_stop(stop: Stop, result: Run, work: Path, arguments: str) -> Visit:
-    """Write the pictures and buffers of a stop, and return what the page shows of it."""
+def _write_stop(
+    stop: Stop, result: Run, truth: tuple[list[np.ndarray], np.ndarray], work: Path, arguments: str
+) -> Visit:
+    """Write the pictures, buffers and report of a stop, and return what the page shows of it."""
     folder = work / stop.name
     folder.mkdir()
     write = folder_writer(folder)
     result.save(folder / "run.npz")
+    result.save(folder / "run.html")
+    error, words = _error(result, truth)
     return Visit(
         stop.name,
         stop.title,
@@ -101,4 +114,22 @@ def _write_stop(stop: Stop, result: Run, work: Path, arguments: str) -> Visit:
         f"{stop.name}/run.npz",
         techniques.get(stop.technique).paper,
         f"softshadow render {stop.technique} {arguments}{options_spelled(result.technique, result.options)}",
+        f"{stop.name}/run.html",
+        write(error, "error") if error is not None else "",
+        words,
+        [(failure.name, failure.title) for failure in GALLERY.values() if failure.technique == stop.technique],
     )
+
+
+def _error(result: Run, truth: tuple[list[np.ndarray], np.ndarray]) -> tuple[np.ndarray | None, str]:
+    """Return a picture of where a run is darker or brighter than hard shadows, and the number of such pixels."""
+    if "visibility" not in result.maps or "valid" not in result.maps:
+        return None, "no visibility to compare"
+    visibilities, seen = truth
+    reference = np.asarray(np.mean(visibilities, axis=0, dtype=np.float32))
+    comparison = compare(result.visibility, result.valid, reference, seen, "ray casting")
+    amount = np.abs(comparison.error)[..., None]
+    strong = np.where(comparison.error[..., None] < 0, np.array(TOO_DARK), np.array(TOO_BRIGHT))
+    plain = np.where(comparison.compared[..., None], np.array(SAME), np.array(UNDEFINED))
+    picture = np.rint(plain + amount * (strong - plain)).astype(np.uint8)
+    return picture, f"{np.count_nonzero(comparison.error)} of {int(comparison.compared.sum())} pixels differ"

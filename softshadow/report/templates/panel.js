@@ -77,7 +77,7 @@ export class Panel {
       context.moveTo(places[i], places[i + 1]);
       context.lineTo(places[i + 2], places[i + 3]);
     }
-    for (const [style, size] of [["#0008", 3], [color, 1.5]])
+    for (const [style, size] of [["#0008", 2.5], [color, 1.25]])
       Object.assign(context, {strokeStyle: style, lineWidth: size / this.cell}), context.stroke();
   }
 
@@ -87,6 +87,7 @@ export class Panel {
     for (const [style, size] of [["#000", 4], ["#fff", 2]]) {
       Object.assign(context, {strokeStyle: style, lineWidth: size / this.cell});
       context.strokeRect(left, top, side, side);
+      if (side === 1) continue;  // a pixel this large needs no arms, and its neighbours have digits
       context.beginPath();
       for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
         context.moveTo(x + 0.5 + dx * side * 0.75, y + 0.5 + dy * side * 0.75);
@@ -106,7 +107,7 @@ export class Panel {
     context.textAlign = "center";
     context.textBaseline = "middle";
     for (let y = first[1]; y < end[1]; y++) for (let x = first[0]; x < end[0]; x++) {
-      const texts = cellText(array, y * this.width + x, "\n").split("\n");
+      const texts = digitsOf(array, y * this.width + x);
       const size = Math.min(16, cell * 0.9 / texts.length, cell * 1.6 / Math.max(...texts.map(text => text.length)));
       if (size < DIGIT_HEIGHT * 0.7) return;
       context.font = `${size / cell}px ui-monospace, monospace`;
@@ -115,4 +116,14 @@ export class Panel {
       texts.forEach((text, n) => context.fillText(text, x + 0.5, y + 0.5 + (n - (texts.length - 1) / 2) * size / cell));
     }
   }
+}
+
+const LONG = 5;  // characters: a number with more takes two lines
+
+// Return the lines of a cell: a channel each, and the digits of a long number in two parts.
+function digitsOf(array, i) {
+  const texts = cellText(array, i, "\n").split("\n");
+  if (texts.length > 1 || texts[0].length <= LONG) return texts;
+  const middle = Math.max(LONG + 1, Math.ceil(texts[0].length / 2));
+  return [texts[0].slice(0, middle), texts[0].slice(middle)];
 }

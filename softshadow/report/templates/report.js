@@ -1,28 +1,24 @@
-// The report: what is chosen (step, pixel, side, overlay), and the elements that show it.
+// The report: it shows what is chosen, and listens to the elements that choose.
 
 import {readAddress, writeAddress} from "./address.js";
 import {arrayAt, load} from "./arrays.js";
+import {chosen, find} from "./chosen.js";
 import {page} from "./data.js";
-import {arrayCsv, copyText, save, savePng} from "./export.js";
+import {arrayCsv, save, savePng} from "./export.js";
 import {historyRows, loadHistory} from "./history.js";
 import {element, fillLegend, list} from "./legend.js";
-import {cellText} from "./numbers.js";
-import {outlineOf, overlayOf} from "./overlays.js";
+import {overlayOf} from "./overlays.js";
 import {Panel} from "./panel.js";
+import {showHistory, showTexel, showValues} from "./pixel.js";
 import {canvasOf, differs} from "./pictures.js";
 import {listen} from "./pointing.js";
 import {fillQuestions} from "./questions.js";
-import {arraysOf, comparable, panelsOf, picturesOf, stepIn} from "./shown.js";
-import {fillTable, historyCsv} from "./table.js";
+import {arraysOf, comparable, panelsOf, stepIn} from "./shown.js";
 import {fit, reveal, viewOf, zoomBy, zoomTo} from "./views.js";
 
-const find = id => document.getElementById(id);
-const chosen = {step: 0, marker: null, side: "first", overlay: "none", lines: new Set(), hidden: new Set(page.hidden), row: null};
 const panels = new Map();
 let visible = [];  // panels on the page, in order
 let rendering = 0;  // number of the newest rendering: older ones give way
-
-Object.assign(chosen, {step: page.runs[0].steps.length - 1, ...readAddress()});
 
 // -- pictures ---------------------------------------------------------------------------------------------------------
 async function render() {
@@ -35,12 +31,11 @@ async function render() {
   const shown = wanted.filter(({id, picture}) => !chosen.hidden.has(picture.key) && picture.array !== null
     && (picture.other === undefined || comparable(picture)));
   visible = shown.map(({id, picture}) => showPanel(id, picture));
-  find("panels").style.setProperty("--group", group);
   find("panels").classList.toggle("pairs", group === 2);
   find("panels").replaceChildren(...visible.map(panel => panel.figure));
   redraw();
   showValues(chosen.marker);
-  await showHistory(turn);
+  await showHistory(() => turn !== rendering, pointAtRow);
 }
 
 function showPanel(id, picture) {
@@ -68,6 +63,7 @@ function captionOf(picture) {
     words.push(`${different} of ${n} pixels differ`);
   } else if (picture.blank) words.push("nothing drawn yet");
   else if (picture.map && picture.from !== chosen.step) words.push(`of step ${picture.from}`);
+  if (picture.note) words.push(picture.note);
   if (picture.changed) words.push("changed in this step");
   return [title, element("span", words.join("; "), {className: "words"})];
 }
@@ -157,58 +153,14 @@ async function mark(place) {
   writeAddress(chosen);
   redraw();
   showValues(place);
-  await showHistory(rendering);
+  const turn = rendering;
+  await showHistory(() => turn !== rendering || chosen.marker !== place, pointAtRow);
   find("status").textContent = find("values").textContent;
 }
 
-// Return the values of all pictures of a run at a pixel of the window.
-function valuesAt(run, [x, y]) {
-  const [width, height] = page.size;
-  return picturesOf(run, stepIn(run, chosen.step)).map(picture => [picture, arrayAt(picture.array)])
-    .filter(([, array]) => array && array.shape[0] === height && array.shape[1] === width)
-    .map(([{title}, array]) => `${title} ${cellText(array, y * width + x)}`);
-}
-
-function showValues(place) {
-  if (!place) {
-    find("values").textContent = "Choose a pixel: click a picture, or focus it and press an arrow key.";
-    return;
-  }
-  const runs = chosen.side === "first" ? [0] : chosen.side === "second" ? [1] : [0, 1];
-  const texts = runs.map(n => (runs.length > 1 ? `${page.runs[n].name}: ` : "") + valuesAt(page.runs[n], place).join("; "));
-  find("values").textContent = [`x=${place[0]} y=${place[1]} (GL y=${page.size[1] - 1 - place[1]})`, ...texts].join("; ");
-}
-
-function showTexel(panel, [x, y]) {
-  const array = arrayAt(panel.picture.array), [height, width] = array.shape;
-  if (x < 0 || y < 0 || x >= width || y >= height) return;
-  find("values").textContent = `${panel.picture.title}: column ${x}, row ${y} (GL row ${height - 1 - y}); ${cellText(array, y * width + x)}`;
-}
-
-async function showHistory(turn) {
-  for (const [n, run] of page.runs.entries()) {
-    const part = find(`history-${n}`), isShown = chosen.side === "both" || chosen.side === "difference" || n === (chosen.side === "second" ? 1 : 0);
-    part.hidden = !isShown || !chosen.marker;
-    if (part.hidden) continue;
-    const [x, y] = chosen.marker, hint = part.querySelector(".hint");
-    part.querySelector("h2").textContent = `History of pixel x=${x} y=${y}${page.runs.length > 1 ? `, ${run.name}` : ""}`;
-    hint.hidden = Boolean(run.history);
-    part.querySelector(".scroll").hidden = !run.history;
-    if (!run.history) {
-      hint.textContent = `This page has no histories of pixels. In a terminal: ${page.command.replace("X Y", `${x} ${y}`)}`;
-      continue;
-    }
-    await loadHistory(run);
-    if (turn !== rendering) return;
-    const rows = historyRows(run, x, y, stepIn(run, chosen.step));
-    fillTable(part.querySelector("table"), rows, row => { chosen.row = row?.outline ?? null; redraw(); });
-    part.querySelector(".copy").onclick = async event => {
-      const text = historyCsv(rows), copied = await copyText(text);
-      if (!copied) save(new Blob([text], {type: "text/csv"}), `pixel-${x}-${y}.csv`);
-      event.target.textContent = copied ? "copied" : "saved";
-    };
-    part.querySelector(".copy").textContent = "Copy as CSV";
-  }
+function pointAtRow(outline) {
+  chosen.row = outline;
+  redraw();
 }
 
 // -- the elements of the page -----------------------------------------------------------------------------------------
