@@ -17,10 +17,8 @@ from softshadow import pipeline
 from softshadow import tokens as gl
 from softshadow.context import Frame
 from softshadow.framebuffer import DEFAULT, Framebuffer, Storage
-from softshadow.inspection.history import INDEPENDENT_OF_WINDOW
 from softshadow.inspection.reasons import clear_reason, outside
 from softshadow.inspection.step import object_of
-from softshadow.pipeline import commands
 from softshadow.pipeline.commands import Clear, Command, Draw
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.geometry.facing import CULL_BACK, CULL_FRONT, culling
@@ -101,7 +99,7 @@ def _carried_out(
         yield from _draw(command, storage, step, draw, counts)
     elif isinstance(command, Clear) and of_window:
         yield _clear(command, storage, step)
-    elif isinstance(command, (*INDEPENDENT_OF_WINDOW, Draw, Clear, commands.CopyToTexture)):
+    elif isinstance(command, Draw | Clear):
         execute(command, storage)
     else:
         before = _contents(window)

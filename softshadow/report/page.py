@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 MAP_NOTES = {
     "visibility": "1 lit, 0 in shadow",
     "valid": "yes where a visibility is defined",
-    "unknown": "yes where the map does not reach: the light is taken to shine there",
-    "ZS": "the depth map: window z as the light sees the casters",
+    "unknown": "yes where the map does not reach",
+    "ZS": "depth map, seen from the light",
 }
 SHOWN_COUNTS = 8  # rows of a legend; the remaining counts are summed in one row
 PictureWriter = Callable[[np.ndarray, str], str]  # stores a picture under a name and returns its URL

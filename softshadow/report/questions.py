@@ -12,6 +12,7 @@ from softshadow.inspection.explanation import explain
 from softshadow.report.fragment_events import FATES, FragmentRecord
 
 FEWEST = 12  # pixels that a question's answer must hold for, so that the pixel is no exception
+TOLD_CHANGES = 8
 TESTED = {FATES.index(fate): fate for fate in ("drawn", "stencil failed", "depth failed", "alpha failed")}
 REJECTED_BY = {"stencil failed": "the stencil test", "depth failed": "the depth test", "alpha failed": "the alpha test"}
 NONE = "none: it is drawn"
@@ -79,6 +80,8 @@ def _stencil_changes(history: PixelHistory, last: int) -> str:
         for row in history
         if row.step <= last and row.stencil_before != row.stencil_after
     ]
+    if len(changes) > TOLD_CHANGES:
+        changes[TOLD_CHANGES:] = [f"and {len(changes) - TOLD_CHANGES} more"]
     return f"Its changes: {', '.join(changes)}." if changes else "No fragment changed it."
 
 

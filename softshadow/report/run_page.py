@@ -57,14 +57,20 @@ class RunPage:
         return f"{self.technique} on {self.scene.name}"
 
 
-def write_run_page(run: RunPage, path: Path, beside: RunPage | None = None) -> None:
-    """Write the report of a run as one file; with a second run `beside` it, both and their difference.
+def write_run_page(run: RunPage, path: Path, beside: RunPage | None = None, view3d: str = "") -> None:
+    """Write the report of a run as one file.
+
+    Parameters
+    ----------
+    beside : RunPage             of the same size; the page shows both, and their difference
+    view3d : str                 HTML of a 3-D view: a frame, which gets messages {softshadow: "pixel", x, y, stencil},
+                                 and may send {softshadow: "view3d"} to ask for one
 
     Raises
     ------
     ValueError                   the runs differ in size
     """
-    write_runs(path, [run] if beside is None else [run, beside])
+    write_runs(path, [run] if beside is None else [run, beside], view3d=view3d)
 
 
 def write_runs(path: Path, runs: Sequence[RunPage], failure: Any = None, command: str = "", view3d: str = "") -> None:
@@ -74,7 +80,7 @@ def write_runs(path: Path, runs: Sequence[RunPage], failure: Any = None, command
     ----------
     failure : FailurePage        if the first run has a failure that the second one cures
     command : str                of the command line; by default the one for the history of a pixel
-    view3d : str                 HTML of the 3-D view, if there is one
+    view3d : str                 as in `write_run_page`
     """
     start = {"side": "both", "marker": failure.pixel} if failure else {"side": "first"}
     write_page(
@@ -152,7 +158,7 @@ def _pictures(step: Step, steps: Steps, packing: Packing, more_maps: Mapping[str
     for (name, buffer), number in zip(buffers.items(), numbers, strict=True):
         earlier = [getattr(steps[step.index - 1], "image" if name == "colour" else name)] if step.index else []
         changed = not all(np.array_equal(buffer, each) for each in earlier) if earlier else not _is_blank(buffer)
-        blank = _is_blank(buffer) and name != "stencil"
+        blank = _is_blank(buffer) and (name != "stencil" or _is_blank(step.depth))
         pictures.append({"key": name, "title": name, "array": number, "form": forms[name], "changed": changed,
                          "blank": blank})  # fmt: skip
     for name, values in (step.maps | dict(more_maps)).items():

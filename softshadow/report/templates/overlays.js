@@ -6,10 +6,15 @@ import {countsOf} from "./pictures.js";
 
 const COUNT_COLORS = 8;  // counts from here on have one colour
 
-// Return {canvas, alpha, rows} of an overlay over a step: "why", or the name of a count; null for "none".
+// Return the number of the array of an overlay over a step, or null: "why", or the name of a count.
+export function overlayArray(name, step) {
+  return (name === "why" ? step.last : step.counts?.[name]) ?? null;
+}
+
+// Return {canvas, alpha, rows} of an overlay over a step, or null.
 export function overlayOf(name, step) {
-  const number = name === "why" ? step.last : step.counts?.[name];
-  if (number === undefined || number === null) return null;
+  const number = overlayArray(name, step);
+  if (number === null) return null;
   const array = arrayAt(number), [height, width] = array.shape, color = name === "why" ? fateColor : countColor;
   const canvas = Object.assign(document.createElement("canvas"), {width, height}), image = new ImageData(width, height);
   for (let i = 0; i < array.values.length; i++) image.data.set([...color(array.values[i]), array.values[i] ? 255 : 0], 4 * i);

@@ -54,6 +54,7 @@ export async function showHistory(isOld, pointAtRow) {
     if (isOld()) return;
     const rows = historyRows(run, x, y, stepIn(run, chosen.step));
     fillTable(part.querySelector("table"), rows, row => pointAtRow(row?.outline ?? null));
+    if (n === 0) tellView(rows);
     offerCopy(part.querySelector(".copy"), historyCsv(rows), `pixel-${x}-${y}.csv`);
   }
 }
@@ -66,4 +67,10 @@ function offerCopy(button, text, name) {
     if (!copied) save(new Blob([text], {type: "text/csv"}), name);
     button.textContent = copied ? "copied" : "saved";
   };
+}
+
+// Tell the 3-D view, a page in a frame, the pixel and its stencil value.
+function tellView(rows) {
+  const frame = document.querySelector("#view3d iframe"), [x, y] = chosen.marker;
+  frame?.contentWindow.postMessage({softshadow: "pixel", x, y, stencil: rows.at(-1)?.stencil_after ?? 0}, "*");
 }

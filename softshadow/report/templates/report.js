@@ -7,7 +7,7 @@ import {page} from "./data.js";
 import {arrayCsv, save, savePng} from "./export.js";
 import {historyRows, loadHistory} from "./history.js";
 import {element, fillLegend, list} from "./legend.js";
-import {overlayOf} from "./overlays.js";
+import {overlayArray, overlayOf} from "./overlays.js";
 import {Panel} from "./panel.js";
 import {showHistory, showTexel, showValues} from "./pixel.js";
 import {canvasOf, differs} from "./pictures.js";
@@ -18,13 +18,14 @@ import {fit, reveal, viewOf, zoomBy, zoomTo} from "./views.js";
 
 const panels = new Map();
 let visible = [];  // panels on the page, in order
+let used = null;  // the view of the panel that was used last
 let rendering = 0;  // number of the newest rendering: older ones give way
 
 // -- pictures ---------------------------------------------------------------------------------------------------------
 async function render() {
   const turn = ++rendering, {group, panels: wanted} = panelsOf(chosen.side, chosen.step);
-  const steps = page.runs.map(run => run.steps[stepIn(run, chosen.step)]);
-  await load([...arraysOf(wanted), ...steps.flatMap(step => [step.last ?? null, ...Object.values(step.counts ?? {})])]);
+  const overlays = page.runs.map(run => overlayArray(chosen.overlay, run.steps[stepIn(run, chosen.step)]));
+  await load([...arraysOf(wanted), ...overlays]);
   if (turn !== rendering) return;
   showStep();
   fillChoices(wanted);
@@ -65,7 +66,7 @@ function captionOf(picture) {
   else if (picture.map && picture.from !== chosen.step) words.push(`of step ${picture.from}`);
   if (picture.note) words.push(picture.note);
   if (picture.changed) words.push("changed in this step");
-  return [title, element("span", words.join("; "), {className: "words"})];
+  return [title, element("span", words.join("; "), {className: "words", title: words.join("; ")})];
 }
 
 function panelButtons(panel) {
@@ -87,6 +88,7 @@ function redraw() {
   const lines = page.lines.filter(({name}) => chosen.lines.has(name)).map(({color, places}) => [color, places]);
   if (chosen.row) lines.push(["#ff0", chosen.row]);
   for (const panel of visible) panel.draw(chosen.marker, lines);
+  document.body.classList.toggle("zoomed", visible.some(panel => panel.view.zoom > 1));  // a finger pans, not scrolls
 }
 
 // -- steps ------------------------------------------------------------------------------------------------------------
@@ -136,6 +138,7 @@ function isInside([x, y]) {
 }
 
 function choosePlace(panel, place) {
+  used = panel.view;
   panel.canvas.focus({preventScroll: true});
   if (panel.isWindow && isInside(place)) mark(place);
 }
@@ -176,14 +179,14 @@ for (const box of document.querySelectorAll("[name=lines]"))
   box.addEventListener("change", () => { chosen.lines[box.checked ? "add" : "delete"](box.value); redraw(); });
 
 const CELL_WITH_DIGITS = 44;  // CSS pixels
+// Zoom the pictures that are as large as the one that was used last.
 function zoom(how) {
-  for (const panel of new Map(visible.map(panel => [panel.view, panel])).values()) {
-    const place = panel.isWindow && chosen.marker ? chosen.marker.map(value => value + 0.5) : [panel.view.x, panel.view.y];
-    if (how === "fit") fit(panel.view);
-    else if (how === "digits") zoomTo(panel.view, CELL_WITH_DIGITS, panel.cell, place);
-    else zoomBy(panel.view, how === "in" ? 2 : 0.5, panel.cell);
-  }
-  document.body.classList.toggle("zoomed", visible.some(panel => panel.view.zoom > 1));
+  const panel = visible.find(({view}) => view === used) ?? visible.find(({isWindow}) => isWindow) ?? visible[0];
+  if (!panel) return;
+  const place = panel.isWindow && chosen.marker ? chosen.marker.map(value => value + 0.5) : [panel.view.x, panel.view.y];
+  if (how === "fit") fit(panel.view);
+  else if (how === "digits") zoomTo(panel.view, CELL_WITH_DIGITS, panel.cell, place);
+  else zoomBy(panel.view, how === "in" ? 2 : 0.5, panel.cell);
   redraw();
 }
 for (const button of document.querySelectorAll("[data-zoom]")) button.addEventListener("click", () => zoom(button.dataset.zoom));
@@ -198,6 +201,9 @@ document.addEventListener("keydown", event => {
   action();
 });
 find("theme").addEventListener("change", event => { document.documentElement.dataset.theme = event.target.value; });
+addEventListener("message", event => {  // the 3-D view is ready
+  if (event.data?.softshadow === "view3d" && chosen.marker) mark(chosen.marker);
+});
 addEventListener("hashchange", () => { Object.assign(chosen, readAddress()); render(); });
 new ResizeObserver(redraw).observe(find("panels"));
 fillQuestions(find("questions"), page.questions, (question, step) => { chosen.marker = [question.x, question.y]; return goTo(step); });
