@@ -20,10 +20,13 @@ from softshadow.report.page import map_note, named, write_page
 from softshadow.report.questions import questions
 from softshadow.report.script import script_of
 from softshadow.report.state_changes import marked_calls
+from softshadow.report.view3d import view3d_document
 from softshadow.report.wireframe import wireframe
 from softshadow.scene import Scene
+from softshadow.space.sight_lines import COUNTING
 
 SHOWN_MAPS = 4  # that stand on the page from the beginning; the others can be chosen
+LARGEST_VIEW = 1 << 20  # characters of a 3-D view
 MINOR_MAPS = ("valid", "unknown")
 DIFFERENT = (0xD5, 0x5E, 0x00)  # pixels in which two runs differ
 FATE_COLORS = ((0, 0, 0), (0xF0, 0xE4, 0x42), (0x56, 0xB4, 0xE9), (0xBB, 0xBB, 0xBB), (0xCC, 0x79, 0xA7),
@@ -57,20 +60,19 @@ class RunPage:
         return f"{self.technique} on {self.scene.name}"
 
 
-def write_run_page(run: RunPage, path: Path, beside: RunPage | None = None, view3d: str = "") -> None:
-    """Write the report of a run as one file.
+def write_run_page(run: RunPage, path: Path, beside: RunPage | None = None) -> None:
+    """Write the report of a run as one file; of a technique that counts volumes, with the 3-D view of its first light.
 
     Parameters
     ----------
     beside : RunPage             of the same size; the page shows both, and their difference
-    view3d : str                 HTML of a 3-D view: a frame, which gets messages {softshadow: "pixel", x, y, stencil},
-                                 and may send {softshadow: "view3d"} to ask for one
 
     Raises
     ------
     ValueError                   the runs differ in size
     """
-    write_runs(path, [run] if beside is None else [run, beside], view3d=view3d)
+    view = view3d_document(run) if run.technique in COUNTING and run.scene.lights else ""
+    write_runs(path, [run] if beside is None else [run, beside], view3d=view)
 
 
 def write_runs(path: Path, runs: Sequence[RunPage], failure: Any = None, command: str = "", view3d: str = "") -> None:
@@ -80,16 +82,16 @@ def write_runs(path: Path, runs: Sequence[RunPage], failure: Any = None, command
     ----------
     failure : FailurePage        if the first run has a failure that the second one cures
     command : str                of the command line; by default the one for the history of a pixel
-    view3d : str                 as in `write_run_page`
+    view3d : str                 the page of the 3-D view, which is left out if it is larger than `LARGEST_VIEW`
     """
     start = {"side": "both", "marker": failure.pixel} if failure else {"side": "first"}
     write_page(
-        path, "run.html", run=runs[0], runs=runs, data=page_data(runs, start), failure=failure, command=command,
-        view3d=view3d, warnings=named(runs[0].warnings), script=script_of("report.js"),
+        path, "run.html", run=runs[0], runs=runs, data=page_data(runs, start, view3d), failure=failure, command=command,
+        warnings=named(runs[0].warnings), script=script_of("report.js"),
     )  # fmt: skip
 
 
-def page_data(runs: Sequence[RunPage], start: Mapping[str, Any]) -> dict[str, Any]:
+def page_data(runs: Sequence[RunPage], start: Mapping[str, Any], view3d: str = "") -> dict[str, Any]:
     """Return what the page's script reads (templates/data.js); `start` is what it shows first: side, marker.
 
     Raises
@@ -101,6 +103,9 @@ def page_data(runs: Sequence[RunPage], start: Mapping[str, Any]) -> dict[str, An
         if other.size != run.size:
             raise ValueError(f"beside: sizes differ, {run.size} and {other.size}; expected the same")
     packing, texts = Packing(LIMIT), list[Any]()
+    if len(view3d) > LARGEST_VIEW:
+        packing.leave_out("3-D view", f"it would take {len(view3d) / 1e6:.2g} MB")
+        view3d = ""
     records = [recorded(each.steps[0].frame, packing) for each in runs]
     described: list[dict[str, Any]] = [
         {"name": each.name or each.technique, "technique": each.technique, "steps": _steps(each, record, packing)}
@@ -121,6 +126,7 @@ def page_data(runs: Sequence[RunPage], start: Mapping[str, Any]) -> dict[str, An
         "palette": stencil_palette().tolist(),
         "colors": {"undefined": UNDEFINED, "clear": CLEAR_DEPTH, "different": DIFFERENT, "fates": FATE_COLORS},
         "start": start,
+        "view3d": view3d,
         "command": f"softshadow pixel {run.technique} X Y {arguments}",
         "notices": packing.notices,
         "arrays": packing.arrays,

@@ -170,11 +170,21 @@ def test_overlays_have_a_legend_and_lines_are_drawn(file: Path, browser: Any) ->
         assert len({before, overlaid, page.locator("[data-panel=colour] canvas").screenshot()}) == 3
 
 
+def test_view_in_space_follows_the_pixel(run: ss.Run, file: Path, browser: Any) -> None:
+    with opened(browser, file, "#x=20&y=30") as page:
+        assert page.locator("#view3d iframe").count() == 0  # unpacked when it is first opened
+        page.click("#view3d summary")
+        text = "document.querySelector('#view3d iframe')?.contentDocument?.body?.innerText ?? ''"
+        for x, y in ((20, 30), (32, 36)):
+            page.evaluate("([x, y]) => softshadow.mark([x, y])", [x, y])
+            page.wait_for_function(f"({text}).includes('Stencil value {run.stencil[y, x]}')", timeout=15_000)
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_page_is_accessible(scheme: str, both: Path, browser: Any) -> None:
     axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="needs axe-playwright-python")
     with opened(browser, both, "#x=20&y=30&show=both", color_scheme=scheme) as page:
-        page.evaluate("for (const each of document.querySelectorAll('details')) each.open = true")
+        page.evaluate("for (const each of document.querySelectorAll('details:not(#view3d)')) each.open = true")
         found = axe.Axe().run(page).response["violations"]
         serious = [each for each in found if each["impact"] in ("serious", "critical")]
         assert [(each["id"], each["nodes"][0]["html"]) for each in serious] == []

@@ -201,6 +201,9 @@ document.addEventListener("keydown", event => {
   action();
 });
 find("theme").addEventListener("change", event => { document.documentElement.dataset.theme = event.target.value; });
+find("view3d")?.addEventListener("toggle", event => {  // the view is unpacked when it is first opened
+  if (!event.target.querySelector("iframe")) event.target.append(element("iframe", "", {title: "3-D view", srcdoc: page.view3d}));
+});
 addEventListener("message", event => {  // the 3-D view is ready
   if (event.data?.softshadow === "view3d" && chosen.marker) mark(chosen.marker);
 });
