@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from softshadow import gl, notebook, testing
     from softshadow.errors import (
+        CallsLeftOut,
         CoarseDepth,
         CounterSaturated,
         DegenerateFaces,
+        DrawsLeftOut,
         EdgeNearLight,
         FarFromOrigin,
         HistoryCut,
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
         SoftShadowError,
         StateError,
         TJunction,
+        TraceError,
         UnweldedMesh,
         Warning,
     )
@@ -35,6 +38,7 @@ if TYPE_CHECKING:
     from softshadow.inspection.pictures import stencil_palette
     from softshadow.inspection.soft_truth import SoftTruth, soft_truth
     from softshadow.pipeline import explain_paths, set_threads, use_short_cuts
+    from softshadow.recordings import Recording, record, replay
     from softshadow.report import counting_cards, cross_section
     from softshadow.runs import Run, load_run, run
     from softshadow.scene import (
@@ -60,11 +64,13 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "CallsLeftOut",
     "Camera",
     "CoarseDepth",
     "CounterSaturated",
     "DegenerateFaces",
     "Disc",
+    "DrawsLeftOut",
     "EdgeNearLight",
     "FarFromOrigin",
     "HistoryCut",
@@ -82,6 +88,7 @@ __all__ = [
     "OutsideLightFrustum",
     "PartlyReadFile",
     "Range",
+    "Recording",
     "Rectangle",
     "Run",
     "Scene",
@@ -94,6 +101,7 @@ __all__ = [
     "StateError",
     "TJunction",
     "Technique",
+    "TraceError",
     "UnweldedMesh",
     "Warning",
     "counting_cards",
@@ -106,7 +114,9 @@ __all__ = [
     "load_run",
     "notebook",
     "placement",
+    "record",
     "register",
+    "replay",
     "run",
     "scene_names",
     "set_threads",
@@ -128,14 +138,15 @@ _MODULES = {
 _RENAMED = {"failures": ("softshadow.gallery", "GALLERY"), "technique_names": ("softshadow.techniques", "names")}
 _HOMES = {
     "softshadow.errors": (
-        "CoarseDepth", "CounterSaturated", "DegenerateFaces", "EdgeNearLight", "FarFromOrigin", "HistoryCut",
-        "InsideOutMesh", "LightInsideCaster", "MeshError", "MisorientedMesh", "NearClipZPass", "NonManifoldMesh",
-        "OpenMesh", "OutsideLightFrustum", "PartlyReadFile", "SceneError", "SoftShadowError", "StateError",
-        "TJunction", "UnweldedMesh", "Warning",
+        "CallsLeftOut", "CoarseDepth", "CounterSaturated", "DegenerateFaces", "DrawsLeftOut", "EdgeNearLight",
+        "FarFromOrigin", "HistoryCut", "InsideOutMesh", "LightInsideCaster", "MeshError", "MisorientedMesh",
+        "NearClipZPass", "NonManifoldMesh", "OpenMesh", "OutsideLightFrustum", "PartlyReadFile", "SceneError",
+        "SoftShadowError", "StateError", "TJunction", "TraceError", "UnweldedMesh", "Warning",
     ),
     "softshadow.inspection.pictures": ("stencil_palette",),
     "softshadow.inspection.soft_truth": ("SoftTruth", "soft_truth"),
     "softshadow.pipeline": ("explain_paths", "set_threads", "use_short_cuts"),
+    "softshadow.recordings": ("Recording", "record", "replay"),
     "softshadow.report": ("counting_cards", "cross_section"),
     "softshadow.runs": ("Run", "load_run", "run"),
     "softshadow.scene": (

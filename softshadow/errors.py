@@ -21,6 +21,10 @@ class StateError(SoftShadowError):
     """The operation is not possible in the current GL state or with this buffer."""
 
 
+class TraceError(SoftShadowError):
+    """A trace file is damaged or incomplete: names the place in the file and the last call that was read."""
+
+
 class Warning(builtins.UserWarning):
     """Base of all warnings: input that is legal but will look wrong."""
 
@@ -83,6 +87,14 @@ class CounterSaturated(Warning):
 
 class CoarseDepth(Warning):
     """The camera's near plane is so close that the depth buffer cannot tell the surfaces of the scene apart."""
+
+
+class DrawsLeftOut(Warning):
+    """The picture of a replayed program lacks draws: says which, and why."""
+
+
+class CallsLeftOut(Warning):
+    """A replay could not carry out calls of the recorded program: says which, and why."""
 
 
 class HistoryCut(Warning):

@@ -7,6 +7,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 SCENES = ROOT / "docs" / "scenes"
+TRACE = ROOT / "tests" / "recordings" / "data" / "arrays_and_lists.trace"  # of the C program beside it
 SHARED_DATA = Path(os.environ.get("SOFTSHADOW_SHARED_DATA", ROOT.parent / "shared" / "data"))
 
 

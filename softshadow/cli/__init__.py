@@ -28,7 +28,9 @@ from softshadow.cli.failures import failures
 from softshadow.cli.listings import listings
 from softshadow.cli.lists import scenes, techniques
 from softshadow.cli.machine import doctor, warmup
+from softshadow.cli.replay import replay
 from softshadow.cli.runs import pixel, render, section, steps
+from softshadow.cli.script import run
 from softshadow.cli.tours import tour
 from softshadow.errors import SoftShadowError
 
@@ -137,8 +139,8 @@ def main(traceback: bool) -> None:
 
 
 for command in (
-    tour, render, steps, pixel, section, view3d, export, cards, compare, techniques, scenes, listings, failures, bench,
-    warmup, doctor,
+    tour, render, steps, pixel, section, view3d, export, cards, compare, replay, run, techniques, scenes, listings,
+    failures, bench, warmup, doctor,
 ):  # fmt: skip
     main.add_command(command)
 

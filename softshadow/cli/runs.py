@@ -37,9 +37,10 @@ def _draw(technique: str, size: tuple[int, int], options: tuple[str, ...], scene
 
 
 def _about(run: Run) -> dict[str, Any]:
+    """Return what a run is, as the beginning of a JSON result."""
     return {
         "technique": run.technique,
-        "scene": run.scene.name,
+        "scene": run.scene.name if run.scene is not None else None,
         "size": run.size,
         "options": run.options,
         "warnings": [{"name": type(each).__name__, "text": str(each)} for each in run.warnings],

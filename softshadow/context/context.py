@@ -21,7 +21,7 @@ from softshadow.context.recording import Frame
 from softshadow.context.state_groups import StateGroups, affects_draws
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
-from softshadow.framebuffer import Storage
+from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import create, evolve
 from softshadow.pipeline.commands import Clear, Command, Draw, Origin, Vertices
 from softshadow.pipeline.execute import execute
@@ -102,6 +102,7 @@ class Context:
         # Not always True then, but always False otherwise.
         self.ready = False
         self.before: Context | None = None  # the context that a with statement restores
+        self.gate: Callable[[Command], bool] | None = None  # asked whether a command is carried out; None: all are
         self.error = gl.GL_NO_ERROR
         viewport = evolve(State().viewport, width=width, height=height)
         scissor = evolve(State().scissor, width=width, height=height)
@@ -121,6 +122,7 @@ class Context:
         self.uniforms: dict[int, dict[str, Any]] = {}
         self.labels: list[str] = []
         self.origin: Origin | None = None  # what the primitives of the next draws were made from
+        self.open_step: str | None = None  # title of a step that has begun
         self.primitive: Primitive | None = None  # between glBegin and glEnd
         self.vertex_buffer = VertexBuffer(self._carry_out, self.objects)  # immediate mode
         self.arrays = ClientArrays()
@@ -299,6 +301,8 @@ class Context:
         self._waiting.carry_out()
 
     def _carry_out(self, command: Command) -> None:
+        if self.gate is not None and not self.gate(command):
+            return
         if type(command) is not Draw:
             if type(command) is not Clear:
                 self._waiting.forget()
@@ -307,6 +311,31 @@ class Context:
             execute(command, self.objects)
         if self._frame.append(command):
             self._frame.shorten(self.storage)
+
+    def carry_out(self, commands: Sequence[Command]) -> None:
+        """Carry out and record commands that the gate has kept back."""
+        gate, self.gate = self.gate, None
+        try:
+            for command in commands:
+                self._carry_out(command)
+        finally:
+            self.gate = gate
+
+    def begin_recording(self) -> None:
+        """Let the recording begin here, with all buffers and textures as they are now."""
+        self.flush()
+        self._frame.begin(self.storage)
+
+    def resize(self, width: int, height: int) -> None:
+        """Replace the window by a cleared one of another size; the recording begins with it."""
+        self.finish()
+        self._waiting.forget()
+        before, frame = self.objects.window, self._frame
+        window = default_framebuffer(width, height, frame.depth_format, frame.stencil_bits, frame.precision)
+        window.draw_buffers, window.read_buffer = before.draw_buffers, before.read_buffer
+        self.objects.framebuffers[window.name], self.objects.visibility_cache = window, None
+        frame.size = width, height
+        self.begin_recording()
 
     def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:
         """Draw primitives under the current state; nobody may change the arrays afterwards."""
@@ -413,6 +442,20 @@ class Context:
         """Mark the end of a step in the recording."""
         self.flush()
         self._frame.steps.append((title, len(self._frame.commands)))
+
+    def begin_step(self, title: str) -> None:
+        """Begin a step, which ends where the next one begins; what was drawn before the first one is a step, too."""
+        if self.open_step is not None:
+            self.end_step(self.open_step)
+        elif self.frame.commands:
+            self.end_step(f"before {title!r}")
+        self.open_step = title
+
+    def end_open_step(self) -> None:
+        """End the step that was begun last, if there is one."""
+        if self.open_step is not None:
+            self.end_step(self.open_step)
+            self.open_step = None
 
 
 def _draw_state(state: State) -> State:

@@ -74,8 +74,9 @@ class Frame:
 
     `steps` holds (title, number of commands until its end). A bounded recording (`history_bytes`, None for all) keeps
     between half of these bytes and all of them: `start` is the storage before the first command that it still has,
-    None if that is the first one of all, and `dropped` the number of commands before it. Steps that have ended before
-    it are dropped, too; `dropped_steps` is their number. `answers` keeps what questions about the frame have computed.
+    None if that is the first one of a new context, and `dropped` the number of commands that were dropped before it.
+    Steps that have ended before it are dropped, too; `dropped_steps` is their number. `answers` keeps what questions
+    about the frame have computed.
     """
 
     size: tuple[int, int]
@@ -123,6 +124,14 @@ class Frame:
         self._mark = len(self.commands), copy_storage(storage)
         self._older, self._newer = self._newer, Contents(self._newer)
 
+    def begin(self, storage: Storage) -> None:
+        """Begin with a copy of a storage: what has been recorded is its past, and no part of the recording."""
+        self.commands.clear()
+        self.steps.clear()
+        self.start, self.dropped, self.dropped_steps = copy_storage(storage), 0, 0
+        self._older, self._newer, self._mark = Contents(), Contents(), None
+        self.answers.clear()
+
     def fresh_storage(self) -> Storage:
         """Return new storage in its state before the first command.
 
@@ -131,7 +140,8 @@ class Frame:
         HistoryCut                   the recording has dropped earlier commands
         """
         if self.start is not None:
-            warnings.warn(HistoryCut(self._cut_message()), stacklevel=2)
+            if self.dropped:
+                warnings.warn(HistoryCut(self._cut_message()), stacklevel=2)
             return copy_storage(self.start)
         window = default_framebuffer(*self.size, self.depth_format, self.stencil_bits, self.precision)
         return Storage({window.name: window})

@@ -15,6 +15,7 @@ from __future__ import annotations
 from inspect import ismodule
 from typing import Any
 
+import softshadow
 from softshadow.context import Context, current, make_current
 from softshadow.gl.accumulation import *
 from softshadow.gl.array_draws import *
@@ -109,7 +110,7 @@ def create_context(
 
 def __dir__() -> list[str]:
     """Return the public names."""
-    own = ("Context", "GLError", "create_context", "describe_primitives", "program")
+    own = ("Context", "GLError", "create_context", "describe_primitives", "program", "record", "step")
     spelled = (name for name, value in globals().items() if name.startswith(("gl", "GL_")) and not ismodule(value))
     return sorted({*own, *spelled})
 
@@ -117,6 +118,8 @@ def __dir__() -> list[str]:
 def __getattr__(name: str) -> Any:
     if name == "__all__":
         return [*__dir__(), *extension_names(__dir__())]
+    if name == "record":  # a run is made of a recording on a higher floor
+        return softshadow.record
     if name.startswith(("gl", "GL_")):
         plain = plain_name(name, globals())
         if plain is not None:

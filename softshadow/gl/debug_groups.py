@@ -1,4 +1,4 @@
-"""Debug groups, which name the draws inside them, and descriptions of primitives."""
+"""Debug groups, which name the draws inside them; descriptions of primitives; the steps of a recording."""
 
 from __future__ import annotations
 
@@ -68,4 +68,11 @@ def describe_primitives(
     current().origin = Origin(part, feature, arrays[0], tuple(casters), arrays[1]) if part else None
 
 
-__all__ = [*spelled_like_gl(globals()), "describe_primitives"]
+def step(title: str) -> None:
+    """Begin a step of the recording; it ends where the next one begins. Not part of GL: see `record`."""
+    context = outside_begin("step")
+    if context is not None:
+        context.begin_step(str(title))
+
+
+__all__ = [*spelled_like_gl(globals()), "describe_primitives", "step"]

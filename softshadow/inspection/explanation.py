@@ -42,7 +42,9 @@ def explain(
     surface = surface_row(rows) or next((row for row in reversed(rows) if row.verdict == "passed"), None)
     if surface is None:
         return f"{history.heading} shows no surface: no fragment passed its tests there."
-    if not valid or visibility is None:
+    if visibility is None:
+        return f"{history.heading} shows what was drawn {_described(_adding(rows, surface))}."
+    if not valid:
         return f"{history.heading} has no defined visibility in this technique: {_described(surface)}."
     if visibility >= LIT:
         return f"{history.heading} is lit: {_described(_adding(rows, surface))}."

@@ -12,6 +12,7 @@ from softshadow.report import CrossSection, cross_section
 from softshadow.report.cross_section_svg import CASTER, LIGHT, MARGIN, RAY, RECEIVER, VOLUME
 from softshadow.runs import Run
 from softshadow.scene import Scene
+from softshadow.space.shadow_parts import scene_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -53,7 +54,7 @@ def show_section(
     if isinstance(source, CrossSection):
         section = source
     elif isinstance(source, Run):
-        section = cross_section(source.scene, pixel, size or source.size, light)
+        section = cross_section(scene_of(source), pixel, size or source.size, light)
     else:
         section = cross_section(source, pixel, size or (640, 480), light)
     low, high = _bounds(section)

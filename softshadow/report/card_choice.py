@@ -20,7 +20,7 @@ from softshadow.report.counting_card import CountingCard
 from softshadow.report.cross_sections import cross_section
 from softshadow.scene import Scene
 from softshadow.space import LineOfSight, line_of_sight
-from softshadow.space.shadow_parts import DrawnRun
+from softshadow.space.shadow_parts import DrawnRun, scene_of
 from softshadow.space.sight_lines import COUNTING
 
 EXTENSIONS = (".pdf", ".png")
@@ -105,7 +105,7 @@ def counting_cards(run: DrawnRun, n: int = 6, seed: int = 0, light: str | None =
             f"n={n}: {len(lines)} pixels of this picture have crossings that can be told apart; expected fewer cards, "
             "or a larger picture"
         )
-    size, scene = run.steps[0].frame.size, run.scene
+    size, scene = run.steps[0].frame.size, scene_of(run)
     cards = [
         CountingCard(number, run.technique, line, cross_section(scene, (line.x, line.y), size, line.light))
         for number, line in enumerate(lines, 1)
@@ -123,7 +123,7 @@ def _candidates(run: DrawnRun, n: int, seed: int, light: str | None) -> list[Lin
     for mask in (inner & (stencil == 0), inner & (stencil != 0)):
         for y, x in random.permutation(np.argwhere(mask))[: LOOKED_AT // 2 * n].tolist():
             line = line_of_sight(run, x, y, light)
-            if _is_drawable(line, run.scene):
+            if _is_drawable(line, scene_of(run)):
                 lines.append(line)
     return lines
 

@@ -10,6 +10,23 @@ from softshadow import techniques
 from softshadow.scene import Scene, scene_names
 
 
+def heading(technique: str, scene: Scene | None, options: Mapping[str, Any]) -> str:
+    """Return what a run shows; without a scene, the program that was recorded."""
+    if scene is not None:
+        return f"{technique} on {scene.name}"
+    return f"{technique} of {options.get('program', 'a program')}"
+
+
+def question_spelled(technique: str, scene: Scene | None, size: tuple[int, int], options: Mapping[str, Any]) -> str:
+    """Return the command line, or the call, that tells the history of a pixel X Y of a run."""
+    if scene is not None:
+        return f"softshadow pixel {technique} X Y {scene_spelled(scene, size)}{options_spelled(technique, options)}"
+    if technique == "replay":
+        place = f"--until {options['until']}" if "until" in options else f"--frame {options['frame']}"
+        return f"softshadow replay {shlex.quote(str(options['program']))} {place} --pixel X Y"
+    return "run.pixel(X, Y)"
+
+
 def scene_spelled(scene: Scene, size: tuple[int, int]) -> str:
     """Return the arguments for a scene and a size; FILE stands for a scene that is not built in, or was changed.
 

@@ -12,7 +12,7 @@ import numpy as np
 from softshadow.errors import Warning
 from softshadow.inspection import Ledger, Step, Steps
 from softshadow.inspection.pictures import CLEAR_DEPTH, UNDEFINED, is_visibility, stencil_palette
-from softshadow.report.commands import options_spelled, scene_spelled
+from softshadow.report.commands import heading, question_spelled
 from softshadow.report.fragment_events import FATES, FragmentRecord
 from softshadow.report.history_record import history_json, recorded
 from softshadow.report.packing import LIMIT, Packing
@@ -45,7 +45,7 @@ class RunPage:
     """
 
     technique: str
-    scene: Scene
+    scene: Scene | None
     size: tuple[int, int]
     options: Mapping[str, Any]
     warnings: tuple[Warning, ...]
@@ -56,8 +56,8 @@ class RunPage:
 
     @property
     def heading(self) -> str:
-        """The technique and the scene."""
-        return f"{self.technique} on {self.scene.name}"
+        """The technique and the scene, or the program that was recorded."""
+        return heading(self.technique, self.scene, self.options)
 
 
 def write_run_page(run: RunPage, path: Path, beside: RunPage | None = None) -> None:
@@ -71,7 +71,7 @@ def write_run_page(run: RunPage, path: Path, beside: RunPage | None = None) -> N
     ------
     ValueError                   the runs differ in size
     """
-    view = view3d_document(run) if run.technique in COUNTING and run.scene.lights else ""
+    view = view3d_document(run) if run.technique in COUNTING and run.scene is not None and run.scene.lights else ""
     write_runs(path, [run] if beside is None else [run, beside], view3d=view)
 
 
@@ -113,8 +113,8 @@ def page_data(runs: Sequence[RunPage], start: Mapping[str, Any], view3d: str = "
     ]
     for each, record, description in zip(runs, records, described, strict=True):
         description["history"] = history_json(record, each.steps, packing, texts) if record else None
-    lines = {each.name: asdict(each) for one in runs for each in wireframe(one.scene, one.size, one.technique)}
-    arguments = scene_spelled(run.scene, run.size) + options_spelled(run.technique, run.options)
+    scenes = [(one.scene, one.size, one.technique) for one in runs if one.scene is not None]
+    lines = {each.name: asdict(each) for seen in scenes for each in wireframe(*seen)}
     return {
         "size": run.size,
         "runs": described,
@@ -127,7 +127,7 @@ def page_data(runs: Sequence[RunPage], start: Mapping[str, Any], view3d: str = "
         "colors": {"undefined": UNDEFINED, "clear": CLEAR_DEPTH, "different": DIFFERENT, "fates": FATE_COLORS},
         "start": start,
         "view3d": view3d,
-        "command": f"softshadow pixel {run.technique} X Y {arguments}",
+        "command": question_spelled(run.technique, run.scene, run.size, run.options),
         "notices": packing.notices,
         "arrays": packing.arrays,
     }

@@ -40,7 +40,7 @@ from softshadow.space import (
 from softshadow.space.markers import marker
 from softshadow.space.model_writing import viewer_html
 from softshadow.space.pieces import Color, surface
-from softshadow.space.shadow_parts import DrawnRun, light_named
+from softshadow.space.shadow_parts import DrawnRun, light_named, scene_of
 from softshadow.space.sight_lines import COUNTING
 
 HEIGHT = 520  # of a view in a notebook, CSS pixels
@@ -92,13 +92,13 @@ class View3D:
     @property
     def title(self) -> str:
         """What the page shows, in words."""
-        return f"{self.run.technique} on {self.run.scene.name}: 3-D view"
+        return f"{self.run.technique} on {scene_of(self.run).name}: 3-D view"
 
     def pieces(self) -> Iterator[Surface | Edges]:
         """Yield the line of sight as edges, and each crossing as a small ball."""
         if self.line is None:
             return
-        size = _extent(self.run.scene)
+        size = _extent(scene_of(self.run))
         line, end = self.line, self.far_end
         point = end if self.line.point is None else self.line.point
         yield Edges("line of sight", np.array([[line.eye, point]], np.float32), RAY)
@@ -115,7 +115,7 @@ class View3D:
         """(3,) float64: where the line of sight is drawn to."""
         assert self.line is not None
         direction = self.line.near_point - self.line.eye
-        reach = 2 * max(_extent(self.run.scene), *self.geometry.distances.values())
+        reach = 2 * max(_extent(scene_of(self.run)), *self.geometry.distances.values())
         return np.asarray(self.line.eye + reach * direction / np.linalg.norm(direction))
 
     def _repr_html_(self) -> str:
@@ -125,7 +125,7 @@ class View3D:
 
     def __repr__(self) -> str:
         pixel = "" if self.line is None else f", pixel {self.line.x}, {self.line.y}: {len(self.crossings)} crossings"
-        return f"View3D({self.run.technique!r} on {self.run.scene.name!r}{pixel})"
+        return f"View3D({self.run.technique!r} on {scene_of(self.run).name!r}{pixel})"
 
 
 def view3d_of(run: DrawnRun, pixel: tuple[int, int] | None = None, light: str | None = None) -> View3D:
@@ -140,7 +140,7 @@ def view3d_of(run: DrawnRun, pixel: tuple[int, int] | None = None, light: str | 
     ------
     ValueError                   the pixel is outside the picture, or there is no such light
     """
-    source = run.scene.lights[0] if light is None else light_named(run.scene, light)
+    source = scene_of(run).lights[0] if light is None else light_named(scene_of(run), light)
     line = None if pixel is None else line_of_sight(run, *pixel, source.name)
     return View3D(run, source, geometry_of_run(run, source.name), line)
 
@@ -172,7 +172,7 @@ def packed_page(page: str, title: str) -> str:
 
 def _data(view: View3D) -> dict[str, Any]:
     """Return what the page's script needs to know about the run."""
-    run, scene = view.run, view.run.scene
+    run, scene = view.run, scene_of(view.run)
     camera, size = scene.camera, run.steps[0].frame.size
     corners = camera.near_points(np.array([[0.0, 0.0], [size[0], 0.0], [0.0, size[1]]]), size)
     finite = run.options.get("far", "finite") == "finite"

@@ -42,7 +42,7 @@ class RunRecord:
     """Everything that a run consists of; files are written from it."""
 
     technique: str
-    scene: Scene
+    scene: Scene | None
     options: Mapping[str, Any]
     warnings: tuple[errors.Warning, ...]
     steps: Steps

@@ -47,6 +47,7 @@ from softshadow.runs.saving import save
 from softshadow.runs.why import causes_at, explained
 from softshadow.scene import Scene
 from softshadow.space import LineOfSight, ShadowGeometry, geometry_of_run, line_of_sight
+from softshadow.space.shadow_parts import scene_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,8 +67,8 @@ class Run:
 
     Attributes
     ----------
-    technique : str
-    scene : Scene
+    technique : str              "replay" or "recording" for a program that draws no scene of this package
+    scene : Scene or None        None for such a program; questions about light and shadow are errors then
     size : (width, height)
     options : dict               every option of the technique, with its default where none was passed
     warnings : tuple             those of the scene and the technique
@@ -76,7 +77,7 @@ class Run:
     """
 
     technique: str
-    scene: Scene
+    scene: Scene | None
     size: tuple[int, int]
     options: Mapping[str, Any]
     warnings: tuple[errors.Warning, ...]
@@ -125,14 +126,16 @@ class Run:
     @property
     def lights(self) -> tuple[RunLight, ...]:
         """The visibility of each light, in the order of the scene."""
-        several = len(self.scene.lights) > 1
+        lights = scene_of(self).lights
+        several = len(lights) > 1
         return tuple(
             RunLight(light.name, self._map(f"visibility of {light.name}" if several else "visibility"))
-            for light in self.scene.lights
+            for light in lights
         )
 
     def _map(self, name: str) -> np.ndarray:
         if name not in self.maps:
+            scene_of(self)  # a run without one has no maps at all
             raise StateError(f"technique {self.technique!r} has no map {name!r} (it has: {', '.join(self.maps)})")
         return self.maps[name]
 
@@ -167,7 +170,7 @@ class Run:
         ------
         ValueError                   the pixel is outside the framebuffer, or nothing was drawn to it
         """
-        return pixel_history(self.frame, x, y, framebuffer, [light.name for light in self.scene.lights])
+        return pixel_history(self.frame, x, y, framebuffer, [light.name for light in scene_of(self).lights])
 
     def map_pixel(self, name: str, x: int, y: int) -> PixelHistory:
         """Return every fragment generated at a texel of a map, like ``run.map_pixel("ZS", 211, 340)``.
@@ -185,7 +188,7 @@ class Run:
         ValueError                   outside the map
         """
         image, commands = image_of_map(self.steps, name)
-        return texel_history(self.frame, image, x, y, commands, name, [light.name for light in self.scene.lights])
+        return texel_history(self.frame, image, x, y, commands, name, [light.name for light in scene_of(self).lights])
 
     def explain(self, x: int, y: int) -> str:
         """Return one sentence that says why a pixel is lit or in shadow, and a second one with numbers if it is soft.
@@ -195,12 +198,12 @@ class Run:
         text = explained(self.frame, self.pixel(x, y), self.scene, self.maps, self.options)
         if self.technique != "volume-wedges" or not self.valid[y, x] or not 0 < self.visibility[y, x] < 1:
             return text
-        numbers = [number for number, light in enumerate(self.scene.lights) if light.shape is not None]
+        numbers = [number for number, light in enumerate(scene_of(self).lights) if light.shape is not None]
         return " ".join([text, *(str(self.contributions(x, y, number)) for number in numbers)])
 
     def causes(self, x: int, y: int) -> tuple[Cause, ...]:
         """Return why each hidden light does not reach what a pixel shows, or only in part; empty where it is lit."""
-        return causes_at(self.frame, self.pixel(x, y), self.scene, self.maps)
+        return causes_at(self.frame, self.pixel(x, y), scene_of(self), self.maps)
 
     def fragments(self, step: int | str, framebuffer: int = 0) -> FragmentMaps:
         """Return how many fragments a step has drawn at each pixel, by verdict, and the last fragment of each pixel.
@@ -223,7 +226,7 @@ class Run:
         light : int                  index in the scene
         """
         hidden = self.valid & (self.lights[light].visibility < 1)
-        return shadow_kinds(self.scene, self.scene.lights[light], hidden)
+        return shadow_kinds(scene_of(self), scene_of(self).lights[light], hidden)
 
     def contributions(self, x: int, y: int, light: int = 0) -> WedgeContributions:
         """Return what each penumbra wedge of a light contributes at a pixel of a run of "volume-wedges".
@@ -242,15 +245,16 @@ class Run:
         """
         if not (0 <= x < self.size[0] and 0 <= y < self.size[1]):
             raise ValueError(f"contributions({x}, {y}): outside the picture of {self.size[0]} x {self.size[1]} pixels")
-        if not 0 <= light < len(self.scene.lights):
-            raise ValueError(f"light={light}: expected 0 to {len(self.scene.lights) - 1}")
-        source = self.scene.lights[light]
-        of_light = "" if len(self.scene.lights) == 1 else f": {source.name}"
+        scene = scene_of(self)
+        if not 0 <= light < len(scene.lights):
+            raise ValueError(f"light={light}: expected 0 to {len(scene.lights) - 1}")
+        source = scene.lights[light]
+        of_light = "" if len(scene.lights) == 1 else f": {source.name}"
         positions, counts = self._map(f"positions{of_light}"), self._map(f"count{of_light}")
         if not self.valid[y, x]:
             raise StateError(f"contributions({x}, {y}): expected a pixel that shows a surface")
         point = positions[y, x].astype(np.float64) + source.position[:3] * source.position[3]
-        return wedge_contributions(self.scene, source, point, float(counts[y, x]))
+        return wedge_contributions(scene, source, point, float(counts[y, x]))
 
     def cross_section(self, x: int, y: int, light: str | None = None) -> CrossSection:
         """Return the plane through the eye, a light and the point that a pixel shows, with the counts on the way there.
@@ -263,7 +267,7 @@ class Run:
         ------
         ValueError                   the pixel is outside the picture or shows no surface, or there is no such light
         """
-        return cross_section(self.scene, (x, y), self.size, light)
+        return cross_section(scene_of(self), (x, y), self.size, light)
 
     def geometry(self, light: str | None = None, distance: float | None = None) -> ShadowGeometry:
         """Return what the technique builds in space: silhouettes, volumes, light frusta, wedges, and the objects.
@@ -331,15 +335,15 @@ class Run:
         if other is not None:
             if other.size != self.size:
                 raise ValueError(f"compare(): sizes differ, {self.size} and {other.size}; expected the same")
-            against = f"{other.technique} on {other.scene.name}"
+            against = f"{other.technique} on {scene_of(other).name}"
             return compare(self.visibility, self.valid, other.visibility, other.valid, against)
         if truth == "soft":
-            truth = soft_truth(self.scene, self.size)
+            truth = soft_truth(scene_of(self), self.size)
         if isinstance(truth, SoftTruth):
             return self._compare_soft(truth)
         if truth != "hard":
             raise ValueError(f'truth={truth!r}: expected "hard" or "soft"')
-        visibilities, seen = hard_visibility(self.scene, self.size)
+        visibilities, seen = hard_visibility(scene_of(self), self.size)
         mean = np.asarray(np.mean(visibilities, axis=0, dtype=np.float32))
         return compare(self.visibility, self.valid, mean, seen, "ray casting")
 
@@ -398,7 +402,9 @@ class Run:
 
     def __repr__(self) -> str:
         width, height = self.size
-        return f"Run({self.technique!r}, scene {self.scene.name!r}, {width} x {height}, {len(self.steps)} steps)"
+        about = f"scene {self.scene.name!r}" if self.scene is not None else str(self.options.get("program", ""))
+        parts = [repr(self.technique), about, f"{width} x {height}", f"{len(self.steps)} steps"]
+        return f"Run({', '.join(part for part in parts if part)})"
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """Return what a notebook displays: the report, unless it is too large; the steps as a picture; a text."""

@@ -31,9 +31,11 @@ def causes_at(frame: Frame, history: PixelHistory, scene: Scene, maps: Mapping[s
 
 
 def explained(
-    frame: Frame, history: PixelHistory, scene: Scene, maps: Mapping[str, np.ndarray], options: Mapping[str, Any]
+    frame: Frame, history: PixelHistory, scene: Scene | None, maps: Mapping[str, np.ndarray], options: Mapping[str, Any]
 ) -> str:
     """Return the sentence for a pixel, with the numbers of points and blockers of soft techniques."""
+    if scene is None:  # a recorded program
+        return explain(history, None, False)
     x, y = history.x, history.y
     has_visibility = "visibility" in maps and "valid" in maps
     valid = has_visibility and bool(maps["valid"][y, x])

@@ -11,7 +11,7 @@ from typing import Any, Literal, Protocol, get_args
 
 import numpy as np
 
-from softshadow.errors import nearest
+from softshadow.errors import StateError, nearest
 from softshadow.inspection import Steps
 from softshadow.scene import Light, Scene, SceneObject
 from softshadow.scene.penumbra_wedge import TRIANGLES, penumbra_wedges, silhouette_edges, wedge_polyhedra
@@ -45,8 +45,8 @@ class DrawnRun(Protocol):
         ...
 
     @property
-    def scene(self) -> Scene:
-        """What was drawn."""
+    def scene(self) -> Scene | None:
+        """What was drawn; None for a recorded program."""
         ...
 
     @property
@@ -58,6 +58,18 @@ class DrawnRun(Protocol):
     def steps(self) -> Steps:
         """The recorded steps."""
         ...
+
+
+def scene_of(run: DrawnRun) -> Scene:
+    """Return the scene of a run.
+
+    Raises
+    ------
+    StateError                   the run is the recording of a program, which has none
+    """
+    if run.scene is None:
+        raise StateError(f"this run is a {run.technique} of a program: it has no scene with lights and shadows")
+    return run.scene
 
 
 def shadow_geometry(
@@ -123,7 +135,7 @@ def shadow_geometry(
 
 def geometry_of_run(run: DrawnRun, light: str | None = None, distance: float | None = None) -> ShadowGeometry:
     """Return what the technique of a run builds; see `shadow_geometry`."""
-    options, scene = run.options, run.scene
+    options, scene = run.options, scene_of(run)
     own: dict[str, Any] = {name: options[name] for name in ("generator", "cap", "reach") if name in options}
     geometry = shadow_geometry(scene, light, parts=parts_of(run.technique), distance=distance, **own)
     if run.technique != "map-cube":

@@ -15,7 +15,7 @@ from softshadow import tokens as gl
 from softshadow.inspection import HistoryRow, pixel_history
 from softshadow.pipeline.commands import Draw
 from softshadow.scene import Light, Scene
-from softshadow.space.shadow_parts import DrawnRun, light_named
+from softshadow.space.shadow_parts import DrawnRun, light_named, scene_of
 
 # stencil operations that count, and what they change; GL_INVERT turns a parity round
 COUNTERS = {gl.GL_INCR: 1, gl.GL_DECR: -1, gl.GL_INCR_WRAP: 1, gl.GL_DECR_WRAP: -1, gl.GL_INVERT: 1}
@@ -112,7 +112,7 @@ def line_of_sight(run: DrawnRun, x: int, y: int, light: str | None = None) -> Li
     ------
     ValueError                   the pixel is outside the picture, or there is no such light
     """
-    scene, frame = run.scene, run.steps[0].frame
+    scene, frame = scene_of(run), run.steps[0].frame
     source = scene.lights[0] if light is None else light_named(scene, light)
     rows = list(pixel_history(frame, x, y))  # checks x and y
     eye, size = scene.camera.eye, frame.size
@@ -170,7 +170,7 @@ class Sight:
 def _steps_of(run: DrawnRun, light: Light) -> set[int]:
     """Return the indices of the steps for a light: all, or those with its name in the title."""
     steps = [step.index for step in run.steps]
-    if len(run.scene.lights) == 1:
+    if len(scene_of(run).lights) == 1:
         return set(steps)
     return {index for index in steps if run.steps[index].title.endswith(f": {light.name}")}
 

@@ -188,6 +188,8 @@ def agreement(run: Run, truth: Truth | None = None, width: int = 1) -> list[Agre
     ...     print(each.light, each.off_band)
     light 0
     """
+    if run.scene is None:
+        raise ValueError(f"run: expected one of a scene, this is a {run.technique} of a program")
     truth = cast_truth(run.scene, run.size) if truth is None else truth
     if truth.scene is not run.scene or truth.objects.shape != run.depth.shape:
         raise ValueError("truth: expected that of the run's own scene and size")

@@ -10,8 +10,9 @@ import pytest
 from PIL import Image
 
 from cli.invocation import invoke_ok, json_of
-from paths import ROOT, SCENES
+from paths import ROOT, SCENES, TRACE
 from softshadow.cli import main
+from windows.programs import GLUT
 
 PAGE = (ROOT / "docs" / "cli.md").read_text(encoding="utf-8")
 LINES = [line for block in re.findall(r"```sh\n(.*?)```", PAGE, re.DOTALL) for line in block.splitlines()]
@@ -36,6 +37,8 @@ ASKED = {
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     shutil.copy(SCENES / "crate.obj", "bunny.obj")
+    shutil.copy(TRACE, "program.trace")
+    Path("program.py").write_text(GLUT)
     for name in ("lesson.toml", "crate.obj"):
         shutil.copy(SCENES / name, name)
 

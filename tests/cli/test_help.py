@@ -10,9 +10,10 @@ from pathlib import Path
 import pytest
 
 from cli.invocation import invoke, invoke_ok
-from paths import SCENES
+from paths import SCENES, TRACE
 from softshadow import __version__
 from softshadow.cli import main
+from windows.programs import GLUT
 
 COMMANDS = list(main.commands)
 SLOW = ("warmup", "bench", "tour")  # draw with all techniques, or compile every state that they draw with
@@ -49,6 +50,8 @@ def test_every_command_shows_examples_one_in_a_line() -> None:
 def test_example_of_help_runs(line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     shutil.copy(SCENES / "crate.obj", "bunny.obj")
+    shutil.copy(TRACE, "program.trace")
+    Path("program.py").write_text(GLUT)
     _, command, *arguments = shlex.split(line)
     small = SMALL.get(command, []) if arguments else []  # a list has no size
     small = ["--size", "120x90"] if command == "listings" and "--pixel" in arguments else small
