@@ -133,6 +133,10 @@ class Run:
             for light in lights
         )
 
+    @property
+    def _light_names(self) -> list[str]:
+        return [light.name for light in self.scene.lights] if self.scene is not None else []
+
     def _map(self, name: str) -> np.ndarray:
         if name not in self.maps:
             scene_of(self)  # a run without one has no maps at all
@@ -170,7 +174,7 @@ class Run:
         ------
         ValueError                   the pixel is outside the framebuffer, or nothing was drawn to it
         """
-        return pixel_history(self.frame, x, y, framebuffer, [light.name for light in scene_of(self).lights])
+        return pixel_history(self.frame, x, y, framebuffer, self._light_names)
 
     def map_pixel(self, name: str, x: int, y: int) -> PixelHistory:
         """Return every fragment generated at a texel of a map, like ``run.map_pixel("ZS", 211, 340)``.
@@ -188,7 +192,7 @@ class Run:
         ValueError                   outside the map
         """
         image, commands = image_of_map(self.steps, name)
-        return texel_history(self.frame, image, x, y, commands, name, [light.name for light in scene_of(self).lights])
+        return texel_history(self.frame, image, x, y, commands, name, self._light_names)
 
     def explain(self, x: int, y: int) -> str:
         """Return one sentence that says why a pixel is lit or in shadow, and a second one with numbers if it is soft.

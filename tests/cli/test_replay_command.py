@@ -60,5 +60,5 @@ def test_a_truncated_file_is_listed_as_far_as_it_goes(tmp_path: Path) -> None:
 
 def test_wrong_usage_and_bad_input_are_told() -> None:
     assert invoke("replay", TRACE, "--frame", 1, "--until", 3).exit_code == 2
-    assert error_of("replay", "no.trace") == "no.trace: there is no such file"
-    assert error_of("replay", TRACE, "--frame", 9).endswith("has 4 frames, 0 to 3")
+    assert error_of("replay", "no.trace").startswith("no.trace: there is no such file")
+    assert "has 4 frames, 0 to 3" in invoke("replay", TRACE, "--frame", 9).stderr
