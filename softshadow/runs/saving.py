@@ -73,7 +73,8 @@ def _name(run: RunRecord, other: RunRecord) -> str:
     """Return a name that tells a run from another one: its technique, and the options and scene that differ."""
     options = [f"{key}={value}" for key, value in run.options.items() if other.options.get(key) != value]
     same_kind = run.technique == other.technique
-    scene = [] if run.scene.name == other.scene.name else [run.scene.name]
+    names = ["" if each.scene is None else each.scene.name for each in (run, other)]
+    scene = [] if names[0] == names[1] else names[:1]
     return " ".join([run.technique, *scene, *(options if same_kind else [])])
 
 
