@@ -36,9 +36,9 @@ class IndexSnapshot:
 
 @dataclass(eq=False, slots=True)
 class IndexArray:
-    """An array of indices as the caller has passed it, and its last snapshot.
+    """Indices as the caller has passed them, and their last snapshot; `owner` is the array, or the one behind a view.
 
-    `flat` are its first numbers at `address`, or None if nobody can change them.
+    `flat` are the first numbers at `address`, or None if nobody can change them.
     """
 
     owner: Any
@@ -64,10 +64,10 @@ def snapshot_indices(context: Context, operation: str, count: int, dtype: np.dty
             lambda: _taken(context, operation, count, _numbers_at(bound.content, offset, dtype)),
         )
         return stored
-    is_fixed = isinstance(indices, np.ndarray) and indices.flags.c_contiguous and is_immutable(indices)
-    owner = owner_of(indices) if is_fixed else indices
-    place = indices.__array_interface__["data"][0] if is_fixed else id(indices)  # views of an owner are equal by place
-    key = place, is_fixed, count, dtype.char, indices.dtype.char if is_fixed else ""
+    is_view = isinstance(indices, np.ndarray) and indices.flags.c_contiguous and is_immutable(indices)
+    owner = owner_of(indices) if is_view else indices
+    place = indices.__array_interface__["data"][0] if is_view else id(indices)  # views of an owner are equal by place
+    key = place, is_view, count, dtype.char, indices.dtype.char if is_view else ""
     known: IndexArray | None = arrays.indices.get(key)
     if known is not None and known.owner is owner:
         if known.flat is None:
@@ -85,11 +85,9 @@ def snapshot_indices(context: Context, operation: str, count: int, dtype: np.dty
     else:
         numbers = np.ravel(indices)[:count]
     snapshot = _taken(context, operation, count, numbers)
-    if is_fixed:
-        arrays.indices.put(key, IndexArray(owner, None, None, 0, snapshot), owner.nbytes + 2 * snapshot.raw.nbytes)
-    elif isinstance(indices, np.ndarray) and indices.flags.c_contiguous and numbers.size:
+    if isinstance(indices, np.ndarray) and indices.flags.c_contiguous and numbers.size:
         flat = indices.reshape(-1)[:count]
-        entry = IndexArray(indices, indices.dtype, flat, flat.ctypes.data, snapshot)
+        entry = IndexArray(owner, indices.dtype, flat, flat.ctypes.data, snapshot)
         arrays.indices.put(key, entry, indices.nbytes + 2 * snapshot.raw.nbytes)
     elif isinstance(indices, bytes):
         entry = IndexArray(indices, None, None, 0, snapshot)

@@ -265,7 +265,8 @@ def shade_side(
             rgb = shine + rgb
     primary = np.empty((4, n), np.float32)
     primary[:3], primary[3] = rgb, reflectance("diffuse")[:, 3]
-    return Colors(clamp_lit_colors(primary).T, clamp_lit_colors(highlight).T if separate else None)
+    clamp = clamp_colors if stale else clamp_lit_colors  # Mesa's compiler treats what was never written as it likes
+    return Colors(clamp(primary).T, clamp(highlight).T if separate else None)
 
 
 def lit_factors(

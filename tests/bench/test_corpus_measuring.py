@@ -77,7 +77,7 @@ def test_command_measures_both_sides_and_prints_json() -> None:
     [
         (["corpus"], 2, "expected --against mesa"),
         (["corpus", "w5", "--against", "mesa"], 2, "expected corpus or corpus/PROGRAM"),
-        (["corpus/ches-board", "--against", "mesa"], 3, "did you mean 'chess-board'"),
+        (["corpus/ches-board", "--against", "mesa"], 2, "did you mean 'chess-board'"),
         (["corpus", "--against", "mesa", "--starts"], 2, "--starts"),
     ],
 )

@@ -30,7 +30,7 @@ def test_nothing_prints_arrays_or_numbers_of_tokens(run):
         assert "array(" not in text
         assert "func=" not in text
         assert " at 0x" not in text
-        assert len(text) < 1600, text
+        assert len(text) < 2400, text  # the longest is a state with its matrices
 
 
 def test_state_and_its_groups_print_as_the_calls_that_set_them(run):

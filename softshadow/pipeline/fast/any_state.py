@@ -64,11 +64,16 @@ def any_state_kernel(writes_ids: int) -> FillKernel:
         pitch = min(depth.shape[1], stencil.shape[1], *([ids.shape[1]] if writes_ids else []))
         KERNELS[bool(tests_stencil), bool(writes_ids)](
             writes_ids, *numbers_of(front, back), front.depth_largest, triangles.corners, triangles.depth,
-            triangles.front, numbers, region, depth_range, pitch, depth, stencil, ids,
-            *np.empty((2, region.end_row), np.int32), np.empty(max(pitch, CHUNK), np.uint8), np.empty(CHUNK, np.uint8),
+            triangles.front, numbers, region, depth_range, pitch, depth, stencil, ids, *fill_scratch(pitch, region),
         )  # fmt: skip
 
     return fill_kernel
+
+
+def fill_scratch(pitch: int, region: Region) -> tuple[np.ndarray, ...]:
+    """Return the scratch arrays of a fill, its last four arguments."""
+    lefts, rights = np.empty((2, region.end_row), np.int32)
+    return lefts, rights, np.empty(max(pitch, CHUNK), np.uint8), np.empty(CHUNK, np.uint8)
 
 
 def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:

@@ -15,7 +15,7 @@ import numpy as np
 from softshadow.framebuffer import Framebuffer
 from softshadow.jit import allocating_kernel, kernel, read_only
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.fast.any_state import KERNELS
+from softshadow.pipeline.fast.any_state import KERNELS, fill_scratch
 from softshadow.pipeline.fast.fragment_numbers import numbers_of
 from softshadow.pipeline.geometry.clip import CUT, INSIDE, OUTSIDE, clip_triangles, write_sides
 from softshadow.pipeline.geometry.draw_primitives import triangles_of
@@ -130,16 +130,16 @@ def fill_in_blocks(
     fill_blocks(
         mesh.window, mesh.snapped, visible, *mesh.facing, mesh.offset, *numbers_of(front, back), front.depth_largest,
         mesh.region, depth_range, depth, np.empty((1, 1), np.uint8), np.empty((1, 1), np.int32),
-        np.arange(BLOCK, dtype=np.int32), *block,
+        np.arange(BLOCK, dtype=np.int32), *block, fill_scratch(depth.shape[1], mesh.region),
     )  # fmt: skip
 
 
 @allocating_kernel
 def fill_blocks(
     window, snapped, triangles, culled, positive_is_front, offset, ops, byte_ops, largest, region, depth_range, depth,
-    no_stencil, no_ids, numbers, corners, vertices, planes, front, ids,
+    no_stencil, no_ids, numbers, corners, vertices, planes, front, ids, scratch,
 ):  # fmt: skip
-    """Do `fill_in_blocks`; the last arguments are those of a `Setup` for the triangles of a block."""
+    """Do `fill_in_blocks`; before `scratch` stand the arrays of a `Setup` for the triangles of a block."""
     for first in range(0, len(triangles), BLOCK):
         end = min(first + BLOCK, len(triangles))
         n_drawn, _ = set_up_triangles(
@@ -148,7 +148,7 @@ def fill_blocks(
         )  # fmt: skip
         FILL(
             0, ops, byte_ops, largest, corners, planes, front, numbers[: np.int64(n_drawn)], region, depth_range,
-            depth.shape[1], depth, no_stencil, no_ids,
+            depth.shape[1], depth, no_stencil, no_ids, *scratch,
         )  # fmt: skip
 
 
