@@ -81,14 +81,19 @@ class HistoryRow:
         "torus, triangle 10"; "front face of the volume of torus, edge 112"; "near cap of torus, face 10"
         """
         number = "" if self.triangle is None else f"triangle {self.triangle}"
-        feature = f"edge {self.edge}" if self.edge is not None else "" if self.face is None else f"face {self.face}"
         if not self.part:
             return ", ".join(filter(None, [self.object or f"draw {self.draw}", number]))
-        facing = {True: "front face", False: "back face", None: "face"}[self.front_facing]
-        if self.part == "volume side":
-            words = f"{facing} of the volume of {self.caster}"
-        elif self.part in ("near cap", "far cap"):
-            words = f"{self.part} ({facing}) of the volume of {self.caster}"
-        else:
-            words = f"{self.part} of {self.caster}" if self.caster else self.part
-        return ", ".join(filter(None, [words, feature]))
+        feature = f"edge {self.edge}" if self.edge is not None else "" if self.face is None else f"face {self.face}"
+        return origin_name(self.part, self.caster, self.front_facing, feature)
+
+
+def origin_name(part: str, caster: str, front_facing: bool | None, feature: str) -> str:
+    """Return what a triangle is that was made from a caster; `feature` is its edge or face, such as "edge 112"."""
+    facing = {True: "front face", False: "back face", None: "face"}[front_facing]
+    if part == "volume side":
+        words = f"{facing} of the volume of {caster}"
+    elif part in ("near cap", "far cap"):
+        words = f"{part} ({facing}) of the volume of {caster}"
+    else:
+        words = f"{part} of {caster}" if caster else part
+    return ", ".join(filter(None, [words, feature]))

@@ -35,7 +35,7 @@ class CountingCards:
 
     Attributes
     ----------
-    technique, scene : str       their names
+    technique, scene : str       what the run drew
     image : (H, W, 3) uint8      the picture
     cards : tuple                of CountingCard
     """

@@ -30,6 +30,18 @@ class Triangles:
 
 
 @dataclass
+class Origins:
+    """What the triangles of a draw were made from: the number of a name for each, and that of its edge or face, or -1.
+
+    names: by facing, texts in which {number} stands for the second.
+    """
+
+    names: dict[int, list[str]]
+    owners: np.ndarray
+    numbers: np.ndarray
+
+
+@dataclass
 class DrawEvent:
     """A draw: its state as numbers and words, its triangles, and its layers of alpha and colour."""
 
@@ -44,7 +56,7 @@ class DrawEvent:
     colored: bool
     triangles: Triangles
     alphas: list[np.ndarray] = field(default_factory=list)
-    extra: dict[str, dict[int, str]] = field(default_factory=dict)  # by column of the table: texts by primitive
+    origins: Origins | None = None
     colors: list[tuple[np.ndarray, np.ndarray]] = field(default_factory=list)  # (H, W, 3), and where written (H, W)
 
 

@@ -50,6 +50,7 @@ from softshadow.report.fragment_events import (
     WriteEvent,
 )
 from softshadow.report.reason_templates import reason_templates
+from softshadow.report.triangle_origins import origins_of
 from softshadow.state import State
 
 MOST_FRAGMENTS = 8 << 20  # of one draw; more take too much memory
@@ -183,6 +184,7 @@ def _event(
             triangles.corners[used], triangles.depth[used], sides,
             geometry.source[triangles.ids[used]].astype(np.int32),
         ),
+        origins=origins_of(command, geometry.source[triangles.ids[used]], np.unique(sides[:, 1]).tolist()),
     )  # fmt: skip
 
 

@@ -56,7 +56,8 @@ def _arrays(event: DrawEvent | ClearEvent | WriteEvent, steps: Steps) -> list[np
         return []
     end, triangles = steps[event.step].image, event.triangles
     colors = [np.where(written[..., None], color - end, np.uint8(0)) for color, written in event.colors]
-    return [triangles.corners, triangles.depth, triangles.sides, triangles.ids, *event.alphas, *colors]
+    origins = [] if event.origins is None else [event.origins.owners, event.origins.numbers]
+    return [triangles.corners, triangles.depth, triangles.sides, triangles.ids, *event.alphas, *colors, *origins]
 
 
 def _event(event: DrawEvent | ClearEvent | WriteEvent, numbers: Any, texts: list[Any]) -> dict[str, Any]:
@@ -79,8 +80,14 @@ def _event(event: DrawEvent | ClearEvent | WriteEvent, numbers: Any, texts: list
         "triangles": {name: next(numbers) for name in ("corners", "depth", "sides", "ids")},
         "alphas": [next(numbers) for _ in event.alphas],
         "colors": [next(numbers) for _ in event.colors],
-        "extra": event.extra,
+        "origins": _origins(event, numbers),
     }
+
+
+def _origins(event: DrawEvent, numbers: Any) -> dict[str, Any] | None:
+    if event.origins is None:
+        return None
+    return {"names": event.origins.names, "owners": next(numbers), "numbers": next(numbers)}
 
 
 def _number(words: dict[str, str], texts: list[Any]) -> int:

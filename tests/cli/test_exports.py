@@ -5,7 +5,7 @@ import pytest
 import trimesh
 
 import softshadow as ss
-from cli.invocation import invoke, invoke_ok, json_of, usage_error_of
+from cli.invocation import error_of, invoke, invoke_ok, json_of, usage_error_of
 
 SMALL = ["--scene", "boxes", "--size", "48x36"]
 
@@ -58,4 +58,4 @@ def test_cards_are_written_and_their_answers_told(here):
     assert told["written"] == "cards.png"
     assert len(told["cards"]) == 2
     assert all(card["stencil"] == [0, *card["counts"]][-1] for card in told["cards"])
-    assert "counts no faces" in usage_error_of("cards", "map", "--size", "48x36")
+    assert "counts no faces" in error_of("cards", "map", "--size", "48x36")

@@ -12,6 +12,7 @@ export async function loadHistory(run) {
   const numbers = [...run.history.start, ...run.steps.map(step => step.colour)];
   for (const event of run.history.events) {
     if (event.kind === "draw") numbers.push(...Object.values(event.triangles), ...event.alphas, ...event.colors);
+    if (event.origins) numbers.push(event.origins.owners, event.origins.numbers);
     if (event.kind === "write") numbers.push(...event.buffers);
   }
   await load(numbers);
@@ -89,10 +90,10 @@ function fragmentRow(pixel, t, layer, side, facing) {
   const {event, run, place} = pixel, {largest, single} = run.history;
   const triangle = arrayAt(event.triangles.ids).values[t];
   const depth = fragmentDepth(arrayAt(event.triangles.depth).values, t, pixel.x, pixel.y, event.depth_range, event.ops[side].depth_largest, single);
-  const extra = Object.entries(event.extra).map(([column, texts]) => [column, texts[triangle] ?? ""]);
+  const extra = event.origins ? {"made from": originOf(event.origins, t, facing)} : {};
   const fragment = {
     draw: event.draw, object: event.object, triangle, front_facing: facing === 2 ? null : facing === 1,
-    z: windowZ(depth, largest), color_written: false, extra: Object.fromEntries(extra),
+    z: windowZ(depth, largest), color_written: false, extra,
     outline: outlineOf(arrayAt(event.triangles.corners).values, t),
   };
   const words = page.texts[event.words[facing]];
@@ -110,6 +111,11 @@ function fragmentRow(pixel, t, layer, side, facing) {
     pixel.depth = after.depth;
     pixel.stencil = after.stencil;
   });
+}
+
+// Return what a triangle is, in the words of HistoryRow.name.
+function originOf({names, owners, numbers}, t, facing) {
+  return fill(names[facing][arrayAt(owners).values[t]], {number: arrayAt(numbers).values[t]});
 }
 
 // Return the colour after a fragment: its layer holds the difference from the colour at the end of the step.
