@@ -58,7 +58,7 @@ def describe_primitives(
     part : str                   what they are, for example "volume side"; "" ends the description
     feature : "face" or "edge"   what `numbers` count
     numbers : (P,) int           the face or edge of a mesh that each primitive (triangle or quad) was made from
-    casters : names              of the objects that the meshes belong to
+    casters : list of str        the objects that the meshes belong to, by their names
     owners : (P,) int            the place in `casters` for each primitive; the first if missing
     """
     arrays = [None if array is None else np.array(array, np.int32) for array in (numbers, owners)]

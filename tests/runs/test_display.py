@@ -73,5 +73,5 @@ def test_an_exported_notebook_shows_the_report_without_kernel_and_network(tmp_pa
     path.write_text(exporter.from_notebook_node(notebook)[0], encoding="utf-8")
     with browser_page(viewport={"width": 1000, "height": 900}) as page:
         page.goto(path.as_uri())
-        page.frame_locator("iframe").get_by_text("draw the depth map from the light").first.wait_for()
+        page.frame_locator("iframe").get_by_role("heading", name="map on torus").wait_for()
         assert page.errors == []

@@ -9,7 +9,7 @@ import pytest
 import softshadow as ss
 from softshadow.errors import CallsLeftOut, SoftShadowError
 from softshadow.windows import run_script
-from windows.programs import GLFW, GLUT, PYGAME, SINGLE_BUFFERED
+from windows.window_programs import GLFW, GLUT, PYGAME, SINGLE_BUFFERED
 
 RED, GREEN, BLUE = [255, 0, 0], [0, 255, 0], [0, 0, 255]
 
