@@ -12,7 +12,7 @@ from PIL import Image
 from cli.invocation import invoke_ok, json_of
 from paths import ROOT, SCENES, TRACE
 from softshadow.cli import main
-from windows.programs import GLUT
+from windows.window_programs import GLUT
 
 PAGE = (ROOT / "docs" / "cli.md").read_text(encoding="utf-8")
 LINES = [line for block in re.findall(r"```sh\n(.*?)```", PAGE, re.DOTALL) for line in block.splitlines()]

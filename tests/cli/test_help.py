@@ -13,7 +13,7 @@ from cli.invocation import invoke, invoke_ok
 from paths import SCENES, TRACE
 from softshadow import __version__
 from softshadow.cli import main
-from windows.programs import GLUT
+from windows.window_programs import GLUT
 
 COMMANDS = list(main.commands)
 SLOW = ("warmup", "bench", "tour")  # draw with all techniques, or compile every state that they draw with

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from cli.invocation import error_of, invoke, invoke_ok, json_of
-from windows.programs import GLUT
+from windows.window_programs import GLUT
 
 
 @pytest.fixture(autouse=True)

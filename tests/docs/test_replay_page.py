@@ -10,7 +10,7 @@ import pytest
 import softshadow as ss
 from cli.invocation import invoke_ok
 from paths import ROOT, TRACE
-from windows.programs import GLUT
+from windows.window_programs import GLUT
 
 PAGE = (ROOT / "docs" / "replay.md").read_text(encoding="utf-8")
 LINES = [line for block in re.findall(r"```sh\n(.*?)```", PAGE, re.DOTALL) for line in block.splitlines()]
