@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +24,7 @@ from softshadow.cli.arguments import (
 )
 from softshadow.cli.compare_output import check_output, off_band, print_comparison_json, print_tables, write
 from softshadow.cli.console import CHECK_FAILED, print_warnings_once, say_if_compiling, say_marked, say_written
-from softshadow.cli.names import TechniqueChoice
+from softshadow.cli.names import TechniqueChoice, is_scene
 
 if TYPE_CHECKING:
     from softshadow.inspection.soft_truth import SoftTruth
@@ -45,7 +46,11 @@ SAMPLES = 16  # of each light, for techniques that sample lights
 @click.option("--truth", type=click.Choice(["hard", "soft"]), help="Compare with the true shadow.")
 @scene_arguments("320x240")
 @technique_options
-@click.option("--all-soft", is_flag=True, help="All techniques that draw soft edges, and two hard ones; truth soft.")
+@click.option(
+    "--all-soft",
+    is_flag=True,
+    help="All techniques that draw soft edges, and two hard ones; truth soft; the only name may be a scene.",
+)
 @click.option("--samples", type=click.IntRange(1), help="Truth soft: points of each light.  [default: 16]")
 @click.option(
     "--seconds", type=click.FloatRange(0, min_open=True), help="Truth soft: as many points as fit in this time."
@@ -78,6 +83,7 @@ def compare(
     from softshadow.soft import convergence, law_table, soft_candidates
 
     truth = "soft" if all_soft and truth is None else truth
+    names, scene = _without_scene(names, scene, all_soft)
     _check_usage(names, truth, all_soft, (samples, seconds, slopes or None, laws or None), slopes, output)
     check_opened(opened, output)
     chosen = chosen_techniques(soft_candidates() if all_soft else names, options)
@@ -113,6 +119,18 @@ def compare(
         say_marked("error", text)
     if exceeded:
         context.exit(CHECK_FAILED)
+
+
+def _without_scene(
+    names: tuple[str, ...], scene: SceneArguments, all_soft: bool
+) -> tuple[tuple[str, ...], SceneArguments]:
+    """Return the names of techniques, and the scene: with --all-soft, the only name may be that of the scene."""
+    scenes = [name for name in names if is_scene(name)]
+    if all_soft and len(names) == len(scenes) == 1 and scene.name is None and scene.mesh is None:
+        return (), replace(scene, name=scenes[0])
+    if scenes:
+        raise click.UsageError(f"{scenes[0]!r} is a scene; expected a technique here, and --scene {scenes[0]}")
+    return names, scene
 
 
 def _check_usage(

@@ -48,17 +48,21 @@ class TechniqueName(Name):
 
 
 class TechniqueChoice(TechniqueName):
-    """A technique, with options if wanted: NAME:KEY=VALUE,KEY=VALUE."""
+    """A technique, with options if wanted: NAME:KEY=VALUE,KEY=VALUE; or a scene, which the command judges."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return the text; an unknown name is an error that tells the nearest."""
-        from softshadow.scene import scene_names
-
         name = str(value).partition(":")[0]
-        if name not in self.names() and (name in scene_names() or name.lower().endswith(".toml")):
-            raise click.UsageError(f"{name!r} is a scene; expected a technique here, and --scene {name}", ctx)
-        super().convert(name, param, ctx)
+        if not is_scene(name):
+            super().convert(name, param, ctx)
         return str(value)
+
+
+def is_scene(name: str) -> bool:
+    """Return whether a word on the command line names a scene, built in or in a file; no technique has such a name."""
+    from softshadow.scene import scene_names
+
+    return name in scene_names() or name.lower().endswith(".toml")
 
 
 class FailureName(Name):

@@ -54,6 +54,8 @@ def test_soft_techniques_are_compared_with_the_soft_truth() -> None:
     assert [each["technique"] for each in answer["techniques"]] == list(soft_candidates())
     samples = {each["options"].get("samples") for each in answer["techniques"]}
     assert samples == {None, 4}
+    named = json_of("compare", "soft-overlap", "--all-soft", "--size", "16x12", "--samples", "2")
+    assert named["scene"] == "soft-overlap"
     answer = json_of("compare", "volume-sampled:samples=9", "--truth", "soft", "--size", "24x18")
     assert answer["techniques"][0]["options"] == {"samples": 9}
 
@@ -116,6 +118,7 @@ def test_errors_are_written_as_a_picture_or_a_page() -> None:
         (["map", "map", "map"], "expected two techniques"),
         (["--truth", "hard"], "expected names of techniques, or --all-soft"),
         (["--all-soft", "map"], "--all-soft: expected no name"),
+        (["--all-soft", "torus", "--scene", "boxes"], "'torus' is a scene"),
         (["--all-soft", "--truth", "hard"], "--all-soft: expected no name"),
         (["map", "map", "--samples", "4"], "expected --truth soft"),
         (["map", "--truth", "hard", "--laws"], "expected --truth soft"),
