@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -39,7 +39,6 @@ from softshadow.inspection.fragment_maps import FragmentMaps, fragment_maps
 from softshadow.inspection.hard_truth import hard_visibility
 from softshadow.inspection.maps import summary
 from softshadow.inspection.shadow_kinds import shadow_kinds
-from softshadow.report import CrossSection, View3D, cross_section, view3d_of
 from softshadow.runs.archive import RunRecord, read_npz
 from softshadow.runs.display import mimebundle
 from softshadow.runs.map_texels import image_of_map
@@ -48,6 +47,9 @@ from softshadow.runs.why import causes_at, explained
 from softshadow.scene import Scene
 from softshadow.space import LineOfSight, ShadowGeometry, geometry_of_run, line_of_sight
 from softshadow.space.shadow_parts import scene_of
+
+if TYPE_CHECKING:
+    from softshadow.report import CrossSection, View3D
 
 
 @dataclass(frozen=True, eq=False)
@@ -271,6 +273,8 @@ class Run:
         ------
         ValueError                   the pixel is outside the picture or shows no surface, or there is no such light
         """
+        from softshadow.report import cross_section  # pages take as long to load as all the rest
+
         return cross_section(scene_of(self), (x, y), self.size, light)
 
     def geometry(self, light: str | None = None, distance: float | None = None) -> ShadowGeometry:
@@ -312,6 +316,8 @@ class Run:
         """
         if (x is None) != (y is None):
             raise ValueError(f"view3d(x={x}, y={y}): expected both x and y, or neither")
+        from softshadow.report import view3d_of
+
         return view3d_of(self, None if x is None or y is None else (x, y), light)
 
     @cached_property

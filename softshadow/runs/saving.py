@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,10 +17,12 @@ from softshadow.inspection import ledger_of
 from softshadow.inspection.files import MARK, is_folder, refuse_foreign, write_whole
 from softshadow.inspection.pictures import depth_picture, map_pictures, save_png, visibility_picture
 from softshadow.inspection.step import sheet_of
-from softshadow.report import RunPage, write_run_page
 from softshadow.runs.archive import RunRecord, write_npz
 from softshadow.space import EXTENSIONS as MODELS
 from softshadow.space import geometry_of_run, write_model
+
+if TYPE_CHECKING:
+    from softshadow.report import RunPage
 
 EXTENSIONS = (".png", ".npz", ".html", *MODELS)
 
@@ -63,7 +66,15 @@ def write_file(run: RunRecord, path: Path, beside: RunRecord | None = None) -> N
     elif extension in MODELS:
         geometry = geometry_of_run(run)
         write_model(geometry.pieces, geometry.scene, path)
-    elif beside is None:
+    else:
+        write_report(run, path, beside)
+
+
+def write_report(run: RunRecord, path: Path, beside: RunRecord | None) -> None:
+    """Write the report of a run, or of two; the modules of pages are loaded here, not with every run."""
+    from softshadow.report import write_run_page
+
+    if beside is None:
         write_run_page(page_of(run), path)
     else:
         write_run_page(page_of(run, _name(run, beside)), path, page_of(beside, _name(beside, run)))
@@ -80,6 +91,8 @@ def _name(run: RunRecord, other: RunRecord) -> str:
 
 def page_of(run: RunRecord, name: str = "", more_maps: Mapping[str, np.ndarray] | None = None) -> RunPage:
     """Return what the report of a run shows: see `RunPage`."""
+    from softshadow.report import RunPage
+
     return RunPage(
         run.technique, run.scene, run.frame.size, run.options, run.warnings, run.steps, ledger_of(run.frame), name,
         more_maps or {},
