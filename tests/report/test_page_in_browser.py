@@ -224,4 +224,5 @@ def test_page_of_every_failure_opens(name: str, browser: Any, tmp_path: Path) ->
     write_page(failure, tmp_path / "failure.html")
     assert (tmp_path / "failure.html").stat().st_size < 5.5e6
     with opened(browser, tmp_path / "failure.html") as page:
-        assert page.locator("#history-0 tbody tr:not(.step)").count() == len(failure.wrong.pixel(*failure.pixel))
+        rows = [row for row in failure.wrong.pixel(*failure.pixel) if row.verdict != "clipped"]  # which pages leave out
+        assert page.locator("#history-0 tbody tr:not(.step)").count() == len(rows)
