@@ -58,7 +58,7 @@ def compile_backwards() -> None:
 
 
 def draw_tiny_pictures() -> None:
-    """Draw one stop of each technique as a tiny picture of a scene with few triangles."""
+    """Draw one stop of each technique as a tiny picture of a scene with few triangles, and ask for a pixel of it."""
     from softshadow import techniques
     from softshadow.runs import run
     from softshadow.scene import Scene, shapes
@@ -71,7 +71,7 @@ def draw_tiny_pictures() -> None:
         options = dict(stop.options)
         if "map_size" in techniques.get(stop.technique).options:
             options["map_size"] = MAP_SIZE
-        run(stop.technique, scene, SIZE, **options)
+        run(stop.technique, scene, SIZE, **options).pixel(0, 0)
 
 
 if __name__ == "__main__":
