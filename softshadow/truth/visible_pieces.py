@@ -7,6 +7,7 @@ at each, the outer side is left, and the inner side is cut further.
 import numpy as np
 
 from softshadow.jit import kernel
+from softshadow.truth.light_view import FROM_0
 
 CORNERS = 24  # of one piece at most
 # of the square with the area 4; rounding leaves such slivers between faces with a common edge, and nothing else does
@@ -44,6 +45,8 @@ def cut_away(pieces, sizes, n_pieces, functions, n_functions, work):
             inner[corner, 0], inner[corner, 1] = pieces[piece, corner, 0], pieces[piece, corner, 1]
         is_free = True  # the cell of the piece, for the first of its parts
         for number in range(n_functions):
+            if functions[number, 0] == 0 and functions[number, 1] == 0 and functions[number, 2] == 0:
+                continue  # as `_is_outside` has it
             size, outer_size = _split(inner, size, functions[number], next_inner, outer)
             if size < 0:
                 return -1
@@ -74,6 +77,10 @@ def _is_outside(piece, size, functions, n_functions):
     """Return whether one function is nowhere positive on the piece."""
     for number in range(n_functions):
         k, ka, kb = functions[number, 0], functions[number, 1], functions[number, 2]
+        if k == 0 and ka == 0 and kb == 0:  # the edge lies in one plane with a segment: one of its two faces has it
+            if functions[number, 3] != FROM_0:
+                return True
+            continue
         is_out = True
         for corner in range(size):
             if k + ka * piece[corner, 0] + kb * piece[corner, 1] > 0:

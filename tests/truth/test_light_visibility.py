@@ -328,3 +328,11 @@ def test_misuse_names_the_argument(arguments: dict, said: str) -> None:
     complete = {"points": np.zeros((2, 3)), "light": lamp(), "casters": [SceneObject(meshes.box())], **arguments}
     with pytest.raises(ValueError, match=said):
         light_visibility(**complete)
+
+
+def test_an_edge_in_one_plane_with_a_segment_hides_it() -> None:
+    sheet = SceneObject(meshes.floor(2), placement((0, 1, 0)))  # its diagonal goes from corner to corner
+    for direction in (1.0, -1.0):
+        light = lamp(Segment(edge=np.array([0.25, 0.0, 0.25 * direction])))
+        point = np.array([[light.position[0], 0.0, light.position[2]]])
+        assert light_visibility(point, light, [sheet], method="exact").visible.tolist() == [0.0]
