@@ -58,7 +58,7 @@ def compile_backwards() -> None:
 
 
 def draw_tiny_pictures() -> None:
-    """Draw one stop of each technique as a tiny picture of a scene with few triangles, and ask for a pixel of it."""
+    """Draw a stop of each technique as a tiny picture of a scene with few triangles, and ask for two of its pixels."""
     from softshadow import techniques
     from softshadow.runs import run
     from softshadow.scene import Scene, shapes
@@ -71,7 +71,9 @@ def draw_tiny_pictures() -> None:
         options = dict(stop.options)
         if "map_size" in techniques.get(stop.technique).options:
             options["map_size"] = MAP_SIZE
-        run(stop.technique, scene, SIZE, **options).pixel(0, 0)
+        drawn = run(stop.technique, scene, SIZE, **options)
+        for place in ((0, 0), (SIZE[0] // 2, SIZE[1] // 2)):
+            drawn.pixel(*place)
 
 
 if __name__ == "__main__":
