@@ -220,9 +220,6 @@ def test_point_on_a_caster_is_not_hidden_by_its_own_face(mesh: Mesh, shape: Ligh
     centre = lamp(shape).position
     blocked = casting_faces_between(points, centre, [caster], exclude=exclude) > 0
     sure = (seen.visible == 0) | (seen.visible == 1)
-    for side in (-1, 1):  # a ray that grazes an edge decides either way: on both sides of it the answers differ
-        beside = centre + side * np.array([3e-7, 5e-7, 7e-7, 0])
-        sure &= (casting_faces_between(points, beside, [caster], exclude=exclude) > 0) == blocked
     if not isinstance(shape, Sphere):  # whose disc has another centre
         assert ((seen.visible == 0)[sure] == blocked[sure]).all()
 
