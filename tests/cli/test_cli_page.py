@@ -43,13 +43,14 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         shutil.copy(SCENES / name, name)
 
 
-MEASURES = "softshadow bench "  # compiles every state that it draws with
+# bench compiles every state that it draws with; the block of the README draws the tour
+LONG = ("softshadow bench ", "softshadow tour")
 
 
 @pytest.mark.parametrize(
     "line",
     [
-        pytest.param(line, marks=pytest.mark.slow if line.startswith(MEASURES) else ())
+        pytest.param(line, marks=pytest.mark.slow if line.startswith(LONG) else ())
         for line in LINES
         if line != "softshadow warmup"  # tests/cli/test_help.py runs it
     ],

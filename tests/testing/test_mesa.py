@@ -161,6 +161,7 @@ def test_what_cannot_be_sent_is_refused():
         run_on_mesa(lambda gl: lock, SIZE)
 
 
+@pytest.mark.slow  # hundreds of programs
 @pytest.mark.mesa
 def test_the_worker_is_replaced_after_its_share_of_programs(monkeypatch):
     monkeypatch.setattr(mesa, "PROGRAMS_PER_WORKER", 2)
