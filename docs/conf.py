@@ -1,6 +1,8 @@
 """Sphinx settings: MyST pages whose code cells run when the pages are built."""
 
+import os
 import re
+from pathlib import Path
 from typing import Any
 
 from softshadow import __version__
@@ -27,6 +29,14 @@ myst_heading_anchors = 3
 nb_custom_formats = {".py": ["jupytext.reads", {"fmt": "py:percent"}]}  # the notebooks
 nb_execution_mode = "force"  # numbers and pictures on the pages are those of this version
 nb_execution_raise_on_error = True
+# of the lessons the quick lane executes four; `.ci/run --all` all
+QUICK_LESSONS = ("05_stencil_buffer", "11_zpass")
+if os.environ.get("SOFTSHADOW_LANE") != "all":
+    nb_execution_excludepatterns = [
+        f"lessons/{path.name}"
+        for path in sorted(Path(__file__).parent.glob("lessons/*.py"))
+        if path.stem not in QUICK_LESSONS
+    ]
 nb_execution_show_tb = True
 nb_execution_timeout = 300
 nb_merge_streams = True
