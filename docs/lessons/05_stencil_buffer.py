@@ -16,8 +16,8 @@
 # **Goal.** You can say, for every fragment, whether the stencil test lets it pass and what it writes into the stencil
 # buffer.
 #
-# **Slides.** Barcelona (Andújar 2021), lines 185-290 and the quiz in lines 667-674. Bucharest (Moldoveanu 2021),
-# lines 144-150.
+# **Slides.** Barcelona (Andújar 2021), lines 185-290 and the quiz in lines 667-674. Bucharest (Moldoveanu 2021), lines
+# 144-150.
 #
 # The stencil buffer stores one small integer for each pixel, here a byte: 0 to 255. Two calls control it:
 #
@@ -38,8 +38,8 @@ from softshadow import lessons, listings, testing
 # ## The slide and the program
 #
 # The exercise on the slide draws two quads. The first one marks its pixels with 1. The second one is drawn only where
-# there is no mark. The lines of the step are marked by ▶. Where a
-# slide has to be corrected, it stands at the left, and what runs here at the right.
+# there is no mark. The lines of the step are marked by ▶. Where a slide has to be corrected, it stands at the left, and
+# what runs here at the right.
 
 # %%
 lessons.code_beside_slide("stencil-quads", step=0)

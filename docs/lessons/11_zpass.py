@@ -138,8 +138,8 @@ display(ss.failures["less-in-lit-pass"])
 # %% [markdown]
 # ## Exercise
 #
-# Write the counting rule as a function. It gets the faces that a line of sight meets, in any order, as pairs
-# `(depth, facing)` with `facing` "front" or "back", and the depth of the visible surface.
+# Write the counting rule as a function. It gets the faces that a line of sight meets, in any order, as pairs `(depth,
+# facing)` with `facing` "front" or "back", and the depth of the visible surface.
 
 
 # %%

@@ -85,9 +85,8 @@ for name in ("missing-caps", "finite-far-plane"):
 
 # %% [markdown]
 # The far plane cuts volumes in the same way: what is behind it is not drawn, and not counted (E8). Two cures: a
-# projection without a far plane, whose clip coordinates of points at infinity are still inside, or `GL_DEPTH_CLAMP`.
-# In both, the far cap lies *at infinity*: its vertices have w = 0. Here the far plane
-# lies just behind the scene:
+# projection without a far plane, whose clip coordinates of points at infinity are still inside, or `GL_DEPTH_CLAMP`. In
+# both, the far cap lies *at infinity*: its vertices have w = 0. Here the far plane lies just behind the scene:
 
 # %%
 warnings.simplefilter("ignore", ss.Warning)
