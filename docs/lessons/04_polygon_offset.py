@@ -28,7 +28,6 @@
 # positive offset moves the polygon away from the eye.
 
 # %%
-import numpy as np
 from IPython.display import display
 
 import softshadow as ss
@@ -60,9 +59,9 @@ axes = ss.notebook.show_steps(run)
 lessons.clickable(run)
 
 # %% [markdown]
-# ## Predict, then run: the first quiz of the slides
+# ## Predict, then run
 #
-# A is drawn without an offset, then B, which coincides with a part of A, with `glPolygonOffset(1, 1)` and `GL_LEQUAL`.
+# The first quiz of the slides: A is drawn without an offset, then B, which coincides with a part of A, with `glPolygonOffset(1, 1)` and `GL_LEQUAL`.
 # Which one is seen where both are?
 
 # %%

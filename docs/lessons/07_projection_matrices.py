@@ -33,7 +33,6 @@ from IPython.display import display
 
 import softshadow as ss
 from softshadow import lessons
-from softshadow.listings import projection
 
 warnings.simplefilter("ignore", ss.Warning)
 

@@ -26,7 +26,6 @@
 # %%
 import warnings
 
-import numpy as np
 from IPython.display import display
 
 import softshadow as ss
