@@ -61,8 +61,8 @@ lessons.clickable(run)
 # %% [markdown]
 # ## Predict, then run
 #
-# The first quiz of the slides: A is drawn without an offset, then B, which coincides with a part of A, with `glPolygonOffset(1, 1)` and `GL_LEQUAL`.
-# Which one is seen where both are?
+# The first quiz of the slides: A is drawn without an offset, then B, which coincides with a part of A, with
+# `glPolygonOffset(1, 1)` and `GL_LEQUAL`. Which one is seen where both are?
 
 # %%
 my_winner = ...  # "A" or "B"
