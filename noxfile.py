@@ -88,8 +88,9 @@ def package(session: nox.Session) -> None:
             where = "import softshadow; assert 'site-packages' in softshadow.__file__, softshadow.__file__"
             session.run(python, "-c", where, env=environment)
             session.run(softshadow, "--help", env=environment, silent=True)
+            session.run(softshadow, "lessons", "lessons", "--no-start", env=environment, silent=True)
             session.run(softshadow, "tour", "-o", "tour", env=environment, silent=True)
             session.run(softshadow, "render", "volume-zfail", "--scene", "torus", "-o", "x.png", env=environment)
-            for written in ("tour/index.html", "x.png"):
+            for written in ("tour/index.html", "x.png", "lessons/05_stencil_buffer.py"):
                 if not Path(written).stat().st_size:
                     session.error(f"{written} is empty")

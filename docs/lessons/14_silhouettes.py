@@ -87,7 +87,7 @@ facing = casting_faces(caster.mesh, position).facing
 share = float(np.mean(facing))
 display(
     lessons.compare_prediction(
-        "How many edges?", my_edges, 3 * triangles // 2, "Three for each triangle, each of them shared by two triangles."
+        "How many edges?", my_edges, 3 * triangles // 2, "Three for each triangle, each of them shared by two."
     ),
     lessons.compare_prediction(
         "How many faces look towards the light?", my_share,

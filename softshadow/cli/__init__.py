@@ -25,6 +25,7 @@ from softshadow.cli.compare import compare
 from softshadow.cli.console import say, say_marked
 from softshadow.cli.exports import export, view3d
 from softshadow.cli.failures import failures
+from softshadow.cli.lessons import lessons
 from softshadow.cli.listings import listings
 from softshadow.cli.lists import scenes, techniques
 from softshadow.cli.machine import doctor, warmup
@@ -140,7 +141,7 @@ def main(traceback: bool) -> None:
 
 for command in (
     tour, render, steps, pixel, section, view3d, export, cards, compare, replay, run, techniques, scenes, listings,
-    failures, bench, warmup, doctor,
+    failures, lessons, bench, warmup, doctor,
 ):  # fmt: skip
     main.add_command(command)
 

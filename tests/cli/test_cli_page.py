@@ -62,7 +62,8 @@ def test_line_of_the_page_runs(line: str) -> None:
     sized = command in ("tour", "render", "steps") or (command in ("bench", "failures") and arguments)
     size = {"compare": "24x18"}.get(command, "48x36" if sized else None)
     size = "80x60" if command == "failures" and size else size
-    invoke_ok(command, *arguments, *(["--size", size] if size else []))
+    started = ["--no-start"] if command == "lessons" and arguments else []
+    invoke_ok(command, *arguments, *(["--size", size] if size else []), *started)
 
 
 def test_every_command_is_on_the_page() -> None:

@@ -21,6 +21,7 @@ SMALL = {
     **{command: ["--size", "48x36"] for command in ("tour", "render", "steps", "failures", "listings")},
     "compare": ["--size", "24x18"],
     "bench": ["--size", "48x36", "--rounds", "1"],
+    "lessons": ["--no-start"],
 }
 HEAVY = ("numpy", "numba", "trimesh", "PIL", "pydantic", "jinja2", "rich")
 
