@@ -63,7 +63,8 @@ cube = ss.run("map-cube", room, size=size)
 for name, picture in (("one map", run), ("six maps", cube)):
     compared = picture.compare(truth="hard")
     print(
-        f"{name:9} {compared.parts['all'].pixels:6} pixels have an answer, {compared.parts['all'].wrong:5} of them differ"
+    wrong = compared.parts["all"].wrong
+    print(f"{name:9} {wrong:5} of {compared.parts['all'].pixels} pixels differ from ray casting")
     )
 
 # %% [markdown]
