@@ -61,11 +61,8 @@ axes = ss.notebook.show_steps(run)
 # %%
 cube = ss.run("map-cube", room, size=size)
 for name, picture in (("one map", run), ("six maps", cube)):
-    compared = picture.compare(truth="hard")
-    print(
-    wrong = compared.parts["all"].wrong
-    print(f"{name:9} {wrong:5} of {compared.parts['all'].pixels} pixels differ from ray casting")
-    )
+    parts = picture.compare(truth="hard").parts
+    print(f"{name:9} {parts['all'].wrong:5} of {parts['all'].pixels} pixels differ from ray casting")
 
 # %% [markdown]
 # ## Click a pixel
