@@ -155,7 +155,7 @@ def _measure(
 ) -> tuple[Report, list[Growth]]:
     from softshadow.bench.growth import growth, series
     from softshadow.bench.limits import measure_limits
-    from softshadow.bench.machine import machine
+    from softshadow.testing.machine import machine
     from softshadow.bench.measuring import measure
     from softshadow.bench.results import Report
     from softshadow.bench.starts import measure_starts
