@@ -55,16 +55,18 @@ def execute(
         left = {key: point for key, point in zip(keys, points, strict=True) if key not in rows}
         by_point = {id(point): key for key, point in left.items()}
         wanted = set(keys)
+        have = [rows[key] for key in wanted if key in rows]
+        done, failed = len(have), sum(row["status"] != "ok" for row in have)
 
         def progress() -> Progress:
-            have = [rows[key] for key in wanted if key in rows]
-            return Progress(len(have), sum(row["status"] != "ok" for row in have), len(wanted), workers())
+            return Progress(done, failed, len(wanted), workers())
 
         report(progress())
         for point, result in engine(list(left.values())):
             key = by_point.get(id(point)) or point.key
             if key not in rows:  # a worker that was lost may have been followed by another one
-                rows[key] = {**result.row, "recipe": point.recipe}
+                rows[key] = {**result.row, "recipe": point.recipe, "key": key}
+                done, failed = done + 1, failed + (result.row["status"] != "ok")
                 journal.add(key, Result(rows[key], result.picture))
             report(progress())
     return [rows[key] for key in keys]

@@ -13,22 +13,23 @@ from softshadow.runs import Run
 from softshadow.sweeps.point import Point
 
 MEGABYTE = 2**20
-ALONE = 0.9  # of the time between start and end of a frame its process was computing, at least
+ALONE = 0.9  # of the time between start and end of a frame its thread was computing, at least
 
 
 def timed(draw: Callable[[], Run], point: Point) -> tuple[Run, dict[str, Any]]:
     """Return the run of the first frame, and the times of all frames if the point asks for them.
 
-    A frame had its core alone if its process computed during (nearly) all of the time that passed: what is missing went
-    to other processes. With several threads that is not known from this, so such times are marked as not alone.
+    A frame had its core alone if the thread that drew it computed during (nearly) all of the time that passed: what is
+    missing went to other processes and threads. With several kernel threads that is not known from this, so such times
+    are marked as not alone.
     """
     frames = point.frames if "time" in point.measure else 0
     walls, shares = [], []
     drawn: Run | None = None
     for _ in range(1 + frames):
-        wall, cpu = time.perf_counter(), time.process_time()
+        wall, cpu = time.perf_counter(), time.thread_time()
         result = draw()
-        wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
+        wall, cpu = time.perf_counter() - wall, time.thread_time() - cpu
         walls.append(1000 * wall)
         shares.append(cpu / max(wall, 1e-9))
         drawn = drawn or result

@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import warnings
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any
 
-from softshadow.errors import SoftShadowError
 from softshadow.errors import Warning as SoftShadowWarning
+from softshadow.inspection.files import MARK
 from softshadow.inspection.pictures import png
 from softshadow.pipeline import set_threads
+from softshadow.pipeline.memory.threads import threads
 from softshadow.runs import run
 from softshadow.scene import Camera, Light, Scene
 from softshadow.sweeps.errors_and_counts import counts, hard_errors, soft_errors
 from softshadow.sweeps.frame_times import peak_from_here, peak_memory, timed
 from softshadow.sweeps.point import MODEL_SUFFIXES, Point
+from softshadow.testing.machine import machine
 
 Row = dict[str, Any]
+OTHERS = ("numpy", "numba", "python")
 
 
 @dataclass(frozen=True)
@@ -35,11 +40,19 @@ def measure(point: Point, scene: Scene | None = None) -> Result:
     ----------
     scene : Scene                that of the point, if it has been loaded before; without its light and camera
     """
-    row: Row = {**described(point), "status": "ok", "error": ""}
+    row: Row = {**described(point), "status": "ok", "error": "", **measured_on(), "load_1min": load()}
+    before = threads()
     try:
         return _measure(point, scene if scene is not None else load_scene(point.scene), row)
-    except (SoftShadowError, ValueError, TypeError, OSError, MemoryError, ArithmeticError) as error:
+    except Exception as error:  # whatever it is, the other points go on
         return Result({**row, "status": "error", "error": f"{type(error).__name__}: {error}"}, None)
+    finally:
+        set_threads(before)
+
+
+def load() -> float | None:
+    """Return the mean number of busy processes on this machine in the last minute, where the system tells it."""
+    return round(os.getloadavg()[0], 2) if hasattr(os, "getloadavg") else None
 
 
 def described(point: Point) -> Row:
@@ -52,6 +65,16 @@ def described(point: Point) -> Row:
     row |= {f"{name}_{axis}": n for name, at in places.items() for axis, n in zip("xyzw", at, strict=False)}
     row |= {"fov_degrees": point.fov} if point.fov else {}
     return row | {"threads": point.threads, "repetition": point.repetition}
+
+
+@cache
+def measured_on() -> Row:
+    """Return the columns that say on what machine, and with which versions, a point was measured."""
+    facts = machine(with_mesa=False)
+    return {
+        "machine": f"{facts['processor']}, {facts['cores']} cores, {facts['system']}",
+        "versions": f"{MARK} " + ", ".join([facts["softshadow"], *(f"{name} {facts[name]}" for name in OTHERS)]),
+    }
 
 
 def load_scene(name: str) -> Scene:
@@ -85,9 +108,8 @@ def _measure(point: Point, scene: Scene, row: Row) -> Result:
         row["warnings"] = " ".join(sorted({type(each).__name__ for each in drawn.warnings}))
         if "memory" in point.measure:
             row["peak_memory_MB"] = peak_memory() if started else None
-        picture = png(drawn.image)
         row["picture_sha256"] = hashlib.sha256(drawn.image.tobytes()).hexdigest()[:16]
         for name, columns in (("hard", hard_errors), ("soft", soft_errors), ("counts", counts)):
             if name in point.measure:
                 row |= columns(drawn)
-    return Result(row, picture if point.picture else None)
+    return Result(row, png(drawn.image) if point.picture else None)

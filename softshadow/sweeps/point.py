@@ -26,7 +26,7 @@ class Point:
     ----------
     technique : str
     scene : str                  a scene name, a scene file (.toml) or a model file, which is put on a floor
-    options : mapping            of the technique, without those that keep their default
+    options : mapping            of the technique; the others keep their defaults
     size : (width, height)       pixels
     light : tuple of floats      (x, y, z) or (x, y, z, w), in place of the scene's lights; () keeps them
     eye, target : tuple of floats       of the camera, in place of the scene's; () keeps them
@@ -61,7 +61,7 @@ class Point:
         words = ["--mesh" if self.scene.lower().endswith(MODEL_SUFFIXES) else "--scene", self.scene]
         words += [f"--light={spelled(self.light)}"] if self.light else []
         words += [f"--{name}={spelled(at)}" for name, at in (("eye", self.eye), ("target", self.target)) if at]
-        words += [f"--fov={self.fov:g}"] if self.fov else []
+        words += [f"--fov={self.fov!r}"] if self.fov else []
         return [*words, "--size", f"{self.size[0]}x{self.size[1]}"]
 
     @property
