@@ -80,7 +80,7 @@ Axis = Annotated[
     Discriminator(
         axis_form,
         custom_error_type="axis",
-        custom_error_message="expected a value, a list, {{from, to, count}} or {{random = [low, high]}}",
+        custom_error_message="expected a value, a list, {from, to, count} or {random = [low, high]}",
     ),
 ]
 Place = tuple[float, float, float] | tuple[float, float, float, float]
@@ -148,6 +148,7 @@ def places_form(value: Any) -> str | None:
     return "points" if all(isinstance(at, list | tuple) and len(at) in (3, 4) for at in points) else None
 
 
+FORMS = ("value", "list", "range", "random", "points")  # in the places of errors, and no keys of a file
 Places = Annotated[
     Annotated[list[tuple[float, ...]], Tag("points")]
     | Annotated[CirclePath, Tag("circle")]
@@ -155,7 +156,7 @@ Places = Annotated[
     Discriminator(
         places_form,
         custom_error_type="places",
-        custom_error_message="expected a list of points [x, y, z], {{circle = ...}} or {{line = {{from, to, count}}}}",
+        custom_error_message="expected a list of points [x, y, z], {circle = ...} or {line = {from, to, count}}",
     ),
 ]
 

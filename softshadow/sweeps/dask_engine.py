@@ -7,6 +7,7 @@ an address it uses a scheduler that runs already (docs/sweeps.md shows how to st
 from __future__ import annotations
 
 import asyncio
+import concurrent.futures
 import os
 import threading
 import time
@@ -26,6 +27,7 @@ GROUP_SECONDS = 1.0  # of work in a task: enough that sending it costs little, a
 LARGEST_GROUP = 64
 AHEAD = 2  # tasks that wait for each worker, so that none is idle
 LOST = ("lost", "cancelled")  # how the client marks tasks that a scheduler does not know any more
+CANCELLED = (asyncio.CancelledError, concurrent.futures.CancelledError)
 MOST_LOSSES = 1000
 LOST_AFTER = 15.0  # seconds without a connection to the scheduler after which the sweep ends
 ONE_AT_A_TIME = threading.Lock()  # of a worker that was started with several threads
@@ -105,7 +107,7 @@ class DaskEngine:
         from distributed import wait
 
         done: list[Any] = []
-        with suppress(TimeoutError, asyncio.CancelledError, OSError, RuntimeError), self.client.as_current():
+        with suppress(TimeoutError, *CANCELLED, OSError, RuntimeError), self.client.as_current():
             done = list(wait(list(running), timeout=1, return_when="FIRST_COMPLETED").done)
         if self.client.status == "running":
             return done or [each for each in running if each.status in LOST], time.monotonic()

@@ -15,7 +15,7 @@ from pydantic import Field, ValidationError, field_validator
 from softshadow import techniques
 from softshadow.errors import SoftShadowError, nearest
 from softshadow.scene import scene_names
-from softshadow.sweeps.axes import Axis, Places, Random, Strict, places_of, values_of
+from softshadow.sweeps.axes import FORMS, Axis, Places, Random, Strict, places_of, values_of
 from softshadow.sweeps.point import MEASURES, Point
 
 MOST_POINTS = 1_000_000
@@ -202,6 +202,6 @@ def key_of(location: tuple[int | str, ...], table: Any) -> str:
         if inside or (isinstance(table, list) and isinstance(part, int) and part < len(table)):
             table = table[part]
             parts.append(str(part))
-        elif index == 0 or (index == len(location) - 1 and isinstance(table, dict)):
+        elif index == 0 or (index == len(location) - 1 and isinstance(table, dict) and part not in FORMS):
             parts.append(str(part))  # a key that is missing
     return ".".join(parts)

@@ -88,12 +88,6 @@ class SweepTable:
         contents = {".csv": as_csv, ".json": as_json, ".parquet": as_parquet}[target.suffix](self)
         return write_whole(target, lambda half: half.write_bytes(contents), force)
 
-    def plot(self, path: str | os.PathLike[str], x: str, y: str, color: str | None = None) -> Path:
-        """Draw one column over another; see `softshadow.sweeps.plot.save_plot`."""
-        from softshadow.sweeps.plot import PlotRequest, save_plot
-
-        return save_plot(self, path, PlotRequest(x, y, color))
-
 
 def check_suffix(path: Path) -> None:
     """Raise an error if no table can have this file name."""
@@ -151,7 +145,10 @@ def load_sweep(path: str | os.PathLike[str]) -> SweepTable:
         check_suffix(source)
         if source.suffix == ".csv":
             with source.open(newline="", encoding="utf-8") as file:
-                return checked([row_of_csv(row) for row in csv.DictReader(file)], source)
+                reader = csv.DictReader(file)
+                if "technique" not in (reader.fieldnames or ()):
+                    raise ValueError("no column 'technique'")
+                return SweepTable([row_of_csv(row) for row in reader])
         if source.suffix == ".json":
             contents = json.loads(source.read_text(encoding="utf-8"))
             return checked(contents.get("rows") if isinstance(contents, dict) else None, source)
