@@ -39,6 +39,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shutil.copy(SCENES / "crate.obj", "bunny.obj")
     shutil.copy(TRACE, "program.trace")
     Path("program.py").write_text(GLUT)
+    Path("sweep.toml").write_text('technique = "blob"\nsize = "24x18"\n')
     for name in ("lesson.toml", "crate.obj"):
         shutil.copy(SCENES / name, name)
 
