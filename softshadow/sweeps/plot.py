@@ -62,8 +62,8 @@ def save_plot(table: SweepTable, path: str | os.PathLike[str], request: PlotRequ
     if target.suffix not in METADATA:
         raise SoftShadowError(f"{path}: expected a plot, one of {', '.join(METADATA)}")
     x, y, color = request.x, request.y, request.color
-    names = [table.column(name) for name in (x, y)]
-    lines = grouped(table, *names, table.column(color) if color else None)
+    names = table.column(x), table.column(y)
+    lines = grouped(table, names[0], names[1], table.column(color) if color else None)
     figure = Figure(figsize=(7, 4.5), layout="constrained")
     panel: Any = figure.subplots()
     for number, (label, places) in enumerate(lines.items()):
@@ -94,9 +94,9 @@ def grouped(table: SweepTable, x: str, y: str, color: str | None) -> dict[str, d
     """
     lines: dict[str, dict[float, list[float]]] = defaultdict(lambda: defaultdict(list))
     for row in table.rows:
-        pair = row.get(x), row.get(y)
-        if row["status"] == "ok" and all(isinstance(n, int | float) for n in pair):
-            lines[str(row.get(color, "")) if color else ""][float(pair[0])].append(float(pair[1]))
+        at, value = row.get(x), row.get(y)
+        if row["status"] == "ok" and isinstance(at, int | float) and isinstance(value, int | float):
+            lines[str(row.get(color, "")) if color else ""][float(at)].append(float(value))
     if not lines:
         raise SoftShadowError(f"--plot x={x},y={y}: no row has numbers in both columns")
     return {label: dict(sorted(places.items())) for label, places in lines.items()}
