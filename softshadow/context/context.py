@@ -18,6 +18,7 @@ from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.raster_position import INITIAL_RASTER_POSITION, RasterPosition
 from softshadow.context.recording import Frame
+from softshadow.context.render_mode import RenderMode
 from softshadow.context.state_groups import StateGroups, affects_draws
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
@@ -143,6 +144,7 @@ class Context:
         # the highest name returned by glGen*, per kind; an object exists in storage once it has been bound
         self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query", "buffer", "list"), 0)
         self.renderbuffer = 0
+        self.render_mode = RenderMode()
         self.query_targets: dict[int, int] = {}  # name: target of the queries that have been begun
 
     def __enter__(self) -> Context:

@@ -45,6 +45,7 @@ from softshadow.gl.pyopengl import *
 from softshadow.gl.queries import *
 from softshadow.gl.raster_position import *
 from softshadow.gl.rasterization import *
+from softshadow.gl.render_modes import *
 from softshadow.gl.renderbuffers import *
 from softshadow.gl.texture_coordinates import *
 from softshadow.gl.texture_copies import *

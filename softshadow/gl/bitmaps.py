@@ -18,6 +18,7 @@ from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
+from softshadow.gl.render_modes import is_rendered
 from softshadow.gl.window_quads import draw_of_quads
 from softshadow.pixel_store import bitmap_rows
 
@@ -66,7 +67,7 @@ def _bitmap(
         fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, "glBitmap", f"framebuffer {name} is not complete")
         return
     position = np.array(context.current.raster.window, np.float32)
-    if bits is not None and bits.any():
+    if is_rendered(context, gl.GL_BITMAP_TOKEN) and bits is not None and bits.any():
         left = int(np.floor(position[0] + ROUNDING - np.float32(xorig)))
         bottom = int(np.floor(position[1] + ROUNDING - np.float32(yorig)))
         quads = runs(bits) + np.array([left, bottom, left, bottom])

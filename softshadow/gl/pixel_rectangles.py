@@ -20,6 +20,7 @@ from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import format_problem, kind_of
+from softshadow.gl.render_modes import is_rendered
 from softshadow.gl.window_quads import draw_of_quads
 from softshadow.image import Format, storage_format
 from softshadow.pipeline.buffers.copy import bottom_up, clipped
@@ -80,8 +81,9 @@ def _draw_pixels(width: int, height: int, format: int, type: int, cells: np.ndar
         fail(problem[0], operation, problem[1])
     elif kind_of(format) != "color":
         fail(gl.GL_INVALID_ENUM, operation, f"format={token_name(format)}: this subset draws colours only")
-    elif _is_complete(context, operation) and cells is not None:
-        _draw(context, cells)
+    elif _is_complete(context, operation) and context.current.raster.valid:
+        if is_rendered(context, gl.GL_DRAW_PIXEL_TOKEN) and cells is not None:
+            _draw(context, cells)
 
 
 @in_lists
@@ -116,7 +118,9 @@ def glCopyPixels(x: int, y: int, width: int, height: int, type: int) -> None:
     if image is None:
         fail(gl.GL_INVALID_OPERATION, operation, f"framebuffer {source.name} has no colour buffer to read")
         return
-    if width == 0 or height == 0 or not context.current.raster.valid:
+    if not context.current.raster.valid or not is_rendered(context, gl.GL_COPY_PIXEL_TOKEN):
+        return
+    if width == 0 or height == 0:
         return
     context.finish()
     rows, columns, left, bottom = clipped(source, int(x), int(y), int(width), int(height))

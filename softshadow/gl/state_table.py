@@ -9,6 +9,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import MATRIX_STACK_DEPTHS, Context, MatrixStack
+from softshadow.context.render_mode import MOST_NAMES
 from softshadow.framebuffer import DEFAULT, DRAW_BUFFERS, LARGEST_SIDE, Framebuffer
 from softshadow.gl.attributes import DEEPEST_ATTRIBUTES
 from softshadow.gl.capabilities import CLIP_PLANES, HINTS, LIGHTS
@@ -235,7 +236,12 @@ QUERIES: dict[str, Read] = {
     "GL_DEPTH_BITS": lambda c: bits(drawn_to(c).depth),
     "GL_STENCIL_BITS": lambda c: bits(drawn_to(c).stencil),
     **{f"GL_ACCUM_{name}_BITS": accumulation_bits for name in ("RED", "GREEN", "BLUE", "ALPHA")},
-    "GL_RENDER_MODE": lambda c: gl.GL_RENDER,
+    "GL_RENDER_MODE": lambda c: c.render_mode.mode,
+    "GL_NAME_STACK_DEPTH": lambda c: len(c.render_mode.selection.names),
+    "GL_MAX_NAME_STACK_DEPTH": lambda c: MOST_NAMES,
+    "GL_SELECTION_BUFFER_SIZE": lambda c: c.render_mode.selection.size,
+    "GL_FEEDBACK_BUFFER_SIZE": lambda c: c.render_mode.feedback.size,
+    "GL_FEEDBACK_BUFFER_TYPE": lambda c: c.render_mode.feedback.kind,
     "GL_RGBA_MODE": lambda c: True,
     "GL_STEREO": lambda c: False,
     "GL_SAMPLES": lambda c: 0,

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 import OpenGL
-from OpenGL import GL, GLU, images
+from OpenGL import GL, GLU, contextdata, images, platform
 from OpenGL.raw.GL.VERSION import GL_1_0 as raw
 
 from softshadow.pixel_store import PACKED_TYPES, PixelStore
@@ -28,6 +28,14 @@ from softshadow.pixel_store import PACKED_TYPES, PixelStore
 images.TYPE_TO_ARRAYTYPE[GL.GL_UNSIGNED_INT_24_8] = GL.GL_UNSIGNED_INT
 images.TYPE_TO_ARRAYTYPE[GL.GL_FLOAT_32_UNSIGNED_INT_24_8_REV] = GL.GL_UNSIGNED_BYTE  # passed as bytes
 
+
+
+def _context_key(context: Any = None) -> Any:
+    """Return what PyOpenGL keeps arrays under: the address of the context, not the pointer that OSMesa returns anew."""
+    return ctypes.cast(context or platform.GetCurrentContext(), ctypes.c_void_p).value
+
+
+contextdata.getContext = _context_key
 CHANNELS = {
     **dict.fromkeys((GL.GL_RED, GL.GL_GREEN, GL.GL_BLUE, GL.GL_ALPHA, GL.GL_LUMINANCE), 1),
     **dict.fromkeys((GL.GL_DEPTH_COMPONENT, GL.GL_STENCIL_INDEX, GL.GL_DEPTH_STENCIL), 1),
