@@ -26,6 +26,7 @@ from softshadow.gl.buffers import *
 from softshadow.gl.capabilities import *
 from softshadow.gl.clears import *
 from softshadow.gl.clip_planes import *
+from softshadow.gl.conditional_rendering import *
 from softshadow.gl.debug_groups import *
 from softshadow.gl.errors import *
 from softshadow.gl.extensions import extension_names, missing_message, plain_name
