@@ -14,6 +14,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context.arrays import BufferObject, ClientArrays
+from softshadow.context.evaluators import EvaluatorSettings, initial_maps
 from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.raster_position import INITIAL_RASTER_POSITION, RasterPosition
@@ -145,6 +146,7 @@ class Context:
         self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query", "buffer", "list"), 0)
         self.renderbuffer = 0
         self.render_mode = RenderMode()
+        self.maps, self.evaluators = initial_maps(), EvaluatorSettings()
         self.query_targets: dict[int, int] = {}  # name: target of the queries that have been begun
 
     def __enter__(self) -> Context:

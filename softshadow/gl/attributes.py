@@ -50,6 +50,7 @@ class SavedAttributes(NamedTuple):
     draw_buffers: tuple[int, ...]
     read_buffer: int
     pixel_zoom: tuple[float, float]
+    evaluators: EvaluatorSettings
     samplers: dict[tuple[int, int], Sampler]  # of the bound textures, by (target, key in the storage)
 
 
@@ -78,6 +79,7 @@ def glPushAttrib(mask: int) -> None:
             _draw_buffers(framebuffers[state.draw_framebuffer]),
             framebuffers[state.read_framebuffer].read_buffer,
             context.pixel_zoom,
+            context.evaluators,
             _bound_samplers(context, state) if mask & gl.GL_TEXTURE_BIT else {},
         )
     )
@@ -161,7 +163,11 @@ def _restore(context: Context, bit: int, saved: SavedAttributes) -> None:
         context.pixel_zoom = saved.pixel_zoom
     elif bit == gl.GL_TRANSFORM_BIT:
         context.matrix_mode = saved.matrix_mode
-    elif bit == gl.GL_ENABLE_BIT and saved.state.lighting.color_material and not now.lighting.color_material:
+    elif bit == gl.GL_EVAL_BIT:
+        context.evaluators = saved.evaluators
+    if bit == gl.GL_ENABLE_BIT:
+        context.evaluators = evolve(context.evaluators, enabled=saved.evaluators.enabled)
+    if bit == gl.GL_ENABLE_BIT and saved.state.lighting.color_material and not now.lighting.color_material:
         start_to_follow(context)
 
 

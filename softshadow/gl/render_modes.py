@@ -51,12 +51,14 @@ def _take(context: Context, command: Draw) -> None:
     modes = context.render_mode
     window, colors, texcoords, primitives = window_primitives(command, context.objects)
     if modes.mode == gl.GL_SELECT:
-        modes.selection.hit(window[[vertex for vertices, _ in primitives for vertex in vertices], 2])
+        modes.selection.hit(window[[vertex for vertices in primitives for vertex in vertices], 2])
         return
     feedback = modes.feedback
-    for vertices, resets in primitives:
+    for vertices in primitives:
+        if not vertices:
+            feedback.resets_line = True
+            continue
         token = TOKENS[len(vertices)]
-        feedback.resets_line |= resets
         if token == gl.GL_LINE_TOKEN and feedback.resets_line:
             token, feedback.resets_line = gl.GL_LINE_RESET_TOKEN, False
         feedback.write(token, *((len(vertices),) if token == gl.GL_POLYGON_TOKEN else ()))

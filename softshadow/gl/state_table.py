@@ -12,7 +12,7 @@ from softshadow.context import MATRIX_STACK_DEPTHS, Context, MatrixStack
 from softshadow.context.render_mode import MOST_NAMES
 from softshadow.framebuffer import DEFAULT, DRAW_BUFFERS, LARGEST_SIDE, Framebuffer
 from softshadow.gl.attributes import DEEPEST_ATTRIBUTES
-from softshadow.gl.capabilities import CLIP_PLANES, HINTS, LIGHTS
+from softshadow.gl.capabilities import CLIP_PLANES, HINTS, LIGHTS, MAPS
 from softshadow.gl.fragment_state import core_back, extension_back
 from softshadow.gl.framebuffers import COLOR_ATTACHMENTS
 from softshadow.gl.lists import DEEPEST_LIST
@@ -236,6 +236,11 @@ QUERIES: dict[str, Read] = {
     "GL_DEPTH_BITS": lambda c: bits(drawn_to(c).depth),
     "GL_STENCIL_BITS": lambda c: bits(drawn_to(c).stencil),
     **{f"GL_ACCUM_{name}_BITS": accumulation_bits for name in ("RED", "GREEN", "BLUE", "ALPHA")},
+    "GL_MAX_EVAL_ORDER": lambda c: 30,
+    "GL_MAP1_GRID_SEGMENTS": lambda c: c.evaluators.grid1[0],
+    "GL_MAP1_GRID_DOMAIN": lambda c: c.evaluators.grid1[1:],
+    "GL_MAP2_GRID_SEGMENTS": lambda c: tuple(grid[0] for grid in c.evaluators.grid2),
+    "GL_MAP2_GRID_DOMAIN": lambda c: (*c.evaluators.grid2[0][1:], *c.evaluators.grid2[1][1:]),
     "GL_RENDER_MODE": lambda c: c.render_mode.mode,
     "GL_NAME_STACK_DEPTH": lambda c: len(c.render_mode.selection.names),
     "GL_MAX_NAME_STACK_DEPTH": lambda c: MOST_NAMES,
@@ -267,6 +272,7 @@ QUERIES: dict[str, Read] = {
     "GL_ALIASED_POINT_SIZE_RANGE": lambda c: SIZES,
 }
 BY_TOKEN: dict[int, Read] = {getattr(gl, name): read for name, read in QUERIES.items() if hasattr(gl, name)}
+BY_TOKEN |= {cap: (lambda c, cap=cap: cap in c.evaluators.enabled) for cap in MAPS}  # type: ignore[misc]
 BY_TOKEN |= {hint: (lambda c, hint=hint: c.hints.get(hint, gl.GL_DONT_CARE)) for hint in HINTS}  # type: ignore[misc]
 # colours, normals, depths and matrices: as an integer, 1.0 is the largest int (GL 2.1, sec. 6.1.2)
 NORMALIZED = {
