@@ -35,6 +35,8 @@ from softshadow.gl.fog import *
 from softshadow.gl.fragment_state import *
 from softshadow.gl.framebuffers import *
 from softshadow.gl.glu import *
+from softshadow.gl.glu_names import *
+from softshadow.gl.glu_tokens import *
 from softshadow.gl.immediate import *
 from softshadow.gl.lighting import *
 from softshadow.gl.lists import *
@@ -44,6 +46,7 @@ from softshadow.gl.pixel_rectangles import *
 from softshadow.gl.pixels import *
 from softshadow.gl.programs import *
 from softshadow.gl.pyopengl import *
+from softshadow.gl.quadrics import *
 from softshadow.gl.queries import *
 from softshadow.gl.raster_position import *
 from softshadow.gl.rasterization import *
@@ -114,7 +117,7 @@ def create_context(
 def __dir__() -> list[str]:
     """Return the public names."""
     own = ("Context", "GLError", "create_context", "describe_primitives", "program", "record", "step")
-    spelled = (name for name, value in globals().items() if name.startswith(("gl", "GL_")) and not ismodule(value))
+    spelled = (name for name, value in globals().items() if name.startswith(("gl", "GL_", "GLU_")) and not ismodule(value))
     return sorted({*own, *spelled})
 
 

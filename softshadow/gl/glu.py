@@ -10,7 +10,7 @@ import numpy as np
 from softshadow.context import current, thread
 from softshadow.gl.calls import in_lists, is_allowed, is_ready, spelled_like_gl
 from softshadow.gl.errors import outside_begin
-from softshadow.gl.transforms import glOrtho
+from softshadow.gl.transforms import glOrtho, glScalef, glTranslatef
 
 
 def gluPerspective(fovy: float, aspect: float, zNear: float, zFar: float) -> None:
@@ -41,6 +41,18 @@ def gluLookAt(
     places = (eyeX, eyeY, eyeZ, centerX, centerY, centerZ, upX, upY, upZ)
     if context.ready or is_ready(context, gluLookAt, *places):
         context.matrix_stack.look_at(*places)
+
+
+@in_lists
+def gluPickMatrix(x: float, y: float, deltax: float, deltay: float, viewport: Any = None) -> None:
+    """Multiply by a matrix that enlarges a region around a window position to the whole window, for selection."""
+    if viewport is None:  # as in PyOpenGL
+        view = current().state.viewport
+        viewport = (view.x, view.y, view.width, view.height)
+    left, bottom, width, height = (int(value) for value in np.ravel(viewport)[:4])
+    if deltax > 0 and deltay > 0:
+        glTranslatef((width - 2 * (x - left)) / deltax, (height - 2 * (y - bottom)) / deltay, 0)
+        glScalef(width / deltax, height / deltay, 1.0)
 
 
 def gluProject(
