@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from gl.more_facade_calls import MORE_CALLS
+
 BYTES = np.zeros((4, 4, 4), np.uint8)
 CORNERS = np.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], np.float32)
 INDICES = np.array([0, 1, 2], np.uint32)
@@ -155,7 +157,7 @@ def families() -> dict[str, tuple[Any, ...]]:
     return calls
 
 
-CALLS = {**SINGLE, **families()}
+CALLS = {**SINGLE, **families(), **MORE_CALLS}
 NAMED_AGAIN = {  # spellings that are PyOpenGL's own: the same function
     "glGetBoolean": "glGetBooleanv", "glGetDouble": "glGetDoublev", "glGetFloat": "glGetFloatv",
     "glGetInteger": "glGetIntegerv", "glClearDepthf": "glClearDepth", "glDepthRangef": "glDepthRange",
@@ -168,7 +170,7 @@ NAMED_AGAIN = {  # spellings that are PyOpenGL's own: the same function
 class World:
     """Names of what `prepare` makes."""
 
-    names: dict[str, int]
+    names: dict[str, Any]
 
     def values(self, gl: Any, arguments: tuple[Any, ...]) -> list[Any]:
         """Return arguments with tokens and objects looked up."""
@@ -214,6 +216,8 @@ def prepare(gl: Any) -> World:
         "renderbuffer": renderbuffer,
         "query": query,
         "buffer": buffer,
+        "quadric": gl.gluNewQuadric(),
+        "old_quadric": gl.gluNewQuadric(),
     }
     return World({f"@{name}": value for name, value in objects.items()} | uniforms | {"@program": program})
 
@@ -230,6 +234,8 @@ LEFT_OUT = {
 def wrong_values(name: str, argument: Any) -> tuple[Any, ...]:
     """What stands in for a right argument: tokens of other groups, names and numbers out of any range."""
     if isinstance(argument, str):
+        if argument.endswith("quadric"):
+            return ()
         return (9999,) if argument.startswith("@") else (0x9999, 3, "GL_LESS", "GL_RGBA", 0xFFFFFFFF)
     if isinstance(argument, bool) or not isinstance(argument, int | float):
         return ()
