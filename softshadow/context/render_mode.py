@@ -13,6 +13,7 @@ from softshadow import tokens as gl
 
 MOST_NAMES = 64
 DEPTH_SCALE = np.float32(0xFFFFFFFF)
+NEAREST, FARTHEST = np.float32(1.0), np.float32(-1.0)  # before anything is hit
 
 
 @dataclass
@@ -24,8 +25,8 @@ class Selection:
     count: int = 0  # numbers written, also those for which there was no room
     hits: int = 0
     names: list[int] = field(default_factory=list)
-    nearest: np.float32 = np.float32(1.0)
-    farthest: np.float32 = np.float32(-1.0)
+    nearest: np.float32 = NEAREST
+    farthest: np.float32 = FARTHEST
     is_hit: bool = False
 
     def hit(self, depths: np.ndarray) -> None:
@@ -52,7 +53,7 @@ class Selection:
 
     def forget_hits(self) -> None:
         """Begin a new record."""
-        self.is_hit, self.nearest, self.farthest = False, np.float32(1.0), np.float32(-1.0)
+        self.is_hit, self.nearest, self.farthest = False, NEAREST, FARTHEST
 
 
 @dataclass

@@ -117,7 +117,9 @@ def create_context(
 def __dir__() -> list[str]:
     """Return the public names."""
     own = ("Context", "GLError", "create_context", "describe_primitives", "program", "record", "step")
-    spelled = (name for name, value in globals().items() if name.startswith(("gl", "GL_", "GLU_")) and not ismodule(value))
+    spelled = (
+        name for name, value in globals().items() if name.startswith(("gl", "GL_", "GLU_")) and not ismodule(value)
+    )
     return sorted({*own, *spelled})
 
 

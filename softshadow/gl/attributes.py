@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from softshadow import tokens as gl
 from softshadow.context import Context, CurrentVertex, thread
+from softshadow.context.evaluators import EvaluatorSettings
 from softshadow.framebuffer import Framebuffer
 from softshadow.frozen import evolve
 from softshadow.gl.attribute_groups import GROUPS, changed_groups, needs_calls, with_group

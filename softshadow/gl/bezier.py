@@ -5,6 +5,8 @@ References: m_eval.c of Mesa 22.3.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 F32 = np.float32
@@ -102,6 +104,6 @@ def _along_v(
     across = [b - a for a, b in zip(first, second, strict=True)]
     along = [us * a + u * b for a, b in zip(first, second, strict=True)]
     while len(along) > 2:
-        across = [vs * a + v * b for a, b in zip(across, across[1:], strict=False)]
-        along = [vs * a + v * b for a, b in zip(along, along[1:], strict=False)]
+        across = [vs * a + v * b for a, b in pairwise(across)]
+        along = [vs * a + v * b for a, b in pairwise(along)]
     return vs * along[0] + v * along[1], vs * across[0] + v * across[1], along[1] - along[0]

@@ -5,6 +5,7 @@ References: GL 2.1, sec. 5.1; eval.c, vbo_exec_eval.c and vbo_exec_api.c of Mesa
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -225,7 +226,7 @@ def _normals(points: np.ndarray, du: np.ndarray, dv: np.ndarray) -> np.ndarray:
     return scaled
 
 
-def _one(value: float) -> np.ndarray:
+def _one(value: float | np.float32) -> np.ndarray:
     return np.array([value], F32)
 
 
@@ -317,7 +318,7 @@ def glEvalMesh2(mode: int, i1: int, i2: int, j1: int, j2: int) -> None:
         for each in u:
             _draw(gl.GL_LINE_STRIP, np.full_like(v, each), v)
     else:
-        for low, high in zip(v, v[1:], strict=False):
+        for low, high in pairwise(v):
             _draw(gl.GL_TRIANGLE_STRIP, np.repeat(u, 2), np.tile(np.array([low, high], F32), len(u)))
 
 

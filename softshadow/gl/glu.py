@@ -93,8 +93,8 @@ def gluUnProject(
         return None
     model, proj, (left, bottom, width, height) = _current_or(model, proj, view)
     with np.errstate(all="ignore"):  # a viewport without a side gives infinities, as in GLU
-        x, y = (np.float64(winX) - left) / width, (np.float64(winY) - bottom) / height
-        ndc = (float(x * 2 - 1), float(y * 2 - 1), float(winZ * 2 - 1), 1.0)
+        across, up = (np.float64(winX) - left) / width, (np.float64(winY) - bottom) / height
+        ndc = (float(across * 2 - 1), float(up * 2 - 1), float(winZ * 2 - 1), 1.0)
     inverse = _inverse(_product(model, proj))
     if inverse is None:
         raise ValueError("gluUnProject: the matrices have no inverse")

@@ -52,7 +52,8 @@ def feedback_tokens(buffer: np.ndarray, count: int, kind: int) -> list[tuple[Any
     has_color = kind not in (gl.GL_2D, gl.GL_3D)
     has_texture = kind in (gl.GL_3D_COLOR_TEXTURE, gl.GL_4D_COLOR_TEXTURE)
     size = n_coordinates + 4 * has_color + 4 * has_texture
-    tokens, place = [], 0
+    place = 0
+    tokens: list[tuple[Any, ...]] = []
 
     def vertices(number: int) -> list[FeedbackVertex]:
         nonlocal place

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.array_snapshots import NORMAL, POSITION, TEXCOORD
 from softshadow.gl.immediate import MODES, consecutive_indices

@@ -10,6 +10,7 @@ References: merge_prims and compile_vertex_list, vbo_save_api.c; vbo_merge_draws
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -74,7 +75,7 @@ def joined(run: list[ListPrimitive], is_opening: bool, is_closing: bool) -> list
 
 
 def _consecutive(run: list[ListPrimitive], is_opening: bool, is_closing: bool) -> list[Part]:
-    """Return the primitives with indices into the vertices of all; separate ones that follow complete ones join them."""
+    """Return the primitives with indices into the vertices of all; separate ones join complete ones before them."""
     parts: list[Part] = []
     first = 0
     for number, primitive in enumerate(run):
@@ -109,7 +110,7 @@ def _is_complete(primitive: ListPrimitive) -> bool:
 
 def _has_two_strips(run: list[ListPrimitive]) -> bool:
     modes = [primitive.mode for primitive in run]
-    return any(a == b == gl.GL_TRIANGLE_STRIP for a, b in zip(modes, modes[1:], strict=False))
+    return any(a == b == gl.GL_TRIANGLE_STRIP for a, b in pairwise(modes))
 
 
 def _primitive(part: Part, first: int) -> ListPrimitive:

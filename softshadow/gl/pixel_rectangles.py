@@ -81,9 +81,13 @@ def _draw_pixels(width: int, height: int, format: int, type: int, cells: np.ndar
         fail(problem[0], operation, problem[1])
     elif kind_of(format) != "color":
         fail(gl.GL_INVALID_ENUM, operation, f"format={token_name(format)}: this subset draws colours only")
-    elif _is_complete(context, operation) and context.current.raster.valid:
-        if is_rendered(context, gl.GL_DRAW_PIXEL_TOKEN) and cells is not None:
-            _draw(context, cells)
+    elif (
+        _is_complete(context, operation)
+        and context.current.raster.valid
+        and is_rendered(context, gl.GL_DRAW_PIXEL_TOKEN)
+        and cells is not None
+    ):
+        _draw(context, cells)
 
 
 @in_lists

@@ -71,7 +71,9 @@ def is_rendered(context: Context, token: int) -> bool:
     if context.render_mode.mode == gl.GL_FEEDBACK:
         raster, feedback = context.current.raster, context.render_mode.feedback
         feedback.write(token)
-        feedback.write_vertex(*(np.array(row, np.float32) for row in (raster.window, raster.color, raster.texcoords[0])))
+        feedback.write_vertex(
+            *(np.array(row, np.float32) for row in (raster.window, raster.color, raster.texcoords[0]))
+        )
     return context.render_mode.mode == gl.GL_RENDER
 
 
@@ -116,7 +118,9 @@ def glRenderMode(mode: int) -> Any:
     if result < 0:
         return fail(gl.GL_STACK_OVERFLOW, "glRenderMode", "the buffer is too small for the results")
     buffer = buffers[left].buffer
-    return select_records(buffer, result) if left == gl.GL_SELECT else feedback_tokens(buffer, result, modes.feedback.kind)
+    return (
+        select_records(buffer, result) if left == gl.GL_SELECT else feedback_tokens(buffer, result, modes.feedback.kind)
+    )
 
 
 def _end_mode(context: Context) -> int:

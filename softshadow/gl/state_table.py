@@ -272,7 +272,7 @@ QUERIES: dict[str, Read] = {
     "GL_ALIASED_POINT_SIZE_RANGE": lambda c: SIZES,
 }
 BY_TOKEN: dict[int, Read] = {getattr(gl, name): read for name, read in QUERIES.items() if hasattr(gl, name)}
-BY_TOKEN |= {cap: (lambda c, cap=cap: cap in c.evaluators.enabled) for cap in MAPS}  # type: ignore[misc]
+BY_TOKEN |= {cap: (lambda c, cap=cap: cap in c.evaluators.enabled) for cap in MAPS}
 BY_TOKEN |= {hint: (lambda c, hint=hint: c.hints.get(hint, gl.GL_DONT_CARE)) for hint in HINTS}  # type: ignore[misc]
 # colours, normals, depths and matrices: as an integer, 1.0 is the largest int (GL 2.1, sec. 6.1.2)
 NORMALIZED = {

@@ -29,7 +29,6 @@ images.TYPE_TO_ARRAYTYPE[GL.GL_UNSIGNED_INT_24_8] = GL.GL_UNSIGNED_INT
 images.TYPE_TO_ARRAYTYPE[GL.GL_FLOAT_32_UNSIGNED_INT_24_8_REV] = GL.GL_UNSIGNED_BYTE  # passed as bytes
 
 
-
 def _context_key(context: Any = None) -> Any:
     """Return what PyOpenGL keeps arrays under: the address of the context, not the pointer that OSMesa returns anew."""
     return ctypes.cast(context or platform.GetCurrentContext(), ctypes.c_void_p).value

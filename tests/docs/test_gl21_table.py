@@ -26,7 +26,7 @@ def test_every_command_is_there_or_has_a_reason() -> None:
     assert [name for name in missing if not reasons(name)] == []
 
 
-@pytest.mark.parametrize("version, count", [("1.0", 306), ("1.1", 30), ("1.5", 19), ("2.1", 6)])
+@pytest.mark.parametrize(("version", "count"), [("1.0", 306), ("1.1", 30), ("1.5", 19), ("2.1", 6)])
 def test_the_list_has_the_commands_of_the_registry(version: str, count: int) -> None:
     assert len(TABLE["commands"][version].split()) == count
 

@@ -41,9 +41,7 @@ class Program:
 
 
 @pytest.mark.mesa
-@pytest.mark.parametrize(
-    "seed", [*range(12), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(12, 200))]
-)
+@pytest.mark.parametrize("seed", [*range(12), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(12, 200))])
 def test_consecutive_primitives_of_a_list_are_joined_as_by_mesa(seed: int) -> None:
     assert (comparison := compare(Program(seed), SIZE)), comparison
 

@@ -17,7 +17,9 @@ class Program:
         rng = np.random.default_rng(seed)
         self.style = str(rng.choice(["GLU_FILL", "GLU_FILL", "GLU_LINE", "GLU_POINT", "GLU_SILHOUETTE"]))
         # libGLU does not set the normals of GLU_FLAT points
-        kinds = ["GLU_SMOOTH", "GLU_NONE"] if self.style in ("GLU_POINT", "GLU_SILHOUETTE") else ["GLU_SMOOTH", "GLU_FLAT"]
+        kinds = (
+            ["GLU_SMOOTH", "GLU_NONE"] if self.style in ("GLU_POINT", "GLU_SILHOUETTE") else ["GLU_SMOOTH", "GLU_FLAT"]
+        )
         self.normals = str(rng.choice(kinds))
         self.side = str(rng.choice(["GLU_OUTSIDE", "GLU_INSIDE"]))
         self.textured, self.in_list = bool(rng.random() < 0.4), bool(rng.random() < 0.3)
