@@ -157,7 +157,8 @@ def gluSphere(quad: GLUquadric, radius: float, slices: int, stacks: int) -> None
 
     def cap(j: int, pole: int, flat_j: int, order: Iterable[int], skips: bool) -> None:
         if smooth:
-            normal(sine, cosine, 0, normal_ring[pole], normal_height[pole])
+            # libGLU takes this entry for the lower pole, behind its table if there are more stacks than slices
+            normal(sine, cosine, pole if pole <= slices else 0, normal_ring[pole], normal_height[pole])
         glBegin(gl.GL_TRIANGLE_FAN)
         glVertex3f(0.0, 0.0, float(radius) if pole == 0 else -float(radius))
         for i in order:

@@ -48,7 +48,7 @@ class Program:
             gl.glNewList(1, gl.GL_COMPILE)
         a, b, c, d, e = self.sizes
         i, j, k, m = self.numbers
-        gl.gluSphere(quad, a, i, j)
+        gl.gluSphere(quad, a, max(i, j), min(i, j))  # with more stacks than slices libGLU reads behind a table
         gl.glTranslatef(0.2, 0.3, 0.1)
         gl.gluCylinder(quad, b, c, d, j, k - 2)
         gl.glTranslatef(-0.5, -0.4, -0.2)
