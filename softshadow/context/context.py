@@ -116,8 +116,8 @@ class Context:
         )
         self.texture_stacks = [MatrixStack(MATRIX_STACK_DEPTHS[gl.GL_TEXTURE], self.real) for _ in range(TEXTURE_UNITS)]
         self._texture_matrices: tuple[np.ndarray, ...] | None = None  # None while calls can change them
-        self._matrix_mode, self._active_unit = gl.GL_MODELVIEW, 0
-        self.matrix_stack = self.modelview_stack  # chosen by glMatrixMode; its last entry is the current matrix
+        # set by `select_matrices` and `select_unit`; the last entry of the stack is the current matrix
+        self.matrix_mode, self.active_unit, self.matrix_stack = gl.GL_MODELVIEW, 0, self.modelview_stack
         self.programs: dict[int, Program] = {}
         self.uniforms: dict[int, dict[str, Any]] = {}
         self.labels: list[str] = []
@@ -131,6 +131,8 @@ class Context:
         self.attribute_stack: list[Any] = []
         # the state at the last glPushAttrib or glPopAttrib; bits of the groups that calls have marked as changed since
         self.state_at_push, self.touched = self.state, 0
+        # texture units, and the samplers of the textures bound to them; None after a change of a texture
+        self.bound_samplers: tuple[Any, Any] | None = None
         self.pending = PendingAttributes()
         self.lists: dict[int, DisplayList] = {}
         self.compiled_list: DisplayList | None = None  # between glNewList and glEndList; whoever sets it clears `ready`
@@ -171,7 +173,11 @@ class Context:
     @property
     def state(self) -> State:
         """The state, immutable; the same object until something changes."""
-        return self._state.snapshot()
+        groups = self._state
+        if self._changed or groups.followed is not None:
+            return groups.snapshot()
+        state: State = groups.root.value
+        return state
 
     @state.setter
     def state(self, state: State) -> None:
@@ -188,6 +194,10 @@ class Context:
             self._changed.add(changed)
 
     def change(self, group: str, **fields: Any) -> None:
+        """Set fields of a group of the state, as `change_field` does."""
+        self.change_fields(group, fields)
+
+    def change_fields(self, group: str, fields: Mapping[str, Any]) -> None:
         """Set fields of a group of the state, as `change_field` does."""
         if not self.ready and self._would_redraw((group,), fields):
             self.flush()
@@ -241,37 +251,24 @@ class Context:
         array.setflags(write=False)
         return array
 
-    @property
-    def matrix_mode(self) -> int:
-        """The stack that matrix calls work on."""
-        return self._matrix_mode
-
-    @matrix_mode.setter
-    def matrix_mode(self, mode: int) -> None:
-        self._matrix_mode = mode
-        self._select_stack()
-
-    @property
-    def active_unit(self) -> int:
-        """The texture unit that texture calls and the texture matrix stack apply to."""
-        return self._active_unit
-
-    @active_unit.setter
-    def active_unit(self, unit: int) -> None:
-        self._active_unit = unit
-        self._select_stack()
-
-    def _select_stack(self) -> None:
-        if self._matrix_mode == gl.GL_TEXTURE:
-            self.matrix_stack = self.texture_stacks[self._active_unit]
+    def select_matrices(self, mode: int) -> None:
+        """Select the stack that matrix calls work on."""
+        self.matrix_mode = mode
+        if mode == gl.GL_TEXTURE:
+            self.matrix_stack = self.texture_stacks[self.active_unit]
             self._texture_matrices = None
         else:
-            self.matrix_stack = self.modelview_stack if self._matrix_mode == gl.GL_MODELVIEW else self.projection_stack
+            self.matrix_stack = self.modelview_stack if mode == gl.GL_MODELVIEW else self.projection_stack
+
+    def select_unit(self, unit: int) -> None:
+        """Select the texture unit that texture calls and the texture matrix stack apply to."""
+        self.active_unit = unit
+        self.select_matrices(self.matrix_mode)
 
     def _read_texture_matrices(self) -> tuple[np.ndarray, ...]:
         """Return the texture matrices, and keep them until calls can change them."""
         matrices = tuple([stack.current for stack in self.texture_stacks])
-        if self._matrix_mode != gl.GL_TEXTURE:
+        if self.matrix_mode != gl.GL_TEXTURE:
             self._texture_matrices = matrices
         return matrices
 
@@ -306,6 +303,7 @@ class Context:
         if type(command) is not Draw:
             if type(command) is not Clear:
                 self._waiting.forget()
+                self.bound_samplers = None
             execute(command, self.storage)
         elif not self._waiting.add(command):
             execute(command, self.objects)

@@ -59,12 +59,12 @@ class Group:
     what was derived from them.
     """
 
-    __slots__ = ("field", "fields", "has_parts", "index", "parent", "past", "value")
+    __slots__ = ("field", "fields", "index", "parent", "parts", "past", "value")
 
     def __init__(self, value: Any, parent: Group | None, field: str, index: int = -1) -> None:
         self.value, self.parent, self.field, self.index = value, parent, field, index
         self.fields: dict[str, Any] = dict(vars(value))
-        self.has_parts = False  # groups among the fields: equal ones are the same object
+        self.parts: list[Group] = []  # groups among the fields: equal ones are the same object
         self.past: deque[tuple[tuple[Any, ...], Any]] = deque(maxlen=PAST)  # values of the fields, and of the group
 
     def publish(self) -> bool:
@@ -84,11 +84,23 @@ class Group:
             siblings[self.field] = value
         return True
 
+    def replace(self, value: Any) -> None:
+        """Replace the immutable value, and those of the parts that differ."""
+        self.value, self.fields = value, dict(vars(value))
+        for part in self.parts:
+            new = self.fields[part.field]
+            if part.index >= 0:
+                new = new[part.index]
+            if new is not part.value:
+                part.replace(new)
+
     def _past_or_new(self) -> Any:
         """Return an immutable value with the present fields: a past one if it has the same bits."""
         before, values, is_known = self.value, tuple(self.fields.values()), False
         for past_values, past in self.past:
-            if self.has_parts:
+            if all(map(is_, past_values, values)):
+                is_found = True
+            elif self.parts:
                 is_found = all(map(_is_same_part, past_values, values))
             else:
                 is_found = past_values == values and all(map(is_same, past_values, values))
@@ -136,8 +148,9 @@ class StateGroups:
                 self._add(f"{name}.{field}.{index}" if name else f"{field}.{index}", parent, field, index)
 
     def _add(self, name: str, parent: Group, field: str, index: int = -1) -> None:
-        value, parent.has_parts = parent.fields[field], True
-        self.groups[name] = Group(value[index] if index >= 0 else value, parent, field, index)
+        value = parent.fields[field]
+        group = self.groups[name] = Group(value[index] if index >= 0 else value, parent, field, index)
+        parent.parts.append(group)
 
     def snapshot(self) -> State:
         """Return the state; the same object as before if nothing has changed."""
@@ -182,17 +195,9 @@ class StateGroups:
 
     def restore(self, state: State) -> None:
         """Replace the state by an immutable one."""
-        changed, replaced, self.followed = set(self.changed), {self.root}, None
+        self.followed = None
+        for group in self.changed:
+            group.fields = dict(vars(group.value))
         self.changed.clear()
-        for group in self.groups.values():  # parents before their parts
-            parent = group.parent
-            if parent is not None and parent not in replaced and group not in changed:
-                continue
-            value: Any = state
-            if parent is not None:
-                value = parent.fields[group.field]
-                if group.index >= 0:
-                    value = value[group.index]
-            if group.value is not value or group in changed:
-                group.value, group.fields = value, dict(vars(value))
-                replaced.add(group)
+        if state is not self.root.value:
+            self.root.replace(state)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from softshadow import tokens as gl
-from softshadow.frozen import evolve
+from softshadow.frozen import evolve_to
 from softshadow.gl.capabilities import (
     CAPABILITIES,
     CLIP_PLANES,
@@ -84,13 +84,11 @@ def changed_groups(before: State, after: State) -> int:
 
     Materials do not count: they are vertex attributes, and change when pending attributes become current.
     """
-    if before is after:
-        return 0
     bits, one, other = 0, before.__dict__, after.__dict__
-    for group, groups in BITS.items():
-        old, new = one[group], other[group]
+    for group, old in one.items():
+        new = other[group]
         if old is not new:
-            for bit, fields in groups:
+            for bit, fields in BITS.get(group, ()):
                 if not bits & bit and _fields_differ(old, new, fields):
                     bits |= bit
     return bits | (gl.GL_ENABLE_BIT if any(_switched(before, after, lights=True)) else 0)
@@ -136,18 +134,24 @@ def with_group(bit: int, now: State, before: State) -> State:
         return _with_capabilities(now, before)
     restored: dict[str, Any] = {}
     for group, fields in GROUPS[bit].items():
-        old = getattr(before, group)
-        restored[group] = evolve(getattr(now, group), **{f: getattr(old, f) for f in fields}) if fields else old
-    if bit == gl.GL_STENCIL_BUFFER_BIT:  # Mesa does not restore the extension's back state
+        new, old = getattr(now, group), getattr(before, group)
+        if new is not old:
+            restored[group] = evolve_to(old, new, **{f: getattr(old, f) for f in fields}) if fields else old
+    if "stencil" in restored:  # Mesa does not restore the extension's back state
         old = restored["stencil"]
-        restored["stencil"] = evolve(old, **{extension_back(old): getattr(now.stencil, extension_back(now.stencil))})
-    return evolve(now, **restored) if restored else now
+        back = {extension_back(old): getattr(now.stencil, extension_back(now.stencil))}
+        restored["stencil"] = evolve_to(now.stencil, old, **back)
+    return evolve_to(before, now, **restored) if restored else now
 
 
 def _with_capabilities(state: State, before: State) -> State:
-    for cap, unit in list(_switched(before, state, lights=False)):
+    switched = list(_switched(before, state, lights=False))
+    if not switched:
+        return state
+    for cap, unit in switched:
         state = with_capability(state, cap, unit, is_on(before, cap, unit))
-    return state
+    groups = {CAPABILITIES[cap][0] for cap, _ in switched if cap in CAPABILITIES}
+    return evolve_to(before, state, **{g: evolve_to(getattr(before, g), getattr(state, g)) for g in groups})
 
 
 def _switched(before: State, after: State, lights: bool) -> Iterator[tuple[int, int]]:
@@ -155,10 +159,11 @@ def _switched(before: State, after: State, lights: bool) -> Iterator[tuple[int, 
 
     In Mesa, switching a light on or off marks this group as changed, but popping it does not restore lights.
     """
-    for group, switches in PUSHED.items():
-        old, new = getattr(before, group), getattr(after, group)
+    after_groups = after.__dict__
+    for group, old in before.__dict__.items():
+        new = after_groups[group]
         if old is not new:
-            yield from ((cap, 0) for cap, field in switches if getattr(old, field) != getattr(new, field))
+            yield from ((cap, 0) for cap, field in PUSHED.get(group, ()) if getattr(old, field) != getattr(new, field))
     several: list[int] = []
     if lights and before.lighting.lights is not after.lighting.lights:
         several += LIGHTS

@@ -12,7 +12,7 @@ from softshadow.context import Context, current, thread
 from softshadow.gl.calls import in_lists, record, spelled_like_gl
 from softshadow.gl.conversions import as_floats, as_ints, first, from_int, nearest_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.fragment_state import A_FACE, FACES, rounded
+from softshadow.gl.fragment_state import A_FACE, FACES, rounded, rounded_number
 from softshadow.gl.vertex_format import carry_attribute
 
 # parameter: fields of the material
@@ -27,8 +27,8 @@ PARAMETERS = {**FIELDS, gl.GL_SHININESS: ("shininess",)}
 A_COLOR = "GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR, GL_EMISSION or GL_AMBIENT_AND_DIFFUSE"
 SIDES = {gl.GL_FRONT: ("front",), gl.GL_BACK: ("back",), gl.GL_FRONT_AND_BACK: ("front", "back")}
 MATERIALS = {side: f"lighting.{side}" for side in SIDES[gl.GL_FRONT_AND_BACK]}  # groups of the state
-NAMES = {  # of the attributes
-    (side, field): f"{side}.{field}" for side in MATERIALS for fields in PARAMETERS.values() for field in fields
+NAMES = {  # of the attributes, by side and field
+    side: {field: f"{side}.{field}" for fields in PARAMETERS.values() for field in fields} for side in MATERIALS
 }
 LARGEST_SHININESS = 128
 
@@ -82,10 +82,10 @@ glMateriali = glMaterialf
 
 
 def _set_shininess(operation: str, context: Context, face: int, value: float) -> None:
-    if not 0 <= value <= LARGEST_SHININESS:
-        fail(gl.GL_INVALID_VALUE, operation, f"param={value:g}: expected 0 to 128 for GL_SHININESS")
+    if 0 <= value <= LARGEST_SHININESS:
+        set_material(context, face, {"shininess": rounded_number(context, value)})
     else:
-        set_material(context, face, {"shininess": rounded(context, value)})
+        fail(gl.GL_INVALID_VALUE, operation, f"param={value:g}: expected 0 to 128 for GL_SHININESS")
 
 
 def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None:
@@ -96,22 +96,23 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
     if not context.ready:
         context.flush()
         context.ready = context.primitive is None and context.compiled_list is None
-    old_values = context.pending.old_values
+    old_values, follows = context.pending.old_values, context.groups["lighting"].fields["color_material"]
     for side in SIDES[face]:
-        fixed = followed(context, side)
-        free = {field: value for field, value in fields.items() if field not in fixed} if fixed else fields
+        free, names = fields, NAMES[side]
+        if follows:
+            fixed = followed(context, side)
+            free = {field: value for field, value in fields.items() if field not in fixed}
         for field in free:
-            name = NAMES[side, field]
-            if name not in old_values:
-                context.remember_attribute(name)
+            if names[field] not in old_values:
+                context.remember_attribute(names[field])
         if context.primitive is not None:
             material = context.material(side)
             for field, value in free.items():
-                name = NAMES[side, field]
+                name = names[field]
                 carry_attribute(context, name, np.size(value))
                 context.primitive.materials.add(name)
                 context.primitive.change(name, material[field], value)
-        context.change(MATERIALS[side], **free)
+        context.change_fields(MATERIALS[side], free)
 
 
 # -- colours that follow glColor ---------------------------------------------------------------------------------------

@@ -43,3 +43,34 @@ def test_only_the_latest_states_are_kept(context):
     gl.glLineWidth(1)
     assert context.state == first
     assert len(context.groups["polygon"].past) < 20
+
+
+GROUPS = (gl.GL_ENABLE_BIT, gl.GL_LIGHTING_BIT, gl.GL_STENCIL_BUFFER_BIT, gl.GL_ALL_ATTRIB_BITS)
+
+
+@pytest.mark.parametrize("bits", GROUPS)
+def test_a_popped_state_is_the_pushed_object(context, bits):
+    before = context.state
+    for _ in range(2):
+        gl.glPushAttrib(bits)
+        if bits & gl.GL_STENCIL_BUFFER_BIT:
+            gl.glStencilFunc(gl.GL_EQUAL, 3, 1)
+        if bits & gl.GL_LIGHTING_BIT:
+            gl.glShadeModel(gl.GL_FLAT)
+        if bits & gl.GL_ENABLE_BIT:
+            gl.glEnable(gl.GL_CULL_FACE)
+        assert context.state is not before
+        gl.glPopAttrib()
+        assert context.state is before
+
+
+def test_samplers_saved_once_are_those_of_every_push(context):
+    gl.glBindTexture(gl.GL_TEXTURE_2D, 3)
+    for wrap in (gl.GL_CLAMP, gl.GL_CLAMP_TO_EDGE, gl.GL_REPEAT):
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_WRAP_S, wrap)
+        gl.glPushAttrib(gl.GL_TEXTURE_BIT)
+        gl.glPushAttrib(gl.GL_TEXTURE_BIT)
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_WRAP_S, gl.GL_MIRRORED_REPEAT)
+        gl.glPopAttrib()
+        gl.glPopAttrib()
+        assert gl.glGetTexParameteriv(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_WRAP_S) == wrap
