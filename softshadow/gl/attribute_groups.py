@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from functools import wraps
+from typing import Any, TypeVar
 
 from softshadow import tokens as gl
 from softshadow.frozen import evolve_to
@@ -79,6 +80,32 @@ for _cap, (_group, _field) in CAPABILITIES.items():
 PER_UNIT = (*UNIT_CAPABILITIES, *TEXTURE_GENERATION)
 
 
+Result = TypeVar("Result")
+MOST_RESULTS = 256
+
+
+def remembered(function: Callable[..., Result]) -> Callable[..., Result]:
+    """Remember results by the identity of the arguments, which never change (decorator).
+
+    A program pushes, changes and pops the same states in every frame.
+    """
+    results: dict[tuple[int, ...], tuple[Result, tuple[Any, ...]]] = {}
+
+    @wraps(function)
+    def call(*arguments: Any) -> Result:
+        key = tuple(map(id, arguments))
+        found = results.get(key)
+        if found is None:
+            if len(results) >= MOST_RESULTS:
+                results.clear()
+            # as long as the arguments are kept, no other object has their ids
+            found = results[key] = function(*arguments), arguments
+        return found[0]
+
+    return call
+
+
+@remembered
 def changed_groups(before: State, after: State) -> int:
     """Return the bits of the groups in which two states differ.
 
@@ -128,6 +155,7 @@ def needs_calls(bit: int, before: State, after: State) -> bool:
     return differ(before, after, SET_BY_CALLS[bit])
 
 
+@remembered
 def with_group(bit: int, now: State, before: State) -> State:
     """Return the state with one group restored from an earlier state."""
     if bit == gl.GL_ENABLE_BIT:

@@ -51,7 +51,8 @@ def glEnd() -> None:
         fail(gl.GL_INVALID_OPERATION, "glEnd", "there was no glBegin before it")
         return
     context.primitive, context.ready = None, False
-    follow_color(context)
+    if context.groups["lighting"].fields["color_material"]:
+        follow_color(context)
     if not primitive.positions:
         context.vertex_buffer.end_pair(primitive.mode, 0)
         return

@@ -110,7 +110,7 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
             for field, value in free.items():
                 name = names[field]
                 carry_attribute(context, name, np.size(value))
-                context.primitive.materials.add(name)
+                context.primitive.materials |= {name}
                 context.primitive.change(name, material[field], value)
         context.change_fields(MATERIALS[side], free)
 
