@@ -7,7 +7,6 @@ between two draws are never used. Groups that have not changed are the same obje
 from __future__ import annotations
 
 import struct
-from collections import deque
 from collections.abc import Mapping
 from ctypes import c_float
 from operator import is_
@@ -26,7 +25,7 @@ TUPLES: tuple[tuple[str, str], ...] = (
 # fields that draws do not use: clear values, and the face that glStencilFunc sets
 UNDRAWN = frozenset(("clear", "clear_accum", "active_back"))
 PACK = struct.Struct("4d").pack
-PAST = 8  # values of each group that are kept
+PAST = 64  # values of each group that are kept
 
 
 def affects_draws(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:
@@ -43,11 +42,6 @@ def is_same(a: Any, b: Any) -> bool:
     return all(map(is_same, a, b)) if type(a) is tuple else repr(a) == repr(b)
 
 
-def _is_same_part(a: Any, b: Any) -> bool:
-    """Return whether two values of a field, a group or a tuple of groups, are the same objects."""
-    return a is b or (type(a) is tuple and all(map(is_, a, b)))
-
-
 # glColor under GL_COLOR_MATERIAL: the sides whose material follows ("front" or "back"), its fields, the colour
 Followed = tuple[tuple[str, ...], tuple[str, ...], Color]
 
@@ -59,13 +53,15 @@ class Group:
     what was derived from them.
     """
 
-    __slots__ = ("field", "fields", "index", "parent", "parts", "past", "value")
+    __slots__ = ("field", "fields", "index", "is_kept", "parent", "parts", "past", "value")
 
     def __init__(self, value: Any, parent: Group | None, field: str, index: int = -1) -> None:
         self.value, self.parent, self.field, self.index = value, parent, field, index
         self.fields: dict[str, Any] = dict(vars(value))
+        self.is_kept = False  # `past` holds the value, or has held it
         self.parts: list[Group] = []  # groups among the fields: equal ones are the same object
-        self.past: deque[tuple[tuple[Any, ...], Any]] = deque(maxlen=PAST)  # values of the fields, and of the group
+        # values of the fields, and of the group; -0.0 and 0.0 have the same key
+        self.past: dict[tuple[Any, ...], list[tuple[tuple[Any, ...], Any]]] = {}
 
     def publish(self) -> bool:
         """Make the immutable value anew, and store it in the parent's fields; return whether a field has changed."""
@@ -86,7 +82,7 @@ class Group:
 
     def replace(self, value: Any) -> None:
         """Replace the immutable value, and those of the parts that differ."""
-        self.value, self.fields = value, dict(vars(value))
+        self.value, self.fields, self.is_kept = value, dict(vars(value)), False
         for part in self.parts:
             new = self.fields[part.field]
             if part.index >= 0:
@@ -96,24 +92,38 @@ class Group:
 
     def _past_or_new(self) -> Any:
         """Return an immutable value with the present fields: a past one if it has the same bits."""
-        before, values, is_known = self.value, tuple(self.fields.values()), False
-        for past_values, past in self.past:
-            if all(map(is_, past_values, values)):
-                is_found = True
-            elif self.parts:
-                is_found = all(map(_is_same_part, past_values, values))
-            else:
-                is_found = past_values == values and all(map(is_same, past_values, values))
-            if is_found:
+        values = tuple(self.fields.values())
+        key = self._key(values)
+        for past_values, past in self.past.get(key, ()):
+            if self.parts or all(map(is_same, past_values, values)):
                 self.fields.update(past.__dict__)
+                self.is_kept = True
                 return past
-            is_known = is_known or past is before
+        before = self.value
+        if not self.is_kept:
+            before_values = tuple(before.__dict__.values())
+            self._keep(self._key(before_values), before_values, before)
         value = object.__new__(type(before))
         value.__dict__.update(self.fields)
-        if not is_known:
-            self.past.append((tuple(before.__dict__.values()), before))
-        self.past.append((values, value))
+        self._keep(key, values, value)
+        self.is_kept = True
         return value
+
+    def _key(self, values: tuple[Any, ...]) -> tuple[Any, ...]:
+        """Return equal keys for equal values; groups are equal if they are the same objects."""
+        if not self.parts:
+            return values
+        return tuple([tuple(map(id, value)) if type(value) is tuple else id(value) for value in values])
+
+    def _keep(self, key: tuple[Any, ...], values: tuple[Any, ...], value: Any) -> None:
+        if key not in self.past:
+            if len(self.past) == PAST:
+                del self.past[next(iter(self.past))]
+            self.past[key] = []
+        same_key = self.past[key]
+        if not any(past is value for _, past in same_key):
+            del same_key[PAST - 1 :]
+            same_key.append((values, value))
 
 
 class StateGroups:

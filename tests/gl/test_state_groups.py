@@ -5,6 +5,7 @@ from math import copysign
 import pytest
 
 from softshadow import gl
+from softshadow.context.state_groups import PAST
 
 
 @pytest.fixture
@@ -42,7 +43,7 @@ def test_only_the_latest_states_are_kept(context):
         assert context.state.polygon.line_width == width
     gl.glLineWidth(1)
     assert context.state == first
-    assert len(context.groups["polygon"].past) < 20
+    assert len(context.groups["polygon"].past) <= PAST < 98
 
 
 GROUPS = (gl.GL_ENABLE_BIT, gl.GL_LIGHTING_BIT, gl.GL_STENCIL_BUFFER_BIT, gl.GL_ALL_ATTRIB_BITS)
@@ -74,3 +75,13 @@ def test_samplers_saved_once_are_those_of_every_push(context):
         gl.glPopAttrib()
         gl.glPopAttrib()
         assert gl.glGetTexParameteriv(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_WRAP_S) == wrap
+
+
+def test_states_of_equal_values_with_other_bits_are_found_side_by_side(context):
+    states = []
+    for units in (0.0, -0.0) * 3:
+        gl.glPolygonOffset(2.0, units)
+        states.append(context.state)
+    assert len({id(state) for state in states}) == 2
+    assert states[0] is states[4]
+    assert states[1] is states[5]
