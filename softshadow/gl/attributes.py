@@ -69,7 +69,10 @@ def glPushAttrib(mask: int) -> None:
     if mask & USED_BY_VERTICES and context.pending.old_values:
         context.update_current()
         state = context.state
-    framebuffers, current = context.objects.framebuffers, context.current
+    framebuffers, current, samplers = context.objects.framebuffers, context.current, NO_SAMPLERS
+    if mask & gl.GL_TEXTURE_BIT:
+        known = context.bound_samplers
+        samplers = known[1] if known is not None and known[0] is state.units else _bound_samplers(context, state.units)
     entry = (  # the fields of SavedAttributes
         mask,
         touched,
@@ -82,7 +85,7 @@ def glPushAttrib(mask: int) -> None:
         framebuffers[state.draw_framebuffer].draw_buffers,
         framebuffers[state.read_framebuffer].read_buffer,
         context.pixel_zoom,
-        _bound_samplers(context, state.units) if mask & gl.GL_TEXTURE_BIT else NO_SAMPLERS,
+        samplers,
     )
     context.attribute_stack.append(entry)
     context.touched, context.state_at_push = 0, state
@@ -94,8 +97,6 @@ def _changed_since_push(context: Context, state: State) -> int:
 
 
 def _bound_samplers(context: Context, units: tuple[TextureUnit, ...]) -> dict[tuple[int, int], Sampler]:
-    if context.bound_samplers is not None and context.bound_samplers[0] is units:
-        return context.bound_samplers[1]
     textures, samplers = context.objects.textures, {}
     bound = ((target, getattr(unit, binding)) for target, binding in BINDINGS.items() for unit in units)
     for target, name in dict.fromkeys(bound):

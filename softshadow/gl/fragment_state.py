@@ -36,6 +36,7 @@ UNSIGNED = 0xFFFFFFFF  # masks are unsigned: -1 sets all bits
 MASKS = {mask: mask for mask in product((False, True), repeat=4)}  # so that equal masks are the same object
 LOGIC_OPS = range(gl.GL_CLEAR, gl.GL_SET + 1)
 SINGLES = tuple(struct.Struct(f"{count}f") for count in range(5))  # by the number of values
+SINGLE = SINGLES[1]
 
 
 def clamp01(value: float) -> float:
@@ -44,7 +45,13 @@ def clamp01(value: float) -> float:
 
 def rounded_number(context: Context, value: float) -> float:
     """Return a number rounded to the context's precision."""
-    return c_float(value).value if context.real is np.float32 else float(value)
+    if context.real is not np.float32:
+        return float(value)
+    try:
+        number: float = SINGLE.unpack(SINGLE.pack(value))[0]
+    except struct.error:  # not a number, which ctypes says better
+        return c_float(value).value
+    return number
 
 
 def rounded(context: Context, *values: float) -> Any:
