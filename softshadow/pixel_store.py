@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.packed_colors import PACKED_COLORS
 
 TYPES: dict[int, type[np.generic]] = {
     gl.GL_UNSIGNED_BYTE: np.uint8,
@@ -38,23 +39,35 @@ COMPONENTS: dict[int, str] = {
     gl.GL_LUMINANCE_ALPHA: "LA",
     gl.GL_DEPTH_COMPONENT: "Z",
     gl.GL_STENCIL_INDEX: "S",
+    gl.GL_COLOR_INDEX: "I",
     gl.GL_DEPTH_STENCIL: "D",
 }
 
 
 def dtype_of(type: int) -> np.dtype:
     """Return the dtype of array elements for a client type, packed or not."""
+    if type in PACKED_COLORS:
+        return PACKED_COLORS[type].dtype
     return PACKED_TYPES[type] if type in PACKED_TYPES else np.dtype(TYPES[type])
+
+
+def elements_of(format: int, type: int) -> int:
+    """Return the number of array elements of a pixel: one per component, or one of a packed type."""
+    return 1 if type in PACKED_COLORS else len(COMPONENTS[format])
 
 
 @dataclass(frozen=True)
 class PixelStore:
-    """The state of glPixelStore for one direction (pack or unpack); defaults are GL's initial values."""
+    """The state of glPixelStore for one direction (pack or unpack); defaults are GL's initial values.
+
+    `buffer` is the name of the pixel buffer object that images are in, 0 for the client's memory.
+    """
 
     alignment: int = 4
     row_length: int = 0
     skip_rows: int = 0
     skip_pixels: int = 0
+    buffer: int = 0
 
     def layout(self, width: int, height: int, pixel: int, aligned: bool) -> tuple[int, int, int]:
         """Return (first byte, bytes from row to row, total bytes) of an image with `pixel` bytes per pixel."""
@@ -78,7 +91,7 @@ def image_view(
     ValueError
         The memory is too small; the message gives the size needed.
     """
-    dtype, components = dtype_of(type), len(COMPONENTS[format])
+    dtype, components = dtype_of(type), elements_of(format, type)
     shape = (height, width, components)
     pixel = dtype.itemsize * components
     raw = memory.reshape(-1).view(np.uint8)
@@ -160,7 +173,7 @@ def output_array(
     """
     dtype = dtype_of(type)
     if array is None:
-        components = len(COMPONENTS[format])
+        components = elements_of(format, type)
         zeros = np.zeros((height, width) if components == 1 else (height, width, components), dtype)
         return zeros, zeros.reshape(height, width, components)
     if not isinstance(array, np.ndarray) or array.dtype not in (dtype, np.dtype(np.uint8)):

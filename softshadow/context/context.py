@@ -27,6 +27,7 @@ from softshadow.pipeline.commands import Clear, Command, Draw, Origin, Vertices
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
+from softshadow.pixel_transfer import PixelTransfer
 from softshadow.programs import Program
 from softshadow.state import TEXTURE_UNITS, State
 
@@ -142,6 +143,7 @@ class Context:
         self.hints: dict[int, int] = {}  # those that are not GL_DONT_CARE
         self.pack_store, self.unpack_store = PixelStore(), PixelStore()
         self.pixel_zoom = (1.0, 1.0)
+        self.pixel_transfer = PixelTransfer()
         # the highest name returned by glGen*, per kind; an object exists in storage once it has been bound
         self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query", "buffer", "list"), 0)
         self.renderbuffer = 0

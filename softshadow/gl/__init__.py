@@ -36,9 +36,11 @@ from softshadow.gl.glu import *
 from softshadow.gl.immediate import *
 from softshadow.gl.lighting import *
 from softshadow.gl.lists import *
+from softshadow.gl.mapped_buffers import *
 from softshadow.gl.materials import *
 from softshadow.gl.occlusion import *
 from softshadow.gl.pixel_rectangles import *
+from softshadow.gl.pixel_transfer import *
 from softshadow.gl.pixels import *
 from softshadow.gl.programs import *
 from softshadow.gl.pyopengl import *

@@ -23,6 +23,7 @@ from softshadow.gl.framebuffers import glDrawBuffer, glDrawBuffers, glReadBuffer
 from softshadow.gl.materials import start_to_follow
 from softshadow.gl.textures import BINDINGS
 from softshadow.pipeline.commands import CreateTexture, SetSampler
+from softshadow.pixel_transfer import PixelTransfer
 from softshadow.state import State, TextureUnit
 from softshadow.texture import Sampler, stored_name
 
@@ -53,6 +54,7 @@ class SavedAttributes(NamedTuple):
     draw_buffers: tuple[int, ...]
     read_buffer: int
     pixel_zoom: tuple[float, float]
+    pixel_transfer: PixelTransfer
     samplers: dict[tuple[int, int], Sampler]  # of the bound textures, by (target, key in the storage)
 
 
@@ -85,6 +87,7 @@ def glPushAttrib(mask: int) -> None:
         framebuffers[state.draw_framebuffer].draw_buffers,
         framebuffers[state.read_framebuffer].read_buffer,
         context.pixel_zoom,
+        context.pixel_transfer,
         samplers,
     )
     context.attribute_stack.append(entry)
@@ -158,6 +161,8 @@ def _restore(context: Context, bit: int, saved: SavedAttributes) -> None:
         context.list_base = saved.list_base
     elif bit == gl.GL_PIXEL_MODE_BIT:
         context.pixel_zoom = saved.pixel_zoom
+        maps = context.pixel_transfer.maps  # which no attribute group has
+        context.pixel_transfer = evolve(saved.pixel_transfer, maps=maps)
     elif bit == gl.GL_TRANSFORM_BIT:
         context.select_matrices(saved.matrix_mode)
     elif bit == gl.GL_ENABLE_BIT and saved.state.lighting.color_material and not now.lighting.color_material:

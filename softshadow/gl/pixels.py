@@ -14,10 +14,12 @@ from softshadow.gl.conversions import nearest_int
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import format_problem, kind_of
+from softshadow.gl.pixel_memory import image_destination
 from softshadow.image import Image
 from softshadow.pipeline.buffers.copy import bottom_up, clipped
-from softshadow.pixel_store import TYPES, output_array
-from softshadow.pixels import pack_color, pack_depth, pack_depth_stencil, pack_stencil
+from softshadow.pixel_store import TYPES
+from softshadow.pixel_transfer import PixelTransfer
+from softshadow.pixels import client_kind, pack_color, pack_depth, pack_depth_stencil, pack_stencil
 from softshadow.tokens import token_name
 
 STORES = {
@@ -75,6 +77,8 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
         return fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 or more")
     if problem := format_problem(format, type):
         return fail(problem[0], operation, problem[1])
+    if format == gl.GL_COLOR_INDEX:
+        return fail(gl.GL_INVALID_OPERATION, operation, "format=GL_COLOR_INDEX: no buffer has colour indices")
     source = context.objects.framebuffers[context.state.read_framebuffer]
     if framebuffer_status(context, source.name) != gl.GL_FRAMEBUFFER_COMPLETE:
         return fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, operation, f"framebuffer {source.name} is not complete")
@@ -82,11 +86,14 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
     if buffers is None:
         missing = kind_of(format).replace("-", " or ").replace("color", "colour")
         return fail(gl.GL_INVALID_OPERATION, operation, f"framebuffer {source.name} has no {missing} buffer to read")
+    where = image_destination(context, array, int(width), int(height), format, type, operation)
+    if where is None:
+        return None
+    answer, view = where
     context.finish()
     rows, columns, left, bottom = clipped(source, int(x), int(y), int(width), int(height))
     cells = [bottom_up(source, buffer)[rows, columns] for buffer in buffers]
-    answer, view = output_array(array, context.pack_store, width, height, format, type, operation)
-    inside = _packed(cells, buffers, format, type)
+    inside = _packed(cells, buffers, format, type, context.pixel_transfer)
     view[bottom : bottom + inside.shape[0], left : left + inside.shape[1]] = inside
     return answer
 
@@ -102,17 +109,18 @@ def _buffers(source: Framebuffer, kind: str) -> list[Image] | None:
     return buffers if len(buffers) == len(wanted) else None
 
 
-def _packed(cells: list[np.ndarray], buffers: list[Image], format: int, type: int) -> np.ndarray:
+def _packed(
+    cells: list[np.ndarray], buffers: list[Image], format: int, type: int, transfer: PixelTransfer
+) -> np.ndarray:
     """Return framebuffer cells as client pixels (h, w, components)."""
     kind, stored = kind_of(format), buffers[0].format
     if kind == "depth-stencil":
-        return pack_depth_stencil(cells[0], cells[1], stored, type)[..., None]
-    dtype = TYPES[type]
+        return pack_depth_stencil(cells[0], cells[1], stored, type, transfer)[..., None]
     if kind == "color":
-        return pack_color(cells[0], stored, format, dtype, from_framebuffer=True)
+        return pack_color(cells[0], stored, format, client_kind(type), from_framebuffer=True, transfer=transfer)
     if kind == "depth":
-        return pack_depth(cells[0], stored, dtype)[..., None]
-    return pack_stencil(cells[0], dtype)[..., None]
+        return pack_depth(cells[0], stored, TYPES[type], transfer=transfer)[..., None]
+    return pack_stencil(cells[0], TYPES[type], transfer)[..., None]
 
 
 __all__ = spelled_like_gl(globals())

@@ -12,11 +12,14 @@ from softshadow.framebuffer import LARGEST_SIDE
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.pixel_formats import Problem, format_problem, kind_of, readout_problem, upload_problem
+from softshadow.gl.pixel_memory import image_destination, image_source
 from softshadow.gl.textures import FACES, bound_name, bound_texture, target_problem
 from softshadow.image import FORMATS, WITH_STENCIL, Format, Image, storage_format
 from softshadow.pipeline.commands import DefineImage, GenerateMipmaps, UpdateImage
-from softshadow.pixel_store import TYPES, client_image, output_array
+from softshadow.pixel_store import TYPES
+from softshadow.pixel_transfer import PixelTransfer
 from softshadow.pixels import (
+    client_kind,
     pack_color,
     pack_depth,
     pack_depth_stencil,
@@ -25,6 +28,7 @@ from softshadow.pixels import (
     unpack_depth,
     unpack_packed_depth,
     unpack_packed_stencil,
+    unpack_stencil,
 )
 from softshadow.texture import Texture
 from softshadow.tokens import token_name
@@ -74,11 +78,11 @@ def glTexImage2D(
     if problem:
         return fail(problem[0], operation, problem[1])
     stored = storage_format(internalformat, type)
-    cells, stencil = _cells(context, pixels, width, height, format, type, stored, operation)
+    parts = _cells(context, pixels, width, height, format, type, stored, operation)
+    if parts is None:
+        return None
     texture = bound_texture(context, target)
-    context.execute(
-        DefineImage(texture.name, face_of(target), level, stored, internalformat, width, height, cells, stencil)
-    )
+    context.execute(DefineImage(texture.name, face_of(target), level, stored, internalformat, width, height, *parts))
     follow_base_level(context, texture, face_of(target), level)
     return None
 
@@ -114,30 +118,35 @@ def glTexSubImage2D(
     )
     if problem:
         return fail(problem[0], operation, problem[1])
-    if pixels is not None:
-        cells, stencil = _cells(context, pixels, width, height, format, type, image.format, operation)
+    parts = _cells(context, pixels, width, height, format, type, image.format, operation)
+    if parts is not None and any(part is not None for part in parts):
         texture = bound_texture(context, target)
-        context.execute(UpdateImage(texture.name, face_of(target), level, xoffset, yoffset, cells, stencil))
+        context.execute(UpdateImage(texture.name, face_of(target), level, xoffset, yoffset, *parts))
         follow_base_level(context, texture, face_of(target), level)
     return None
 
 
 def _cells(
     context: Context, pixels: Any, width: int, height: int, format: int, type: int, stored: Format, operation: str
-) -> tuple[np.ndarray | None, np.ndarray | None]:
-    """Return client pixels as (cells, stencil values) to be stored; None for a part that the format does not have."""
-    if pixels is None:
+) -> tuple[np.ndarray | None, np.ndarray | None] | None:
+    """Return client pixels as (cells, stencil values) to be stored; None for a part that the format does not have.
+
+    None after an error of GL.
+    """
+    if pixels is None and not context.unpack_store.buffer:
         return None, None
-    image = client_image(pixels, context.unpack_store, width, height, format, type, operation)
-    kind = kind_of(format)
+    image = image_source(context, pixels, width, height, format, type, operation)
+    if image is None:
+        return None
+    kind, transfer = kind_of(format), context.pixel_transfer
     if kind == "color":
-        return unpack_color(image, format, stored).copy(), None
+        return unpack_color(image, format, stored, type, transfer).copy(), None
     elements = image[..., 0]
     if kind == "depth-stencil":
-        return unpack_packed_depth(elements, stored), unpack_packed_stencil(elements)
+        return unpack_packed_depth(elements, stored, transfer), unpack_packed_stencil(elements, transfer)
     if kind == "depth":
-        return unpack_depth(elements, stored), None
-    values = elements.astype(np.int64).astype(np.uint8)
+        return unpack_depth(elements, stored, transfer), None
+    values = unpack_stencil(elements, transfer)
     return (values, None) if stored.kind == "stencil" else (None, values)
 
 
@@ -197,25 +206,27 @@ def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = 
     if image is not None and (problem := readout_problem(format, image)):
         return fail(problem[0], operation, problem[1])
     width, height = (image.width, image.height) if image is not None else (0, 0)
-    answer, view = output_array(array, context.pack_store, width, height, format, type, operation)
+    where = image_destination(context, array, width, height, format, type, operation)
+    if where is None:
+        return None
+    answer, view = where
     if image is not None:
-        view[...] = texture_pixels(image, format, type)
+        view[...] = texture_pixels(image, format, type, context.pixel_transfer)
     return answer
 
 
-def texture_pixels(image: Image, format: int, type: int) -> np.ndarray:
-    """Return a texture's image as client pixels (h, w, components)."""
+def texture_pixels(image: Image, format: int, type: int, transfer: PixelTransfer) -> np.ndarray:
+    """Return a texture's image as client pixels (h, w, components); as in Mesa, colours are not transferred."""
     kind = kind_of(format)
     if kind == "depth-stencil":
         assert image.stencil is not None
         return pack_depth_stencil(image.view, image.stencil.view, image.format, type)[..., None]
-    dtype = TYPES[type]
     if kind == "color":
-        return pack_color(image.view, image.format, format, dtype)
+        return pack_color(image.view, image.format, format, client_kind(type))
     if kind == "depth":
-        return pack_depth(image.view, image.format, dtype, through_float=True)[..., None]
+        return pack_depth(image.view, image.format, TYPES[type], through_float=True, transfer=transfer)[..., None]
     stencil = image.stencil.view if image.stencil is not None else image.view
-    return pack_stencil(stencil, dtype)[..., None]
+    return pack_stencil(stencil, TYPES[type], transfer)[..., None]
 
 
 def glGetTexLevelParameteriv(target: int, level: int, pname: int, params: Any = None) -> Any:

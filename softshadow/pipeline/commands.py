@@ -94,6 +94,20 @@ class Draw:
 
 
 @dataclass(frozen=True, eq=False)
+class DrawDepths:
+    """glDrawPixels or glCopyPixels of depths, stencil values or both.
+
+    The rectangle is a draw of a quad, whose texture has depths in red and stencil values in green; `color` is that of
+    the raster position.
+    """
+
+    draw: Draw
+    color: tuple[float, float, float, float]
+    has_depth: bool
+    has_stencil: bool
+
+
+@dataclass(frozen=True, eq=False)
 class Clear:
     """glClear: under scissor, colour mask, depth mask and the front stencil write mask."""
 
@@ -279,6 +293,7 @@ class SelectBuffers:
 
 Command = (
     Draw
+    | DrawDepths
     | Clear
     | Accumulate
     | BeginQuery

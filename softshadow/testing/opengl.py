@@ -22,6 +22,7 @@ import OpenGL
 from OpenGL import GL, GLU, images
 from OpenGL.raw.GL.VERSION import GL_1_0 as raw
 
+from softshadow.packed_colors import PACKED_COLORS
 from softshadow.pixel_store import PACKED_TYPES, PixelStore
 
 # missing in PyOpenGL 3.1's image tables; one 32-bit word per pixel, or two
@@ -45,6 +46,7 @@ DTYPES: dict[int, Any] = {
     GL.GL_HALF_FLOAT: np.float16,
     GL.GL_FLOAT: np.float32,
     **PACKED_TYPES,
+    **{kind: packed.dtype for kind, packed in PACKED_COLORS.items()},
 }
 CHECKED = OpenGL.ERROR_CHECKING  # else calls are PyOpenGL's own, as fast as they can be
 LARGEST_PIXEL = 16  # bytes; enough for a read-out whose format or type GL will reject
@@ -173,9 +175,15 @@ def _text(log: bytes | str) -> str:
     return log.decode(errors="replace") if isinstance(log, bytes) else log
 
 
+def _elements(pixel_format: int, pixel_type: int) -> tuple[int | None, Any]:
+    """Return how many numbers a pixel has, and their dtype; None for what is not known."""
+    channels = CHANNELS.get(pixel_format)
+    return channels if pixel_type not in PACKED_COLORS or channels is None else 1, DTYPES.get(pixel_type)
+
+
 def _image(width: int, height: int, pixel_format: int, pixel_type: int) -> np.ndarray:
     """Return an image for a read-out; large enough for any pixel if GL will reject the format and type."""
-    channels, dtype = CHANNELS.get(pixel_format), DTYPES.get(pixel_type)
+    channels, dtype = _elements(pixel_format, pixel_type)
     if channels is None or dtype is None:
         return np.zeros(max(0, width) * max(0, height) * LARGEST_PIXEL, np.uint8)
     shape = (max(0, height), max(0, width))
@@ -245,7 +253,7 @@ def _without_row_padding(function: Callable[..., Any], size_at: int) -> Callable
 
 def _has_padding(width: int, height: int, pixel_format: int, pixel_type: int, image: Any) -> bool:
     """Return whether an image is large enough for rows padded to GL_UNPACK_ALIGNMENT."""
-    channels, dtype = CHANNELS.get(pixel_format), DTYPES.get(pixel_type)
+    channels, dtype = _elements(pixel_format, pixel_type)
     if channels is None or dtype is None or not isinstance(image, np.ndarray):
         return False
     names = (GL.GL_UNPACK_ALIGNMENT, GL.GL_UNPACK_ROW_LENGTH, GL.GL_UNPACK_SKIP_ROWS, GL.GL_UNPACK_SKIP_PIXELS)

@@ -18,6 +18,15 @@ PIXEL_TYPES = {
     "GL_UNSIGNED_BYTE": np.uint8, "GL_BYTE": np.int8, "GL_UNSIGNED_SHORT": np.uint16, "GL_SHORT": np.int16,
     "GL_UNSIGNED_INT": np.uint32, "GL_INT": np.int32, "GL_FLOAT": np.float32,
 }  # fmt: skip
+OF_THREE, OF_FOUR = ("GL_RGB",), ("GL_RGBA", "GL_BGRA")
+PACKED_KINDS = {  # type: (integers, formats)
+    "GL_UNSIGNED_BYTE_3_3_2": (np.uint8, OF_THREE), "GL_UNSIGNED_BYTE_2_3_3_REV": (np.uint8, OF_THREE),
+    "GL_UNSIGNED_SHORT_5_6_5": (np.uint16, OF_THREE), "GL_UNSIGNED_SHORT_5_6_5_REV": (np.uint16, OF_THREE),
+    "GL_UNSIGNED_SHORT_4_4_4_4": (np.uint16, OF_FOUR), "GL_UNSIGNED_SHORT_4_4_4_4_REV": (np.uint16, OF_FOUR),
+    "GL_UNSIGNED_SHORT_5_5_5_1": (np.uint16, OF_FOUR), "GL_UNSIGNED_SHORT_1_5_5_5_REV": (np.uint16, OF_FOUR),
+    "GL_UNSIGNED_INT_8_8_8_8": (np.uint32, OF_FOUR), "GL_UNSIGNED_INT_8_8_8_8_REV": (np.uint32, OF_FOUR),
+    "GL_UNSIGNED_INT_10_10_10_2": (np.uint32, OF_FOUR), "GL_UNSIGNED_INT_2_10_10_10_REV": (np.uint32, OF_FOUR),
+}  # fmt: skip
 WRAPS = ["GL_REPEAT", "GL_CLAMP_TO_EDGE", "GL_MIRRORED_REPEAT", "GL_CLAMP_TO_BORDER", "GL_CLAMP"]
 
 
@@ -29,6 +38,12 @@ def client_pixels(writer: Writer, width: int, height: int, components: int, kind
         return writer.rng.uniform(-0.1, 1.1, shape).round(4).astype(dtype)
     limits = np.iinfo(dtype)
     return writer.rng.integers(limits.min, limits.max, shape, dtype=dtype, endpoint=True)
+
+
+def packed_words(rng: np.random.Generator, width: int, height: int, kind: str) -> np.ndarray:
+    """Return random pixels (height, width) of a packed type."""
+    dtype = PACKED_KINDS[kind][0]
+    return rng.integers(0, np.iinfo(dtype).max, (height, width), dtype=dtype, endpoint=True)
 
 
 def part_of_client_memory(writer: Writer, row: int, rows: int) -> None:
