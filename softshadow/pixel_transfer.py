@@ -20,6 +20,7 @@ COLOR_MAPS = (gl.GL_PIXEL_MAP_R_TO_R, gl.GL_PIXEL_MAP_G_TO_G, gl.GL_PIXEL_MAP_B_
 INDEX_MAPS = (gl.GL_PIXEL_MAP_I_TO_R, gl.GL_PIXEL_MAP_I_TO_G, gl.GL_PIXEL_MAP_I_TO_B, gl.GL_PIXEL_MAP_I_TO_A)
 INTEGER_MAPS = (gl.GL_PIXEL_MAP_I_TO_I, gl.GL_PIXEL_MAP_S_TO_S)
 MAPS = (*INTEGER_MAPS, *INDEX_MAPS, *COLOR_MAPS)
+LARGEST_UINT = 2**32 - 1
 UNCHANGED = (1.0, 0.0)  # scale and bias
 
 
@@ -83,25 +84,33 @@ class PixelTransfer:
         return out
 
     def drawn_color(self, rgba: np.ndarray) -> np.ndarray:
-        """Return colours (..., 4) float32 of glDrawPixels and glCopyPixels.
+        """Return colours (h, w, 4) float32 of glDrawPixels and glCopyPixels, rows in the order of Mesa's texture.
 
-        Mesa looks them up in a texture of 256 entries of 8 bits, into which it stretches the maps.
+        Mesa looks red and green up in a texture of 256 x 256 entries of 8 bits, into which it stretches the maps. Blue
+        and alpha it takes, by mistake, from red and green of the image itself, at the place (blue, alpha).
         """
         out = self.scaled(rgba)
         if self.map_color:
-            for channel, name in enumerate(COLOR_MAPS):
+            row, column = (_nearest(out[..., channel], size) for channel, size in ((3, len(out)), (2, out.shape[1])))
+            for channel, name in enumerate(COLOR_MAPS[:2]):
                 table = self.maps[name]
-                with np.errstate(all="ignore"):
-                    place = np.fmin(np.fmax(np.trunc(out[..., channel] * F32(LARGEST_MAP)), 0), LARGEST_MAP - 1)
                 entries = table[np.arange(LARGEST_MAP) * len(table) // LARGEST_MAP]
                 bytes_of_entries = np.rint(entries * F32(255)).astype(F32)
-                out[..., channel] = bytes_of_entries[place.astype(np.int64)] * (F32(1) / F32(255))
+                place = _nearest(out[..., channel], LARGEST_MAP)
+                out[..., channel] = bytes_of_entries[place] * (F32(1) / F32(255))
+            out[..., 2:] = rgba[row, column, :2]
         return out
 
     def scaled_depth(self, z: np.ndarray) -> np.ndarray:
         """Return depths float32 after scale and bias, clamped to [0, 1]."""
         scale, bias = self.depth
         return np.clip(z * F32(scale) + F32(bias), F32(0), F32(1))
+
+    def scaled_depth_units(self, units: np.ndarray) -> np.ndarray:
+        """Return depths of 32 bits, float64, after scale and bias in double precision, as whole numbers."""
+        scale, bias = self.depth
+        scaled: np.ndarray = np.floor(np.clip(units * scale + bias * LARGEST_UINT, 0.0, LARGEST_UINT))
+        return scaled
 
     def shifted(self, indices: np.ndarray) -> np.ndarray:
         """Return indices int64 after shift and offset, modulo 2**32."""
@@ -132,3 +141,10 @@ class PixelTransfer:
         """Return the colours (..., 4) float32 of colour indices int64."""
         tables = [self.maps[name] for name in INDEX_MAPS]
         return np.stack([table[indices & (len(table) - 1)] for table in tables], axis=-1)
+
+
+def _nearest(coordinate: np.ndarray, size: int) -> np.ndarray:
+    """Return the index of the nearest of `size` texels, clamped to the edge."""
+    with np.errstate(all="ignore"):
+        place: np.ndarray = np.fmin(np.fmax(np.trunc(coordinate * F32(size)), 0), size - 1).astype(np.int64)
+    return place

@@ -12,10 +12,11 @@ from softshadow.context import Context
 from softshadow.framebuffer import Framebuffer
 from softshadow.frozen import evolve
 from softshadow.gl.errors import fail
-from softshadow.gl.window_quads import rounded, textured_rectangle
+from softshadow.gl.window_quads import textured_rectangle
 from softshadow.image import D24, D32F, FORMATS, Image, storage_format
 from softshadow.pipeline.buffers.copy import bottom_up, clipped
-from softshadow.pipeline.commands import BlitFramebuffer, DrawDepths
+from softshadow.pipeline.commands import DrawDepths
+from softshadow.pixel_transfer import PixelTransfer
 from softshadow.pixels import (
     quantized_depth,
     sampled_depth,
@@ -24,7 +25,6 @@ from softshadow.pixels import (
     unpack_packed_stencil,
     unpack_stencil,
 )
-from softshadow.state import Scissor
 
 Rectangle = tuple[int, int, int, int]  # x, y, width, height
 FLOATS = storage_format(gl.GL_RGBA32F)
@@ -33,11 +33,6 @@ STORED = {  # type of depths: format of Mesa's texture, else 24 bits
     gl.GL_UNSIGNED_INT: FORMATS[gl.GL_DEPTH_COMPONENT32],
     gl.GL_FLOAT: D32F,
     gl.GL_FLOAT_32_UNSIGNED_INT_24_8_REV: D32F,
-}
-MASKS = {
-    gl.GL_DEPTH: gl.GL_DEPTH_BUFFER_BIT,
-    gl.GL_STENCIL: gl.GL_STENCIL_BUFFER_BIT,
-    gl.GL_DEPTH_STENCIL: gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT,
 }
 
 
@@ -53,7 +48,8 @@ def texture_of_depths(context: Context, image: np.ndarray, format: int, type: in
         depth = sampled_depth(unpack_depth(elements, stored, transfer), stored)
     elif format == gl.GL_DEPTH_STENCIL:
         depth = sampled_depth(unpack_packed_depth(elements, stored, transfer), stored)
-        stencil = unpack_packed_stencil(elements, transfer)
+        maps = transfer.changes_depth or type != gl.GL_UNSIGNED_INT_24_8  # else Mesa copies the words
+        stencil = unpack_packed_stencil(elements, transfer if maps else PixelTransfer())
     else:
         stencil = unpack_stencil(elements, transfer)
     return _cells(elements.shape, depth, stencil)
@@ -81,11 +77,7 @@ def draw_rectangle_of_depths(
 
 # -- glCopyPixels ------------------------------------------------------------------------------------------------------
 def copy_depths(context: Context, source: Framebuffer, rectangle: Rectangle, type: int, operation: str) -> None:
-    """Copy a rectangle of depths, stencil values or both of a framebuffer to the raster position.
-
-    As in Mesa, pixels are copied without any test if nothing is zoomed, no query is active, and the rectangles are
-    apart; else they are drawn.
-    """
+    """Copy a rectangle of depths, stencil values or both of a framebuffer to the raster position."""
     target = context.objects.framebuffers[context.state.draw_framebuffer]
     has_depth, has_stencil = type != gl.GL_STENCIL, type != gl.GL_DEPTH
     for framebuffer in (source, target):
@@ -96,13 +88,6 @@ def copy_depths(context: Context, source: Framebuffer, rectangle: Rectangle, typ
     if not context.current.raster.valid or 0 in rectangle[2:]:
         return
     context.finish()
-    if context.pixel_zoom == (1.0, 1.0) and not context.objects.active_query:
-        pair = _clipped_pair(context, source, target, rectangle)
-        if pair is None:
-            return
-        if source is not target or not _overlap(*pair):
-            _blit(context, source, target, pair, MASKS[type])
-            return
     rows, columns, left, bottom = clipped(source, *rectangle)
     depth, stencil = _read(source, source.depth, rows, columns), _read(source, source.stencil, rows, columns)
     assert source.depth is not None or not has_depth
@@ -121,42 +106,6 @@ def copy_depths(context: Context, source: Framebuffer, rectangle: Rectangle, typ
 
 def _read(source: Framebuffer, image: Image | None, rows: slice, columns: slice) -> np.ndarray | None:
     return None if image is None else bottom_up(source, image)[rows, columns].copy()
-
-
-def _clipped_pair(
-    context: Context, source: Framebuffer, target: Framebuffer, rectangle: Rectangle
-) -> tuple[Rectangle, Rectangle] | None:
-    """Return the parts of both rectangles that are inside the framebuffers and the scissor box, None for nothing."""
-    x, y, width, height = rectangle
-    window = context.current.raster.window
-    move = int(rounded(window[0])) - x, int(rounded(window[1])) - y
-    scissor, (right, top) = context.state.scissor, target.size
-    box = (0, 0, right, top)
-    if scissor.enabled:
-        box = (
-            max(0, scissor.x),
-            max(0, scissor.y),
-            min(right, scissor.x + scissor.width),
-            min(top, scissor.y + scissor.height),
-        )
-    x0, y0 = max(x, 0, box[0] - move[0]), max(y, 0, box[1] - move[1])
-    x1 = min(x + width, source.size[0], box[2] - move[0])
-    y1 = min(y + height, source.size[1], box[3] - move[1])
-    if x0 >= x1 or y0 >= y1:
-        return None
-    return (x0, y0, x1 - x0, y1 - y0), (x0 + move[0], y0 + move[1], x1 - x0, y1 - y0)
-
-
-def _overlap(one: Rectangle, other: Rectangle) -> bool:
-    (ax, ay, width, height), (bx, by, *_) = one, other
-    return abs(ax - bx) < width and abs(ay - by) < height
-
-
-def _blit(
-    context: Context, source: Framebuffer, target: Framebuffer, pair: tuple[Rectangle, Rectangle], mask: int
-) -> None:
-    read, drawn = ((x, y, x + width, y + height) for x, y, width, height in pair)
-    context.execute(BlitFramebuffer(source.name, target.name, read, drawn, mask, gl.GL_NEAREST, Scissor()))
 
 
 __all__ = ["copy_depths", "draw_rectangle_of_depths", "texture_of_depths"]

@@ -31,6 +31,12 @@ LARGEST_SHORT = 2**15 - 1
 IN_BYTES = [  # the packed types whose colours Mesa's texture has in 8 bits
     kind for kind, packed in PACKED_COLORS.items() if any(n_bits in (5, 6) for _, n_bits in packed.fields)
 ]
+FLOATS = (gl.GL_FLOAT, gl.GL_HALF_FLOAT)
+INDEXED = {  # type of colour indices: the number for 1 in Mesa's texture of their colours, else 255
+    gl.GL_UNSIGNED_SHORT: 2**16 - 1,
+    gl.GL_SHORT: LARGEST_SHORT,
+    gl.GL_INT: LARGEST_SHORT,
+}
 COPIED = {  # type of glCopyPixels: format of its pixels
     gl.GL_COLOR: gl.GL_RGBA,
     gl.GL_DEPTH: gl.GL_DEPTH_COMPONENT,
@@ -104,7 +110,8 @@ def _colors(context: Context, image: np.ndarray, format: int, type: int) -> np.n
         image = (image >> 16).astype(np.float32) * (np.float32(1) / np.float32(LARGEST_SHORT))
     transfer = context.pixel_transfer
     if format == gl.GL_COLOR_INDEX:
-        return np.ascontiguousarray(transfer.indexed_color(image[..., 0].astype(np.int64)))
+        colors, one = transfer.indexed_color(image[..., 0].astype(np.int64)), np.float32(INDEXED.get(type, 255))
+        return colors if type in FLOATS else np.rint(colors * one) * (np.float32(1) / one)
     stored = _stored(np.dtype(np.uint8) if type in IN_BYTES else image.dtype)[0]
     cells = unpack_color(image, format, stored, type)
     return np.ascontiguousarray(transfer.drawn_color(color_as_float(cells)) if transfer.changes_color else cells)
@@ -149,11 +156,14 @@ def glCopyPixels(x: int, y: int, width: int, height: int, type: int) -> None:
         return
     context.finish()
     rows, columns, left, bottom = clipped(source, int(x), int(y), int(width), int(height))
-    colors = pack_color(bottom_up(source, image)[rows, columns], image.format, gl.GL_RGBA, np.uint8, True)
+    kind = np.float32 if image.format.kind == "float" else np.uint8
+    colors = pack_color(bottom_up(source, image)[rows, columns], image.format, gl.GL_RGBA, kind, True)
     if colors.size:
         transfer = context.pixel_transfer
-        cells = transfer.drawn_color(color_as_float(colors)) if transfer.changes_color else colors
-        _draw(context, np.ascontiguousarray(cells), left, bottom)
+        if transfer.changes_color:
+            order = -1 if source.flipped else 1  # rows of Mesa's texture
+            colors = transfer.drawn_color(color_as_float(colors[::order]))[::order]
+        _draw(context, np.ascontiguousarray(colors), left, bottom)
 
 
 def _is_complete(context: Context, operation: str) -> bool:

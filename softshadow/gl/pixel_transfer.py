@@ -173,7 +173,7 @@ def _get_map(operation: str, name: int, values: Any, dtype: type[np.generic]) ->
     table = context.pixel_transfer.maps[name]
     if dtype == np.uint32:
         of_floats = name == gl.GL_PIXEL_MAP_S_TO_S
-        answer = table.view(np.uint32).copy() if of_floats else (table * np.float64(LARGEST_UINT)).astype(np.uint32)
+        answer = table.view(np.uint32).copy() if of_floats else _modulo(table * np.float64(LARGEST_UINT))
     elif dtype == np.uint16:
         of_integers = name in INTEGER_MAPS
         scaled = np.clip(table, 0, LARGEST_USHORT) if of_integers else np.rint(table * np.float32(LARGEST_USHORT))
@@ -181,6 +181,11 @@ def _get_map(operation: str, name: int, values: Any, dtype: type[np.generic]) ->
     else:
         answer = table.copy()
     return destination(context, values, answer, operation)
+
+
+def _modulo(numbers: np.ndarray) -> np.ndarray:
+    """Return the whole parts of numbers modulo 2**32."""
+    return (numbers.astype(np.int64) & LARGEST_UINT).astype(np.uint32)
 
 
 # -- glGet -------------------------------------------------------------------------------------------------------------

@@ -9,6 +9,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.framebuffer import LARGEST_SIDE
+from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.pixel_formats import Problem, format_problem, kind_of, readout_problem, upload_problem
@@ -34,6 +35,11 @@ from softshadow.texture import Texture
 from softshadow.tokens import token_name
 
 LARGEST_LEVEL = LARGEST_SIDE.bit_length() - 1
+MEMORY = {  # largest depth: the type of the texture's own memory
+    2**16 - 1: gl.GL_UNSIGNED_SHORT,
+    2**32 - 1: gl.GL_UNSIGNED_INT,
+    0: gl.GL_FLOAT,
+}
 COMPONENT_NUMBERS = (1, 2, 3, 4)  # internal formats of GL 1.0, which glCopyTexImage2D does not take
 SIZES: dict[int, tuple[int, ...]] = {  # the base formats that have the channel
     gl.GL_TEXTURE_RED_SIZE: (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_RGBA),
@@ -224,6 +230,8 @@ def texture_pixels(image: Image, format: int, type: int, transfer: PixelTransfer
     if kind == "color":
         return pack_color(image.view, image.format, format, client_kind(type))
     if kind == "depth":
+        if MEMORY.get(image.format.largest) == type:  # which Mesa copies as it is
+            transfer = evolve(transfer, depth=(1.0, 0.0))
         return pack_depth(image.view, image.format, TYPES[type], through_float=True, transfer=transfer)[..., None]
     stencil = image.stencil.view if image.stencil is not None else image.view
     return pack_stencil(stencil, TYPES[type], transfer)[..., None]

@@ -24,6 +24,7 @@ SAMPLER = Sampler(
     min_filter=gl.GL_NEAREST, mag_filter=gl.GL_NEAREST, wrap_s=gl.GL_CLAMP_TO_EDGE, wrap_t=gl.GL_CLAMP_TO_EDGE
 )
 
+
 def textured_rectangle(
     context: Context, cells: np.ndarray, stored: Format, internal_format: int, left: int = 0, bottom: int = 0
 ) -> Draw:

@@ -14,6 +14,7 @@ import numpy as np
 
 from softshadow import tokens
 from softshadow.image import Format
+from softshadow.pixel_transfer import PixelTransfer
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.state import Scissor, State
 from softshadow.texture import Sampler
@@ -167,7 +168,10 @@ class UpdateImage:
 
 @dataclass(frozen=True, eq=False)
 class CopyToTexture:
-    """glCopyTexSubImage2D from a framebuffer; pixels outside the framebuffer leave their texels untouched."""
+    """glCopyTexSubImage2D from a framebuffer; pixels outside the framebuffer leave their texels untouched.
+
+    `transfer` is what glPixelTransfer changes on the way, None for nothing.
+    """
 
     framebuffer: int
     texture: int
@@ -179,6 +183,7 @@ class CopyToTexture:
     y: int
     width: int
     height: int
+    transfer: PixelTransfer | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -56,9 +56,7 @@ def draw_depths(command: DrawDepths, storage: Storage, counts: FragmentCounts | 
             color_writer(draw.state, image)(spans, colors)
 
 
-def _test(
-    state: State, target: Framebuffer, fragments: Fragments, triangles: Setup, alphas: np.ndarray
-) -> np.ndarray:
+def _test(state: State, target: Framebuffer, fragments: Fragments, triangles: Setup, alphas: np.ndarray) -> np.ndarray:
     """Return the verdicts of fragments (n,) uint8; depth and stencil change."""
     real = triangles.depth.dtype
     alpha, alpha_ref = np.zeros(len(alphas), np.uint8), 0

@@ -95,7 +95,13 @@ def test_rectangles_are_drawn_alike(kind, internal):
 
 def test_wrong_pairs_have_the_errors_of_mesa():
     formats = "RED ALPHA RG RGB BGR RGBA BGRA LUMINANCE LUMINANCE_ALPHA COLOR_INDEX DEPTH_COMPONENT DEPTH_STENCIL"
-    kinds = ["GL_UNSIGNED_BYTE", "GL_DOUBLE", *PACKED_KINDS, "GL_UNSIGNED_INT_24_8", "GL_FLOAT_32_UNSIGNED_INT_24_8_REV"]
+    kinds = [
+        "GL_UNSIGNED_BYTE",
+        "GL_DOUBLE",
+        *PACKED_KINDS,
+        "GL_UNSIGNED_INT_24_8",
+        "GL_FLOAT_32_UNSIGNED_INT_24_8_REV",
+    ]
 
     def program(gl):
         codes = []
