@@ -21,7 +21,9 @@ import numpy as np
 import OpenGL
 from OpenGL import GL, GLU, images
 from OpenGL.raw.GL.VERSION import GL_1_0 as raw
+from OpenGL.raw.GL.VERSION import GL_1_5 as buffers
 
+from softshadow.mapped_memory import MappedMemory
 from softshadow.packed_colors import PACKED_COLORS
 from softshadow.pixel_store import PACKED_TYPES, PixelStore
 
@@ -210,9 +212,12 @@ def _restored_alignment() -> Iterator[None]:
 
 
 def glReadPixels(
-    x: int, y: int, width: int, height: int, format: int, type: int, array: np.ndarray | None = None
-) -> np.ndarray:
+    x: int, y: int, width: int, height: int, format: int, type: int, array: Any = None
+) -> np.ndarray | None:
     """Return the pixels of a rectangle of the read buffer, first row = bottom row, or fill `array` with them."""
+    if _bound(GL.GL_PIXEL_PACK_BUFFER_BINDING):
+        raw.glReadPixels(x, y, width, height, format, type, ctypes.c_void_p(array or 0))
+        return None
     expected = _image(width, height, format, type)
     out = expected if array is None else _checked(array, expected, "glReadPixels")
     with _restored_alignment():
@@ -221,8 +226,11 @@ def glReadPixels(
     return out
 
 
-def glGetTexImage(target: int, level: int, format: int, type: int, array: np.ndarray | None = None) -> np.ndarray:
+def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = None) -> np.ndarray | None:
     """Return a texture's level, first row = the row of t = 0, or fill `array` with it."""
+    if _bound(GL.GL_PIXEL_PACK_BUFFER_BINDING):
+        raw.glGetTexImage(target, level, format, type, ctypes.c_void_p(array or 0))
+        return None
     width = GL.glGetTexLevelParameteriv(target, level, GL.GL_TEXTURE_WIDTH)
     height = GL.glGetTexLevelParameteriv(target, level, GL.GL_TEXTURE_HEIGHT)
     expected = _image(int(width), int(height), format, type)
@@ -241,9 +249,13 @@ def _without_row_padding(function: Callable[..., Any], size_at: int) -> Callable
 
     def upload(*arguments: Any) -> Any:
         with _restored_alignment():
-            if not _has_padding(*arguments[size_at : size_at + 2], *arguments[-3:]):
+            if not _bound(GL.GL_PIXEL_UNPACK_BUFFER_BINDING) and not _has_padding(
+                *arguments[size_at : size_at + 2], *arguments[-3:]
+            ):
                 GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)
             image = arguments[-1]
+            if _bound(GL.GL_PIXEL_UNPACK_BUFFER_BINDING):
+                return function(*arguments[:-1], ctypes.c_void_p(image or 0))
             if isinstance(image, np.ndarray) and image.dtype.names:
                 return function(*arguments[:-1], np.frombuffer(image.tobytes(), np.uint8))
             return function(*arguments)
@@ -285,8 +297,48 @@ def _with_unknown_names(function: Callable[..., Any], ctype: Any) -> Callable[..
     return get
 
 
+def _bound(target: int) -> bool:
+    return bool(GL.glGetIntegerv(target))
+
+
+def _mapped(address: Any, n_bytes: int) -> MappedMemory | None:
+    """Return mapped bytes at an address as `softshadow.gl` does."""
+    if not address:
+        return None
+    return MappedMemory.of(np.frombuffer((ctypes.c_uint8 * n_bytes).from_address(int(address)), np.uint8))
+
+
+def glMapBuffer(target: int, access: int) -> MappedMemory | None:
+    """Return all bytes of a buffer object."""
+    size = GL.glGetBufferParameteriv(target, GL.GL_BUFFER_SIZE)
+    return _mapped(GL.glMapBuffer(target, access), int(np.ravel(size)[0]))
+
+
+def glMapBufferRange(target: int, offset: int, length: int, access: int) -> MappedMemory | None:
+    """Return a range of bytes of a buffer object."""
+    return _mapped(GL.glMapBufferRange(target, offset, length, access), length)
+
+
+def glGetBufferSubData(target: int, offset: int, size: int) -> np.ndarray:
+    """Return bytes of a buffer object."""
+    out = np.zeros(size, np.uint8)
+    buffers.glGetBufferSubData(target, offset, size, ctypes.c_void_p(out.ctypes.data))
+    return out
+
+
+def glGetBufferParameteriv(target: int, pname: int) -> int:
+    """Return a property of a buffer object."""
+    out = (ctypes.c_int * 2)()
+    buffers.glGetBufferParameteriv(target, pname, out)
+    return int(out[0])
+
+
 OWN: dict[str, Callable[..., Any]] = {
     "glReadPixels": glReadPixels,
+    "glMapBuffer": glMapBuffer,
+    "glMapBufferRange": glMapBufferRange,
+    "glGetBufferSubData": glGetBufferSubData,
+    "glGetBufferParameteriv": glGetBufferParameteriv,
     "glGetTexImage": glGetTexImage,
     "glTexImage2D": _without_row_padding(GL.glTexImage2D, size_at=3),
     "glTexSubImage2D": _without_row_padding(GL.glTexSubImage2D, size_at=4),
