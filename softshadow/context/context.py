@@ -23,6 +23,7 @@ from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import create, evolve
+from softshadow.image import Image
 from softshadow.pipeline.commands import Clear, Command, Draw, Origin, Vertices
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.queue import DrawQueue
@@ -144,6 +145,7 @@ class Context:
         self.pack_store, self.unpack_store = PixelStore(), PixelStore()
         self.pixel_zoom = (1.0, 1.0)
         self.pixel_transfer = PixelTransfer()
+        self.proxies: dict[tuple[int, int], Image] = {}  # by (target, level): images without cells
         # the highest name returned by glGen*, per kind; an object exists in storage once it has been bound
         self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query", "buffer", "list"), 0)
         self.renderbuffer = 0

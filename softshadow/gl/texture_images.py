@@ -14,6 +14,7 @@ from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.pixel_formats import Problem, format_problem, kind_of, readout_problem, upload_problem
 from softshadow.gl.pixel_memory import image_destination, image_source
+from softshadow.gl.proxy_textures import PROXIES, define_proxy
 from softshadow.gl.textures import FACES, bound_name, bound_texture, target_problem
 from softshadow.image import FORMATS, WITH_STENCIL, Format, Image, storage_format
 from softshadow.pipeline.commands import DefineImage, GenerateMipmaps, UpdateImage
@@ -70,13 +71,18 @@ def glTexImage2D(
     type: int,
     pixels: Any = None,
 ) -> None:
-    """Define a level of the bound texture from an image, first row = bottom row; None fills it with zeros."""
+    """Define a level of the bound texture from an image, first row = bottom row; None fills it with zeros.
+
+    For a proxy texture only what glGetTexLevelParameter returns is set, to 0 if there cannot be such a texture.
+    """
     operation = "glTexImage2D"
     if (context := outside_begin(operation)) is None:
         return None
+    is_proxy = target in PROXIES
     problem = (
-        target_problem(context, target, faces=True)
-        or size_problem(target, level, width, height, border)
+        (None if is_proxy else target_problem(context, target, faces=True))
+        or (level_problem(level) if is_proxy else size_problem(target, level, width, height, border))
+        or (border_problem(border) or _negative_problem(width, height) if is_proxy else None)
         or format_problem(format, type)
         or internal_problem(internalformat, gl.GL_INVALID_VALUE)
         or upload_problem(format, FORMATS[internalformat], internalformat in WITH_STENCIL)
@@ -84,6 +90,9 @@ def glTexImage2D(
     if problem:
         return fail(problem[0], operation, problem[1])
     stored = storage_format(internalformat, type)
+    if is_proxy:
+        define_proxy(context, target, level, stored, internalformat, width, height)
+        return None
     parts = _cells(context, pixels, width, height, format, type, stored, operation)
     if parts is None:
         return None
@@ -242,9 +251,10 @@ def glGetTexLevelParameteriv(target: int, level: int, pname: int, params: Any = 
     operation = "glGetTexLevelParameteriv"
     if (context := outside_begin(operation)) is None:
         return None
-    if problem := target_problem(context, target, faces=True) or level_problem(level):
+    is_proxy = target in PROXIES
+    if problem := (None if is_proxy else target_problem(context, target, faces=True)) or level_problem(level):
         return fail(problem[0], operation, problem[1])
-    image = image_at(context, target, level)
+    image = context.proxies.get((target, level)) if is_proxy else image_at(context, target, level)
     simple = {
         gl.GL_TEXTURE_WIDTH: image.width if image else 0,
         gl.GL_TEXTURE_HEIGHT: image.height if image else 0,

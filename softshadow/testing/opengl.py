@@ -305,13 +305,13 @@ def _mapped(address: Any, n_bytes: int) -> MappedMemory | None:
     """Return mapped bytes at an address as `softshadow.gl` does."""
     if not address:
         return None
-    return MappedMemory.of(np.frombuffer((ctypes.c_uint8 * n_bytes).from_address(int(address)), np.uint8))
+    return MappedMemory.of(np.ctypeslib.as_array((ctypes.c_uint8 * n_bytes).from_address(int(address))))
 
 
 def glMapBuffer(target: int, access: int) -> MappedMemory | None:
     """Return all bytes of a buffer object."""
-    size = GL.glGetBufferParameteriv(target, GL.GL_BUFFER_SIZE)
-    return _mapped(GL.glMapBuffer(target, access), int(np.ravel(size)[0]))
+    address = GL.glMapBuffer(target, access)
+    return _mapped(address, glGetBufferParameteriv(target, GL.GL_BUFFER_SIZE))
 
 
 def glMapBufferRange(target: int, offset: int, length: int, access: int) -> MappedMemory | None:

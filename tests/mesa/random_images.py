@@ -1,5 +1,7 @@
 """Random programs about images: internal formats, client formats and types, parts of images, copies, read-outs."""
 
+from typing import Any
+
 import numpy as np
 
 from mesa.random_writer import Writer
@@ -19,7 +21,7 @@ PIXEL_TYPES = {
     "GL_UNSIGNED_INT": np.uint32, "GL_INT": np.int32, "GL_FLOAT": np.float32,
 }  # fmt: skip
 OF_THREE, OF_FOUR = ("GL_RGB",), ("GL_RGBA", "GL_BGRA")
-PACKED_KINDS = {  # type: (integers, formats)
+PACKED_KINDS: dict[str, tuple[Any, tuple[str, ...]]] = {  # integers and formats
     "GL_UNSIGNED_BYTE_3_3_2": (np.uint8, OF_THREE), "GL_UNSIGNED_BYTE_2_3_3_REV": (np.uint8, OF_THREE),
     "GL_UNSIGNED_SHORT_5_6_5": (np.uint16, OF_THREE), "GL_UNSIGNED_SHORT_5_6_5_REV": (np.uint16, OF_THREE),
     "GL_UNSIGNED_SHORT_4_4_4_4": (np.uint16, OF_FOUR), "GL_UNSIGNED_SHORT_4_4_4_4_REV": (np.uint16, OF_FOUR),
