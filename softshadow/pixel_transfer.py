@@ -50,6 +50,11 @@ class PixelTransfer:
         return self.map_color or self.scales != (UNCHANGED,) * 4
 
     @property
+    def through_floats(self) -> bool:
+        """Whether Mesa converts colours to floats on the way, although shift and offset do not change them."""
+        return self.changes_color or self.changes_index
+
+    @property
     def changes_depth(self) -> bool:
         """Whether depths are changed."""
         return self.depth != UNCHANGED

@@ -244,7 +244,7 @@ def unpack_color(
         indices = pixels[..., 0].astype(np.int64) & LARGEST_UINT
         return to_cells(transfer.indexed_color(transfer.shifted(indices)), format)
     packed = PACKED_COLORS.get(type)
-    if transfer.changes_color:
+    if transfer.through_floats:
         floats = _packed_to_float(pixels, packed) if packed else _to_float(pixels)
         return to_cells(transfer.color(_rgba(floats, pixel_format, 1)), format)
     if format.kind == "unorm8":
@@ -328,7 +328,7 @@ def pack_color(
     sign = "u" if isinstance(kind, PackedColor) else np.dtype(kind).kind
     sums = from_framebuffer and "L" in names and format.base in (gl.GL_RG, gl.GL_RGB, gl.GL_RGBA)
     clamped = from_framebuffer and sign != "f" and format.kind != "unorm8"
-    if transfer.changes_color:
+    if transfer.through_floats:
         rgba, one = transfer.color(color_as_float(rgba)), 1
         clamped = clamped or (sums and format.kind == "unorm8")
     if clamped:

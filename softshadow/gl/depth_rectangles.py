@@ -51,7 +51,8 @@ def texture_of_depths(context: Context, image: np.ndarray, format: int, type: in
         maps = transfer.changes_depth or type != gl.GL_UNSIGNED_INT_24_8  # else Mesa copies the words
         stencil = unpack_packed_stencil(elements, transfer if maps else PixelTransfer())
     else:
-        stencil = unpack_stencil(elements, transfer)
+        maps = type != gl.GL_UNSIGNED_BYTE  # else Mesa copies the bytes
+        stencil = unpack_stencil(elements, transfer if maps else PixelTransfer())
     return _cells(elements.shape, depth, stencil)
 
 

@@ -5,7 +5,7 @@ References: GL 2.1, sec. 3.6.1, 4.3.2; pbo.c of Mesa 22.3.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,7 +13,25 @@ from softshadow import tokens as gl
 from softshadow.context import BufferObject, Context
 from softshadow.gl.buffers import offset_of, own_content
 from softshadow.gl.errors import fail
+from softshadow.gl.pixel_formats import format_problem
 from softshadow.pixel_store import PixelStore, client_image, dtype_of, elements_of, image_view, output_array
+
+
+class UnpackedImage(NamedTuple):
+    """An image (h, w, components) that a display list has read from memory when it was compiled."""
+
+    image: np.ndarray
+
+
+def image_for_list(
+    context: Context, pixels: Any, width: int, height: int, format: int, type: int, operation: str
+) -> Any:
+    """Return pixels as they are; while a display list is compiled, what they are now, as an `UnpackedImage`."""
+    is_none = pixels is None and not context.unpack_store.buffer
+    if context.compiled_list is None or is_none or format_problem(format, type) or width <= 0 or height <= 0:
+        return pixels
+    image = image_source(context, pixels, int(width), int(height), format, type, operation)
+    return None if image is None else UnpackedImage(image.copy())
 
 
 def image_source(
@@ -21,6 +39,8 @@ def image_source(
 ) -> np.ndarray | None:
     """Return an image (h, w, components) of the client or of the bound buffer object; None after an error of GL."""
     store = context.unpack_store
+    if isinstance(pixels, UnpackedImage):
+        return pixels.image
     if not store.buffer:
         return client_image(pixels, store, width, height, format, type, operation)
     dtype = dtype_of(type)

@@ -112,6 +112,9 @@ def _colors(context: Context, image: np.ndarray, format: int, type: int) -> np.n
     if format == gl.GL_COLOR_INDEX:
         colors, one = transfer.indexed_color(image[..., 0].astype(np.int64)), np.float32(INDEXED.get(type, 255))
         return colors if type in FLOATS else np.rint(colors * one) * (np.float32(1) / one)
+    if image.dtype == np.int8 and transfer.changes_color:  # whose signs Mesa's texture keeps
+        image = image.astype(np.float32) * (np.float32(1) / np.float32(127))
+        image = np.maximum(image, np.float32(-1))
     stored = _stored(np.dtype(np.uint8) if type in IN_BYTES else image.dtype)[0]
     cells = unpack_color(image, format, stored, type)
     return np.ascontiguousarray(transfer.drawn_color(color_as_float(cells)) if transfer.changes_color else cells)

@@ -89,7 +89,7 @@ def glCopyTexSubImage2D(
 
 def _transfer(context: Context) -> PixelTransfer | None:
     transfer = context.pixel_transfer
-    return transfer if transfer.changes_color or transfer.changes_depth else None
+    return transfer if transfer.through_floats or transfer.changes_depth else None
 
 
 def _source_problem(context: Context) -> Problem | None:

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context
+from softshadow.context import Context, current
 from softshadow.framebuffer import LARGEST_SIDE
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.pixel_formats import Problem, format_problem, kind_of, readout_problem, upload_problem
-from softshadow.gl.pixel_memory import image_destination, image_source
+from softshadow.gl.pixel_memory import image_destination, image_for_list, image_source
 from softshadow.gl.proxy_textures import PROXIES, define_proxy
 from softshadow.gl.textures import FACES, bound_name, bound_texture, target_problem
 from softshadow.image import FORMATS, WITH_STENCIL, Format, Image, storage_format
@@ -59,7 +59,6 @@ def face_of(target: int) -> int:
     return FACES.index(target) if target in FACES else 0
 
 
-@in_lists
 def glTexImage2D(
     target: int,
     level: int,
@@ -73,8 +72,27 @@ def glTexImage2D(
 ) -> None:
     """Define a level of the bound texture from an image, first row = bottom row; None fills it with zeros.
 
-    For a proxy texture only what glGetTexLevelParameter returns is set, to 0 if there cannot be such a texture.
+    For a proxy texture only what glGetTexLevelParameter returns is set, to 0 if there cannot be such a texture, even
+    while a display list is compiled.
     """
+    shape = (width, height)
+    pixels = image_for_list(current(), pixels, *shape, format, type, "glTexImage2D")
+    define = _tex_image.__wrapped__ if target in PROXIES else _tex_image  # type: ignore[attr-defined]
+    define(target, level, internalformat, *shape, border, format, type, pixels)
+
+
+@in_lists
+def _tex_image(
+    target: int,
+    level: int,
+    internalformat: int,
+    width: int,
+    height: int,
+    border: int,
+    format: int,
+    type: int,
+    pixels: Any,
+) -> None:
     operation = "glTexImage2D"
     if (context := outside_begin(operation)) is None:
         return None
@@ -102,7 +120,6 @@ def glTexImage2D(
     return None
 
 
-@in_lists
 def glTexSubImage2D(
     target: int,
     level: int,
@@ -115,6 +132,22 @@ def glTexSubImage2D(
     pixels: Any = None,
 ) -> None:
     """Replace a rectangle of a level of the bound texture."""
+    pixels = image_for_list(current(), pixels, width, height, format, type, "glTexSubImage2D")
+    _tex_sub_image(target, level, xoffset, yoffset, width, height, format, type, pixels)
+
+
+@in_lists
+def _tex_sub_image(
+    target: int,
+    level: int,
+    xoffset: int,
+    yoffset: int,
+    width: int,
+    height: int,
+    format: int,
+    type: int,
+    pixels: Any,
+) -> None:
     operation = "glTexSubImage2D"
     if (context := outside_begin(operation)) is None:
         return None
@@ -148,7 +181,7 @@ def _cells(
 
     None after an error of GL.
     """
-    if pixels is None and not context.unpack_store.buffer:
+    if pixels is None and (not context.unpack_store.buffer or context.executes_list or context.list_depth):
         return None, None
     image = image_source(context, pixels, width, height, format, type, operation)
     if image is None:

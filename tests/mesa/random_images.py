@@ -77,16 +77,27 @@ def uploaded(writer: Writer) -> None:
 def _upload(
     writer: Writer, call: str, place: tuple[int, ...], border: tuple[int, ...], width: int, height: int
 ) -> None:
-    pixel_format, kind = writer.pick(list(PIXEL_FORMATS)), writer.pick(list(PIXEL_TYPES))
     if writer.chance(0.3):
         row, rows = width + 2, height + 1
         part_of_client_memory(writer, row, rows)
     else:
         row, rows = width, height
-    pixels = client_pixels(writer, row, rows, PIXEL_FORMATS[pixel_format], kind)
+    pixel_format, kind = _names(writer)
+    if kind in PACKED_KINDS:
+        pixels = packed_words(writer.rng, row, rows, kind)
+    else:
+        pixels = client_pixels(writer, row, rows, PIXEL_FORMATS[pixel_format], kind)
     sides = (width, height, *border)
     writer.call(call, "GL_TEXTURE_2D", 0, *place, *sides, pixel_format, kind, pixels)
     part_of_client_memory(writer, 0, 0)
+
+
+def _names(writer: Writer) -> tuple[str, str]:
+    """Return a format and a type for it, now and then a packed one."""
+    if writer.chance(0.2):
+        kind = writer.pick(list(PACKED_KINDS))
+        return writer.pick(PACKED_KINDS[kind][1]), kind
+    return writer.pick(list(PIXEL_FORMATS)), writer.pick(list(PIXEL_TYPES))
 
 
 def _copy(writer: Writer, width: int, height: int) -> None:
@@ -101,8 +112,7 @@ def _copy(writer: Writer, width: int, height: int) -> None:
 
 def _get(writer: Writer) -> None:
     for _ in range(writer.integer(1, 3)):
-        pixels = writer.pick(list(PIXEL_FORMATS)), writer.pick(list(PIXEL_TYPES))
-        writer.call("glGetTexImage", "GL_TEXTURE_2D", 0, *pixels)
+        writer.call("glGetTexImage", "GL_TEXTURE_2D", 0, *_names(writer))
 
 
 # -- depth -------------------------------------------------------------------------------------------------------------
@@ -147,4 +157,6 @@ def read_out(writer: Writer) -> None:
         kind = writer.pick(list(PIXEL_TYPES))
         if writer.chance(0.1):
             pixel_format, kind = "GL_DEPTH_STENCIL", "GL_UNSIGNED_INT_24_8"
+        elif writer.chance(0.2):
+            pixel_format, kind = _names(writer)
         writer.call("glReadPixels", x, y, width, height, pixel_format, kind)

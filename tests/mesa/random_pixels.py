@@ -12,15 +12,24 @@ UNPACK, PACK = "GL_PIXEL_UNPACK_BUFFER", "GL_PIXEL_PACK_BUFFER"
 
 
 def transferred(writer: Writer) -> None:
-    """The state of fragments and of pixel transfer, and rectangles that are drawn, copied and read."""
-    if writer.chance(0.6):
+    """The state of fragments and of pixel transfer, and rectangles that are drawn, copied and read.
+
+    Under GL_MAP_COLOR nothing is cut off: what Mesa takes for blue and alpha depends on the rest of the image.
+    """
+    mapped = writer.chance(0.2)
+    if mapped:
+        writer.call("glDisable", "GL_SCISSOR_TEST")
+    elif writer.chance(0.6):
         writer.fragment_state()
     transfer(writer)
+    writer.call("glPixelTransferi", "GL_MAP_COLOR", int(mapped))
     for _ in range(writer.integer(1, 3)):
         zooms = [1.0, 1.0, 2.0, -1.0, writer.number(-2.7, 2.7)]
         writer.call("glPixelZoom", writer.pick(zooms), writer.pick(zooms))
-        writer.call("glWindowPos2i", *(writer.integer(0, size - 1) for size in writer.size))
-        drawn(writer) if writer.chance(0.7) else copied(writer)
+        place = [writer.integer(0, size - 1) for size in writer.size]
+        writer.call("glWindowPos2i", *([2, 3] if mapped else place))
+        rectangle = drawn if writer.chance(0.7) else copied
+        rectangle(writer)
     if writer.chance(0.5):
         read(writer)
 
@@ -40,10 +49,9 @@ def transfer(writer: Writer) -> None:
         writer.call("glPixelTransferi", "GL_MAP_STENCIL", writer.integer(0, 1))
     for channel in "RGBA":
         if writer.chance(0.2):
-            size, name = writer.integer(1, 256), f"GL_PIXEL_MAP_{channel}_TO_{channel}"
+            size, name = writer.integer(2, 256), f"GL_PIXEL_MAP_{channel}_TO_{channel}"
             writer.call("glPixelMapfv", name, size, writer.rng.uniform(-0.1, 1.1, size).astype(np.float32))
             writer.call("glGetPixelMapfv", name)
-    writer.call("glPixelTransferi", "GL_MAP_COLOR", int(writer.chance(0.2)))
 
 
 def whole(writer: Writer, size: int, largest: int) -> np.ndarray:

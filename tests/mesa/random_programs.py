@@ -111,7 +111,6 @@ FAMILIES = {
     "images": Family(random_images.uploaded, wild=False),
     "depth images": Family(random_images.uploaded_depth, wild=False),
     "read-outs": Family(everything, finish=random_images.read_out),
-    "pixel rectangles": Family(random_pixels.transferred, wild=False),
     "combiners": Family(random_combining.combined, random_combining.two_images, wild=False),
     "accumulation": Family(random_buffers.accumulated, finish=random_buffers.accumulated_lights),
     "queries": Family(everything, batch=random_buffers.counted),
@@ -132,6 +131,7 @@ FAMILIES = {
     "packed depth and stencil": Family(
         random_packed.packed_state, random_packed.packed_targets, random_packed.read_packed
     ),
+    "pixel rectangles": Family(random_pixels.transferred, wild=False),
 }
 
 

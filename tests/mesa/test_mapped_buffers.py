@@ -62,6 +62,30 @@ def test_images_come_from_and_go_to_buffer_objects(offset):
     check(program)
 
 
+def test_lists_have_the_images_of_the_time_when_they_were_compiled():
+    def program(gl):
+        pixels = (gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
+        unpack = bind(gl, "GL_PIXEL_UNPACK_BUFFER", IMAGE)
+        gl.glNewList(1, gl.GL_COMPILE)
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA8, 6, 5, 0, *pixels, 16)
+        gl.glTexImage2D(gl.GL_PROXY_TEXTURE_2D, 0, gl.GL_RGBA8, 6, 5, 0, *pixels, None)
+        gl.glDrawPixels(6, 5, *pixels, 32)
+        gl.glEndList()
+        proxy = int(gl.glGetTexLevelParameteriv(gl.GL_PROXY_TEXTURE_2D, 0, gl.GL_TEXTURE_WIDTH))
+        gl.glBindBuffer(unpack, 0)
+        gl.glPixelStorei(gl.GL_UNPACK_ROW_LENGTH, 9)
+        gl.glNewList(2, gl.GL_COMPILE)
+        gl.glTexSubImage2D(gl.GL_TEXTURE_2D, 0, 1, 1, 3, 2, *pixels, IMAGE)
+        gl.glEndList()
+        gl.glPixelStorei(gl.GL_UNPACK_ROW_LENGTH, 0)
+        gl.glWindowPos2i(1, 1)
+        gl.glCallList(1)
+        gl.glCallList(2)
+        return [gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, *pixels), np.array([proxy])]
+
+    check(program)
+
+
 def test_errors_of_pixel_buffers():
     def program(gl):
         unpack = bind(gl, "GL_PIXEL_UNPACK_BUFFER", np.zeros(100, np.uint8))

@@ -50,7 +50,7 @@ def copy_to_texture(command: CopyToTexture, storage: Storage) -> None:
         transfer, is_depth = command.transfer, buffer.format.kind == "depth"
         if transfer is not None and is_depth and transfer.changes_depth:
             copied = _transferred_depth(cells, source_buffer, buffer, transfer)
-        elif transfer is not None and buffer.format.kind in ("unorm8", "float") and transfer.changes_color:
+        elif transfer is not None and buffer.format.kind in ("unorm8", "float") and transfer.through_floats:
             copied = _transferred_color(cells, source_buffer, buffer, transfer)
         elif is_depth:
             copied = _convert_depth(cells.copy(), source_buffer, buffer, source.flipped)
