@@ -46,7 +46,9 @@ def image_source(
     dtype = dtype_of(type)
     needed = store.layout(width, height, dtype.itemsize * elements_of(format, type), aligned=True)[-1]
     memory = source(context, pixels, needed, _unit(dtype), operation)
-    return None if memory is None else image_view(memory, store, width, height, format, type, operation)
+    if memory is None:
+        return None
+    return image_view(memory, store, width, height, format, type, operation).astype(dtype, copy=False)
 
 
 def image_destination(

@@ -22,35 +22,40 @@ from softshadow.pixel_transfer import PixelTransfer
 from softshadow.pixels import client_kind, pack_color, pack_depth, pack_depth_stencil, pack_stencil
 from softshadow.tokens import token_name
 
-STORES = {
-    gl.GL_PACK_ALIGNMENT: ("pack_store", "alignment"),
-    gl.GL_PACK_ROW_LENGTH: ("pack_store", "row_length"),
-    gl.GL_PACK_SKIP_ROWS: ("pack_store", "skip_rows"),
-    gl.GL_PACK_SKIP_PIXELS: ("pack_store", "skip_pixels"),
-    gl.GL_UNPACK_ALIGNMENT: ("unpack_store", "alignment"),
-    gl.GL_UNPACK_ROW_LENGTH: ("unpack_store", "row_length"),
-    gl.GL_UNPACK_SKIP_ROWS: ("unpack_store", "skip_rows"),
-    gl.GL_UNPACK_SKIP_PIXELS: ("unpack_store", "skip_pixels"),
+PARAMETERS = {
+    "ALIGNMENT": "alignment",
+    "ROW_LENGTH": "row_length",
+    "SKIP_ROWS": "skip_rows",
+    "SKIP_PIXELS": "skip_pixels",
+    "IMAGE_HEIGHT": "image_height",
+    "SKIP_IMAGES": "skip_images",
+    "SWAP_BYTES": "swap_bytes",
+    "LSB_FIRST": "lsb_first",
 }
-SWITCHED_OFF = (gl.GL_PACK_SWAP_BYTES, gl.GL_PACK_LSB_FIRST, gl.GL_UNPACK_SWAP_BYTES, gl.GL_UNPACK_LSB_FIRST)
+STORES = {
+    getattr(gl, f"GL_{direction}_{name}"): (f"{direction.lower()}_store", field)
+    for direction in ("PACK", "UNPACK")
+    for name, field in PARAMETERS.items()
+}
+SWITCHES = ("swap_bytes", "lsb_first")
 
 
 def glPixelStorei(pname: int, param: int) -> None:
     """Set how the rows of client images are laid out in memory."""
     if (context := outside_begin("glPixelStorei")) is None:
         return None
-    if pname in SWITCHED_OFF:
-        if param:
-            fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param}: expected 0 in this subset")
-        return None
     if pname not in STORES:
         return fail(gl.GL_INVALID_ENUM, "glPixelStorei", f"pname={token_name(pname)}: expected a pixel store parameter")
     direction, field = STORES[pname]
     if field == "alignment" and param not in (1, 2, 4, 8):
         return fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param}: expected 1, 2, 4 or 8")
+    if field in SWITCHES:
+        param = bool(param)
     if param < 0:
         return fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param}: expected 0 or more")
-    setattr(context, direction, evolve(getattr(context, direction), **{field: int(param)}))
+    setattr(
+        context, direction, evolve(getattr(context, direction), **{field: param if field in SWITCHES else int(param)})
+    )
     return None
 
 

@@ -139,8 +139,10 @@ def pixel_store(name: str, store: Callable[[Context], PixelStore]) -> dict[str, 
         f"GL_{name}_SKIP_ROWS": lambda c: store(c).skip_rows,
         f"GL_{name}_SKIP_PIXELS": lambda c: store(c).skip_pixels,
         f"GL_PIXEL_{name}_BUFFER_BINDING": lambda c: store(c).buffer,
-        f"GL_{name}_SWAP_BYTES": lambda c: False,
-        f"GL_{name}_LSB_FIRST": lambda c: False,
+        f"GL_{name}_IMAGE_HEIGHT": lambda c: store(c).image_height,
+        f"GL_{name}_SKIP_IMAGES": lambda c: store(c).skip_images,
+        f"GL_{name}_SWAP_BYTES": lambda c: store(c).swap_bytes,
+        f"GL_{name}_LSB_FIRST": lambda c: store(c).lsb_first,
     }
 
 

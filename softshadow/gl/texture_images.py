@@ -293,6 +293,7 @@ def glGetTexLevelParameteriv(target: int, level: int, pname: int, params: Any = 
         gl.GL_TEXTURE_HEIGHT: image.height if image else 0,
         gl.GL_TEXTURE_DEPTH: 1 if image else 0,
         gl.GL_TEXTURE_BORDER: 0,
+        gl.GL_TEXTURE_COMPRESSED: 0,
         gl.GL_TEXTURE_INTERNAL_FORMAT: image.internal_format if image else gl.GL_RGBA,
     }
     if pname in simple:

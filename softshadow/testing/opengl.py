@@ -269,7 +269,8 @@ def _has_padding(width: int, height: int, pixel_format: int, pixel_type: int, im
     if channels is None or dtype is None or not isinstance(image, np.ndarray):
         return False
     names = (GL.GL_UNPACK_ALIGNMENT, GL.GL_UNPACK_ROW_LENGTH, GL.GL_UNPACK_SKIP_ROWS, GL.GL_UNPACK_SKIP_PIXELS)
-    store = PixelStore(*(int(GL.glGetIntegerv(name)) for name in names))
+    alignment, row_length, skip_rows, skip_pixels = (int(GL.glGetIntegerv(name)) for name in names)
+    store = PixelStore(alignment, row_length, skip_rows, skip_pixels)
     pixel = channels * np.dtype(dtype).itemsize
     return image.size * np.dtype(dtype).itemsize >= store.layout(width, height, pixel, aligned=True)[-1]
 

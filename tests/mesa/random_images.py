@@ -75,7 +75,7 @@ def uploaded(writer: Writer) -> None:
 
 
 def _upload(
-    writer: Writer, call: str, place: tuple[int, ...], border: tuple[int, ...], width: int, height: int
+    writer: Writer, call: str, place: tuple[Any, ...], border: tuple[int, ...], width: int, height: int
 ) -> None:
     if writer.chance(0.3):
         row, rows = width + 2, height + 1
@@ -85,6 +85,8 @@ def _upload(
     pixel_format, kind = _names(writer)
     if kind in PACKED_KINDS:
         pixels = packed_words(writer.rng, row, rows, kind)
+        sized = {"GL_RGB": "GL_RGB8", "GL_RGBA": "GL_RGBA8"}  # else Mesa has as many bits as the type
+        place = tuple(sized.get(part, part) if isinstance(part, str) else part for part in place)
     else:
         pixels = client_pixels(writer, row, rows, PIXEL_FORMATS[pixel_format], kind)
     sides = (width, height, *border)
