@@ -51,6 +51,7 @@ from softshadow.gl.renderbuffers import *
 from softshadow.gl.texture_coordinates import *
 from softshadow.gl.texture_copies import *
 from softshadow.gl.texture_images import *
+from softshadow.gl.texture_queries import *
 from softshadow.gl.texture_units import *
 from softshadow.gl.textures import *
 from softshadow.gl.transforms import *

@@ -109,6 +109,30 @@ def test_copies(kind, seed, zoom):
     check(program)
 
 
+def test_queries_count_the_pixels_of_rectangles():
+    words = PACKED[:4, :6].copy()
+
+    def program(gl):
+        gl.glClear(gl.GL_DEPTH_BUFFER_BIT)
+        gl.glEnable(gl.GL_DEPTH_TEST)
+        counts = []
+        for pixel_format, kind, pixels in (
+            (gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, words.view(np.uint8).reshape(4, 6, 4)),
+            (gl.GL_DEPTH_COMPONENT, gl.GL_UNSIGNED_INT, words),
+            (gl.GL_STENCIL_INDEX, gl.GL_UNSIGNED_BYTE, words.astype(np.uint8)),
+            (gl.GL_DEPTH_STENCIL, gl.GL_UNSIGNED_INT_24_8, words),
+        ):
+            query = gl.glGenQueries(1)
+            gl.glBeginQuery(gl.GL_SAMPLES_PASSED, query)
+            gl.glWindowPos3f(1, 1, 0.5)
+            gl.glDrawPixels(6, 4, pixel_format, kind, pixels)
+            gl.glEndQuery(gl.GL_SAMPLES_PASSED)
+            counts.append(int(np.ravel(gl.glGetQueryObjectuiv(query, gl.GL_QUERY_RESULT))[0]))
+        return [np.array(counts)]
+
+    check(program)
+
+
 def test_lists_and_missing_buffers():
     def program(gl):
         gl.glNewList(1, gl.GL_COMPILE)
