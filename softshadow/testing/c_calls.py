@@ -17,6 +17,7 @@ from typing import Any
 
 # names of framebuffers and renderbuffers that no glGen* call returned are allowed in the calls of the extension only
 SAME_CALLS = {"glBindFramebuffer": "glBindFramebufferEXT", "glBindRenderbuffer": "glBindRenderbufferEXT"}
+NUMBERS = tuple("bBhHiIlLqQfd?")  # the codes of ctypes for types of numbers
 RETURNED_ADDRESSES = ("glMapBuffer", "glMapBufferARB", "glMapBufferRange")
 
 
@@ -91,7 +92,7 @@ def argument_types(name: str) -> tuple[Any, ...] | None:
 
 def is_number(type: Any) -> bool:
     """Return whether a C type is a number, not an address."""
-    return isinstance(getattr(type, "_type_", None), str) and type is not ctypes.c_void_p
+    return getattr(type, "_type_", None) in NUMBERS
 
 
 def in_c(value: Any, type: Any) -> Any:

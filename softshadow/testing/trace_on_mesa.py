@@ -18,7 +18,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.recordings.draw_calls import is_query, is_shading
 from softshadow.recordings.frames import TracedFrame, find_frames
-from softshadow.recordings.window_systems import MadeCurrent, NewContext, Shared, event_of
+from softshadow.recordings.window_systems import MadeCurrent, NewContext, Shared, ShareGroups, event_of
 from softshadow.testing.c_calls import CCalls
 from softshadow.testing.mesa import run_on_mesa
 from softshadow.testing.result import ProgramResult
@@ -75,6 +75,14 @@ def play_on_mesa(path: str, frames: tuple[int, ...], _: Any) -> list[ProgramResu
     return [windows[frame] for frame in frames]
 
 
+_kept: list[np.ndarray] = []  # contexts are never destroyed (`mesa_worker`), and write to the memory of their windows
+
+
+def _window_memory(size: tuple[int, int]) -> np.ndarray:
+    _kept.append(np.zeros((size[1], size[0], 4), np.uint8))
+    return _kept[-1]
+
+
 class MesaContext:
     """A context of OSMesa and the memory of its window."""
 
@@ -83,17 +91,16 @@ class MesaContext:
 
         self._osmesa, self.size = osmesa, size
         self._context = osmesa.OSMesaCreateContextExt(osmesa.OSMESA_RGBA, 24, 8, 16, shared and shared._context)
-        self._pixels = [np.zeros((size[1], size[0], 4), np.uint8)]
+        self._pixels = _window_memory(size)
 
     def resize(self, size: tuple[int, int]) -> None:
         """Give the window another size; the context must be made current again."""
-        self.size = size
-        self._pixels.append(np.zeros((size[1], size[0], 4), np.uint8))  # Mesa still writes to the one before
+        self.size, self._pixels = size, _window_memory(size)
 
     def make_current(self) -> None:
         """Make the context current."""
         width, height = self.size
-        if not self._osmesa.OSMesaMakeCurrent(self._context, self._pixels[-1], gl.GL_UNSIGNED_BYTE, width, height):
+        if not self._osmesa.OSMesaMakeCurrent(self._context, self._pixels, gl.GL_UNSIGNED_BYTE, width, height):
             raise RuntimeError(f"OSMesa cannot make a window of {width} x {height} pixels current")
 
 
@@ -107,7 +114,7 @@ class MesaPlayer:
 
     def __init__(self, frames: list[TracedFrame]) -> None:
         self._frames, self.index = frames, 0
-        self._shared: dict[int, int] = {}
+        self._groups = ShareGroups()
         self._contexts: dict[int, MesaContext] = {}
         self._current: dict[int, int] = {}  # by thread
         self._active: MesaContext | None = None
@@ -124,7 +131,7 @@ class MesaPlayer:
         """Make a call, if it is one that draws or changes state."""
         name, event = call.name, event_of(call)
         if isinstance(event, NewContext | Shared):
-            self._shared[event.context] = event.shared
+            self._groups.note(event)
         elif isinstance(event, MadeCurrent):
             self._current[call.thread] = event.context
         elif name == "memcpy":
@@ -173,7 +180,8 @@ class MesaPlayer:
     def _activate(self, address: int) -> None:
         context = self._contexts.get(address)
         if context is None:
-            shared = self._contexts.get(self._shared.get(address, -1))
+            partner = self._groups.partner(address, self._contexts)
+            shared = None if partner is None else self._contexts[partner]
             context = self._contexts[address] = MesaContext(self._size_of(address), shared)
             self._switch(context)
             self._clear()
