@@ -14,6 +14,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context.arrays import BufferObject, ClientArrays
+from softshadow.context.kept_materials import with_kept_materials
 from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.raster_position import INITIAL_RASTER_POSITION, RasterPosition
@@ -224,9 +225,24 @@ class Context:
 
     def follow(self, sides: tuple[str, ...], fields: tuple[str, ...]) -> None:
         """Copy the current colour to fields of the materials that follow it, without drawing the collected vertices."""
-        if self._state.followed is not None and self._state.followed[:2] != (sides, fields):
-            self._state.settle()
-        self._state.followed = sides, fields, self.current.color
+        state = self._state
+        if state.followed is not None and state.followed[:2] != (sides, fields):
+            state.settle()
+        if self.pending.before_following is None:
+            self.pending.before_following = state.followed or {
+                f"{side}.{field}": self.material(side)[field] for side in sides for field in fields
+            }
+        state.followed = sides, fields, self.current.color
+
+    def stop_following(self) -> None:
+        """Give the materials the values that they had when the present colour was Mesa's current one."""
+        before, self.pending.before_following = self.pending.before_following, None
+        if isinstance(before, tuple):
+            self._state.followed = before
+        elif before is not None:
+            self._state.followed = None
+            for name, value in before.items():
+                self.set_attribute(name, value)
 
     def material(self, side: str) -> dict[str, Any]:
         """Return the fields of the "front" or "back" material."""
@@ -389,22 +405,28 @@ class Context:
     def update_current(self) -> None:
         """Make pending attributes current, as queries of current values do (Mesa's FLUSH_CURRENT)."""
         if self.pending.old_values:
+            hidden = dict(self.pending.hidden)
             self._make_pending_current()
             self.pending.reset_due, self.ready = True, False
+            self.pending.hidden = hidden  # vertices carry it still, so it returns
 
     def reset_attributes(self) -> None:
         """Make pending attributes current; the vertices that follow do not carry them (Mesa's vbo_reset_all_attr)."""
         self._make_pending_current()
         self.pending.names.clear()
-        self.pending.reset_due = False
+        self.pending.reset_due = self.pending.has_vertices = False
 
     def _make_pending_current(self) -> None:
-        pending = self.pending
+        pending, color = self.pending, self.current.color
+        pending.before_following = None
         if not pending.old_values and not pending.hidden:
             return
+        followed = self._state.followed
         for name, value in pending.hidden.items():
             pending.old_values.setdefault(name, self.attribute(name))
             self.set_attribute(name, value)
+        if pending.hidden and followed is not None and pending.old_values.get("color", color) != color:
+            self._state.followed = followed  # a new colour comes after the materials
         for name, old_value in pending.old_values.items():
             if old_value != self.attribute(name):
                 self.touched |= gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT
@@ -414,6 +436,8 @@ class Context:
     # -- recording -----------------------------------------------------------------------------------------------------
     def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
         state = self._state.drawn()
+        if self._state.followed is None and state.lighting.color_material:
+            state = with_kept_materials(state, vertices.color)
         program = state.program
         modelview, modelview_kind = self.modelview_stack.drawn()
         projection, projection_kind = self.projection_stack.drawn()

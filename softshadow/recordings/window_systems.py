@@ -34,6 +34,7 @@ class Swapped(NamedTuple):
 
 Event = NewContext | MadeCurrent | Shared | Swapped
 
+
 class ShareGroups:
     """Which contexts share objects: each names one other, and whoever names the same one belongs to its group."""
 

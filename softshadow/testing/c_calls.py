@@ -81,7 +81,7 @@ def declarations(vendor: str) -> tuple[Any, ...]:
 @lru_cache(4096)
 def argument_types(name: str) -> tuple[Any, ...] | None:
     """Return the C types of a function's arguments as PyOpenGL declares them, or None."""
-    suffix = re.search("[A-Z]{2,}$", name)
+    suffix = re.search("(?:ARB|EXT|KHR|OES|NV|NVX|AMD|ATI|SGIS|SGIX|SGI|APPLE|IBM|MESA|INTEL|SUN|GREMEDY)$", name)
     for vendor in ("VERSION", suffix[0] if suffix else "ARB", "KHR"):
         for module in declarations(vendor):
             function = getattr(module, name, None)
