@@ -30,8 +30,8 @@ MAPS_AND_INDICES = (0x0D10, 0x0D11, 0x0D12, 0x0D13)  # GL_MAP_COLOR, GL_MAP_STEN
 PACK_BUFFER, PACK_BUFFER_BINDING = 0x88EB, 0x88ED  # GL_PIXEL_PACK_BUFFER
 WHOLE_WINDOW = gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT | gl.GL_ACCUM_BUFFER_BIT
 # GL lets programs choose the names of their objects, so what these calls return does not matter
-NAMES = ("glGenTextures", "glGenBuffers", "glGenFramebuffers", "glGenRenderbuffers", "glGenQueries", "glGenLists")
-NAMES += tuple(f"{name}{suffix}" for name in NAMES for suffix in ("ARB", "EXT"))
+GENERATORS = ("glGenTextures", "glGenBuffers", "glGenFramebuffers", "glGenRenderbuffers", "glGenQueries", "glGenLists")
+NAMES = {f"{name}{suffix}" for name in GENERATORS for suffix in ("", "ARB", "EXT")}
 # OSMesa's window has one buffer, which it calls the front buffer
 FRONTS = {gl.GL_BACK: gl.GL_FRONT, gl.GL_BACK_LEFT: gl.GL_FRONT_LEFT, gl.GL_BACK_RIGHT: gl.GL_FRONT_RIGHT}
 SELECTIONS = ("glDrawBuffer", "glReadBuffer")
@@ -90,7 +90,7 @@ class MesaContext:
         from OpenGL import osmesa
 
         self._osmesa, self.size = osmesa, size
-        self._context = osmesa.OSMesaCreateContextExt(osmesa.OSMESA_RGBA, 24, 8, 16, shared and shared._context)
+        self._context: Any = osmesa.OSMesaCreateContextExt(osmesa.OSMESA_RGBA, 24, 8, 16, shared and shared._context)
         self._pixels = _window_memory(size)
 
     def resize(self, size: tuple[int, int]) -> None:

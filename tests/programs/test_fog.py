@@ -32,7 +32,7 @@ def test_an_unknown_mode_is_named():
 
 
 @pytest.mark.mesa
-@pytest.mark.parametrize("density", [0.25, 0.15, 0.7])  # of the last two the scaled densities round
+@pytest.mark.parametrize("density", [0.25, 0.15, 0.14])  # the last two are scaled to other floats by single precision
 @pytest.mark.parametrize("mode", [gl.GL_LINEAR, gl.GL_EXP, gl.GL_EXP2], ids=gl.token_name)
 def test_fogged_fragments_are_mesas(mode, density):
     rng = np.random.default_rng(41)
