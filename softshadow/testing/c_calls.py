@@ -115,7 +115,7 @@ def in_c(value: Any, type: Any) -> Any:
         return ctypes.create_string_buffer(value, len(value) + 1)
     if not isinstance(value, list):
         raise TypeError(f"a recorded value {value!r:.80} for a pointer")
-    element = getattr(type, "_type_", None)
+    element: Any = getattr(type, "_type_", None)
     if not is_number(element):
         if any(isinstance(each, bytes) for each in value):
             raise TypeError("an array of arrays")
