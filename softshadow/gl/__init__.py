@@ -40,9 +40,11 @@ from softshadow.gl.glu_tokens import *
 from softshadow.gl.immediate import *
 from softshadow.gl.lighting import *
 from softshadow.gl.lists import *
+from softshadow.gl.mapped_buffers import *
 from softshadow.gl.materials import *
 from softshadow.gl.occlusion import *
 from softshadow.gl.pixel_rectangles import *
+from softshadow.gl.pixel_transfer import *
 from softshadow.gl.pixels import *
 from softshadow.gl.programs import *
 from softshadow.gl.pyopengl import *
@@ -55,6 +57,7 @@ from softshadow.gl.renderbuffers import *
 from softshadow.gl.texture_coordinates import *
 from softshadow.gl.texture_copies import *
 from softshadow.gl.texture_images import *
+from softshadow.gl.texture_queries import *
 from softshadow.gl.texture_units import *
 from softshadow.gl.textures import *
 from softshadow.gl.transforms import *

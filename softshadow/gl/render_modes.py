@@ -17,7 +17,7 @@ from softshadow.context.render_mode import MOST_NAMES
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.hit_records import feedback_tokens, select_records
-from softshadow.pipeline.commands import Accumulate, BlitFramebuffer, Clear, Command, Draw
+from softshadow.pipeline.commands import Accumulate, BlitFramebuffer, Clear, Command, Draw, DrawDepths
 from softshadow.pipeline.geometry.window_primitives import window_primitives
 
 MODES = (gl.GL_RENDER, gl.GL_SELECT, gl.GL_FEEDBACK)
@@ -37,7 +37,7 @@ def install_gate(context: Context) -> None:
             if isinstance(command, Draw):
                 _take(context, command)
             return False
-        if isinstance(command, Draw | Clear | BlitFramebuffer) and modes.condition is not None:
+        if isinstance(command, Draw | DrawDepths | Clear | BlitFramebuffer) and modes.condition is not None:
             query, draws_if_none = modes.condition
             if (context.storage.queries.get(query, 0) == 0) != draws_if_none:
                 return False

@@ -16,6 +16,7 @@ from softshadow.gl.capabilities import CLIP_PLANES, HINTS, LIGHTS, MAPS
 from softshadow.gl.fragment_state import core_back, extension_back
 from softshadow.gl.framebuffers import COLOR_ATTACHMENTS
 from softshadow.gl.lists import DEEPEST_LIST
+from softshadow.gl.pixel_transfer import queries as transfer_queries
 from softshadow.gl.rasterization import LARGEST_VIEWPORT
 from softshadow.gl.vertex_arrays import ARRAYS
 from softshadow.image import Image
@@ -138,8 +139,11 @@ def pixel_store(name: str, store: Callable[[Context], PixelStore]) -> dict[str, 
         f"GL_{name}_ROW_LENGTH": lambda c: store(c).row_length,
         f"GL_{name}_SKIP_ROWS": lambda c: store(c).skip_rows,
         f"GL_{name}_SKIP_PIXELS": lambda c: store(c).skip_pixels,
-        f"GL_{name}_SWAP_BYTES": lambda c: False,
-        f"GL_{name}_LSB_FIRST": lambda c: False,
+        f"GL_PIXEL_{name}_BUFFER_BINDING": lambda c: store(c).buffer,
+        f"GL_{name}_IMAGE_HEIGHT": lambda c: store(c).image_height,
+        f"GL_{name}_SKIP_IMAGES": lambda c: store(c).skip_images,
+        f"GL_{name}_SWAP_BYTES": lambda c: store(c).swap_bytes,
+        f"GL_{name}_LSB_FIRST": lambda c: store(c).lsb_first,
     }
 
 
@@ -273,6 +277,7 @@ QUERIES: dict[str, Read] = {
 }
 BY_TOKEN: dict[int, Read] = {getattr(gl, name): read for name, read in QUERIES.items() if hasattr(gl, name)}
 BY_TOKEN |= {cap: (lambda c, cap=cap: cap in c.evaluators.enabled) for cap in MAPS}
+BY_TOKEN |= transfer_queries()
 BY_TOKEN |= {hint: (lambda c, hint=hint: c.hints.get(hint, gl.GL_DONT_CARE)) for hint in HINTS}  # type: ignore[misc]
 # colours, normals, depths and matrices: as an integer, 1.0 is the largest int (GL 2.1, sec. 6.1.2)
 NORMALIZED = {
