@@ -45,6 +45,7 @@ from softshadow.gl.pyopengl import *
 from softshadow.gl.queries import *
 from softshadow.gl.raster_position import *
 from softshadow.gl.rasterization import *
+from softshadow.gl.refusals import all_naming_arguments
 from softshadow.gl.renderbuffers import *
 from softshadow.gl.texture_coordinates import *
 from softshadow.gl.texture_copies import *
@@ -56,6 +57,14 @@ from softshadow.gl.vertex_arrays import *
 from softshadow.gl.vertex_attributes import *
 from softshadow.programs import fixed_function  # of most draws: loaded here, not within the first frame
 from softshadow.tokens import *
+
+# calls that programs make most: a function around them would take longer than they do
+FREQUENT = (
+    "glBegin", "glEnd", "glVertex2f", "glVertex3f", "glVertex4f", "glColor3f", "glNormal3f", "glTexCoord2f",
+    "glEnable", "glDisable", "glMatrixMode", "glPushMatrix", "glPopMatrix", "glLoadIdentity", "glTranslatef",
+    "glScalef", "glRotatef", "glCallList", "glGetError",
+)  # fmt: skip
+globals().update(all_naming_arguments(globals(), FREQUENT))
 
 
 def create_context(

@@ -10,6 +10,7 @@ from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.materials import start_to_follow
+from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_arrays import CLIENT_STATES, is_array_enabled, switch_array
 from softshadow.state import TEXTURE_UNITS, State
 from softshadow.tokens import token_name
@@ -59,23 +60,29 @@ HINTS = (
 def glEnable(cap: int) -> None:
     """Enable a capability."""
     context = thread.context
-    if context.ready or is_allowed(context, glEnable, cap):
-        place = PLACES.get(cap)
-        if place is not None:
-            context.change_field(*place, True)
-        elif _is_known("glEnable", cap):
-            _switch_other(context, cap, True)
+    try:
+        if context.ready or is_allowed(context, glEnable, cap):
+            place = PLACES.get(cap)
+            if place is not None:
+                context.change_field(*place, True)
+            elif _is_known("glEnable", cap):
+                _switch_other(context, cap, True)
+    except CONVERTING as error:
+        raise refusal(glEnable, error, cap) from error
 
 
 def glDisable(cap: int) -> None:
     """Disable a capability."""
     context = thread.context
-    if context.ready or is_allowed(context, glDisable, cap):
-        place = PLACES.get(cap)
-        if place is not None:
-            context.change_field(*place, False)
-        elif _is_known("glDisable", cap):
-            _switch_other(context, cap, False)
+    try:
+        if context.ready or is_allowed(context, glDisable, cap):
+            place = PLACES.get(cap)
+            if place is not None:
+                context.change_field(*place, False)
+            elif _is_known("glDisable", cap):
+                _switch_other(context, cap, False)
+    except CONVERTING as error:
+        raise refusal(glDisable, error, cap) from error
 
 
 def _switch_other(context: Context, cap: int, on: bool) -> None:

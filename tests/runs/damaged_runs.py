@@ -14,7 +14,8 @@ from softshadow.runs.members import HASH, SUFFIX, write_members
 WRONG_VALUES: list[Any] = [
     None, True, -1, 0, 1, 7, 2**31, -(2**63), 2**70, 1.5, float("nan"), float("inf"), "", "x", "Draw", [], [1], {},
     {"array": 0}, {"array": -1}, {"array": 10**6}, {"object": 0}, {"object": 10**9}, {"object": "0"},
-    {"dtype": "object"}, {"warning": "Warning", "message": 3}, {"mapping": [[1, 2, 3]]}, {"tuple": 4}, {"list": None}, {"other": []},
+    {"dtype": "object"}, {"warning": "Warning", "message": 3}, {"mapping": [[1, 2, 3]]}, {"tuple": 4}, {"list": None},
+    {"other": []},
 ]  # fmt: skip
 
 
