@@ -66,6 +66,8 @@ def all_naming_arguments(namespace: Mapping[str, Any], but: Container[str]) -> d
 def refusal(call: Callable[..., Any], error: Exception, *arguments: Any, **by_name: Any) -> Exception:
     """Return the error that a failed call ends with: one that names the wrong argument, or the same error."""
     name = spelled(call)
+    if not name.startswith("gl"):  # a part of a call, which names it
+        return error
     if isinstance(error, SoftShadowError) or str(error).startswith((f"{name}(", f"{name}:")):
         return error
     try:

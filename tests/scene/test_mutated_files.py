@@ -70,11 +70,11 @@ def test_thousands_of_mutated_files_are_loaded_or_refused(ending, tmp_path):
     [
         (SCENE + b"x = " + b"[" * 5000, "brackets in brackets, too deep"),
         (SCENE.replace(b"[1, 4, 1]", b"[" + b"9" * 5000 + b", 4, 1]"), "not TOML: "),
-        (SCENE.replace(b"[1, 4, 1]", b"[" + b"9" * 400 + b", 4, 1]"), "light[0].position: expected 4 finite numbers"),
+        (SCENE.replace(b"[1, 4, 1]", b"[" + b"9" * 400 + b", 4, 1]"), "light[0].position[0]: expected "),
         (SCENE.replace(b"sides = 5", b"major_radius = " + b"9" * 400), "parameters.major_radius: "),
         (
             SCENE.replace(b"sides = 5, segments = 6", b"sides = 1000, segments = 1000"),
-            "2000000 triangles; expected at most",
+            "2000000 triangles; expected",
         ),
         (SCENE + b'[[object]]\nshape = "box"\n' * 600, "object: expected at most 500 tables [[object]]"),
         (SCENE + b'[[object]]\nshape = "bx"\n' * 400, "and 380 more"),
