@@ -56,11 +56,12 @@ def glEnd() -> None:
         fail(gl.GL_INVALID_OPERATION, "glEnd", "there was no glBegin before it")
         return
     context.primitive, context.ready = None, False
-    follow_color(context)
+    if context.groups["lighting"].fields["color_material"]:
+        follow_color(context)
     if not primitive.positions:
         context.vertex_buffer.end_pair(primitive.mode, 0)
         return
-    context.pending.reset_due = True
+    context.pending.reset_due = context.pending.has_vertices = True
     end(context, primitive)
     vertices, count = vertices_of(context, primitive), len(primitive)
     if primitive.from_list and context.list_depth > 0:

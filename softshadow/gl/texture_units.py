@@ -46,7 +46,7 @@ def glActiveTexture(texture: int) -> None:
     if context.active_unit != unit:
         context.flush()
         context.touched |= gl.GL_TEXTURE_BIT
-    context.active_unit = unit
+    context.select_unit(unit)
     return None
 
 

@@ -35,7 +35,7 @@ def glMatrixMode(mode: int) -> None:
             return
         if mode != context.matrix_mode or mode == gl.GL_TEXTURE:
             context.touched |= gl.GL_TRANSFORM_BIT
-            context.matrix_mode = mode
+            context.select_matrices(mode)
     except CONVERTING as error:
         raise refusal(glMatrixMode, error, mode) from error
 
@@ -43,28 +43,23 @@ def glMatrixMode(mode: int) -> None:
 def glPushMatrix() -> None:
     """Push a copy of the current matrix onto its stack."""
     context = thread.context
-    if not (context.ready or is_allowed(context, glPushMatrix)):
-        return
-    stack = context.matrix_stack
-    if len(stack.kinds) == stack.limit:
-        fail(gl.GL_STACK_OVERFLOW, "glPushMatrix", f"this stack holds {stack.limit} matrices")
-    else:
-        stack.push()
+    if (context.ready or is_allowed(context, glPushMatrix)) and not context.matrix_stack.push():
+        limit = context.matrix_stack.limit
+        fail(gl.GL_STACK_OVERFLOW, "glPushMatrix", f"this stack holds {limit} matrices")
 
 
 def glPopMatrix() -> None:
     """Restore the matrix of the last push."""
     context = thread.context
-    if not (context.ready or is_allowed(context, glPopMatrix)):
-        return
     stack = context.matrix_stack
-    if len(stack.kinds) == 1:
-        fail(gl.GL_STACK_UNDERFLOW, "glPopMatrix", "there was no glPushMatrix before it")
-    else:
-        if not context.ready and context.has_collected and not stack.equals_pushed:
+    if not context.ready:
+        if not is_allowed(context, glPopMatrix):
+            return
+        if context.has_collected and len(stack) > 1 and not stack.equals_pushed:
             context.flush()
             context.ready = True
-        stack.pop()
+    if not stack.pop():
+        fail(gl.GL_STACK_UNDERFLOW, "glPopMatrix", "there was no glPushMatrix before it")
 
 
 def glLoadIdentity() -> None:

@@ -103,8 +103,11 @@ def first_faces(
 
 
 def checked_points(key: str, value: np.ndarray) -> np.ndarray:
-    """Return points (N, 3) as float64, or raise a ValueError that names them."""
-    array = np.ascontiguousarray(value, dtype=np.float64)
+    """Return points (N, 3) as float64, or raise a ValueError that names them.
+
+    A read-only array is copied: kernels would be compiled for it once more.
+    """
+    array = np.require(value, np.float64, ["C", "W"])
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{key}: expected shape (N, 3), got {array.shape}")
     return array

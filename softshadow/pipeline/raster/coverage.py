@@ -87,7 +87,7 @@ def narrow_rows(x0, y0, x1, y1, first, end, downwards, lefts, rights):
     value, step, divisor = at + along * (first << 8), along << 8, abs(across) << 8
     if max(abs(value), abs(value + step * (end - first))) >= EXACT:
         for row in range(first, end):
-            left, right = narrow(x0, y0, x1, y1, row, downwards, int(lefts[row]), int(rights[row]))
+            left, right = narrow(x0, y0, x1, y1, row, downwards, np.int64(lefts[row]), np.int64(rights[row]))
             lefts[row], rights[row] = left, right
         return
     start, slope, over = float(value), float(step), float(divisor)
