@@ -40,12 +40,14 @@ from softshadow.gl.materials import *
 from softshadow.gl.occlusion import *
 from softshadow.gl.pixel_rectangles import *
 from softshadow.gl.pixels import *
+from softshadow.gl.points import *
 from softshadow.gl.programs import *
 from softshadow.gl.pyopengl import *
 from softshadow.gl.queries import *
 from softshadow.gl.raster_position import *
 from softshadow.gl.rasterization import *
 from softshadow.gl.renderbuffers import *
+from softshadow.gl.stipples import *
 from softshadow.gl.texture_coordinates import *
 from softshadow.gl.texture_copies import *
 from softshadow.gl.texture_images import *
