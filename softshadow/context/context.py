@@ -14,20 +14,25 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context.arrays import BufferObject, ClientArrays
+from softshadow.context.evaluators import EvaluatorSettings, initial_maps
+from softshadow.context.kept_materials import with_kept_materials
 from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.raster_position import INITIAL_RASTER_POSITION, RasterPosition
 from softshadow.context.recording import Frame
+from softshadow.context.render_mode import RenderMode
 from softshadow.context.state_groups import StateGroups, affects_draws
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import create, evolve
+from softshadow.image import Image
 from softshadow.pipeline.commands import Clear, Command, Draw, Origin, Vertices
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.geometry.geometry import stipple_place_after
 from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
+from softshadow.pixel_transfer import PixelTransfer
 from softshadow.programs import Program
 from softshadow.state import TEXTURE_UNITS, State
 
@@ -144,9 +149,13 @@ class Context:
         self.hints: dict[int, int] = {}  # those that are not GL_DONT_CARE
         self.pack_store, self.unpack_store = PixelStore(), PixelStore()
         self.pixel_zoom = (1.0, 1.0)
+        self.pixel_transfer = PixelTransfer()
+        self.proxies: dict[tuple[int, int], Image] = {}  # by (target, level): images without cells
         # the highest name returned by glGen*, per kind; an object exists in storage once it has been bound
         self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query", "buffer", "list"), 0)
         self.renderbuffer = 0
+        self.render_mode = RenderMode()
+        self.maps, self.evaluators = initial_maps(), EvaluatorSettings()
         self.query_targets: dict[int, int] = {}  # name: target of the queries that have been begun
 
     def __enter__(self) -> Context:
@@ -222,9 +231,24 @@ class Context:
 
     def follow(self, sides: tuple[str, ...], fields: tuple[str, ...]) -> None:
         """Copy the current colour to fields of the materials that follow it, without drawing the collected vertices."""
-        if self._state.followed is not None and self._state.followed[:2] != (sides, fields):
-            self._state.settle()
-        self._state.followed = sides, fields, self.current.color
+        state = self._state
+        if state.followed is not None and state.followed[:2] != (sides, fields):
+            state.settle()
+        if self.pending.before_following is None:
+            self.pending.before_following = state.followed or {
+                f"{side}.{field}": self.material(side)[field] for side in sides for field in fields
+            }
+        state.followed = sides, fields, self.current.color
+
+    def stop_following(self) -> None:
+        """Give the materials the values that they had when the present colour was Mesa's current one."""
+        before, self.pending.before_following = self.pending.before_following, None
+        if isinstance(before, tuple):
+            self._state.followed = before
+        elif before is not None:
+            self._state.followed = None
+            for name, value in before.items():
+                self.set_attribute(name, value)
 
     def material(self, side: str) -> dict[str, Any]:
         """Return the fields of the "front" or "back" material."""
@@ -396,22 +420,28 @@ class Context:
     def update_current(self) -> None:
         """Make pending attributes current, as queries of current values do (Mesa's FLUSH_CURRENT)."""
         if self.pending.old_values:
+            hidden = dict(self.pending.hidden)
             self._make_pending_current()
             self.pending.reset_due, self.ready = True, False
+            self.pending.hidden = hidden  # vertices carry it still, so it returns
 
     def reset_attributes(self) -> None:
         """Make pending attributes current; the vertices that follow do not carry them (Mesa's vbo_reset_all_attr)."""
         self._make_pending_current()
         self.pending.names.clear()
-        self.pending.reset_due = False
+        self.pending.reset_due = self.pending.has_vertices = False
 
     def _make_pending_current(self) -> None:
-        pending = self.pending
+        pending, color = self.pending, self.current.color
+        pending.before_following = None
         if not pending.old_values and not pending.hidden:
             return
+        followed = self._state.followed
         for name, value in pending.hidden.items():
             pending.old_values.setdefault(name, self.attribute(name))
             self.set_attribute(name, value)
+        if pending.hidden and followed is not None and pending.old_values.get("color", color) != color:
+            self._state.followed = followed  # a new colour comes after the materials
         for name, old_value in pending.old_values.items():
             if old_value != self.attribute(name):
                 self.touched |= gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT
@@ -421,6 +451,8 @@ class Context:
     # -- recording -----------------------------------------------------------------------------------------------------
     def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
         state = self._state.drawn()
+        if self._state.followed is None and state.lighting.color_material:
+            state = with_kept_materials(state, vertices.color)
         program = state.program
         modelview, modelview_kind = self.modelview_stack.drawn()
         projection, projection_kind = self.projection_stack.drawn()

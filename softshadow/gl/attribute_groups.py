@@ -29,6 +29,7 @@ GROUPS: dict[int, Fields] = {
     gl.GL_CURRENT_BIT: {},
     gl.GL_DEPTH_BUFFER_BIT: {"depth": ("enabled", "func", "write", "clear")},
     gl.GL_ENABLE_BIT: {},
+    gl.GL_EVAL_BIT: {},
     gl.GL_FOG_BIT: {"fog": ()},
     gl.GL_HINT_BIT: {},
     gl.GL_LIGHTING_BIT: {

@@ -15,7 +15,8 @@ from typing import Any, NamedTuple
 
 from softshadow import tokens as gl
 from softshadow.context import Context, CurrentVertex, thread
-from softshadow.frozen import evolve_to
+from softshadow.context.evaluators import EvaluatorSettings
+from softshadow.frozen import evolve, evolve_to
 from softshadow.gl.attribute_groups import GROUPS, changed_groups, needs_calls, with_group
 from softshadow.gl.calls import is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail
@@ -23,6 +24,7 @@ from softshadow.gl.framebuffers import glDrawBuffer, glDrawBuffers, glReadBuffer
 from softshadow.gl.materials import start_to_follow
 from softshadow.gl.textures import BINDINGS
 from softshadow.pipeline.commands import CreateTexture, SetSampler
+from softshadow.pixel_transfer import PixelTransfer
 from softshadow.state import State, TextureUnit
 from softshadow.texture import Sampler, stored_name
 
@@ -53,6 +55,8 @@ class SavedAttributes(NamedTuple):
     draw_buffers: tuple[int, ...]
     read_buffer: int
     pixel_zoom: tuple[float, float]
+    pixel_transfer: PixelTransfer
+    evaluators: EvaluatorSettings
     samplers: dict[tuple[int, int], Sampler]  # of the bound textures, by (target, key in the storage)
 
 
@@ -85,6 +89,8 @@ def glPushAttrib(mask: int) -> None:
         framebuffers[state.draw_framebuffer].draw_buffers,
         framebuffers[state.read_framebuffer].read_buffer,
         context.pixel_zoom,
+        context.pixel_transfer,
+        context.evaluators,
         samplers,
     )
     context.attribute_stack.append(entry)
@@ -158,9 +164,15 @@ def _restore(context: Context, bit: int, saved: SavedAttributes) -> None:
         context.list_base = saved.list_base
     elif bit == gl.GL_PIXEL_MODE_BIT:
         context.pixel_zoom = saved.pixel_zoom
+        maps = context.pixel_transfer.maps  # which no attribute group has
+        context.pixel_transfer = evolve(saved.pixel_transfer, maps=maps)
     elif bit == gl.GL_TRANSFORM_BIT:
         context.select_matrices(saved.matrix_mode)
-    elif bit == gl.GL_ENABLE_BIT and saved.state.lighting.color_material and not now.lighting.color_material:
+    elif bit == gl.GL_EVAL_BIT:
+        context.evaluators = saved.evaluators
+    if bit == gl.GL_ENABLE_BIT:
+        context.evaluators = evolve(context.evaluators, enabled=saved.evaluators.enabled)
+    if bit == gl.GL_ENABLE_BIT and saved.state.lighting.color_material and not now.lighting.color_material:
         start_to_follow(context)
 
 

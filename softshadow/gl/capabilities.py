@@ -6,9 +6,11 @@ from typing import Any
 
 from softshadow import tokens as gl
 from softshadow.context import Context, thread
+from softshadow.context.evaluators import COMPONENTS
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.errors import is_one_of, outside_begin
+from softshadow.gl.evaluators import switch_map
 from softshadow.gl.materials import start_to_follow
 from softshadow.gl.vertex_arrays import CLIENT_STATES, is_array_enabled, switch_array
 from softshadow.state import TEXTURE_UNITS, State
@@ -46,7 +48,8 @@ UNIT_CAPABILITIES = {gl.GL_TEXTURE_2D: "enabled_2d", gl.GL_TEXTURE_CUBE_MAP: "en
 TEXTURE_GENERATION = (gl.GL_TEXTURE_GEN_S, gl.GL_TEXTURE_GEN_T, gl.GL_TEXTURE_GEN_R, gl.GL_TEXTURE_GEN_Q)
 LIGHTS = range(gl.GL_LIGHT0, gl.GL_LIGHT7 + 1)
 CLIP_PLANES = range(gl.GL_CLIP_PLANE0, gl.GL_CLIP_PLANE5 + 1)
-KNOWN = {*CAPABILITIES, *UNIT_CAPABILITIES, *TEXTURE_GENERATION, *LIGHTS, *CLIP_PLANES, *CLIENT_STATES}
+MAPS = {*COMPONENTS, gl.GL_AUTO_NORMAL}
+KNOWN = {*MAPS, *CAPABILITIES, *UNIT_CAPABILITIES, *TEXTURE_GENERATION, *LIGHTS, *CLIP_PLANES, *CLIENT_STATES}
 # those that only set one field of a group: (group in `Context.groups`, field)
 PLACES = CAPABILITIES | {light: (f"lighting.lights.{index}", "enabled") for index, light in enumerate(LIGHTS)}
 del PLACES[gl.GL_STENCIL_TEST_TWO_SIDE_EXT], PLACES[gl.GL_COLOR_MATERIAL]
@@ -84,6 +87,8 @@ def _switch_other(context: Context, cap: int, on: bool) -> None:
     unit = context.active_unit
     if cap in CLIENT_STATES:  # accepted by Mesa, though GL has glEnableClientState for it
         switch_array(context.arrays, cap, on)
+    elif cap in MAPS:
+        switch_map(context, cap, on)
     elif cap in UNIT_CAPABILITIES:
         context.change_field(UNITS[unit], UNIT_CAPABILITIES[cap], on)
     elif is_on(context.state, cap, unit) != on:
@@ -148,6 +153,8 @@ def glIsEnabled(cap: int) -> bool | None:
         return None
     if cap in CLIENT_STATES:
         return is_array_enabled(context.arrays, cap)
+    if cap in MAPS:
+        return cap in context.evaluators.enabled
     return is_on(context.state, cap, context.active_unit)
 
 

@@ -56,7 +56,7 @@ def glEnd() -> None:
     if not primitive.positions:
         context.vertex_buffer.end_pair(primitive.mode, 0)
         return
-    context.pending.reset_due = True
+    context.pending.reset_due = context.pending.has_vertices = True
     end(context, primitive)
     vertices, count = vertices_of(context, primitive), len(primitive)
     if primitive.from_list and context.list_depth > 0:

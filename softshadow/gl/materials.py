@@ -93,8 +93,13 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
 
     Between glBegin and glEnd they become attributes of the vertices.
     """
+    if all(set(fields) <= set(followed(context, side)) for side in SIDES[face]):
+        return  # nothing changes: the vertices before and after are still drawn together
     if not context.ready:
+        has_vertices = context.pending.has_vertices
         context.flush()
+        if has_vertices:  # Mesa draws them here, but resets the attributes at the next change of state
+            context.pending.reset_due = context.pending.has_vertices = True
         context.ready = context.primitive is None and context.compiled_list is None
     old_values, follows = context.pending.old_values, context.groups["lighting"].fields["color_material"]
     for side in SIDES[face]:
@@ -123,6 +128,11 @@ def glColorMaterial(face: int, mode: int) -> None:
     if context is None or not is_one_of("glColorMaterial", "face", face, FACES, A_FACE):
         return
     if is_one_of("glColorMaterial", "mode", mode, FIELDS, A_COLOR):
+        lighting = context.groups["lighting"].fields
+        if (face, mode) == (lighting["color_material_face"], lighting["color_material_mode"]):
+            return
+        if not context.pending.has_vertices:
+            context.stop_following()  # a colour that is not yet current sets the materials of the new mode only
         context.change("lighting", color_material_face=int(face), color_material_mode=int(mode))
         start_to_follow(context)
 
@@ -136,10 +146,14 @@ def followed(context: Context, side: str) -> tuple[str, ...]:
 
 
 def follow_color(context: Context) -> None:
-    """Copy the current colour to the material fields that follow it."""
+    """Copy the current colour to the material fields that follow it, if it is another one than Mesa's current one."""
     lighting = context.groups["lighting"].fields
     if lighting["color_material"]:
-        context.follow(SIDES[lighting["color_material_face"]], FIELDS[lighting["color_material_mode"]])
+        color = context.current.color
+        if context.pending.old_values.get("color", color) != color:
+            context.follow(SIDES[lighting["color_material_face"]], FIELDS[lighting["color_material_mode"]])
+        else:
+            context.stop_following()
 
 
 def start_to_follow(context: Context) -> None:
@@ -147,12 +161,14 @@ def start_to_follow(context: Context) -> None:
 
     A pending material is only hidden by it: Mesa makes it current again with the next flush (vbo_exec_copy_to_current).
     """
-    if context.groups["lighting"].fields["color_material"]:
+    lighting = context.groups["lighting"].fields
+    if lighting["color_material"]:
+        if context.pending.has_vertices:
+            context.reset_attributes()
         context.update_current()
-        for name in context.pending.names:
-            if "." in name:
-                context.pending.hidden.setdefault(name, context.attribute(name))
-        follow_color(context)
+        hidden = {name: context.attribute(name) for name in context.pending.names if "." in name}
+        context.follow(SIDES[lighting["color_material_face"]], FIELDS[lighting["color_material_mode"]])
+        context.pending.hidden, context.pending.before_following = hidden | context.pending.hidden, None
 
 
 # -- queries -----------------------------------------------------------------------------------------------------------

@@ -14,6 +14,7 @@ import numpy as np
 
 from softshadow import tokens
 from softshadow.image import Format
+from softshadow.pixel_transfer import PixelTransfer
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.state import Scissor, State
 from softshadow.texture import Sampler
@@ -97,6 +98,20 @@ class Draw:
 
 
 @dataclass(frozen=True, eq=False)
+class DrawDepths:
+    """glDrawPixels or glCopyPixels of depths, stencil values or both.
+
+    The rectangle is a draw of a quad, whose texture has depths in red and stencil values in green; `color` is that of
+    the raster position.
+    """
+
+    draw: Draw
+    color: tuple[float, float, float, float]
+    has_depth: bool
+    has_stencil: bool
+
+
+@dataclass(frozen=True, eq=False)
 class Clear:
     """glClear: under scissor, colour mask, depth mask and the front stencil write mask."""
 
@@ -156,7 +171,10 @@ class UpdateImage:
 
 @dataclass(frozen=True, eq=False)
 class CopyToTexture:
-    """glCopyTexSubImage2D from a framebuffer; pixels outside the framebuffer leave their texels untouched."""
+    """glCopyTexSubImage2D from a framebuffer; pixels outside the framebuffer leave their texels untouched.
+
+    `transfer` is what glPixelTransfer changes on the way, None for nothing.
+    """
 
     framebuffer: int
     texture: int
@@ -168,6 +186,7 @@ class CopyToTexture:
     y: int
     width: int
     height: int
+    transfer: PixelTransfer | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -282,6 +301,7 @@ class SelectBuffers:
 
 Command = (
     Draw
+    | DrawDepths
     | Clear
     | Accumulate
     | BeginQuery
