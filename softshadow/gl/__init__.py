@@ -46,6 +46,7 @@ from softshadow.gl.occlusion import *
 from softshadow.gl.pixel_rectangles import *
 from softshadow.gl.pixel_transfer import *
 from softshadow.gl.pixels import *
+from softshadow.gl.points import *
 from softshadow.gl.programs import *
 from softshadow.gl.pyopengl import *
 from softshadow.gl.quadrics import *
@@ -55,6 +56,7 @@ from softshadow.gl.rasterization import *
 from softshadow.gl.refusals import all_naming_arguments
 from softshadow.gl.render_modes import *
 from softshadow.gl.renderbuffers import *
+from softshadow.gl.stipples import *
 from softshadow.gl.texture_coordinates import *
 from softshadow.gl.texture_copies import *
 from softshadow.gl.texture_images import *
