@@ -50,6 +50,15 @@ def long(session: nox.Session) -> None:
 
 
 @nox.session
+def bounds(session: nox.Session) -> None:
+    """Run random programs with kernels that check every index, compiled into a cache folder of their own."""
+    folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "softshadow-bounds-checked"
+    checks = {"NUMBA_BOUNDSCHECK": "1", "NUMBA_CACHE_DIR": str(folder), "SOFTSHADOW_LANE": "all"}
+    files = session.posargs or ["tests/bounds", "tests/mesa/test_random_programs.py", "tests/recordings"]
+    session.run("pytest", *files, env=checks)
+
+
+@nox.session
 def interpreted(session: nox.Session) -> None:
     """Run the kernels as plain Python and report the lines that no test reached."""
     data = {"COVERAGE_FILE": os.path.join(session.create_tmp(), "coverage")}

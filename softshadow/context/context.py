@@ -29,6 +29,7 @@ from softshadow.frozen import create, evolve
 from softshadow.image import Image
 from softshadow.pipeline.commands import Clear, Command, Draw, Origin, Vertices
 from softshadow.pipeline.execute import execute
+from softshadow.pipeline.geometry.geometry import stipple_place_after
 from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
 from softshadow.pixel_transfer import PixelTransfer
@@ -132,6 +133,7 @@ class Context:
         self.vertex_buffer = VertexBuffer(self._carry_out, self.objects)  # immediate mode
         self.arrays = ClientArrays()
         self.client_stack: list[Any] = []
+        self._stipple_place = 0  # in the line stipple, after the draws so far
         self.buffers: dict[int, BufferObject] = {}
         self.attribute_stack: list[Any] = []
         # the state at the last glPushAttrib or glPopAttrib; bits of the groups that calls have marked as changed since
@@ -324,6 +326,8 @@ class Context:
     def _carry_out(self, command: Command) -> None:
         if self.gate is not None and not self.gate(command):
             return
+        if type(command) is Draw and command.state.lines.stippled:
+            command = self._continue_stipple(command)
         if type(command) is not Draw:
             if type(command) is not Clear:
                 self._waiting.forget()
@@ -333,6 +337,13 @@ class Context:
             execute(command, self.objects)
         if self._frame.append(command):
             self._frame.shorten(self.storage)
+
+    def _continue_stipple(self, command: Draw) -> Draw:
+        """Return a draw with the place in the line stipple that the draws before it have left."""
+        if self._stipple_place:
+            command = evolve(command, stipple_place=self._stipple_place)
+        self._stipple_place = stipple_place_after(command, self.storage)
+        return command
 
     def carry_out(self, commands: Sequence[Command]) -> None:
         """Carry out and record commands that the gate has kept back."""
@@ -465,6 +476,7 @@ class Context:
             joined_start=0,
             linear=False,
             offset_mode=0,
+            stipple_place=0,
             origin=self.origin,
         )
 

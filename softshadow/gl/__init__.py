@@ -46,14 +46,17 @@ from softshadow.gl.occlusion import *
 from softshadow.gl.pixel_rectangles import *
 from softshadow.gl.pixel_transfer import *
 from softshadow.gl.pixels import *
+from softshadow.gl.points import *
 from softshadow.gl.programs import *
 from softshadow.gl.pyopengl import *
 from softshadow.gl.quadrics import *
 from softshadow.gl.queries import *
 from softshadow.gl.raster_position import *
 from softshadow.gl.rasterization import *
+from softshadow.gl.refusals import all_naming_arguments
 from softshadow.gl.render_modes import *
 from softshadow.gl.renderbuffers import *
+from softshadow.gl.stipples import *
 from softshadow.gl.texture_coordinates import *
 from softshadow.gl.texture_copies import *
 from softshadow.gl.texture_images import *
@@ -65,6 +68,14 @@ from softshadow.gl.vertex_arrays import *
 from softshadow.gl.vertex_attributes import *
 from softshadow.programs import fixed_function  # of most draws: loaded here, not within the first frame
 from softshadow.tokens import *
+
+# calls that programs make most: a function around them would take longer than they do
+FREQUENT = (
+    "glBegin", "glEnd", "glVertex2f", "glVertex3f", "glVertex4f", "glColor3f", "glNormal3f", "glTexCoord2f",
+    "glEnable", "glDisable", "glMatrixMode", "glPushMatrix", "glPopMatrix", "glLoadIdentity", "glTranslatef",
+    "glScalef", "glRotatef", "glCallList", "glGetError",
+)  # fmt: skip
+globals().update(all_naming_arguments(globals(), FREQUENT))
 
 
 def create_context(

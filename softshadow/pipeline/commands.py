@@ -66,7 +66,9 @@ class Draw:
     they may be older. Where Mesa joins draws of several debug groups into one, `joined_positions`
     (N, 4) are those of all of them and `joined_start` is the number of this draw's first vertex among them. `linear`:
     clipping interpolates values without perspective. `offset_mode` is the polygon mode whose offset unfilled
-    polygons get if an earlier draw has decided it, else 0. `origin` tells what the primitives were made from.
+    polygons get if an earlier draw has decided it, else 0. `stipple_place` is the place in the line stipple before the
+    draw: Mesa does not begin it anew where the first line of a strip is clipped away. `origin` tells what the
+    primitives were made from.
     """
 
     state: State
@@ -87,6 +89,7 @@ class Draw:
     joined_start: int = 0
     linear: bool = False
     offset_mode: int = 0
+    stipple_place: int = 0
     origin: Origin | None = None
 
     def __repr__(self) -> str:

@@ -58,6 +58,7 @@ DTYPES: dict[int, Any] = {
     **{kind: packed.dtype for kind, packed in PACKED_COLORS.items()},
 }
 CHECKED = OpenGL.ERROR_CHECKING  # else calls are PyOpenGL's own, as fast as they can be
+STIPPLE_BYTES = 128
 LARGEST_PIXEL = 16  # bytes; enough for a read-out whose format or type GL will reject
 
 # PyOpenGL defines names with a suffix in a module for each extension
@@ -248,6 +249,13 @@ def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = 
     return out
 
 
+def glGetPolygonStipple(mask: np.ndarray | None = None) -> np.ndarray:
+    """Return the polygon stipple, 128 bytes, or fill `mask` with it; PyOpenGL's function fails."""
+    out = np.zeros(STIPPLE_BYTES, np.uint8) if mask is None else mask
+    raw.glGetPolygonStipple(out.ctypes.data_as(ctypes.POINTER(ctypes.c_ubyte)))
+    return out
+
+
 def _without_row_padding(function: Callable[..., Any], size_at: int) -> Callable[..., Any]:
     """Return an upload function that reads images without row padding if they are too small to have it.
 
@@ -342,6 +350,8 @@ def glGetBufferParameteriv(target: int, pname: int) -> int:
 
 
 OWN: dict[str, Callable[..., Any]] = {
+    "glGetPolygonStipple": glGetPolygonStipple,
+    "glGetPolygonStippleub": glGetPolygonStipple,
     "glReadPixels": glReadPixels,
     "glMapBuffer": glMapBuffer,
     "glMapBufferRange": glMapBufferRange,

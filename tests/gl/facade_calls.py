@@ -86,6 +86,12 @@ SINGLE: dict[str, tuple[Any, ...]] = {
     "glIsTexture": ("@texture",), "glLineWidth": (2.0,), "glListBase": (7,), "glLoadIdentity": (),
     "glLogicOp": ("GL_XOR",), "glMatrixMode": ("GL_TEXTURE",), "glNewList": (3, "GL_COMPILE_AND_EXECUTE"),
     "glNormalPointer": ("GL_FLOAT", 0, CORNERS), "glOrtho": (-1, 1, -2, 2, -3, 3), "glPointSize": (2.0,),
+    "glPointParameterf": ("GL_POINT_SIZE_MIN", 2.0),
+    "glPointParameteri": ("GL_POINT_SPRITE_COORD_ORIGIN", "GL_LOWER_LEFT"),
+    "glPointParameterfv": ("GL_POINT_DISTANCE_ATTENUATION", [1.0, 0.5, 0.25]),
+    "glPointParameteriv": ("GL_POINT_DISTANCE_ATTENUATION", [1, 0, 2]),
+    "glLineStipple": (3, 0x1234), "glPolygonStipple": (bytes(128),), "glGetPolygonStipple": (),
+
     "glPolygonMode": ("GL_FRONT_AND_BACK", "GL_LINE"), "glPolygonOffset": (1.0, 2.0), "glPopAttrib": (),
     "glPopDebugGroup": (), "glPopMatrix": (), "glPushAttrib": ("GL_FOG_BIT",),
     "glPushDebugGroup": ("GL_DEBUG_SOURCE_APPLICATION", 0, -1, b"floor"), "glPushMatrix": (),
@@ -170,6 +176,7 @@ CALLS = {**SINGLE, **families(), **MORE_CALLS}
 NAMED_AGAIN = {  # spellings that are PyOpenGL's own: the same function
     "glGetBoolean": "glGetBooleanv", "glGetDouble": "glGetDoublev", "glGetFloat": "glGetFloatv",
     "glGetInteger": "glGetIntegerv", "glClearDepthf": "glClearDepth", "glDepthRangef": "glDepthRange",
+    "glGetPolygonStippleub": "glGetPolygonStipple",
     "glRotate": "glRotated", "glTranslate": "glTranslated", "glScale": "glScaled", "glLight": "glLightfv",
     "glTexCoord": "glTexCoord2d", "glNormal": "glNormal3d", "glStencilOpSeparateATI": "glStencilOpSeparate",
 }  # fmt: skip

@@ -239,3 +239,14 @@ def test_program_that_calls_softshadow_itself_is_told_to_call_its_namespace():
 def test_returned_value_that_cannot_travel_is_told():
     with pytest.raises(TypeError, match="return value cannot be sent back"):
         run_on_mesa(lambda gl: (number for number in range(3)), (8, 8))
+
+
+def test_what_is_missing_for_mesa_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    mesa.mesa_reason.cache_clear()
+    try:
+        with pytest.raises(MesaError, match="Mesa is not available, missing: Python package PyOpenGL, "):
+            run_on_mesa(lambda gl: None, (4, 4))
+    finally:
+        monkeypatch.undo()
+        mesa.mesa_reason.cache_clear()

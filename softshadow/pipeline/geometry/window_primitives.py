@@ -14,19 +14,19 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import Storage
 from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.geometry.assembly import edge_flags
-from softshadow.pipeline.geometry.clip import Clipped, clip_triangles
+from softshadow.pipeline.geometry.assembly import begins_stipple, edge_flags
+from softshadow.pipeline.geometry.clip import clip_triangles
 from softshadow.pipeline.geometry.draw_primitives import assembled_triangles, lines_or_points_of
 from softshadow.pipeline.geometry.geometry import positions_of, vertex_outputs, window_transform
 from softshadow.pipeline.geometry.lines import LINES, clip_lines
 from softshadow.pipeline.geometry.points import clip_points
-from softshadow.pipeline.geometry.polygon_mode import Outlined, is_filled, outline
+from softshadow.pipeline.geometry.polygon_mode import Outlined, outline
 from softshadow.pipeline.geometry.vertex import to_window
+from softshadow.pipeline.mesa.polygon_rules import effective_modes
 from softshadow.programs.fixed_function import is_separate
 from softshadow.state import State
 
 F32 = np.float32
-TWICE_FIRST = (gl.GL_QUADS, gl.GL_QUAD_STRIP)  # two triangles each; the first one begins the primitive
 
 
 class WindowPrimitives(NamedTuple):
@@ -69,17 +69,20 @@ def window_primitives(command: Draw, storage: Storage) -> WindowPrimitives:
         # of the polygon offset only the slope remains: no depth format is set for this pipeline
         state = evolve(command.state, polygon=evolve(command.state.polygon, units=0.0))
 
+        begins = begins_stipple(command.mode, len(assembled.corners))[clipped.source]
+        cut = (codes[assembled.corners] != 0).any(axis=1)[clipped.source]
+        begins = np.where(cut, np.diff(clipped.source, prepend=-1) != 0, begins)
+
         def outlined_with(edges: np.ndarray) -> Outlined:
             return outline(
                 window, np.ascontiguousarray(clipped.values[:, :8]),
                 None if back is None else np.ascontiguousarray(clipped.values[:, 8:]), flat, clipped.triangles,
                 edges, assembled.provoking[clipped.source], state, state.cull, target.depth,
-                command.offset_slope, command.offset_unit, target.flipped, command.offset_mode,
+                command.offset_slope, command.offset_unit, target.flipped, begins, command.offset_mode,
             )  # fmt: skip
 
         outlined = outlined_with(clipped.edges)
         with_edges = outlined if is_filled(state) else outlined_with(np.ones_like(clipped.edges))
-    begins = _begins(command.mode, clipped, codes[assembled.corners].any(axis=1))
     of_triangle: list[tuple[int, list[int]]] = [(t[0] // 3, t) for t in outlined.triangles.tolist()]
     as_lines = dict.fromkeys((with_edges.lines[:, 0] // 3).tolist())
     of_triangle += [(triangle, []) for triangle in as_lines if begins[triangle]]
@@ -110,18 +113,9 @@ def _is_flat(state: State) -> bool:
     return state.lighting.shade_model == gl.GL_FLAT and not is_filled(state)
 
 
-def _begins(mode: int, clipped: Clipped, was_cut: np.ndarray) -> np.ndarray:
-    """Return which triangles (T,) begin a primitive, or are the first piece of a clipped triangle."""
-    source = clipped.source
-    is_first_piece = np.ones(len(source), bool)
-    is_first_piece[1:] = source[1:] != source[:-1]
-    if mode in TWICE_FIRST:
-        first = source % 2 == 0
-    elif mode == gl.GL_POLYGON:
-        first = source == 0
-    else:
-        first = np.ones(len(source), bool)
-    return is_first_piece & (first | was_cut[source])
+def is_filled(state: State) -> bool:
+    """Return whether all polygons that are drawn are filled."""
+    return effective_modes(state) == (gl.GL_FILL, gl.GL_FILL)
 
 
 def _upright(

@@ -57,7 +57,7 @@ def narrow(x0, y0, x1, y1, row, downwards, first, end):
     elif across < 0:
         first = max(first, -(value // (-across << 8)))
     elif value < 0:
-        end = first
+        end = min(end, first)
     return first, end
 
 
@@ -100,7 +100,7 @@ def narrow_rows(x0, y0, x1, y1, first, end, downwards, lefts, rights):
             j = np.uint64(first + k)
             lefts[j] = max(lefts[j], -np.int32(np.floor((start + slope * k) / over)))
     elif value < 0:  # along the row, the only one it can reach
-        rights[first] = lefts[first]
+        rights[first] = min(rights[first], lefts[first])  # not beyond `right`, where the left end may be
 
 
 @kernel
