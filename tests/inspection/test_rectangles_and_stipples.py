@@ -10,6 +10,7 @@ from softshadow import gl
 
 def recorded() -> ss.Run:
     with gl.record(32, 24) as recording:
+        gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
         gl.glEnable(gl.GL_POLYGON_STIPPLE)
         gl.glPolygonStipple(np.arange(128, dtype=np.uint8))
         gl.glRectf(-1, -1, 0.5, 0.5)
