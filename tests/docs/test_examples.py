@@ -55,7 +55,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shutil.copy(SCENES / "crate.obj", "bunny.obj")
     shutil.copy(TRACE, "program.trace")
     Path("program.py").write_text(GLUT)
-    sweep = 'technique = "map"\nsize = "24x18"\nmeasure = ["hard"]\noptions.map_size = [16, 32]\n'
+    sweep = 'technique = "map"\nsize = "24x18"\nmeasure = ["hard"]\npicture = true\noptions.map_size = [16, 32]\n'
     for name in ("sweep.toml", "sizes.toml"):
         Path(name).write_text(sweep)
     for name in ("lesson.toml", "crate.obj"):
