@@ -65,8 +65,8 @@ def slides(
     The file needs no network. The arrow keys show the next slide; printed from a browser, each slide is a page.
     """
     from softshadow.inspection.files import refuse_foreign
-    from softshadow.report.slides import check_path
-    from softshadow.report.slides import slides as slides_of
+    from softshadow.report.slide_deck import check_path
+    from softshadow.report.slide_deck import slides as slides_of
 
     check_path(output)
     refuse_foreign(Path(output), force)

@@ -112,7 +112,9 @@ def shown_run(cells: list[Cell]) -> Any:
         if not cell.is_code:
             continue
         tree = ast.parse(cell.text)
-        asked = next((node.args[0] for node in ast.walk(tree) if _is_call(node, "clickable")), None)
+        asked = next(
+            (each.args[0] for each in ast.walk(tree) if isinstance(each, ast.Call) and _is_clickable(each)), None
+        )
         body = [statement for statement in tree.body if not _displays(statement)]
         with warnings.catch_warnings(), redirect_stdout(StringIO()):
             warnings.simplefilter("ignore")  # lessons tell them in their text
@@ -122,8 +124,8 @@ def shown_run(cells: list[Cell]) -> Any:
     raise AssertionError("a lesson has a clickable report")
 
 
-def _is_call(node: ast.AST, name: str) -> bool:
-    return isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == name
+def _is_clickable(call: ast.Call) -> bool:
+    return isinstance(call.func, ast.Attribute) and call.func.attr == "clickable"
 
 
 def _displays(statement: ast.stmt) -> bool:

@@ -11,7 +11,7 @@ from softshadow.report.cross_sections import Crossing, CrossSection, cross_secti
 from softshadow.report.failure_page import FailurePage, write_failure_page
 from softshadow.report.page import Section, folder_writer, named, sections
 from softshadow.report.run_page import RunPage, write_run_page
-from softshadow.report.slides import Slide, Slides, slides, step_slides
+from softshadow.report.slide_deck import Slide, Slides, slides, step_slides
 from softshadow.report.tour_page import TourPage, Visit, write_tour_page
 from softshadow.report.view3d import View3D, view3d_document, view3d_of
 

@@ -9,9 +9,9 @@ import pytest
 import softshadow as ss
 from report.browser import OVERFLOWING, chromium, opened
 from report.pages import read_page
+from softshadow.report.slide_deck import CALL_LINES, shown_calls
 from softshadow.report.slide_pictures import digits
 from softshadow.report.slide_view import COLUMNS, ROWS, slide_view
-from softshadow.report.slides import CALL_LINES, shown_calls
 
 SIZE = (64, 48)
 
