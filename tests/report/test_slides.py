@@ -150,5 +150,7 @@ def test_keys_turn_the_slides_and_each_is_a_page_on_paper(technique, scene, opti
         assert page.evaluate(current) == "slide-2"
         page.emulate_media(media="print")
         assert page.evaluate(OVERFLOWING) == []
+        axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="needs axe-playwright-python")
+        assert axe.Axe().run(page).response["violations"] == []
         pdf = page.pdf(prefer_css_page_size=True)
         assert len(re.findall(rb"/Type /Page\b", pdf)) == len(deck)
