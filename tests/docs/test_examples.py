@@ -36,9 +36,15 @@ def blocks(page: Path, *kinds: str) -> list[str]:
 
 
 def command_lines() -> list[tuple[str, str]]:
-    """Return (page, line) of all calls of softshadow, without what stands before and behind them."""
+    """Return (page, line) of all calls of softshadow in blocks and in sentences, without what stands around them."""
     found = []
     for page in PAGES:
+        text = FENCE.sub("", page.read_text(encoding="utf-8"))
+        found += [
+            (page.name, " ".join(line.split()))
+            for line in re.findall(r"`(softshadow [a-z]+ [^`]+)`", text)
+            if not re.search(r"\b[A-Z]{4,}\b|\.\.\.", line)  # a placeholder
+        ]
         for block in blocks(page, "sh"):
             for line in block.splitlines():
                 called = re.match(r"(?:\w+=\S+ )*(?:\S*/uv run |uv run )?(?:[\w.]+/bin/)?(softshadow .*)", line)
