@@ -50,7 +50,7 @@ def lesson_slides(number: int | str) -> Slides:
     --------
     >>> from softshadow.lessons import lesson_slides
     >>> lesson_slides(8)
-    Slides('8. Projected shadows with the stencil buffer', 9 slides)
+    Slides('8. Projected shadows with the stencil buffer', 10 slides)
     """
     path = lesson_file(number)
     cells = list(cells_of(path))

@@ -25,7 +25,7 @@ PAGES = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md", ROOT / "CONT
 FENCE = re.compile(r"^```(\S*)[^\n]*\n(.*?)^```", re.DOTALL | re.MULTILINE)
 LONGEST = 90  # characters of code that a page shows at 900 pixels (furo: 46em of text); longer lines are wrapped
 RUN_ELSEWHERE = ("cli.md", "replay.md", "README.md")
-TAKES_LONG = ("sweeps.md", "benchmarks.md", "report.md", "space.md", "notebook.md")
+TAKES_LONG = ("sweeps.md", "benchmarks.md", "report.md", "space.md", "notebook.md", "comparing.md", "scenes.md")
 ASKING = {"listings", "techniques", "scenes", "doctor", "failures", "lessons", "pixel", "cards"}
 
 
