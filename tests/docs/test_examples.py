@@ -47,7 +47,7 @@ def command_lines() -> list[tuple[str, str]]:
         ]
         for block in blocks(page, "sh"):
             for line in block.splitlines():
-                called = re.match(r"(?:\w+=\S+ )*(?:\S*/uv run |uv run )?(?:[\w.]+/bin/)?(softshadow .*)", line)
+                called = re.match(r"(?:\w+=\S+ )*(?:\S*uv run (?:--no-dev )?)?(?:[\w.]+/bin/)?(softshadow .*)", line)
                 found += [(page.name, called[1].partition(" > ")[0])] if called else []
     return found
 
