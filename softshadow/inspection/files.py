@@ -12,7 +12,8 @@ from softshadow.errors import SoftShadowError
 
 MARK = "made by softshadow"  # stands at the start of every file; without it a file counts as foreign
 DESCRIPTION = "softshadow.json"  # the member of an npz that describes the others
-START = 4096  # bytes; the mark of a PNG, HTML or text file must stand within them
+MARKED_AT_END = (".pdf", ".webp", ".mp4")  # these formats have their comments behind the contents
+START = 4096  # bytes; the mark of a PNG, GIF, HTML or text file must stand within them
 
 
 def own(path: Path) -> bool:
@@ -23,8 +24,8 @@ def own(path: Path) -> bool:
                 return f"{DESCRIPTION}.npy" in archive.namelist()
         except (OSError, zipfile.BadZipFile):
             return False
-    if path.suffix == ".pdf":
-        return MARK.encode() in path.read_bytes()  # a PDF tells its creator near its end
+    if path.suffix in MARKED_AT_END:
+        return MARK.encode() in path.read_bytes()
     with path.open("rb") as file:
         return MARK.encode() in file.read(START)
 
