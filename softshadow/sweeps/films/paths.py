@@ -1,8 +1,8 @@
 """Paths of lights and cameras: the points where something stands in each frame of a film.
 
 A path is written as a text, ``orbit``, ``circle:0,4,0,3``, ``line:-2,4,1:2,4,1`` or ``points:2,4,1:0,5,2:-2,4,1``, or
-as a TOML file with the same words as keys. A path that ends where it began has no frame twice, so that a film of it can be
-repeated without a stop.
+as a TOML file with the same words as keys. A path that ends where it began has no frame twice, so that a film of it can
+be repeated without a stop.
 """
 
 from __future__ import annotations
