@@ -50,6 +50,15 @@ def long(session: nox.Session) -> None:
 
 
 @nox.session
+def bounds(session: nox.Session) -> None:
+    """Run random programs with kernels that check every index, compiled into a cache folder of their own."""
+    folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "softshadow-bounds-checked"
+    checks = {"NUMBA_BOUNDSCHECK": "1", "NUMBA_CACHE_DIR": str(folder), "SOFTSHADOW_LANE": "all"}
+    files = session.posargs or ["tests/bounds", "tests/mesa/test_random_programs.py", "tests/recordings"]
+    session.run("pytest", *files, env=checks)
+
+
+@nox.session
 def interpreted(session: nox.Session) -> None:
     """Run the kernels as plain Python and report the lines that no test reached."""
     data = {"COVERAGE_FILE": os.path.join(session.create_tmp(), "coverage")}
@@ -88,8 +97,9 @@ def package(session: nox.Session) -> None:
             where = "import softshadow; assert 'site-packages' in softshadow.__file__, softshadow.__file__"
             session.run(python, "-c", where, env=environment)
             session.run(softshadow, "--help", env=environment, silent=True)
+            session.run(softshadow, "lessons", "lessons", "--no-start", env=environment, silent=True)
             session.run(softshadow, "tour", "-o", "tour", env=environment, silent=True)
             session.run(softshadow, "render", "volume-zfail", "--scene", "torus", "-o", "x.png", env=environment)
-            for written in ("tour/index.html", "x.png"):
+            for written in ("tour/index.html", "x.png", "lessons/05_stencil_buffer.py"):
                 if not Path(written).stat().st_size:
                     session.error(f"{written} is empty")

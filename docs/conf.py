@@ -1,9 +1,12 @@
 """Sphinx settings: MyST pages whose code cells run when the pages are built."""
 
+import os
 import re
+from pathlib import Path
 from typing import Any
 
 from softshadow import __version__
+from softshadow.lessons.copies import copy_lessons
 
 project = "softshadow"
 author = copyright = "The softshadow developers"
@@ -27,6 +30,14 @@ myst_heading_anchors = 3
 nb_custom_formats = {".py": ["jupytext.reads", {"fmt": "py:percent"}]}  # the notebooks
 nb_execution_mode = "force"  # numbers and pictures on the pages are those of this version
 nb_execution_raise_on_error = True
+# of the lessons the quick lane executes four; `.ci/run --all` all
+QUICK_LESSONS = ("05_stencil_buffer", "11_zpass")
+if os.environ.get("SOFTSHADOW_LANE") != "all":
+    nb_execution_excludepatterns = [
+        f"lessons/{path.name}"
+        for path in sorted(Path(__file__).parent.glob("lessons/*.py"))
+        if path.stem not in QUICK_LESSONS
+    ]
 nb_execution_show_tb = True
 nb_execution_timeout = 300
 nb_merge_streams = True
@@ -59,6 +70,24 @@ def spread_columns(app: Any, what: str, name: str, obj: Any, options: Any, lines
     lines[:] = spread
 
 
+def offer_notebook(app: Any, name: str, source: list[str]) -> None:
+    """Add a link to the lesson's notebook at its end."""
+    if re.fullmatch(r"lessons/\d\d_\w+", name):
+        link = f'<a href="{Path(name).name}.ipynb" download>Download this lesson as a notebook</a>'
+        source[0] += f"\n# %% [markdown]\n# {link}\n"
+
+
+def write_notebooks(app: Any, error: Exception | None) -> None:
+    """Write the notebooks that the pages of the lessons link to."""
+    folder = Path(app.outdir) / "lessons"
+    if error is None and folder.is_dir():
+        for earlier in folder.glob("*.ipynb"):
+            earlier.unlink()
+        copy_lessons(folder)
+
+
 def setup(app: Any) -> None:
-    """Connect the hook, before napoleon's (priority 500) sees the docstring."""
+    """Connect the hooks; that of docstrings before napoleon's (priority 500) sees them."""
     app.connect("autodoc-process-docstring", spread_columns, priority=400)
+    app.connect("source-read", offer_notebook, priority=400)
+    app.connect("build-finished", write_notebooks)

@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     from softshadow.scene.light_samples import light_samples
     from softshadow.scene.placement import placement
     from softshadow.space import shadow_geometry
+    from softshadow.sweeps import SweepTable, load_sweep, sweep
     from softshadow.techniques import Option, Range, Technique, describe, register
     from softshadow.techniques import names as technique_names
 
@@ -99,6 +100,7 @@ __all__ = [
     "SoftTruth",
     "Sphere",
     "StateError",
+    "SweepTable",
     "TJunction",
     "Technique",
     "TraceError",
@@ -112,6 +114,7 @@ __all__ = [
     "gl",
     "light_samples",
     "load_run",
+    "load_sweep",
     "notebook",
     "placement",
     "record",
@@ -124,6 +127,7 @@ __all__ = [
     "shapes",
     "soft_truth",
     "stencil_palette",
+    "sweep",
     "technique_names",
     "testing",
     "use_short_cuts",
@@ -157,6 +161,7 @@ _HOMES = {
     "softshadow.scene.placement": ("placement",),
     "softshadow.techniques": ("Option", "Range", "Technique", "describe", "register"),
     "softshadow.space": ("shadow_geometry",),
+    "softshadow.sweeps": ("SweepTable", "load_sweep", "sweep"),
 }  # fmt: skip
 _HOME = {name: (module, name) for module, names in _HOMES.items() for name in names} | _RENAMED
 

@@ -73,8 +73,8 @@ class Framebuffer:
     @property
     def colors(self) -> tuple[Image, ...]:
         """The images that colours are written to: one per draw buffer that has an image."""
-        images = (self._color_buffer(buffer) for buffer in self.draw_buffers)
-        return tuple(image for image in images if image is not None)
+        images = [self._color_buffer(buffer) for buffer in self.draw_buffers]
+        return tuple([image for image in images if image is not None])
 
     def draw_buffer_at(self, index: int) -> int:
         """Return the token of a draw buffer by its index."""
@@ -111,8 +111,13 @@ class Framebuffer:
     @property
     def size(self) -> tuple[int, int]:
         """(width, height) of the smallest attachment, (0, 0) without any."""
-        images = [a.image for a in self.attachments.values()]
-        return (min(i.width for i in images), min(i.height for i in images)) if images else (0, 0)
+        if not self.attachments:
+            return (0, 0)
+        sizes = [(attached.image.width, attached.image.height) for attached in self.attachments.values()]
+        if sizes.count(sizes[0]) == len(sizes):
+            return sizes[0]
+        widths, heights = zip(*sizes, strict=True)
+        return min(widths), min(heights)
 
 
 def default_framebuffer(

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.packed_colors import PACKED_COLORS
 
 TYPES: dict[int, type[np.generic]] = {
     gl.GL_UNSIGNED_BYTE: np.uint8,
@@ -38,23 +39,40 @@ COMPONENTS: dict[int, str] = {
     gl.GL_LUMINANCE_ALPHA: "LA",
     gl.GL_DEPTH_COMPONENT: "Z",
     gl.GL_STENCIL_INDEX: "S",
+    gl.GL_COLOR_INDEX: "I",
     gl.GL_DEPTH_STENCIL: "D",
 }
 
 
 def dtype_of(type: int) -> np.dtype:
     """Return the dtype of array elements for a client type, packed or not."""
+    if type in PACKED_COLORS:
+        return PACKED_COLORS[type].dtype
     return PACKED_TYPES[type] if type in PACKED_TYPES else np.dtype(TYPES[type])
+
+
+def elements_of(format: int, type: int) -> int:
+    """Return the number of array elements of a pixel: one per component, or one of a packed type."""
+    return 1 if type in PACKED_COLORS else len(COMPONENTS[format])
 
 
 @dataclass(frozen=True)
 class PixelStore:
-    """The state of glPixelStore for one direction (pack or unpack); defaults are GL's initial values."""
+    """The state of glPixelStore for one direction (pack or unpack); defaults are GL's initial values.
+
+    `buffer` is the name of the pixel buffer object that images are in, 0 for the client's memory. `image_height` and
+    `skip_images` concern three-dimensional images only.
+    """
 
     alignment: int = 4
     row_length: int = 0
     skip_rows: int = 0
     skip_pixels: int = 0
+    buffer: int = 0
+    swap_bytes: bool = False
+    lsb_first: bool = False
+    image_height: int = 0
+    skip_images: int = 0
 
     def layout(self, width: int, height: int, pixel: int, aligned: bool) -> tuple[int, int, int]:
         """Return (first byte, bytes from row to row, total bytes) of an image with `pixel` bytes per pixel."""
@@ -68,7 +86,7 @@ class PixelStore:
 def image_view(
     memory: np.ndarray, store: PixelStore, width: int, height: int, format: int, type: int, operation: str
 ) -> np.ndarray:
-    """Return a view (height, width, components) of an image in client memory.
+    """Return a view (height, width, components) of an image in client memory; its dtype may have swapped bytes.
 
     Rows have GL's alignment if the memory is large enough for it. Otherwise they are contiguous: PyOpenGL's users pass
     arrays and leave the alignment at 4.
@@ -78,7 +96,7 @@ def image_view(
     ValueError
         The memory is too small; the message gives the size needed.
     """
-    dtype, components = dtype_of(type), len(COMPONENTS[format])
+    dtype, components = dtype_of(type), elements_of(format, type)
     shape = (height, width, components)
     pixel = dtype.itemsize * components
     raw = memory.reshape(-1).view(np.uint8)
@@ -90,6 +108,8 @@ def image_view(
             f"{operation}: the image has {raw.nbytes} bytes; {width} x {height} pixels of {components} {dtype} "
             f"need {needed}"
         )
+    if store.swap_bytes:
+        dtype = dtype.newbyteorder()
     return np.ndarray(shape, dtype, raw, first, (step, pixel, dtype.itemsize)) if needed else np.empty(shape, dtype)
 
 
@@ -117,11 +137,13 @@ def client_image(
                 f"{operation}: pixels are {image.dtype}; type={gl.token_name(type)} takes {dtype} numbers or bytes"
             )
         memory = np.ascontiguousarray(image, dtype)
-    return image_view(memory, store, width, height, format, type, operation)
+    return image_view(memory, store, width, height, format, type, operation).astype(dtype, copy=False)
 
 
 def bitmap_rows(bitmap: Any, store: PixelStore, width: int, height: int, operation: str) -> np.ndarray:
     """Return the bits (height, width) of a bitmap in client memory, first row = bottom row; the highest bit is left.
+
+    With GL_UNPACK_LSB_FIRST, the lowest bit is left.
 
     Raises
     ------
@@ -142,7 +164,10 @@ def bitmap_rows(bitmap: Any, store: PixelStore, width: int, height: int, operati
     for row in range(height):
         part = raw[first + row * step : first + row * step + rows.shape[1]]
         rows[row, : len(part)] = part
-    bits: np.ndarray = np.unpackbits(rows, axis=1)[:, store.skip_pixels : store.skip_pixels + width].astype(bool)
+    order: Any = "little" if store.lsb_first else "big"
+    bits: np.ndarray = np.unpackbits(rows, axis=1, bitorder=order)[
+        :, store.skip_pixels : store.skip_pixels + width
+    ].astype(bool)
     return bits
 
 
@@ -160,9 +185,10 @@ def output_array(
     """
     dtype = dtype_of(type)
     if array is None:
-        components = len(COMPONENTS[format])
+        components = elements_of(format, type)
         zeros = np.zeros((height, width) if components == 1 else (height, width, components), dtype)
-        return zeros, zeros.reshape(height, width, components)
+        view = zeros.reshape(height, width, components)
+        return zeros, view.view(dtype.newbyteorder()) if store.swap_bytes else view
     if not isinstance(array, np.ndarray) or array.dtype not in (dtype, np.dtype(np.uint8)):
         received = array.dtype if isinstance(array, np.ndarray) else repr(array)
         raise TypeError(f"{operation}: expected an array of {dtype}, got {received!s:.80}")

@@ -10,15 +10,18 @@ from __future__ import annotations
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.image import Format
+from softshadow.image import D32F, Format
 from softshadow.jit import kernel, read_only
-from softshadow.pixel_store import COMPONENTS, PACKED_TYPES
+from softshadow.packed_colors import PACKED_COLORS, PackedColor, with_more_bits
+from softshadow.pixel_store import COMPONENTS, PACKED_TYPES, TYPES
+from softshadow.pixel_transfer import PixelTransfer
 
 F32 = np.float32
 LARGEST_UINT = (1 << 32) - 1
 LARGEST_24 = (1 << 24) - 1
 LARGEST_SAMPLED = (1 << 23) - 1  # llvmpipe samples the upper 23 bits of 32-bit depth
 LARGE = 1 << 18  # bytes of an image from which calling a kernel pays
+UNCHANGED = PixelTransfer()
 CHANNEL = {"R": 0, "G": 1, "B": 2, "A": 3}
 
 
@@ -64,8 +67,10 @@ def depth_as_float(cells: np.ndarray, format: Format) -> np.ndarray:
     return (np.minimum(cells.astype(np.float64), format.largest) / format.largest).astype(F32)
 
 
-def unpack_depth(pixels: np.ndarray, format: Format) -> np.ndarray:
+def unpack_depth(pixels: np.ndarray, format: Format, transfer: PixelTransfer = UNCHANGED) -> np.ndarray:
     """Return client depth (h, w) of any type, converted to buffer units."""
+    if transfer.changes_depth:
+        return _truncated_depth(transfer.scaled_depth(_depth_from_client(pixels)), format)
     if pixels.dtype == np.uint16 and format.largest == (1 << 16) - 1:
         return pixels.astype(F32)
     if pixels.dtype == np.uint32 and format.largest == LARGEST_UINT:
@@ -101,16 +106,25 @@ def _depth_from_client(pixels: np.ndarray) -> np.ndarray:
     return np.where(pixels == 0, F32(0), doubled * (F32(1) / F32(2 * largest + 1)))
 
 
-def pack_depth(cells: np.ndarray, format: Format, dtype: type[np.generic], through_float: bool = False) -> np.ndarray:
+def pack_depth(
+    cells: np.ndarray,
+    format: Format,
+    dtype: type[np.generic],
+    through_float: bool = False,
+    transfer: PixelTransfer = UNCHANGED,
+) -> np.ndarray:
     """Return depth in buffer units (h, w) as a client type.
 
     For GL_UNSIGNED_INT, the upper bits of fixed-point depth are repeated below it. glGetTexImage converts 16 and 24
     bits to floats instead (`through_float`).
     """
     z = depth_as_float(cells, format)
+    if transfer.changes_depth:
+        z, through_float = transfer.scaled_depth(z), True
     if dtype == F32:
         return z
-    if dtype == np.uint32 and format.largest and not (through_float and format.largest < LARGEST_UINT):
+    exact = not transfer.changes_depth
+    if dtype == np.uint32 and format.largest and exact and not (through_float and format.largest < LARGEST_UINT):
         units = np.minimum(cells.astype(np.float64), format.largest).astype(np.int64)
         if format.largest == (1 << 16) - 1:
             units = units << 16 | units
@@ -127,31 +141,47 @@ def pack_depth(cells: np.ndarray, format: Format, dtype: type[np.generic], throu
     return np.floor(z.astype(np.float64) * largest).astype(dtype)
 
 
-def pack_stencil(cells: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
+def unpack_stencil(pixels: np.ndarray, transfer: PixelTransfer = UNCHANGED) -> np.ndarray:
+    """Return client stencil values (h, w) of any type, uint8."""
+    return transfer.uploaded_stencil(pixels.astype(np.int64))
+
+
+def pack_stencil(cells: np.ndarray, dtype: type[np.generic], transfer: PixelTransfer = UNCHANGED) -> np.ndarray:
     """Return stencil values as a client type; GL_BYTE holds 7 bits."""
+    if transfer.changes_stencil:
+        cells = transfer.read_stencil(cells)
     return (cells & np.uint8(127) if dtype == np.int8 else cells).astype(dtype)
 
 
 # -- depth and stencil in one element ----------------------------------------------------------------------------------
-def unpack_packed_depth(pixels: np.ndarray, format: Format) -> np.ndarray:
+def unpack_packed_depth(pixels: np.ndarray, format: Format, transfer: PixelTransfer = UNCHANGED) -> np.ndarray:
     """Return the depth of packed client pixels (h, w) in buffer units; 24-bit depth is copied exactly."""
     if pixels.dtype.names:
-        return _truncated_depth(pixels["depth"], format)
+        z = pixels["depth"]
+        return _truncated_depth(transfer.scaled_depth(z) if transfer.changes_depth else z, format)
     units = (pixels >> np.uint32(8)).astype(F32)
+    if transfer.changes_depth:
+        return _truncated_depth(transfer.scaled_depth(units * (F32(1) / F32(LARGEST_24))), format)
     return units if format.largest == LARGEST_24 else _truncated_depth(units * (F32(1) / F32(LARGEST_24)), format)
 
 
-def unpack_packed_stencil(pixels: np.ndarray) -> np.ndarray:
+def unpack_packed_stencil(pixels: np.ndarray, transfer: PixelTransfer = UNCHANGED) -> np.ndarray:
     """Return the stencil values of packed client pixels (h, w), uint8."""
     words = pixels["stencil"] if pixels.dtype.names else pixels
-    return (words & np.uint32(255)).astype(np.uint8)
+    return unpack_stencil(words & np.uint32(255), transfer)
 
 
-def pack_depth_stencil(depth: np.ndarray, stencil: np.ndarray, format: Format, type: int) -> np.ndarray:
+def pack_depth_stencil(
+    depth: np.ndarray, stencil: np.ndarray, format: Format, type: int, transfer: PixelTransfer = UNCHANGED
+) -> np.ndarray:
     """Return depth in buffer units and stencil values (h, w) as a packed client type.
 
     24-bit depth is copied exactly; a float is scaled in its own precision, then truncated to 24 bits.
     """
+    if transfer.changes_stencil:
+        stencil = transfer.read_stencil(stencil)
+    if transfer.changes_depth:
+        depth, format = transfer.scaled_depth(depth_as_float(depth, format)), D32F
     if type == gl.GL_UNSIGNED_INT_24_8:
         units = depth if format.largest == LARGEST_24 else depth * depth.dtype.type(LARGEST_24)
         return units.astype(np.uint32) << np.uint32(8) | stencil
@@ -198,16 +228,59 @@ def copy_rgb(rgba: np.ndarray, rgb: np.ndarray) -> None:
             rgb[j, i, 0], rgb[j, i, 1], rgb[j, i, 2] = rgba[j, i, 0], rgba[j, i, 1], rgba[j, i, 2]
 
 
-def unpack_color(pixels: np.ndarray, pixel_format: int, format: Format) -> np.ndarray:
-    """Return client colours (h, w, components) as the cells (h, w, 4) of an 8-bit or float image."""
-    values = _to_unorm8(pixels) if format.kind == "unorm8" else _to_float(pixels)
-    names = COMPONENTS[pixel_format]
+def unpack_color(
+    pixels: np.ndarray,
+    pixel_format: int,
+    format: Format,
+    type: int = gl.GL_NONE,
+    transfer: PixelTransfer = UNCHANGED,
+) -> np.ndarray:
+    """Return client colours (h, w, components) as the cells (h, w, 4) of an 8-bit or float image.
+
+    `type` is that of packed pixels, one element per pixel; others are known by their dtype. Colour indices become
+    colours by the tables of glPixelMap.
+    """
+    if pixel_format == gl.GL_COLOR_INDEX:
+        indices = pixels[..., 0].astype(np.int64) & LARGEST_UINT
+        return to_cells(transfer.indexed_color(transfer.shifted(indices)), format)
+    packed = PACKED_COLORS.get(type)
+    if transfer.through_floats:
+        floats = _packed_to_float(pixels, packed) if packed else _to_float(pixels)
+        return to_cells(transfer.color(_rgba(floats, pixel_format, 1)), format)
+    if format.kind == "unorm8":
+        values, one = _packed_to_unorm8(pixels, packed) if packed else _to_unorm8(pixels), 255
+    else:
+        values, one = _packed_to_float(pixels, packed) if packed else _to_float(pixels), 1
+    return to_base(_rgba(values, pixel_format, one), format.base)
+
+
+def to_cells(rgba: np.ndarray, format: Format) -> np.ndarray:
+    """Return float colours (h, w, 4) as the cells of an 8-bit or float image."""
+    return to_base(_to_unorm8(rgba) if format.kind == "unorm8" else rgba, format.base)
+
+
+def _rgba(values: np.ndarray, pixel_format: int, one: int) -> np.ndarray:
+    """Return the components of client pixels (h, w, n) as RGBA (h, w, 4)."""
     rgba = np.zeros((*values.shape[:2], 4), values.dtype)
-    rgba[..., 3] = 255 if format.kind == "unorm8" else 1
-    for component, name in enumerate(names):
+    rgba[..., 3] = one
+    for component, name in enumerate(COMPONENTS[pixel_format]):
         for channel in "RGB" if name == "L" else name:
             rgba[..., CHANNEL[channel]] = values[..., component]
-    return to_base(rgba, format.base)
+    return rgba
+
+
+def _packed_to_unorm8(words: np.ndarray, packed: PackedColor) -> np.ndarray:
+    components = packed.split(words[..., 0])
+    for part, (_, n_bits) in enumerate(packed.fields):
+        values = components[..., part]
+        more = (values * 255 + 511) // 1023 if n_bits > 8 else with_more_bits(values, n_bits, 8)
+        components[..., part] = more
+    return components.astype(np.uint8)
+
+
+def _packed_to_float(words: np.ndarray, packed: PackedColor) -> np.ndarray:
+    floats: np.ndarray = packed.split(words[..., 0]).astype(F32) * (F32(1) / packed.largest.astype(F32))
+    return floats
 
 
 def _to_unorm8(values: np.ndarray) -> np.ndarray:
@@ -229,10 +302,20 @@ def color_as_float(cells: np.ndarray) -> np.ndarray:
     return _to_float(cells)
 
 
+def client_kind(type: int) -> type[np.generic] | PackedColor:
+    """Return what client pixels of a type are made of: numbers, or packed colours."""
+    return PACKED_COLORS[type] if type in PACKED_COLORS else TYPES[type]
+
+
 def pack_color(
-    cells: np.ndarray, format: Format, pixel_format: int, dtype: type[np.generic], from_framebuffer: bool = False
+    cells: np.ndarray,
+    format: Format,
+    pixel_format: int,
+    kind: type[np.generic] | PackedColor,
+    from_framebuffer: bool = False,
+    transfer: PixelTransfer = UNCHANGED,
 ) -> np.ndarray:
-    """Return colour cells (h, w, 4) as client pixels (h, w, components).
+    """Return colour cells (h, w, 4) as client pixels (h, w, components), or (h, w, 1) of a packed type.
 
     Luminance and intensity are read as (L, 0, 0, A). With `from_framebuffer`, luminance is R + G + B, and colours are
     clamped to [0, 1] before conversion to integers. Texture colours are clamped for unsigned types only, where
@@ -242,9 +325,13 @@ def pack_color(
     base = {gl.GL_LUMINANCE: "R001", gl.GL_INTENSITY: "R001", gl.GL_LUMINANCE_ALPHA: "R00A"}.get(format.base, "RGBA")
     rgba = _swizzled(cells, base, one)
     names = COMPONENTS[pixel_format]
+    sign = "u" if isinstance(kind, PackedColor) else np.dtype(kind).kind
     sums = from_framebuffer and "L" in names and format.base in (gl.GL_RG, gl.GL_RGB, gl.GL_RGBA)
-    clamped = from_framebuffer and np.dtype(dtype).kind != "f"
-    if clamped and rgba.dtype != np.uint8:
+    clamped = from_framebuffer and sign != "f" and format.kind != "unorm8"
+    if transfer.through_floats:
+        rgba, one = transfer.color(color_as_float(rgba)), 1
+        clamped = clamped or (sums and format.kind == "unorm8")
+    if clamped:
         rgba = np.clip(rgba, F32(0), F32(1))
     if sums:
         rgba = color_as_float(rgba)
@@ -252,15 +339,31 @@ def pack_color(
         if clamped or format.kind == "unorm8":
             total = np.clip(total, F32(0), F32(1))
         rgba = np.stack([total, total, total, rgba[..., 3]], axis=-1)
-    elif "L" in names and np.dtype(dtype).kind == "u" and not from_framebuffer:
+    elif "L" in names and sign == "u" and not from_framebuffer:
         rgba, one = color_as_float(rgba), 1
     chosen = _swizzled(rgba, names.replace("L", "R"), one)
+    if isinstance(kind, PackedColor):
+        return _packed(chosen, kind, format)
     if chosen.dtype == np.uint8:
-        return _from_unorm8(chosen, dtype)
-    pixels = _from_float(chosen, dtype)
-    if np.dtype(dtype).kind == "i" and not from_framebuffer and not format.written[3]:
-        pixels[..., [name == "A" for name in names]] = largest_of(dtype)
+        return _from_unorm8(chosen, kind)
+    pixels = _from_float(chosen, kind)
+    if sign == "i" and not from_framebuffer and not format.written[3]:
+        pixels[..., [name == "A" for name in names]] = largest_of(kind)
     return pixels
+
+
+def _packed(values: np.ndarray, packed: PackedColor, format: Format) -> np.ndarray:
+    """Return components (h, w, n), bytes or floats, as packed pixels (h, w, 1)."""
+    components = np.empty(values.shape, np.int64)
+    of_bytes, floats = values.dtype == np.uint8, color_as_float(values)
+    for part, (largest, (_, n_bits)) in enumerate(zip(packed.largest.tolist(), packed.fields, strict=True)):
+        if of_bytes and n_bits <= 8:
+            components[..., part] = (values[..., part].astype(np.int64) * largest + 127) // 255
+        elif of_bytes and format.base == gl.GL_RGBA:  # Mesa converts such bytes without floats
+            components[..., part] = with_more_bits(values[..., part].astype(np.int64), 8, n_bits)
+        else:
+            components[..., part] = np.rint(np.clip(floats[..., part], F32(0), F32(1)) * F32(largest))
+    return packed.join(components)[..., np.newaxis]
 
 
 def _from_unorm8(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:

@@ -8,6 +8,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 SCENES = ROOT / "docs" / "scenes"
 TRACE = ROOT / "tests" / "recordings" / "data" / "arrays_and_lists.trace"  # of the C program beside it
+PROGRAMS = ROOT / "tests" / "recordings" / "programs"  # small programs, and traces of those in C
 SHARED_DATA = Path(os.environ.get("SOFTSHADOW_SHARED_DATA", ROOT.parent / "shared" / "data"))
 
 

@@ -83,6 +83,8 @@ CAPABILITIES = (
     "GL_DITHER", "GL_MULTISAMPLE", "GL_LIGHTING", "GL_COLOR_MATERIAL", "GL_NORMALIZE", "GL_RESCALE_NORMAL", "GL_FOG",
     "GL_TEXTURE_2D", "GL_TEXTURE_CUBE_MAP", "GL_TEXTURE_GEN_S", "GL_TEXTURE_GEN_Q", "GL_LIGHT0", "GL_LIGHT3",
     "GL_CLIP_PLANE0", "GL_CLIP_PLANE2", "GL_TEXTURE_CUBE_MAP_SEAMLESS",
+    "GL_POLYGON_SMOOTH", "GL_POLYGON_STIPPLE", "GL_LINE_SMOOTH", "GL_LINE_STIPPLE", "GL_POINT_SMOOTH",
+    "GL_POINT_SPRITE",
 )  # fmt: skip
 LOGIC_OPS = ("GL_CLEAR", "GL_AND", "GL_COPY", "GL_XOR", "GL_INVERT", "GL_SET")
 MATRIX_MODES = ("GL_MODELVIEW", "GL_PROJECTION", "GL_TEXTURE")
@@ -91,6 +93,7 @@ ATTRIBUTE_BITS = (
     "GL_CURRENT_BIT", "GL_POINT_BIT", "GL_LINE_BIT", "GL_POLYGON_BIT", "GL_PIXEL_MODE_BIT", "GL_LIGHTING_BIT",
     "GL_FOG_BIT", "GL_DEPTH_BUFFER_BIT", "GL_ACCUM_BUFFER_BIT", "GL_STENCIL_BUFFER_BIT", "GL_VIEWPORT_BIT",
     "GL_TRANSFORM_BIT", "GL_ENABLE_BIT", "GL_COLOR_BUFFER_BIT", "GL_HINT_BIT", "GL_LIST_BIT", "GL_TEXTURE_BIT",
+    "GL_POLYGON_STIPPLE_BIT",
     "GL_SCISSOR_BIT", "GL_MULTISAMPLE_BIT", "GL_ALL_ATTRIB_BITS",
 )  # fmt: skip
 HINTS = ("GL_PERSPECTIVE_CORRECTION_HINT", "GL_FOG_HINT", "GL_GENERATE_MIPMAP_HINT", "GL_LINE_SMOOTH_HINT")
@@ -124,6 +127,8 @@ def state_calls() -> st.SearchStrategy[list[tuple]]:
     light_number = one_of("GL_SPOT_EXPONENT", "GL_SPOT_CUTOFF", *attenuations)
     light_color = one_of("GL_AMBIENT", "GL_DIFFUSE", "GL_SPECULAR")
     fog_number = one_of("GL_FOG_DENSITY", "GL_FOG_START", "GL_FOG_END")
+    origin = one_of("GL_LOWER_LEFT", "GL_UPPER_LEFT")
+    point_number = one_of("GL_POINT_SIZE_MIN", "GL_POINT_SIZE_MAX", "GL_POINT_FADE_THRESHOLD_SIZE")
     plane, unit_name = one_of("GL_CLIP_PLANE0", "GL_CLIP_PLANE2"), st.sampled_from(["GL_TEXTURE0", "GL_TEXTURE3"])
     model_switch = one_of("GL_LIGHT_MODEL_LOCAL_VIEWER", "GL_LIGHT_MODEL_TWO_SIDE", "GL_LIGHT_MODEL_COLOR_CONTROL")
     bit = st.sampled_from(ATTRIBUTE_BITS)
@@ -159,6 +164,12 @@ def state_calls() -> st.SearchStrategy[list[tuple]]:
             call("glPolygonOffset", real, real),
             call("glLineWidth", real),
             call("glPointSize", real),
+            call("glLineStipple", integer, integer.map(lambda bits: bits & 0xFFFF)),
+            call("glPolygonStipple", st.binary(min_size=128, max_size=128)),
+            call("glPointParameterf", point_number, real),
+            call("glPointParameteri", st.just("GL_POINT_SPRITE_COORD_ORIGIN"), origin),
+            call("glPointParameterfv", st.just("GL_POINT_DISTANCE_ATTENUATION"), floats(3)),
+            call("glTexEnvi", st.just("GL_POINT_SPRITE"), one_of("GL_COORD_REPLACE"), st.sampled_from([0, 1, 2])),
             call("glViewport", pixel, pixel, pixel, pixel),
             call("glScissor", pixel, pixel, pixel, pixel),
             call("glHint", one_of(*HINTS), one_of("GL_DONT_CARE", "GL_FASTEST", "GL_NICEST")),

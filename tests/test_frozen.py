@@ -32,3 +32,12 @@ def test_a_created_instance_is_that_of_the_constructor():
     assert frozen.create(Depth, **fields) == Depth(clear=0.5)
     with pytest.raises(TypeError, match="Depth: missing or unknown fields bias"):
         frozen.create(Depth, **fields, bias=1)
+
+
+def test_a_copy_with_the_fields_of_a_known_value_is_that_value():
+    goal, before = Depth(clear=0.5), Depth()
+    assert frozen.evolve_to(goal, before, clear=goal.clear) is goal
+    assert frozen.evolve_to(goal, before, clear=before.clear) is before
+    assert frozen.evolve_to(goal, Depth(clear=goal.clear)) is goal
+    negative = frozen.evolve_to(Depth(clear=0.0), before, clear=-0.0)
+    assert str(negative.clear) == "-0.0"

@@ -115,6 +115,76 @@ def test_another_version_of_numba_loads_kernels_in_its_own_way(run: Any) -> None
     assert run(other + RUN) == RESULT.format(True)
 
 
+def files_of(folder: Path, ending: str) -> list[Path]:
+    found = sorted((folder / "cache").rglob(f"*{ending}"))
+    assert found
+    return found
+
+
+DAMAGE = {
+    "a flipped bit": lambda content: content[:-9] + bytes([content[-9] ^ 4]) + content[-8:],
+    "flipped bits in the middle": lambda content: bytes(
+        byte ^ 255 if i % 97 == 50 else byte for i, byte in enumerate(content)
+    ),
+    "the first half": lambda content: content[: len(content) // 2],
+    "nothing": lambda content: b"",
+    "something else": lambda content: b"kernel" * 500,
+    "zeros": lambda content: bytes(len(content)),
+}
+
+
+@pytest.mark.parametrize(
+    ("ending", "damage"),
+    [
+        pytest.param(ending, damage, marks=[] if damage == "flipped bits in the middle" else [pytest.mark.slow])
+        for ending in (".nbi", ".nbc")
+        for damage in DAMAGE
+    ],
+)
+def test_damaged_files_are_compiled_anew(run: Any, tmp_path: Path, damage: str, ending: str) -> None:
+    run("print(inner(3))")
+    for file in files_of(tmp_path, ending):
+        file.write_bytes(DAMAGE[damage](file.read_bytes()))
+    code = "print(inner(3), compiler_started())"
+    assert run(code) == "7 True"
+    assert run(code) == "7 False"
+
+
+def test_code_of_another_kernel_under_a_name_in_the_index_is_not_used(run: Any, tmp_path: Path) -> None:
+    run("inner(3), inner(0.5)")
+    one, other = files_of(tmp_path, ".nbc")
+    one.write_bytes(other.read_bytes())
+    assert run("print(inner(3), inner(0.5))") == "7 2.0"
+
+
+@pytest.mark.slow
+def test_files_that_are_folders_are_done_without(run: Any, tmp_path: Path) -> None:
+    run("inner(3)")
+    for file in [*files_of(tmp_path, ".nbi"), *files_of(tmp_path, ".nbc")]:
+        file.unlink()
+        file.mkdir()
+    assert run("print(inner(3))") == "7"
+
+
+FULL = """
+import resource, signal
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, ({size}, {size}))
+"""
+
+
+@pytest.mark.parametrize("size", [0, *(pytest.param(size, marks=pytest.mark.slow) for size in (200, 3000))])
+def test_a_full_disk_only_costs_time(run: Any, tmp_path: Path, size: int) -> None:
+    assert run(FULL.format(size=size) + "print(inner(3))") in ("7", "")  # nothing may be printed to a file either
+    assert run("print(inner(3))") == "7"
+    assert not list((tmp_path / "cache").rglob("*.tmp.*"))
+
+
+@pytest.mark.slow
+def test_a_deleted_folder_only_costs_time(run: Any, tmp_path: Path) -> None:
+    assert run(f"import shutil; shutil.rmtree({str(tmp_path / 'cache')!r})\nprint(inner(3))") == "7"
+
+
 def test_constant_arguments_do_not_compile_a_kernel_again(run: Any) -> None:
     assert run("print(many_calls(2), len(inner.signatures))") == "9 1"
 

@@ -168,6 +168,7 @@ def _add_state(gl: Any, add: Callable[..., None]) -> None:
     add("glMaterialfv", lambda: gl.glMaterialfv(gl.GL_FRONT, gl.GL_SPECULAR, specular))
     add("glMaterialf", lambda: gl.glMaterialf(gl.GL_FRONT, gl.GL_SHININESS, 32.0))
     add("glPushAttrib + glPopAttrib", lambda: (push(everything), pop()))
+    add("the same, glEnable between them", lambda: (push(everything), enable(blend), pop()))
 
 
 def _add_vertices(gl: Any, add: Callable[..., None]) -> None:

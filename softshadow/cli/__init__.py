@@ -25,12 +25,14 @@ from softshadow.cli.compare import compare
 from softshadow.cli.console import say, say_marked
 from softshadow.cli.exports import export, view3d
 from softshadow.cli.failures import failures
+from softshadow.cli.lessons import lessons
 from softshadow.cli.listings import listings
 from softshadow.cli.lists import scenes, techniques
 from softshadow.cli.machine import doctor, warmup
 from softshadow.cli.replay import replay
 from softshadow.cli.runs import pixel, render, section, steps
 from softshadow.cli.script import run
+from softshadow.cli.sweeps import sweep
 from softshadow.cli.tours import tour
 from softshadow.errors import SoftShadowError
 
@@ -140,7 +142,7 @@ def main(traceback: bool) -> None:
 
 for command in (
     tour, render, steps, pixel, section, view3d, export, cards, compare, replay, run, techniques, scenes, listings,
-    failures, bench, warmup, doctor,
+    failures, lessons, bench, sweep, warmup, doctor,
 ):  # fmt: skip
     main.add_command(command)
 

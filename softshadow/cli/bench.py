@@ -155,10 +155,10 @@ def _measure(
 ) -> tuple[Report, list[Growth]]:
     from softshadow.bench.growth import growth, series
     from softshadow.bench.limits import measure_limits
-    from softshadow.bench.machine import machine
     from softshadow.bench.measuring import measure
     from softshadow.bench.results import Report
     from softshadow.bench.starts import measure_starts
+    from softshadow.testing.machine import machine
 
     all_series = [(each, series(each, scaling)) for each in workloads] if scaling else []
     say("measuring the machine's limits ...")

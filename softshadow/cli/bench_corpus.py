@@ -28,7 +28,7 @@ def bench_corpus(
     from softshadow.bench.corpus.programs import PROGRAMS, get
     from softshadow.bench.corpus.results import to_json
     from softshadow.bench.corpus.tables import program_rows, summary_lines
-    from softshadow.bench.machine import machine
+    from softshadow.testing.machine import machine
 
     if not all(map(is_of_corpus, names)):
         raise click.UsageError("the corpus is measured alone: expected corpus or corpus/PROGRAM")

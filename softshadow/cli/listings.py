@@ -56,6 +56,7 @@ def listings(
     steps that execute it, and its line in the file.
     """
     from softshadow import listings as registry
+    from softshadow.lessons import run_listing
 
     check_opened(opened, output)
     if name is None:
@@ -67,7 +68,7 @@ def listings(
     if output:
         _refuse(output, force)
     say_if_compiling()
-    run = _run(listing, printed, size)
+    run = run_listing(name, printed, size)
     differences, first = _on_mesa(listing, printed, size) if on else ((), None)
     written = [_write(output, run, force)] if output else []
     if as_json:
@@ -86,15 +87,6 @@ def listings(
         context.exit(CHECK_FAILED)
 
 
-def _run(listing: Listing, printed: bool, size: tuple[int, int]) -> Run:
-    from softshadow.gallery.course_stage import listing_scene, listing_technique
-    from softshadow.gallery.expected import without_warnings
-    from softshadow.runs import run
-
-    with without_warnings():
-        return run(listing_technique(listing, () if printed else listing.corrections), listing_scene(listing), size)
-
-
 def _on_mesa(
     listing: Listing, printed: bool, size: tuple[int, int]
 ) -> tuple[tuple[BufferDifference, ...], PixelHistory | None]:
@@ -109,6 +101,7 @@ def _on_mesa(
 
 # -- output ------------------------------------------------------------------------------------------------------------
 def _print(listing: Listing, run: Run, printed: bool) -> None:
+    from softshadow.lessons import run_listing
     from softshadow.listings.source import code_of
 
     version = "as printed" if printed else "as corrected" if listing.corrections else "nothing to correct"
@@ -131,7 +124,7 @@ def _print(listing: Listing, run: Run, printed: bool) -> None:
     for which, as_printed in (("as printed", True), ("as corrected", False)):
         if pixel:
             click.echo(f"\n{which}:")
-            show(_run(listing, as_printed, run.size).pixel(*pixel))
+            show(run_listing(listing.name, as_printed, run.size).pixel(*pixel))
 
 
 def _print_json(

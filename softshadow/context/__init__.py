@@ -1,6 +1,6 @@
 """The current context, with its vertex arrays, and with the vertex buffer and pending attributes that Mesa keeps."""
 
-from softshadow.context.arrays import ArrayLayout, BufferObject, ClientArrays
+from softshadow.context.arrays import ArrayLayout, BufferObject, ClientArrays, Mapping
 from softshadow.context.context import (
     MATRIX_STACK_DEPTHS,
     Context,
@@ -24,6 +24,7 @@ __all__ = [
     "CurrentVertex",
     "DisplayList",
     "Frame",
+    "Mapping",
     "MatrixStack",
     "Primitive",
     "RasterPosition",

@@ -120,9 +120,19 @@ class VertexArray:
     snapshot: RowSnapshot | None = None
 
 
+@dataclass(frozen=True)
+class Mapping:
+    """The bytes [offset, offset + length) of a buffer object that the client may use; `access` are GL_MAP_*_BIT."""
+
+    offset: int
+    length: int
+    access: int
+    pointer: Any
+
+
 @dataclass
 class BufferObject:
-    """The bytes of a buffer object, and its usage hint.
+    """The bytes of a buffer object, and its usage hint; `mapping` is not None between glMapBuffer and glUnmapBuffer.
 
     `views` holds what has been read from the present contents; while it is empty, nobody else knows these bytes.
     """
@@ -130,6 +140,7 @@ class BufferObject:
     content: np.ndarray = field(default_factory=lambda: np.zeros(0, np.uint8))
     usage: int = gl.GL_STATIC_DRAW
     views: dict[Hashable, Any] = field(default_factory=dict)
+    mapping: Mapping | None = None
 
     def view(self, key: Hashable, make: Callable[[], Any]) -> Any:
         """Return what was read under a key; read it if it is new."""

@@ -14,19 +14,25 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context.arrays import BufferObject, ClientArrays
+from softshadow.context.evaluators import EvaluatorSettings, initial_maps
+from softshadow.context.kept_materials import with_kept_materials
 from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.raster_position import INITIAL_RASTER_POSITION, RasterPosition
 from softshadow.context.recording import Frame
+from softshadow.context.render_mode import RenderMode
 from softshadow.context.state_groups import StateGroups, affects_draws
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import create, evolve
+from softshadow.image import Image
 from softshadow.pipeline.commands import Clear, Command, Draw, Origin, Vertices
 from softshadow.pipeline.execute import execute
+from softshadow.pipeline.geometry.geometry import stipple_place_after
 from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
+from softshadow.pixel_transfer import PixelTransfer
 from softshadow.programs import Program
 from softshadow.state import TEXTURE_UNITS, State
 
@@ -116,8 +122,8 @@ class Context:
         )
         self.texture_stacks = [MatrixStack(MATRIX_STACK_DEPTHS[gl.GL_TEXTURE], self.real) for _ in range(TEXTURE_UNITS)]
         self._texture_matrices: tuple[np.ndarray, ...] | None = None  # None while calls can change them
-        self._matrix_mode, self._active_unit = gl.GL_MODELVIEW, 0
-        self.matrix_stack = self.modelview_stack  # chosen by glMatrixMode; its last entry is the current matrix
+        # set by `select_matrices` and `select_unit`; the last entry of the stack is the current matrix
+        self.matrix_mode, self.active_unit, self.matrix_stack = gl.GL_MODELVIEW, 0, self.modelview_stack
         self.programs: dict[int, Program] = {}
         self.uniforms: dict[int, dict[str, Any]] = {}
         self.labels: list[str] = []
@@ -127,10 +133,13 @@ class Context:
         self.vertex_buffer = VertexBuffer(self._carry_out, self.objects)  # immediate mode
         self.arrays = ClientArrays()
         self.client_stack: list[Any] = []
+        self._stipple_place = 0  # in the line stipple, after the draws so far
         self.buffers: dict[int, BufferObject] = {}
         self.attribute_stack: list[Any] = []
         # the state at the last glPushAttrib or glPopAttrib; bits of the groups that calls have marked as changed since
         self.state_at_push, self.touched = self.state, 0
+        # texture units, and the samplers of the textures bound to them; None after a change of a texture
+        self.bound_samplers: tuple[Any, Any] | None = None
         self.pending = PendingAttributes()
         self.lists: dict[int, DisplayList] = {}
         self.compiled_list: DisplayList | None = None  # between glNewList and glEndList; whoever sets it clears `ready`
@@ -140,9 +149,13 @@ class Context:
         self.hints: dict[int, int] = {}  # those that are not GL_DONT_CARE
         self.pack_store, self.unpack_store = PixelStore(), PixelStore()
         self.pixel_zoom = (1.0, 1.0)
+        self.pixel_transfer = PixelTransfer()
+        self.proxies: dict[tuple[int, int], Image] = {}  # by (target, level): images without cells
         # the highest name returned by glGen*, per kind; an object exists in storage once it has been bound
         self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query", "buffer", "list"), 0)
         self.renderbuffer = 0
+        self.render_mode = RenderMode()
+        self.maps, self.evaluators = initial_maps(), EvaluatorSettings()
         self.query_targets: dict[int, int] = {}  # name: target of the queries that have been begun
 
     def __enter__(self) -> Context:
@@ -171,7 +184,11 @@ class Context:
     @property
     def state(self) -> State:
         """The state, immutable; the same object until something changes."""
-        return self._state.snapshot()
+        groups = self._state
+        if self._changed or groups.followed is not None:
+            return groups.snapshot()
+        state: State = groups.root.value
+        return state
 
     @state.setter
     def state(self, state: State) -> None:
@@ -188,6 +205,10 @@ class Context:
             self._changed.add(changed)
 
     def change(self, group: str, **fields: Any) -> None:
+        """Set fields of a group of the state, as `change_field` does."""
+        self.change_fields(group, fields)
+
+    def change_fields(self, group: str, fields: Mapping[str, Any]) -> None:
         """Set fields of a group of the state, as `change_field` does."""
         if not self.ready and self._would_redraw((group,), fields):
             self.flush()
@@ -210,9 +231,24 @@ class Context:
 
     def follow(self, sides: tuple[str, ...], fields: tuple[str, ...]) -> None:
         """Copy the current colour to fields of the materials that follow it, without drawing the collected vertices."""
-        if self._state.followed is not None and self._state.followed[:2] != (sides, fields):
-            self._state.settle()
-        self._state.followed = sides, fields, self.current.color
+        state = self._state
+        if state.followed is not None and state.followed[:2] != (sides, fields):
+            state.settle()
+        if self.pending.before_following is None:
+            self.pending.before_following = state.followed or {
+                f"{side}.{field}": self.material(side)[field] for side in sides for field in fields
+            }
+        state.followed = sides, fields, self.current.color
+
+    def stop_following(self) -> None:
+        """Give the materials the values that they had when the present colour was Mesa's current one."""
+        before, self.pending.before_following = self.pending.before_following, None
+        if isinstance(before, tuple):
+            self._state.followed = before
+        elif before is not None:
+            self._state.followed = None
+            for name, value in before.items():
+                self.set_attribute(name, value)
 
     def material(self, side: str) -> dict[str, Any]:
         """Return the fields of the "front" or "back" material."""
@@ -241,37 +277,24 @@ class Context:
         array.setflags(write=False)
         return array
 
-    @property
-    def matrix_mode(self) -> int:
-        """The stack that matrix calls work on."""
-        return self._matrix_mode
-
-    @matrix_mode.setter
-    def matrix_mode(self, mode: int) -> None:
-        self._matrix_mode = mode
-        self._select_stack()
-
-    @property
-    def active_unit(self) -> int:
-        """The texture unit that texture calls and the texture matrix stack apply to."""
-        return self._active_unit
-
-    @active_unit.setter
-    def active_unit(self, unit: int) -> None:
-        self._active_unit = unit
-        self._select_stack()
-
-    def _select_stack(self) -> None:
-        if self._matrix_mode == gl.GL_TEXTURE:
-            self.matrix_stack = self.texture_stacks[self._active_unit]
+    def select_matrices(self, mode: int) -> None:
+        """Select the stack that matrix calls work on."""
+        self.matrix_mode = mode
+        if mode == gl.GL_TEXTURE:
+            self.matrix_stack = self.texture_stacks[self.active_unit]
             self._texture_matrices = None
         else:
-            self.matrix_stack = self.modelview_stack if self._matrix_mode == gl.GL_MODELVIEW else self.projection_stack
+            self.matrix_stack = self.modelview_stack if mode == gl.GL_MODELVIEW else self.projection_stack
+
+    def select_unit(self, unit: int) -> None:
+        """Select the texture unit that texture calls and the texture matrix stack apply to."""
+        self.active_unit = unit
+        self.select_matrices(self.matrix_mode)
 
     def _read_texture_matrices(self) -> tuple[np.ndarray, ...]:
         """Return the texture matrices, and keep them until calls can change them."""
         matrices = tuple([stack.current for stack in self.texture_stacks])
-        if self._matrix_mode != gl.GL_TEXTURE:
+        if self.matrix_mode != gl.GL_TEXTURE:
             self._texture_matrices = matrices
         return matrices
 
@@ -303,14 +326,24 @@ class Context:
     def _carry_out(self, command: Command) -> None:
         if self.gate is not None and not self.gate(command):
             return
+        if type(command) is Draw and command.state.lines.stippled:
+            command = self._continue_stipple(command)
         if type(command) is not Draw:
             if type(command) is not Clear:
                 self._waiting.forget()
+                self.bound_samplers = None
             execute(command, self.storage)
         elif not self._waiting.add(command):
             execute(command, self.objects)
         if self._frame.append(command):
             self._frame.shorten(self.storage)
+
+    def _continue_stipple(self, command: Draw) -> Draw:
+        """Return a draw with the place in the line stipple that the draws before it have left."""
+        if self._stipple_place:
+            command = evolve(command, stipple_place=self._stipple_place)
+        self._stipple_place = stipple_place_after(command, self.storage)
+        return command
 
     def carry_out(self, commands: Sequence[Command]) -> None:
         """Carry out and record commands that the gate has kept back."""
@@ -387,22 +420,28 @@ class Context:
     def update_current(self) -> None:
         """Make pending attributes current, as queries of current values do (Mesa's FLUSH_CURRENT)."""
         if self.pending.old_values:
+            hidden = dict(self.pending.hidden)
             self._make_pending_current()
             self.pending.reset_due, self.ready = True, False
+            self.pending.hidden = hidden  # vertices carry it still, so it returns
 
     def reset_attributes(self) -> None:
         """Make pending attributes current; the vertices that follow do not carry them (Mesa's vbo_reset_all_attr)."""
         self._make_pending_current()
         self.pending.names.clear()
-        self.pending.reset_due = False
+        self.pending.reset_due = self.pending.has_vertices = False
 
     def _make_pending_current(self) -> None:
-        pending = self.pending
+        pending, color = self.pending, self.current.color
+        pending.before_following = None
         if not pending.old_values and not pending.hidden:
             return
+        followed = self._state.followed
         for name, value in pending.hidden.items():
             pending.old_values.setdefault(name, self.attribute(name))
             self.set_attribute(name, value)
+        if pending.hidden and followed is not None and pending.old_values.get("color", color) != color:
+            self._state.followed = followed  # a new colour comes after the materials
         for name, old_value in pending.old_values.items():
             if old_value != self.attribute(name):
                 self.touched |= gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT
@@ -412,6 +451,8 @@ class Context:
     # -- recording -----------------------------------------------------------------------------------------------------
     def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
         state = self._state.drawn()
+        if self._state.followed is None and state.lighting.color_material:
+            state = with_kept_materials(state, vertices.color)
         program = state.program
         modelview, modelview_kind = self.modelview_stack.drawn()
         projection, projection_kind = self.projection_stack.drawn()
@@ -435,6 +476,7 @@ class Context:
             joined_start=0,
             linear=False,
             offset_mode=0,
+            stipple_place=0,
             origin=self.origin,
         )
 

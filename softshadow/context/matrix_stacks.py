@@ -1,7 +1,8 @@
 """Matrix stacks that compute their matrices when something reads them.
 
 A call such as glTranslate only queues its numbers. The first reader (a draw, a query, a light's position) has all
-queued operations carried out by one compiled function. A pop drops what was queued since its push.
+queued operations carried out by one compiled function. A push only leaves room in the queue, and a pop drops what was
+queued since its push: a program that draws nothing between them pays for neither.
 """
 
 from __future__ import annotations
@@ -30,9 +31,10 @@ from softshadow.programs.inverse import (
 
 NUMBER = 8  # bytes
 CAPACITY = 512 * NUMBER  # of the queue
+LAST = CAPACITY - NUMBER  # the last place for a push
+KNOWN = ~UNKNOWN
 SAME_SCALE = 1e-8  # a scale is uniform if its factors differ by less (Mesa, math/m_matrix.c)
 PACK_1, PACK_4, PACK_6, PACK_10, PACK_17 = (struct.Struct(f"={n}d").pack_into for n in (1, 4, 6, 10, 17))
-PACKED_PUSH = struct.pack("=d", PUSH)
 FEW = 1000 * NUMBER  # bytes computed before compiled code pays: a program that draws little need not load it
 
 
@@ -40,7 +42,7 @@ class MatrixStack:
     """One of GL's matrix stacks, with the identity on it.
 
     Its last entry is the current matrix. Entries are read-only (4, 4) arrays, and stay the same objects until a call
-    changes them. `kinds` says which transformations each entry may contain: Mesa inverts by kind
+    changes them. `kind` says which transformations the current matrix may contain: Mesa inverts by kind
     (`softshadow.programs.inverse`).
 
     Parameters
@@ -51,80 +53,85 @@ class MatrixStack:
 
     def __init__(self, limit: int, real: type[np.floating]) -> None:
         self.limit = limit
-        self.kinds = [0]
         self._is_single = real is np.float32
         self._carry_out: Any = products.carry_out_by_textbook
         self._computed = 0
         self._levels = np.zeros((limit, 4, 4), real)
         self._levels[0] = np.eye(4)
         self._identity = _read_only(self._levels[0])
-        # the matrices that are known; None if operations on it are still queued
-        self._known: list[np.ndarray | None] = [self._identity]
+        self._kind = 0
+        self._known: np.ndarray | None = self._identity  # None if operations on it are still queued
+        # kinds and matrices of the entries below, and the byte of the push onto each
+        self._below: list[tuple[int, np.ndarray | None, int]] = []
+        self._most_below = limit - 1
         self._memory = bytearray(CAPACITY)
         self._queue = np.frombuffer(self._memory, np.float64)
         self._end = 0  # bytes in use
-        self._level = 0  # that the first queued operation applies to
-        self._starts = [0]  # byte where the operations on each level begin; -1 if its push has been carried out
+        self._level = 0  # that the first queued operation applies to: pushes onto lower ones have been carried out
 
     def __len__(self) -> int:
-        return len(self.kinds)
+        return len(self._below) + 1
 
     def __getitem__(self, index: int) -> np.ndarray:
-        entry = self._known[index]
+        level = range(len(self))[index]
+        is_current = level == len(self._below)
+        kind, entry, push = (self._kind, self._known, 0) if is_current else self._below[level]
         if entry is None:
             self._compute()
-            entry = self._levels[index if index >= 0 else len(self) + index].copy()
-            entry.flags.writeable = False
-            self._known[index] = entry
+            entry = _read_only(self._levels[level])
+            if is_current:
+                self._known = entry
+            else:
+                self._below[level] = kind, entry, push
         return entry
 
     @property
     def current(self) -> np.ndarray:
         """The current matrix, read-only."""
-        known = self._known[-1]
-        return self[-1] if known is None else known
+        return self[-1] if self._known is None else self._known
 
     @property
     def kind(self) -> int:
         """The kind of the current matrix; an unknown one is derived from its elements, as Mesa does at each draw."""
-        kind = self.kinds[-1]
-        if kind & UNKNOWN:
-            kind = self.kinds[-1] = known_kind(self.current, kind)
-        return kind
+        if self._kind & UNKNOWN:
+            self._kind = known_kind(self.current, self._kind)
+        return self._kind
 
     def drawn(self) -> tuple[np.ndarray, int]:
         """Return the current matrix and its kind, for a draw."""
-        matrix, kind = self._known[-1], self.kinds[-1]
+        matrix, kind = self._known, self._kind
         return self[-1] if matrix is None else matrix, self.kind if kind & UNKNOWN else kind
 
     # -- stack ---------------------------------------------------------------------------------------------------------
-    def push(self) -> None:
-        """Push a copy of the current matrix; the caller knows that there is room."""
-        kinds, known = self.kinds, self._known
-        kinds.append(self.kind if kinds[-1] & UNKNOWN else kinds[-1])
-        known.append(known[-1])
-        end = self._end
-        if end + NUMBER > CAPACITY:
-            end = self._compute()
-        self._memory[end : end + NUMBER] = PACKED_PUSH
-        self._starts.append(end)
+    def push(self) -> bool:
+        """Push a copy of the current matrix; return False if the stack is full."""
+        below, kind, end = self._below, self._kind, self._end
+        if len(below) == self._most_below:
+            return False
+        if kind & UNKNOWN or end > LAST:
+            kind, end = self.kind, self._compute()
+        below.append((kind, self._known, end))
         self._end = end + NUMBER
+        return True
 
-    def pop(self) -> None:
-        """Return to the matrix before the last push; the caller knows that there is one."""
-        self.kinds.pop()
-        self._known.pop()
-        start = self._starts.pop()
-        if start >= 0:
-            self._end = start
+    def pop(self) -> bool:
+        """Return to the matrix before the last push; return False if there is none."""
+        below = self._below
+        try:
+            self._kind, self._known, push = below.pop()
+        except IndexError:
+            return False
+        if len(below) >= self._level:
+            self._end = push
         else:  # the push has been carried out, so all that is queued applies to its level
-            self._end, self._level = 0, self._level - 1
+            self._end, self._level = 0, len(below)
+        return True
 
     @property
     def equals_pushed(self) -> bool:
         """Whether the current matrix has the same bytes as the one below it."""
         self._compute()
-        level = len(self.kinds) - 1
+        level = len(self._below)
         return self._levels[level].tobytes() == self._levels[level - 1].tobytes()
 
     # -- operations ----------------------------------------------------------------------------------------------------
@@ -136,8 +143,8 @@ class MatrixStack:
             self._make_room(x, y, z)
             PACK_4(self._memory, self._end, TRANSLATE, x, y, z)
         self._end += 4 * NUMBER
-        self._known[-1] = None
-        self.kinds[-1] |= TRANSLATED
+        self._known = None
+        self._kind |= TRANSLATED
 
     def scale(self, x: float, y: float, z: float) -> None:
         """Multiply by a scale."""
@@ -147,8 +154,8 @@ class MatrixStack:
             self._make_room(x, y, z)
             PACK_4(self._memory, self._end, SCALE, x, y, z)
         self._end += 4 * NUMBER
-        self._known[-1] = None
-        self.kinds[-1] |= UNIFORM_SCALE if max(abs(x - y), abs(x - z)) < SAME_SCALE else GENERAL_SCALE
+        self._known = None
+        self._kind |= UNIFORM_SCALE if max(abs(x - y), abs(x - z)) < SAME_SCALE else GENERAL_SCALE
 
     def rotate(self, angle: float, x: float, y: float, z: float) -> None:
         """Multiply by a rotation: degrees about an axis."""
@@ -159,30 +166,30 @@ class MatrixStack:
             self._make_room(sine, cosine, x, y, z)
             PACK_6(self._memory, self._end, ROTATE, sine, cosine, x, y, z)
         self._end += 6 * NUMBER
-        self._known[-1] = None
-        self.kinds[-1] |= ROTATION
+        self._known = None
+        self._kind |= ROTATION
 
     def load_identity(self) -> None:
         """Replace the current matrix by the identity."""
-        if self._known[-1] is not self._identity:
+        if self._known is not self._identity:
             self._forget()
             self._enqueue(PACK_1, IDENTITY)
-            self._known[-1] = self._identity
+            self._known = self._identity
         # Mesa keeps the kind of the old matrix, and so inverts products with the identity more generally
-        self.kinds[-1] &= ~UNKNOWN
+        self._kind &= KNOWN
 
     def load(self, matrix: np.ndarray) -> None:
         """Replace the current matrix by a read-only (4, 4) array."""
         self._forget()
         self._enqueue_matrix(LOAD, matrix)
-        self._known[-1] = matrix
-        self.kinds[-1] = GENERAL | UNKNOWN
+        self._known = matrix
+        self._kind = GENERAL | UNKNOWN
 
     def multiply(self, matrix: np.ndarray) -> None:
         """Multiply by a (4, 4) array."""
         self._enqueue_matrix(MULTIPLY, matrix)
-        self._known[-1] = None
-        self.kinds[-1] |= GENERAL | UNKNOWN
+        self._known = None
+        self._kind |= GENERAL | UNKNOWN
 
     def perspective(self, fov_y: float, aspect: float, near: float, far: float) -> None:
         """Multiply by gluPerspective's matrix."""
@@ -192,26 +199,26 @@ class MatrixStack:
             end = self._compute()
         self._memory[end : end + len(packed)] = packed
         self._end = end + len(packed)
-        self._known[-1] = None
-        self.kinds[-1] |= GENERAL | UNKNOWN
+        self._known = None
+        self._kind |= GENERAL | UNKNOWN
 
     def frustum(self, *planes: float) -> None:
         """Multiply by glFrustum's matrix: left, right, bottom, top, near, far."""
         self._enqueue(PACK_17, MULTIPLY, *_elements(frustum, tuple(map(float, planes)), self._is_single))
-        self._known[-1] = None
-        self.kinds[-1] |= GENERAL
+        self._known = None
+        self._kind |= GENERAL
 
     def ortho(self, *planes: float) -> None:
         """Multiply by glOrtho's matrix: left, right, bottom, top, near, far."""
         self._enqueue(PACK_17, MULTIPLY, *_elements(ortho, tuple(map(float, planes)), self._is_single))
-        self._known[-1] = None
-        self.kinds[-1] |= GENERAL_SCALE | TRANSLATED
+        self._known = None
+        self._kind |= GENERAL_SCALE | TRANSLATED
 
     def look_at(self, *places: float) -> None:
         """Multiply by gluLookAt's matrix: eye, centre and up, nine numbers."""
         self._enqueue(PACK_10, LOOK_AT, *places)
-        self._known[-1] = None
-        self.kinds[-1] |= GENERAL | TRANSLATED | UNKNOWN
+        self._known = None
+        self._kind |= GENERAL | TRANSLATED | UNKNOWN
 
     # -- queue ---------------------------------------------------------------------------------------------------------
     def _enqueue(self, pack: Any, *numbers: float) -> None:
@@ -245,14 +252,14 @@ class MatrixStack:
 
     def _forget(self) -> None:
         """Drop the queued operations on the current matrix, which is about to be replaced."""
-        start = self._starts[-1]
-        self._end = 0 if start < 0 or len(self) == 1 else start + NUMBER
+        self._end = self._below[-1][2] + NUMBER if len(self._below) > self._level else 0
 
     def _compute(self) -> int:
         """Carry out the queued operations; return 0, the bytes in use."""
         if self._end:
+            for _, _, push in self._below[self._level :]:
+                self._queue[push // NUMBER] = PUSH
             self._level = self._carry_out(self._queue, self._end // NUMBER, self._levels, self._level)
-            self._starts = [-1] * len(self._starts)
             self._computed, self._end = self._computed + self._end, 0
             if self._computed >= FEW and self._is_single and hasattr(products.carry_out, "py_func"):
                 self._carry_out = products.carry_out

@@ -18,11 +18,16 @@ class PendingAttributes:
     ----------
     names : set of str       "color", "normal", "texcoord0", "front.diffuse" ...: attributes set since the last reset
     old_values : dict        name: the current value before the attribute was set
-    hidden : dict            name: the value that was set, where glPopAttrib has restored another current value
+    hidden : dict            name: the value that was set, where glPopAttrib or glColor has put another current value
+    before_following         the materials before they followed a colour that is not yet current: as
+                             `StateGroups.followed`, or their values by name
     reset_due : bool         whether the next change of state resets the attributes
+    has_vertices : bool      whether it does so because of vertices, not of a query of current values
     """
 
     names: set[str] = field(default_factory=set)
     old_values: dict[str, Any] = field(default_factory=dict)
     hidden: dict[str, Any] = field(default_factory=dict)
+    before_following: Any = None
     reset_due: bool = False
+    has_vertices: bool = False

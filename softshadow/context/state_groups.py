@@ -7,7 +7,6 @@ between two draws are never used. Groups that have not changed are the same obje
 from __future__ import annotations
 
 import struct
-from collections import deque
 from collections.abc import Mapping
 from ctypes import c_float
 from operator import is_
@@ -26,7 +25,7 @@ TUPLES: tuple[tuple[str, str], ...] = (
 # fields that draws do not use: clear values, and the face that glStencilFunc sets
 UNDRAWN = frozenset(("clear", "clear_accum", "active_back"))
 PACK = struct.Struct("4d").pack
-PAST = 8  # values of each group that are kept
+PAST = 64  # values of each group that are kept
 
 
 def affects_draws(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:
@@ -43,11 +42,6 @@ def is_same(a: Any, b: Any) -> bool:
     return all(map(is_same, a, b)) if type(a) is tuple else repr(a) == repr(b)
 
 
-def _is_same_part(a: Any, b: Any) -> bool:
-    """Return whether two values of a field, a group or a tuple of groups, are the same objects."""
-    return a is b or (type(a) is tuple and all(map(is_, a, b)))
-
-
 # glColor under GL_COLOR_MATERIAL: the sides whose material follows ("front" or "back"), its fields, the colour
 Followed = tuple[tuple[str, ...], tuple[str, ...], Color]
 
@@ -59,13 +53,15 @@ class Group:
     what was derived from them.
     """
 
-    __slots__ = ("field", "fields", "has_parts", "index", "parent", "past", "value")
+    __slots__ = ("field", "fields", "index", "is_kept", "parent", "parts", "past", "value")
 
     def __init__(self, value: Any, parent: Group | None, field: str, index: int = -1) -> None:
         self.value, self.parent, self.field, self.index = value, parent, field, index
         self.fields: dict[str, Any] = dict(vars(value))
-        self.has_parts = False  # groups among the fields: equal ones are the same object
-        self.past: deque[tuple[tuple[Any, ...], Any]] = deque(maxlen=PAST)  # values of the fields, and of the group
+        self.is_kept = False  # `past` holds the value, or has held it
+        self.parts: list[Group] = []  # groups among the fields: equal ones are the same object
+        # values of the fields, and of the group; -0.0 and 0.0 have the same key
+        self.past: dict[tuple[Any, ...], list[tuple[tuple[Any, ...], Any]]] = {}
 
     def publish(self) -> bool:
         """Make the immutable value anew, and store it in the parent's fields; return whether a field has changed."""
@@ -84,24 +80,50 @@ class Group:
             siblings[self.field] = value
         return True
 
+    def replace(self, value: Any) -> None:
+        """Replace the immutable value, and those of the parts that differ."""
+        self.value, self.fields, self.is_kept = value, dict(vars(value)), False
+        for part in self.parts:
+            new = self.fields[part.field]
+            if part.index >= 0:
+                new = new[part.index]
+            if new is not part.value:
+                part.replace(new)
+
     def _past_or_new(self) -> Any:
         """Return an immutable value with the present fields: a past one if it has the same bits."""
-        before, values, is_known = self.value, tuple(self.fields.values()), False
-        for past_values, past in self.past:
-            if self.has_parts:
-                is_found = all(map(_is_same_part, past_values, values))
-            else:
-                is_found = past_values == values and all(map(is_same, past_values, values))
-            if is_found:
+        values = tuple(self.fields.values())
+        key = self._key(values)
+        for past_values, past in self.past.get(key, ()):
+            if self.parts or all(map(is_same, past_values, values)):
                 self.fields.update(past.__dict__)
+                self.is_kept = True
                 return past
-            is_known = is_known or past is before
+        before = self.value
+        if not self.is_kept:
+            before_values = tuple(before.__dict__.values())
+            self._keep(self._key(before_values), before_values, before)
         value = object.__new__(type(before))
         value.__dict__.update(self.fields)
-        if not is_known:
-            self.past.append((tuple(before.__dict__.values()), before))
-        self.past.append((values, value))
+        self._keep(key, values, value)
+        self.is_kept = True
         return value
+
+    def _key(self, values: tuple[Any, ...]) -> tuple[Any, ...]:
+        """Return equal keys for equal values; groups are equal if they are the same objects."""
+        if not self.parts:
+            return values
+        return tuple([tuple(map(id, value)) if type(value) is tuple else id(value) for value in values])
+
+    def _keep(self, key: tuple[Any, ...], values: tuple[Any, ...], value: Any) -> None:
+        if key not in self.past:
+            if len(self.past) == PAST:
+                del self.past[next(iter(self.past))]
+            self.past[key] = []
+        same_key = self.past[key]
+        if not any(past is value for _, past in same_key):
+            del same_key[PAST - 1 :]
+            same_key.append((values, value))
 
 
 class StateGroups:
@@ -136,8 +158,9 @@ class StateGroups:
                 self._add(f"{name}.{field}.{index}" if name else f"{field}.{index}", parent, field, index)
 
     def _add(self, name: str, parent: Group, field: str, index: int = -1) -> None:
-        value, parent.has_parts = parent.fields[field], True
-        self.groups[name] = Group(value[index] if index >= 0 else value, parent, field, index)
+        value = parent.fields[field]
+        group = self.groups[name] = Group(value[index] if index >= 0 else value, parent, field, index)
+        parent.parts.append(group)
 
     def snapshot(self) -> State:
         """Return the state; the same object as before if nothing has changed."""
@@ -182,17 +205,9 @@ class StateGroups:
 
     def restore(self, state: State) -> None:
         """Replace the state by an immutable one."""
-        changed, replaced, self.followed = set(self.changed), {self.root}, None
+        self.followed = None
+        for group in self.changed:
+            group.fields = dict(vars(group.value))
         self.changed.clear()
-        for group in self.groups.values():  # parents before their parts
-            parent = group.parent
-            if parent is not None and parent not in replaced and group not in changed:
-                continue
-            value: Any = state
-            if parent is not None:
-                value = parent.fields[group.field]
-                if group.index >= 0:
-                    value = value[group.index]
-            if group.value is not value or group in changed:
-                group.value, group.fields = value, dict(vars(value))
-                replaced.add(group)
+        if state is not self.root.value:
+            self.root.replace(state)

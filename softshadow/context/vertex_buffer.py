@@ -12,7 +12,7 @@ from typing import Any
 from softshadow.framebuffer import Storage
 from softshadow.pipeline.commands import Draw, Origin, Vertices
 from softshadow.pipeline.geometry.geometry import offset_mode_of
-from softshadow.pipeline.mesa.driver_draws import SEPARATE, CollectedPairs, DriverDraw, JoinedPairs
+from softshadow.pipeline.mesa.driver_draws import MAX_PAIRS, SEPARATE, CollectedPairs, DriverDraw, JoinedPairs
 
 BYTES = 512 * 1024  # size of the vertex buffer (vbo_exec_draw.c)
 LEAST_BYTES = 1024  # Mesa takes a new buffer when no more than these are left
@@ -31,7 +31,7 @@ class Primitive:
     positions : list         x, y, z, w of each vertex
     changes : dict           "color", "texcoord0", "front.diffuse" ...: (length of `positions`, value) of each change;
                              the first one has length 0. Attributes without an entry have their current value.
-    materials : set          names of the materials that the vertices carry
+    materials : frozenset    names of the materials that the vertices carry
     steady : dict            attribute: components of a call that needs no change of the vertex format
     position_size : int      the same for positions: such calls append to `positions`, up to `limit` numbers
     counted : int            vertices that `VertexBuffer.n_vertices` includes
@@ -50,7 +50,7 @@ class Primitive:
         "steady",
     )  # fmt: skip
 
-    def __init__(self, mode: int, from_list: bool, materials: set[str]) -> None:
+    def __init__(self, mode: int, from_list: bool, materials: frozenset[str]) -> None:
         self.mode, self.from_list, self.materials = mode, from_list, materials
         self.positions: list[float] = []
         self.changes: dict[str, list[tuple[int, Any]]] = {}
@@ -147,8 +147,7 @@ class VertexBuffer:
         if not vertices and self.pairs.mode != mode:
             self.draw_joined_pairs()
             self.driver_draw = DriverDraw(mode, is_lost=mode not in SEPARATE)
-        self.pairs.add(mode, vertices)
-        if self.pairs.too_many:
+        if self.pairs.add(mode, vertices) >= MAX_PAIRS:
             self.submit()
 
     def draw_joined_pairs(self) -> None:

@@ -26,29 +26,41 @@ from softshadow.gl.buffers import *
 from softshadow.gl.capabilities import *
 from softshadow.gl.clears import *
 from softshadow.gl.clip_planes import *
+from softshadow.gl.conditional_rendering import *
 from softshadow.gl.debug_groups import *
 from softshadow.gl.errors import *
+from softshadow.gl.evaluators import *
 from softshadow.gl.extensions import extension_names, missing_message, plain_name
 from softshadow.gl.fog import *
 from softshadow.gl.fragment_state import *
 from softshadow.gl.framebuffers import *
 from softshadow.gl.glu import *
+from softshadow.gl.glu_names import *
+from softshadow.gl.glu_tokens import *
 from softshadow.gl.immediate import *
 from softshadow.gl.lighting import *
 from softshadow.gl.lists import *
+from softshadow.gl.mapped_buffers import *
 from softshadow.gl.materials import *
 from softshadow.gl.occlusion import *
 from softshadow.gl.pixel_rectangles import *
+from softshadow.gl.pixel_transfer import *
 from softshadow.gl.pixels import *
+from softshadow.gl.points import *
 from softshadow.gl.programs import *
 from softshadow.gl.pyopengl import *
+from softshadow.gl.quadrics import *
 from softshadow.gl.queries import *
 from softshadow.gl.raster_position import *
 from softshadow.gl.rasterization import *
+from softshadow.gl.refusals import all_naming_arguments
+from softshadow.gl.render_modes import *
 from softshadow.gl.renderbuffers import *
+from softshadow.gl.stipples import *
 from softshadow.gl.texture_coordinates import *
 from softshadow.gl.texture_copies import *
 from softshadow.gl.texture_images import *
+from softshadow.gl.texture_queries import *
 from softshadow.gl.texture_units import *
 from softshadow.gl.textures import *
 from softshadow.gl.transforms import *
@@ -56,6 +68,14 @@ from softshadow.gl.vertex_arrays import *
 from softshadow.gl.vertex_attributes import *
 from softshadow.programs import fixed_function  # of most draws: loaded here, not within the first frame
 from softshadow.tokens import *
+
+# calls that programs make most: a function around them would take longer than they do
+FREQUENT = (
+    "glBegin", "glEnd", "glVertex2f", "glVertex3f", "glVertex4f", "glColor3f", "glNormal3f", "glTexCoord2f",
+    "glEnable", "glDisable", "glMatrixMode", "glPushMatrix", "glPopMatrix", "glLoadIdentity", "glTranslatef",
+    "glScalef", "glRotatef", "glCallList", "glGetError",
+)  # fmt: skip
+globals().update(all_naming_arguments(globals(), FREQUENT))
 
 
 def create_context(
@@ -111,7 +131,9 @@ def create_context(
 def __dir__() -> list[str]:
     """Return the public names."""
     own = ("Context", "GLError", "create_context", "describe_primitives", "program", "record", "step")
-    spelled = (name for name, value in globals().items() if name.startswith(("gl", "GL_")) and not ismodule(value))
+    spelled = (
+        name for name, value in globals().items() if name.startswith(("gl", "GL_", "GLU_")) and not ismodule(value)
+    )
     return sorted({*own, *spelled})
 
 

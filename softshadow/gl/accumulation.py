@@ -6,7 +6,7 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import DEFAULT
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.fragment_state import rounded
+from softshadow.gl.fragment_state import rounded, rounded_number
 from softshadow.pipeline.commands import Accumulate
 
 OPERATIONS = (gl.GL_ACCUM, gl.GL_LOAD, gl.GL_ADD, gl.GL_MULT, gl.GL_RETURN)
@@ -33,7 +33,7 @@ def glAccum(op: int, value: float) -> None:
     if not (state.draw_framebuffer == state.read_framebuffer == DEFAULT):
         fail(gl.GL_INVALID_OPERATION, "glAccum", "a framebuffer object has no accumulation buffer")
     else:
-        context.execute(Accumulate(state, int(op), rounded(context, value)))
+        context.execute(Accumulate(state, int(op), rounded_number(context, value)))
 
 
 __all__ = spelled_like_gl(globals())

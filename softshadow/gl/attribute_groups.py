@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from functools import wraps
+from typing import Any, TypeVar
 
 from softshadow import tokens as gl
-from softshadow.frozen import evolve
+from softshadow.frozen import evolve_to
 from softshadow.gl.capabilities import (
     CAPABILITIES,
     CLIP_PLANES,
@@ -28,19 +29,31 @@ GROUPS: dict[int, Fields] = {
     gl.GL_CURRENT_BIT: {},
     gl.GL_DEPTH_BUFFER_BIT: {"depth": ("enabled", "func", "write", "clear")},
     gl.GL_ENABLE_BIT: {},
+    gl.GL_EVAL_BIT: {},
     gl.GL_FOG_BIT: {"fog": ()},
     gl.GL_HINT_BIT: {},
     gl.GL_LIGHTING_BIT: {
         "lighting": (*LIGHT_MODEL, "lights", "model_ambient", "local_viewer", "two_side", "color_control"),
     },
-    gl.GL_LINE_BIT: {"polygon": ("line_width",)},
+    gl.GL_LINE_BIT: {"lines": (), "polygon": ("line_width",)},
     gl.GL_LIST_BIT: {},
     gl.GL_PIXEL_MODE_BIT: {},
-    gl.GL_POINT_BIT: {"polygon": ("point_size",)},
+    gl.GL_POINT_BIT: {"points": (), "polygon": ("point_size",)},
     gl.GL_POLYGON_BIT: {
         "cull": (),
-        "polygon": ("mode_front", "mode_back", "offset_fill", "offset_line", "offset_point", "factor", "units"),
+        "polygon": (
+            "mode_front",
+            "mode_back",
+            "offset_fill",
+            "offset_line",
+            "offset_point",
+            "factor",
+            "units",
+            "smooth",
+            "stippled",
+        ),
     },
+    gl.GL_POLYGON_STIPPLE_BIT: {"polygon": ("stipple",)},
     gl.GL_SCISSOR_BIT: {"scissor": ()},
     gl.GL_STENCIL_BUFFER_BIT: {"stencil": ()},
     gl.GL_TRANSFORM_BIT: {"clip_planes": (), "lighting": ("normalize", "rescale_normal"), "depth": ("clamp",)},
@@ -55,6 +68,11 @@ SET_BY_CALLS: dict[int, Fields] = {
     gl.GL_COLOR_BUFFER_BIT: {"alpha": (), "blend": (), "color": ("mask", "dither")},
     gl.GL_DEPTH_BUFFER_BIT: {"depth": ("enabled", "func", "write")},
     gl.GL_LIGHTING_BIT: {"lighting": LIGHT_MODEL},
+    gl.GL_POINT_BIT: {
+        "points": ("smooth", "smallest", "largest", "fade_threshold", "attenuation", "sprites", "origin"),
+        "polygon": ("point_size",),
+    },
+    gl.GL_POLYGON_STIPPLE_BIT: {},
     gl.GL_STENCIL_BUFFER_BIT: {"stencil": ("enabled", "front", "back")},
     gl.GL_TRANSFORM_BIT: {
         "clip_planes": ("enabled",),
@@ -79,18 +97,42 @@ for _cap, (_group, _field) in CAPABILITIES.items():
 PER_UNIT = (*UNIT_CAPABILITIES, *TEXTURE_GENERATION)
 
 
+Result = TypeVar("Result")
+MOST_RESULTS = 256
+
+
+def remembered(function: Callable[..., Result]) -> Callable[..., Result]:
+    """Remember results by the identity of the arguments, which never change (decorator).
+
+    A program pushes, changes and pops the same states in every frame.
+    """
+    results: dict[tuple[int, ...], tuple[Result, tuple[Any, ...]]] = {}
+
+    @wraps(function)
+    def call(*arguments: Any) -> Result:
+        key = tuple(map(id, arguments))
+        found = results.get(key)
+        if found is None:
+            if len(results) >= MOST_RESULTS:
+                results.clear()
+            # as long as the arguments are kept, no other object has their ids
+            found = results[key] = function(*arguments), arguments
+        return found[0]
+
+    return call
+
+
+@remembered
 def changed_groups(before: State, after: State) -> int:
     """Return the bits of the groups in which two states differ.
 
     Materials do not count: they are vertex attributes, and change when pending attributes become current.
     """
-    if before is after:
-        return 0
     bits, one, other = 0, before.__dict__, after.__dict__
-    for group, groups in BITS.items():
-        old, new = one[group], other[group]
+    for group, old in one.items():
+        new = other[group]
         if old is not new:
-            for bit, fields in groups:
+            for bit, fields in BITS.get(group, ()):
                 if not bits & bit and _fields_differ(old, new, fields):
                     bits |= bit
     return bits | (gl.GL_ENABLE_BIT if any(_switched(before, after, lights=True)) else 0)
@@ -130,24 +172,31 @@ def needs_calls(bit: int, before: State, after: State) -> bool:
     return differ(before, after, SET_BY_CALLS[bit])
 
 
+@remembered
 def with_group(bit: int, now: State, before: State) -> State:
     """Return the state with one group restored from an earlier state."""
     if bit == gl.GL_ENABLE_BIT:
         return _with_capabilities(now, before)
     restored: dict[str, Any] = {}
     for group, fields in GROUPS[bit].items():
-        old = getattr(before, group)
-        restored[group] = evolve(getattr(now, group), **{f: getattr(old, f) for f in fields}) if fields else old
-    if bit == gl.GL_STENCIL_BUFFER_BIT:  # Mesa does not restore the extension's back state
+        new, old = getattr(now, group), getattr(before, group)
+        if new is not old:
+            restored[group] = evolve_to(old, new, **{f: getattr(old, f) for f in fields}) if fields else old
+    if "stencil" in restored:  # Mesa does not restore the extension's back state
         old = restored["stencil"]
-        restored["stencil"] = evolve(old, **{extension_back(old): getattr(now.stencil, extension_back(now.stencil))})
-    return evolve(now, **restored) if restored else now
+        back = {extension_back(old): getattr(now.stencil, extension_back(now.stencil))}
+        restored["stencil"] = evolve_to(now.stencil, old, **back)
+    return evolve_to(before, now, **restored) if restored else now
 
 
 def _with_capabilities(state: State, before: State) -> State:
-    for cap, unit in list(_switched(before, state, lights=False)):
+    switched = list(_switched(before, state, lights=False))
+    if not switched:
+        return state
+    for cap, unit in switched:
         state = with_capability(state, cap, unit, is_on(before, cap, unit))
-    return state
+    groups = {CAPABILITIES[cap][0] for cap, _ in switched if cap in CAPABILITIES}
+    return evolve_to(before, state, **{g: evolve_to(getattr(before, g), getattr(state, g)) for g in groups})
 
 
 def _switched(before: State, after: State, lights: bool) -> Iterator[tuple[int, int]]:
@@ -155,10 +204,11 @@ def _switched(before: State, after: State, lights: bool) -> Iterator[tuple[int, 
 
     In Mesa, switching a light on or off marks this group as changed, but popping it does not restore lights.
     """
-    for group, switches in PUSHED.items():
-        old, new = getattr(before, group), getattr(after, group)
+    after_groups = after.__dict__
+    for group, old in before.__dict__.items():
+        new = after_groups[group]
         if old is not new:
-            yield from ((cap, 0) for cap, field in switches if getattr(old, field) != getattr(new, field))
+            yield from ((cap, 0) for cap, field in PUSHED.get(group, ()) if getattr(old, field) != getattr(new, field))
     several: list[int] = []
     if lights and before.lighting.lights is not after.lighting.lights:
         several += LIGHTS

@@ -18,6 +18,8 @@ from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
+from softshadow.gl.pixel_memory import source
+from softshadow.gl.render_modes import is_rendered
 from softshadow.gl.window_quads import draw_of_quads
 from softshadow.pixel_store import bitmap_rows
 
@@ -44,7 +46,12 @@ def glBitmap(
         The bitmap has too few bytes.
     """
     context, bits = current(), None
-    if bitmap is not None and width > 0 and height > 0:  # read now, also when a display list is compiled
+    store = context.unpack_store
+    if (bitmap is not None or store.buffer) and width > 0 and height > 0:  # read now, also for a display list
+        bytes_of_row = -(-(store.row_length or width) // (8 * store.alignment)) * store.alignment
+        bitmap = source(context, bitmap, (store.skip_rows + int(height)) * bytes_of_row, 1, "glBitmap")
+        if bitmap is None:
+            return
         bits = bitmap_rows(bitmap, context.unpack_store, int(width), int(height), "glBitmap")
     _bitmap(width, height, xorig, yorig, xmove, ymove, bits)
 
@@ -66,7 +73,7 @@ def _bitmap(
         fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, "glBitmap", f"framebuffer {name} is not complete")
         return
     position = np.array(context.current.raster.window, np.float32)
-    if bits is not None and bits.any():
+    if is_rendered(context, gl.GL_BITMAP_TOKEN) and bits is not None and bits.any():
         left = int(np.floor(position[0] + ROUNDING - np.float32(xorig)))
         bottom = int(np.floor(position[1] + ROUNDING - np.float32(yorig)))
         quads = runs(bits) + np.array([left, bottom, left, bottom])

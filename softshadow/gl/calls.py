@@ -10,6 +10,7 @@ import numpy as np
 
 from softshadow.context import Context, thread
 from softshadow.gl.errors import outside_begin
+from softshadow.gl.refusals import CONVERTING, refusal
 
 Call = TypeVar("Call", bound=Callable[..., Any])
 
@@ -24,9 +25,12 @@ def in_lists(call: Call) -> Call:
     @functools.wraps(call)
     def recorded(*arguments: Any, **named: Any) -> Any:
         context = thread.context
-        if context.compiled_list is None:
-            return call(*arguments, **named)
-        return record(context, call, *arguments, **named)
+        try:
+            if context.compiled_list is None:
+                return call(*arguments, **named)
+            return record(context, call, *arguments, **named)
+        except CONVERTING as error:
+            raise refusal(recorded, error, *arguments, **named) from error
 
     return recorded  # type: ignore[return-value]
 
@@ -45,7 +49,7 @@ def record(context: Context, call: Callable[..., Any], *arguments: Any, **named:
         context.compiled_list, context.executes_list, context.ready = compiled, False, False
 
 
-# Calls that programs make most have neither `in_lists` nor `outside_begin`. They begin with
+# Calls that programs make most have neither `in_lists` nor `outside_begin` nor `names_arguments`. They begin with
 #     context = thread.context
 #     if context.ready or is_ready(context, glCall, ...):
 def is_allowed(context: Context, call: Callable[..., Any], *arguments: Any) -> bool:

@@ -6,13 +6,15 @@ from typing import Any
 
 from softshadow import tokens as gl
 from softshadow.context import Context, thread
+from softshadow.context.evaluators import COMPONENTS
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
-from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.gl.errors import is_one_of, outside_begin
+from softshadow.gl.evaluators import switch_map
 from softshadow.gl.materials import start_to_follow
+from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_arrays import CLIENT_STATES, is_array_enabled, switch_array
 from softshadow.state import TEXTURE_UNITS, State
-from softshadow.tokens import token_name
 
 # capability: (group of the state, field)
 CAPABILITIES: dict[int, tuple[str, str]] = {
@@ -26,6 +28,12 @@ CAPABILITIES: dict[int, tuple[str, str]] = {
     gl.GL_POLYGON_OFFSET_FILL: ("polygon", "offset_fill"),
     gl.GL_POLYGON_OFFSET_LINE: ("polygon", "offset_line"),
     gl.GL_POLYGON_OFFSET_POINT: ("polygon", "offset_point"),
+    gl.GL_POLYGON_SMOOTH: ("polygon", "smooth"),
+    gl.GL_POLYGON_STIPPLE: ("polygon", "stippled"),
+    gl.GL_LINE_SMOOTH: ("lines", "smooth"),
+    gl.GL_LINE_STIPPLE: ("lines", "stippled"),
+    gl.GL_POINT_SMOOTH: ("points", "smooth"),
+    gl.GL_POINT_SPRITE: ("points", "sprites"),
     gl.GL_BLEND: ("blend", "enabled"),
     gl.GL_COLOR_LOGIC_OP: ("blend", "logic_enabled"),
     gl.GL_DITHER: ("color", "dither"),
@@ -41,15 +49,13 @@ UNIT_CAPABILITIES = {gl.GL_TEXTURE_2D: "enabled_2d", gl.GL_TEXTURE_CUBE_MAP: "en
 TEXTURE_GENERATION = (gl.GL_TEXTURE_GEN_S, gl.GL_TEXTURE_GEN_T, gl.GL_TEXTURE_GEN_R, gl.GL_TEXTURE_GEN_Q)
 LIGHTS = range(gl.GL_LIGHT0, gl.GL_LIGHT7 + 1)
 CLIP_PLANES = range(gl.GL_CLIP_PLANE0, gl.GL_CLIP_PLANE5 + 1)
-KNOWN = {*CAPABILITIES, *UNIT_CAPABILITIES, *TEXTURE_GENERATION, *LIGHTS, *CLIP_PLANES, *CLIENT_STATES}
+MAPS = {*COMPONENTS, gl.GL_AUTO_NORMAL}
+KNOWN = {*MAPS, *CAPABILITIES, *UNIT_CAPABILITIES, *TEXTURE_GENERATION, *LIGHTS, *CLIP_PLANES, *CLIENT_STATES}
 # those that only set one field of a group: (group in `Context.groups`, field)
 PLACES = CAPABILITIES | {light: (f"lighting.lights.{index}", "enabled") for index, light in enumerate(LIGHTS)}
 del PLACES[gl.GL_STENCIL_TEST_TWO_SIDE_EXT], PLACES[gl.GL_COLOR_MATERIAL]
 UNITS = tuple(f"units.{index}" for index in range(TEXTURE_UNITS))
 A_CAPABILITY = "a capability of this subset"
-UNSUPPORTED = (
-    gl.GL_POINT_SMOOTH, gl.GL_LINE_SMOOTH, gl.GL_POLYGON_SMOOTH, gl.GL_LINE_STIPPLE, gl.GL_POLYGON_STIPPLE,
-)  # fmt: skip
 HINTS = (
     gl.GL_PERSPECTIVE_CORRECTION_HINT, gl.GL_POINT_SMOOTH_HINT, gl.GL_LINE_SMOOTH_HINT, gl.GL_POLYGON_SMOOTH_HINT,
     gl.GL_FOG_HINT, gl.GL_TEXTURE_COMPRESSION_HINT, gl.GL_GENERATE_MIPMAP_HINT,
@@ -59,29 +65,37 @@ HINTS = (
 def glEnable(cap: int) -> None:
     """Enable a capability."""
     context = thread.context
-    if context.ready or is_allowed(context, glEnable, cap):
-        place = PLACES.get(cap)
-        if place is not None:
-            context.change_field(*place, True)
-        elif _is_known("glEnable", cap):
-            _switch_other(context, cap, True)
+    try:
+        if context.ready or is_allowed(context, glEnable, cap):
+            place = PLACES.get(cap)
+            if place is not None:
+                context.change_field(*place, True)
+            elif _is_known("glEnable", cap):
+                _switch_other(context, cap, True)
+    except CONVERTING as error:
+        raise refusal(glEnable, error, cap) from error
 
 
 def glDisable(cap: int) -> None:
     """Disable a capability."""
     context = thread.context
-    if context.ready or is_allowed(context, glDisable, cap):
-        place = PLACES.get(cap)
-        if place is not None:
-            context.change_field(*place, False)
-        elif _is_known("glDisable", cap):
-            _switch_other(context, cap, False)
+    try:
+        if context.ready or is_allowed(context, glDisable, cap):
+            place = PLACES.get(cap)
+            if place is not None:
+                context.change_field(*place, False)
+            elif _is_known("glDisable", cap):
+                _switch_other(context, cap, False)
+    except CONVERTING as error:
+        raise refusal(glDisable, error, cap) from error
 
 
 def _switch_other(context: Context, cap: int, on: bool) -> None:
     unit = context.active_unit
     if cap in CLIENT_STATES:  # accepted by Mesa, though GL has glEnableClientState for it
         switch_array(context.arrays, cap, on)
+    elif cap in MAPS:
+        switch_map(context, cap, on)
     elif cap in UNIT_CAPABILITIES:
         context.change_field(UNITS[unit], UNIT_CAPABILITIES[cap], on)
     elif is_on(context.state, cap, unit) != on:
@@ -92,9 +106,6 @@ def _switch_other(context: Context, cap: int, on: bool) -> None:
 
 def _is_known(operation: str, cap: int) -> bool:
     """Return whether a capability is known; otherwise the call fails."""
-    if cap in UNSUPPORTED:
-        fail(gl.GL_INVALID_ENUM, operation, f"cap={token_name(cap)} is not part of this subset")
-        return False
     return is_one_of(operation, "cap", cap, KNOWN, A_CAPABILITY)
 
 
@@ -149,6 +160,8 @@ def glIsEnabled(cap: int) -> bool | None:
         return None
     if cap in CLIENT_STATES:
         return is_array_enabled(context.arrays, cap)
+    if cap in MAPS:
+        return cap in context.evaluators.enabled
     return is_on(context.state, cap, context.active_unit)
 
 

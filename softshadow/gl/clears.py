@@ -6,6 +6,7 @@ from ctypes import c_int
 
 from softshadow import tokens as gl
 from softshadow.context import thread
+from softshadow.frozen import create
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.fragment_state import clamp01, rounded
@@ -13,6 +14,7 @@ from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.pipeline.commands import Clear
 
 BUFFER_BITS = gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT | gl.GL_ACCUM_BUFFER_BIT
+OTHER_BITS = ~BUFFER_BITS
 
 
 def glClearColor(red: float, green: float, blue: float, alpha: float) -> None:
@@ -44,19 +46,19 @@ def glClearStencil(s: int) -> None:
         context.change("stencil", clear=c_int(int(s)).value)
 
 
-@in_lists
 def glClear(mask: int) -> None:
     """Clear buffers; scissor box and write masks apply, the fragment tests do not."""
-    context = outside_begin("glClear")
-    if context is None:
+    context = thread.context
+    if not (context.ready or is_allowed(context, glClear, mask)):
         return
-    if mask & ~BUFFER_BITS:
+    if mask & OTHER_BITS:
         fail(gl.GL_INVALID_VALUE, "glClear", f"mask=0x{mask:X}: expected only buffer bits")
-    elif framebuffer_status(context, context.state.draw_framebuffer) != gl.GL_FRAMEBUFFER_COMPLETE:
-        name = context.state.draw_framebuffer
+        return
+    name = context.groups[""].fields["draw_framebuffer"]
+    if framebuffer_status(context, name) != gl.GL_FRAMEBUFFER_COMPLETE:
         fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, "glClear", f"framebuffer {name} is not complete")
     else:
-        context.execute(Clear(context.state, int(mask)))
+        context.execute(create(Clear, state=context.state, mask=int(mask)))
 
 
 def glFlush() -> None:

@@ -51,7 +51,7 @@ PROMOTED = {
         GL_VERTEX_ARRAY GL_NORMAL_ARRAY GL_COLOR_ARRAY GL_TEXTURE_COORD_ARRAY GL_*_ARRAY_SIZE GL_*_ARRAY_STRIDE
         GL_*_ARRAY_TYPE glArrayElement glDrawArrays glDrawRangeElements glMultiDrawArrays glMultiDrawElements
     """,
-    "NV": "GL_DEPTH_CLAMP",
+    "NV": "GL_DEPTH_CLAMP GL_QUERY_* glBeginConditionalRender glEndConditionalRender",
     "ATI": """
         GL_DRAW_BUFFER0 GL_MAX_DRAW_BUFFERS glDrawBuffers GL_STENCIL_BACK_F* GL_STENCIL_BACK_PASS_*
     """,

@@ -9,7 +9,7 @@ from softshadow import tokens as gl
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import enum, first, from_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.fragment_state import rounded
+from softshadow.gl.fragment_state import rounded, rounded_number
 
 NUMBERS = {gl.GL_FOG_DENSITY: "density", gl.GL_FOG_START: "start", gl.GL_FOG_END: "end"}
 MODES = (gl.GL_LINEAR, gl.GL_EXP, gl.GL_EXP2)
@@ -56,7 +56,7 @@ def _set(operation: str, pname: int, params: Any, color: Callable[[Any], float])
     elif pname == gl.GL_FOG_DENSITY and value < 0:
         fail(gl.GL_INVALID_VALUE, operation, f"param={value:g}: expected 0 or more for GL_FOG_DENSITY")
     else:
-        context.change("fog", **{NUMBERS[pname]: rounded(context, value)})
+        context.change("fog", **{NUMBERS[pname]: rounded_number(context, value)})
 
 
 __all__ = spelled_like_gl(globals())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 from ctypes import c_float, c_int
 from itertools import product
 from typing import Any
@@ -11,43 +12,57 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context, thread
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
+from softshadow.gl.conversions import LARGEST_INT, SMALLEST_INT
 from softshadow.gl.errors import is_one_of, outside_begin
 from softshadow.state import STENCIL_OPS, Stencil
 
-FUNCTIONS = frozenset(range(gl.GL_NEVER, gl.GL_ALWAYS + 1))
+# allowed values and what is stored: the same numbers as int
+FUNCTIONS = {func: func for func in range(gl.GL_NEVER, gl.GL_ALWAYS + 1)}
 A_FUNCTION = "GL_NEVER … GL_ALWAYS"
-STENCIL_OP_VALUES = frozenset(getattr(gl, name) for name in STENCIL_OPS)
+STENCIL_OP_VALUES = {getattr(gl, name): getattr(gl, name) for name in STENCIL_OPS}
 FACES = (gl.GL_FRONT, gl.GL_BACK, gl.GL_FRONT_AND_BACK)
 FRONT, BACKS = "stencil.front", ("stencil.back", "stencil.other_back")  # GL 2.0's back state, without and with two_side
 BOTH_FACES = tuple((FRONT, back) for back in BACKS)
 A_FACE = "GL_FRONT, GL_BACK or GL_FRONT_AND_BACK"
 EQUATIONS = (gl.GL_FUNC_ADD, gl.GL_FUNC_SUBTRACT, gl.GL_FUNC_REVERSE_SUBTRACT, gl.GL_MIN, gl.GL_MAX)
 AN_EQUATION = "GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN or GL_MAX"
-FACTORS = {
+FACTORS = {factor: factor for factor in (
     gl.GL_ZERO, gl.GL_ONE, gl.GL_SRC_COLOR, gl.GL_ONE_MINUS_SRC_COLOR, gl.GL_DST_COLOR, gl.GL_ONE_MINUS_DST_COLOR,
     gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA, gl.GL_DST_ALPHA, gl.GL_ONE_MINUS_DST_ALPHA, gl.GL_CONSTANT_COLOR,
     gl.GL_ONE_MINUS_CONSTANT_COLOR, gl.GL_CONSTANT_ALPHA, gl.GL_ONE_MINUS_CONSTANT_ALPHA, gl.GL_SRC_ALPHA_SATURATE,
-}  # fmt: skip
+)}  # fmt: skip
 A_FACTOR = "a blend factor (GL 2.1, table 4.2)"
 UNSIGNED = 0xFFFFFFFF  # masks are unsigned: -1 sets all bits
 MASKS = {mask: mask for mask in product((False, True), repeat=4)}  # so that equal masks are the same object
-INT_RANGE = 1 << 31
 LOGIC_OPS = range(gl.GL_CLEAR, gl.GL_SET + 1)
+SINGLES = tuple(struct.Struct(f"{count}f") for count in range(5))  # by the number of values
+SINGLE = SINGLES[1]
 
 
 def clamp01(value: float) -> float:
     return min(max(0.0, float(value)), 1.0)  # NaN becomes 0, as in Mesa
 
 
-def rounded(context: Context, *values: float) -> Any:
-    """Return a number, or a tuple of several, rounded to the context's precision."""
+def rounded_number(context: Context, value: float) -> float:
+    """Return a number rounded to the context's precision."""
     if context.real is not np.float32:
-        numbers = tuple(map(float, values))
-    elif len(values) == 1:
-        return c_float(values[0]).value
-    else:
-        numbers = tuple([c_float(value).value for value in values])
-    return numbers if len(numbers) > 1 else numbers[0]
+        return float(value)
+    try:
+        number: float = SINGLE.unpack(SINGLE.pack(value))[0]
+    except struct.error:  # not a number, which ctypes says better
+        return c_float(value).value
+    return number
+
+
+def rounded(context: Context, *values: float) -> Any:
+    """Return numbers rounded to the context's precision."""
+    if context.real is not np.float32:
+        return tuple(map(float, values))
+    single = SINGLES[len(values)]
+    try:
+        return single.unpack(single.pack(*values))
+    except struct.error:  # not a number, which ctypes says better
+        return tuple(c_float(value).value for value in values)
 
 
 # -- depth and alpha test ----------------------------------------------------------------------------------------------
@@ -57,7 +72,7 @@ def glDepthFunc(func: int) -> None:
     if not (context.ready or is_allowed(context, glDepthFunc, func)):
         return
     if func in FUNCTIONS or is_one_of("glDepthFunc", "func", func, FUNCTIONS, A_FUNCTION):
-        context.change_field("depth", "func", int(func))
+        context.change_field("depth", "func", FUNCTIONS[func])
 
 
 def glDepthMask(flag: Any) -> None:
@@ -72,7 +87,7 @@ def glAlphaFunc(func: int, ref: float) -> None:
     """Set comparison and reference of the alpha test; the test clamps the reference to [0, 1]."""
     context = outside_begin("glAlphaFunc")
     if context is not None and is_one_of("glAlphaFunc", "func", func, FUNCTIONS, A_FUNCTION):
-        context.change("alpha", func=int(func), ref=rounded(context, ref))
+        context.change("alpha", func=int(func), ref=rounded_number(context, ref))
 
 
 # -- stencil test ------------------------------------------------------------------------------------------------------
@@ -93,9 +108,9 @@ def glStencilFuncSeparate(face: int, func: int, ref: int, mask: int) -> None:
 def _stencil_func(context: Context, operation: str, face: int | None, func: int, ref: int, mask: int) -> None:
     if func in FUNCTIONS or is_one_of(operation, "func", func, FUNCTIONS, A_FUNCTION):
         ref = int(ref)
-        if not -INT_RANGE <= ref < INT_RANGE:
+        if not SMALLEST_INT <= ref <= LARGEST_INT:
             ref = c_int(ref).value
-        fields = {"func": int(func), "ref": ref, "read_mask": int(mask) & UNSIGNED}
+        fields = {"func": FUNCTIONS[func], "ref": ref, "read_mask": int(mask) & UNSIGNED}
         context.change_groups(_faces(context, operation, face), fields)
 
 
@@ -118,7 +133,8 @@ def _stencil_op(context: Context, operation: str, face: int | None, sfail: int, 
         for argument, op in (("sfail", sfail), ("zfail", zfail), ("zpass", zpass)):
             if not is_one_of(operation, argument, op, STENCIL_OP_VALUES, ", ".join(STENCIL_OPS)):
                 return
-    fields = {"sfail": int(sfail), "zfail": int(zfail), "zpass": int(zpass)}
+    values = STENCIL_OP_VALUES
+    fields = {"sfail": values[sfail], "zfail": values[zfail], "zpass": values[zpass]}
     context.change_groups(_faces(context, operation, face), fields)
 
 
@@ -206,8 +222,9 @@ def glBlendFunc(sfactor: int, dfactor: int) -> None:
     if not (context.ready or is_allowed(context, glBlendFunc, sfactor, dfactor)):
         return
     if sfactor in FACTORS and dfactor in FACTORS:
-        source, target = int(sfactor), int(dfactor)
-        context.change("blend", src_rgb=source, dst_rgb=target, src_alpha=source, dst_alpha=target)
+        source, target = FACTORS[sfactor], FACTORS[dfactor]
+        fields = {"src_rgb": source, "dst_rgb": target, "src_alpha": source, "dst_alpha": target}
+        context.change_fields("blend", fields)
     else:
         _blend_func(context, "glBlendFunc", sfactor, dfactor, sfactor, dfactor)
 

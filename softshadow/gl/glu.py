@@ -10,7 +10,7 @@ import numpy as np
 from softshadow.context import current, thread
 from softshadow.gl.calls import in_lists, is_allowed, is_ready, spelled_like_gl
 from softshadow.gl.errors import outside_begin
-from softshadow.gl.transforms import glOrtho
+from softshadow.gl.transforms import glOrtho, glScalef, glTranslatef
 
 
 def gluPerspective(fovy: float, aspect: float, zNear: float, zFar: float) -> None:
@@ -41,6 +41,18 @@ def gluLookAt(
     places = (eyeX, eyeY, eyeZ, centerX, centerY, centerZ, upX, upY, upZ)
     if context.ready or is_ready(context, gluLookAt, *places):
         context.matrix_stack.look_at(*places)
+
+
+@in_lists
+def gluPickMatrix(x: float, y: float, deltax: float, deltay: float, viewport: Any = None) -> None:
+    """Multiply by a matrix that enlarges a region around a window position to the whole window, for selection."""
+    if viewport is None:  # as in PyOpenGL
+        view = current().state.viewport
+        viewport = (view.x, view.y, view.width, view.height)
+    left, bottom, width, height = (int(value) for value in np.ravel(viewport)[:4])
+    if deltax > 0 and deltay > 0:
+        glTranslatef((width - 2 * (x - left)) / deltax, (height - 2 * (y - bottom)) / deltay, 0)
+        glScalef(width / deltax, height / deltay, 1.0)
 
 
 def gluProject(
@@ -81,12 +93,12 @@ def gluUnProject(
         return None
     model, proj, (left, bottom, width, height) = _current_or(model, proj, view)
     with np.errstate(all="ignore"):  # a viewport without a side gives infinities, as in GLU
-        x, y = (np.float64(winX) - left) / width, (np.float64(winY) - bottom) / height
-        ndc = [x * 2 - 1, y * 2 - 1, winZ * 2 - 1, 1.0]
-    try:
-        x, y, z, w = np.linalg.solve(np.reshape(proj, (4, 4)).T @ np.reshape(model, (4, 4)).T, ndc).tolist()
-    except np.linalg.LinAlgError:
-        raise ValueError("gluUnProject: the matrices have no inverse") from None
+        across, up = (np.float64(winX) - left) / width, (np.float64(winY) - bottom) / height
+        ndc = (float(across * 2 - 1), float(up * 2 - 1), float(winZ * 2 - 1), 1.0)
+    inverse = _inverse(_product(model, proj))
+    if inverse is None:
+        raise ValueError("gluUnProject: the matrices have no inverse")
+    x, y, z, w = _applied(inverse, ndc)
     if w == 0:
         raise ValueError("gluUnProject: the point lies at infinity (w = 0)")
     return x / w, y / w, z / w
@@ -107,6 +119,50 @@ def _applied(m: list[float], point: tuple[float, ...]) -> tuple[float, ...]:
     """Return a matrix times a point, summed in GLU's order."""
     x, y, z, w = point
     return tuple(x * m[i] + y * m[4 + i] + z * m[8 + i] + w * m[12 + i] for i in range(4))
+
+
+def _product(a: list[float], b: list[float]) -> list[float]:
+    """Return the matrix that applies `a`, then `b`, summed in GLU's order."""
+    return [a[i] * b[j] + a[i + 1] * b[4 + j] + a[i + 2] * b[8 + j] + a[i + 3] * b[12 + j]
+            for i in range(0, 16, 4) for j in range(4)]  # fmt: skip
+
+
+def _inverse(m: list[float]) -> list[float] | None:
+    """Return the inverse of a matrix by cofactors, each summed in GLU's order; None if there is none."""
+    cofactors = [0.0] * 16
+    for place, terms in COFACTORS:
+        (sign, a, b, c), *rest = terms
+        total = sign * m[a] * m[b] * m[c]
+        for sign, a, b, c in rest:
+            total += sign * m[a] * m[b] * m[c]
+        cofactors[place] = total
+    determinant = m[0] * cofactors[0] + m[1] * cofactors[4] + m[2] * cofactors[8] + m[3] * cofactors[12]
+    if determinant == 0:
+        return None
+    scale = 1.0 / determinant
+    return [cofactor * scale for cofactor in cofactors]
+
+
+def _cofactors() -> list[tuple[int, list[tuple[float, int, int, int]]]]:
+    """Return the places in the inverse with their six terms: a sign and three places in a matrix in column order.
+
+    References: libGLU, project.c, __gluInvertMatrixd.
+    """
+    table = []
+    for row in range(4):
+        p, q, r = (i for i in range(4) if i != row)
+        for column in range(4):
+            u, v, w = (4 * i for i in range(4) if i != column)
+            sign = -1.0 if (row + column) % 2 else 1.0
+            products = [
+                (sign, u + p, v + q, w + r), (-sign, u + p, v + r, w + q), (-sign, v + p, u + q, w + r),
+                (sign, v + p, u + r, w + q), (sign, w + p, u + q, v + r), (-sign, w + p, u + r, v + q),
+            ]  # fmt: skip
+            table.append((4 * row + column, products))
+    return table
+
+
+COFACTORS = _cofactors()
 
 
 __all__ = spelled_like_gl(globals())

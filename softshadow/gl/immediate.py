@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import hypot
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from softshadow.gl.conversions import vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.materials import follow_color
+from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_format import add_vertex, begin, end, store_vertices, vertices_of
 from softshadow.pipeline.mesa.driver_draws import CORNERS
 
@@ -33,11 +35,14 @@ def can_draw(context: Context, operation: str) -> bool:
 def glBegin(mode: int) -> None:
     """Start a primitive."""
     context = thread.context
-    if not (context.ready or is_allowed(context, glBegin, mode)):
-        return
-    is_mode = mode in MODES or is_one_of("glBegin", "mode", mode, MODES, A_MODE)
-    if is_mode and (context.groups[""].fields["draw_framebuffer"] == DEFAULT or can_draw(context, "glBegin")):
-        begin(context, int(mode))
+    try:
+        if not (context.ready or is_allowed(context, glBegin, mode)):
+            return
+        is_mode = mode in MODES or is_one_of("glBegin", "mode", mode, MODES, A_MODE)
+        if is_mode and (context.groups[""].fields["draw_framebuffer"] == DEFAULT or can_draw(context, "glBegin")):
+            begin(context, int(mode))
+    except CONVERTING as error:
+        raise refusal(glBegin, error, mode) from error
 
 
 def glEnd() -> None:
@@ -51,11 +56,12 @@ def glEnd() -> None:
         fail(gl.GL_INVALID_OPERATION, "glEnd", "there was no glBegin before it")
         return
     context.primitive, context.ready = None, False
-    follow_color(context)
+    if context.groups["lighting"].fields["color_material"]:
+        follow_color(context)
     if not primitive.positions:
         context.vertex_buffer.end_pair(primitive.mode, 0)
         return
-    context.pending.reset_due = True
+    context.pending.reset_due = context.pending.has_vertices = True
     end(context, primitive)
     vertices, count = vertices_of(context, primitive), len(primitive)
     if primitive.from_list and context.list_depth > 0:
@@ -80,6 +86,10 @@ def consecutive_indices(count: int) -> np.ndarray:
 
 def glVertex2f(x: float, y: float) -> None:
     """Add a vertex, z = 0, w = 1."""
+    try:
+        hypot(x, y)  # the quickest question whether these are numbers
+    except CONVERTING as error:
+        raise refusal(glVertex2f, error, x, y) from error
     context = thread.context
     primitive = context.primitive
     if primitive is None or primitive.position_size != 2:
@@ -96,6 +106,10 @@ def glVertex2f(x: float, y: float) -> None:
 
 def glVertex3f(x: float, y: float, z: float) -> None:
     """Add a vertex, w = 1."""
+    try:
+        hypot(x, y, z)  # the quickest question whether these are numbers
+    except CONVERTING as error:
+        raise refusal(glVertex3f, error, x, y, z) from error
     context = thread.context
     primitive = context.primitive
     if primitive is None or primitive.position_size != 3:
@@ -112,6 +126,10 @@ def glVertex3f(x: float, y: float, z: float) -> None:
 
 def glVertex4f(x: float, y: float, z: float, w: float) -> None:
     """Add a vertex in homogeneous coordinates."""
+    try:
+        hypot(x, y, z, w)  # the quickest question whether these are numbers
+    except CONVERTING as error:
+        raise refusal(glVertex4f, error, x, y, z, w) from error
     context = thread.context
     primitive = context.primitive
     if primitive is None or primitive.position_size != 4:

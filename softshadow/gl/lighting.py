@@ -13,7 +13,7 @@ from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.capabilities import LIGHTS
 from softshadow.gl.conversions import as_floats, as_ints, enum, first, from_int, to_int, truncated_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.fragment_state import rounded
+from softshadow.gl.fragment_state import rounded, rounded_number
 
 COLORS = {gl.GL_AMBIENT: "ambient", gl.GL_DIFFUSE: "diffuse", gl.GL_SPECULAR: "specular"}
 PLACES = {gl.GL_POSITION: "position", gl.GL_SPOT_DIRECTION: "spot_direction"}
@@ -95,7 +95,7 @@ def _set_number(operation: str, context: Context, light: int, pname: int, value:
         expected = "0 to 90, or 180" if pname == gl.GL_SPOT_CUTOFF else f"0 to {largest:g}"
         fail(gl.GL_INVALID_VALUE, operation, f"param={value:g}: expected {expected} for GL_{field.upper()}")
     else:
-        _replace(context, light, **{field: rounded(context, value)})
+        _replace(context, light, **{field: rounded_number(context, value)})
 
 
 def _replace(context: Context, light: int, **fields: Any) -> None:

@@ -8,15 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from itertools import groupby
 from typing import Any
 
 import numpy as np
 
-from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.array_snapshots import NORMAL, POSITION, TEXCOORD
 from softshadow.gl.immediate import MODES, consecutive_indices
 from softshadow.gl.list_calls import BEGIN, CALLS, END, Values
+from softshadow.gl.list_joining import joined
 from softshadow.gl.list_primitives import NAMES, ListPrimitive
 from softshadow.gl.vertex_format import REST
 from softshadow.pipeline.mesa.driver_draws import CORNERS
@@ -27,7 +28,6 @@ def with_primitives(context: Context, calls: list[Callable[[], Any]]) -> list[Ca
     """Return the calls of a list, with primitives as arrays."""
     compiled: list[Callable[[], Any]] = []
     begin = -1  # place of the last glBegin in `compiled`
-    opening: ListPrimitive | None = None  # the first primitive of a run without other calls between
     for call in calls:
         compiled.append(call)
         function = getattr(call, "func", None)
@@ -37,14 +37,41 @@ def with_primitives(context: Context, calls: list[Callable[[], Any]]) -> list[Ca
             primitive = _primitive(context, compiled[begin:])
             if primitive is not None:
                 compiled[begin:] = [primitive]
-                before = compiled[begin - 1] if begin else None
-                if isinstance(before, ListPrimitive) and _can_be_joined(before, primitive, before is opening):
-                    compiled[-2:] = [_joined_strips(before, primitive)]
-                opening = opening or primitive
             begin = -1
         elif function not in CALLS:
-            begin, opening = -1, None
-    return compiled
+            begin = -1
+    return _with_joined(compiled)
+
+
+def _with_joined(calls: list[Callable[[], Any]]) -> list[Callable[[], Any]]:
+    """Return the calls of a list with consecutive primitives joined."""
+    result: list[Callable[[], Any]] = []
+    for is_attribute_or_primitive, part in groupby(calls, _stays_between):
+        stretch = list(part)
+        if not is_attribute_or_primitive:
+            result += stretch
+            continue
+        runs: list[list[Any]] = []
+        for call in stretch:
+            if runs and isinstance(call, ListPrimitive) and _has_same_attributes(runs[-1][-1], call):
+                runs[-1].append(call)
+            else:
+                runs.append([call])
+        places = [number for number, run in enumerate(runs) if isinstance(run[0], ListPrimitive)]
+        for number, run in enumerate(runs):
+            if number in places:
+                run = joined(run, is_opening=number == places[0], is_closing=number == places[-1])
+            result += run
+    return result
+
+
+def _stays_between(call: Callable[[], Any]) -> bool:
+    """Return whether Mesa may join the primitives before a call with those after it."""
+    return isinstance(call, ListPrimitive) or getattr(call, "func", None) in CALLS
+
+
+def _has_same_attributes(first: Any, second: ListPrimitive) -> bool:
+    return isinstance(first, ListPrimitive) and first.sizes == second.sizes and not any(second.starts.values())
 
 
 def _primitive(context: Context, calls: list[Any]) -> ListPrimitive | None:
@@ -88,32 +115,6 @@ def _primitive(context: Context, calls: list[Any]) -> ListPrimitive | None:
     if mode in CORNERS and len(positions) % CORNERS[mode] == 0 and not any(starts.values()):
         rows, indices = _with_equal_vertices_joined(rows, indices)
     return ListPrimitive(calls, mode, rows, starts, last, sizes, indices)
-
-
-def _can_be_joined(first: ListPrimitive, second: ListPrimitive, is_opening: bool) -> bool:
-    """Return whether Mesa joins two consecutive primitives with triangles between."""
-    shortest = 3 if is_opening else 4  # of a strip with one triangle it makes GL_TRIANGLES, but not where a run begins
-    return (
-        first.mode == second.mode == gl.GL_TRIANGLE_STRIP
-        and first.sizes == second.sizes
-        and not any(second.starts.values())
-        and len(first.indices) >= shortest
-        and len(second.indices) >= 4
-    )
-
-
-def _joined_strips(first: ListPrimitive, second: ListPrimitive) -> ListPrimitive:
-    """Return two consecutive strips as one, with triangles of no area between them, as in Mesa.
-
-    They are seen where polygons are not filled. Three or four repeated indices keep the facing of the second strip.
-    """
-    rows = {slot: np.concatenate([first.rows[slot], second.rows[slot]]) for slot in first.rows}
-    later = second.indices + np.int32(len(first.rows[POSITION]))
-    repeated = [first.indices[-1], *later[:1].repeat(2 if len(first.indices) % 2 else 1)]
-    indices = np.concatenate([first.indices, np.array(repeated, np.int32), later])
-    for array in (*rows.values(), indices):
-        array.setflags(write=False)
-    return ListPrimitive(first.calls + second.calls, first.mode, rows, first.starts, second.last, second.sizes, indices)
 
 
 def _with_equal_vertices_joined(

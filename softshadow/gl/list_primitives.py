@@ -73,7 +73,7 @@ class ListPrimitive:
                 values.texcoords[slot - TEXCOORD] = value
         context.vertex_buffer.active_sizes.update(self.sizes)
         follow_color(context)
-        context.pending.reset_due = True
+        context.pending.reset_due = context.pending.has_vertices = True
         context.draw(self.mode, vertices, self.indices)
 
     def vertices(self, constants: ConstantSet) -> Vertices:

@@ -19,6 +19,7 @@ from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.list_compiling import with_primitives
 from softshadow.gl.list_primitives import carry_out
 from softshadow.gl.names import reserve
+from softshadow.gl.refusals import CONVERTING, refusal
 
 DEEPEST_LIST = 64
 LARGEST_NAME = 2**32 - 1
@@ -88,14 +89,17 @@ def glCallList(list: int) -> None:
         GL_INVALID_VALUE for name 0; else the first error of the list, after all its calls have been carried out.
     """
     context = thread.context
-    if context.compiled_list is not None:
-        record(context, glCallList, list)
-        return
-    name = list if list in context.lists else c_uint(int(list)).value
-    if name == 0 and context.list_depth == 0:
-        fail(gl.GL_INVALID_VALUE, "glCallList", f"list={list}: expected 1 or more")
-    else:
-        _call(context, name)
+    try:
+        if context.compiled_list is not None:
+            record(context, glCallList, list)
+            return
+        name = list if list in context.lists else c_uint(int(list)).value
+        if name == 0 and context.list_depth == 0:
+            fail(gl.GL_INVALID_VALUE, "glCallList", f"list={list}: expected 1 or more")
+        else:
+            _call(context, name)
+    except CONVERTING as error:
+        raise refusal(glCallList, error, list) from error
 
 
 @in_lists

@@ -12,7 +12,7 @@ from softshadow.context import Context, current, thread
 from softshadow.gl.calls import in_lists, record, spelled_like_gl
 from softshadow.gl.conversions import as_floats, as_ints, first, from_int, nearest_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.fragment_state import A_FACE, FACES, rounded
+from softshadow.gl.fragment_state import A_FACE, FACES, rounded, rounded_number
 from softshadow.gl.vertex_format import carry_attribute
 
 # parameter: fields of the material
@@ -27,8 +27,8 @@ PARAMETERS = {**FIELDS, gl.GL_SHININESS: ("shininess",)}
 A_COLOR = "GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR, GL_EMISSION or GL_AMBIENT_AND_DIFFUSE"
 SIDES = {gl.GL_FRONT: ("front",), gl.GL_BACK: ("back",), gl.GL_FRONT_AND_BACK: ("front", "back")}
 MATERIALS = {side: f"lighting.{side}" for side in SIDES[gl.GL_FRONT_AND_BACK]}  # groups of the state
-NAMES = {  # of the attributes
-    (side, field): f"{side}.{field}" for side in MATERIALS for fields in PARAMETERS.values() for field in fields
+NAMES = {  # of the attributes, by side and field
+    side: {field: f"{side}.{field}" for fields in PARAMETERS.values() for field in fields} for side in MATERIALS
 }
 LARGEST_SHININESS = 128
 
@@ -82,10 +82,10 @@ glMateriali = glMaterialf
 
 
 def _set_shininess(operation: str, context: Context, face: int, value: float) -> None:
-    if not 0 <= value <= LARGEST_SHININESS:
-        fail(gl.GL_INVALID_VALUE, operation, f"param={value:g}: expected 0 to 128 for GL_SHININESS")
+    if 0 <= value <= LARGEST_SHININESS:
+        set_material(context, face, {"shininess": rounded_number(context, value)})
     else:
-        set_material(context, face, {"shininess": rounded(context, value)})
+        fail(gl.GL_INVALID_VALUE, operation, f"param={value:g}: expected 0 to 128 for GL_SHININESS")
 
 
 def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None:
@@ -93,25 +93,31 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
 
     Between glBegin and glEnd they become attributes of the vertices.
     """
+    if all(set(fields) <= set(followed(context, side)) for side in SIDES[face]):
+        return  # nothing changes: the vertices before and after are still drawn together
     if not context.ready:
+        has_vertices = context.pending.has_vertices
         context.flush()
+        if has_vertices:  # Mesa draws them here, but resets the attributes at the next change of state
+            context.pending.reset_due = context.pending.has_vertices = True
         context.ready = context.primitive is None and context.compiled_list is None
-    old_values = context.pending.old_values
+    old_values, follows = context.pending.old_values, context.groups["lighting"].fields["color_material"]
     for side in SIDES[face]:
-        fixed = followed(context, side)
-        free = {field: value for field, value in fields.items() if field not in fixed} if fixed else fields
+        free, names = fields, NAMES[side]
+        if follows:
+            fixed = followed(context, side)
+            free = {field: value for field, value in fields.items() if field not in fixed}
         for field in free:
-            name = NAMES[side, field]
-            if name not in old_values:
-                context.remember_attribute(name)
+            if names[field] not in old_values:
+                context.remember_attribute(names[field])
         if context.primitive is not None:
             material = context.material(side)
             for field, value in free.items():
-                name = NAMES[side, field]
+                name = names[field]
                 carry_attribute(context, name, np.size(value))
-                context.primitive.materials.add(name)
+                context.primitive.materials |= {name}
                 context.primitive.change(name, material[field], value)
-        context.change(MATERIALS[side], **free)
+        context.change_fields(MATERIALS[side], free)
 
 
 # -- colours that follow glColor ---------------------------------------------------------------------------------------
@@ -122,6 +128,11 @@ def glColorMaterial(face: int, mode: int) -> None:
     if context is None or not is_one_of("glColorMaterial", "face", face, FACES, A_FACE):
         return
     if is_one_of("glColorMaterial", "mode", mode, FIELDS, A_COLOR):
+        lighting = context.groups["lighting"].fields
+        if (face, mode) == (lighting["color_material_face"], lighting["color_material_mode"]):
+            return
+        if not context.pending.has_vertices:
+            context.stop_following()  # a colour that is not yet current sets the materials of the new mode only
         context.change("lighting", color_material_face=int(face), color_material_mode=int(mode))
         start_to_follow(context)
 
@@ -135,10 +146,14 @@ def followed(context: Context, side: str) -> tuple[str, ...]:
 
 
 def follow_color(context: Context) -> None:
-    """Copy the current colour to the material fields that follow it."""
+    """Copy the current colour to the material fields that follow it, if it is another one than Mesa's current one."""
     lighting = context.groups["lighting"].fields
     if lighting["color_material"]:
-        context.follow(SIDES[lighting["color_material_face"]], FIELDS[lighting["color_material_mode"]])
+        color = context.current.color
+        if context.pending.old_values.get("color", color) != color:
+            context.follow(SIDES[lighting["color_material_face"]], FIELDS[lighting["color_material_mode"]])
+        else:
+            context.stop_following()
 
 
 def start_to_follow(context: Context) -> None:
@@ -146,12 +161,14 @@ def start_to_follow(context: Context) -> None:
 
     A pending material is only hidden by it: Mesa makes it current again with the next flush (vbo_exec_copy_to_current).
     """
-    if context.groups["lighting"].fields["color_material"]:
+    lighting = context.groups["lighting"].fields
+    if lighting["color_material"]:
+        if context.pending.has_vertices:
+            context.reset_attributes()
         context.update_current()
-        for name in context.pending.names:
-            if "." in name:
-                context.pending.hidden.setdefault(name, context.attribute(name))
-        follow_color(context)
+        hidden = {name: context.attribute(name) for name in context.pending.names if "." in name}
+        context.follow(SIDES[lighting["color_material_face"]], FIELDS[lighting["color_material_mode"]])
+        context.pending.hidden, context.pending.before_following = hidden | context.pending.hidden, None
 
 
 # -- queries -----------------------------------------------------------------------------------------------------------

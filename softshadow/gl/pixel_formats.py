@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from softshadow import tokens as gl
 from softshadow.image import Format, Image
+from softshadow.packed_colors import PACKED_COLORS
 from softshadow.pixel_store import COMPONENTS, PACKED_TYPES, TYPES
 from softshadow.tokens import token_name
 
@@ -12,17 +13,20 @@ Problem = tuple[int, str]  # GL error code and message
 
 def format_problem(format: int, type: int) -> Problem | None:
     """Return (error code, message) if a client format and type are not a valid combination, else None."""
+    if format == gl.GL_DEPTH_STENCIL and type not in PACKED_TYPES:
+        expected = " or ".join(token_name(t) for t in PACKED_TYPES)
+        return gl.GL_INVALID_ENUM, f"type={token_name(type, TYPE_NAMES)}: expected {expected} for GL_DEPTH_STENCIL"
+    if type in PACKED_COLORS and format not in PACKED_COLORS[type].formats:
+        expected = " or ".join(token_name(f) for f in PACKED_COLORS[type].formats)
+        return gl.GL_INVALID_OPERATION, f"format={token_name(format)}: expected {expected} for {token_name(type)}"
+    if type in PACKED_TYPES and format != gl.GL_DEPTH_STENCIL:
+        return gl.GL_INVALID_OPERATION, f"format={token_name(format)}: expected GL_DEPTH_STENCIL for {token_name(type)}"
     if format not in COMPONENTS:
         expected = ", ".join(token_name(f) for f in COMPONENTS)
         return gl.GL_INVALID_ENUM, f"format={token_name(format)}: expected one of {expected}"
-    if type not in TYPES and type not in PACKED_TYPES:
-        expected = ", ".join(token_name(t) for t in (*TYPES, *PACKED_TYPES))
+    if type not in TYPES and type not in PACKED_TYPES and type not in PACKED_COLORS:
+        expected = ", ".join(token_name(t) for t in (*TYPES, *PACKED_TYPES, *PACKED_COLORS))
         return gl.GL_INVALID_ENUM, f"type={token_name(type, TYPE_NAMES)}: expected one of {expected}"
-    if format == gl.GL_DEPTH_STENCIL and type not in PACKED_TYPES:
-        expected = " or ".join(token_name(t) for t in PACKED_TYPES)
-        return gl.GL_INVALID_ENUM, f"type={token_name(type)}: expected {expected} for GL_DEPTH_STENCIL"
-    if format != gl.GL_DEPTH_STENCIL and type in PACKED_TYPES:
-        return gl.GL_INVALID_OPERATION, f"format={token_name(format)}: expected GL_DEPTH_STENCIL for {token_name(type)}"
     return None
 
 
@@ -55,6 +59,8 @@ def upload_problem(format: int, stored: Format, has_stencil: bool) -> Problem | 
 
 def readout_problem(format: int, image: Image) -> Problem | None:
     """Return (error code, message) if an image cannot be read in a client format, else None."""
+    if format == gl.GL_COLOR_INDEX:
+        return gl.GL_INVALID_OPERATION, "format=GL_COLOR_INDEX: no image has colour indices"
     if format == gl.GL_DEPTH_STENCIL and image.stencil is None:
         return gl.GL_INVALID_OPERATION, "format=GL_DEPTH_STENCIL: expected an image with stencil values"
     return upload_problem(format, image.format, image.stencil is not None)

@@ -14,41 +14,48 @@ from softshadow.gl.conversions import nearest_int
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import format_problem, kind_of
+from softshadow.gl.pixel_memory import image_destination
 from softshadow.image import Image
 from softshadow.pipeline.buffers.copy import bottom_up, clipped
-from softshadow.pixel_store import TYPES, output_array
-from softshadow.pixels import pack_color, pack_depth, pack_depth_stencil, pack_stencil
+from softshadow.pixel_store import TYPES
+from softshadow.pixel_transfer import PixelTransfer
+from softshadow.pixels import client_kind, pack_color, pack_depth, pack_depth_stencil, pack_stencil
 from softshadow.tokens import token_name
 
-STORES = {
-    gl.GL_PACK_ALIGNMENT: ("pack_store", "alignment"),
-    gl.GL_PACK_ROW_LENGTH: ("pack_store", "row_length"),
-    gl.GL_PACK_SKIP_ROWS: ("pack_store", "skip_rows"),
-    gl.GL_PACK_SKIP_PIXELS: ("pack_store", "skip_pixels"),
-    gl.GL_UNPACK_ALIGNMENT: ("unpack_store", "alignment"),
-    gl.GL_UNPACK_ROW_LENGTH: ("unpack_store", "row_length"),
-    gl.GL_UNPACK_SKIP_ROWS: ("unpack_store", "skip_rows"),
-    gl.GL_UNPACK_SKIP_PIXELS: ("unpack_store", "skip_pixels"),
+PARAMETERS = {
+    "ALIGNMENT": "alignment",
+    "ROW_LENGTH": "row_length",
+    "SKIP_ROWS": "skip_rows",
+    "SKIP_PIXELS": "skip_pixels",
+    "IMAGE_HEIGHT": "image_height",
+    "SKIP_IMAGES": "skip_images",
+    "SWAP_BYTES": "swap_bytes",
+    "LSB_FIRST": "lsb_first",
 }
-SWITCHED_OFF = (gl.GL_PACK_SWAP_BYTES, gl.GL_PACK_LSB_FIRST, gl.GL_UNPACK_SWAP_BYTES, gl.GL_UNPACK_LSB_FIRST)
+STORES = {
+    getattr(gl, f"GL_{direction}_{name}"): (f"{direction.lower()}_store", field)
+    for direction in ("PACK", "UNPACK")
+    for name, field in PARAMETERS.items()
+}
+SWITCHES = ("swap_bytes", "lsb_first")
 
 
 def glPixelStorei(pname: int, param: int) -> None:
     """Set how the rows of client images are laid out in memory."""
     if (context := outside_begin("glPixelStorei")) is None:
         return None
-    if pname in SWITCHED_OFF:
-        if param:
-            fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param}: expected 0 in this subset")
-        return None
     if pname not in STORES:
         return fail(gl.GL_INVALID_ENUM, "glPixelStorei", f"pname={token_name(pname)}: expected a pixel store parameter")
     direction, field = STORES[pname]
     if field == "alignment" and param not in (1, 2, 4, 8):
         return fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param}: expected 1, 2, 4 or 8")
+    if field in SWITCHES:
+        param = bool(param)
     if param < 0:
         return fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param}: expected 0 or more")
-    setattr(context, direction, evolve(getattr(context, direction), **{field: int(param)}))
+    setattr(
+        context, direction, evolve(getattr(context, direction), **{field: param if field in SWITCHES else int(param)})
+    )
     return None
 
 
@@ -75,6 +82,8 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
         return fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 or more")
     if problem := format_problem(format, type):
         return fail(problem[0], operation, problem[1])
+    if format == gl.GL_COLOR_INDEX:
+        return fail(gl.GL_INVALID_OPERATION, operation, "format=GL_COLOR_INDEX: no buffer has colour indices")
     source = context.objects.framebuffers[context.state.read_framebuffer]
     if framebuffer_status(context, source.name) != gl.GL_FRAMEBUFFER_COMPLETE:
         return fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, operation, f"framebuffer {source.name} is not complete")
@@ -82,11 +91,14 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
     if buffers is None:
         missing = kind_of(format).replace("-", " or ").replace("color", "colour")
         return fail(gl.GL_INVALID_OPERATION, operation, f"framebuffer {source.name} has no {missing} buffer to read")
+    where = image_destination(context, array, int(width), int(height), format, type, operation)
+    if where is None:
+        return None
+    answer, view = where
     context.finish()
     rows, columns, left, bottom = clipped(source, int(x), int(y), int(width), int(height))
     cells = [bottom_up(source, buffer)[rows, columns] for buffer in buffers]
-    answer, view = output_array(array, context.pack_store, width, height, format, type, operation)
-    inside = _packed(cells, buffers, format, type)
+    inside = _packed(cells, buffers, format, type, context.pixel_transfer)
     view[bottom : bottom + inside.shape[0], left : left + inside.shape[1]] = inside
     return answer
 
@@ -102,17 +114,18 @@ def _buffers(source: Framebuffer, kind: str) -> list[Image] | None:
     return buffers if len(buffers) == len(wanted) else None
 
 
-def _packed(cells: list[np.ndarray], buffers: list[Image], format: int, type: int) -> np.ndarray:
+def _packed(
+    cells: list[np.ndarray], buffers: list[Image], format: int, type: int, transfer: PixelTransfer
+) -> np.ndarray:
     """Return framebuffer cells as client pixels (h, w, components)."""
     kind, stored = kind_of(format), buffers[0].format
     if kind == "depth-stencil":
-        return pack_depth_stencil(cells[0], cells[1], stored, type)[..., None]
-    dtype = TYPES[type]
+        return pack_depth_stencil(cells[0], cells[1], stored, type, transfer)[..., None]
     if kind == "color":
-        return pack_color(cells[0], stored, format, dtype, from_framebuffer=True)
+        return pack_color(cells[0], stored, format, client_kind(type), from_framebuffer=True, transfer=transfer)
     if kind == "depth":
-        return pack_depth(cells[0], stored, dtype)[..., None]
-    return pack_stencil(cells[0], dtype)[..., None]
+        return pack_depth(cells[0], stored, TYPES[type], transfer=transfer)[..., None]
+    return pack_stencil(cells[0], TYPES[type], transfer)[..., None]
 
 
 __all__ = spelled_like_gl(globals())

@@ -16,6 +16,7 @@ from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import vector
 from softshadow.gl.errors import outside_begin
 from softshadow.gl.raster_lighting import raster_color, transformed
+from softshadow.gl.render_modes import note_raster_position
 from softshadow.pipeline.geometry.geometry import planes_in_clip_space
 
 F32 = np.float32
@@ -69,6 +70,7 @@ def _set(context: Context, point: np.ndarray) -> None:
             for stack, coordinates in zip(context.texture_stacks, context.current.texcoords, strict=True)
         ),
     )
+    note_raster_position(context)
 
 
 def _is_inside(clip: np.ndarray, depth_clamp: bool, planes: np.ndarray) -> bool:
@@ -100,6 +102,7 @@ def glWindowPos3f(x: float, y: float, z: float) -> None:
     coordinates = tuple(tuple(each) for each in context.current.texcoords)
     context.current.raster = RasterPosition(window=window, color=color, texcoords=coordinates)
     context.touched |= gl.GL_CURRENT_BIT
+    note_raster_position(context)
 
 
 def glRasterPos2f(x: float, y: float) -> None:

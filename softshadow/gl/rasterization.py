@@ -6,7 +6,7 @@ from softshadow import tokens as gl
 from softshadow.context import thread
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.fragment_state import A_FACE, FACES, clamp01, rounded
+from softshadow.gl.fragment_state import A_FACE, FACES, clamp01, rounded, rounded_number
 
 LARGEST_VIEWPORT = 16384
 FARTHEST_CORNER = 32768  # Mesa clamps the corner of a viewport to this
@@ -50,7 +50,7 @@ def glPolygonOffset(factor: float, units: float) -> None:
     context = thread.context
     if context.ready or is_allowed(context, glPolygonOffset, factor, units):
         factor, units = rounded(context, factor, units)
-        context.change("polygon", factor=factor, units=units)
+        context.change_fields("polygon", {"factor": factor, "units": units})
 
 
 @in_lists
@@ -62,7 +62,7 @@ def glLineWidth(width: float) -> None:
     if width <= 0:
         fail(gl.GL_INVALID_VALUE, "glLineWidth", f"width={width}: expected more than 0")
     else:
-        context.change("polygon", line_width=rounded(context, width))
+        context.change("polygon", line_width=rounded_number(context, width))
 
 
 @in_lists
@@ -74,7 +74,7 @@ def glPointSize(size: float) -> None:
     if size <= 0:
         fail(gl.GL_INVALID_VALUE, "glPointSize", f"size={size}: expected more than 0")
     else:
-        context.change("polygon", point_size=rounded(context, size))
+        context.change("polygon", point_size=rounded_number(context, size))
 
 
 # -- viewport and scissor box ------------------------------------------------------------------------------------------

@@ -12,7 +12,7 @@ from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import attach, attachment_problem, bound_framebuffer, target_problem
 from softshadow.gl.names import generate, names_argument, reserve
-from softshadow.gl.texture_images import channel_bits
+from softshadow.gl.texture_queries import channel_bits
 from softshadow.image import FORMATS, WITH_STENCIL, storage_format
 from softshadow.pipeline.commands import AttachRenderbuffer, DefineRenderbuffer, DeleteRenderbuffers
 from softshadow.tokens import token_name

@@ -9,12 +9,14 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import MATRIX_STACK_DEPTHS, Context, MatrixStack
+from softshadow.context.render_mode import MOST_NAMES
 from softshadow.framebuffer import DEFAULT, DRAW_BUFFERS, LARGEST_SIDE, Framebuffer
 from softshadow.gl.attributes import DEEPEST_ATTRIBUTES
-from softshadow.gl.capabilities import CLIP_PLANES, HINTS, LIGHTS
+from softshadow.gl.capabilities import CLIP_PLANES, HINTS, LIGHTS, MAPS
 from softshadow.gl.fragment_state import core_back, extension_back
 from softshadow.gl.framebuffers import COLOR_ATTACHMENTS
 from softshadow.gl.lists import DEEPEST_LIST
+from softshadow.gl.pixel_transfer import queries as transfer_queries
 from softshadow.gl.rasterization import LARGEST_VIEWPORT
 from softshadow.gl.vertex_arrays import ARRAYS
 from softshadow.image import Image
@@ -137,8 +139,11 @@ def pixel_store(name: str, store: Callable[[Context], PixelStore]) -> dict[str, 
         f"GL_{name}_ROW_LENGTH": lambda c: store(c).row_length,
         f"GL_{name}_SKIP_ROWS": lambda c: store(c).skip_rows,
         f"GL_{name}_SKIP_PIXELS": lambda c: store(c).skip_pixels,
-        f"GL_{name}_SWAP_BYTES": lambda c: False,
-        f"GL_{name}_LSB_FIRST": lambda c: False,
+        f"GL_PIXEL_{name}_BUFFER_BINDING": lambda c: store(c).buffer,
+        f"GL_{name}_IMAGE_HEIGHT": lambda c: store(c).image_height,
+        f"GL_{name}_SKIP_IMAGES": lambda c: store(c).skip_images,
+        f"GL_{name}_SWAP_BYTES": lambda c: store(c).swap_bytes,
+        f"GL_{name}_LSB_FIRST": lambda c: store(c).lsb_first,
     }
 
 
@@ -162,6 +167,13 @@ QUERIES: dict[str, Read] = {
     "GL_POLYGON_OFFSET_UNITS": lambda c: c.state.polygon.units,
     "GL_LINE_WIDTH": lambda c: c.state.polygon.line_width,
     "GL_POINT_SIZE": lambda c: c.state.polygon.point_size,
+    "GL_LINE_STIPPLE_PATTERN": lambda c: c.state.lines.pattern,
+    "GL_LINE_STIPPLE_REPEAT": lambda c: c.state.lines.factor,
+    "GL_POINT_SIZE_MIN": lambda c: c.state.points.smallest,
+    "GL_POINT_SIZE_MAX": lambda c: c.state.points.largest,
+    "GL_POINT_FADE_THRESHOLD_SIZE": lambda c: c.state.points.fade_threshold,
+    "GL_POINT_DISTANCE_ATTENUATION": lambda c: c.state.points.attenuation,
+    "GL_POINT_SPRITE_COORD_ORIGIN": lambda c: c.state.points.origin,
     "GL_BLEND_SRC": lambda c: c.state.blend.src_rgb,
     "GL_BLEND_DST": lambda c: c.state.blend.dst_rgb,
     "GL_BLEND_SRC_RGB": lambda c: c.state.blend.src_rgb,
@@ -235,7 +247,17 @@ QUERIES: dict[str, Read] = {
     "GL_DEPTH_BITS": lambda c: bits(drawn_to(c).depth),
     "GL_STENCIL_BITS": lambda c: bits(drawn_to(c).stencil),
     **{f"GL_ACCUM_{name}_BITS": accumulation_bits for name in ("RED", "GREEN", "BLUE", "ALPHA")},
-    "GL_RENDER_MODE": lambda c: gl.GL_RENDER,
+    "GL_MAX_EVAL_ORDER": lambda c: 30,
+    "GL_MAP1_GRID_SEGMENTS": lambda c: c.evaluators.grid1[0],
+    "GL_MAP1_GRID_DOMAIN": lambda c: c.evaluators.grid1[1:],
+    "GL_MAP2_GRID_SEGMENTS": lambda c: tuple(grid[0] for grid in c.evaluators.grid2),
+    "GL_MAP2_GRID_DOMAIN": lambda c: (*c.evaluators.grid2[0][1:], *c.evaluators.grid2[1][1:]),
+    "GL_RENDER_MODE": lambda c: c.render_mode.mode,
+    "GL_NAME_STACK_DEPTH": lambda c: len(c.render_mode.selection.names),
+    "GL_MAX_NAME_STACK_DEPTH": lambda c: MOST_NAMES,
+    "GL_SELECTION_BUFFER_SIZE": lambda c: c.render_mode.selection.size,
+    "GL_FEEDBACK_BUFFER_SIZE": lambda c: c.render_mode.feedback.size,
+    "GL_FEEDBACK_BUFFER_TYPE": lambda c: c.render_mode.feedback.kind,
     "GL_RGBA_MODE": lambda c: True,
     "GL_STEREO": lambda c: False,
     "GL_SAMPLES": lambda c: 0,
@@ -257,10 +279,14 @@ QUERIES: dict[str, Read] = {
     "GL_MAX_LIST_NESTING": lambda c: DEEPEST_LIST,
     "GL_LINE_WIDTH_RANGE": lambda c: SIZES,
     "GL_POINT_SIZE_RANGE": lambda c: SIZES,
+    "GL_LINE_WIDTH_GRANULARITY": lambda c: 0.1,
+    "GL_POINT_SIZE_GRANULARITY": lambda c: 0.1,
     "GL_ALIASED_LINE_WIDTH_RANGE": lambda c: SIZES,
     "GL_ALIASED_POINT_SIZE_RANGE": lambda c: SIZES,
 }
 BY_TOKEN: dict[int, Read] = {getattr(gl, name): read for name, read in QUERIES.items() if hasattr(gl, name)}
+BY_TOKEN |= {cap: (lambda c, cap=cap: cap in c.evaluators.enabled) for cap in MAPS}
+BY_TOKEN |= transfer_queries()
 BY_TOKEN |= {hint: (lambda c, hint=hint: c.hints.get(hint, gl.GL_DONT_CARE)) for hint in HINTS}  # type: ignore[misc]
 # colours, normals, depths and matrices: as an integer, 1.0 is the largest int (GL 2.1, sec. 6.1.2)
 NORMALIZED = {

@@ -8,6 +8,7 @@ from softshadow import tokens as gl
 from softshadow.context import current, thread
 from softshadow.gl.calls import in_lists, record, spelled_like_gl
 from softshadow.gl.conversions import vector
+from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_format import REST, TEXCOORDS, carry_attribute, set_attribute
 from softshadow.state import TEXTURE_UNITS
 
@@ -44,14 +45,17 @@ def glTexCoord1fv(v: Any) -> None:
 def glTexCoord2f(s: float, t: float) -> None:
     """Set the texture coordinate of unit 0; r = 0, q = 1."""
     context = thread.context
-    primitive = context.primitive
-    if primitive is not None and primitive.steady.get("texcoord0") == 2:
-        context.current.texcoords[0] = coordinate = (float(s), float(t), 0.0, 1.0)
-        primitive.changes["texcoord0"].append((len(primitive.positions), coordinate))
-    elif context.compiled_list is None:
-        set_coordinate(0, s, t)
-    else:
-        record(context, glTexCoord2f, s, t)
+    try:
+        primitive = context.primitive
+        if primitive is not None and primitive.steady.get("texcoord0") == 2:
+            context.current.texcoords[0] = coordinate = (float(s), float(t), 0.0, 1.0)
+            primitive.changes["texcoord0"].append((len(primitive.positions), coordinate))
+        elif context.compiled_list is None:
+            set_coordinate(0, s, t)
+        else:
+            record(context, glTexCoord2f, s, t)
+    except CONVERTING as error:
+        raise refusal(glTexCoord2f, error, s, t) from error
 
 
 @in_lists

@@ -22,6 +22,7 @@ from softshadow.gl.texture_images import (
 from softshadow.gl.textures import bound_name, bound_texture, target_problem
 from softshadow.image import FORMATS, WITH_STENCIL, Format
 from softshadow.pipeline.commands import CopyToTexture, DefineImage
+from softshadow.pixel_transfer import PixelTransfer
 
 
 @in_lists
@@ -51,7 +52,10 @@ def glCopyTexImage2D(
     if before is None or (before.internal_format, before.width, before.height) != (internalformat, width, height):
         stored = FORMATS[internalformat]
         context.execute(DefineImage(texture.name, face, level, stored, internalformat, width, height))
-    context.execute(CopyToTexture(context.state.read_framebuffer, texture.name, face, level, 0, 0, x, y, width, height))
+    place = (0, 0, x, y, width, height)
+    context.execute(
+        CopyToTexture(context.state.read_framebuffer, texture.name, face, level, *place, _transfer(context))
+    )
     follow_base_level(context, texture, face, level)
     return None
 
@@ -77,9 +81,15 @@ def glCopyTexSubImage2D(
     if problem := _copy_problem(context, image.format, image.stencil is not None):
         return fail(problem[0], operation, problem[1])
     framebuffer, name = context.state.read_framebuffer, bound_name(context, target)
-    context.execute(CopyToTexture(framebuffer, name, face_of(target), level, xoffset, yoffset, x, y, width, height))
+    place = (xoffset, yoffset, x, y, width, height)
+    context.execute(CopyToTexture(framebuffer, name, face_of(target), level, *place, _transfer(context)))
     follow_base_level(context, bound_texture(context, target), face_of(target), level)
     return None
+
+
+def _transfer(context: Context) -> PixelTransfer | None:
+    transfer = context.pixel_transfer
+    return transfer if transfer.through_floats or transfer.changes_depth else None
 
 
 def _source_problem(context: Context) -> Problem | None:

@@ -7,40 +7,28 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context
+from softshadow.context import Context, current
 from softshadow.framebuffer import LARGEST_SIDE
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
-from softshadow.gl.pixel_formats import Problem, format_problem, kind_of, readout_problem, upload_problem
+from softshadow.gl.pixel_formats import Problem, format_problem, kind_of, upload_problem
+from softshadow.gl.pixel_memory import image_for_list, image_source
+from softshadow.gl.proxy_textures import PROXIES, define_proxy
 from softshadow.gl.textures import FACES, bound_name, bound_texture, target_problem
 from softshadow.image import FORMATS, WITH_STENCIL, Format, Image, storage_format
 from softshadow.pipeline.commands import DefineImage, GenerateMipmaps, UpdateImage
-from softshadow.pixel_store import TYPES, client_image, output_array
 from softshadow.pixels import (
-    pack_color,
-    pack_depth,
-    pack_depth_stencil,
-    pack_stencil,
     unpack_color,
     unpack_depth,
     unpack_packed_depth,
     unpack_packed_stencil,
+    unpack_stencil,
 )
 from softshadow.texture import Texture
 from softshadow.tokens import token_name
 
 LARGEST_LEVEL = LARGEST_SIDE.bit_length() - 1
 COMPONENT_NUMBERS = (1, 2, 3, 4)  # internal formats of GL 1.0, which glCopyTexImage2D does not take
-SIZES: dict[int, tuple[int, ...]] = {  # the base formats that have the channel
-    gl.GL_TEXTURE_RED_SIZE: (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_RGBA),
-    gl.GL_TEXTURE_GREEN_SIZE: (gl.GL_RG, gl.GL_RGB, gl.GL_RGBA),
-    gl.GL_TEXTURE_BLUE_SIZE: (gl.GL_RGB, gl.GL_RGBA),
-    gl.GL_TEXTURE_ALPHA_SIZE: (gl.GL_RGBA, gl.GL_ALPHA, gl.GL_LUMINANCE_ALPHA),
-    gl.GL_TEXTURE_LUMINANCE_SIZE: (gl.GL_LUMINANCE, gl.GL_LUMINANCE_ALPHA),
-    gl.GL_TEXTURE_INTENSITY_SIZE: (gl.GL_INTENSITY,),
-    gl.GL_TEXTURE_DEPTH_SIZE: (gl.GL_DEPTH_COMPONENT,),
-    gl.GL_TEXTURE_STENCIL_SIZE: (gl.GL_STENCIL_INDEX,),
-}
 
 
 def face_of(target: int) -> int:
@@ -48,7 +36,6 @@ def face_of(target: int) -> int:
     return FACES.index(target) if target in FACES else 0
 
 
-@in_lists
 def glTexImage2D(
     target: int,
     level: int,
@@ -60,13 +47,37 @@ def glTexImage2D(
     type: int,
     pixels: Any = None,
 ) -> None:
-    """Define a level of the bound texture from an image, first row = bottom row; None fills it with zeros."""
+    """Define a level of the bound texture from an image, first row = bottom row; None fills it with zeros.
+
+    For a proxy texture only what glGetTexLevelParameter returns is set, to 0 if there cannot be such a texture, even
+    while a display list is compiled.
+    """
+    shape = (width, height)
+    pixels = image_for_list(current(), pixels, *shape, format, type, "glTexImage2D")
+    define = _tex_image.__wrapped__ if target in PROXIES else _tex_image  # type: ignore[attr-defined]
+    define(target, level, internalformat, *shape, border, format, type, pixels)
+
+
+@in_lists
+def _tex_image(
+    target: int,
+    level: int,
+    internalformat: int,
+    width: int,
+    height: int,
+    border: int,
+    format: int,
+    type: int,
+    pixels: Any,
+) -> None:
     operation = "glTexImage2D"
     if (context := outside_begin(operation)) is None:
         return None
+    is_proxy = target in PROXIES
     problem = (
-        target_problem(context, target, faces=True)
-        or size_problem(target, level, width, height, border)
+        (None if is_proxy else target_problem(context, target, faces=True))
+        or (level_problem(level) if is_proxy else size_problem(target, level, width, height, border))
+        or (border_problem(border) or _negative_problem(width, height) if is_proxy else None)
         or format_problem(format, type)
         or internal_problem(internalformat, gl.GL_INVALID_VALUE)
         or upload_problem(format, FORMATS[internalformat], internalformat in WITH_STENCIL)
@@ -74,16 +85,18 @@ def glTexImage2D(
     if problem:
         return fail(problem[0], operation, problem[1])
     stored = storage_format(internalformat, type)
-    cells, stencil = _cells(context, pixels, width, height, format, type, stored, operation)
+    if is_proxy:
+        define_proxy(context, target, level, stored, internalformat, width, height)
+        return None
+    parts = _cells(context, pixels, width, height, format, type, stored, operation)
+    if parts is None:
+        return None
     texture = bound_texture(context, target)
-    context.execute(
-        DefineImage(texture.name, face_of(target), level, stored, internalformat, width, height, cells, stencil)
-    )
+    context.execute(DefineImage(texture.name, face_of(target), level, stored, internalformat, width, height, *parts))
     follow_base_level(context, texture, face_of(target), level)
     return None
 
 
-@in_lists
 def glTexSubImage2D(
     target: int,
     level: int,
@@ -96,6 +109,22 @@ def glTexSubImage2D(
     pixels: Any = None,
 ) -> None:
     """Replace a rectangle of a level of the bound texture."""
+    pixels = image_for_list(current(), pixels, width, height, format, type, "glTexSubImage2D")
+    _tex_sub_image(target, level, xoffset, yoffset, width, height, format, type, pixels)
+
+
+@in_lists
+def _tex_sub_image(
+    target: int,
+    level: int,
+    xoffset: int,
+    yoffset: int,
+    width: int,
+    height: int,
+    format: int,
+    type: int,
+    pixels: Any,
+) -> None:
     operation = "glTexSubImage2D"
     if (context := outside_begin(operation)) is None:
         return None
@@ -114,30 +143,35 @@ def glTexSubImage2D(
     )
     if problem:
         return fail(problem[0], operation, problem[1])
-    if pixels is not None:
-        cells, stencil = _cells(context, pixels, width, height, format, type, image.format, operation)
+    parts = _cells(context, pixels, width, height, format, type, image.format, operation)
+    if parts is not None and any(part is not None for part in parts):
         texture = bound_texture(context, target)
-        context.execute(UpdateImage(texture.name, face_of(target), level, xoffset, yoffset, cells, stencil))
+        context.execute(UpdateImage(texture.name, face_of(target), level, xoffset, yoffset, *parts))
         follow_base_level(context, texture, face_of(target), level)
     return None
 
 
 def _cells(
     context: Context, pixels: Any, width: int, height: int, format: int, type: int, stored: Format, operation: str
-) -> tuple[np.ndarray | None, np.ndarray | None]:
-    """Return client pixels as (cells, stencil values) to be stored; None for a part that the format does not have."""
-    if pixels is None:
+) -> tuple[np.ndarray | None, np.ndarray | None] | None:
+    """Return client pixels as (cells, stencil values) to be stored; None for a part that the format does not have.
+
+    None after an error of GL.
+    """
+    if pixels is None and (not context.unpack_store.buffer or context.executes_list or context.list_depth):
         return None, None
-    image = client_image(pixels, context.unpack_store, width, height, format, type, operation)
-    kind = kind_of(format)
+    image = image_source(context, pixels, width, height, format, type, operation)
+    if image is None:
+        return None
+    kind, transfer = kind_of(format), context.pixel_transfer
     if kind == "color":
-        return unpack_color(image, format, stored).copy(), None
+        return unpack_color(image, format, stored, type, transfer).copy(), None
     elements = image[..., 0]
     if kind == "depth-stencil":
-        return unpack_packed_depth(elements, stored), unpack_packed_stencil(elements)
+        return unpack_packed_depth(elements, stored, transfer), unpack_packed_stencil(elements, transfer)
     if kind == "depth":
-        return unpack_depth(elements, stored), None
-    values = elements.astype(np.int64).astype(np.uint8)
+        return unpack_depth(elements, stored, transfer), None
+    values = unpack_stencil(elements, transfer)
     return (values, None) if stored.kind == "stencil" else (None, values)
 
 
@@ -181,84 +215,6 @@ def _generate(context: Context, texture: Texture, faces: tuple[int, ...]) -> Non
     base, last = texture.sampler.base_level, texture.last_level(faces[0])
     if last > base:
         context.execute(GenerateMipmaps(texture.name, faces, base, last))
-
-
-# -- reading back ------------------------------------------------------------------------------------------------------
-def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = None) -> Any:
-    """Return a level of the bound texture, (h, w) or (h, w, components), bottom row first; an `array` is filled."""
-    operation = "glGetTexImage"
-    if (context := outside_begin(operation)) is None:
-        return None
-    problem = target_problem(context, target, faces=True) or level_problem(level) or format_problem(format, type)
-    if problem:
-        return fail(problem[0], operation, problem[1])
-    context.finish()
-    image = image_at(context, target, level)
-    if image is not None and (problem := readout_problem(format, image)):
-        return fail(problem[0], operation, problem[1])
-    width, height = (image.width, image.height) if image is not None else (0, 0)
-    answer, view = output_array(array, context.pack_store, width, height, format, type, operation)
-    if image is not None:
-        view[...] = texture_pixels(image, format, type)
-    return answer
-
-
-def texture_pixels(image: Image, format: int, type: int) -> np.ndarray:
-    """Return a texture's image as client pixels (h, w, components)."""
-    kind = kind_of(format)
-    if kind == "depth-stencil":
-        assert image.stencil is not None
-        return pack_depth_stencil(image.view, image.stencil.view, image.format, type)[..., None]
-    dtype = TYPES[type]
-    if kind == "color":
-        return pack_color(image.view, image.format, format, dtype)
-    if kind == "depth":
-        return pack_depth(image.view, image.format, dtype, through_float=True)[..., None]
-    stencil = image.stencil.view if image.stencil is not None else image.view
-    return pack_stencil(stencil, dtype)[..., None]
-
-
-def glGetTexLevelParameteriv(target: int, level: int, pname: int, params: Any = None) -> Any:
-    """Return a property of a level of the bound texture, an int."""
-    operation = "glGetTexLevelParameteriv"
-    if (context := outside_begin(operation)) is None:
-        return None
-    if problem := target_problem(context, target, faces=True) or level_problem(level):
-        return fail(problem[0], operation, problem[1])
-    image = image_at(context, target, level)
-    simple = {
-        gl.GL_TEXTURE_WIDTH: image.width if image else 0,
-        gl.GL_TEXTURE_HEIGHT: image.height if image else 0,
-        gl.GL_TEXTURE_DEPTH: 1 if image else 0,
-        gl.GL_TEXTURE_BORDER: 0,
-        gl.GL_TEXTURE_INTERNAL_FORMAT: image.internal_format if image else gl.GL_RGBA,
-    }
-    if pname in simple:
-        answer = simple[pname]
-    elif pname in SIZES:
-        answer = channel_bits(image, pname) if image else 0
-    else:
-        return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)}: expected a property of a texture level")
-    if params is not None:
-        np.asarray(params)[:1] = answer
-    return answer
-
-
-def glGetTexLevelParameterfv(target: int, level: int, pname: int, params: Any = None) -> Any:
-    """Return a property of a level of the bound texture, a float."""
-    answer = glGetTexLevelParameteriv(target, level, pname, params)
-    return None if answer is None else float(answer)
-
-
-def channel_bits(image: Image, size: int) -> int:
-    """Return the number of bits of the channel of a GL_TEXTURE_*_SIZE, 0 if the format does not have it."""
-    if size == gl.GL_TEXTURE_STENCIL_SIZE:
-        return 8 if image.stencil is not None or image.format.kind == "stencil" else 0
-    if image.format.base not in SIZES[size]:
-        return 0
-    if image.format.kind == "unorm8":
-        return 8
-    return int(image.format.largest).bit_length() or 32
 
 
 def image_at(context: Context, target: int, level: int) -> Image | None:

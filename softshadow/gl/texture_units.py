@@ -46,7 +46,7 @@ def glActiveTexture(texture: int) -> None:
     if context.active_unit != unit:
         context.flush()
         context.touched |= gl.GL_TEXTURE_BIT
-    context.active_unit = unit
+    context.select_unit(unit)
     return None
 
 
@@ -83,6 +83,8 @@ def _set_environment(operation: str, target: int, pname: int, value: Any, is_vec
     values = np.ravel(value)
     if problem := _environment_problem(target, pname, is_vector):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
+    if target == gl.GL_POINT_SPRITE:
+        return _replace_coordinates(context, operation, values[0])
     if pname == gl.GL_TEXTURE_LOD_BIAS:
         set_unit(context, context.active_unit, lod_bias=float(np.float32(values[0])))
         return None
@@ -107,11 +109,22 @@ def _set_environment(operation: str, target: int, pname: int, value: Any, is_vec
     return None
 
 
+def _replace_coordinates(context: Context, operation: str, value: float) -> None:
+    """Set whether point sprites replace the coordinates of the active unit."""
+    if value not in (0, 1):
+        return fail(gl.GL_INVALID_VALUE, operation, f"GL_COORD_REPLACE={value:g}: expected GL_TRUE or GL_FALSE")
+    replaced, unit = context.state.points.replaced, context.active_unit
+    context.change("points", replaced=(*replaced[:unit], bool(value), *replaced[unit + 1 :]))
+    return None
+
+
 def _environment_problem(target: int, pname: int, is_vector: bool) -> str | None:
+    if target == gl.GL_POINT_SPRITE:
+        return None if pname == gl.GL_COORD_REPLACE else f"pname={token_name(pname)}: expected GL_COORD_REPLACE"
     if target == gl.GL_TEXTURE_FILTER_CONTROL:
         return None if pname == gl.GL_TEXTURE_LOD_BIAS else f"pname={token_name(pname)}: expected GL_TEXTURE_LOD_BIAS"
     if target != gl.GL_TEXTURE_ENV:
-        return f"target={token_name(target)}: expected GL_TEXTURE_ENV or GL_TEXTURE_FILTER_CONTROL"
+        return f"target={token_name(target)}: expected GL_TEXTURE_ENV, GL_TEXTURE_FILTER_CONTROL or GL_POINT_SPRITE"
     if (
         pname == gl.GL_TEXTURE_ENV_MODE
         or pname in COMBINE_PARAMETERS
@@ -139,6 +152,8 @@ def _environment(operation: str, target: int, pname: int, params: Any, dtype: ty
         return None
     if problem := _environment_problem(target, pname, is_vector=True):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
+    if target == gl.GL_POINT_SPRITE:
+        return _answer(np.array([context.state.points.replaced[context.active_unit]], dtype), params)
     unit = context.state.units[context.active_unit]
     if pname == gl.GL_TEXTURE_ENV_MODE:
         return _answer(np.array([unit.env_mode], dtype), params)

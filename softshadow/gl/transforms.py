@@ -14,6 +14,7 @@ from softshadow import tokens as gl
 from softshadow.context import MATRIX_STACK_DEPTHS, Context, thread
 from softshadow.gl.calls import in_lists, is_allowed, is_ready, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.gl.refusals import CONVERTING, refusal
 
 
 def _matrix_argument(context: Context, m: Any) -> np.ndarray:
@@ -26,41 +27,39 @@ def _matrix_argument(context: Context, m: Any) -> np.ndarray:
 def glMatrixMode(mode: int) -> None:
     """Select the stack that matrix calls work on."""
     context = thread.context
-    if not (context.ready or is_allowed(context, glMatrixMode, mode)):
-        return
-    if mode not in MATRIX_STACK_DEPTHS:
-        is_one_of("glMatrixMode", "mode", mode, MATRIX_STACK_DEPTHS, "GL_MODELVIEW, GL_PROJECTION or GL_TEXTURE")
-        return
-    if mode != context.matrix_mode or mode == gl.GL_TEXTURE:
-        context.touched |= gl.GL_TRANSFORM_BIT
-        context.matrix_mode = mode
+    try:
+        if not (context.ready or is_allowed(context, glMatrixMode, mode)):
+            return
+        if mode not in MATRIX_STACK_DEPTHS:
+            is_one_of("glMatrixMode", "mode", mode, MATRIX_STACK_DEPTHS, "GL_MODELVIEW, GL_PROJECTION or GL_TEXTURE")
+            return
+        if mode != context.matrix_mode or mode == gl.GL_TEXTURE:
+            context.touched |= gl.GL_TRANSFORM_BIT
+            context.select_matrices(mode)
+    except CONVERTING as error:
+        raise refusal(glMatrixMode, error, mode) from error
 
 
 def glPushMatrix() -> None:
     """Push a copy of the current matrix onto its stack."""
     context = thread.context
-    if not (context.ready or is_allowed(context, glPushMatrix)):
-        return
-    stack = context.matrix_stack
-    if len(stack.kinds) == stack.limit:
-        fail(gl.GL_STACK_OVERFLOW, "glPushMatrix", f"this stack holds {stack.limit} matrices")
-    else:
-        stack.push()
+    if (context.ready or is_allowed(context, glPushMatrix)) and not context.matrix_stack.push():
+        limit = context.matrix_stack.limit
+        fail(gl.GL_STACK_OVERFLOW, "glPushMatrix", f"this stack holds {limit} matrices")
 
 
 def glPopMatrix() -> None:
     """Restore the matrix of the last push."""
     context = thread.context
-    if not (context.ready or is_allowed(context, glPopMatrix)):
-        return
     stack = context.matrix_stack
-    if len(stack.kinds) == 1:
-        fail(gl.GL_STACK_UNDERFLOW, "glPopMatrix", "there was no glPushMatrix before it")
-    else:
-        if not context.ready and context.has_collected and not stack.equals_pushed:
+    if not context.ready:
+        if not is_allowed(context, glPopMatrix):
+            return
+        if context.has_collected and len(stack) > 1 and not stack.equals_pushed:
             context.flush()
             context.ready = True
-        stack.pop()
+    if not stack.pop():
+        fail(gl.GL_STACK_UNDERFLOW, "glPopMatrix", "there was no glPushMatrix before it")
 
 
 def glLoadIdentity() -> None:
@@ -107,22 +106,31 @@ def glMultTransposeMatrixf(m: Any) -> None:
 def glTranslatef(x: float, y: float, z: float) -> None:
     """Multiply the current matrix by a translation."""
     context = thread.context
-    if context.ready or is_ready(context, glTranslatef, x, y, z):
-        context.matrix_stack.translate(x, y, z)
+    try:
+        if context.ready or is_ready(context, glTranslatef, x, y, z):
+            context.matrix_stack.translate(x, y, z)
+    except CONVERTING as error:
+        raise refusal(glTranslatef, error, x, y, z) from error
 
 
 def glScalef(x: float, y: float, z: float) -> None:
     """Multiply the current matrix by a scale."""
     context = thread.context
-    if context.ready or is_ready(context, glScalef, x, y, z):
-        context.matrix_stack.scale(x, y, z)
+    try:
+        if context.ready or is_ready(context, glScalef, x, y, z):
+            context.matrix_stack.scale(x, y, z)
+    except CONVERTING as error:
+        raise refusal(glScalef, error, x, y, z) from error
 
 
 def glRotatef(angle: float, x: float, y: float, z: float) -> None:
     """Multiply the current matrix by a rotation: degrees about an axis."""
     context = thread.context
-    if (context.ready or is_ready(context, glRotatef, angle, x, y, z)) and angle and (x or y or z):
-        context.matrix_stack.rotate(angle, x, y, z)
+    try:
+        if (context.ready or is_ready(context, glRotatef, angle, x, y, z)) and angle and (x or y or z):
+            context.matrix_stack.rotate(angle, x, y, z)
+    except CONVERTING as error:
+        raise refusal(glRotatef, error, angle, x, y, z) from error
 
 
 @in_lists

@@ -17,6 +17,7 @@ from softshadow.gl.conversions import (
     vector,
 )
 from softshadow.gl.materials import follow_color
+from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_format import carry_attribute, set_attribute
 
 
@@ -38,14 +39,17 @@ def set_color(red: float, green: float, blue: float, *alpha: float) -> None:
 def glColor3f(red: float, green: float, blue: float) -> None:
     """Set the current colour, alpha 1."""
     context = thread.context
-    primitive = context.primitive
-    if primitive is not None and primitive.steady.get("color") == 3:
-        context.current.color = color = (float(red), float(green), float(blue), 1.0)
-        primitive.changes["color"].append((len(primitive.positions), color))
-    elif context.compiled_list is None:
-        set_color(red, green, blue)
-    else:
-        record(context, glColor3f, red, green, blue)
+    try:
+        primitive = context.primitive
+        if primitive is not None and primitive.steady.get("color") == 3:
+            context.current.color = color = (float(red), float(green), float(blue), 1.0)
+            primitive.changes["color"].append((len(primitive.positions), color))
+        elif context.compiled_list is None:
+            set_color(red, green, blue)
+        else:
+            record(context, glColor3f, red, green, blue)
+    except CONVERTING as error:
+        raise refusal(glColor3f, error, red, green, blue) from error
 
 
 @in_lists
@@ -125,14 +129,17 @@ def set_normal(x: float, y: float, z: float) -> None:
 def glNormal3f(nx: float, ny: float, nz: float) -> None:
     """Set the current normal."""
     context = thread.context
-    primitive = context.primitive
-    if primitive is not None and primitive.steady.get("normal") == 3:
-        context.current.normal = normal = (float(nx), float(ny), float(nz))
-        primitive.changes["normal"].append((len(primitive.positions), normal))
-    elif context.compiled_list is None:
-        set_normal(nx, ny, nz)
-    else:
-        record(context, glNormal3f, nx, ny, nz)
+    try:
+        primitive = context.primitive
+        if primitive is not None and primitive.steady.get("normal") == 3:
+            context.current.normal = normal = (float(nx), float(ny), float(nz))
+            primitive.changes["normal"].append((len(primitive.positions), normal))
+        elif context.compiled_list is None:
+            set_normal(nx, ny, nz)
+        else:
+            record(context, glNormal3f, nx, ny, nz)
+    except CONVERTING as error:
+        raise refusal(glNormal3f, error, nx, ny, nz) from error
 
 
 @in_lists

@@ -22,6 +22,7 @@ from softshadow.state import TEXTURE_UNITS
 REST = (0.0, 0.0, 0.0, 1.0)  # default values of components that a call does not set
 TEXCOORDS = tuple(f"texcoord{unit}" for unit in range(TEXTURE_UNITS))
 COLUMNS = ("color", "normal", *TEXCOORDS)  # attributes in the order of `ConstantSet`
+NO_MATERIALS: frozenset[str] = frozenset()
 FEW_VERTICES = 8  # with more collected vertices, a new attribute outside glBegin makes Mesa reset all others
 
 
@@ -44,7 +45,7 @@ def begin(context: Context, mode: int) -> None:
         sizes.clear()
         if context.pending.names:
             context.reset_attributes()
-    materials = {name for name in sizes if "." in name} if sizes else set()
+    materials = frozenset(name for name in sizes if "." in name) if sizes else NO_MATERIALS
     context.ready = False
     context.primitive = Primitive(mode, context.list_depth > 0, materials)
 

@@ -8,13 +8,56 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.framebuffer import DEFAULT
 from softshadow.frozen import evolve
-from softshadow.pipeline.commands import Draw, Vertices
-from softshadow.state import ClipPlanes, Cull, Fog, Polygon, State, Viewport
+from softshadow.image import Format
+from softshadow.pipeline.commands import CreateTexture, DefineImage, Draw, SetSampler, Vertices
+from softshadow.state import ClipPlanes, Cull, Fog, Polygon, State, TextureUnit, Viewport
+from softshadow.texture import Sampler
 
 # the unit square in the order of Mesa's vertices; for images in framebuffer objects it counts rows from the top
 CORNERS = np.array([[0, 1], [1, 1], [1, 0], [0, 0]])
 CORNERS_FROM_TOP = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
 TRIANGLES = np.array([0, 1, 2, 0, 2, 3])  # a fan, as in Mesa
+
+
+TEXTURE = -2  # key in the storage of the texture that holds the rectangle
+SAMPLER = Sampler(
+    min_filter=gl.GL_NEAREST, mag_filter=gl.GL_NEAREST, wrap_s=gl.GL_CLAMP_TO_EDGE, wrap_t=gl.GL_CLAMP_TO_EDGE
+)
+
+
+def textured_rectangle(
+    context: Context, cells: np.ndarray, stored: Format, internal_format: int, left: int = 0, bottom: int = 0
+) -> Draw:
+    """Define a texture of cells (h, w, 4), and return the draw that shows it so many pixels from the raster position.
+
+    `left` and `bottom` are counted before the zoom.
+    """
+    height, width = cells.shape[:2]
+    if TEXTURE not in context.objects.textures:
+        context.execute(CreateTexture(TEXTURE, gl.GL_TEXTURE_2D))
+        context.execute(SetSampler(TEXTURE, SAMPLER))
+    context.execute(DefineImage(TEXTURE, 0, 0, stored, internal_format, width, height, cells))
+    zoom_x, zoom_y = np.array(context.pixel_zoom, np.float32)
+    x, y, *_ = context.current.raster.window
+    x0, y0 = rounded(x) + np.float32(left) * zoom_x, rounded(y) + np.float32(bottom) * zoom_y
+    x1, y1 = x0 + np.float32(width) * zoom_x, y0 + np.float32(height) * zoom_y
+    if context.state.draw_framebuffer != DEFAULT:  # Mesa takes the whole part of the top row
+        y1 = np.trunc(y1)
+        y0 = y1 - np.float32(height) * zoom_y
+    quad = np.array([[x0, y0, x1, y1]], np.float32)
+    return draw_of_quads(context, quad, _textured(context.state), textured=True)
+
+
+def rounded(coordinate: float) -> np.float32:
+    """Return the nearest whole number; halves are rounded away from 0."""
+    return np.float32(np.trunc(coordinate + np.copysign(0.5, coordinate)))
+
+
+def _textured(state: State) -> State:
+    """Return the state with the rectangle as its only texture."""
+    first = TextureUnit(enabled_2d=True, bound_2d=TEXTURE, env_mode=gl.GL_REPLACE)
+    others = tuple(evolve(unit, enabled_2d=False, enabled_cube=False) for unit in state.units[1:])
+    return evolve(state, units=(first, *others))
 
 
 def draw_of_quads(context: Context, quads: np.ndarray, state: State, textured: bool = False) -> Draw:

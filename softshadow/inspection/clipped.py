@@ -14,7 +14,7 @@ from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.draw_primitives import triangles_of
 from softshadow.pipeline.geometry.geometry import positions_of
 from softshadow.pipeline.geometry.lines import LINES
-from softshadow.pipeline.geometry.polygon_mode import is_filled
+from softshadow.pipeline.mesa.polygon_rules import passes_stages
 from softshadow.state import Viewport
 from softshadow.tokens import GL_POINTS
 
@@ -42,7 +42,7 @@ class CutAway(NamedTuple):
 
 def cut_triangles(command: Draw, target: Framebuffer) -> CutTriangles | None:
     """Return the triangles of a draw that may be cut away at some pixel; None if there are none."""
-    if command.mode in (GL_POINTS, *LINES) or not is_filled(command.state):
+    if command.mode in (GL_POINTS, *LINES) or passes_stages(command.state):
         return None
     with np.errstate(all="ignore"):
         positions = positions_of(command, target)

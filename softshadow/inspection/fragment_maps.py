@@ -16,10 +16,11 @@ from softshadow.pipeline.choose import tests_alpha
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.raster.fragment_ops import fragment_ops
-from softshadow.pipeline.raster.ordered import list_fragments, process_fragments
+from softshadow.pipeline.raster.ordered import process_fragments
 from softshadow.pipeline.raster.region import buffer_cells, depth_range_of, region_of
 from softshadow.pipeline.records import VERDICTS, Fragments, Geometry
 from softshadow.pipeline.shade.blend import compared_alpha
+from softshadow.pipeline.shade.discards import fragments_in
 from softshadow.pipeline.shade.shading import shade
 from softshadow.pipeline.shade.visible_spans import spans_of
 
@@ -180,6 +181,6 @@ def listed(command: Draw, target: Framebuffer, geometry: Geometry) -> Iterator[t
     cuts = [0, *(np.flatnonzero(np.diff(part)) + 1), len(part)]
     for first, end in pairwise(cuts):
         some = geometry._replace(triangles=type(triangles)(*(array[first:end] for array in triangles)))
-        fragments = list_fragments(some.triangles, region)
+        fragments = fragments_in(some, region)
         if len(fragments.row):
             yield some, fragments

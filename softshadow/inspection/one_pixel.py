@@ -26,6 +26,7 @@ from softshadow.pipeline.raster.region import depth_range_of, region_of
 from softshadow.pipeline.records import PASSED, Fragments, Geometry
 from softshadow.pipeline.shade.blend import compared_alpha
 from softshadow.pipeline.shade.color_writes import color_writer
+from softshadow.pipeline.shade.discards import without_discarded
 from softshadow.pipeline.shade.pixel_blocks import in_blocks
 from softshadow.pipeline.shade.visible_spans import spans_of
 from softshadow.pixels import depth_as_float
@@ -153,7 +154,8 @@ class OnePixel:
     def _fragments_of(self, geometry: Geometry, target: Framebuffer) -> Fragments:
         triangles = np.empty(len(geometry.triangles.ids), np.int32)
         n = triangles_at(geometry.triangles.corners, self.column, self.row, int(target.flipped), triangles)
-        return Fragments(np.full(n, self.row, np.int32), np.full(n, self.column, np.int32), triangles[:n].copy())
+        every = Fragments(np.full(n, self.row, np.int32), np.full(n, self.column, np.int32), triangles[:n].copy())
+        return without_discarded(geometry, every)
 
     def _fragment(self, geometry: Geometry, t: int, state: State, cells: Framebuffer, front: bool | None) -> Fragment:
         triangles = geometry.triangles

@@ -14,6 +14,7 @@ import numpy as np
 from softshadow import errors, framebuffer, image, scene, state, texture
 from softshadow.context import Frame
 from softshadow.errors import SoftShadowError
+from softshadow.inspection.validate_recording import validate_fields, validate_image
 from softshadow.pipeline import commands
 
 DTYPES = {name: getattr(np, name) for name in ("uint8", "float32", "float64")}
@@ -81,7 +82,12 @@ class Packer:
 
 
 class Unpacker:
-    """Recreates the values that a `Packer` packed; arrays are read-only."""
+    """Recreates the values that a `Packer` packed; arrays are read-only.
+
+    Raises
+    ------
+    SoftShadowError, ValueError, KeyError, TypeError, IndexError, RecursionError    no `Packer` wrote this
+    """
 
     def __init__(self, objects: list[Any], arrays: list[np.ndarray]) -> None:
         self.arrays = arrays
@@ -91,17 +97,21 @@ class Unpacker:
         for name, packed in objects:  # in the order of packing: an object comes after its parts
             if name not in KINDS:
                 raise SoftShadowError(f"a recording has no {name!r}")
-            self.objects.append(KINDS[name](**{key: self.unpack(value) for key, value in packed.items()}))
+            values = {key: self.unpack(value) for key, value in packed.items()}
+            validate_fields(KINDS[name], values)
+            self.objects.append(KINDS[name](**values))
+            if isinstance(self.objects[-1], image.Image):
+                validate_image(self.objects[-1])
 
     def unpack(self, value: Any) -> Any:
         """Return the value that JSON stands for."""
         if not isinstance(value, dict):
             return value
         ((key, content), *_) = value.items()
-        if key == "array":
-            return self.arrays[content]
-        if key == "object":
-            return self.objects[content]
+        if key in ("array", "object"):
+            if content < 0:
+                raise IndexError(f"{key} {content}")
+            return (self.arrays if key == "array" else self.objects)[content]
         if key == "mapping":
             return {self.unpack(name): self.unpack(item) for name, item in content}
         if key == "dtype":

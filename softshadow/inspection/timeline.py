@@ -254,6 +254,8 @@ def changed_images(command: Command, storage: Storage) -> Iterable[Image]:
     """Return the images that a command other than a draw or a clear writes to, as far as they exist."""
     if isinstance(command, commands.Accumulate):
         return storage.framebuffers[DEFAULT].colors if command.operation == gl.GL_RETURN else ()
+    if isinstance(command, commands.DrawDepths):
+        return [each.image for each in storage.framebuffers[command.draw.state.draw_framebuffer].attachments.values()]
     if isinstance(command, commands.BlitFramebuffer):
         return [each.image for each in storage.framebuffers[command.draw].attachments.values()]
     if isinstance(command, commands.DefineImage | commands.UpdateImage | commands.CopyToTexture):

@@ -3,18 +3,21 @@
 Numba prepares its compiler before it looks at the disk: it imports its implementations of Python's and NumPy's
 functions, registers them, and parses the intermediate code of every kernel. For a program whose kernels are all on disk
 this took most of the time until its first picture. Here, machine code is handed to LLVM as it is; the compiler starts
-when something must be compiled. The files are Numba's own (`softshadow.kernel_cache` names the folder).
+when something must be compiled. The files are Numba's own, behind checksums (`softshadow.kernel_cache` names their
+folder).
 """
 
 import contextlib
+import pickle
 import sys
 from importlib import import_module
 from typing import Any, NamedTuple
+from zlib import crc32
 
 import numpy as np
 from llvmlite import binding as llvm
 from numba.core import compiler, types
-from numba.core.caching import CompileResultCacheImpl, FunctionCache
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.environment import Environment, lookup_environment
@@ -24,6 +27,7 @@ from numba.np import numpy_support
 
 # what the parts of Numba that are used here raise where another version lacks them or builds them differently
 OTHER_VERSION = (AttributeError, KeyError, TypeError, ValueError)
+CHECKSUM = 4  # bytes
 
 
 class StoredResult(NamedTuple):
@@ -129,16 +133,71 @@ def register_runtime() -> None:
 _registered: list[bool] = []
 
 
+class KernelFiles(IndexDataCacheFile):
+    """Index and data of one kernel on disk, each behind a checksum; what is damaged counts as missing.
+
+    LLVM ends the process where machine code is damaged, and unpickling may raise anything.
+    """
+
+    def save(self, key: Any, data: Any) -> None:
+        """Store the data of a key, with the key: if the process is killed, the index may name data of another one."""
+        super().save(key, (key, data))
+
+    def load(self, key: Any) -> Any:
+        """Return the data of a key, or None."""
+        stored = super().load(key)
+        return stored[1] if stored is not None and stored[0] == key else None
+
+    def _load_index(self) -> dict[Any, str]:
+        index: Any = _unsealed(self._index_path)
+        is_ours = index is not None and index[:2] == (self._version, self._source_stamp)
+        return index[2] if is_ours else {}
+
+    def _save_index(self, overloads: dict[Any, str]) -> None:
+        with self._open_for_write(self._index_path) as file:
+            file.write(_sealed(self._dump((self._version, self._source_stamp, overloads))))
+
+    def _load_data(self, name: str) -> Any:
+        return _unsealed(self._data_path(name))
+
+    def _save_data(self, name: str, data: Any) -> None:
+        with self._open_for_write(self._data_path(name)) as file:
+            file.write(_sealed(self._dump(data)))
+
+
+def _sealed(content: bytes) -> bytes:
+    return crc32(content).to_bytes(CHECKSUM, "little") + content
+
+
+def _unsealed(path: str) -> Any:
+    """Return the object in a file, None if there is none or the file is damaged."""
+    try:
+        with open(path, "rb") as file:
+            checksum, content = file.read(CHECKSUM), file.read()
+    except OSError:
+        return None
+    return pickle.loads(content) if checksum == crc32(content).to_bytes(CHECKSUM, "little") else None
+
+
 class KernelCache(FunctionCache):
-    """The files of one kernel."""
+    """The files of one kernel. What cannot be read is compiled anew, what cannot be written is compiled again later."""
 
     _impl_class = StoredResults
 
+    def __init__(self, py_func: Any) -> None:
+        super().__init__(py_func)
+        stamp, base = self._impl.locator.get_source_stamp(), self._impl.filename_base
+        self._cache_file = KernelFiles(cache_path=self._cache_path, filename_base=base, source_stamp=stamp)
+
     def load_without_compiler(self, argument_types: tuple[Any, ...], target_context: Any) -> Any:
         """Return the stored result for these types, or None."""
-        with self._guard_against_spurious_io_errors():
-            payload = self._cache_file.load(self._index_key(argument_types, target_context.codegen()))
-            return None if payload is None else self._impl.rebuild_without_compiler(target_context, payload)
+        payload = self._cache_file.load(self._index_key(argument_types, target_context.codegen()))
+        return None if payload is None else self._impl.rebuild_without_compiler(target_context, payload)
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Store a result, if that is possible: the disk may be full, or the folder deleted."""
+        with contextlib.suppress(OSError):
+            super().save_overload(sig, data)
 
 
 NumbaDispatcher: Any = CPUDispatcher  # type checkers do not see the attributes that its C base class has

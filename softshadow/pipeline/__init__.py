@@ -41,7 +41,7 @@ from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.draw_path import DrawPath, explain_paths
 from softshadow.pipeline.memory.threads import set_threads, threads
 from softshadow.pipeline.raster.fill import fill, fill_buffers, no_ids
-from softshadow.pipeline.raster.ordered import list_fragments, process_fragments
+from softshadow.pipeline.raster.ordered import process_fragments
 from softshadow.pipeline.raster.region import buffer_cells, covered, depth_range_of, padded_shape, region_of
 from softshadow.pipeline.raster.spans import LAST, ONLY
 from softshadow.pipeline.records import (
@@ -56,6 +56,7 @@ from softshadow.pipeline.records import (
 )
 from softshadow.pipeline.shade.blend import compared_alpha
 from softshadow.pipeline.shade.color_writes import color_writer
+from softshadow.pipeline.shade.discards import fragments_in
 from softshadow.pipeline.shade.shading import shade, shade_and_write
 from softshadow.pipeline.shade.visible_spans import spans_of, visible_spans
 from softshadow.state import State
@@ -179,7 +180,7 @@ def _draw_in_order(
             return
     if not is_mesh and _shade_without_overlaps(plan, command, target, geometry):
         return
-    fragments = list_fragments(triangles, region)
+    fragments = fragments_in(geometry, region)
     colors = shade(geometry, spans_of(fragments)) if tests_alpha(state) else None
     depth, stencil = buffer_cells(target, real)
     alpha, alpha_ref = np.zeros(len(fragments.row), np.uint8), 0

@@ -22,8 +22,8 @@ from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.draw_path import DrawPath, begin_path, is_explained
 from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.geometry.lines import LINES
-from softshadow.pipeline.geometry.polygon_mode import is_filled
 from softshadow.pipeline.memory.threads import threads
+from softshadow.pipeline.mesa.polygon_rules import has_special_fragments, passes_stages
 from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2
 from softshadow.pipeline.raster.fill import FillKernel, textbook_kernel
 from softshadow.pipeline.raster.fragment_ops import FragmentOps, fragment_ops
@@ -132,9 +132,13 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
     state, path = command.state, begin_path(command.label, command.mode)
     front = fragment_ops(state, target.depth, target.stencil, True)
     back = fragment_ops(state, target.depth, target.stencil, False)
-    in_order, writes_color = needs_order(state), bool(target.colors) and any(state.color.mask)
+    is_special = has_special_fragments(state, command.mode)
+    in_order, writes_color = needs_order(state) or is_special, bool(target.colors) and any(state.color.mask)
     plan = Plan(in_order, writes_color, front, back, path, counting=counting)
     path.way = "in order" if in_order else "opaque"
+    if is_special:
+        path.note("stipple, smoothing or point sprites decide about each fragment: no short cut")
+        return plan
     if not in_order:
         path.note("neither blending nor alpha test: fragments are tested before any is shaded")
     else:
@@ -196,7 +200,7 @@ def tests_alpha(state: State) -> bool:
 def writes_no_colors(command: Draw, target: Framebuffer) -> bool:
     """Return whether a draw is of filled triangles, and no colour is written or decides about a fragment."""
     state = command.state
-    if command.mode in (gl.GL_POINTS, *LINES) or not is_filled(state) or (target.colors and any(state.color.mask)):
+    if command.mode in (gl.GL_POINTS, *LINES) or passes_stages(state) or (target.colors and any(state.color.mask)):
         return False
     # where Mesa shades all the same, with flat colours it may cut quads in another way, see `Varyings.flat_input`
     is_shaded, is_flat = target.colors or state.alpha.enabled, state.lighting.shade_model == gl.GL_FLAT

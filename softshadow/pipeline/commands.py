@@ -14,6 +14,7 @@ import numpy as np
 
 from softshadow import tokens
 from softshadow.image import Format
+from softshadow.pixel_transfer import PixelTransfer
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.state import Scissor, State
 from softshadow.texture import Sampler
@@ -65,7 +66,9 @@ class Draw:
     they may be older. Where Mesa joins draws of several debug groups into one, `joined_positions`
     (N, 4) are those of all of them and `joined_start` is the number of this draw's first vertex among them. `linear`:
     clipping interpolates values without perspective. `offset_mode` is the polygon mode whose offset unfilled
-    polygons get if an earlier draw has decided it, else 0. `origin` tells what the primitives were made from.
+    polygons get if an earlier draw has decided it, else 0. `stipple_place` is the place in the line stipple before the
+    draw: Mesa does not begin it anew where the first line of a strip is clipped away. `origin` tells what the
+    primitives were made from.
     """
 
     state: State
@@ -86,11 +89,26 @@ class Draw:
     joined_start: int = 0
     linear: bool = False
     offset_mode: int = 0
+    stipple_place: int = 0
     origin: Origin | None = None
 
     def __repr__(self) -> str:
         number = len(self.vertices.position) if self.indices is None else len(self.indices)
         return f"Draw({token_name(self.mode, PRIMITIVES)}, {number} vertices, label {self.label!r})"
+
+
+@dataclass(frozen=True, eq=False)
+class DrawDepths:
+    """glDrawPixels or glCopyPixels of depths, stencil values or both.
+
+    The rectangle is a draw of a quad, whose texture has depths in red and stencil values in green; `color` is that of
+    the raster position.
+    """
+
+    draw: Draw
+    color: tuple[float, float, float, float]
+    has_depth: bool
+    has_stencil: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,7 +171,10 @@ class UpdateImage:
 
 @dataclass(frozen=True, eq=False)
 class CopyToTexture:
-    """glCopyTexSubImage2D from a framebuffer; pixels outside the framebuffer leave their texels untouched."""
+    """glCopyTexSubImage2D from a framebuffer; pixels outside the framebuffer leave their texels untouched.
+
+    `transfer` is what glPixelTransfer changes on the way, None for nothing.
+    """
 
     framebuffer: int
     texture: int
@@ -165,6 +186,7 @@ class CopyToTexture:
     y: int
     width: int
     height: int
+    transfer: PixelTransfer | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -279,6 +301,7 @@ class SelectBuffers:
 
 Command = (
     Draw
+    | DrawDepths
     | Clear
     | Accumulate
     | BeginQuery

@@ -9,7 +9,8 @@ from softshadow import pipeline
 from softshadow.framebuffer import Storage
 from softshadow.pipeline import commands
 from softshadow.pipeline.buffers import accumulation, blit, clear, copy, mipmaps, objects
-from softshadow.pipeline.commands import BeginQuery, BlitFramebuffer, Command, Draw
+from softshadow.pipeline.commands import BeginQuery, BlitFramebuffer, Command, Draw, DrawDepths
+from softshadow.pipeline.depth_rectangles import draw_depths
 from softshadow.pipeline.records import PASSED, FragmentCounts
 
 
@@ -28,6 +29,14 @@ def _draw(command: Draw, storage: Storage) -> None:
     storage.queries[storage.active_query] += int(counts.verdicts[PASSED])
 
 
+def _draw_depths(command: DrawDepths, storage: Storage) -> None:
+    """Draw a rectangle of depths; an active occlusion query counts its fragments."""
+    counts = FragmentCounts.zero()
+    draw_depths(command, storage, counts)
+    if storage.active_query:
+        storage.queries[storage.active_query] += int(counts.verdicts[PASSED])
+
+
 def _begin_query(command: BeginQuery, storage: Storage) -> None:
     storage.active_query = command.query
     if command.query:
@@ -40,6 +49,7 @@ def _blit(command: BlitFramebuffer, storage: Storage) -> None:
 
 EXECUTORS: dict[type, Callable[[Any, Storage], None]] = {
     commands.Draw: _draw,
+    commands.DrawDepths: _draw_depths,
     commands.Clear: clear.clear,
     commands.Accumulate: accumulation.accumulate,
     commands.BeginQuery: _begin_query,

@@ -6,7 +6,7 @@ In the order of the pipeline: triangles in the window (`Setup`, `Geometry`), whe
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,13 +37,40 @@ class Setup(NamedTuple):
     ids: np.ndarray
 
 
+class Discards(NamedTuple):
+    """Fragments that are left out before any test.
+
+    pattern (32, 32) bool: the polygon stipple by row and column of the stored buffers, modulo 32, or None; places:
+    the first column of values that `outside` takes, or -1; outside: from places (n, 4) to which fragments (n,) are
+    outside of their smooth points.
+    """
+
+    pattern: np.ndarray | None = None
+    places: int = -1
+    outside: Callable[[np.ndarray], np.ndarray] | None = None
+
+
+class Sprites(NamedTuple):
+    """Point sprites: their coordinates run from 0 to 1 over the square of the point.
+
+    columns: the first column of each texture unit whose coordinates are replaced; widths (ids,) of the squares in
+    pixels; upwards: whether t grows with the stored rows.
+    """
+
+    columns: tuple[int, ...]
+    widths: np.ndarray
+    upwards: bool
+
+
 class Geometry(NamedTuple):
     """What the fill and shade stages need of a draw.
 
     triangles: those that are not culled and have an area; window (V', 4): x, y, z, 1/w; values, back (V', k) and flat
     (k,): outputs of the vertex stage; source (T',): which assembled primitive each clipped one is a piece of;
     provoking (T',): the vertex that flat columns take; faces (T',) bool: for the lines and points of glPolygonMode,
-    whether they outline front faces, else None; offset_mode: the mode of unfilled polygons whose offset applies, or 0.
+    whether they outline front faces, else None; offset_mode: the mode of unfilled polygons whose offset applies, or 0;
+    discards: which fragments stipple and smoothing leave out; sprites: the coordinates of point sprites; faceless:
+    lines and points have triangles like those of polygons; stipple_place: the place in the line stipple after the draw.
     """
 
     triangles: Setup
@@ -57,12 +84,17 @@ class Geometry(NamedTuple):
     uniforms: Mapping[str, Any]
     faces: np.ndarray | None = None
     offset_mode: int = 0
+    discards: Discards | None = None
+    sprites: Sprites | None = None
+    faceless: bool = False
+    stipple_place: int = 0
 
     def facing(self, row: int) -> bool | None:
         """Return whether a row of `triangles` belongs to a front face; None for lines and points, which have none."""
         if self.faces is not None:
             return bool(self.faces[self.triangles.ids[row]])
-        return bool(self.triangles.front[row]) if self.triangles.vertices[row, 2] != NO_VERTEX else None
+        has_face = self.triangles.vertices[row, 2] != NO_VERTEX and not self.faceless
+        return bool(self.triangles.front[row]) if has_face else None
 
 
 class Region(NamedTuple):

@@ -27,6 +27,9 @@ from softshadow.programs.texture_coordinates import (
 from softshadow.state import State
 from softshadow.texture import Texture
 
+POINT_SIZES = (1.0, 255.0)  # llvmpipe's limits
+NO_COORDINATE = np.zeros((1, 4), np.float32)
+
 
 @dataclass(frozen=True)
 class Unit:
@@ -90,9 +93,14 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
     normals: Normals | None = None
     if any(needs_normals(setting) for setting in settings):
         normals = Normals(eye_normals(lighting, vertices), any(reflects_r(setting) for setting in settings))
-    rest = [texture_coordinates(unit.index, state.units[unit.index], vertices, normals) for unit in units]
+    rest = [
+        NO_COORDINATE.repeat(len(vertices.position), axis=0)
+        if is_replaced(state, unit.index)
+        else texture_coordinates(unit.index, state.units[unit.index], vertices, normals)
+        for unit in units
+    ]
     if state.fog.enabled:
-        rest.append(fog_distance(state, vertices)[:, np.newaxis])
+        rest.append(eye_distance(state, vertices)[:, np.newaxis])
     values = columns(front, rest, vertices.position.dtype)
     flat = np.zeros(values.shape[1], bool)
     one_color = not lighting.enabled and vertices.color.strides[0] == 0  # Mesa does not interpolate a constant
@@ -102,7 +110,8 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
         flat[column : column + 4] = has_one_coordinate(state, unit.index, vertices)
         column += 4
     flat_input = lighting.shade_model == gl.GL_FLAT and not one_color and needs_vertex_color(state, units)
-    return Varyings(values, flat, None if back is None else columns(back, rest, values.dtype), flat_input)
+    back_values = None if back is None else columns(back, rest, values.dtype)
+    return Varyings(values, flat, back_values, flat_input, point_sizes(state, vertices))
 
 
 def needs_vertex_color(state: State, units: list[Unit]) -> bool:
@@ -115,11 +124,21 @@ def needs_vertex_color(state: State, units: list[Unit]) -> bool:
     return uses_vertex_color([(state.units[unit.index], base_format(unit.texture)) for unit in units])
 
 
+def is_replaced(state: State, unit: int) -> bool:
+    """Return whether point sprites replace the coordinates of a unit: Mesa computes none then, also for polygons."""
+    return state.points.sprites and state.points.replaced[unit]
+
+
 def has_one_coordinate(state: State, unit: int, vertices: VertexInputs) -> bool:
     """Return whether all vertices have the same coordinate in a unit; Mesa then does not interpolate it."""
     per_vertex = vertices.texcoords[unit].strides[0] != 0  # a constant is broadcast with stride 0
     generated = any(gen.enabled for gen in state.units[unit].gen)
-    return not per_vertex and not generated and np.array_equal(vertices.texture_matrices[unit], np.eye(4))
+    return (
+        not is_replaced(state, unit)
+        and not per_vertex
+        and not generated
+        and np.array_equal(vertices.texture_matrices[unit], np.eye(4))
+    )
 
 
 def columns(colors: Colors, rest: list[np.ndarray], real: np.dtype) -> np.ndarray:
@@ -128,7 +147,19 @@ def columns(colors: Colors, rest: list[np.ndarray], real: np.dtype) -> np.ndarra
     return np.concatenate(parts + rest, axis=1, dtype=real)
 
 
-def fog_distance(state: State, vertices: VertexInputs) -> np.ndarray:
+def point_sizes(state: State, vertices: VertexInputs) -> np.ndarray | None:
+    """Return the sizes of points (V,) by their distance (GL 2.1, sec. 3.3), None where they do not depend on it."""
+    points, real = state.points, vertices.position.dtype.type
+    if points.attenuation == (1.0, 0.0, 0.0):
+        return None
+    distance, (constant, linear, quadratic) = eye_distance(state, vertices), map(real, points.attenuation)
+    factor = (distance * quadratic + linear) * distance + constant
+    sizes = (real(1) / np.sqrt(factor)) * real(state.polygon.point_size)
+    smallest, largest = max(points.smallest, POINT_SIZES[0]), min(points.largest, POINT_SIZES[1])
+    return np.minimum(np.maximum(sizes, real(smallest)), real(largest))
+
+
+def eye_distance(state: State, vertices: VertexInputs) -> np.ndarray:
     """Return |z| in eye space (V,), computed in the order of Mesa's vertex program."""
     if state.lighting.enabled and needs_eye_position(state.lighting):
         return abs(transform(vertices.modelview, vertices.position)[:, 2])

@@ -49,7 +49,7 @@ def linear_terms(fog: Fog) -> tuple[np.float32, np.float32]:
 def scaled_density(fog: Fog) -> np.float32:
     """Return the density of GL_EXP or GL_EXP2 fog, scaled for powers of two."""
     scale = math.log2(math.e) if fog.mode == gl.GL_EXP else 1 / math.sqrt(math.log(2))
-    return np.float32(np.float32(fog.density) * scale)
+    return np.float32(float(np.float32(fog.density)) * scale)  # a product of doubles, as in Mesa (prog_statevars.c)
 
 
 def apply_fog(fragment: np.ndarray, fog: Fog, distance: np.ndarray) -> None:

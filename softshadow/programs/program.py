@@ -40,13 +40,15 @@ class Varyings:
 
     `flat` (k,) bool marks columns that take the provoking vertex's value; `back` (V, k) replaces `values` on
     back-facing triangles (two-sided lighting). `flat_input` is True if the fragment stage reads a flat column that
-    differs between vertices: Mesa then splits quads along the other diagonal.
+    differs between vertices: Mesa then splits quads along the other diagonal. `point_sizes` (V,) are the sizes of
+    points where they depend on the vertex.
     """
 
     values: np.ndarray
     flat: np.ndarray
     back: np.ndarray | None = None
     flat_input: bool = False
+    point_sizes: np.ndarray | None = None
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from softshadow.recordings.frames import TracedFrame
 from softshadow.recordings.left_out import DRAWN_BY_SHADER, ERROR, MISSING, REFUSED, SHADING, LeftOutCalls
 from softshadow.recordings.mapped_buffers import MappedBuffers
 from softshadow.recordings.unseen_draws import UnseenDraws
-from softshadow.recordings.window_systems import MadeCurrent, NewContext, Shared, event_of
+from softshadow.recordings.window_systems import MadeCurrent, NewContext, Shared, ShareGroups, event_of
 from softshadow.traces import Call
 
 SMALLEST = (1, 1)  # of a context that never draws in its window
@@ -70,7 +70,7 @@ class Player:
     def __init__(self, frames: list[TracedFrame], size: tuple[int, int] | None = None) -> None:
         self._frames, self._size = frames, size
         self._index = 0
-        self._shared: dict[int, int] = {}  # address of a context: that of the one that it shares objects with
+        self._groups = ShareGroups()
         self._contexts: dict[int, TracedContext] = {}
         self._current: dict[int, int] = {}  # by thread
         self._active: TracedContext | None = None
@@ -134,7 +134,7 @@ class Player:
     # -- contexts ------------------------------------------------------------------------------------------------------
     def _follow(self, call: Call, event: Any) -> None:
         if isinstance(event, NewContext | Shared):
-            self._shared[event.context] = event.shared
+            self._groups.note(event)
         elif isinstance(event, MadeCurrent):
             self._current[call.thread] = event.context
 
@@ -156,8 +156,8 @@ class Player:
         return self._contexts[address]
 
     def _share_objects(self, address: int, context: Context) -> None:
-        shared = self._shared.get(address)
-        if shared in self._contexts:
+        shared = self._groups.partner(address, self._contexts)
+        if shared is not None:
             other = self._contexts[shared].context
             context.lists, context.buffers, context.names = other.lists, other.buffers, other.names
             context.objects.textures = other.objects.textures
@@ -178,8 +178,13 @@ class Player:
                         other.unseen.see(command)
                 return not traced.unseen.takes(command)
             chosen = self._contexts.get(self._frames[-1].context)
-            if isinstance(command, OBJECT_COMMANDS) and chosen not in (None, traced):
-                self.chosen.frame.append(command)  # it changes objects of both
+            if (
+                isinstance(command, OBJECT_COMMANDS)
+                and chosen is not None
+                and chosen is not traced
+                and chosen.context.objects.textures is traced.context.objects.textures
+            ):
+                chosen.context.frame.append(command)  # it changes objects of both
             return True
 
         return is_carried_out

@@ -9,7 +9,16 @@ from softshadow import tokens as gl
 from softshadow.context import Frame
 from softshadow.errors import nearest
 from softshadow.framebuffer import DEFAULT
-from softshadow.pipeline.commands import PRIMITIVES, Accumulate, BlitFramebuffer, Clear, Command, CopyToTexture, Draw
+from softshadow.pipeline.commands import (
+    PRIMITIVES,
+    Accumulate,
+    BlitFramebuffer,
+    Clear,
+    Command,
+    CopyToTexture,
+    Draw,
+    DrawDepths,
+)
 from softshadow.tokens import token_name
 
 WAYS = ("auto", "groups", "draws", "clears")
@@ -84,6 +93,8 @@ def title_of(command: Command, number: int) -> str:
         return f"clear {', '.join(names) or 'nothing'}{_target(command)}"
     if isinstance(command, Draw):
         return f"{call_of(command) or f'draw {number}'}: {token_name(command.mode, PRIMITIVES)}{_target(command)}"
+    if isinstance(command, DrawDepths):
+        return f"rectangle of {'depths' if command.has_depth else 'stencil values'}{_target(command.draw)}"
     if isinstance(command, CopyToTexture):
         return f"copy to texture {command.texture}"
     return "copy between framebuffers" if isinstance(command, BlitFramebuffer) else "accumulate"
@@ -98,7 +109,7 @@ def _target(command: Draw | Clear) -> str:
 def _visible(commands: list[Command]) -> Iterator[tuple[int, Command]]:
     """Yield the commands that change pixels, each with the number of commands up to its end."""
     for index, command in enumerate(commands):
-        if isinstance(command, Draw | Clear | Accumulate | BlitFramebuffer | CopyToTexture):
+        if isinstance(command, Draw | DrawDepths | Clear | Accumulate | BlitFramebuffer | CopyToTexture):
             yield index + 1, command
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
 from softshadow.traces import Call
@@ -33,6 +33,30 @@ class Swapped(NamedTuple):
 
 
 Event = NewContext | MadeCurrent | Shared | Swapped
+
+
+class ShareGroups:
+    """Which contexts share objects: each names one other, and whoever names the same one belongs to its group."""
+
+    def __init__(self) -> None:
+        self._named: dict[int, int] = {}
+
+    def note(self, event: NewContext | Shared) -> None:
+        """Note with which other context one shares objects; 0 is none."""
+        self._named[event.context] = event.shared
+
+    def partner(self, context: int, others: Iterable[int]) -> int | None:
+        """Return the first of some other contexts that shares objects with one, or None."""
+        group = self._group(context)
+        return next((other for other in others if other != context and self._group(other) == group), None)
+
+    def _group(self, context: int) -> int:
+        seen = {context}
+        while (named := self._named.get(context, 0)) and named not in seen:
+            seen.add(named)
+            context = named
+        return context
+
 
 SWAPS = (
     "glXSwapBuffers", "glXSwapBuffersMscOML", "wglSwapBuffers", "wglSwapLayerBuffers", "SwapBuffers", "eglSwapBuffers",

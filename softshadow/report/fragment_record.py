@@ -24,7 +24,7 @@ from softshadow.pipeline.execute import execute
 from softshadow.pipeline.geometry.facing import CULL_BACK, CULL_FRONT, culling
 from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.raster.fragment_ops import fragment_ops
-from softshadow.pipeline.raster.ordered import list_fragments, process_fragments
+from softshadow.pipeline.raster.ordered import process_fragments
 from softshadow.pipeline.raster.region import buffer_cells, covered, depth_range_of, region_of
 from softshadow.pipeline.records import (
     ALPHA_FAILED,
@@ -39,6 +39,7 @@ from softshadow.pipeline.records import (
 )
 from softshadow.pipeline.shade.blend import compared_alpha
 from softshadow.pipeline.shade.color_writes import color_writer
+from softshadow.pipeline.shade.discards import fragments_in
 from softshadow.pipeline.shade.visible_spans import spans_of
 from softshadow.report.fragment_events import (
     LINE,
@@ -150,7 +151,7 @@ def _draw(command: Draw, storage: Storage, step: int, draw: int, counts: StepCou
         everywhere = Region(0, width, 0, height, int(window.flipped))
         if covered(geometry.triangles, everywhere)[1] > MOST_FRAGMENTS:
             raise TooManyFragments(f"draw {draw} has more than {MOST_FRAGMENTS} fragments")
-        fragments = list_fragments(geometry.triangles, everywhere)
+        fragments = fragments_in(geometry, everywhere)
         if not len(fragments.row):
             return
         colors = pipeline.shade(geometry, spans_of(fragments))

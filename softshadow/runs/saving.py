@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import softshadow
-from softshadow.errors import SoftShadowError
 from softshadow.inspection import ledger_of
-from softshadow.inspection.files import MARK, is_folder, refuse_foreign, write_whole
+from softshadow.inspection.files import MARK, is_folder, make_parents, refuse_foreign, write_folder, write_whole
 from softshadow.inspection.pictures import depth_picture, map_pictures, save_png, visibility_picture
 from softshadow.inspection.step import sheet_of
 from softshadow.runs.archive import RunRecord, write_npz
@@ -115,17 +114,18 @@ def save_folder(run: RunRecord, folder: Path, force: bool) -> Path:
     text = f"{MARK} {softshadow.__version__}\n" + "\n".join(
         f"\n# step {step.index}: {step.title}\n{step.state}" for step in run.steps
     )
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise SoftShadowError(f"{folder}: the folder cannot be made ({error.strerror})") from None
-    for name in (*pictures, "state.txt", "run.npz"):  # check all of them before the first is written
+    make_parents(folder)
+    names = (*pictures, "state.txt", "run.npz")
+    for name in names if folder.exists() else ():
         refuse_foreign(folder / name, force)
-    for name, picture in pictures.items():
-        write_whole(folder / name, partial(save_png, picture), force)
-    write_whole(folder / "state.txt", lambda path: path.write_text(text + "\n", encoding="utf-8"), force)
-    write_whole(folder / "run.npz", partial(write_npz, run), force)
-    return folder
+
+    def write(place: Path) -> None:
+        for name, picture in pictures.items():
+            save_png(picture, place / name)
+        (place / "state.txt").write_text(text + "\n", encoding="utf-8")
+        write_npz(run, place / "run.npz")
+
+    return write_folder(folder, write, lambda entry: entry.name in names)
 
 
 def file_name(title: str) -> str:

@@ -10,6 +10,10 @@ from typing import Any
 
 from softshadow.errors import SceneError
 from softshadow.scene.scene import Scene
+from softshadow.scene.validate import shortened
+
+LARGEST_FILE = 1 << 24  # bytes; descriptions are short, and meshes lie in files of their own
+MOST_LINES = 20  # of mistakes that one message lists
 
 
 def load_scene(path: str | PathLike[str]) -> Scene:
@@ -37,7 +41,8 @@ def load_scene(path: str | PathLike[str]) -> Scene:
     except ValidationError as error:
         lines = error_lines(error, TABLES)
         heading = f"{file}: {len(lines)} mistake{'' if len(lines) == 1 else 's'}"
-        raise SceneError("\n  ".join([heading, *lines])) from None
+        more = [f"and {len(lines) - MOST_LINES} more"] if len(lines) > MOST_LINES else []
+        raise SceneError("\n  ".join([heading, *map(shortened, lines[:MOST_LINES]), *more])) from None
     return Scene(
         file.stem,
         table.camera.built,
@@ -51,11 +56,18 @@ def load_scene(path: str | PathLike[str]) -> Scene:
 
 
 def _read(file: Path) -> dict[str, Any]:
+    expected = "expected a scene file (TOML)"
     try:
-        return tomllib.loads(file.read_bytes().decode("utf-8"))
+        if file.exists() and not file.is_file():
+            raise SceneError(f"{file}: is {'a folder' if file.is_dir() else 'not a regular file'}; {expected}")
+        if file.exists() and file.stat().st_size > LARGEST_FILE:
+            raise SceneError(f"{file}: has {file.stat().st_size} bytes; expected at most {LARGEST_FILE}")
+        return tomllib.loads(file.read_bytes().decode("utf-8-sig"))
     except OSError as error:
-        raise SceneError(f"{file}: cannot be read ({error.strerror}); expected a scene file (TOML)") from None
+        raise SceneError(f"{file}: cannot be read ({error.strerror}); {expected}") from None
     except UnicodeDecodeError as error:
-        raise SceneError(f"{file}: byte {error.start} is not UTF-8; expected a scene file (TOML)") from None
-    except tomllib.TOMLDecodeError as error:
-        raise SceneError(f"{file}: not TOML: {error}") from None
+        raise SceneError(f"{file}: byte {error.start} is not UTF-8; {expected}") from None
+    except RecursionError:
+        raise SceneError(f"{file}: brackets in brackets, too deep to be read; {expected}") from None
+    except ValueError as error:  # not TOML; a whole number of thousands of digits; a zero byte in the file's name
+        raise SceneError(f"{file}: not TOML: {shortened(str(error))}") from None

@@ -20,6 +20,7 @@ from softshadow.errors import MeshError, PartlyReadFile, nearest
 from softshadow.scene.gltf_tree import read_tree, self_contained
 from softshadow.scene.obj_text import drawable_lines
 from softshadow.scene.placement import transform_points
+from softshadow.scene.validate import shortened
 
 
 @dataclass
@@ -55,10 +56,10 @@ def read_parts(path: Path) -> tuple[list[ModelPart], list[PartlyReadFile]]:
         with _quiet():
             geometry, notes = _READERS[kind](data, path)
             parts = [part for kwargs, matrix in geometry if (part := _model_part(kwargs, matrix, path, notes))]
-    except MeshError:
-        raise
+    except MeshError as error:
+        raise MeshError(shortened(str(error))) from None
     except Exception as error:  # parsers raise anything; the cause is the file
-        reason = f"{type(error).__name__}: {error}".split("\n")[0]
+        reason = shortened(f"{type(error).__name__}: {error}".split("\n")[0])
         raise MeshError(f"{path}: not a well-formed {kind.upper()} file ({reason})") from None
     if not parts:
         raise MeshError(f"{path}: {_content(kind, data, geometry)}; expected a mesh with at least one triangle")
@@ -67,7 +68,11 @@ def read_parts(path: Path) -> tuple[list[ModelPart], list[PartlyReadFile]]:
 
 def read_bytes(path: Path) -> bytes:
     """Return the content of a regular file, or raise a MeshError that says why not."""
-    if not path.exists():
+    try:
+        exists = path.exists()
+    except OSError as error:  # as a name that is too long
+        raise MeshError(f"{path}: cannot be read ({error.strerror}); expected an existing file") from None
+    if not exists:
         folder = path.parent
         known = [item.name for item in folder.iterdir()] if folder.is_dir() else []
         close = nearest(path.name, known).split("?")[0] + "?" if known else ""
@@ -87,7 +92,7 @@ Geometry = list[tuple[dict[str, Any], np.ndarray]]
 def _read_obj(data: bytes, path: Path) -> tuple[Geometry, list[PartlyReadFile]]:
     from trimesh.exchange.obj import load_obj
 
-    text, notes = drawable_lines(data.decode("utf-8", errors="replace"), str(path))
+    text, notes = drawable_lines(data.decode("utf-8-sig", errors="replace"), str(path))
     # maintain_order=True would keep one normal per position, which smooths every crease
     loaded = load_obj(io.StringIO(text), skip_materials=True, group_material=False, maintain_order=False)
     return _placed(loaded), notes
@@ -258,7 +263,7 @@ def _binary_stl_length(data: bytes) -> int:
 
 
 def _as_utf8(data: bytes) -> bytes:
-    return data.decode("utf-8", errors="replace").encode()
+    return data.decode("utf-8-sig", errors="replace").encode()
 
 
 @contextmanager

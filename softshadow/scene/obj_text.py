@@ -23,6 +23,14 @@ USUAL_FACES = tuple(
         (("v", "vt"), f"{INDEX}/{INDEX}"),
     )
 )
+# how many numbers a line has, and how a message says it: a vertex may have w, and a colour
+COUNTS: dict[str, tuple[tuple[int, ...], str]] = {
+    "v": ((3, 4, 6, 7, 8), "three numbers"),
+    "vt": ((1, 2, 3), "one to three numbers"),
+    "vn": ((3,), "three numbers"),
+}
+WHOLE = re.compile("-?[0-9]*", re.ASCII)
+MOST_CORNERS = 1000  # of a polygon that is no quadrilateral: the time grows with their square
 Groups = dict[tuple[tuple[str, ...], int], list[int]]  # the usual faces by keys and number of corners
 
 
@@ -53,8 +61,9 @@ def drawable_lines(text: str, name: str) -> tuple[str, list[PartlyReadFile]]:
         if key in VERTEX_KEYS:
             totals[key] += 1
             lines.append(f"{key} {' '.join(values)}")
+            coordinates = _numbers(key, values, name, number)
             if key == "v":
-                corners.append(_numbers(values[:3], name, number))
+                corners.append(coordinates[:3])
         elif key == "f" and len(values) < 3:
             short_faces.append(number)
         elif key == "f":
@@ -123,12 +132,16 @@ def _cut_usual_faces(
                 others[n] = [[int(index or "0") for index in word.split("/")] for word in words]
 
 
-def _numbers(values: list[str], name: str, line: int) -> list[float]:
+def _numbers(key: str, values: list[str], name: str, line: int) -> list[float]:
+    counts, expected = COUNTS[key]
     try:
-        x, y, z = map(float, values)
+        numbers = list(map(float, values))
     except ValueError:
-        raise MeshError(f"{name}: line {line}: expected v with three numbers, got {' '.join(values)!r}") from None
-    return [x, y, z]
+        numbers = []
+    # Python's own spellings are none of the file's: 1_000, digits of other scripts
+    if len(numbers) not in counts or any("_" in value or not value.isascii() for value in values):
+        raise MeshError(f"{name}: line {line}: expected {key} with {expected}, got {' '.join(values)!r}")
+    return numbers
 
 
 def _absolute(corner: str, totals: dict[str, int], name: str, line: int) -> list[int]:
@@ -136,6 +149,8 @@ def _absolute(corner: str, totals: dict[str, int], name: str, line: int) -> list
     result = []
     for part, key in zip(corner.split("/"), VERTEX_KEYS, strict=False):
         try:
+            if not WHOLE.fullmatch(part):
+                raise ValueError
             index = int(part or "0")
         except ValueError:
             raise MeshError(f"{name}: line {line}: expected whole numbers in a face, got {corner!r}") from None
@@ -159,6 +174,8 @@ def _triangles(
     words = ["/".join(str(index or "") for index in corner).rstrip("/") for corner in face]
     if len(face) == 3:
         return [f"f {words[0]} {words[1]} {words[2]}"]
+    if len(face) > MOST_CORNERS:
+        raise MeshError(f"{name}: line {line}: a face with {len(face)} corners; expected at most {MOST_CORNERS}")
     triangles = triangulate([corners[corner[0] - 1] for corner in face])
     return [f"f {words[a]} {words[b]} {words[c]}" for a, b, c in triangles]
 

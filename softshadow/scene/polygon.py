@@ -59,25 +59,29 @@ def quads_are_fans(quads: np.ndarray) -> np.ndarray:
     return first
 
 
-def _doubled_area(flat: np.ndarray, a: int, b: int, c: int) -> float:
-    (ax, ay), (bx, by), (cx, cy) = flat[a], flat[b], flat[c]
-    return float((bx - ax) * (cy - ay) - (by - ay) * (cx - ax))
+def _doubled_areas(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
+    """Return twice the signed areas of triangles, the corners (..., 2)."""
+    areas: np.ndarray = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (
+        c[..., 0] - a[..., 0]
+    )
+    return areas
 
 
 def _ear(flat: np.ndarray, remaining: list[int], sign: float) -> int:
     """Return the index in `remaining` of a convex corner whose triangle contains none of the other corners."""
+    points = flat[remaining]
+    before, after = np.roll(points, 1, axis=0), np.roll(points, -1, axis=0)
+    is_convex = ~(sign * _doubled_areas(before, points, after) <= 0)
     # starts at the second corner, so that a convex polygon becomes a fan around the first
-    for place in [*range(1, len(remaining)), 0]:
-        a, b, c = remaining[place - 1], remaining[place], remaining[(place + 1) % len(remaining)]
-        if sign * _doubled_area(flat, a, b, c) <= 0:
-            continue
+    for place in np.roll(np.flatnonzero(is_convex), -int(is_convex[0])).tolist():
+        a, b, c = before[place], points[place], after[place]
         # a bridge to a hole visits a point twice: its copy lies on the triangle, but not inside
-        others = [p for p in remaining if not any((flat[p] == flat[q]).all() for q in (a, b, c))]
-        if not any(
-            sign * _doubled_area(flat, a, b, p) >= 0
-            and sign * _doubled_area(flat, b, c, p) >= 0
-            and sign * _doubled_area(flat, c, a, p) >= 0
-            for p in others
-        ):
-            return place
+        is_corner = (points == a).all(axis=1) | (points == b).all(axis=1) | (points == c).all(axis=1)
+        within = (
+            (sign * _doubled_areas(a, b, points) >= 0)
+            & (sign * _doubled_areas(b, c, points) >= 0)
+            & (sign * _doubled_areas(c, a, points) >= 0)
+        )
+        if not (within & ~is_corner).any():
+            return int(place)
     return 1

@@ -5,11 +5,11 @@ file, instead of hiding them.
 """
 
 import inspect
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError, ValidationInfo, model_validator
 
 from softshadow.errors import SceneError, Warning, nearest
@@ -40,7 +40,10 @@ SHAPES: dict[str, Callable[..., Mesh]] = {
 }
 
 INTEGER_PARAMETERS = ("segments", "rings", "sides", "steps", "cells")
-LARGEST_INTEGER = 1000  # a grid of 1000 x 1000 cells is two million triangles
+LARGEST_INTEGER = 1000
+LARGEST_NUMBER = 1e30  # of a size; squares of it are numbers, too
+MOST_TRIANGLES = 500_000  # of all shapes in a file: more are no description of a scene, and take minutes to be drawn
+MOST_OBJECTS = 500
 
 Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
 Color = Annotated[list[Annotated[float, Field(ge=0, le=1)]], Field(min_length=3, max_length=3)]
@@ -55,6 +58,7 @@ class LoadContext:
         self.light_names: set[str] = set()
         self.object_names: set[str] = set()
         self.notes: list[Warning] = []
+        self.triangles = 0  # of the shapes so far
 
 
 class _Table(BaseModel):
@@ -202,7 +206,7 @@ class ObjectTable(_SceneObjectTable):
                 errors.add("expected either shape (a built-in shape) or mesh (a model file)")
             elif self.shape is not None:
                 with errors.catch():
-                    mesh = self._shape(self.shape, errors)
+                    mesh = self._shape(self.shape, context, errors)
             elif self.mesh is not None:
                 with errors.catch():
                     mesh = self._model(self.mesh, context)
@@ -217,7 +221,7 @@ class ObjectTable(_SceneObjectTable):
                 self._built = SceneObject(mesh, matrix, material, casts=self.casts, receives=self.receives, name=name)
         return self
 
-    def _shape(self, shape: str, errors: ErrorCollector) -> Mesh | None:
+    def _shape(self, shape: str, context: LoadContext, errors: ErrorCollector) -> Mesh | None:
         if shape not in SHAPES:
             raise SceneError(f"shape: no shape is called {shape!r}; {nearest(shape, SHAPES)}")
         build = SHAPES[shape]
@@ -233,6 +237,13 @@ class ObjectTable(_SceneObjectTable):
                 errors.add(f"parameters.{key}: expected [x, y, z], but it is missing")
         if len(errors.lines) > n_before:
             return None
+        cells = [value for key, value in self.parameters.items() if key in INTEGER_PARAMETERS]
+        context.triangles += 2 * math.prod(cells) * (self.parameters.get("cells", 1))  # cells go in two directions
+        if context.triangles > MOST_TRIANGLES:
+            raise SceneError(
+                f"parameters: with this, the shapes of the file have some {context.triangles} triangles; expected at "
+                f"most {MOST_TRIANGLES}"
+            )
         try:
             return build(**self.parameters)
         except ValueError as error:
@@ -282,8 +293,8 @@ class SceneTable(_Table):
     title: str = ""
     camera: CameraTable
     light: Annotated[list[LightTable], Field(min_length=1)]
-    object: list[ObjectTable] = []
-    receiver: list[ReceiverTable] = []
+    object: Annotated[list[ObjectTable], Field(max_length=MOST_OBJECTS)] = []
+    receiver: Annotated[list[ReceiverTable], Field(max_length=MOST_OBJECTS)] = []
     materials: dict[str, MaterialTable] = {}
     ambient: Color = [0.2, 0.2, 0.2]
     background: Color = [0.62, 0.72, 0.82]
@@ -328,7 +339,7 @@ def _unique_name(name: str, is_default: bool, used: set[str], errors: ErrorColle
 
 def _parameter_error(key: str, value: Any, default: Any) -> str:
     """Return an error message if a shape's parameter has not the type of its default, else an empty string."""
-    is_number = isinstance(value, int | float) and not isinstance(value, bool) and np.isfinite(value)
+    is_number = isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST_NUMBER
     if isinstance(default, bool):
         is_valid, expected = isinstance(value, bool), "true or false"
     elif key in INTEGER_PARAMETERS:

@@ -20,7 +20,7 @@ from softshadow.state.fragments import (
     StencilFace,
 )
 from softshadow.state.lighting import INITIAL_LIGHTS, Fog, Lighting, LightState, MaterialState
-from softshadow.state.rasterization import ClipPlanes, Cull, Polygon, Scissor, Viewport
+from softshadow.state.rasterization import ClipPlanes, Cull, Lines, Points, Polygon, Scissor, Viewport
 from softshadow.state.texturing import Combine, CubeMaps, TexGen, TextureUnit
 
 __all__ = [
@@ -43,7 +43,9 @@ __all__ = [
     "Fog",
     "LightState",
     "Lighting",
+    "Lines",
     "MaterialState",
+    "Points",
     "Polygon",
     "Scissor",
     "State",
@@ -68,6 +70,8 @@ class State:
     depth: Depth = Depth()
     cull: Cull = Cull()
     polygon: Polygon = Polygon()
+    lines: Lines = Lines()
+    points: Points = Points()
     blend: Blend = Blend()
     color: ColorBuffer = ColorBuffer()
     lighting: Lighting = Lighting()

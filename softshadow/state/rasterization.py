@@ -1,4 +1,4 @@
-"""State of rasterization: viewport, scissor box, culling, polygon modes and offset, clip planes."""
+"""State of rasterization: viewport, scissor box, culling, polygons, lines and points, clip planes."""
 
 from __future__ import annotations
 
@@ -69,9 +69,16 @@ class Cull:
         ]
 
 
+SOLID = b"\xff" * 128  # 32 rows of 32 bits
+
+
 @dataclass(frozen=True, repr=False)
 class Polygon:
-    """Polygon mode, polygon offset, and the sizes of lines and points."""
+    """Polygon mode, polygon offset and stipple, and the sizes of lines and points.
+
+    `stipple` holds the pattern of glPolygonStipple as GL stores it: 32 rows from bottom to top, four bytes each, the
+    highest bit is left.
+    """
 
     mode_front: int = gl.GL_FILL
     mode_back: int = gl.GL_FILL
@@ -82,6 +89,9 @@ class Polygon:
     units: float = 0.0
     line_width: float = 1.0
     point_size: float = 1.0
+    smooth: bool = False
+    stippled: bool = False
+    stipple: bytes = SOLID
 
     __repr__ = printed_calls
 
@@ -96,6 +106,64 @@ class Polygon:
             f"glPolygonOffset({numbers(self.factor, self.units)})",
             f"glLineWidth({self.line_width:g})",
             f"glPointSize({self.point_size:g})",
+            switch("GL_POLYGON_SMOOTH", self.smooth),
+            switch("GL_POLYGON_STIPPLE", self.stippled),
+            f"glPolygonStipple(bytes.fromhex('{self.stipple.hex()}'))",
+        ]
+
+
+@dataclass(frozen=True, repr=False)
+class Lines:
+    """GL_LINE_SMOOTH, GL_LINE_STIPPLE and glLineStipple; the width is in `Polygon`."""
+
+    smooth: bool = False
+    stippled: bool = False
+    factor: int = 1
+    pattern: int = 0xFFFF
+
+    __repr__ = printed_calls
+
+    def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
+        return [
+            switch("GL_LINE_SMOOTH", self.smooth),
+            switch("GL_LINE_STIPPLE", self.stippled),
+            f"glLineStipple({self.factor}, 0x{self.pattern:04X})",
+        ]
+
+
+@dataclass(frozen=True, repr=False)
+class Points:
+    """GL_POINT_SMOOTH, glPointParameter and point sprites; the size is in `Polygon`.
+
+    `replaced` says of each texture unit whether GL_COORD_REPLACE is on.
+    """
+
+    smooth: bool = False
+    smallest: float = 0.0
+    largest: float = 255.0
+    fade_threshold: float = 1.0
+    attenuation: tuple[float, float, float] = (1.0, 0.0, 0.0)
+    sprites: bool = False
+    replaced: tuple[bool, ...] = (False,) * 8
+    origin: int = gl.GL_UPPER_LEFT
+
+    __repr__ = printed_calls
+
+    def calls(self) -> list[str]:
+        """Return the GL calls that make this state."""
+        return [
+            switch("GL_POINT_SMOOTH", self.smooth),
+            f"glPointParameterf(GL_POINT_SIZE_MIN, {numbers(self.smallest)})",
+            f"glPointParameterf(GL_POINT_SIZE_MAX, {numbers(self.largest)})",
+            f"glPointParameterf(GL_POINT_FADE_THRESHOLD_SIZE, {numbers(self.fade_threshold)})",
+            f"glPointParameterfv(GL_POINT_DISTANCE_ATTENUATION, ({numbers(*self.attenuation)}))",
+            switch("GL_POINT_SPRITE", self.sprites),
+            *(
+                f"glTexEnvi(GL_POINT_SPRITE, GL_COORD_REPLACE, {on:d})  # of GL_TEXTURE{unit}"
+                for unit, on in enumerate(self.replaced)
+            ),
+            f"glPointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, {token_name(self.origin)})",
         ]
 
 

@@ -1,1 +1,26 @@
-"""Sweeps: many runs over techniques, options and scenes; and films, whose frames are such runs."""
+"""Sweeps: many points measured, on one process or on many machines, with nothing lost; one tidy table."""
+
+from softshadow.sweeps.contact_sheet import save_contact_sheet
+from softshadow.sweeps.execution import Progress, execute
+from softshadow.sweeps.measured import Result, measure
+from softshadow.sweeps.perform import sweep
+from softshadow.sweeps.plot import PlotRequest, save_plot
+from softshadow.sweeps.point import Point
+from softshadow.sweeps.specification import Specification, read_specification
+from softshadow.sweeps.table import SweepTable, load_sweep
+
+__all__ = [
+    "PlotRequest",
+    "Point",
+    "Progress",
+    "Result",
+    "Specification",
+    "SweepTable",
+    "execute",
+    "load_sweep",
+    "measure",
+    "read_specification",
+    "save_contact_sheet",
+    "save_plot",
+    "sweep",
+]

@@ -128,7 +128,14 @@ def check_program(program: Any, size: Any) -> None:
 
 
 def program_request(program: Callable[[Any], Any], size: tuple[int, int]) -> dict[str, Any]:
-    """Return the part of a worker request that describes a program: its pickle, the window size and the import path."""
+    """Return the part of a worker request that describes a program: its pickle, the window size and the import path.
+
+    Raises
+    ------
+    MesaError                    programs cannot run on Mesa here; the message says what to install
+    """
+    if not mesa_available():
+        raise MesaError(mesa_reason())
     return {"program": _pickled(program), "size": size, "path": [entry or os.getcwd() for entry in sys.path]}
 
 

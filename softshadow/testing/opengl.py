@@ -19,15 +19,25 @@ from typing import Any
 
 import numpy as np
 import OpenGL
-from OpenGL import GL, GLU, images
+from OpenGL import GL, GLU, contextdata, images, platform
 from OpenGL.raw.GL.VERSION import GL_1_0 as raw
+from OpenGL.raw.GL.VERSION import GL_1_5 as buffers
 
+from softshadow.mapped_memory import MappedMemory
+from softshadow.packed_colors import PACKED_COLORS
 from softshadow.pixel_store import PACKED_TYPES, PixelStore
 
 # missing in PyOpenGL 3.1's image tables; one 32-bit word per pixel, or two
 images.TYPE_TO_ARRAYTYPE[GL.GL_UNSIGNED_INT_24_8] = GL.GL_UNSIGNED_INT
 images.TYPE_TO_ARRAYTYPE[GL.GL_FLOAT_32_UNSIGNED_INT_24_8_REV] = GL.GL_UNSIGNED_BYTE  # passed as bytes
 
+
+def _context_key(context: Any = None) -> Any:
+    """Return what PyOpenGL keeps arrays under: the address of the context, not the pointer that OSMesa returns anew."""
+    return ctypes.cast(context or platform.GetCurrentContext(), ctypes.c_void_p).value
+
+
+contextdata.getContext = _context_key
 CHANNELS = {
     **dict.fromkeys((GL.GL_RED, GL.GL_GREEN, GL.GL_BLUE, GL.GL_ALPHA, GL.GL_LUMINANCE), 1),
     **dict.fromkeys((GL.GL_DEPTH_COMPONENT, GL.GL_STENCIL_INDEX, GL.GL_DEPTH_STENCIL), 1),
@@ -45,8 +55,10 @@ DTYPES: dict[int, Any] = {
     GL.GL_HALF_FLOAT: np.float16,
     GL.GL_FLOAT: np.float32,
     **PACKED_TYPES,
+    **{kind: packed.dtype for kind, packed in PACKED_COLORS.items()},
 }
 CHECKED = OpenGL.ERROR_CHECKING  # else calls are PyOpenGL's own, as fast as they can be
+STIPPLE_BYTES = 128
 LARGEST_PIXEL = 16  # bytes; enough for a read-out whose format or type GL will reject
 
 # PyOpenGL defines names with a suffix in a module for each extension
@@ -173,9 +185,15 @@ def _text(log: bytes | str) -> str:
     return log.decode(errors="replace") if isinstance(log, bytes) else log
 
 
+def _elements(pixel_format: int, pixel_type: int) -> tuple[int | None, Any]:
+    """Return how many numbers a pixel has, and their dtype; None for what is not known."""
+    channels = CHANNELS.get(pixel_format)
+    return channels if pixel_type not in PACKED_COLORS or channels is None else 1, DTYPES.get(pixel_type)
+
+
 def _image(width: int, height: int, pixel_format: int, pixel_type: int) -> np.ndarray:
     """Return an image for a read-out; large enough for any pixel if GL will reject the format and type."""
-    channels, dtype = CHANNELS.get(pixel_format), DTYPES.get(pixel_type)
+    channels, dtype = _elements(pixel_format, pixel_type)
     if channels is None or dtype is None:
         return np.zeros(max(0, width) * max(0, height) * LARGEST_PIXEL, np.uint8)
     shape = (max(0, height), max(0, width))
@@ -202,9 +220,12 @@ def _restored_alignment() -> Iterator[None]:
 
 
 def glReadPixels(
-    x: int, y: int, width: int, height: int, format: int, type: int, array: np.ndarray | None = None
-) -> np.ndarray:
+    x: int, y: int, width: int, height: int, format: int, type: int, array: Any = None
+) -> np.ndarray | None:
     """Return the pixels of a rectangle of the read buffer, first row = bottom row, or fill `array` with them."""
+    if _bound(GL.GL_PIXEL_PACK_BUFFER_BINDING):
+        raw.glReadPixels(x, y, width, height, format, type, ctypes.c_void_p(array or 0))
+        return None
     expected = _image(width, height, format, type)
     out = expected if array is None else _checked(array, expected, "glReadPixels")
     with _restored_alignment():
@@ -213,8 +234,11 @@ def glReadPixels(
     return out
 
 
-def glGetTexImage(target: int, level: int, format: int, type: int, array: np.ndarray | None = None) -> np.ndarray:
+def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = None) -> np.ndarray | None:
     """Return a texture's level, first row = the row of t = 0, or fill `array` with it."""
+    if _bound(GL.GL_PIXEL_PACK_BUFFER_BINDING):
+        raw.glGetTexImage(target, level, format, type, ctypes.c_void_p(array or 0))
+        return None
     width = GL.glGetTexLevelParameteriv(target, level, GL.GL_TEXTURE_WIDTH)
     height = GL.glGetTexLevelParameteriv(target, level, GL.GL_TEXTURE_HEIGHT)
     expected = _image(int(width), int(height), format, type)
@@ -222,6 +246,13 @@ def glGetTexImage(target: int, level: int, format: int, type: int, array: np.nda
     with _restored_alignment():
         GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
         raw.glGetTexImage(target, level, format, type, ctypes.c_void_p(out.ctypes.data))
+    return out
+
+
+def glGetPolygonStipple(mask: np.ndarray | None = None) -> np.ndarray:
+    """Return the polygon stipple, 128 bytes, or fill `mask` with it; PyOpenGL's function fails."""
+    out = np.zeros(STIPPLE_BYTES, np.uint8) if mask is None else mask
+    raw.glGetPolygonStipple(out.ctypes.data_as(ctypes.POINTER(ctypes.c_ubyte)))
     return out
 
 
@@ -233,9 +264,13 @@ def _without_row_padding(function: Callable[..., Any], size_at: int) -> Callable
 
     def upload(*arguments: Any) -> Any:
         with _restored_alignment():
-            if not _has_padding(*arguments[size_at : size_at + 2], *arguments[-3:]):
+            if not _bound(GL.GL_PIXEL_UNPACK_BUFFER_BINDING) and not _has_padding(
+                *arguments[size_at : size_at + 2], *arguments[-3:]
+            ):
                 GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)
             image = arguments[-1]
+            if _bound(GL.GL_PIXEL_UNPACK_BUFFER_BINDING):
+                return function(*arguments[:-1], ctypes.c_void_p(image or 0))
             if isinstance(image, np.ndarray) and image.dtype.names:
                 return function(*arguments[:-1], np.frombuffer(image.tobytes(), np.uint8))
             return function(*arguments)
@@ -245,11 +280,12 @@ def _without_row_padding(function: Callable[..., Any], size_at: int) -> Callable
 
 def _has_padding(width: int, height: int, pixel_format: int, pixel_type: int, image: Any) -> bool:
     """Return whether an image is large enough for rows padded to GL_UNPACK_ALIGNMENT."""
-    channels, dtype = CHANNELS.get(pixel_format), DTYPES.get(pixel_type)
+    channels, dtype = _elements(pixel_format, pixel_type)
     if channels is None or dtype is None or not isinstance(image, np.ndarray):
         return False
     names = (GL.GL_UNPACK_ALIGNMENT, GL.GL_UNPACK_ROW_LENGTH, GL.GL_UNPACK_SKIP_ROWS, GL.GL_UNPACK_SKIP_PIXELS)
-    store = PixelStore(*(int(GL.glGetIntegerv(name)) for name in names))
+    alignment, row_length, skip_rows, skip_pixels = (int(GL.glGetIntegerv(name)) for name in names)
+    store = PixelStore(alignment, row_length, skip_rows, skip_pixels)
     pixel = channels * np.dtype(dtype).itemsize
     return image.size * np.dtype(dtype).itemsize >= store.layout(width, height, pixel, aligned=True)[-1]
 
@@ -277,8 +313,50 @@ def _with_unknown_names(function: Callable[..., Any], ctype: Any) -> Callable[..
     return get
 
 
+def _bound(target: int) -> bool:
+    return bool(GL.glGetIntegerv(target))
+
+
+def _mapped(address: Any, n_bytes: int) -> MappedMemory | None:
+    """Return mapped bytes at an address as `softshadow.gl` does."""
+    if not address:
+        return None
+    return MappedMemory.of(np.ctypeslib.as_array((ctypes.c_uint8 * n_bytes).from_address(int(address))))
+
+
+def glMapBuffer(target: int, access: int) -> MappedMemory | None:
+    """Return all bytes of a buffer object."""
+    address = GL.glMapBuffer(target, access)
+    return _mapped(address, glGetBufferParameteriv(target, GL.GL_BUFFER_SIZE))
+
+
+def glMapBufferRange(target: int, offset: int, length: int, access: int) -> MappedMemory | None:
+    """Return a range of bytes of a buffer object."""
+    return _mapped(GL.glMapBufferRange(target, offset, length, access), length)
+
+
+def glGetBufferSubData(target: int, offset: int, size: int) -> np.ndarray:
+    """Return bytes of a buffer object."""
+    out = np.zeros(size, np.uint8)
+    buffers.glGetBufferSubData(target, offset, size, ctypes.c_void_p(out.ctypes.data))
+    return out
+
+
+def glGetBufferParameteriv(target: int, pname: int) -> int:
+    """Return a property of a buffer object."""
+    out = (ctypes.c_int * 2)()
+    buffers.glGetBufferParameteriv(target, pname, out)
+    return int(out[0])
+
+
 OWN: dict[str, Callable[..., Any]] = {
+    "glGetPolygonStipple": glGetPolygonStipple,
+    "glGetPolygonStippleub": glGetPolygonStipple,
     "glReadPixels": glReadPixels,
+    "glMapBuffer": glMapBuffer,
+    "glMapBufferRange": glMapBufferRange,
+    "glGetBufferSubData": glGetBufferSubData,
+    "glGetBufferParameteriv": glGetBufferParameteriv,
     "glGetTexImage": glGetTexImage,
     "glTexImage2D": _without_row_padding(GL.glTexImage2D, size_at=3),
     "glTexSubImage2D": _without_row_padding(GL.glTexSubImage2D, size_at=4),

@@ -30,6 +30,7 @@ def read_result(
     """Read the default framebuffer of the current context, of (width, height) pixels."""
     width, height = size
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+    gl.glBindBuffer(gl.GL_PIXEL_PACK_BUFFER, 0)
     color = gl.glReadPixels(0, 0, width, height, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
     packed = gl.glReadPixels(0, 0, width, height, gl.GL_DEPTH_STENCIL, gl.GL_UNSIGNED_INT_24_8)
     stencil = (packed & np.uint32(255)).astype(np.uint8)

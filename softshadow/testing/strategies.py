@@ -153,9 +153,9 @@ def overlapping_scenes(draw: st.DrawFn) -> Scene:
     towards = light.position[:3] - light.position[3] * foot
     objects = [_floor()]
     for index in range(draw(st.sampled_from([2, 4]))):
-        height = 1.6 + 0.4 * index  # so high that the camera sees what lies under the slabs
+        height = 1.6 + 0.4 * index  # so that the camera sees what lies under the slabs
         middle = foot + towards * height / towards[1]
-        slab = shapes.box(draw(st.sampled_from([1.2, 1.4, 1.6])), 0.1, draw(st.sampled_from([1.2, 1.4, 1.6])))
+        slab = shapes.box(draw(st.sampled_from([1.6, 1.8, 2.0])), 0.1, draw(st.sampled_from([1.6, 1.8, 2.0])))
         place = placement(tuple(middle), (draw(st.integers(0, 89)), 0, 1, 0))
         objects.append(SceneObject(slab, place, name=f"slab {index}"))
     return Scene("drawn", Camera((5, 6, 8), (0, 0.7, 0), near=1, far=40), (light,), tuple(objects))

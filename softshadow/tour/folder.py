@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -43,19 +42,3 @@ def files_in(folder: Path) -> Iterator[Path]:
             path = Path(place, name)
             if name in names or path.is_symlink():
                 yield path
-
-
-def move_tour(work: Path, folder: Path) -> None:
-    """Move the files of a finished tour to a folder; an earlier tour there is deleted, other files stay."""
-    if folder.is_dir() and is_tour(folder):
-        for path in folder.iterdir():
-            if path == work:
-                continue
-            if path.is_dir():
-                shutil.rmtree(path)
-            else:
-                path.unlink()
-    for path in list(files_in(work)):
-        place = folder / path.relative_to(work)
-        place.parent.mkdir(parents=True, exist_ok=True)
-        path.replace(place)

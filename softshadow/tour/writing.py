@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import shutil
-import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
 from softshadow import techniques
-from softshadow.errors import SceneError, SoftShadowError
+from softshadow.errors import SceneError
 from softshadow.gallery import GALLERY
 from softshadow.inspection import compare
+from softshadow.inspection.files import write_folder
 from softshadow.inspection.hard_truth import hard_visibility
 from softshadow.inspection.pictures import UNDEFINED
 from softshadow.report import (
@@ -28,7 +27,7 @@ from softshadow.report import (
 from softshadow.runs import Run, run
 from softshadow.runs.perform import checked_size
 from softshadow.scene import Scene
-from softshadow.tour.folder import INDEX, move_tour, refuse_foreign_folder
+from softshadow.tour.folder import INDEX, is_tour, refuse_foreign_folder
 from softshadow.tour.stops import STOPS, Stop
 
 TOO_DARK, TOO_BRIGHT, SAME = (0xB3, 0x26, 0x1E), (0x00, 0x5C, 0x94), (0xEE, 0xEE, 0xEE)  # in pictures of differences
@@ -64,12 +63,8 @@ def write_tour(
     size = checked_size(size)
     arguments = arguments or scene_spelled(scene, size)
     refuse_foreign_folder(target, force)
-    try:
-        # inside the target if it exists: files can be renamed only within one file system
-        work = Path(tempfile.mkdtemp(prefix=".softshadow-", dir=target if target.is_dir() else target.parent))
-    except OSError as error:
-        raise SoftShadowError(f"{target}: the folder cannot be made ({error.strerror})") from None
-    try:
+
+    def write(work: Path) -> None:
         visits, left_out = [], []
         truth = hard_visibility(scene, size)
         for stop in STOPS:
@@ -85,11 +80,9 @@ def write_tour(
             raise left_out[0][1]
         reasons = [(title, str(error)) for title, error in left_out]
         write_tour_page(TourPage(scene, size, visits, reasons, arguments), work / INDEX)
-        move_tour(work, target)
-    except OSError as error:
-        raise SoftShadowError(f"{target}: cannot be written ({error.strerror or error})") from None
-    finally:
-        shutil.rmtree(work, ignore_errors=True)
+
+    was_tour = target.is_dir() and is_tour(target)
+    write_folder(target, write, lambda entry: was_tour)
     return target / INDEX
 
 

@@ -11,7 +11,7 @@ for it.
 import numpy as np
 
 from softshadow.jit import kernel
-from softshadow.truth.ray_cast import cross, difference, dot, is_before
+from softshadow.truth.ray_cast import cross, difference, dot, is_turned_inside
 
 FLAT, ROUND, BALL = range(3)  # parallelogram (also without a height, a segment), disc, sphere
 # a place on an edge counts as inside if its function is greater than this: 0, or the largest number below
@@ -160,8 +160,9 @@ def _set_edge(a, b, sign, view, part, function):
 
     A ray through the edge itself passes on the side that `ray_cast` gives it to.
     """
-    _set_function(cross(a, b), sign, view, function)
-    function[3] = FROM_0 if (sign > 0) == is_before(a, b) else ABOVE_0
+    normal = cross(a, b)
+    _set_function(normal, sign, view, function)
+    function[3] = FROM_0 if (sign > 0) == is_turned_inside(normal, a, b) else ABOVE_0
     return _largest(function, part) >= 0
 
 

@@ -1,8 +1,13 @@
 """Count the casting faces between a point and the light: the oracle that every shadow technique is compared with.
 
 The result is a number, as in the stencil buffer after a volume technique. A segment through an edge that two faces
-share crosses exactly one of them: both evaluate the same edge function with opposite signs, and if it is 0, the face
-that has the end points of the edge in ascending order wins.
+share crosses exactly one of them: both evaluate the same edge function with opposite signs. If it is 0, the segment's
+direction counts as turned by an infinitesimal towards x, and by smaller ones towards y and z. As this is the same turn
+for all edges, a segment that runs along a face, from edge to edge, also crosses exactly one of the faces beside it.
+
+References
+----------
+Edelsbrunner & Mücke 1990, "Simulation of simplicity".
 """
 
 from collections.abc import Sequence
@@ -98,8 +103,11 @@ def first_faces(
 
 
 def checked_points(key: str, value: np.ndarray) -> np.ndarray:
-    """Return points (N, 3) as float64, or raise a ValueError that names them."""
-    array = np.ascontiguousarray(value, dtype=np.float64)
+    """Return points (N, 3) as float64, or raise a ValueError that names them.
+
+    A read-only array is copied: kernels would be compiled for it once more.
+    """
+    array = np.require(value, np.float64, ["C", "W"])
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{key}: expected shape (N, 3), got {array.shape}")
     return array
@@ -181,12 +189,25 @@ def is_before(a, b):
 
 
 @kernel
+def is_turned_inside(normal, a, b):
+    """Return whether a ray through the edge a to b counts as passing on the side where a x b is positive.
+
+    `normal` is a x b. It is 0 where the ray's origin is in line with the edge: there the order of the points decides.
+    """
+    for axis in range(3):
+        if normal[axis] != 0:
+            return normal[axis] > 0
+    return is_before(a, b)
+
+
+@kernel
 def _side(direction, a, b):
     """Return on which side of the edge a to b the ray from 0 passes, +1 or -1; always the opposite for b to a."""
-    value = dot(direction, cross(a, b))
+    normal = cross(a, b)
+    value = dot(direction, normal)
     if value != 0:
         return 1 if value > 0 else -1
-    return 1 if is_before(a, b) else -1
+    return 1 if is_turned_inside(normal, a, b) else -1
 
 
 @kernel

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from softshadow.context import Context
 from softshadow.errors import StateError
 from softshadow.gl import create_context
+from softshadow.pipeline.commands import Command
 
 FRAME_MS = 1000 / 60
 # names of keys for --keys that no single character spells
@@ -86,11 +87,15 @@ class Desktop:
         self.clock_ms += FRAME_MS
         if self.frame >= self.n_frames:
             raise ProgramEnded
-        self.context.flush()
-        if self.frame == self.n_frames - 1:
-            self.context.begin_recording()
-        else:
-            self.context.frame.commands.clear()
+        self.context.finish()
+        self.context.gate = self._begin_frame
+
+    def _begin_frame(self, _: Command) -> bool:
+        """Let the recording begin with a frame's first command: what ends before it has drawn the last frame."""
+        assert self.context is not None
+        self.context.gate = None
+        self.context.frame.begin(self.context.storage)
+        return True
 
     def next_event(self) -> Key | Click | None:
         """Return what happens next, or None."""

@@ -63,6 +63,7 @@ def test_a_round_has_at_least_one_frame() -> None:
     assert [frames_in_a_round([ms]) for ms in (1000.0, 50.0, 0.1)] == [1, 3, 40]
 
 
+@pytest.mark.slow  # all programs, in two processes
 @pytest.mark.mesa
 def test_command_measures_both_sides_and_prints_json() -> None:
     answer = json.loads(invoke_ok("bench", "corpus/colored-cube", "--against", "mesa", *TINY, "--json").stdout)

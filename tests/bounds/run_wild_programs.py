@@ -48,6 +48,8 @@ def run(calls: list[Call], size: tuple[int, int], seed: int) -> list[dict[str, A
             return list(map(value, argument))
         if not isinstance(argument, str):
             return argument.copy() if isinstance(argument, np.ndarray) else argument
+        if argument.startswith("program:"):
+            return gl.program(argument.removeprefix("program:"))
         if OBJECT.fullmatch(argument) is None:
             return reduce(or_, (getattr(gl, token) for token in argument.split(" | ")))
         if argument not in objects:
@@ -66,8 +68,8 @@ def run(calls: list[Call], size: tuple[int, int], seed: int) -> list[dict[str, A
                 getattr(gl, name)(*map(value, arguments))
             except SoftShadowError:
                 pass  # GL's own errors are recorded; the others say what is not part of this subset
-            except ValueError as error:
-                if not str(error).startswith(f"{name}: "):  # a refusal that names the call
+            except (TypeError, ValueError) as error:
+                if not str(error).startswith((f"{name}: ", f"{name}(")):  # a refusal that names the call
                     found.append(finding(error, seed, number, name))
             except Exception as error:
                 found.append(finding(error, seed, number, name))

@@ -39,17 +39,19 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shutil.copy(SCENES / "crate.obj", "bunny.obj")
     shutil.copy(TRACE, "program.trace")
     Path("program.py").write_text(GLUT)
+    Path("sweep.toml").write_text('technique = "blob"\nsize = "24x18"\n')
     for name in ("lesson.toml", "crate.obj"):
         shutil.copy(SCENES / name, name)
 
 
-MEASURES = "softshadow bench "  # compiles every state that it draws with
+# bench compiles every state that it draws with; the block of the README draws the tour
+LONG = ("softshadow bench ", "softshadow tour")
 
 
 @pytest.mark.parametrize(
     "line",
     [
-        pytest.param(line, marks=pytest.mark.slow if line.startswith(MEASURES) else ())
+        pytest.param(line, marks=pytest.mark.slow if line.startswith(LONG) else ())
         for line in LINES
         if line != "softshadow warmup"  # tests/cli/test_help.py runs it
     ],
@@ -61,7 +63,8 @@ def test_line_of_the_page_runs(line: str) -> None:
     sized = command in ("tour", "render", "steps") or (command in ("bench", "failures") and arguments)
     size = {"compare": "24x18"}.get(command, "48x36" if sized else None)
     size = "80x60" if command == "failures" and size else size
-    invoke_ok(command, *arguments, *(["--size", size] if size else []))
+    started = ["--no-start"] if command == "lessons" and arguments else []
+    invoke_ok(command, *arguments, *(["--size", size] if size else []), *started)
 
 
 def test_every_command_is_on_the_page() -> None:

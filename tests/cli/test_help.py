@@ -21,6 +21,7 @@ SMALL = {
     **{command: ["--size", "48x36"] for command in ("tour", "render", "steps", "failures", "listings")},
     "compare": ["--size", "24x18"],
     "bench": ["--size", "48x36", "--rounds", "1"],
+    "lessons": ["--no-start"],
 }
 HEAVY = ("numpy", "numba", "trimesh", "PIL", "pydantic", "jinja2", "rich")
 
@@ -52,6 +53,9 @@ def test_example_of_help_runs(line: str, tmp_path: Path, monkeypatch: pytest.Mon
     shutil.copy(SCENES / "crate.obj", "bunny.obj")
     shutil.copy(TRACE, "program.trace")
     Path("program.py").write_text(GLUT)
+    Path("sweep.toml").write_text(
+        'technique = "map"\nsize = "24x18"\nmeasure = ["hard"]\noptions.map_size = [16, 32]\n'
+    )
     _, command, *arguments = shlex.split(line)
     small = SMALL.get(command, []) if arguments else []  # a list has no size
     small = ["--size", "120x90"] if command == "listings" and "--pixel" in arguments else small

@@ -40,6 +40,7 @@ def test_question_that_the_tour_suggests_is_answered() -> None:
     invoke_ok(*suggested)
 
 
+@pytest.mark.slow  # a whole tour
 def test_json_tells_where_the_page_is() -> None:
     answer = json_of("tour", *SMALL, "-o", "t", "--scene", SCENES / "lesson.toml")
     assert (answer["index"], answer["scene"], answer["size"]) == ("t/index.html", "lesson", [24, 18])
@@ -48,6 +49,7 @@ def test_json_tells_where_the_page_is() -> None:
     assert "map-cube expected point lights" in Path("t/index.html").read_text()
 
 
+@pytest.mark.slow  # a whole tour
 def test_folder_of_somebody_else_needs_force_and_keeps_its_files() -> None:
     Path("thesis").mkdir()
     Path("thesis/text.tex").write_text("my homework")
@@ -58,7 +60,14 @@ def test_folder_of_somebody_else_needs_force_and_keeps_its_files() -> None:
     assert Path("thesis/index.html").is_file()
 
 
-@pytest.mark.parametrize("error", [KeyboardInterrupt, MemoryError, OSError("the disk is gone")])
+@pytest.mark.parametrize(
+    "error",
+    [
+        KeyboardInterrupt,
+        pytest.param(MemoryError, marks=pytest.mark.slow),
+        pytest.param(OSError("the disk is gone"), marks=pytest.mark.slow),
+    ],
+)
 @pytest.mark.parametrize("earlier", [False, True])
 def test_tour_that_ends_early_leaves_what_was_there(
     error: type[BaseException] | BaseException, earlier: bool, here: Path, monkeypatch: pytest.MonkeyPatch
@@ -78,9 +87,10 @@ def test_tour_that_ends_early_leaves_what_was_there(
     assert names(here) == before
 
 
+@pytest.mark.slow  # a whole tour of each
 @pytest.mark.parametrize(
     "model",
-    ["Duck.glb", pytest.param("stanford-bunny.obj", marks=pytest.mark.slow)],  # ten seconds, 70000 faces
+    ["Duck.glb", "stanford-bunny.obj"],
 )
 def test_tour_of_a_real_model_has_every_stop_that_is_for_it(model: str) -> None:
     file = shared_file(f"meshes/{model}")

@@ -9,10 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from gl.more_facade_calls import MORE_CALLS
+
 BYTES = np.zeros((4, 4, 4), np.uint8)
 CORNERS = np.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], np.float32)
 INDICES = np.array([0, 1, 2], np.uint32)
 ANSWER = np.zeros(4, np.float32)
+TABLE, UINTS, USHORTS = (np.array([0, 1, 1, 0]).astype(kind) for kind in (np.float32, np.uint32, np.uint16))
 MATRIX = [float(number) for number in (2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1)]
 TEXELS = ("GL_RGBA", "GL_UNSIGNED_BYTE")
 
@@ -20,6 +23,14 @@ SINGLE: dict[str, tuple[Any, ...]] = {
     "glAccum": ("GL_LOAD", 1.0), "glArrayElement": (1,), "glBindBuffer": ("GL_ARRAY_BUFFER", "@buffer"),
     "glBufferData": ("GL_ELEMENT_ARRAY_BUFFER", 12, INDICES, "GL_STATIC_DRAW"),
     "glBufferSubData": ("GL_ELEMENT_ARRAY_BUFFER", 4, 4, INDICES), "glDeleteBuffers": (1, ["@buffer"]),
+    "glMapBuffer": ("GL_ELEMENT_ARRAY_BUFFER", "GL_READ_WRITE"), "glUnmapBuffer": ("GL_ELEMENT_ARRAY_BUFFER",),
+    "glMapBufferRange": ("GL_ELEMENT_ARRAY_BUFFER", 0, 8, "GL_MAP_READ_BIT"),
+    "glFlushMappedBufferRange": ("GL_ELEMENT_ARRAY_BUFFER", 0, 4),
+    "glGetBufferPointerv": ("GL_ELEMENT_ARRAY_BUFFER", "GL_BUFFER_MAP_POINTER"),
+    "glPixelTransferf": ("GL_RED_SCALE", 0.5), "glPixelTransferi": ("GL_MAP_COLOR", 1),
+    "glPixelMapfv": ("GL_PIXEL_MAP_R_TO_R", 4, TABLE), "glPixelMapuiv": ("GL_PIXEL_MAP_S_TO_S", 4, UINTS),
+    "glPixelMapusv": ("GL_PIXEL_MAP_I_TO_A", 4, USHORTS), "glGetPixelMapfv": ("GL_PIXEL_MAP_R_TO_R",),
+    "glGetPixelMapuiv": ("GL_PIXEL_MAP_R_TO_R",), "glGetPixelMapusv": ("GL_PIXEL_MAP_R_TO_R",),
     "glDrawElementsub": ("GL_TRIANGLES", INDICES), "glDrawElementsui": ("GL_TRIANGLES", INDICES),
     "glDrawElementsus": ("GL_TRIANGLES", INDICES),
     "glDrawRangeElements": ("GL_TRIANGLES", 0, 2, 3, "GL_UNSIGNED_INT", INDICES), "glGenBuffers": (2,),
@@ -75,6 +86,12 @@ SINGLE: dict[str, tuple[Any, ...]] = {
     "glIsTexture": ("@texture",), "glLineWidth": (2.0,), "glListBase": (7,), "glLoadIdentity": (),
     "glLogicOp": ("GL_XOR",), "glMatrixMode": ("GL_TEXTURE",), "glNewList": (3, "GL_COMPILE_AND_EXECUTE"),
     "glNormalPointer": ("GL_FLOAT", 0, CORNERS), "glOrtho": (-1, 1, -2, 2, -3, 3), "glPointSize": (2.0,),
+    "glPointParameterf": ("GL_POINT_SIZE_MIN", 2.0),
+    "glPointParameteri": ("GL_POINT_SPRITE_COORD_ORIGIN", "GL_LOWER_LEFT"),
+    "glPointParameterfv": ("GL_POINT_DISTANCE_ATTENUATION", [1.0, 0.5, 0.25]),
+    "glPointParameteriv": ("GL_POINT_DISTANCE_ATTENUATION", [1, 0, 2]),
+    "glLineStipple": (3, 0x1234), "glPolygonStipple": (bytes(128),), "glGetPolygonStipple": (),
+
     "glPolygonMode": ("GL_FRONT_AND_BACK", "GL_LINE"), "glPolygonOffset": (1.0, 2.0), "glPopAttrib": (),
     "glPopDebugGroup": (), "glPopMatrix": (), "glPushAttrib": ("GL_FOG_BIT",),
     "glPushDebugGroup": ("GL_DEBUG_SOURCE_APPLICATION", 0, -1, b"floor"), "glPushMatrix": (),
@@ -155,10 +172,11 @@ def families() -> dict[str, tuple[Any, ...]]:
     return calls
 
 
-CALLS = {**SINGLE, **families()}
+CALLS = {**SINGLE, **families(), **MORE_CALLS}
 NAMED_AGAIN = {  # spellings that are PyOpenGL's own: the same function
     "glGetBoolean": "glGetBooleanv", "glGetDouble": "glGetDoublev", "glGetFloat": "glGetFloatv",
     "glGetInteger": "glGetIntegerv", "glClearDepthf": "glClearDepth", "glDepthRangef": "glDepthRange",
+    "glGetPolygonStippleub": "glGetPolygonStipple",
     "glRotate": "glRotated", "glTranslate": "glTranslated", "glScale": "glScaled", "glLight": "glLightfv",
     "glTexCoord": "glTexCoord2d", "glNormal": "glNormal3d", "glStencilOpSeparateATI": "glStencilOpSeparate",
 }  # fmt: skip
@@ -168,7 +186,7 @@ NAMED_AGAIN = {  # spellings that are PyOpenGL's own: the same function
 class World:
     """Names of what `prepare` makes."""
 
-    names: dict[str, int]
+    names: dict[str, Any]
 
     def values(self, gl: Any, arguments: tuple[Any, ...]) -> list[Any]:
         """Return arguments with tokens and objects looked up."""
@@ -214,6 +232,8 @@ def prepare(gl: Any) -> World:
         "renderbuffer": renderbuffer,
         "query": query,
         "buffer": buffer,
+        "quadric": gl.gluNewQuadric(),
+        "old_quadric": gl.gluNewQuadric(),
     }
     return World({f"@{name}": value for name, value in objects.items()} | uniforms | {"@program": program})
 
@@ -223,13 +243,16 @@ LEFT_OUT = {
     "glArrayElement": (-1, 40, 99999), "glBufferData": (40, 99999), "glDrawArrays": (-1, 40, 99999),
     "glDrawElements": (40, 99999), "glDrawRangeElements": (40, 99999), "glMultiDrawArrays": (40, 99999),
     "glTexImage2D": (40,), "glUniform1i": (40,), "glInterleavedArrays": (99999,), "glBitmap": (40, 99999),
-    "glDrawPixels": (40, 99999), "glCopyPixels": (99999,),
+    "glDrawPixels": (40, 99999), "glCopyPixels": (99999,), "glPixelMapfv": (40,), "glPixelMapuiv": (40,),
+    "glPixelMapusv": (40,),
 }  # fmt: skip
 
 
 def wrong_values(name: str, argument: Any) -> tuple[Any, ...]:
     """What stands in for a right argument: tokens of other groups, names and numbers out of any range."""
     if isinstance(argument, str):
+        if argument.endswith("quadric"):
+            return ()
         return (9999,) if argument.startswith("@") else (0x9999, 3, "GL_LESS", "GL_RGBA", 0xFFFFFFFF)
     if isinstance(argument, bool) or not isinstance(argument, int | float):
         return ()

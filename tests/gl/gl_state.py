@@ -26,6 +26,8 @@ NAMES = (
     "GL_TEXTURE_BINDING_CUBE_MAP", "GL_MAX_CUBE_MAP_TEXTURE_SIZE", "GL_MAX_TEXTURE_LOD_BIAS",
     "GL_LIST_BASE", "GL_LIST_INDEX", "GL_PERSPECTIVE_CORRECTION_HINT", "GL_FOG_HINT", "GL_GENERATE_MIPMAP_HINT",
     "GL_LINE_SMOOTH_HINT", "GL_MAX_LIGHTS", "GL_MAX_TEXTURE_SIZE", "GL_MAX_VIEWPORT_DIMS", "GL_SUBPIXEL_BITS",
+    "GL_LINE_STIPPLE_PATTERN", "GL_LINE_STIPPLE_REPEAT", "GL_POINT_SIZE_MIN", "GL_POINT_SIZE_MAX",
+    "GL_POINT_FADE_THRESHOLD_SIZE", "GL_POINT_DISTANCE_ATTENUATION", "GL_POINT_SPRITE_COORD_ORIGIN",
     "GL_DEPTH_BITS", "GL_STENCIL_BITS", "GL_RED_BITS", "GL_ALPHA_BITS",
 )  # fmt: skip
 CAPABILITIES = (
@@ -34,6 +36,8 @@ CAPABILITIES = (
     "GL_DITHER", "GL_MULTISAMPLE", "GL_LIGHTING", "GL_COLOR_MATERIAL", "GL_NORMALIZE", "GL_RESCALE_NORMAL", "GL_FOG",
     "GL_TEXTURE_2D", "GL_TEXTURE_CUBE_MAP", "GL_TEXTURE_GEN_S", "GL_TEXTURE_GEN_Q", "GL_LIGHT0", "GL_LIGHT3",
     "GL_CLIP_PLANE0", "GL_CLIP_PLANE2", "GL_TEXTURE_CUBE_MAP_SEAMLESS",
+    "GL_POLYGON_SMOOTH", "GL_POLYGON_STIPPLE", "GL_LINE_SMOOTH", "GL_LINE_STIPPLE", "GL_POINT_SMOOTH",
+    "GL_POINT_SPRITE",
 )  # fmt: skip
 LIGHT_PARAMETERS = (
     "GL_AMBIENT", "GL_DIFFUSE", "GL_SPECULAR", "GL_POSITION", "GL_SPOT_DIRECTION", "GL_SPOT_EXPONENT",
@@ -74,6 +78,8 @@ def state_of(gl: Any) -> dict[str, Any]:
             answers[f"glGetMaterialiv({face}, {name})"] = gl.glGetMaterialiv(getattr(gl, face), getattr(gl, name))
     for plane in ("GL_CLIP_PLANE0", "GL_CLIP_PLANE2"):
         answers[f"glGetClipPlane({plane})"] = gl.glGetClipPlane(getattr(gl, plane))
+    answers["glGetTexEnviv(GL_POINT_SPRITE)"] = gl.glGetTexEnviv(gl.GL_POINT_SPRITE, gl.GL_COORD_REPLACE)
+    answers["glGetPolygonStipple"] = gl.glGetPolygonStipple()
     return {call: np.array(answer) for call, answer in answers.items()}
 
 

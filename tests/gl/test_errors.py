@@ -31,17 +31,6 @@ OUTSIDE_ONLY = {
         ("glPopMatrix", (), "GL_STACK_UNDERFLOW: glPopMatrix: there was no glPushMatrix before it"),
         ("glEnd", (), "GL_INVALID_OPERATION: glEnd: there was no glBegin before it"),
         ("glEnable", ("GL_LESS",), "GL_INVALID_ENUM: glEnable(cap=GL_LESS): expected a capability of this subset"),
-        *(
-            (call, (name,), f"GL_INVALID_ENUM: {call}: cap={name} is not part of this subset")
-            for call in ("glEnable", "glDisable", "glIsEnabled")
-            for name in (
-                "GL_POINT_SMOOTH",
-                "GL_LINE_SMOOTH",
-                "GL_POLYGON_SMOOTH",
-                "GL_LINE_STIPPLE",
-                "GL_POLYGON_STIPPLE",
-            )
-        ),
     ],
 )
 def test_message_names_the_call_the_argument_and_what_was_expected(call, arguments, message):

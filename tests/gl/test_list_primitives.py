@@ -209,8 +209,9 @@ def what_happened(calls: list[Call], precision: str) -> list[Any]:
 @pytest.mark.parametrize("seed", range(24))
 def test_lists_of_arrays_draw_what_their_calls_draw(monkeypatch, seed):
     calls, precision = Author(seed).program(), "exact" if seed % 5 == 4 else "mesa"
-    for module, rule in ((list_compiling, "_can_be_joined"), (list_primitives, "_is_left_out")):
-        monkeypatch.setattr(module, rule, lambda *_: False)  # rules of Mesa's arrays: see mesa/test_list_contents.py
+    # rules of Mesa's arrays: see mesa/test_list_contents.py and mesa/test_incomplete_primitives_in_lists.py
+    monkeypatch.setattr(list_compiling, "joined", lambda run, **_: run)
+    monkeypatch.setattr(list_primitives, "_is_left_out", lambda _: False)
     ours = what_happened(calls, precision)
     monkeypatch.setattr(lists, "with_primitives", lambda context, calls: calls)
     expected = what_happened(calls, precision)

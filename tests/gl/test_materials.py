@@ -1,9 +1,12 @@
 """Materials: set, following the current colour, and changing from vertex to vertex."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from softshadow import gl
 from softshadow.testing import compare, run_here
@@ -89,4 +92,62 @@ def test_materials_that_change_from_vertex_to_vertex_are_those_of_mesa(seed):
         namespace.glEnd()
 
     comparison = compare(program, SIZE)
+    assert comparison, str(comparison)
+
+
+MATERIAL_COLORS = st.sampled_from([(0.9, 0.3, 0.5), (0.1, 0.4, 0.8), (1.0, 1.0, 1.0)])
+FACES = st.sampled_from(["GL_FRONT", "GL_FRONT_AND_BACK"])
+FIELDS = st.sampled_from(["GL_AMBIENT", "GL_DIFFUSE", "GL_EMISSION", "GL_AMBIENT_AND_DIFFUSE"])
+MATERIAL_CALLS = st.one_of(
+    st.tuples(st.just("glMaterialfv"), FACES, FIELDS, MATERIAL_COLORS),
+    st.tuples(st.sampled_from(["glEnable", "glDisable"]), st.just("GL_COLOR_MATERIAL")),
+    st.tuples(st.just("glColor3f"), MATERIAL_COLORS),
+    st.tuples(st.just("quad"), st.integers(0, 5), st.integers(0, 5)),
+)
+
+
+def make_material_calls(face: str, field: str, calls: list[tuple[Any, ...]], namespace: Any) -> None:
+    lit(namespace)
+    namespace.glColorMaterial(getattr(namespace, face), getattr(namespace, field))
+    namespace.glDisable(namespace.GL_DEPTH_TEST)
+    for name, *arguments in calls:
+        if name == "quad":
+            left, bottom = (3 * argument / 8 - 1 for argument in arguments)
+            namespace.glBegin(namespace.GL_QUADS)
+            for x, y in ((0, 0), (0.5, 0), (0.5, 0.5), (0, 0.5)):
+                namespace.glVertex2f(left + x, bottom + y)
+            namespace.glEnd()
+        elif name == "glColor3f":
+            namespace.glColor3f(*arguments[0])
+        else:
+            values = [getattr(namespace, value) if isinstance(value, str) else (*value, 1.0) for value in arguments]
+            getattr(namespace, name)(*values)
+
+
+@pytest.mark.mesa
+@given(FACES, FIELDS, st.lists(MATERIAL_CALLS, min_size=3, max_size=14))
+@example(
+    "GL_FRONT_AND_BACK",
+    "GL_AMBIENT_AND_DIFFUSE",
+    [
+        ("glMaterialfv", "GL_FRONT", "GL_DIFFUSE", (0.1, 0.4, 0.8)),
+        ("glEnable", "GL_COLOR_MATERIAL"),
+        ("glColor3f", (1.0, 1.0, 1.0)),  # the current colour, which does not displace the material
+        ("quad", 2, 2),
+    ],
+)
+@example(
+    "GL_FRONT_AND_BACK",
+    "GL_AMBIENT_AND_DIFFUSE",
+    [
+        ("glEnable", "GL_COLOR_MATERIAL"),
+        ("glColor3f", (0.9, 0.3, 0.5)),
+        ("glColor3f", (1.0, 1.0, 1.0)),
+        ("quad", 2, 2),
+    ],
+)
+def test_colours_and_materials_in_any_order_are_those_of_mesa(
+    face: str, field: str, calls: list[tuple[Any, ...]]
+) -> None:
+    comparison = compare(partial(make_material_calls, face, field, calls), SIZE)
     assert comparison, str(comparison)

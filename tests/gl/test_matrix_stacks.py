@@ -127,7 +127,10 @@ def test_kinds_are_those_of_the_calls_and_unknown_ones_are_derived():
     stack = MatrixStack(LIMIT, np.float32)
     stack.look_at(3, 2, 4, 0, 0, 0, 0, 1, 0)
     stack.push()
-    assert stack.kinds[-1] == stack.kinds[-2] == known_kind(stack.current)
+    assert stack.kind == known_kind(stack.current)
+    stack.scale(1, 2, 3)
+    stack.pop()
+    assert stack.kind == known_kind(stack.current)
 
 
 @pytest.mark.parametrize("call", [gl.glTranslatef, gl.glScalef, gl.glRotatef])

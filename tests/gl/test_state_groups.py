@@ -5,6 +5,7 @@ from math import copysign
 import pytest
 
 from softshadow import gl
+from softshadow.context.state_groups import PAST
 
 
 @pytest.fixture
@@ -42,4 +43,45 @@ def test_only_the_latest_states_are_kept(context):
         assert context.state.polygon.line_width == width
     gl.glLineWidth(1)
     assert context.state == first
-    assert len(context.groups["polygon"].past) < 20
+    assert len(context.groups["polygon"].past) <= PAST < 98
+
+
+GROUPS = (gl.GL_ENABLE_BIT, gl.GL_LIGHTING_BIT, gl.GL_STENCIL_BUFFER_BIT, gl.GL_ALL_ATTRIB_BITS)
+
+
+@pytest.mark.parametrize("bits", GROUPS)
+def test_a_popped_state_is_the_pushed_object(context, bits):
+    before = context.state
+    for _ in range(2):
+        gl.glPushAttrib(bits)
+        if bits & gl.GL_STENCIL_BUFFER_BIT:
+            gl.glStencilFunc(gl.GL_EQUAL, 3, 1)
+        if bits & gl.GL_LIGHTING_BIT:
+            gl.glShadeModel(gl.GL_FLAT)
+        if bits & gl.GL_ENABLE_BIT:
+            gl.glEnable(gl.GL_CULL_FACE)
+        assert context.state is not before
+        gl.glPopAttrib()
+        assert context.state is before
+
+
+def test_samplers_saved_once_are_those_of_every_push(context):
+    gl.glBindTexture(gl.GL_TEXTURE_2D, 3)
+    for wrap in (gl.GL_CLAMP, gl.GL_CLAMP_TO_EDGE, gl.GL_REPEAT):
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_WRAP_S, wrap)
+        gl.glPushAttrib(gl.GL_TEXTURE_BIT)
+        gl.glPushAttrib(gl.GL_TEXTURE_BIT)
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_WRAP_S, gl.GL_MIRRORED_REPEAT)
+        gl.glPopAttrib()
+        gl.glPopAttrib()
+        assert gl.glGetTexParameteriv(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_WRAP_S) == wrap
+
+
+def test_states_of_equal_values_with_other_bits_are_found_side_by_side(context):
+    states = []
+    for units in (0.0, -0.0) * 3:
+        gl.glPolygonOffset(2.0, units)
+        states.append(context.state)
+    assert len({id(state) for state in states}) == 2
+    assert states[0] is states[4]
+    assert states[1] is states[5]

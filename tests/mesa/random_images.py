@@ -1,5 +1,7 @@
 """Random programs about images: internal formats, client formats and types, parts of images, copies, read-outs."""
 
+from typing import Any
+
 import numpy as np
 
 from mesa.random_writer import Writer
@@ -18,6 +20,15 @@ PIXEL_TYPES = {
     "GL_UNSIGNED_BYTE": np.uint8, "GL_BYTE": np.int8, "GL_UNSIGNED_SHORT": np.uint16, "GL_SHORT": np.int16,
     "GL_UNSIGNED_INT": np.uint32, "GL_INT": np.int32, "GL_FLOAT": np.float32,
 }  # fmt: skip
+OF_THREE, OF_FOUR = ("GL_RGB",), ("GL_RGBA", "GL_BGRA")
+PACKED_KINDS: dict[str, tuple[Any, tuple[str, ...]]] = {  # integers and formats
+    "GL_UNSIGNED_BYTE_3_3_2": (np.uint8, OF_THREE), "GL_UNSIGNED_BYTE_2_3_3_REV": (np.uint8, OF_THREE),
+    "GL_UNSIGNED_SHORT_5_6_5": (np.uint16, OF_THREE), "GL_UNSIGNED_SHORT_5_6_5_REV": (np.uint16, OF_THREE),
+    "GL_UNSIGNED_SHORT_4_4_4_4": (np.uint16, OF_FOUR), "GL_UNSIGNED_SHORT_4_4_4_4_REV": (np.uint16, OF_FOUR),
+    "GL_UNSIGNED_SHORT_5_5_5_1": (np.uint16, OF_FOUR), "GL_UNSIGNED_SHORT_1_5_5_5_REV": (np.uint16, OF_FOUR),
+    "GL_UNSIGNED_INT_8_8_8_8": (np.uint32, OF_FOUR), "GL_UNSIGNED_INT_8_8_8_8_REV": (np.uint32, OF_FOUR),
+    "GL_UNSIGNED_INT_10_10_10_2": (np.uint32, OF_FOUR), "GL_UNSIGNED_INT_2_10_10_10_REV": (np.uint32, OF_FOUR),
+}  # fmt: skip
 WRAPS = ["GL_REPEAT", "GL_CLAMP_TO_EDGE", "GL_MIRRORED_REPEAT", "GL_CLAMP_TO_BORDER", "GL_CLAMP"]
 
 
@@ -29,6 +40,12 @@ def client_pixels(writer: Writer, width: int, height: int, components: int, kind
         return writer.rng.uniform(-0.1, 1.1, shape).round(4).astype(dtype)
     limits = np.iinfo(dtype)
     return writer.rng.integers(limits.min, limits.max, shape, dtype=dtype, endpoint=True)
+
+
+def packed_words(rng: np.random.Generator, width: int, height: int, kind: str) -> np.ndarray:
+    """Return random pixels (height, width) of a packed type."""
+    dtype = PACKED_KINDS[kind][0]
+    return rng.integers(0, np.iinfo(dtype).max, (height, width), dtype=dtype, endpoint=True)
 
 
 def part_of_client_memory(writer: Writer, row: int, rows: int) -> None:
@@ -58,18 +75,31 @@ def uploaded(writer: Writer) -> None:
 
 
 def _upload(
-    writer: Writer, call: str, place: tuple[int, ...], border: tuple[int, ...], width: int, height: int
+    writer: Writer, call: str, place: tuple[Any, ...], border: tuple[int, ...], width: int, height: int
 ) -> None:
-    pixel_format, kind = writer.pick(list(PIXEL_FORMATS)), writer.pick(list(PIXEL_TYPES))
     if writer.chance(0.3):
         row, rows = width + 2, height + 1
         part_of_client_memory(writer, row, rows)
     else:
         row, rows = width, height
-    pixels = client_pixels(writer, row, rows, PIXEL_FORMATS[pixel_format], kind)
+    pixel_format, kind = _names(writer)
+    if kind in PACKED_KINDS:
+        pixels = packed_words(writer.rng, row, rows, kind)
+        sized = {"GL_RGB": "GL_RGB8", "GL_RGBA": "GL_RGBA8"}  # else Mesa has as many bits as the type
+        place = tuple(sized.get(part, part) if isinstance(part, str) else part for part in place)
+    else:
+        pixels = client_pixels(writer, row, rows, PIXEL_FORMATS[pixel_format], kind)
     sides = (width, height, *border)
     writer.call(call, "GL_TEXTURE_2D", 0, *place, *sides, pixel_format, kind, pixels)
     part_of_client_memory(writer, 0, 0)
+
+
+def _names(writer: Writer) -> tuple[str, str]:
+    """Return a format and a type for it, now and then a packed one."""
+    if writer.chance(0.2):
+        kind = writer.pick(list(PACKED_KINDS))
+        return writer.pick(PACKED_KINDS[kind][1]), kind
+    return writer.pick(list(PIXEL_FORMATS)), writer.pick(list(PIXEL_TYPES))
 
 
 def _copy(writer: Writer, width: int, height: int) -> None:
@@ -84,8 +114,7 @@ def _copy(writer: Writer, width: int, height: int) -> None:
 
 def _get(writer: Writer) -> None:
     for _ in range(writer.integer(1, 3)):
-        pixels = writer.pick(list(PIXEL_FORMATS)), writer.pick(list(PIXEL_TYPES))
-        writer.call("glGetTexImage", "GL_TEXTURE_2D", 0, *pixels)
+        writer.call("glGetTexImage", "GL_TEXTURE_2D", 0, *_names(writer))
 
 
 # -- depth -------------------------------------------------------------------------------------------------------------
@@ -130,4 +159,6 @@ def read_out(writer: Writer) -> None:
         kind = writer.pick(list(PIXEL_TYPES))
         if writer.chance(0.1):
             pixel_format, kind = "GL_DEPTH_STENCIL", "GL_UNSIGNED_INT_24_8"
+        elif writer.chance(0.2):
+            pixel_format, kind = _names(writer)
         writer.call("glReadPixels", x, y, width, height, pixel_format, kind)

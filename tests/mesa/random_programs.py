@@ -21,6 +21,7 @@ from mesa import (
     random_images,
     random_mipmaps,
     random_packed,
+    random_pixels,
     random_scenes,
     random_shading,
     random_structure,
@@ -130,6 +131,7 @@ FAMILIES = {
     "packed depth and stencil": Family(
         random_packed.packed_state, random_packed.packed_targets, random_packed.read_packed
     ),
+    "pixel rectangles": Family(random_pixels.transferred, wild=False),
 }
 
 

@@ -93,12 +93,26 @@ class Writer:
         self.switch("GL_DEPTH_CLAMP", 0.3)
         self.depth_state()
 
+    def stipple_state(self) -> None:
+        """Set stipples and sizes of points by distance, from numbers of their own: other calls stay as they were."""
+        stream, self.rng = self.rng, self.rng.spawn(1)[0]
+        if self.switch("GL_LINE_STIPPLE", 0.3):
+            self.call("glLineStipple", self.integer(0, 5), self.integer(0, 0xFFFF))
+        if self.switch("GL_POLYGON_STIPPLE", 0.2):
+            self.call("glPolygonStipple", self.rng.integers(0, 256, 128, dtype=np.uint8))
+        if self.chance(0.2):
+            attenuation = [self.pick([0.0, 0.1, 0.3, 1.0]) for _ in range(3)]
+            self.call("glPointParameterfv", "GL_POINT_DISTANCE_ATTENUATION", attenuation)
+            self.call("glPointParameterf", "GL_POINT_SIZE_MAX", self.pick([3.0, 10.0]))
+        self.rng = stream
+
     def outline_state(self) -> None:
         self.call("glLineWidth", self.pick(SIZES_OF_LINES))
         self.call("glPointSize", self.pick(SIZES_OF_LINES))
         modes = [self.pick(["GL_POINT", "GL_LINE", "GL_FILL"]) for _ in range(2)]
         for face, mode in zip(("GL_FRONT", "GL_BACK"), modes, strict=True):
             self.call("glPolygonMode", face, mode)
+        self.stipple_state()
         capabilities = ("GL_POLYGON_OFFSET_FILL", "GL_POLYGON_OFFSET_LINE", "GL_POLYGON_OFFSET_POINT")
         for capability in capabilities:
             self.switch(capability, 0.3)

@@ -44,6 +44,7 @@ print(len(kernels))
 """
 
 
+@pytest.mark.slow  # reads the types of all kernels
 @pytest.mark.skipif(vars(numba.config)["DISABLE_JIT"], reason="interpreted kernels have no inferred types")
 def test_no_kernel_contains_float64_outside_exact(tmp_path):
     code = TYPES.format(tests=str(Path(__file__).parents[1]))

@@ -269,6 +269,41 @@ def test_contexts_share_lists_and_textures(tmp_path: Path, shares: bool) -> None
     assert color_at(run) == (RED if shares else (255, 255, 255))
 
 
+@pytest.mark.parametrize("shares", [True, False])
+def test_contexts_share_objects_also_if_the_newer_one_is_used_first(tmp_path: Path, shares: bool) -> None:
+    traced = TracedProgram()
+    traced.call("glXCreateContext", 1, None, None, True, result=0x3000)
+    traced.call("glXCreateContext", 1, None, 0x3000 if shares else None, True, result=0x2000)
+    traced.make_current(0x2000, 16, 12)
+    traced.glNewList(5, gl.GL_COMPILE)
+    traced.glColor3f(1.0, 0.0, 0.0)
+    traced.glEndList()
+    traced.make_current(0x3000, 16, 12)
+    traced.glCallList(5)
+    traced.triangle()
+    traced.swap()
+    assert color_at(ss.replay(traced.save(tmp_path))) == (RED if shares else (255, 255, 255))
+
+
+def test_a_texture_of_an_unrelated_context_does_not_matter(tmp_path: Path) -> None:
+    traced = TracedProgram()
+    traced.triangle()
+    traced.swap()
+    traced.make_current(0x2000, 16, 12)
+    traced.glBindTexture(gl.GL_TEXTURE_2D, 1)
+    image = [gl.GL_RGB, gl.GL_UNSIGNED_BYTE, bytes(12)]
+    traced.glPixelStorei(gl.GL_UNPACK_ALIGNMENT, 1)
+    traced.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGB, 2, 2, 0, *image)
+    traced.glTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 2, 2, *image)
+    traced.make_current(CONTEXT)
+    traced.glColor3f(0.0, 1.0, 0.0)
+    traced.triangle()
+    traced.swap()
+    run = ss.replay(traced.save(tmp_path), 1)
+    assert color_at(run) == GREEN
+    assert run.steps[-1].image[6, 8].tolist() == list(GREEN)
+
+
 def test_threads_have_their_own_contexts(tmp_path: Path) -> None:
     traced = TracedProgram()
     traced.make_current(0x2000, 16, 12, thread=1)

@@ -233,5 +233,5 @@ def test_file_that_is_not_toml_is_named(tmp_path: Path, content: bytes, said: st
 def test_missing_scene_file_is_named(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match=r"gone.toml: cannot be read \(No such file or directory\)"):
         Scene.load(tmp_path / "gone.toml")
-    with pytest.raises(SceneError, match=r"cannot be read \(Is a directory\)"):
+    with pytest.raises(SceneError, match="is a folder; expected a scene file"):
         Scene.load(tmp_path)

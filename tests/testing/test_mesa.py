@@ -161,6 +161,7 @@ def test_what_cannot_be_sent_is_refused():
         run_on_mesa(lambda gl: lock, SIZE)
 
 
+@pytest.mark.slow  # hundreds of programs
 @pytest.mark.mesa
 def test_the_worker_is_replaced_after_its_share_of_programs(monkeypatch):
     monkeypatch.setattr(mesa, "PROGRAMS_PER_WORKER", 2)
@@ -238,3 +239,14 @@ def test_program_that_calls_softshadow_itself_is_told_to_call_its_namespace():
 def test_returned_value_that_cannot_travel_is_told():
     with pytest.raises(TypeError, match="return value cannot be sent back"):
         run_on_mesa(lambda gl: (number for number in range(3)), (8, 8))
+
+
+def test_what_is_missing_for_mesa_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    mesa.mesa_reason.cache_clear()
+    try:
+        with pytest.raises(MesaError, match="Mesa is not available, missing: Python package PyOpenGL, "):
+            run_on_mesa(lambda gl: None, (4, 4))
+    finally:
+        monkeypatch.undo()
+        mesa.mesa_reason.cache_clear()

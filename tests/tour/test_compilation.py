@@ -90,6 +90,7 @@ def test_where_no_process_can_be_started_the_tour_goes_on(monkeypatch: pytest.Mo
     assert visited
 
 
+@pytest.mark.slow  # a process that compiles
 def test_a_rehearsal_notes_kernels_and_draws_the_same_picture() -> None:
     """In a process of its own, where no kernel is compiled yet."""
     printed = subprocess.run([sys.executable, "-c", REHEARSAL], check=True, capture_output=True, text=True).stdout

@@ -11,6 +11,7 @@ from oracle.hidden_area import hidden_share
 from paths import shared_file
 from softshadow.scene import Disc, Light, LightShape, Mesh, Rectangle, Scene, SceneObject, Segment, Sphere, placement
 from softshadow.scene import shapes as meshes
+from softshadow.testing.strategies import SOLIDS
 from softshadow.testing.strategies import meshes as any_mesh
 from softshadow.truth import casting_faces_between, light_classes, light_visibility
 from softshadow.truth.light_visibility import METHODS
@@ -210,7 +211,15 @@ def test_a_further_caster_takes_light_away(bodies: list[Mesh], shape: LightShape
         before = seen.visible
 
 
+def ball_with_a_spike() -> Mesh:
+    """Return a mesh on whole numbers: rays from a middle of a face to the light run in the plane of another face."""
+    positions = np.rint(4 * SOLIDS["ball"].positions)
+    positions[16, 0] += 5
+    return Mesh(positions, SOLIDS["ball"].triangles)
+
+
 @given(closed_meshes(), light_shapes)
+@example(ball_with_a_spike(), SHAPES[0])
 def test_point_on_a_caster_is_not_hidden_by_its_own_face(mesh: Mesh, shape: LightShape) -> None:
     caster = over_the_floor(mesh)
     corners = caster.world_positions[mesh.triangles]

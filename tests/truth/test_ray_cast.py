@@ -4,11 +4,12 @@ import time
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from paths import shared_file
 from softshadow.scene import Mesh, Scene, SceneObject, placement, shapes
+from softshadow.testing.strategies import SOLIDS
 from softshadow.truth import casting_faces_between, first_faces
 from softshadow.truth.triangle_tree import build_tree
 from strategies import closed_meshes, lights, open_meshes
@@ -81,6 +82,29 @@ def test_segment_along_an_edge_enters_a_closed_mesh_as_often_as_it_leaves(mesh: 
     everything = casting_faces_between(points, far, caster, faces="all")
     front = casting_faces_between(points, far, caster, faces="front")
     assert (everything == 2 * front).all()
+
+
+corner_weights = st.tuples(*[st.integers(0, 4)] * 3).filter(any)
+
+
+@pytest.mark.interpreted
+@given(st.sampled_from(sorted(SOLIDS)), st.integers(0, 1000), corner_weights, corner_weights)
+@example("ball", 3, (1, 0, 0), (1, 1, 1))
+def test_segment_in_the_plane_of_a_face_enters_a_closed_mesh_as_often_as_it_leaves(
+    name: str, number: int, one: tuple[int, ...], other: tuple[int, ...]
+) -> None:
+    """Whole numbers, so that the ray runs in the plane of a face exactly, through its edges or its corners."""
+    solid = SOLIDS[name]
+    mesh = Mesh(np.rint(20 * solid.positions), solid.triangles)
+    a, b, c = mesh.positions[mesh.triangles[number % len(mesh.triangles)]].astype(np.float64)
+    ways = [weights @ np.array([a, b, c]) * sum(others) for weights, others in ((one, other), (other, one))]
+    toward = ways[1] - ways[0]
+    assume(toward.any())
+    start, direction = (a - 64 * toward)[None], np.array([*toward, 0.0])
+    everything, front = (
+        int(casting_faces_between(start, direction, [SceneObject(mesh)], faces=faces)[0]) for faces in ("all", "front")
+    )
+    assert everything == 2 * front
 
 
 grid_points = st.lists(st.tuples(*[st.integers(-32, 32)] * 3), min_size=1, max_size=20)

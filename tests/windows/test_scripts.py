@@ -73,10 +73,12 @@ def test_a_missing_call_is_counted_and_does_not_stop_the_program(tmp_path: Path)
     assert [str(message) for message in run.warnings] == ["glNoSuchCall (2 calls), missing call"]
 
 
-def test_a_program_that_ends_early_is_told(tmp_path: Path) -> None:
+def test_a_program_that_ends_early_is_told_and_its_last_frame_is_shown(tmp_path: Path) -> None:
     text = GLUT.replace("    glutSwapBuffers()", "    glutSwapBuffers()\n    sys.exit()")
     with pytest.warns(CallsLeftOut, match="drew 1 of 4 frames"):
-        run_script(written(tmp_path, text), frames=4)
+        run = run_script(written(tmp_path, text), frames=4)
+    height, width = run.image.shape[:2]
+    assert [row.verdict for row in run.pixel(width // 2, height // 2)] == ["clear", "passed"]
 
 
 @pytest.mark.parametrize(

@@ -5,11 +5,14 @@ The stencil mask is that of front faces.
 
 from __future__ import annotations
 
+from functools import lru_cache
+from typing import Any
+
 import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import DEFAULT, Framebuffer, Storage
-from softshadow.image import EXACT_DEPTH, Image
+from softshadow.image import EXACT_DEPTH, Format, Image
 from softshadow.pipeline.buffers import accumulation
 from softshadow.pipeline.commands import Clear
 from softshadow.pipeline.raster.region import region_of
@@ -27,12 +30,14 @@ def clear(command: Clear, storage: Storage) -> None:
     region = region_of(state, target)
     where = np.s_[region.first_row : region.end_row, region.left : region.right]
     for image in target.colors if command.mask & gl.GL_COLOR_BUFFER_BIT else ():
+        is_unorm8 = image.format.kind == "unorm8"
+        if is_unorm8 and _is_all_of(image, region) and all(state.color.mask) and all(image.format.written):
+            image.write_later(0, _rows_of_pixels(state.color.clear, image.shape), None)
+            continue
         color = np.array(state.color.clear, np.float32)
-        value = to_unorm8(color) if image.format.kind == "unorm8" else color
+        value = to_unorm8(color) if is_unorm8 else color
         written = np.array(state.color.mask) & np.array(image.format.written)
-        if written.all() and image.format.kind == "unorm8" and _is_all_of(image, region):
-            image.write_later(0, np.broadcast_to(as_pixels(value), image.shape), None)
-        elif written.all() and image.format.kind == "unorm8":
+        if written.all() and is_unorm8:
             as_pixels(image.cells)[where] = as_pixels(value)
         elif written.all():  # a row at a time: pixel by pixel takes ten times as long
             image.cells[where] = np.tile(value, (max(region.right - region.left, 0), 1))
@@ -58,10 +63,24 @@ def clear(command: Clear, storage: Storage) -> None:
 def write_region(image: Image, region: Region, value: float) -> None:
     """Write a value to a region of depth or stencil cells; a clear of all cells gets a version token of the value."""
     if _is_all_of(image, region):
-        cell = np.array(value, image.format.dtype)
-        image.write_later(0, np.broadcast_to(cell, image.shape), (cell.tobytes(), image.format, image.shape))
+        rows, version = _rows_of_cells(value, image.format, image.shape)
+        image.write_later(0, rows, version)
     else:
         image.cells[region.first_row : region.end_row, region.left : region.right] = value
+
+
+# A program clears all frames with the same values. Where two values are equal, so are their cells: a depth or stencil
+# clear value is never -0.0, and a colour of 8 bits has no sign.
+@lru_cache(maxsize=64)
+def _rows_of_pixels(color: tuple[float, ...], shape: tuple[int, int]) -> np.ndarray:
+    return np.broadcast_to(as_pixels(to_unorm8(np.array(color, np.float32))), shape)
+
+
+@lru_cache(maxsize=64)
+def _rows_of_cells(value: float, format: Format, shape: tuple[int, int]) -> tuple[np.ndarray, Any]:
+    """Return the rows of a cleared image, and their version token."""
+    cell = np.array(value, format.dtype)
+    return np.broadcast_to(cell, shape), (cell.tobytes(), format, shape)
 
 
 def _is_all_of(image: Image, region: Region) -> bool:
@@ -76,10 +95,11 @@ def clear_depth(value: float, depth: Image) -> float:
 
 def clears_by_drawing(state: State, target: Framebuffer, mask: int) -> bool:
     """Return whether llvmpipe clears depth by drawing a rectangle: a scissor box or a stencil mask limits the clear."""
-    box, (width, height) = state.scissor, target.size
-    inside = box.x > 0 or box.y > 0 or box.x + box.width < width or box.y + box.height < height
-    if box.enabled and inside:
-        return True
+    box = state.scissor
+    if box.enabled:
+        width, height = target.size
+        if box.x > 0 or box.y > 0 or box.x + box.width < width or box.y + box.height < height:
+            return True
     if not mask & gl.GL_STENCIL_BUFFER_BIT or target.stencil is None:
         return False
     largest = target.stencil.format.largest

@@ -7,7 +7,17 @@ import numpy as np
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.image import Image
 from softshadow.pipeline.commands import CopyToTexture
-from softshadow.pixels import color_as_float, quantized_depth, sampled_depth, to_base
+from softshadow.pixel_transfer import PixelTransfer
+from softshadow.pixels import (
+    LARGEST_UINT,
+    color_as_float,
+    pack_depth,
+    quantized_depth,
+    sampled_depth,
+    stored_units,
+    to_base,
+    to_cells,
+)
 
 
 def bottom_up(target: Framebuffer, image: Image) -> np.ndarray:
@@ -37,11 +47,16 @@ def copy_to_texture(command: CopyToTexture, storage: Storage) -> None:
     for buffer, source_buffer in _buffer_pairs(source, image):
         cells = bottom_up(source, source_buffer)[rows, columns]
         height, width = cells.shape[:2]
-        buffer.view[bottom : bottom + height, left : left + width] = (
-            _convert_depth(cells.copy(), source_buffer, buffer, source.flipped)
-            if buffer.format.kind == "depth"
-            else convert_color(cells.copy(), source_buffer, buffer)
-        )
+        transfer, is_depth = command.transfer, buffer.format.kind == "depth"
+        if transfer is not None and is_depth and transfer.changes_depth:
+            copied = _transferred_depth(cells, source_buffer, buffer, transfer)
+        elif transfer is not None and buffer.format.kind in ("unorm8", "float") and transfer.through_floats:
+            copied = _transferred_color(cells, source_buffer, buffer, transfer)
+        elif is_depth:
+            copied = _convert_depth(cells.copy(), source_buffer, buffer, source.flipped)
+        else:
+            copied = convert_color(cells.copy(), source_buffer, buffer)
+        buffer.view[bottom : bottom + height, left : left + width] = copied
 
 
 def _buffer_pairs(source: Framebuffer, image: Image) -> list[tuple[Image, Image]]:
@@ -60,6 +75,20 @@ def _convert_depth(cells: np.ndarray, source: Image, image: Image, flipped: bool
     if source.format == image.format and not flipped:
         return cells
     return quantized_depth(sampled_depth(cells, source.format), image.format)
+
+
+def _transferred_color(cells: np.ndarray, source: Image, image: Image, transfer: PixelTransfer) -> np.ndarray:
+    colors = color_as_float(to_base(cells, source.format.base))
+    return to_cells(transfer.color(colors), image.format)
+
+
+def _transferred_depth(cells: np.ndarray, source: Image, image: Image, transfer: PixelTransfer) -> np.ndarray:
+    """Return depths after scale and bias, in 32 bits on the way, as in Mesa."""
+    units = transfer.scaled_depth_units(pack_depth(cells, source.format, np.uint32).astype(np.float64))
+    largest = image.format.largest
+    if not largest:
+        return (units / LARGEST_UINT).astype(np.float32)
+    return stored_units(units) if largest == LARGEST_UINT else np.floor(units / ((LARGEST_UINT + 1) // (largest + 1)))
 
 
 def convert_color(cells: np.ndarray, source: Image, image: Image) -> np.ndarray:

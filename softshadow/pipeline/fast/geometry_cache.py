@@ -21,7 +21,7 @@ from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.geometry import process_geometry, triangles_with_outputs, vertex_outputs
 from softshadow.pipeline.geometry.lines import LINES
-from softshadow.pipeline.geometry.polygon_mode import is_filled
+from softshadow.pipeline.mesa.polygon_rules import passes_stages
 from softshadow.pipeline.records import Geometry
 
 FEW_VERTICES = 512  # draws of fewer take less time than the comparison
@@ -100,7 +100,7 @@ def is_covered(command: Draw) -> bool:
     """Return whether a draw is of many filled triangles that no other draw is joined to."""
     if len(command.vertices.position) < FEW_VERTICES or command.joined_positions is not None:
         return False
-    return command.mode not in (gl.GL_POINTS, *LINES) and is_filled(command.state)
+    return command.mode not in (gl.GL_POINTS, *LINES) and not passes_stages(command.state)
 
 
 def key_of(command: Draw, target: Framebuffer, flat_input: bool) -> Hashable:

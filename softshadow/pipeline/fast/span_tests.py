@@ -107,7 +107,8 @@ def collect_passing_spans(
         row_spans(corners, t, row, end, downwards, region_left, region_right, first_columns, end_columns)
         while row < end:
             j = np.uint64(row)
-            left, right = int(first_columns[j]), int(end_columns[j])
+            # always of one type, so that `test_span` is compiled once
+            left, right = int(np.int64(first_columns[j])), int(np.int64(end_columns[j]))
             if left < right and n_spans + ((right - left) >> 1) + 2 + (right - left) // SIZE > rows.shape[0]:
                 return m, row, n_spans
             if left < right and not (tests_depth or tests_stencil):

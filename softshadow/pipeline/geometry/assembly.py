@@ -81,6 +81,16 @@ def edge_flags(mode: int, n_triangles: int) -> np.ndarray:
     return edges
 
 
+def begins_stipple(mode: int, n_triangles: int) -> np.ndarray:
+    """Return which of the assembled triangles (T,) begin a primitive: there the line stipple begins anew."""
+    begins = np.ones(n_triangles, bool)
+    if mode in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
+        begins[1::2] = False
+    elif mode == gl.GL_POLYGON:
+        begins[1:] = False
+    return begins
+
+
 def _quads(mode: int, n_vertices: int, in_clipped_segment: np.ndarray | None, across: bool) -> np.ndarray:
     unclipped_cut, clipped_cut = (QUAD, QUAD_ACROSS) if mode == gl.GL_QUADS else (QUAD_OF_STRIP, CLIPPED_QUAD_OF_STRIP)
     n_quads, stride = quads_and_stride(mode, n_vertices)

@@ -11,8 +11,8 @@ from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.assembly import Triangles, assemble, separate_triangles, through_indices
 from softshadow.pipeline.geometry.clip import outcodes
 from softshadow.pipeline.geometry.lines import LINES, assemble_lines
-from softshadow.pipeline.geometry.polygon_mode import is_filled
 from softshadow.pipeline.geometry.vertex import to_clip, to_window
+from softshadow.pipeline.mesa.polygon_rules import passes_stages
 from softshadow.pipeline.mesa.quad_cuts import in_clipped_segment, quads_and_stride
 from softshadow.pipeline.mesa.rectangles import LAST_NINE, is_left_out, start_of_last_nine
 
@@ -25,7 +25,7 @@ def triangles_of(command: Draw, target: Framebuffer, codes: np.ndarray, planes: 
     """
     joined_needs = joined_needs_clipping(command, planes)
     assembled = assembled_triangles(command, codes != 0, joined_needs, across)
-    if is_filled(command.state) and not across and last_three_are_left_out(command, target, planes):
+    if not passes_stages(command.state) and not across and last_three_are_left_out(command, target, planes):
         return without_last_three(command, assembled)
     return assembled
 
@@ -59,7 +59,7 @@ def assembled_triangles(
         )
         if clipped_quads is not None and joined_needs_clipping is not None:
             clipped_quads = clipped_quads[command.joined_start // 4 :][: n_vertices // 4]
-        if not is_filled(command.state):
+        if passes_stages(command.state):
             clipped_quads = np.ones(quads_and_stride(command.mode, n_vertices)[0], bool)  # cut like clipped ones
         assembled = assemble(command.mode, n_vertices, clipped_quads, across=across or indices is not None)
     return assembled if indices is None else through_indices(assembled, indices)

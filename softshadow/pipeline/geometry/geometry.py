@@ -11,12 +11,13 @@ from softshadow import matrices
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.geometry.assembly import edge_flags
+from softshadow.pipeline.geometry.assembly import begins_stipple, edge_flags
 from softshadow.pipeline.geometry.clip import NO_EDGES, Clipped, clip_triangles
 from softshadow.pipeline.geometry.draw_primitives import lines_or_points_of, triangles_of
-from softshadow.pipeline.geometry.lines import LINES, clip_lines, set_up_lines
-from softshadow.pipeline.geometry.points import clip_points, set_up_points
-from softshadow.pipeline.geometry.polygon_mode import is_filled, outline
+from softshadow.pipeline.geometry.lines import LINES, clip_lines
+from softshadow.pipeline.geometry.lines_and_points import set_up_lines_of, set_up_points_of
+from softshadow.pipeline.geometry.points import clip_points
+from softshadow.pipeline.geometry.polygon_mode import Outlined, outline
 from softshadow.pipeline.geometry.program import program_of
 from softshadow.pipeline.geometry.triangle_setup import (
     NO_TRIANGLES,
@@ -27,11 +28,13 @@ from softshadow.pipeline.geometry.triangle_setup import (
     set_up,
 )
 from softshadow.pipeline.geometry.vertex import append_rows, process_vertices, to_window
-from softshadow.pipeline.mesa.polygon_rules import offset_is_on
-from softshadow.pipeline.records import Geometry
+from softshadow.pipeline.mesa.polygon_rules import is_stippled, offset_is_on, passes_stages
+from softshadow.pipeline.records import Discards, Geometry
 from softshadow.programs import Program, Varyings, VertexInputs
 from softshadow.programs.inverse import inverse
-from softshadow.state import ClipPlanes, Cull, Polygon, Viewport
+from softshadow.state import ClipPlanes, Cull, Polygon, State, Viewport
+
+SIDE = 32  # rows and columns of a polygon stipple
 
 
 class Positions(NamedTuple):
@@ -75,18 +78,21 @@ def triangles_with_outputs(
     state, varyings = command.state, outputs.varyings
     cull = state.cull if cull is None else cull
     clip, codes, window, planes = positions_of(command, target)
-    columns = varyings.values if varyings.back is None else np.hstack([varyings.values, varyings.back])
+    parts, sizes = [varyings.values], varyings.point_sizes
+    parts += [] if varyings.back is None else [varyings.back]
+    parts += [] if sizes is None else [sizes[:, None]]
+    columns = parts[0] if len(parts) == 1 else np.hstack(parts)
     if command.mode in (gl.GL_POINTS, *LINES):
-        set_up_primitives, primitives = points_and_lines_geometry, lines_or_points_of(command)
+        primitives = lines_or_points_of(command)
         provoking = primitives[:, -1]
         clip_primitives = clip_points if command.mode == gl.GL_POINTS else clip_lines
         clipped = clip_primitives(clip, columns, primitives, codes, planes)
     else:
-        set_up_primitives = filled_geometry if is_filled(state) else _outlined
+        with_stages = passes_stages(state)
         across = varyings.flat_input and (bool(target.colors) or state.alpha.enabled)  # else Mesa does not shade
         assembled = triangles_of(command, target, codes, planes, across)
         provoking = assembled.provoking
-        edges = edge_flags(command.mode, len(provoking)) if set_up_primitives is _outlined else NO_EDGES
+        edges = edge_flags(command.mode, len(provoking)) if with_stages else NO_EDGES
         clipped = clip_triangles(clip, columns, assembled.corners, codes, planes, edges, command.linear)
     if len(clipped.clip) > len(clip):  # the new vertices of clipping come last
         window = append_rows(window, to_window(clipped.clip[len(clip) :], *window_transform(command, target)))
@@ -95,14 +101,22 @@ def triangles_with_outputs(
         NO_TRIANGLES,
         window,
         np.ascontiguousarray(clipped.values[:, :k]),
-        None if varyings.back is None else np.ascontiguousarray(clipped.values[:, k:]),
+        None if varyings.back is None else np.ascontiguousarray(clipped.values[:, k : 2 * k]),
         varyings.flat,
         clipped.source,
         provoking[clipped.source],
         outputs.program,
         outputs.uniforms,
     )
-    return set_up_primitives(geometry, clipped, command, target, cull)
+    vertex_sizes = None if sizes is None else clipped.values[:, -1]
+    if command.mode in (gl.GL_POINTS, *LINES):
+        return points_and_lines_geometry(geometry, clipped, command, target, vertex_sizes)
+    if not with_stages:
+        return filled_geometry(geometry, clipped, command, target, cull)
+    begins = begins_stipple(command.mode, len(provoking))[clipped.source]
+    cut = (codes[assembled.corners] != 0).any(axis=1)[clipped.source]
+    begins = np.where(cut, np.diff(clipped.source, prepend=-1) != 0, begins)
+    return _outlined(geometry, clipped, command, target, cull, begins, vertex_sizes)
 
 
 def positions_of(command: Draw, target: Framebuffer) -> Positions:
@@ -141,43 +155,67 @@ def filled_geometry(geometry: Geometry, clipped: Clipped, command: Draw, target:
 
 
 def points_and_lines_geometry(
-    geometry: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull
+    geometry: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, sizes: np.ndarray | None = None
 ) -> Geometry:
-    """Return the geometry with its points or lines set up; they are never culled."""
-    polygon, primitives = command.state.polygon, clipped.triangles
+    """Return the geometry with its points or lines set up; they are never culled. `sizes` (V,): of points, or None."""
+    state, primitives = command.state, clipped.triangles
     ids = np.arange(len(primitives), dtype=np.int32)
+    geometry = geometry._replace(back=None, faceless=True, stipple_place=command.stipple_place)
     if command.mode == gl.GL_POINTS:
-        triangles = set_up_points(geometry.window, primitives[:, 0], ids, polygon.point_size, target.flipped)
+        geometry, triangles = set_up_points_of(geometry, primitives[:, 0], ids, sizes, state, target.flipped)
     else:
-        triangles = set_up_lines(geometry.window, primitives, ids, polygon.line_width)
+        restarts = clipped.source == 0 if command.mode != gl.GL_LINES else np.ones(len(ids), bool)
+        geometry, triangles = set_up_lines_of(geometry, primitives, ids, restarts, state, target.flipped)
     return geometry._replace(triangles=triangles)
 
 
-def _outlined(geometry: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull) -> Geometry:
-    """Return the geometry of polygons that are not all filled; it has vertices of its own."""
+def _outlined(
+    geometry: Geometry,
+    clipped: Clipped,
+    command: Draw,
+    target: Framebuffer,
+    cull: Cull,
+    begins: np.ndarray,
+    sizes: np.ndarray | None,
+) -> Geometry:
+    """Return the geometry of polygons that pass Mesa's stages; it has vertices of its own."""
     state, flipped = command.state, target.flipped
     outlined = outline(
         geometry.window, geometry.values, geometry.back, geometry.flat, clipped.triangles, clipped.edges,
         geometry.provoking, state, cull, target.depth, command.offset_slope, command.offset_unit, flipped,
-        command.offset_mode,
+        begins, command.offset_mode,
     )  # fmt: skip
-    window, polygon = outlined.window, state.polygon
     no_offset = offset_of(
-        Polygon(), target.depth, window.dtype.type, command.offset_slope, command.offset_unit, flipped
+        Polygon(), target.depth, outlined.window.dtype.type, command.offset_slope, command.offset_unit, flipped
     )
-    filled = set_up(window, outlined.triangles, cull, no_offset, flipped)
+    filled = set_up(outlined.window, outlined.triangles, cull, no_offset, flipped)
     filled = filled._replace(ids=outlined.triangles[filled.ids, 0] // 3)
-    lines = set_up_lines(window, outlined.lines, outlined.lines[:, 0] // 3, polygon.line_width)
-    points = set_up_points(window, outlined.points, outlined.points // 3, polygon.point_size, flipped)
-    return geometry._replace(
-        triangles=merge_by_id([filled, lines, points]),
-        window=window,
+    geometry = geometry._replace(
+        window=outlined.window,
         values=outlined.values,
         back=None,
         provoking=np.arange(len(outlined.front), dtype=np.int32) * 3,
         faces=outlined.front,
         offset_mode=outlined.offset_mode,
+        discards=stipple_of(state, outlined, target),
+        stipple_place=command.stipple_place,
     )
+    sizes = None if sizes is None else sizes[clipped.triangles].reshape(-1)
+    point_ids, line_ids = outlined.points // 3, outlined.lines[:, 0] // 3
+    geometry, points = set_up_points_of(geometry, outlined.points, point_ids, sizes, state, flipped)
+    geometry, lines = set_up_lines_of(geometry, outlined.lines, line_ids, outlined.restarts, state, flipped)
+    place = 0 if outlined.ends_stipple else geometry.stipple_place
+    return geometry._replace(triangles=merge_by_id([filled, lines, points]), stipple_place=place)
+
+
+def stipple_of(state: State, outlined: Outlined, target: Framebuffer) -> Discards | None:
+    """Return the polygon stipple of a draw by the rows of the target; None without a filled polygon."""
+    if not state.polygon.stippled or not len(outlined.triangles):
+        return None
+    pattern = np.unpackbits(np.frombuffer(state.polygon.stipple, np.uint8)).reshape(SIDE, SIDE).astype(bool)
+    if target.flipped:
+        pattern = pattern[(target.size[1] - 1 - np.arange(SIDE)) % SIDE]
+    return Discards(pattern)  # also for lines and points of the same draw: Mesa draws all with one shader
 
 
 def user_planes(command: Draw) -> np.ndarray:
@@ -194,6 +232,16 @@ def planes_in_clip_space(planes: ClipPlanes, projection: np.ndarray, projection_
         for row, (a, b, c, d) in zip(in_clip_space, np.array(enabled, np.float32), strict=True):
             row[:] = ((a * m[0] + b * m[1]) + c * m[2]) + d * m[3]
     return in_clip_space
+
+
+def stipple_place_after(command: Draw, storage: Storage) -> int:
+    """Return the place in the line stipple after a draw; it is 0 again after filled polygons and points."""
+    state = command.state
+    if not is_stippled(state.lines) or not (command.mode in LINES or passes_stages(state)):
+        return command.stipple_place
+    target = storage.framebuffers[state.draw_framebuffer]
+    with np.errstate(all="ignore"):  # as in pipeline.draw
+        return process_geometry(command, target, storage).stipple_place
 
 
 def offset_mode_of(command: Draw, storage: Storage) -> int:

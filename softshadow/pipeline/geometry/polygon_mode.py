@@ -17,6 +17,7 @@ from softshadow.pipeline.mesa.polygon_rules import effective_modes, offset_is_on
 from softshadow.state import Cull, Polygon, State
 
 EDGES_IN_ORDER = ((2, 0), (0, 1), (1, 2))  # of a triangle, as they are drawn
+STARTS = [start for start, _ in EDGES_IN_ORDER]
 
 
 class Outlined(NamedTuple):
@@ -24,7 +25,8 @@ class Outlined(NamedTuple):
 
     window (3T, 4), z with its offset; values (3T, k), those of the facing, flat ones equal at all three; triangles
     (A, 3), lines (B, 2) and points (C,) int32; their number t is a vertex // 3; front (T,) bool; offset_mode: the
-    polygon mode whose offset was added, 0 where no triangle decides it.
+    polygon mode whose offset was added, 0 where no triangle decides it; restarts (B,) bool: the lines at which the line
+    stipple begins anew; ends_stipple: whether it begins anew after the last line.
     """
 
     window: np.ndarray
@@ -34,11 +36,8 @@ class Outlined(NamedTuple):
     points: np.ndarray
     front: np.ndarray
     offset_mode: int
-
-
-def is_filled(state: State) -> bool:
-    """Return whether all polygons that are drawn are filled."""
-    return effective_modes(state) == (gl.GL_FILL, gl.GL_FILL)
+    restarts: np.ndarray
+    ends_stipple: bool
 
 
 def outline(
@@ -55,6 +54,7 @@ def outline(
     slope: str,
     unit: str,
     flipped: bool,
+    begins: np.ndarray,
     offset_mode: int = 0,
 ) -> Outlined:
     """Return the triangles, lines and points that the polygon modes make of triangles in the window.
@@ -67,6 +67,7 @@ def outline(
     triangles, edges : (T, 3), corners, and which edges are drawn
     cull : the faces to leave out; the modes depend on `state.cull`
     depth, slope, unit : of the polygon offset, as for `offset_of`
+    begins : (T,) bool, triangles at which the line stipple begins anew
     offset_mode : the polygon mode whose offset is added; 0: that of the first triangle that is not culled
     """
     corners = window[triangles]
@@ -93,14 +94,16 @@ def outline(
     first = np.arange(len(triangles), dtype=np.int32) * 3
     filled = first[visible & (mode == gl.GL_FILL)]
     as_lines, as_points = visible & (mode == gl.GL_LINE), visible & (mode == gl.GL_POINT)
+    drawn_lines = edges[as_lines][:, STARTS] != 0
     return Outlined(
         np.ascontiguousarray(corners.reshape(-1, 4)),
         np.ascontiguousarray(corner_values.reshape(-1, values.shape[1])),
         filled[:, None] + np.arange(3, dtype=np.int32),
-        _edge_lines(first[as_lines], edges[as_lines]),
+        _edge_lines(first[as_lines], drawn_lines),
         (first[as_points][:, None] + np.arange(3, dtype=np.int32))[edges[as_points] != 0],
         front,
         offset_mode,
+        *_restarts((begins | ~as_lines) & visible, as_lines, drawn_lines),
     )
 
 
@@ -115,10 +118,22 @@ def _not_culled(front: np.ndarray, cull: Cull) -> np.ndarray:
     return np.where(front, not culled & CULL_FRONT, not culled & CULL_BACK)
 
 
-def _edge_lines(first: np.ndarray, edges: np.ndarray) -> np.ndarray:
+def _edge_lines(first: np.ndarray, drawn: np.ndarray) -> np.ndarray:
     """Return the lines (B, 2) of triangles with vertices first, first + 1, first + 2."""
     lines = first[:, None, None] + np.array(EDGES_IN_ORDER, np.int32)
-    return np.ascontiguousarray(lines[edges[:, [start for start, _ in EDGES_IN_ORDER]] != 0], np.int32)
+    return np.ascontiguousarray(lines[drawn], np.int32)
+
+
+def _restarts(begins: np.ndarray, as_lines: np.ndarray, drawn: np.ndarray) -> tuple[np.ndarray, bool]:
+    """Return the lines (B,) bool at which the line stipple begins anew, and whether it does so after the last one.
+
+    `begins` (T,) are the triangles that begin it, those that are not drawn as lines among them; `drawn` (n, 3) the
+    edges of the triangles drawn as lines.
+    """
+    number = np.cumsum(begins)  # of beginnings up to each triangle
+    of_line = np.repeat(number[as_lines], drawn.sum(axis=1))
+    last = int(of_line[-1]) if len(of_line) else 0
+    return np.diff(of_line, prepend=0) > 0, bool(len(number) and number[-1] > last)
 
 
 def _mode_offset(polygon: Polygon, mode: int) -> Polygon:

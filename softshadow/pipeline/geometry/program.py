@@ -23,12 +23,14 @@ def program_of(command: Draw, storage: Storage) -> tuple[Program, Mapping[str, A
 
         return fixed_function.program(command.state, bound), command.uniforms
     program = programs.get(command.program_name)
-    textures = {
-        name: bound.get((value, gl.GL_TEXTURE_CUBE_MAP if name in program.cube_samplers else gl.GL_TEXTURE_2D))
+    places = {
+        name: (value, gl.GL_TEXTURE_CUBE_MAP if name in program.cube_samplers else gl.GL_TEXTURE_2D)
         for name, value in command.uniforms.items()
         if name in program.samplers
     }
-    blocks = any(texture is not None and programs.needs_blocks(texture) for texture in textures.values())
+    # a unit without a texture is sampled as one without images
+    textures = {name: bound.get(place) or Texture(0, place[1]) for name, place in places.items()}
+    blocks = any(programs.needs_blocks(texture) for texture in textures.values())
     program = replace(program, blocks=True) if blocks else program
     return program, {**command.uniforms, **textures}
 

@@ -24,7 +24,7 @@ from softshadow.pipeline.mesa.polygon_rules import effective_modes, offset_is_on
 
 CORNERS = {gl.GL_TRIANGLES: 3, gl.GL_QUADS: 4}  # vertices per primitive, for the modes whose pairs are joined
 SEPARATE = {gl.GL_POINTS: 1, gl.GL_LINES: 2, **CORNERS}  # vertices per primitive, for the modes that share none
-MAX_PAIRS = 64  # that Mesa collects before it draws (VBO_MAX_PRIM)
+MAX_PAIRS = 64  # with so many collected pairs, Mesa draws them (VBO_MAX_PRIM)
 
 
 @dataclass(eq=False)
@@ -75,17 +75,13 @@ class CollectedPairs:
     mode: int = -1
     n_vertices: int = 0
 
-    def add(self, mode: int, n_vertices: int) -> None:
-        """Add a pair, or join it to the one before."""
+    def add(self, mode: int, n_vertices: int) -> int:
+        """Add a pair, or join it to the one before; return the number of pairs."""
         if mode == self.mode and mode in SEPARATE and self.n_vertices % SEPARATE[mode] == 0:
             self.n_vertices += n_vertices
-            return
-        self.n_pairs, self.mode, self.n_vertices = self.n_pairs + 1, mode, n_vertices
-
-    @property
-    def too_many(self) -> bool:
-        """Whether Mesa draws the collected pairs now."""
-        return self.n_pairs >= MAX_PAIRS
+        else:
+            self.n_pairs, self.mode, self.n_vertices = self.n_pairs + 1, mode, n_vertices
+        return self.n_pairs
 
 
 @dataclass

@@ -57,7 +57,7 @@ def narrow(x0, y0, x1, y1, row, downwards, first, end):
     elif across < 0:
         first = max(first, -(value // (-across << 8)))
     elif value < 0:
-        end = first
+        end = min(end, first)
     return first, end
 
 
@@ -87,7 +87,7 @@ def narrow_rows(x0, y0, x1, y1, first, end, downwards, lefts, rights):
     value, step, divisor = at + along * (first << 8), along << 8, abs(across) << 8
     if max(abs(value), abs(value + step * (end - first))) >= EXACT:
         for row in range(first, end):
-            left, right = narrow(x0, y0, x1, y1, row, downwards, int(lefts[row]), int(rights[row]))
+            left, right = narrow(x0, y0, x1, y1, row, downwards, np.int64(lefts[row]), np.int64(rights[row]))
             lefts[row], rights[row] = left, right
         return
     start, slope, over = float(value), float(step), float(divisor)
@@ -100,7 +100,7 @@ def narrow_rows(x0, y0, x1, y1, first, end, downwards, lefts, rights):
             j = np.uint64(first + k)
             lefts[j] = max(lefts[j], -np.int32(np.floor((start + slope * k) / over)))
     elif value < 0:  # along the row, the only one it can reach
-        rights[first] = lefts[first]
+        rights[first] = min(rights[first], lefts[first])  # not beyond `right`, where the left end may be
 
 
 @kernel

@@ -6,17 +6,26 @@ from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.raster.coverage import extent
 from softshadow.pipeline.records import DepthRange, Region, Setup
-from softshadow.state import State
+from softshadow.state import Points, State
+
+NO_ATTENUATION = Points().attenuation
 
 
 def region_of(state: State, target: Framebuffer) -> Region:
-    """Return where a draw may write: the buffers, inside the scissor box if that test is on."""
+    """Return where a draw may write: the buffers, inside the scissor box if that test is on.
+
+    Where sizes of points depend on their distance, wide lines and points end at the viewport, too.
+    """
     width, height = target.size
     left, right, bottom, top = 0, width, 0, height
     if state.scissor.enabled:
         box = state.scissor
         left, right = max(left, box.x), min(right, box.x + box.width)
         bottom, top = max(bottom, box.y), min(top, box.y + box.height)
+    if state.points.attenuation != NO_ATTENUATION:  # as in llvmpipe, though the specification does not ask for it
+        view = state.viewport
+        left, right = max(left, view.x), min(right, view.x + view.width)
+        bottom, top = max(bottom, view.y), min(top, view.y + view.height)
     right, top = max(left, right), max(bottom, top)
     first, end = (height - top, height - bottom) if target.flipped else (bottom, top)
     return Region(left, right, first, end, int(target.flipped))

@@ -9,7 +9,7 @@ import numpy as np
 from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import share
-from softshadow.pipeline.records import Geometry, Spans
+from softshadow.pipeline.records import NO_VERTEX, Geometry, Spans, Sprites
 from softshadow.pipeline.shade.color_writes import color_writer
 from softshadow.pipeline.shade.interpolate import AttributePlanes, inputs_at, planes_of
 from softshadow.pipeline.shade.pixel_blocks import in_blocks
@@ -62,7 +62,28 @@ def shade_and_write(state: State, target: Framebuffer, geometry: Geometry, spans
 def attribute_planes_of(geometry: Geometry, spans: Spans) -> AttributePlanes:
     """Return the planes of the vertex outputs, for the triangles of the spans."""
     values = (geometry.values, geometry.back, geometry.flat, geometry.provoking)
-    return planes_of(spans, geometry.triangles, geometry.window, *values)
+    planes = planes_of(spans, geometry.triangles, geometry.window, *values)
+    if geometry.sprites is not None:
+        write_sprite_planes(geometry, geometry.sprites, planes)
+    return planes
+
+
+def write_sprite_planes(geometry: Geometry, sprites: Sprites, planes: AttributePlanes) -> None:
+    """Write the planes of the coordinates of point sprites (GL 2.1, sec. 3.3.1), in llvmpipe's order of operations."""
+    triangles, real = geometry.triangles, geometry.window.dtype.type
+    rows = np.flatnonzero((planes.place >= 0) & (triangles.vertices[:, 1] == NO_VERTEX))
+    points, places = triangles.vertices[rows, 0], planes.place[rows]
+    x, y, over_w = (geometry.window[points, column] for column in (0, 1, 3))
+    step = real(1) / sprites.widths[points]
+    down = step if sprites.upwards else -step
+    zero = np.zeros_like(step)
+    for first in sprites.columns:
+        s = real(0.5) - (step * (x - real(0.5)) + zero * (y - real(0.5)))
+        t = real(0.5) - (zero * (x - real(0.5)) + down * (y - real(0.5)))
+        planes.values[places, :, first] = np.stack([s * over_w, step * over_w, zero], axis=1)
+        planes.values[places, :, first + 1] = np.stack([t * over_w, zero, down * over_w], axis=1)
+        planes.values[places, :, first + 2] = 0
+        planes.values[places, :, first + 3] = np.stack([over_w, zero, zero], axis=1)
 
 
 def _shade_chunk(geometry: Geometry, planes: AttributePlanes, spans: Spans) -> np.ndarray:

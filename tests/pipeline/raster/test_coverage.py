@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from softshadow.pipeline.fast.small_triangles import columns_of, edge_from
 from softshadow.pipeline.geometry.triangle_setup import MAX_SLOPE, Offset, set_up
-from softshadow.pipeline.raster.coverage import bounds, edge, row_span, triangles_at
+from softshadow.pipeline.raster.coverage import bounds, edge, row_span, row_spans, triangles_at
 from softshadow.pipeline.raster.ordered import list_fragments
 from softshadow.pipeline.records import Region, Setup
 from softshadow.state import Cull
@@ -132,6 +132,19 @@ def test_edge_functions_agree_with_row_spans(fan, downwards):
                 if all(at + along * (row << 8) - across * (column << 8) >= 0 for across, along, at in edges)
             ]
             assert inside == list(range(*row_span(corners, t, row, int(downwards))))
+
+
+@given(window_fans(SIZE), st.booleans(), st.integers(0, 8), st.integers(8, 16))
+@example(np.array([[50048, 2304, 44160, 2560, 50048, 2560]], np.int32), False, 0, 65)  # its top edge lies in a row
+def test_spans_stay_within_the_columns_of_the_region(fan, downwards, left, right):
+    corners = fan if isinstance(fan, np.ndarray) else set_up_in_window(*fan).corners
+    for t in range(len(corners)):
+        first, end = bounds(corners, t)
+        lefts, rights = np.zeros((2, max(end, 0)), np.int32)
+        first = max(first, 0)
+        row_spans(corners, t, first, end, int(downwards), left, right, lefts, rights)
+        assert (lefts[first:end] >= left).all()
+        assert (rights[first:end] <= right).all()
 
 
 @given(window_fans(SIZE), st.booleans(), st.integers(0, 2**16 - 1), st.integers(0, 2**16 - 1))

@@ -124,8 +124,9 @@ def geometry_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Frame
         source=clipped.source,
         provoking=provoking[clipped.source],
     )
-    set_up = filled_geometry if width == 3 else points_and_lines_geometry
-    return set_up(geometry, clipped, command, target, command.state.cull), -1
+    if width == 3:
+        return filled_geometry(geometry, clipped, command, target, command.state.cull), -1
+    return points_and_lines_geometry(geometry, clipped, command, target), -1
 
 
 @kernel

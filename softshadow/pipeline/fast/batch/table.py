@@ -38,15 +38,15 @@ from softshadow.pipeline.fast.batch.vertices import (
     Layout,
 )
 from softshadow.pipeline.geometry.clip import NEAR_FAR
-from softshadow.pipeline.geometry.polygon_mode import is_filled
 from softshadow.pipeline.geometry.program import bound_textures
 from softshadow.pipeline.memory.scratch import scratch
+from softshadow.pipeline.mesa.polygon_rules import passes_stages
 from softshadow.pipeline.mesa.rectangles import start_of_last_nine
 from softshadow.programs import reflectances
 from softshadow.programs.fixed_function import Unit, is_separate, needs_vertex_color, units_in_use
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE
-from softshadow.state import Lighting, MaterialState, State
+from softshadow.state import Lighting, Lines, MaterialState, Points, State
 
 BATCH_KERNELS = KernelGroup("batch")
 GENERATED = {gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR}
@@ -54,6 +54,7 @@ GROUPS = tuple(group.name for group in fields(State) if group.name not in ("ligh
 groups_of = attrgetter(*GROUPS)
 LIGHT_MODEL = tuple(field.name for field in fields(Lighting) if field.name not in ("front", "back"))
 MATERIAL = tuple(field.name for field in fields(MaterialState))
+PLAIN_LINES, PLAIN_POINTS = Lines(), Points()
 IDENTITY = np.eye(4, dtype=np.float32)
 
 
@@ -197,7 +198,9 @@ def can_run(command: Draw) -> bool:
 def can_begin_run(command: Draw, target: Framebuffer) -> bool:
     """Return whether a draw can be processed in a table, as far as its state decides it."""
     state = command.state
-    if not can_run(command) or not target.attachments or not is_filled(state) or any(state.clip_planes.enabled):
+    if not can_run(command) or not target.attachments or passes_stages(state) or any(state.clip_planes.enabled):
+        return False
+    if state.lines != PLAIN_LINES or state.points != PLAIN_POINTS:
         return False
     modes = [gen.mode for unit in state.units for gen in unit.gen if gen.enabled]
     return all(mode in GENERATED for mode in modes)

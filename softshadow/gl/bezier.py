@@ -1,0 +1,109 @@
+"""Points of Bézier curves and surfaces, and tangents of surfaces, in float32 and in Mesa's order of operations.
+
+References: m_eval.c of Mesa 22.3.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+F32 = np.float32
+ONE = F32(1)
+
+
+def curve(points: np.ndarray, t: np.ndarray) -> np.ndarray:
+    """Return the points (N, k) at parameters t (N, 1) by Horner's scheme; `points` (order, N or 1, k)."""
+    order = len(points)
+    if order == 1:
+        return np.broadcast_to(points[0], (len(t), points.shape[-1])).copy()
+    factor, s = F32(order - 1), ONE - t
+    result = s * points[0] + factor * t * points[1]
+    power = t * t
+    for i in range(2, order):
+        factor = factor * F32(order - i)
+        factor = factor * (ONE / F32(i))
+        result = s * result + factor * power * points[i]
+        power = power * t
+    return result
+
+
+def surface(points: np.ndarray, u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Return the points (N, k) at parameters u, v (N, 1); `points` (u order, v order, k)."""
+    u_order, v_order = points.shape[:2]
+    net = points[:, :, None, :]
+    if v_order > u_order:
+        if u_order == 1:
+            return curve(net[0], v)
+        return curve(np.stack([curve(net[:, j], u) for j in range(v_order)]), v)
+    if v_order == 1:
+        return curve(net[:, 0], u)
+    return curve(np.stack([curve(net[i], v) for i in range(u_order)]), u)
+
+
+def surface_with_tangents(
+    points: np.ndarray, u: np.ndarray, v: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the points (N, k) of a surface, and its tangents along u and v, not scaled, by de Casteljau's algorithm.
+
+    A map with a single row has no tangent across it, Mesa reads what lies behind it; here it is 0.
+    """
+    u_order, v_order = points.shape[:2]
+    if min(u_order, v_order) == 1:  # the same curve twice
+        points = np.repeat(points, 2 if u_order == 1 else 1, axis=0)
+        points = np.repeat(points, 2 if v_order == 1 else 1, axis=1)
+        u_order, v_order = points.shape[:2]
+    if u_order < v_order:
+        return _along_v(points, u, v)
+    if v_order < u_order:
+        point, dv, du = _along_v(points.transpose(1, 0, 2), v, u, u_first=False)
+        return point, du, dv
+    return _square(points, u, v)
+
+
+def _net(points: np.ndarray, n: int) -> list[list[np.ndarray]]:
+    return [[np.broadcast_to(point, (n, len(point))) for point in row] for row in points]
+
+
+def _bilinear(net: list[list[np.ndarray]], u: np.ndarray, v: np.ndarray, steps: int, u_first: bool) -> None:
+    """Replace a net by those of the first `steps` bilinear steps, each with a row and a column less."""
+    us, vs = ONE - u, ONE - v
+    for _ in range(steps):
+        rows, columns = len(net) - 1, len(net[0]) - 1
+        if u_first:
+            middle = [[us * net[i][j] + u * net[i + 1][j] for j in range(columns + 1)] for i in range(rows)]
+            net[:] = [[vs * middle[i][j] + v * middle[i][j + 1] for j in range(columns)] for i in range(rows)]
+        else:
+            across = [[vs * net[i][j] + v * net[i][j + 1] for j in range(columns)] for i in range(rows + 1)]
+            net[:] = [[us * across[i][j] + u * across[i + 1][j] for j in range(columns)] for i in range(rows)]
+
+
+def _square(points: np.ndarray, u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return point and tangents of a surface with equal orders."""
+    net = _net(points, len(u))
+    _bilinear(net, u, v, len(net) - 2, u_first=True)
+    us, vs = ONE - u, ONE - v
+    (a, b), (c, d) = net
+    du = vs * (c - a) + v * (d - b)
+    dv = us * (b - a) + u * (d - c)
+    return us * (vs * a + v * b) + u * (vs * c + v * d), du, dv
+
+
+def _along_v(
+    points: np.ndarray, u: np.ndarray, v: np.ndarray, u_first: bool = True
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return point and tangents of a surface whose order along v is the larger one.
+
+    `u_first` tells whether the bilinear steps interpolate along u before v.
+    """
+    net = _net(points, len(u))
+    _bilinear(net, u, v, len(net) - 2, u_first)
+    us, vs = ONE - u, ONE - v
+    first, second = net
+    across = [b - a for a, b in zip(first, second, strict=True)]
+    along = [us * a + u * b for a, b in zip(first, second, strict=True)]
+    while len(along) > 2:
+        across = [vs * a + v * b for a, b in pairwise(across)]
+        along = [vs * a + v * b for a, b in pairwise(along)]
+    return vs * along[0] + v * along[1], vs * across[0] + v * across[1], along[1] - along[0]

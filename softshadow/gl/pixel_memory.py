@@ -1,0 +1,113 @@
+"""Where images come from and go to: the client's memory, or a pixel buffer object.
+
+References: GL 2.1, sec. 3.6.1, 4.3.2; pbo.c of Mesa 22.3.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import BufferObject, Context
+from softshadow.gl.buffers import offset_of, own_content
+from softshadow.gl.errors import fail
+from softshadow.gl.pixel_formats import format_problem
+from softshadow.pixel_store import PixelStore, client_image, dtype_of, elements_of, image_view, output_array
+
+
+class UnpackedImage(NamedTuple):
+    """An image (h, w, components) that a display list has read from memory when it was compiled."""
+
+    image: np.ndarray
+
+
+def image_for_list(
+    context: Context, pixels: Any, width: int, height: int, format: int, type: int, operation: str
+) -> Any:
+    """Return pixels as they are; while a display list is compiled, what they are now, as an `UnpackedImage`."""
+    is_none = pixels is None and not context.unpack_store.buffer
+    if context.compiled_list is None or is_none or format_problem(format, type) or width <= 0 or height <= 0:
+        return pixels
+    image = image_source(context, pixels, int(width), int(height), format, type, operation)
+    return None if image is None else UnpackedImage(image.copy())
+
+
+def image_source(
+    context: Context, pixels: Any, width: int, height: int, format: int, type: int, operation: str
+) -> np.ndarray | None:
+    """Return an image (h, w, components) of the client or of the bound buffer object; None after an error of GL."""
+    store = context.unpack_store
+    if isinstance(pixels, UnpackedImage):
+        return pixels.image
+    if not store.buffer:
+        return client_image(pixels, store, width, height, format, type, operation)
+    dtype = dtype_of(type)
+    needed = store.layout(width, height, dtype.itemsize * elements_of(format, type), aligned=True)[-1]
+    memory = source(context, pixels, needed, _unit(dtype), operation)
+    if memory is None:
+        return None
+    return image_view(memory, store, width, height, format, type, operation).astype(dtype, copy=False)
+
+
+def image_destination(
+    context: Context, array: Any, width: int, height: int, format: int, type: int, operation: str
+) -> tuple[Any, np.ndarray] | None:
+    """Return (what a read-out returns, a view (h, w, components) of the image in it); None after an error of GL."""
+    store = context.pack_store
+    if not store.buffer:
+        return output_array(array, store, width, height, format, type, operation)
+    dtype = dtype_of(type)
+    needed = store.layout(width, height, dtype.itemsize * elements_of(format, type), aligned=True)[-1]
+    bound = _accessed(context, store, array, needed, _unit(dtype), operation)
+    if bound is None:
+        return None
+    content = own_content(context, bound)
+    return None, image_view(content[offset_of(array) :], store, width, height, format, type, operation)
+
+
+def source(context: Context, values: Any, n_bytes: int, unit: int, operation: str) -> Any:
+    """Return the client's values, or the bytes of the bound buffer object from an offset on; None after an error."""
+    store = context.unpack_store
+    if not store.buffer:
+        return values
+    bound = _accessed(context, store, values, n_bytes, unit, operation)
+    return None if bound is None else bound.content[offset_of(values) :]
+
+
+def destination(context: Context, values: Any, answer: np.ndarray, operation: str) -> Any:
+    """Return an answer; an array of the client is filled, or the bound buffer object, which nothing is returned for."""
+    store = context.pack_store
+    if store.buffer:
+        bound = _accessed(context, store, values, answer.nbytes, answer.itemsize, operation)
+        if bound is not None:
+            offset = offset_of(values)
+            own_content(context, bound)[offset : offset + answer.nbytes] = answer.view(np.uint8)
+        return None
+    if values is not None:
+        np.asarray(values).reshape(-1)[: len(answer)] = answer
+    return answer
+
+
+def _unit(dtype: np.dtype) -> int:
+    """Return what offsets must be multiples of: the size of a number."""
+    return 4 if dtype.names else dtype.itemsize
+
+
+def _accessed(
+    context: Context, store: PixelStore, pointer: Any, n_bytes: int, unit: int, operation: str
+) -> BufferObject | None:
+    """Return a pixel buffer object whose bytes from an offset on can be used, or None after an error of GL."""
+    bound, offset = context.buffers[store.buffer], offset_of(pointer)
+    problem = None
+    if bound.mapping is not None:
+        problem = f"buffer {store.buffer} is mapped: call glUnmapBuffer first"
+    elif offset < 0 or offset + n_bytes > len(bound.content):
+        problem = f"offset={offset}: buffer {store.buffer} has {len(bound.content)} bytes, {n_bytes} are needed there"
+    elif offset % unit:
+        problem = f"offset={offset}: expected a multiple of {unit}, the size of a number"
+    if problem:
+        fail(gl.GL_INVALID_OPERATION, operation, problem)
+        return None
+    return bound

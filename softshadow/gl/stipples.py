@@ -1,0 +1,69 @@
+"""glLineStipple and glPolygonStipple: patterns of bits that leave out fragments of lines and polygons."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from softshadow.context import current
+from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.errors import outside_begin
+from softshadow.pixel_store import bitmap_rows
+
+SIDE = 32  # rows and columns of a polygon stipple
+LARGEST_FACTOR = 256
+
+
+@in_lists
+def glLineStipple(factor: int, pattern: int) -> None:
+    """Set the pattern of stippled lines: 16 bits, the lowest one first; each stands for `factor` pixels, 1 to 256."""
+    context = outside_begin("glLineStipple")
+    if context is not None:
+        context.change("lines", factor=max(1, min(int(factor), LARGEST_FACTOR)), pattern=int(pattern) & 0xFFFF)
+
+
+def glPolygonStipple(mask: Any) -> None:
+    """Set the pattern of stippled polygons.
+
+    Parameters
+    ----------
+    mask : bytes or array        32 rows of 32 bits from bottom to top, as glPixelStore says; the highest bit is left
+
+    Raises
+    ------
+    ValueError
+        The pattern has too few bytes.
+    """
+    # read now, also when a display list is compiled
+    bits = bitmap_rows(mask, current().unpack_store, SIDE, SIDE, "glPolygonStipple")
+    _polygon_stipple(np.packbits(bits).tobytes())
+
+
+@in_lists
+def _polygon_stipple(stipple: bytes) -> None:
+    context = outside_begin("glPolygonStipple")
+    if context is not None:
+        context.change("polygon", stipple=stipple)
+
+
+def glGetPolygonStipple(mask: np.ndarray | None = None) -> np.ndarray | None:
+    """Return the pattern of stippled polygons, (128,) uint8: 32 rows of four bytes from bottom to top.
+
+    Parameters
+    ----------
+    mask : array of 128 bytes, optional; it is filled and returned
+    """
+    context = outside_begin("glGetPolygonStipple")
+    if context is None:
+        return None
+    pattern = np.frombuffer(context.state.polygon.stipple, np.uint8)
+    if mask is None:
+        return pattern.copy()
+    mask.reshape(-1).view(np.uint8)[: len(pattern)] = pattern
+    return mask
+
+
+glGetPolygonStippleub = glGetPolygonStipple
+
+__all__ = spelled_like_gl(globals())

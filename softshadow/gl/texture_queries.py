@@ -1,0 +1,124 @@
+"""Texture images read back, and the properties of their levels."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.frozen import evolve
+from softshadow.gl.calls import spelled_like_gl
+from softshadow.gl.errors import fail, outside_begin
+from softshadow.gl.pixel_formats import format_problem, kind_of, readout_problem
+from softshadow.gl.pixel_memory import image_destination
+from softshadow.gl.proxy_textures import PROXIES
+from softshadow.gl.texture_images import image_at, level_problem
+from softshadow.gl.textures import target_problem
+from softshadow.image import Image
+from softshadow.pixel_store import TYPES
+from softshadow.pixel_transfer import PixelTransfer
+from softshadow.pixels import client_kind, pack_color, pack_depth, pack_depth_stencil, pack_stencil
+from softshadow.tokens import token_name
+
+SIZES: dict[int, tuple[int, ...]] = {  # the base formats that have the channel
+    gl.GL_TEXTURE_RED_SIZE: (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_RGBA),
+    gl.GL_TEXTURE_GREEN_SIZE: (gl.GL_RG, gl.GL_RGB, gl.GL_RGBA),
+    gl.GL_TEXTURE_BLUE_SIZE: (gl.GL_RGB, gl.GL_RGBA),
+    gl.GL_TEXTURE_ALPHA_SIZE: (gl.GL_RGBA, gl.GL_ALPHA, gl.GL_LUMINANCE_ALPHA),
+    gl.GL_TEXTURE_LUMINANCE_SIZE: (gl.GL_LUMINANCE, gl.GL_LUMINANCE_ALPHA),
+    gl.GL_TEXTURE_INTENSITY_SIZE: (gl.GL_INTENSITY,),
+    gl.GL_TEXTURE_DEPTH_SIZE: (gl.GL_DEPTH_COMPONENT,),
+    gl.GL_TEXTURE_STENCIL_SIZE: (gl.GL_STENCIL_INDEX,),
+}
+MEMORY = {  # largest depth: the type of the texture's own memory
+    2**16 - 1: gl.GL_UNSIGNED_SHORT,
+    2**32 - 1: gl.GL_UNSIGNED_INT,
+    0: gl.GL_FLOAT,
+}
+
+
+def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = None) -> Any:
+    """Return a level of the bound texture, (h, w) or (h, w, components), bottom row first; an `array` is filled."""
+    operation = "glGetTexImage"
+    if (context := outside_begin(operation)) is None:
+        return None
+    problem = target_problem(context, target, faces=True) or level_problem(level) or format_problem(format, type)
+    if problem:
+        return fail(problem[0], operation, problem[1])
+    context.finish()
+    image = image_at(context, target, level)
+    if image is not None and (problem := readout_problem(format, image)):
+        return fail(problem[0], operation, problem[1])
+    width, height = (image.width, image.height) if image is not None else (0, 0)
+    where = image_destination(context, array, width, height, format, type, operation)
+    if where is None:
+        return None
+    answer, view = where
+    if image is not None:
+        view[...] = texture_pixels(image, format, type, context.pixel_transfer)
+    return answer
+
+
+def texture_pixels(image: Image, format: int, type: int, transfer: PixelTransfer) -> np.ndarray:
+    """Return a texture's image as client pixels (h, w, components); as in Mesa, colours are not transferred."""
+    kind = kind_of(format)
+    if kind == "depth-stencil":
+        assert image.stencil is not None
+        return pack_depth_stencil(image.view, image.stencil.view, image.format, type)[..., None]
+    if kind == "color":
+        return pack_color(image.view, image.format, format, client_kind(type))
+    if kind == "depth":
+        if MEMORY.get(image.format.largest) == type:  # which Mesa copies as it is
+            transfer = evolve(transfer, depth=(1.0, 0.0))
+        return pack_depth(image.view, image.format, TYPES[type], through_float=True, transfer=transfer)[..., None]
+    stencil = image.stencil.view if image.stencil is not None else image.view
+    return pack_stencil(stencil, TYPES[type], transfer)[..., None]
+
+
+def glGetTexLevelParameteriv(target: int, level: int, pname: int, params: Any = None) -> Any:
+    """Return a property of a level of the bound texture, an int."""
+    operation = "glGetTexLevelParameteriv"
+    if (context := outside_begin(operation)) is None:
+        return None
+    is_proxy = target in PROXIES
+    if problem := (None if is_proxy else target_problem(context, target, faces=True)) or level_problem(level):
+        return fail(problem[0], operation, problem[1])
+    image = context.proxies.get((target, level)) if is_proxy else image_at(context, target, level)
+    simple = {
+        gl.GL_TEXTURE_WIDTH: image.width if image else 0,
+        gl.GL_TEXTURE_HEIGHT: image.height if image else 0,
+        gl.GL_TEXTURE_DEPTH: 1 if image else 0,
+        gl.GL_TEXTURE_BORDER: 0,
+        gl.GL_TEXTURE_COMPRESSED: 0,
+        gl.GL_TEXTURE_INTERNAL_FORMAT: image.internal_format if image else gl.GL_RGBA,
+    }
+    if pname in simple:
+        answer = simple[pname]
+    elif pname in SIZES:
+        answer = channel_bits(image, pname) if image else 0
+    else:
+        return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)}: expected a property of a texture level")
+    if params is not None:
+        np.asarray(params)[:1] = answer
+    return answer
+
+
+def glGetTexLevelParameterfv(target: int, level: int, pname: int, params: Any = None) -> Any:
+    """Return a property of a level of the bound texture, a float."""
+    answer = glGetTexLevelParameteriv(target, level, pname, params)
+    return None if answer is None else float(answer)
+
+
+def channel_bits(image: Image, size: int) -> int:
+    """Return the number of bits of the channel of a GL_TEXTURE_*_SIZE, 0 if the format does not have it."""
+    if size == gl.GL_TEXTURE_STENCIL_SIZE:
+        return 8 if image.stencil is not None or image.format.kind == "stencil" else 0
+    if image.format.base not in SIZES[size]:
+        return 0
+    if image.format.kind == "unorm8":
+        return 8
+    return int(image.format.largest).bit_length() or 32
+
+
+__all__ = spelled_like_gl(globals())

@@ -1,0 +1,31 @@
+"""A listing of the course as a run, with its buffers after every step of the slide."""
+
+from __future__ import annotations
+
+from softshadow.gallery.course_stage import listing_scene, listing_technique
+from softshadow.gallery.expected import without_warnings
+from softshadow.listings import SIZE, get
+from softshadow.runs import Run, run
+
+
+def run_listing(name: str, printed: bool = False, size: tuple[int, int] = SIZE) -> Run:
+    """Return the run of a listing: as it is corrected, or as its slide prints it.
+
+    Parameters
+    ----------
+    name : str                   of the listing, see `softshadow.listings.names`
+    printed : bool               without the corrections
+    size : (width, height) of the window, in pixels
+
+    Raises
+    ------
+    ValueError                   an unknown name; the message has the nearest one
+
+    Examples
+    --------
+    >>> run_listing("stencil-quads").steps.titles
+    ['the first quad marks its pixels', 'the second quad where there is no mark']
+    """
+    listing = get(name)
+    with without_warnings():
+        return run(listing_technique(listing, () if printed else listing.corrections), listing_scene(listing), size)

@@ -1,0 +1,206 @@
+"""The engine for several processes and machines: Dask distributes groups of points, and results stream back.
+
+Without an address it starts a cluster of its own: one worker process for each core, with one kernel thread each. With
+an address it uses a scheduler that runs already (docs/sweeps.md shows how to start one in a class room or under Slurm).
+"""
+
+from __future__ import annotations
+
+import asyncio
+import concurrent.futures
+import os
+import threading
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import softshadow
+from softshadow.errors import SoftShadowError
+from softshadow.sweeps.measured import Result, described, load_scene, measure
+from softshadow.sweeps.point import Point
+
+GROUP_SECONDS = 1.0  # of work in a task: enough that sending it costs little, and little is lost with a worker
+LARGEST_GROUP = 64
+AHEAD = 2  # tasks that wait for each worker, so that none is idle
+LOST = ("lost", "cancelled")  # how the client marks tasks that a scheduler does not know any more
+CANCELLED = (asyncio.CancelledError, concurrent.futures.CancelledError)
+MOST_LOSSES = 1000
+LOST_AFTER = 15.0  # seconds without a connection to the scheduler after which the sweep ends
+ONE_AT_A_TIME = threading.Lock()  # of a worker that was started with several threads
+NEEDS = "distributing a sweep needs the package distributed: pip install 'softshadow[sweep]'"
+
+
+@dataclass
+class DaskEngine:
+    """Measures points on the workers of a Dask client; `dashboard` is the address of its page, or None."""
+
+    client: Any
+    dashboard: str | None
+    _scenes: dict[str, Any] = field(default_factory=dict)
+    _losses: int = 0
+    _seconds: float = GROUP_SECONDS  # of one point, so that the first tasks are single points
+
+    def __call__(self, points: Sequence[Point]) -> Iterator[tuple[Point, Result]]:
+        """Yield each point with its result, in the order in which they are finished.
+
+        Raises
+        ------
+        SoftShadowError              the scheduler is lost; what has been yielded is complete
+        """
+        waiting = list(reversed(points))
+        running: dict[Any, tuple[list[Point], float]] = {}
+        connected = time.monotonic()
+        while waiting or running:
+            while waiting and len(running) < AHEAD * self.workers():
+                yield from self._submit(waiting, running)
+            done, connected = self._finished(running, connected)
+            for future in done:
+                group, sent = running.pop(future)
+                if future.status == "finished":
+                    self._learn(time.monotonic() - sent, len(group))
+                    yield from zip(group, future.result(), strict=True)
+                elif future.status in LOST:
+                    self._send_again(group, waiting)
+                elif len(group) > 1:  # a worker was lost with it: find out which point it was
+                    waiting += reversed(group)
+                    self._seconds = GROUP_SECONDS
+                else:
+                    yield group[0], Result({**described(group[0]), "status": "error", "error": reason_of(future)}, None)
+
+    def workers(self) -> int:
+        """Return how many workers there are now, at least 1 so that tasks are sent and wait for the next one."""
+        try:
+            return max(len(self.client.nthreads()), 1)
+        except (OSError, RuntimeError, TimeoutError):
+            return 1
+
+    def _submit(self, waiting: list[Point], running: dict[Any, Any]) -> Iterator[tuple[Point, Result]]:
+        """Send a group of points that have one scene; a scene that cannot be loaded makes a row with its error."""
+        size = max(1, min(LARGEST_GROUP, int(GROUP_SECONDS / max(self._seconds, 1e-6))))
+        group = [waiting.pop()]
+        while waiting and len(group) < size and waiting[-1].scene == group[0].scene:
+            group.append(waiting.pop())
+        try:
+            scene = self._scene(group[0].scene)
+        except (SoftShadowError, ValueError, OSError) as error:
+            text = f"{type(error).__name__}: {error}"
+            for point in group:
+                yield point, Result({**described(point), "status": "error", "error": text}, None)
+            return
+        future = self.client.submit(measured_group, group, scene, pure=False)
+        running[future] = (group, time.monotonic())
+
+    def _scene(self, name: str) -> Any:
+        """Return a scene for a task: None for a built-in one, else the scene of a file, sent to the workers once."""
+        if not Path(name).suffix:
+            return None
+        if name not in self._scenes:
+            self._scenes[name] = self.client.scatter(load_scene(name), broadcast=True, hash=False)
+        return self._scenes[name]
+
+    def _finished(self, running: dict[Any, Any], connected: float) -> tuple[list[Any], float]:
+        """Return the tasks that have ended, and when the scheduler was last reached."""
+        from distributed import wait
+
+        done: list[Any] = []
+        with suppress(TimeoutError, *CANCELLED, OSError, RuntimeError), self.client.as_current():
+            done = list(wait(list(running), timeout=1, return_when="FIRST_COMPLETED").done)
+        if self.client.status == "running":
+            return done or [each for each in running if each.status in LOST], time.monotonic()
+        if time.monotonic() - connected > LOST_AFTER or self.client.status == "closed":
+            raise SoftShadowError("the scheduler is lost; all points that were reported are safe, --resume goes on")
+        time.sleep(0.2)
+        return [], connected
+
+    def _send_again(self, group: list[Point], waiting: list[Point]) -> None:
+        """Put points back whose task the cluster has lost, with the scenes that it may have lost, too."""
+        self._losses += 1
+        if self._losses > MOST_LOSSES:
+            raise SoftShadowError("the cluster loses tasks again and again; all points that were reported are safe")
+        self._scenes.clear()
+        waiting += reversed(group)
+
+    def _learn(self, seconds: float, points: int) -> None:
+        self._seconds = 0.5 * self._seconds + 0.5 * seconds / points
+
+
+def measured_group(points: list[Point], scene: Any) -> list[Result]:
+    """Return the results of points that have one scene: what a task is. A process measures one point at a time."""
+    with ONE_AT_A_TIME:
+        return [measure(point, scene) for point in points]
+
+
+def reason_of(future: Any) -> str:
+    """Return why a task has no result."""
+    try:
+        error = future.exception(timeout=1)
+    except Exception as caught:  # the reason itself may be lost
+        error = caught
+    if type(error).__name__ == "KilledWorker":
+        return "the workers that measured this point ended, each time; it may need more memory than they have"
+    return f"{type(error).__name__}: {error}"
+
+
+def is_installed() -> bool:
+    """Return whether the package distributed is there."""
+    return find_spec("distributed") is not None
+
+
+@contextmanager
+def dask_engine(scheduler: str | None = None, workers: int | None = None) -> Iterator[DaskEngine]:
+    """Connect to a scheduler, or start a cluster on this machine, and close what was started at the end.
+
+    Parameters
+    ----------
+    scheduler : str              address, such as "tcp://192.168.1.5:8786"; None starts a cluster
+    workers : int                number of worker processes of the cluster; by default one for each core
+
+    Raises
+    ------
+    SoftShadowError              no scheduler answers, distributed is missing, or a worker has another version
+    """
+    if not is_installed():
+        raise SoftShadowError(NEEDS)
+    from distributed import Client, LocalCluster
+
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers inherit it
+    cluster = None
+    try:
+        if scheduler is None:
+            cluster = LocalCluster(
+                n_workers=workers or os.cpu_count() or 1, threads_per_worker=1, processes=True,
+                dashboard_address="127.0.0.1:0", silence_logs=50,
+            )  # fmt: skip
+        client = Client(cluster or scheduler, timeout=20, set_as_default=False)
+    except (OSError, TimeoutError, ValueError) as error:
+        if cluster is not None:
+            cluster.close()
+        where = f"--scheduler {scheduler}" if scheduler else "the local cluster"
+        raise SoftShadowError(
+            f"{where}: no scheduler answers ({error}); expected one such as tcp://host:8786"
+        ) from None
+    try:
+        refuse_other_versions(client)
+        yield DaskEngine(client, client.dashboard_link if find_spec("bokeh") else None)
+    finally:
+        client.close(timeout=5)
+        if cluster is not None:
+            cluster.close(timeout=5)
+
+
+def refuse_other_versions(client: Any) -> None:
+    """Raise an error if a worker has another version of this package: its bits might differ."""
+    versions = set(client.run(own_version).values())
+    if versions - {softshadow.__version__}:
+        raise SoftShadowError(
+            f"workers have softshadow {', '.join(sorted(versions))}; expected {softshadow.__version__}, as here"
+        )
+
+
+def own_version() -> str:
+    """Return the version of this package on a worker."""
+    return softshadow.__version__

@@ -1,0 +1,34 @@
+"""Valid calls of selection, feedback, evaluators, conditional rendering and GLU's quadrics, as in `facade_calls`."""
+
+from typing import Any
+
+import numpy as np
+
+CURVE = np.array([[0, 0, 0], [0.5, 1, 0], [1, 0, 0]], np.float32)
+SURFACE = np.array([[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]], np.float32)
+
+MORE_CALLS: dict[str, tuple[Any, ...]] = {
+    "glRenderMode": ("GL_RENDER",), "glSelectBuffer": (16,), "glFeedbackBuffer": (16, "GL_3D"),
+    "glPassThrough": (1.5,), "glInitNames": (), "glLoadName": (3,), "glPushName": (3,), "glPopName": (),
+    "glBeginConditionalRender": ("@query", "GL_QUERY_WAIT"), "glEndConditionalRender": (),
+    "glEvalPoint1": (1,), "glEvalPoint2": (1, 2), "glEvalMesh1": ("GL_LINE", 0, 2),
+    "glEvalMesh2": ("GL_FILL", 0, 2, 0, 2),
+    "gluPickMatrix": (4.0, 3.0, 2.0, 1.5, [0, 0, 16, 12]), "gluNewQuadric": (), "gluDeleteQuadric": ("@old_quadric",),
+    "gluQuadricDrawStyle": ("@quadric", "GLU_LINE"), "gluQuadricNormals": ("@quadric", "GLU_FLAT"),
+    "gluQuadricOrientation": ("@quadric", "GLU_INSIDE"), "gluQuadricTexture": ("@quadric", True),
+    "gluQuadricCallback": ("@quadric", 100103, abs), "gluSphere": ("@quadric", 0.5, 4, 3),
+    "gluCylinder": ("@quadric", 0.5, 0.25, 1.0, 4, 2), "gluDisk": ("@quadric", 0.25, 0.5, 4, 2),
+    "gluPartialDisk": ("@quadric", 0.25, 0.5, 4, 2, 30.0, 60.0),
+    "gluErrorString": (1280,), "gluGetString": (100800,), "gluCheckExtension": (b"two", b"one two three"),
+    **{f"glMap1{kind}": ("GL_MAP1_VERTEX_3", 0.0, 1.0, CURVE.astype(kind)) for kind in "fd"},
+    **{f"glMap2{kind}": ("GL_MAP2_VERTEX_3", 0.0, 1.0, 0.0, 1.0, SURFACE.astype(kind)) for kind in "fd"},
+    **{f"glMapGrid1{kind}": (3, 0.0, 1.0) for kind in "fd"},
+    **{f"glMapGrid2{kind}": (3, 0.0, 1.0, 2, 0.0, 1.0) for kind in "fd"},
+    **{f"glEvalCoord1{kind}": (0.5,) for kind in "fd"}, **{f"glEvalCoord1{kind}v": ([0.5],) for kind in "fd"},
+    **{f"glEvalCoord2{kind}": (0.5, 0.25) for kind in "fd"},
+    **{f"glEvalCoord2{kind}v": ([0.5, 0.25],) for kind in "fd"},
+    **{
+        f"glGetMap{kind}v": ("GL_MAP1_VERTEX_3", "GL_DOMAIN", np.zeros(90, dtype))
+        for kind, dtype in (("f", np.float32), ("d", np.float64), ("i", np.int32))
+    },
+}  # fmt: skip
