@@ -27,11 +27,11 @@ html_css_files = ["softshadow.css"]
 myst_enable_extensions = ["colon_fence", "deflist"]
 myst_heading_anchors = 3
 
-nb_custom_formats = {".py": ["jupytext.reads", {"fmt": "py:percent"}]}  # the notebooks
+nb_custom_formats = {".py": ["jupytext.reads", {"fmt": "py:percent"}]}  # the lessons
 nb_execution_mode = "force"  # numbers and pictures on the pages are those of this version
 nb_execution_raise_on_error = True
 # of the lessons the quick lane executes four; `.ci/run --all` all
-QUICK_LESSONS = ("05_stencil_buffer", "11_zpass")
+QUICK_LESSONS = ("05_stencil_buffer", "08_planar_with_stencil", "11_zpass", "16_shadow_maps")
 if os.environ.get("SOFTSHADOW_LANE") != "all":
     nb_execution_excludepatterns = [
         f"lessons/{path.name}"

@@ -9,7 +9,7 @@ from softshadow.context import Context
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import enum, numbers
 from softshadow.gl.errors import fail, outside_begin, wrong_enum
-from softshadow.gl.fragment_state import rounded
+from softshadow.gl.fragment_state import rounded, rounded_number
 
 SIZES = {
     gl.GL_POINT_SIZE_MIN: "smallest",
@@ -61,7 +61,7 @@ def _set(operation: str, pname: int, values: Any) -> None:
         if values[0] < 0:
             fail(gl.GL_INVALID_VALUE, operation, f"{values[0]:g}: expected 0 or more")
             return
-        context.change("points", **{SIZES[pname]: rounded(context, values[0])})
+        context.change("points", **{SIZES[pname]: rounded_number(context, values[0])})
     elif pname == gl.GL_POINT_SPRITE_COORD_ORIGIN:
         origin = enum(values[0])
         if origin not in ORIGINS:

@@ -19,7 +19,7 @@ from softshadow.inspection.reasons import clear_reason, culled_reason, cut_reaso
 from softshadow.inspection.row_fields import lights_of, origin_fields, source_color
 from softshadow.inspection.step import object_of
 from softshadow.inspection.timeline import Event, Timeline
-from softshadow.pipeline.commands import Clear, CopyToTexture, Draw
+from softshadow.pipeline.commands import Clear, Command, CopyToTexture, Draw, DrawDepths
 from softshadow.pipeline.records import SCISSORED, VERDICTS
 from softshadow.texture import Texture
 
@@ -121,7 +121,7 @@ class Follower:
             pixel.write(each.image, each.at(self.row, self.column))
         after = pixel.cells(target)
         if is_shown and after != before:
-            yield self._row(event, target, before, after, verdict=WRITTEN, reason=type(event.command).__name__)
+            yield self._row(event, target, before, after, verdict=WRITTEN, reason=reason_of(event.command))
 
     def _copied_rows(self, event: Event, command: CopyToTexture) -> Iterator[HistoryRow]:
         """Yield the rows of the pixel that a texel was copied from, since its last clear."""
@@ -271,3 +271,13 @@ def _only(image: Image) -> Framebuffer:
     """Return a framebuffer that has only this image."""
     kinds = {"depth": gl.GL_DEPTH_ATTACHMENT, "stencil": gl.GL_STENCIL_ATTACHMENT}
     return Framebuffer(-1, {kinds.get(image.format.kind, gl.GL_COLOR_ATTACHMENT0): Attachment(image)})
+
+
+def reason_of(command: Command) -> str:
+    """Return what wrote a pixel without fragments of its own: the call of a rectangle, or the name of the command."""
+    if isinstance(command, DrawDepths):
+        kinds = [
+            kind for kind, drawn in (("depths", command.has_depth), ("stencil values", command.has_stencil)) if drawn
+        ]
+        return f"glDrawPixels or glCopyPixels of {' and '.join(kinds)}"
+    return type(command).__name__

@@ -57,6 +57,8 @@ class Packer:
             return value
         if isinstance(value, np.generic):
             return value.item()
+        if isinstance(value, bytes):
+            return {"bytes": value.hex()}
         if isinstance(value, list | tuple):
             return {"list" if isinstance(value, list) else "tuple": [self.pack(item) for item in value]}
         if isinstance(value, Mapping):
@@ -112,6 +114,8 @@ class Unpacker:
             if content < 0:
                 raise IndexError(f"{key} {content}")
             return (self.arrays if key == "array" else self.objects)[content]
+        if key == "bytes":
+            return bytes.fromhex(content)
         if key == "mapping":
             return {self.unpack(name): self.unpack(item) for name, item in content}
         if key == "dtype":

@@ -18,6 +18,8 @@ from softshadow.framebuffer import DEPTH_FORMATS, LARGEST_SIDE, NOTHING
 from softshadow.image import EXACT_DEPTH, FORMATS, STENCIL8, Image, zeroed_cells
 from softshadow.inspection.replay import Buffers
 from softshadow.pipeline import commands
+from softshadow.state import Polygon
+from softshadow.state.rasterization import SOLID
 
 # what GL calls hold: signed or unsigned numbers of 32 bits
 SMALLEST_INT, LARGEST_INT = -(2**31), 2**32 - 1
@@ -40,6 +42,8 @@ def validate_fields(kind: type, values: Mapping[str, Any]) -> None:
     for name, value in values.items():
         if name != "history_bytes":  # nothing more is recorded
             validate_type(f"{kind.__name__}.{name}", value, hints[name])
+    if kind is Polygon and len(values["stipple"]) != len(SOLID):
+        raise ValueError(f"Polygon.stipple: expected {len(SOLID)} bytes")
 
 
 def validate_type(name: str, value: Any, kind: Any) -> None:
@@ -89,12 +93,17 @@ def validate_frame(frame: Any) -> None:
     if ends != sorted(ends):
         raise ValueError("the steps do not end in order, or after the last command")
     validate_type("a command", tuple(frame.commands), tuple[commands.Command, ...])
-    for command in frame.commands:
+    for command in map(drawing, frame.commands):
         if isinstance(command, commands.Draw):
             _validate_draw(command)
         elif isinstance(command, commands.DefineImage | commands.DefineRenderbuffer):
             _validate_definition(command)
     _validate_names(frame)
+
+
+def drawing(command: commands.Command) -> commands.Command:
+    """Return the draw inside a command, or the command itself."""
+    return command.draw if isinstance(command, commands.DrawDepths) else command
 
 
 def validate_buffers(frame: Frame, buffers: Buffers) -> None:
@@ -161,7 +170,7 @@ def _validate_names(frame: Frame) -> None:
         name: set() if start is None else set(getattr(start, f"{name}s")) for name in OBJECTS
     }  # fmt: skip
     known["read"] = known["draw"] = known["draw_framebuffer"] = known["read_framebuffer"] = known["framebuffer"]
-    for command in frame.commands:
+    for command in map(drawing, frame.commands):
         if isinstance(command, CREATES):
             known[fields(command)[0].name].add(getattr(command, fields(command)[0].name))
         for part in (command, getattr(command, "state", None)):

@@ -15,6 +15,7 @@ import ctypes
 import importlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import wraps
 from typing import Any
 
 import numpy as np
@@ -37,7 +38,6 @@ def _context_key(context: Any = None) -> Any:
     return ctypes.cast(context or platform.GetCurrentContext(), ctypes.c_void_p).value
 
 
-contextdata.getContext = _context_key
 CHANNELS = {
     **dict.fromkeys((GL.GL_RED, GL.GL_GREEN, GL.GL_BLUE, GL.GL_ALPHA, GL.GL_LUMINANCE), 1),
     **dict.fromkeys((GL.GL_DEPTH_COMPONENT, GL.GL_STENCIL_INDEX, GL.GL_DEPTH_STENCIL), 1),
@@ -313,6 +313,25 @@ def _with_unknown_names(function: Callable[..., Any], ctype: Any) -> Callable[..
     return get
 
 
+def _under_one_key(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a call that finds what an earlier one has stored for its context, such as the array of glSelectBuffer.
+
+    For other calls a key that is new each time is right: a vertex array must stay in memory though the call for another
+    texture unit gives one of the same name.
+    """
+
+    @wraps(function)
+    def call(*arguments: Any) -> Any:
+        before = contextdata.getContext
+        contextdata.getContext = _context_key
+        try:
+            return function(*arguments)
+        finally:
+            contextdata.getContext = before
+
+    return call
+
+
 def _bound(target: int) -> bool:
     return bool(GL.glGetIntegerv(target))
 
@@ -350,6 +369,7 @@ def glGetBufferParameteriv(target: int, pname: int) -> int:
 
 
 OWN: dict[str, Callable[..., Any]] = {
+    **{name: _under_one_key(getattr(GL, name)) for name in ("glRenderMode", "glSelectBuffer", "glFeedbackBuffer")},
     "glGetPolygonStipple": glGetPolygonStipple,
     "glGetPolygonStippleub": glGetPolygonStipple,
     "glReadPixels": glReadPixels,

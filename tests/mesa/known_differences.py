@@ -104,13 +104,6 @@ def triangle(gl: Any, mode: int, corners: list[tuple[float, float]]) -> None:
     gl.glEnd()
 
 
-def unfinished_quad(gl: Any) -> None:
-    gl.glNewList(1, gl.GL_COMPILE)
-    triangle(gl, gl.GL_QUADS, CORNERS[:3])
-    gl.glEndList()
-    gl.glCallList(1)
-
-
 def late_color(gl: Any) -> None:
     gl.glNewList(1, gl.GL_COMPILE)
     gl.glBegin(gl.GL_TRIANGLE_STRIP)
@@ -202,13 +195,6 @@ FAULTS = (
         "Mesa draws the rectangle with the plane of its first triangle; here each triangle has its own",
         242,
         rectangle_and_level_triangle,
-    ),
-    KnownDifference(
-        "unfinished quad in a list",
-        "three vertices of GL_QUADS or GL_QUAD_STRIP in a display list, where a fourth never comes",
-        "Mesa draws a triangle; GL 2.1, sec. 2.6.1, ignores incomplete primitives, and so does Mesa outside lists",
-        255,
-        unfinished_quad,
     ),
     KnownDifference(
         "late colour in a list",

@@ -33,6 +33,7 @@ def test_slurm_job_starts_a_worker_process_with_one_thread_for_each_core() -> No
         script = cluster.job_script()
     assert "#SBATCH --cpus-per-task=16" in script
     assert "#SBATCH --mem=30G" in script
-    assert "--nthreads 1 --nworkers 16" in script
+    assert " --nthreads 1 " in script
+    assert " --nworkers 16 " in script
     checked = subprocess.run(["bash", "-n"], input=script, capture_output=True, text=True)
     assert (checked.returncode, checked.stderr) == (0, "")
