@@ -2,6 +2,8 @@
 
 from softshadow.sweeps.contact_sheet import save_contact_sheet
 from softshadow.sweeps.execution import Progress, execute
+from softshadow.sweeps.films.animate import animate
+from softshadow.sweeps.films.film import Film
 from softshadow.sweeps.measured import Result, measure
 from softshadow.sweeps.perform import sweep
 from softshadow.sweeps.plot import PlotRequest, save_plot
@@ -10,12 +12,14 @@ from softshadow.sweeps.specification import Specification, read_specification
 from softshadow.sweeps.table import SweepTable, load_sweep
 
 __all__ = [
+    "Film",
     "PlotRequest",
     "Point",
     "Progress",
     "Result",
     "Specification",
     "SweepTable",
+    "animate",
     "execute",
     "load_sweep",
     "measure",

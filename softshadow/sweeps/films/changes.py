@@ -155,10 +155,10 @@ def changed_scene(scene: Scene, changes: Sequence[Change], frame: int) -> Scene:
     """Return the scene of a frame: its lights and camera stand where the changes put them."""
     for change in changes:
         if change.target == "light":
-            lights = [
+            lights = tuple(
                 replace(light, position=change.values[frame]) if light.name == change.name else light
                 for light in scene.lights
-            ]
+            )
             scene = replace(scene, lights=lights)
         elif change.target == "camera":
             scene = replace(scene, camera=replace(scene.camera, eye=change.values[frame]))

@@ -49,8 +49,7 @@ def panels_of(run: Run, shown: Sequence[str], by_step: bool) -> list[Panel]:
         if name not in known:
             raise ValueError(f"show {name!r}: {nearest(name, known)}")
     if not by_step:
-        ends = [(name, _last_with(run, name)) for name in shown]
-        return [Panel(name, name, values_of(step, name)) for name, step in ends]
+        return [Panel(name, name, _last_values(run, name)) for name in shown]
     return [
         Panel(f"{step.index} {step.title}" if len(shown) == 1 else f"{step.index} {name}: {step.title}", name, values)
         for step in run.steps
@@ -59,8 +58,9 @@ def panels_of(run: Run, shown: Sequence[str], by_step: bool) -> list[Panel]:
     ]
 
 
-def _last_with(run: Run, name: str) -> Step:
-    return next(step for step in reversed(tuple(run.steps)) if values_of(step, name) is not None)
+def _last_values(run: Run, name: str) -> np.ndarray:
+    every = (values_of(step, name) for step in reversed(tuple(run.steps)))
+    return next(values for values in every if values is not None)
 
 
 def values_of(step: Step, name: str) -> np.ndarray | None:

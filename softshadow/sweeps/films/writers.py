@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -122,8 +122,9 @@ def _write_mp4(path: Path, pictures: Sequence[np.ndarray], rate: int) -> None:
     with imageio.imopen(path, "w", plugin="pyav") as file:
         file.container_metadata["comment"] = MARK
         file.init_video_stream("libx264", fps=rate, pixel_format="yuv420p")
-        file._video_stream.codec_context.thread_count = 1
-        file._video_stream.codec_context.options = {"crf": CRF, "preset": "medium"}
+        codec: Any = file._video_stream.codec_context
+        codec.thread_count = 1
+        codec.options = {"crf": CRF, "preset": "medium"}
         for picture in pictures:
             height, width = picture.shape[:2]
             even = np.pad(picture, ((0, height % 2), (0, width % 2), (0, 0)), "edge")
