@@ -73,6 +73,7 @@ EXTENSIONS = (
     "EXT.separate_specular_color", "EXT.rescale_normal", "EXT.draw_range_elements", "EXT.multi_draw_arrays",
     "NV.depth_clamp", "ATI.separate_stencil", "ATI.draw_buffers", "SGIS.texture_edge_clamp", "SGIS.generate_mipmap",
     "SGIS.texture_border_clamp", "SGIS.texture_lod", "SGIX.depth_texture", "IBM.texture_mirrored_repeat",
+    "NV.conditional_render",
 )  # fmt: skip
 
 _current: "MesaGL | None" = None
