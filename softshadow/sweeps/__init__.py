@@ -4,12 +4,13 @@ from softshadow.sweeps.contact_sheet import save_contact_sheet
 from softshadow.sweeps.execution import Progress, execute
 from softshadow.sweeps.films.animate import animate
 from softshadow.sweeps.films.film import Film
-from softshadow.sweeps.measured import Result, measure
+from softshadow.sweeps.measured import measure
 from softshadow.sweeps.perform import sweep
 from softshadow.sweeps.plot import PlotRequest, save_plot
 from softshadow.sweeps.point import Point
 from softshadow.sweeps.specification import Specification, read_specification
 from softshadow.sweeps.table import SweepTable, load_sweep
+from softshadow.sweeps.task import Result
 
 __all__ = [
     "Film",

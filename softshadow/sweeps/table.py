@@ -16,7 +16,7 @@ import numpy as np
 from softshadow.errors import SoftShadowError, nearest
 from softshadow.inspection.files import MARK, write_whole
 from softshadow.sweeps.journal import rows_of
-from softshadow.sweeps.measured import Row
+from softshadow.sweeps.task import Row
 
 SUFFIXES = (".csv", ".parquet", ".json")
 SCHEMA = "softshadow/sweep-table/1"

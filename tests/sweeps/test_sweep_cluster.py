@@ -23,7 +23,7 @@ picture = true
 [options]
 map_size = [32, 64, 128]
 [light.circle]
-centre = [0, 4, 0]
+center = [0, 4, 0]
 radius = 2
 count = 3
 """

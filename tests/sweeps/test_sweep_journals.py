@@ -67,7 +67,7 @@ def test_progress_counts_done_and_failed_points(tmp_path: Path) -> None:
 
 def test_journal_of_an_earlier_sweep_is_not_overwritten(tmp_path: Path) -> None:
     execute(POINTS[:1], tmp_path / "a.journal", Counting())
-    with pytest.raises(SoftShadowError, match=r"a.journal: a journal of an earlier sweep is here; expected --resume"):
+    with pytest.raises(SoftShadowError, match=r"a.journal: an earlier journal is here; expected --resume"):
         execute(POINTS, tmp_path / "a.journal", Counting())
 
 
@@ -75,7 +75,7 @@ def test_two_sweeps_do_not_write_one_journal(tmp_path: Path) -> None:
     pytest.importorskip("fcntl")
     with Journal(tmp_path / "a.journal") as journal:
         journal.open(resume=False)
-        with pytest.raises(SoftShadowError, match="another sweep writes this journal now"):
+        with pytest.raises(SoftShadowError, match="another process writes this journal now"):
             execute(POINTS, tmp_path / "a.journal", Counting(), resume=True)
 
 
@@ -106,7 +106,7 @@ def test_full_disk_ends_the_sweep_with_all_earlier_points_safe(tmp_path: Path) -
     command = [sys.executable, "-c", FULL, str(path)]
     ended = subprocess.run(command, capture_output=True, text=True, cwd=Path(__file__).parents[1], check=True)
     assert "could not be written" in ended.stdout
-    assert "all earlier points are safe, and --resume goes on" in ended.stdout
+    assert "all earlier ones are safe, and --resume goes on" in ended.stdout
     assert path.read_bytes().endswith(b"}\n")
     safe = len(path.read_bytes().splitlines()) - 1
     assert 0 < safe < len(POINTS)

@@ -1,57 +1,40 @@
-"""`animate`: draw the frames of a film, each a run of its own, and put them together."""
+"""`animate`: draw the frames of a film, each a task of its own, and put them together."""
 
 from __future__ import annotations
 
 import operator
+import os
 import sys
-import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
+from zipfile import BadZipFile
 
 from softshadow import errors, techniques
 from softshadow.errors import SoftShadowError
-from softshadow.runs import run
 from softshadow.runs.issue_once import issue_once
 from softshadow.runs.perform import checked_size, memory
 from softshadow.scene import Scene
+from softshadow.sweeps.execution import Engine, Progress, engine_for, execute
 from softshadow.sweeps.films.changes import (
     Change,
     camera_change,
     changed_options,
-    changed_scene,
     light_change,
+    moves_of,
     option_change,
 )
 from softshadow.sweeps.films.film import Film
+from softshadow.sweeps.films.frame import FILES, DrawnFrame, Frame, described, draw_frame, drawn_frame, scene_digest
 from softshadow.sweeps.films.layout import Layout
-from softshadow.sweeps.films.panels import Panel, depth_limits, panels_of
+from softshadow.sweeps.films.panels import depth_limits
 from softshadow.sweeps.films.writers import LARGEST_RATE
+from softshadow.sweeps.journal import Journal
+from softshadow.sweeps.task import Result, Work
 from softshadow.techniques import Technique
 
 SHARE_OF_MEMORY = 0.5  # that the panels and pictures of a film may take
-
-
-@dataclass(frozen=True)
-class FrameRecipe:
-    """All that one frame is drawn from; it needs nothing of the other frames."""
-
-    technique: str | Technique
-    scene: Scene
-    size: tuple[int, int]
-    options: dict[str, Any]
-    show: tuple[str, ...]
-    steps: bool
-    label: str
-
-
-@dataclass(frozen=True, eq=False)
-class DrawnFrame:
-    """The panels of a frame, and the warnings of its run."""
-
-    panels: tuple[Panel, ...]
-    warnings: tuple[errors.Warning, ...]
 
 
 def animate(
@@ -69,7 +52,12 @@ def animate(
     captions: bool = True,
     rate: int = 24,
     poster_frame: int | None = None,
-    each_frame: Callable[[int, int], object] | None = None,
+    workers: int | None = 1,
+    scheduler: str | None = None,
+    journal: str | os.PathLike[str] | None = None,
+    resume: bool = False,
+    report: Callable[[Progress], Any] = lambda progress: None,
+    started: Callable[[str | None], Any] = lambda dashboard: None,
     **options: Any,
 ) -> Film:
     """Draw a film: a technique again and again while a light, the camera or options change.
@@ -88,13 +76,19 @@ def animate(
     captions : bool              write below the picture what changes
     rate : int                   frames per second, 1 to 50
     poster_frame : int           stands for the film where it does not play; the middle one by default
-    each_frame : callable        called with the number of finished frames and of all frames
+    workers : int | None         1: in this process; more: so many processes; None: one for each core
+    scheduler : str              address of a Dask scheduler that runs already, such as "tcp://host:8786"
+    journal : path               where each frame is kept as soon as it is drawn, with a folder beside it
+    resume : bool                go on with the journal that is there: no frame is drawn twice
+    report : callable            called with a `Progress` at the beginning and after every frame
+    started : callable           called with the address of the cluster's page, or None, when it is ready
 
     Raises
     ------
     ValueError, TypeError        as `run`; nothing that changes; a change of what does not exist
     SceneError                   a path that is wrong
-    SoftShadowError              a frame that the technique cannot draw; the message tells which
+    SoftShadowError              a frame that the technique cannot draw (the message tells which); a journal exists, or
+                                 cannot be written; the scheduler is lost
     """
     technique = techniques.get(technique)
     scene = Scene.named(scene) if isinstance(scene, str) else scene
@@ -109,17 +103,27 @@ def animate(
     changes = _changes(technique, scene, light_path, camera_path, _texts(vary), n_frames, of_light)
     _refuse_fixed(changes, options)
     texts = [[change.labels[frame] for change in changes] for frame in range(n_frames)]
-    recipes = [
-        FrameRecipe(
-            technique, changed_scene(scene, changes, frame), checked_size(size),
-            technique.validate_options({**options, **changed_options(changes, frame)}), shown, steps,
-            f"frame {frame} ({', '.join(texts[frame])})",
+    here = scheduler is None and workers == 1
+    digest, panel_size = scene_digest(scene), checked_size(size)
+    tasks = [
+        Frame(
+            technique, digest, moves_of(changes, frame),
+            technique.validate_options({**options, **changed_options(changes, frame)}), panel_size, shown, steps,
+            f"frame {frame} ({', '.join(texts[frame])})", None if here else 1,
         )
         for frame in range(n_frames)
     ]  # fmt: skip
-    drawn = _draw_all(recipes, each_frame)
+    work = Work(draw_frame, described, lambda frame: scene)
+    with TemporaryDirectory() as folder, engine_for(work, scheduler, workers) as (engine, count_workers, dashboard):
+        started(dashboard)
+        place = Path(folder) / "film.journal" if journal is None else Path(journal)
+        rows = execute(
+            tasks, place, _all_or_none(engine, n_frames), resume=resume, report=report, workers=count_workers,
+            files=FILES,
+        )  # fmt: skip
+        drawn = [_read(row, Journal(place, FILES)) for row in rows]
     limits = depth_limits(panel for frame in drawn for panel in frame.panels)
-    layout = Layout([frame.panels for frame in drawn], texts if captions else [], recipes[0].size)
+    layout = Layout([frame.panels for frame in drawn], texts if captions else [], panel_size)
     pictures = [layout.picture(number, frame.panels, limits) for number, frame in enumerate(drawn)]
     raised = one_of_each([frame.warnings for frame in drawn])
     for message in raised:
@@ -169,49 +173,50 @@ def _whole(name: str, value: Any, smallest: int, largest: int | None = None) -> 
 
 
 # -- drawing -----------------------------------------------------------------------------------------------------------
-def _draw_all(recipes: Sequence[FrameRecipe], each_frame: Callable[[int, int], object] | None) -> list[DrawnFrame]:
-    """Draw the frames in order; the first one tells how much memory all need."""
-    drawn: list[DrawnFrame] = []
-    for recipe in recipes:
-        drawn.append(draw_frame(recipe))
-        if len(drawn) == 1:
-            _check_memory(drawn[0], len(recipes))
-        if each_frame is not None:
-            each_frame(len(drawn), len(recipes))
-    return drawn
+def _all_or_none(engine: Engine, n_frames: int) -> Engine:
+    """Return an engine that ends with an error at the first frame that cannot be drawn: a film needs all of them."""
+
+    def draw(tasks: Sequence[Frame]) -> Iterator[tuple[Frame, Result]]:
+        checked = False
+        for task, result in engine(tasks):
+            if result.file is None:
+                raise _error_of(task, result.row["error"])
+            if not checked:
+                _check_memory(drawn_frame(result.row, result.file), n_frames)
+                checked = True
+            yield task, result
+
+    return draw
 
 
-def _check_memory(first: DrawnFrame, n_frames: int) -> None:
-    width_by_height = sum(panel.values.shape[0] * panel.values.shape[1] for panel in first.panels)
-    needed = n_frames * (sum(panel.values.nbytes for panel in first.panels) + 3 * width_by_height)
+def _error_of(frame: Frame, text: str) -> Exception:
+    """Return the error of a frame: for a wrong argument that error itself, else one that tells the frame."""
+    kind, _, said = text.partition(": ")
+    if kind in ("ValueError", "TypeError"):
+        return {"ValueError": ValueError, "TypeError": TypeError}[kind](said)
+    known = isinstance(getattr(errors, kind, None), type)
+    return SoftShadowError(f"{frame.label}: {said if known else text}")
+
+
+def _check_memory(frame: DrawnFrame, n_frames: int) -> None:
+    width_by_height = sum(panel.values.shape[0] * panel.values.shape[1] for panel in frame.panels)
+    needed = n_frames * (sum(panel.values.nbytes for panel in frame.panels) + 3 * width_by_height)
     if needed > SHARE_OF_MEMORY * memory():
         raise SoftShadowError(
-            f"{n_frames} frames of {len(first.panels)} pictures need about {needed / 1e9:.1f} GB and this machine has "
+            f"{n_frames} frames of {len(frame.panels)} pictures need about {needed / 1e9:.1f} GB and this machine has "
             f"{memory() / 1e9:.1f}; expected fewer frames, or a smaller size"
         )
 
 
-def draw_frame(recipe: FrameRecipe) -> DrawnFrame:
-    """Return the panels of one frame.
-
-    Raises
-    ------
-    SoftShadowError              the technique cannot draw it; the message tells the frame and what changes
-    """
-    with _without_own_warnings():
-        try:
-            drawn = run(recipe.technique, recipe.scene, recipe.size, **recipe.options)
-        except SoftShadowError as error:
-            raise SoftShadowError(f"{recipe.label}: {error}") from error
-    return DrawnFrame(tuple(panels_of(drawn, recipe.show, recipe.steps)), drawn.warnings)
-
-
-@contextmanager
-def _without_own_warnings() -> Iterator[None]:
-    """Do not show the warnings of this package; the run lists them."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", errors.Warning)
-        yield
+def _read(row: dict[str, Any], journal: Journal) -> DrawnFrame:
+    """Return a frame from its journal."""
+    file = journal.file_of(row["key"])
+    try:
+        return drawn_frame(row, file.read_bytes())
+    except (OSError, ValueError, KeyError, BadZipFile) as error:
+        raise SoftShadowError(
+            f"{file}: the frame cannot be read ({error}); delete {journal.path} and this folder to draw all anew"
+        ) from None
 
 
 def one_of_each(by_frame: Sequence[Sequence[errors.Warning]]) -> tuple[errors.Warning, ...]:

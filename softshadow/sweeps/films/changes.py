@@ -15,10 +15,11 @@ import numpy as np
 
 from softshadow.errors import SceneError, nearest
 from softshadow.scene import Scene
-from softshadow.sweeps.films.paths import route_of
+from softshadow.sweeps.paths import route_of
 from softshadow.techniques import Option, Technique
 
 MOST_DIGITS = 6  # after the point
+Move = tuple[str, str, tuple[float, ...]]  # "light" or "camera", its name, its position
 
 
 @dataclass(frozen=True)
@@ -150,18 +151,26 @@ def fixed(value: float, digits: int) -> str:
     return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
-# -- scenes ------------------------------------------------------------------------------------------------------------
-def changed_scene(scene: Scene, changes: Sequence[Change], frame: int) -> Scene:
-    """Return the scene of a frame: its lights and camera stand where the changes put them."""
-    for change in changes:
-        if change.target == "light":
+# -- frames ------------------------------------------------------------------------------------------------------------
+def moves_of(changes: Sequence[Change], frame: int) -> tuple[Move, ...]:
+    """Return where the changes put lights and camera in a frame."""
+    return tuple(
+        (change.target, change.name, tuple(change.values[frame].tolist()))
+        for change in changes
+        if change.target != "option"
+    )
+
+
+def moved_scene(scene: Scene, moves: Sequence[Move]) -> Scene:
+    """Return the scene with its lights and camera where the moves put them."""
+    for target, name, position in moves:
+        if target == "light":
             lights = tuple(
-                replace(light, position=change.values[frame]) if light.name == change.name else light
-                for light in scene.lights
+                replace(light, position=np.array(position)) if light.name == name else light for light in scene.lights
             )
             scene = replace(scene, lights=lights)
-        elif change.target == "camera":
-            scene = replace(scene, camera=replace(scene.camera, eye=change.values[frame]))
+        else:
+            scene = replace(scene, camera=replace(scene.camera, eye=np.array(position)))
     return scene
 
 

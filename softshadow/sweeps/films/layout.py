@@ -40,24 +40,31 @@ def line_height(size: int) -> int:
 
 
 def wrapped(parts: Sequence[str], size: int, width: int) -> list[str]:
-    """Return the parts of a caption in as few lines as fit the width; parts are cut if they are longer than a line."""
+    """Return the parts of a caption in as few lines as fit the width; a part longer than a line is broken."""
     lines: list[str] = []
     for part in parts:
         joined = f"{lines[-1]}   {part}" if lines else part
         if lines and _font(size).getlength(joined) <= width:
             lines[-1] = joined
         else:
-            lines.append(cut(part, size, width))
+            lines += broken(part, size, width)
     return lines
 
 
-def cut(text: str, size: int, width: int) -> str:
-    """Return a text, or its beginning and an ellipsis if it is wider than a width in pixels."""
-    if _font(size).getlength(text) <= width:
-        return text
-    while text and _font(size).getlength(text + "…") > width:
-        text = text[:-1]
-    return text + "…"
+def broken(text: str, size: int, width: int) -> list[str]:
+    """Return a text in lines of at most a width in pixels, broken between words, and inside a word only if it must."""
+    lines = [""]
+    for word in text.split():
+        joined = f"{lines[-1]} {word}".lstrip()
+        if _font(size).getlength(joined) <= width:
+            lines[-1] = joined
+            continue
+        lines += [""] if lines[-1] else []
+        for character in word:
+            if lines[-1] and _font(size).getlength(lines[-1] + character) > width:
+                lines.append("")
+            lines[-1] += character
+    return lines
 
 
 class Layout:
@@ -79,7 +86,9 @@ class Layout:
         n_rows = -(-n_panels // self.n_columns)
         self.width = even(self.n_columns * (self.panel_width + GAP) - GAP)
         self.title_size = text_size(self.panel_width)
-        self.title_height = line_height(self.title_size) if n_panels > 1 else 0
+        titles = {panel.title for panels in frames for panel in panels} if n_panels > 1 else set()
+        self.titles = {each: broken(each, self.title_size, self.panel_width - 2 * MARGIN) for each in titles}
+        self.title_height = max(map(len, self.titles.values()), default=0) * line_height(self.title_size)
         self.row_height = self.title_height + self.panel_height + GAP
         self.caption_top = n_rows * self.row_height - GAP
         self.caption_size = text_size(self.width)
@@ -97,9 +106,8 @@ class Layout:
         for index, panel in enumerate(panels):
             row, column = divmod(index, self.n_columns)
             left, top = column * (self.panel_width + GAP), row * self.row_height
-            if self.title_height:
-                room = self.panel_width - 2 * MARGIN
-                texts.append((left, top, self.title_size, cut(panel.title, self.title_size, room)))
+            for number, line in enumerate(self.titles.get(panel.title, ())):
+                texts.append((left, top + number * line_height(self.title_size), self.title_size, line))
             shown = fitted(panel_picture(panel, limits), self.panel_width, self.panel_height)
             top += self.title_height
             canvas[top : top + shown.shape[0], left : left + shown.shape[1]] = shown

@@ -122,7 +122,8 @@ def _write_mp4(path: Path, pictures: Sequence[np.ndarray], rate: int) -> None:
     with imageio.imopen(path, "w", plugin="pyav") as file:
         file.container_metadata["comment"] = MARK
         file.init_video_stream("libx264", fps=rate, pixel_format="yuv420p")
-        codec: Any = file._video_stream.codec_context
+        stream: Any = file._video_stream
+        codec = stream.codec_context
         codec.thread_count = 1
         codec.options = {"crf": CRF, "preset": "medium"}
         for picture in pictures:

@@ -1,12 +1,13 @@
-"""Paths of lights and cameras: the points where something stands in each frame of a film.
+"""Paths of lights and cameras: the points where something stands in each frame of a film, or point of a sweep.
 
-A path is written as a text, ``orbit``, ``circle:0,4,0,3``, ``line:-2,4,1:2,4,1`` or ``points:2,4,1:0,5,2:-2,4,1``, or
-as a TOML file with the same words as keys. A path that ends where it began has no frame twice, so that a film of it can
-be repeated without a stop.
+For a film, a path is written as a text, ``orbit``, ``circle:0,4,0,3``, ``line:-2,4,1:2,4,1`` or
+``points:2,4,1:0,5,2:-2,4,1``, or as a TOML file with the same words. A path that ends where it began has no point
+twice, so that a film of it can be repeated without a stop.
 """
 
 from __future__ import annotations
 
+import math
 import os
 import tomllib
 from collections.abc import Sequence
@@ -20,21 +21,29 @@ from softshadow.errors import SceneError, nearest
 from softshadow.scene.validate import validate_number, validate_numbers
 
 FULL_TURN = 360.0  # degrees
+DIGITS = 10  # of the largest coordinate of a path: sines and cosines leave no digits of noise in recipes and captions
 FORMS = (
     "orbit, orbit:DEGREES, circle:X,Y,Z,RADIUS, line:X,Y,Z:X,Y,Z, points:X,Y,Z:X,Y,Z:... (with :closed at the end, "
     "back to the first) or FILE.toml"
 )
 KEYS = {
     "orbit": ("degrees",),
-    "circle": ("center", "radius"),
-    "line": ("start", "end"),
+    "circle": ("center", "radius", "start_degrees", "turn_degrees"),
+    "line": ("from", "to"),
     "points": ("points", "closed"),
 }
+OPTIONAL = ("degrees", "start_degrees", "turn_degrees", "closed")
 
 
 def shares(n_frames: int, closed: bool) -> np.ndarray:
     """Return how far along a path each frame is, (n_frames,) float64 from 0; a closed path does not reach 1."""
     return np.arange(n_frames) / max(1, n_frames if closed else n_frames - 1)
+
+
+def rounded(points: np.ndarray) -> np.ndarray:
+    """Return points with `DIGITS` digits, counted from the first one of the largest coordinate; no zero has a sign."""
+    largest = float(np.abs(points).max())
+    return points if largest == 0 else np.round(points, DIGITS - 1 - math.floor(math.log10(largest))) + 0.0
 
 
 @dataclass(frozen=True)
@@ -67,19 +76,23 @@ class Orbit:
             np.full(n_frames, y),
             z * np.cos(angles) - x * np.sin(angles),
         ]
-        return center + np.stack(turned, axis=1)
+        return rounded(center + np.stack(turned, axis=1))
 
 
 @dataclass(frozen=True, eq=False)
 class Circle:
-    """A horizontal circle; it begins at the largest x and goes towards negative z, anticlockwise seen from above."""
+    """A horizontal circle, anticlockwise seen from above: angle 0 is at the largest x, 90 degrees at the smallest z."""
 
     center: np.ndarray
     radius: float
+    start_degrees: float = 0.0
+    turn_degrees: float = FULL_TURN
 
     def points(self, n_frames: int, start: np.ndarray, center: np.ndarray) -> np.ndarray:
         """Return the positions (n_frames, 3) float64; `start` and `center` do not matter."""
-        return Orbit().points(n_frames, self.center + np.array([self.radius, 0, 0]), self.center)
+        angle = np.radians(self.start_degrees)
+        first = self.center + self.radius * np.array([np.cos(angle), 0, -np.sin(angle)])
+        return Orbit(self.turn_degrees).points(n_frames, first, self.center)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,12 +103,12 @@ class Polyline:
     closed: bool = False
 
     def points(self, n_frames: int, start: np.ndarray, center: np.ndarray) -> np.ndarray:
-        """Return the positions (n_frames, 3) float64; `start` and `center` do not matter."""
+        """Return the positions, with as many numbers as the corners have; `start` and `center` do not matter."""
         corners = np.concatenate([self.corners, self.corners[:1]]) if self.closed else self.corners
         lengths = np.linalg.norm(np.diff(corners, axis=0), axis=1)
         passed = np.concatenate([[0], np.cumsum(lengths)])
         at = passed[-1] * shares(n_frames, self.closed)
-        return np.stack([np.interp(at, passed, corners[:, axis]) for axis in range(3)], axis=1)
+        return rounded(np.stack([np.interp(at, passed, numbers) for numbers in corners.T], axis=1))
 
 
 Route = Orbit | Circle | Polyline
@@ -144,26 +157,32 @@ def _from_table(table: dict[str, Any], where: str) -> Route:
     for key in table:
         if key != "kind" and key not in KEYS[kind]:
             raise SceneError(f"{where}: {key}: a path of kind {kind!r} has no such key; {nearest(key, KEYS[kind])}")
-    missing = [key for key in KEYS[kind] if key not in table and key not in ("degrees", "closed")]
+    missing = [key for key in KEYS[kind] if key not in table and key not in OPTIONAL]
     if missing:
         raise SceneError(f"{where}: a path of kind {kind!r} needs {' and '.join(missing)}")
     match kind:
         case "orbit":
-            degrees = validate_number(f"{where}: degrees", table.get("degrees", FULL_TURN))
-            if not degrees:
-                raise SceneError(f"{where}: degrees: expected a turn, such as 360 or -90, got 0")
-            return Orbit(degrees)
+            return Orbit(_turn(f"{where}: degrees", table.get("degrees", FULL_TURN)))
         case "circle":
             radius = validate_number(f"{where}: radius", table["radius"])
             if radius <= 0:
                 raise SceneError(f"{where}: radius: expected a number above 0, got {radius:g}")
-            return Circle(validate_numbers(f"{where}: center", table["center"], 3), radius)
+            begin = validate_number(f"{where}: start_degrees", table.get("start_degrees", 0))
+            turn = _turn(f"{where}: turn_degrees", table.get("turn_degrees", FULL_TURN))
+            return Circle(validate_numbers(f"{where}: center", table["center"], 3), radius, begin, turn)
         case "line":
-            return _polyline([table["start"], table["end"]], False, where)
+            return _polyline([table["from"], table["to"]], False, where)
     closed = table.get("closed", False)
     if not isinstance(closed, bool):
         raise SceneError(f"{where}: closed: expected true or false, got {closed!r}")
     return _polyline(table["points"], closed, where)
+
+
+def _turn(where: str, degrees: Any) -> float:
+    number = validate_number(where, degrees)
+    if not number:
+        raise SceneError(f"{where}: expected a turn, such as 360 or -90, got 0")
+    return number
 
 
 def _polyline(points: Any, closed: bool, where: str) -> Polyline:
