@@ -56,7 +56,7 @@ class SweepTable:
         return len(self.rows)
 
     def column(self, name: str) -> str:
-        """Return the full name of a column: "map_size" may stand for "option_map_size", "rms" for "soft_rms".
+        """Return the full name of a column: "map_size" may stand for "option_map_size", "rms" for "hard_rms".
 
         Raises
         ------

@@ -39,12 +39,17 @@ def line_height(size: int) -> int:
     return round(LINE * size)
 
 
+def text_width(text: str, size: int) -> float:
+    """Return the width of a text, in pixels."""
+    return float(_font(size).getlength(text))
+
+
 def wrapped(parts: Sequence[str], size: int, width: int) -> list[str]:
     """Return the parts of a caption in as few lines as fit the width; a part longer than a line is broken."""
     lines: list[str] = []
     for part in parts:
         joined = f"{lines[-1]}   {part}" if lines else part
-        if lines and _font(size).getlength(joined) <= width:
+        if lines and text_width(joined, size) <= width:
             lines[-1] = joined
         else:
             lines += broken(part, size, width)
@@ -56,12 +61,12 @@ def broken(text: str, size: int, width: int) -> list[str]:
     lines = [""]
     for word in text.split():
         joined = f"{lines[-1]} {word}".lstrip()
-        if _font(size).getlength(joined) <= width:
+        if text_width(joined, size) <= width:
             lines[-1] = joined
             continue
         lines += [""] if lines[-1] else []
         for character in word:
-            if lines[-1] and _font(size).getlength(lines[-1] + character) > width:
+            if lines[-1] and text_width(lines[-1] + character, size) > width:
                 lines.append("")
             lines[-1] += character
     return lines
