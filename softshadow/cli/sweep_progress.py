@@ -90,11 +90,13 @@ def bar(of: str) -> Iterator[tuple[Started, Report]]:
     """Give what shows a bar on the terminal."""
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn
+    from rich.table import Column
 
     console = Console(stderr=True)
     start = time.monotonic()
     first: int | None = None
-    with Progress(BarColumn(), TextColumn("{task.description}"), console=console) as shown:
+    text = TextColumn("{task.description}", table_column=Column(ratio=1))  # takes two lines on a narrow terminal
+    with Progress(BarColumn(bar_width=20), text, console=console, expand=True) as shown:
         task = shown.add_task("starting ...", total=None)
 
         def report(progress: Any) -> None:

@@ -41,6 +41,7 @@ class DaskEngine:
     dashboard: str | None
     _scenes: dict[str, Any] = field(default_factory=dict)
     _losses: int = 0
+    _alone: bool = False  # suspects are sent one after the other, when nothing else is left
     _seconds: float = GROUP_SECONDS  # of one task, so that the first groups have one
 
     def __call__(self, tasks: Sequence[Any]) -> Iterator[tuple[Any, Result]]:
@@ -51,9 +52,13 @@ class DaskEngine:
         SoftShadowError              the scheduler is lost; what has been yielded is complete
         """
         waiting: list[Any] = list(reversed(tasks))
+        suspects: list[Any] = []  # were on workers that ended; what else was there may have ended them
         running: dict[Any, tuple[list[Any], float]] = {}
         connected = time.monotonic()
-        while waiting or running:
+        while waiting or running or suspects:
+            if not waiting and not running:
+                waiting.append(suspects.pop())
+                self._alone = True
             while waiting and len(running) < AHEAD * self.workers():
                 yield from self._submit(waiting, running)
             done, connected = self._finished(running, connected)
@@ -64,7 +69,9 @@ class DaskEngine:
                     yield from zip(group, future.result(), strict=True)
                 elif future.status in LOST:
                     self._send_again(group, waiting)
-                elif len(group) > 1:  # a worker was lost with it: find out which task it was
+                elif is_killed(future) and not self._alone:
+                    suspects += reversed(group)
+                elif len(group) > 1:  # find out which task it was
                     waiting += reversed(group)
                     self._seconds = GROUP_SECONDS
                 else:
@@ -131,20 +138,35 @@ def computed_group(compute: Callable[[Any, Any], Result], tasks: list[Any], scen
         return [compute(task, scene) for task in tasks]
 
 
-def reason_of(future: Any) -> str:
+def error_of(future: Any) -> BaseException:
     """Return why a task has no result."""
     try:
-        error = future.exception(timeout=1)
+        return future.exception(timeout=1)
     except Exception as caught:  # the reason itself may be lost
-        error = caught
-    if type(error).__name__ == "KilledWorker":
+        return caught
+
+
+def is_killed(future: Any) -> bool:
+    """Return whether workers ended with a task, or with another one that waited there with it."""
+    return type(error_of(future)).__name__ == "KilledWorker"
+
+
+def reason_of(future: Any) -> str:
+    """Return why a task has no result, as a text."""
+    if is_killed(future):
         return "the workers that computed this ended, each time; it may need more memory than they have"
+    error = error_of(future)
     return f"{type(error).__name__}: {error}"
 
 
 def is_installed() -> bool:
     """Return whether the package distributed is there."""
     return find_spec("distributed") is not None
+
+
+def has_bokeh() -> bool:
+    """Return whether the package bokeh is there, without which a scheduler's page has no contents."""
+    return find_spec("bokeh") is not None
 
 
 @contextmanager
@@ -183,7 +205,7 @@ def dask_engine(work: Work, scheduler: str | None = None, workers: int | None = 
         ) from None
     try:
         refuse_other_versions(client)
-        yield DaskEngine(work, client, client.dashboard_link if find_spec("bokeh") else None)
+        yield DaskEngine(work, client, client.dashboard_link if client.run_on_scheduler(has_bokeh) else None)
     finally:
         client.close(timeout=5)
         if cluster is not None:
