@@ -1,7 +1,7 @@
 """The lanes of the tests, and the examples that Hypothesis draws.
 
 Compilation makes the first call of a kernel slow, so no test has a deadline. ``SOFTSHADOW_LANE=all`` also runs the
-tests marked ``slow`` and draws twenty-five times as many examples. With ``CI`` the same examples are drawn in every session.
+tests marked ``slow`` and draws 25 times as many examples. With ``CI`` the same examples are drawn in every session.
 """
 
 import os
