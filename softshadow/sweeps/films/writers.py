@@ -53,8 +53,8 @@ def durations(n_frames: int, rate: int, unit: int) -> list[int]:
 
     Examples
     --------
-    >>> durations(3, 24, 10)
-    [40, 40, 50]
+    >>> durations(5, 24, 10)
+    [40, 40, 40, 50, 40]
     """
     ends = [round(Fraction(1000 * frame, rate * unit)) * unit for frame in range(n_frames + 1)]
     return [end - start for start, end in pairwise(ends)]
