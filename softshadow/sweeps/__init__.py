@@ -1,4 +1,4 @@
-"""Sweeps: many points measured, on one process or on many machines, with nothing lost; one tidy table."""
+"""Sweeps and films: many points or frames, on one process or on many machines, with nothing lost."""
 
 from softshadow.sweeps.contact_sheet import save_contact_sheet
 from softshadow.sweeps.execution import Progress, execute

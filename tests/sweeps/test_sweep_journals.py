@@ -2,14 +2,17 @@
 
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import pytest
 
+import softshadow
 from softshadow import SoftShadowError
 from softshadow.sweeps import Point, Progress, Result, execute
+from softshadow.sweeps.dask_engine import refuse_other_versions
 from softshadow.sweeps.journal import Journal
+from softshadow.sweeps.task import package_digest
 
 POINTS = [Point("map", "boxes", {"map_size": size}) for size in range(16, 26)]
 
@@ -90,6 +93,7 @@ FULL = """
 import resource, sys
 from pathlib import Path
 from sweeps.test_sweep_journals import POINTS, Counting
+import softshadow
 from softshadow import SoftShadowError
 from softshadow.sweeps import execute
 resource.setrlimit(resource.RLIMIT_FSIZE, (700, 700))  # bytes in a file: as a full disk
@@ -124,3 +128,33 @@ def test_key_tells_points_apart_and_notices_an_edited_model(tmp_path: Path) -> N
     model.write_text("v 0 0 1\n\n")
     assert point.key != before
     assert len({each.key for each in POINTS}) == len(POINTS)
+
+
+def test_rows_of_other_sources_of_the_package_are_not_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = POINTS[0].key
+    monkeypatch.setattr("softshadow.sweeps.point.package_digest", lambda: "after an edit")
+    assert POINTS[0].key != before
+
+
+def test_digest_of_the_package_changes_with_any_of_its_sources(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "techniques").mkdir()
+    for name in ("__init__.py", "techniques/map.py"):
+        (tmp_path / name).write_text("a = 1\n")
+    monkeypatch.setattr(softshadow, "__file__", str(tmp_path / "__init__.py"))
+    digest = package_digest.__wrapped__
+    seen = [digest()]
+    (tmp_path / "techniques/map.py").write_text("a = 2\n")
+    seen.append(digest())
+    (tmp_path / "techniques/map.py").rename(tmp_path / "techniques/other.py")
+    seen.append(digest())
+    assert len(set(seen)) == 3
+    assert digest() == seen[-1]
+
+
+def test_worker_with_other_sources_is_refused() -> None:
+    class Client:
+        def run(self, function: Callable[[], str]) -> dict[str, str]:
+            return {"tcp://a:1": function(), "tcp://b:1": "softshadow 0.1.0 (sources 0123)"}
+
+    with pytest.raises(SoftShadowError, match=r"workers have .*softshadow 0.1.0 \(sources 0123\).*; expected softsh"):
+        refuse_other_versions(Client())

@@ -121,7 +121,8 @@ def animate(
             tasks, place, _all_or_none(engine, n_frames), resume=resume, report=report, workers=count_workers,
             files=FILES,
         )  # fmt: skip
-        drawn = [_read(row, Journal(place, FILES)) for row in rows]
+        read = {row["key"]: _read(row, Journal(place, FILES)) for row in {row["key"]: row for row in rows}.values()}
+    drawn = [read[row["key"]] for row in rows]  # equal frames are one
     limits = depth_limits(panel for frame in drawn for panel in frame.panels)
     layout = Layout([frame.panels for frame in drawn], texts if captions else [], panel_size)
     pictures = [layout.picture(number, frame.panels, limits) for number, frame in enumerate(drawn)]

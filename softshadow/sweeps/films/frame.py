@@ -118,7 +118,9 @@ def drawn_frame(row: Row, contents: bytes) -> DrawnFrame:
     with np.load(io.BytesIO(contents), allow_pickle=False) as arrays:
         values = [arrays[f"arr_{index}"] for index in range(len(row["panels"]))]
     panels = (Panel(title, buffer, array) for (title, buffer), array in zip(row["panels"], values, strict=True))
-    return DrawnFrame(tuple(panels), tuple(getattr(errors, name)(text) for name, text in row["warnings"]))
+    return DrawnFrame(
+        tuple(panels), tuple(getattr(errors, name, errors.Warning)(text) for name, text in row["warnings"])
+    )
 
 
 # -- digests -----------------------------------------------------------------------------------------------------------
