@@ -133,7 +133,7 @@ def image_view(
 
 def stacked(image: np.ndarray) -> np.ndarray:
     """Return an image (height, width, components); the slices of a three-dimensional one lie one above the other."""
-    return image.reshape(-1, *image.shape[2:]) if image.ndim == 4 else image
+    return image.reshape(image.shape[0] * image.shape[1], *image.shape[2:]) if image.ndim == 4 else image
 
 
 def client_image(

@@ -38,6 +38,9 @@ from softshadow.pixels import (
     unpack_stencil,
 )
 
+Parts = tuple[np.ndarray | None, np.ndarray | None]  # cells and stencil values to be stored
+NOTHING: Parts = (None, None)
+
 
 def glTexImage1D(
     target: int, level: int, internalformat: int, width: int, border: int, format: int, type: int, pixels: Any = None
@@ -194,7 +197,9 @@ def _define(
         return None
     if problem:
         return fail(problem[0], operation, problem[1])
-    parts = _cells(context, pixels, _lengths(dimensions, shape), format, type, stored, operation)
+    parts = NOTHING
+    if shape[2]:
+        parts = _cells(context, pixels, _lengths(dimensions, shape), format, type, stored, operation)
     if parts is None:
         return None
     texture, face = bound_texture(context, target), face_of(target)
@@ -236,8 +241,10 @@ def _update(
     )
     if problem:
         return fail(problem[0], operation, problem[1])
-    parts = _cells(context, pixels, _lengths(dimensions, shape), format, type, image.format, operation)
-    if parts is not None and any(part is not None for part in parts):
+    parts = NOTHING
+    if shape[2]:
+        parts = _cells(context, pixels, _lengths(dimensions, shape), format, type, image.format, operation)
+    if parts is not None and 0 not in shape and any(part is not None for part in parts):
         x, y, z = corner
         context.execute(UpdateImage(texture.name, face, level, x, y, *parts, z=z, slices=shape[2]))
         follow_base_level(context, texture, face, level)
@@ -252,13 +259,13 @@ def _cells(
     type: int,
     stored: Format,
     operation: str,
-) -> tuple[np.ndarray | None, np.ndarray | None] | None:
+) -> Parts | None:
     """Return client pixels as (cells, stencil values) to be stored; None for a part that the format does not have.
 
     None after an error of GL.
     """
     if pixels is None and (not context.unpack_store.buffer or context.executes_list or context.list_depth):
-        return None, None
+        return NOTHING
     image = image_source(context, pixels, *lengths, format, type, operation)
     if image is None:
         return None

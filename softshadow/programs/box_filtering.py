@@ -57,7 +57,8 @@ def sample_box(
 ) -> None:
     """Fill `out` (N, k) from one image with a linear or nearest filter.
 
-    coordinates (N, 3) are s, t and r; where depths are compared, r is the reference.
+    coordinates (N, 3) are s, t and r. Depths are compared with the first of them that is not a position: in Mesa with
+    t in a 1-D texture, with r in a rectangle.
     """
     sampler, sources = texture.sampler, sources_of(image, texture.sampler)
     places, channels = np.ascontiguousarray(coordinates.T), out.T
@@ -207,10 +208,10 @@ def passing_on_row(func, r, cells, width, border, unit, i0, i1, weight, row):
 
 @kernel
 def compare_box(coordinates, cells, sides, wraps, normalized, border, unit, linear, func, clamped, sources, out):
-    """Write 0 or 1 for the third coordinate compared with the depth, or the weighted share of texels that pass."""
+    """Write 0 or 1 for a coordinate compared with the depth, or the weighted share of texels that pass."""
     n_axes = len(wraps)
     for n in range(coordinates.shape[1]):
-        r = coordinates[2, n]
+        r = coordinates[n_axes, n]
         r = clamp_to_unit(r) if clamped else r
         if linear:
             i0, i1, x = linear_on_axis(coordinates[0, n], sides[0], wraps[0], normalized)

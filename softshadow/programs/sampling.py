@@ -133,8 +133,8 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
 
     Parameters
     ----------
-    coordinates : (N, 3)         s, t, and r for depth comparison; for a 3-D texture s, t, r; for a rectangle s and t
-                                 in texels; for a cube map (N, 3) or (N, 4): direction s, t, r
+    coordinates : (N, 3)         s, t, and r for depth comparison (t in a 1-D texture); for a 3-D texture s, t, r;
+                                 s and t of a rectangle are in texels; for a cube map (N, 3) or (N, 4): direction s, t, r
                                  and, for depth comparison, the reference
     out : (N, k)                 k is 4 for a cube map; an incomplete texture gives (0, 0, 0, 1)
 

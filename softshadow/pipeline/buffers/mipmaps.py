@@ -51,7 +51,7 @@ def next_level(image: Image) -> Image:
     """Return the image of the next level."""
     width, height, slices = half_of(image.width), half_of(image.height), half_of(image.slices)
     level = Image.new(image.format, width, height, image.internal_format, slices)
-    if not width or not height:
+    if 0 in (width, height, slices):
         return level
     if image.format.kind == "depth":
         z = halved_in_float(sampled_depth(image.view, image.format)[..., np.newaxis], width, height)[..., 0]

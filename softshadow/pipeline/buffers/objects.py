@@ -44,7 +44,7 @@ def update_image(command: UpdateImage, storage: Storage) -> None:
     image = storage.textures[command.texture].images[command.face, command.level]
     for target, cells in ((image, command.cells), (image.stencil, command.stencil)):
         if target is not None and cells is not None:
-            slices = cells.reshape(command.slices, -1, *cells.shape[1:])
+            slices = cells.reshape(command.slices, len(cells) // command.slices, *cells.shape[1:])
             height, width = slices.shape[1:3]
             for z, cells_of_slice in enumerate(slices, command.z):
                 y = z * image.height + command.y
