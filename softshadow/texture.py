@@ -46,6 +46,7 @@ class Sampler:
     seamless: int = gl.GL_FALSE
     generate_mipmap: bool = False
     priority: float = 1.0
+    max_anisotropy: float = 1.0
 
 
 RECTANGLE_SAMPLER = Sampler(
@@ -89,6 +90,17 @@ class Texture:
     def faces(self) -> tuple[int, ...]:
         """The indices of the faces: six for a cube map, one for any other texture."""
         return tuple(range(6)) if self.target == gl.GL_TEXTURE_CUBE_MAP else (0,)
+
+    @property
+    def is_anisotropic(self) -> bool:
+        """Whether lookups average the texels in an ellipse; Mesa ignores fractions of the limit.
+
+        1-D textures, with which Mesa crashes, cube maps and comparisons of depths are filtered as without the limit.
+        """
+        sampler, image = self.sampler, self.base()
+        if sampler.max_anisotropy < 2 or self.target in (gl.GL_TEXTURE_1D, gl.GL_TEXTURE_CUBE_MAP) or image is None:
+            return False
+        return image.format.kind != "depth" or sampler.compare_mode == gl.GL_NONE
 
     def in_unit(self, lod_bias: float, seamless: bool) -> Texture:
         """Return the texture as a unit with this level-of-detail bias samples it; the images are shared.

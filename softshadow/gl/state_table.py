@@ -19,6 +19,7 @@ from softshadow.gl.lists import DEEPEST_LIST
 from softshadow.gl.pixel_transfer import queries as transfer_queries
 from softshadow.gl.rasterization import LARGEST_VIEWPORT
 from softshadow.gl.texture_problems import LARGEST_3D
+from softshadow.gl.textures import LARGEST_ANISOTROPY
 from softshadow.gl.vertex_arrays import ARRAYS
 from softshadow.image import Image
 from softshadow.pixel_store import PixelStore
@@ -274,6 +275,7 @@ QUERIES: dict[str, Read] = {
     "GL_MAX_TEXTURE_IMAGE_UNITS": lambda c: TEXTURE_UNITS,
     "GL_MAX_CUBE_MAP_TEXTURE_SIZE": lambda c: LARGEST_SIDE,
     "GL_MAX_RECTANGLE_TEXTURE_SIZE": lambda c: LARGEST_SIDE,
+    "GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT": lambda c: LARGEST_ANISOTROPY,
     "GL_MAX_3D_TEXTURE_SIZE": lambda c: LARGEST_3D,
     "GL_MAX_DRAW_BUFFERS": lambda c: DRAW_BUFFERS,
     "GL_MAX_COLOR_ATTACHMENTS": lambda c: len(COLOR_ATTACHMENTS),

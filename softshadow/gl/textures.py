@@ -50,7 +50,9 @@ NUMBERS = {
     gl.GL_TEXTURE_MAX_LOD: "max_lod",
     gl.GL_TEXTURE_LOD_BIAS: "lod_bias",
     gl.GL_TEXTURE_PRIORITY: "priority",
+    gl.GL_TEXTURE_MAX_ANISOTROPY_EXT: "max_anisotropy",
 }
+LARGEST_ANISOTROPY = 16.0
 BOOLEANS = {gl.GL_GENERATE_MIPMAP: "generate_mipmap"}
 FIELDS = {name: field for name, (field, _) in CHOICES.items()} | LEVELS | NUMBERS | BOOLEANS
 
@@ -231,8 +233,13 @@ def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
         _set_sampler(context, target, **{BOOLEANS[pname]: bool(clamped_int(value))})
     elif pname in NUMBERS:
         number = float(np.float32(value))
-        limited = min(max(number, 0.0), 1.0) if pname == gl.GL_TEXTURE_PRIORITY else number
-        _set_sampler(context, target, **{NUMBERS[pname]: limited})
+        if pname == gl.GL_TEXTURE_MAX_ANISOTROPY_EXT:
+            if number < 1:
+                return fail(gl.GL_INVALID_VALUE, operation, f"{token_name(pname)}={value}: expected 1 or more")
+            number = number if number < LARGEST_ANISOTROPY else LARGEST_ANISOTROPY  # also instead of NaN
+        elif pname == gl.GL_TEXTURE_PRIORITY:
+            number = min(max(number, 0.0), 1.0)
+        _set_sampler(context, target, **{NUMBERS[pname]: number})
     else:
         return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)}: expected a texture parameter")
     return None

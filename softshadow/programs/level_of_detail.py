@@ -95,11 +95,7 @@ def select_levels(squared: np.ndarray, sampler: Sampler, last: int, lengths: np.
         exponents = (squared.view(np.int32) >> MANTISSA_BITS & 0xFF) - (EXPONENT_BIAS - 1)
         nearest = (exponents >> 1).clip(0, last)
         return Levels(squared > ONE, nearest, nearest, nothing)
-    if least == most:
-        level = np.full(len(squared), least, np.float32)
-    else:
-        level = HALF * coarse_log2(squared) + np.float32(bias)
-        level = np.maximum(np.minimum(level, np.float32(most)), np.float32(least)) if _limits(least, most) else level
+    level = _level_of_detail(squared, least, most, bias)
     minified = level > 0
     if between != gl.GL_LINEAR:
         nearest = np.rint(level).clip(0, last).astype(np.int32)
@@ -108,6 +104,20 @@ def select_levels(squared: np.ndarray, sampler: Sampler, last: int, lengths: np.
     inside = (floor >= 0) & (floor < last)
     lower = floor.clip(0, last).astype(np.int32)
     return Levels(minified, lower, lower + inside, np.where(inside, level - floor, nothing))
+
+
+def truncated_levels(squared: np.ndarray, sampler: Sampler, last: int) -> np.ndarray:
+    """Return the level of each block (B,) with an anisotropic filter; `squared` are its shorter squared steps."""
+    level = _level_of_detail(squared.astype(np.float32), max(sampler.min_lod, 0.0), sampler.max_lod, bias_of(sampler))
+    levels: np.ndarray = np.trunc(level).clip(0, last).astype(np.int32)
+    return levels
+
+
+def _level_of_detail(squared: np.ndarray, least: float, most: float, bias: float) -> np.ndarray:
+    if least == most:
+        return np.full(len(squared), least, np.float32)
+    level = HALF * coarse_log2(squared) + np.float32(bias)
+    return np.maximum(np.minimum(level, np.float32(most)), np.float32(least)) if _limits(least, most) else level
 
 
 def _limits(least: float, most: float) -> bool:

@@ -14,6 +14,7 @@ import numpy as np
 from softshadow.errors import StateError
 from softshadow.jit import kernel
 from softshadow.programs import cube_maps
+from softshadow.programs.anisotropy import sample_ellipses
 from softshadow.programs.box_filtering import BOXES, box_wraps, sample_box
 from softshadow.programs.cube_filtering import HEAVIEST, LINEAR, NEAREST, PIXELS_OF_A_BLOCK, filter_cube
 from softshadow.programs.filtering import UNORM8_STEP, in_8_bits, sample_image, wraps_of
@@ -134,8 +135,8 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
     Parameters
     ----------
     coordinates : (N, 3)         s, t, and r for depth comparison (t in a 1-D texture); for a 3-D texture s, t, r;
-                                 s and t of a rectangle are in texels; for a cube map (N, 3) or (N, 4): direction s, t, r
-                                 and, for depth comparison, the reference
+                                 s and t of a rectangle are in texels; for a cube map (N, 3) or (N, 4): direction s, t,
+                                 r and, for depth comparison, the reference
     out : (N, k)                 k is 4 for a cube map; an incomplete texture gives (0, 0, 0, 1)
 
     Raises
@@ -152,7 +153,9 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
             "2x2 blocks; set both to GL_NEAREST or both to GL_LINEAR"
         )
     lookup = look_up(texture, coordinates)
-    if filters_cube_in_float(texture):
+    if texture.is_anisotropic:
+        sample_ellipses(texture, coordinates, is_mipmapped(texture), out)
+    elif filters_cube_in_float(texture):
         sample_cube_in_float(lookup, levels_of(texture, coordinates), out)
     elif sampler.min_filter == sampler.mag_filter:
         sample_level(lookup, 0, sampler.mag_filter, out)
