@@ -38,10 +38,10 @@ def _weights() -> np.ndarray:
 WEIGHTS = _weights()
 
 
-def sample_ellipses(texture: Texture, coordinates: np.ndarray, mipmapped: bool, out: np.ndarray) -> None:
-    """Fill `out` (N, 4) with filtered colours; coordinates (N, 3) are those of complete 2x2 blocks.
+def sample_ellipses(texture: Texture, coordinates: np.ndarray, n_levels: int, out: np.ndarray) -> None:
+    """Fill `out` (N, 4) with filtered colours, from the first `n_levels` levels.
 
-    Without mipmaps, all pixels are in the base level.
+    coordinates (N, 3) are those of complete 2x2 blocks.
     """
     image, sampler = texture.base(), texture.sampler
     assert image is not None
@@ -49,11 +49,11 @@ def sample_ellipses(texture: Texture, coordinates: np.ndarray, mipmapped: bool, 
     side = np.array((first.width, first.height), np.float32)
     steps = np.ascontiguousarray(steps_in_blocks(coordinates, 2))
     levels = np.zeros(len(steps), np.int32)
-    if mipmapped:
+    if n_levels > 1:
         texels = steps * np.array((image.width, image.height), steps.dtype)
         texels = texels * texels
         shortest = (texels[..., 0] + texels[..., 1]).min(axis=1)
-        levels = truncated_levels(shortest, sampler, texture.last_level() - sampler.base_level)
+        levels = truncated_levels(shortest, sampler, n_levels - 1)
     levels = np.repeat(levels, 4) + sampler.base_level
     steps = np.repeat(steps, 4, axis=0)
     for level in np.unique(levels):

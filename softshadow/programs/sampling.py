@@ -154,7 +154,7 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
         )
     lookup = look_up(texture, coordinates)
     if texture.is_anisotropic:
-        sample_ellipses(texture, coordinates, is_mipmapped(texture), out)
+        sample_ellipses(texture, coordinates, n_levels_of_ellipses(texture), out)
     elif filters_cube_in_float(texture):
         sample_cube_in_float(lookup, levels_of(texture, coordinates), out)
     elif sampler.min_filter == sampler.mag_filter:
@@ -206,6 +206,13 @@ def is_mipmapped(texture: Texture) -> bool:
     sampler = texture.sampler
     only_level = texture.last_level() == 0 and sampler.max_lod > 0
     return FILTERS[sampler.min_filter][1] != GL_NONE and not only_level
+
+
+def n_levels_of_ellipses(texture: Texture) -> int:
+    """Return how many levels an anisotropic filter selects from; without a mipmap filter as well, if they are there."""
+    sampler = texture.sampler
+    selects = is_mipmapped(texture) or FILTERS[sampler.min_filter][0] != sampler.mag_filter
+    return texture.last_level() - sampler.base_level + 1 if selects and is_mipmap_complete(texture) else 1
 
 
 def filters_cube_in_float(texture: Texture) -> bool:

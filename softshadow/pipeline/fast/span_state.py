@@ -158,7 +158,7 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     kind = np.float32 if is_depth else np.uint8
     if (
         texture.target != gl.GL_TEXTURE_2D
-        or sampler.is_anisotropic
+        or texture.is_anisotropic
         or setting.env_mode not in MODES
         or image.format.dtype != kind
     ):
