@@ -11,7 +11,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 
-THREE, FOUR = (gl.GL_RGB,), (gl.GL_RGBA, gl.GL_BGRA)
+THREE, FOUR = (gl.GL_RGB,), (gl.GL_RGBA, gl.GL_BGRA, gl.GL_ABGR_EXT)
 
 
 @dataclass(frozen=True)

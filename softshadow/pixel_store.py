@@ -35,6 +35,7 @@ COMPONENTS: dict[int, str] = {
     gl.GL_BGR: "BGR",
     gl.GL_RGBA: "RGBA",
     gl.GL_BGRA: "BGRA",
+    gl.GL_ABGR_EXT: "ABGR",
     gl.GL_LUMINANCE: "L",
     gl.GL_LUMINANCE_ALPHA: "LA",
     gl.GL_DEPTH_COMPONENT: "Z",
@@ -94,10 +95,10 @@ def image_view(
     store: PixelStore,
     width: int,
     height: int,
-    slices: int,
     format: int,
     type: int,
     operation: str,
+    slices: int = 0,
 ) -> np.ndarray:
     """Return a view (height, width, components) of an image in client memory; its dtype may have swapped bytes.
 
@@ -141,10 +142,10 @@ def client_image(
     store: PixelStore,
     width: int,
     height: int,
-    slices: int,
     format: int,
     type: int,
     operation: str,
+    slices: int = 0,
 ) -> np.ndarray:
     """Return a user's image as (height, width, components) with the dtype of `type`; slices one above the other.
 
@@ -167,7 +168,7 @@ def client_image(
                 f"{operation}: pixels are {image.dtype}; type={gl.token_name(type)} takes {dtype} numbers or bytes"
             )
         memory = np.ascontiguousarray(image, dtype)
-    view = image_view(memory, store, width, height, slices, format, type, operation)
+    view = image_view(memory, store, width, height, format, type, operation, slices)
     return stacked(view.astype(dtype, copy=False))
 
 
@@ -207,10 +208,10 @@ def output_array(
     store: PixelStore,
     width: int,
     height: int,
-    slices: int,
     format: int,
     type: int,
     operation: str,
+    slices: int = 0,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the array that a read-out returns, and a view (h, w, components) of the image in it, to be written.
 
@@ -234,4 +235,4 @@ def output_array(
         raise TypeError(f"{operation}: expected an array of {dtype}, got {received!s:.80}")
     if not array.flags.c_contiguous or not array.flags.writeable:
         raise ValueError(f"{operation}: the array must be C-contiguous and writeable")
-    return array, image_view(array, store, width, height, slices, format, type, operation)
+    return array, image_view(array, store, width, height, format, type, operation, slices)

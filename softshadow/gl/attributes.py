@@ -213,7 +213,7 @@ def _restore_samplers(context: Context, saved: SavedAttributes) -> None:
         texture = context.objects.textures.get(name)
         if texture is None and name > 0:  # deleted since the push: binding the name creates it again
             context.execute(CreateTexture(name, target))
-        if sampler != (texture.sampler if texture is not None else Sampler()):
+        if sampler != (texture.sampler if texture is not None else initial_sampler(target)):
             context.execute(SetSampler(name, sampler))
 
 

@@ -51,13 +51,13 @@ def image_source(
     if isinstance(pixels, UnpackedImage):
         return pixels.image
     if not store.buffer:
-        return client_image(pixels, store, width, height, slices, format, type, operation)
+        return client_image(pixels, store, width, height, format, type, operation, slices)
     dtype = dtype_of(type)
     needed = store.layout(width, height, dtype.itemsize * elements_of(format, type), aligned=True, slices=slices)[-1]
     memory = source(context, pixels, needed, _unit(dtype), operation)
     if memory is None:
         return None
-    view = image_view(memory, store, width, height, slices, format, type, operation)
+    view = image_view(memory, store, width, height, format, type, operation, slices)
     return stacked(view.astype(dtype, copy=False))
 
 
@@ -70,14 +70,14 @@ def image_destination(
     """
     store = context.pack_store
     if not store.buffer:
-        return output_array(array, store, width, height, slices, format, type, operation)
+        return output_array(array, store, width, height, format, type, operation, slices)
     dtype = dtype_of(type)
     needed = store.layout(width, height, dtype.itemsize * elements_of(format, type), aligned=True, slices=slices)[-1]
     bound = _accessed(context, store, array, needed, _unit(dtype), operation)
     if bound is None:
         return None
     content = own_content(context, bound)
-    return None, image_view(content[offset_of(array) :], store, width, height, slices, format, type, operation)
+    return None, image_view(content[offset_of(array) :], store, width, height, format, type, operation, slices)
 
 
 def source(context: Context, values: Any, n_bytes: int, unit: int, operation: str) -> Any:

@@ -197,7 +197,7 @@ def _define(
         return None
     if problem:
         return fail(problem[0], operation, problem[1])
-    parts = NOTHING
+    parts: Parts | None = NOTHING
     if shape[2]:
         parts = _cells(context, pixels, _lengths(dimensions, shape), format, type, stored, operation)
     if parts is None:
@@ -241,7 +241,7 @@ def _update(
     )
     if problem:
         return fail(problem[0], operation, problem[1])
-    parts = NOTHING
+    parts: Parts | None = NOTHING
     if shape[2]:
         parts = _cells(context, pixels, _lengths(dimensions, shape), format, type, image.format, operation)
     if parts is not None and 0 not in shape and any(part is not None for part in parts):

@@ -226,8 +226,8 @@ def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
             return fail(gl.GL_INVALID_VALUE, operation, f"{token_name(pname)}={value}: expected 0 or more")
         if target == gl.GL_TEXTURE_RECTANGLE and level not in (0, getattr(sampler_of(context, target), LEVELS[pname])):
             code = gl.GL_INVALID_OPERATION if pname == gl.GL_TEXTURE_BASE_LEVEL else gl.GL_INVALID_VALUE
-            problem = f"{token_name(pname)}={level}: expected 0, since a rectangle has only one level"
-            return fail(code, operation, problem)
+            reason = f"{token_name(pname)}={level}: expected 0, since a rectangle has only one level"
+            return fail(code, operation, reason)
         _set_sampler(context, target, **{LEVELS[pname]: level})
     elif pname in BOOLEANS:
         _set_sampler(context, target, **{BOOLEANS[pname]: bool(clamped_int(value))})

@@ -27,6 +27,7 @@ from OpenGL.raw.GL.VERSION import GL_1_5 as buffers
 from softshadow.mapped_memory import MappedMemory
 from softshadow.packed_colors import PACKED_COLORS
 from softshadow.pixel_store import PACKED_TYPES, PixelStore
+from softshadow.tokens import GL_ABGR_EXT
 
 # missing in PyOpenGL 3.1's image tables; one 32-bit word per pixel, or two
 images.TYPE_TO_ARRAYTYPE[GL.GL_UNSIGNED_INT_24_8] = GL.GL_UNSIGNED_INT
@@ -43,7 +44,7 @@ CHANNELS = {
     **dict.fromkeys((GL.GL_DEPTH_COMPONENT, GL.GL_STENCIL_INDEX, GL.GL_DEPTH_STENCIL), 1),
     **dict.fromkeys((GL.GL_LUMINANCE_ALPHA, GL.GL_RG), 2),
     **dict.fromkeys((GL.GL_RGB, GL.GL_BGR), 3),
-    **dict.fromkeys((GL.GL_RGBA, GL.GL_BGRA), 4),
+    **dict.fromkeys((GL.GL_RGBA, GL.GL_BGRA, GL_ABGR_EXT), 4),
 }
 DTYPES: dict[int, Any] = {
     GL.GL_UNSIGNED_BYTE: np.uint8,
@@ -73,7 +74,8 @@ EXTENSIONS = (
     "EXT.separate_specular_color", "EXT.rescale_normal", "EXT.draw_range_elements", "EXT.multi_draw_arrays",
     "NV.depth_clamp", "ATI.separate_stencil", "ATI.draw_buffers", "SGIS.texture_edge_clamp", "SGIS.generate_mipmap",
     "SGIS.texture_border_clamp", "SGIS.texture_lod", "SGIX.depth_texture", "IBM.texture_mirrored_repeat",
-    "NV.conditional_render",
+    "NV.conditional_render", "ARB.texture_rectangle", "NV.texture_rectangle", "EXT.texture3D",
+    "EXT.texture_filter_anisotropic", "EXT.abgr",
 )  # fmt: skip
 
 _current: "MesaGL | None" = None
@@ -287,9 +289,14 @@ def _has_padding(shape: tuple[int, ...], pixel_format: int, pixel_type: int, ima
     channels, dtype = _elements(pixel_format, pixel_type)
     if channels is None or dtype is None or not isinstance(image, np.ndarray):
         return False
-    fields = ("alignment", "row_length", "skip_rows", "skip_pixels", "image_height", "skip_images")
-    values = {field: int(GL.glGetIntegerv(getattr(GL, f"GL_UNPACK_{field.upper()}"))) for field in fields}
-    store, slices = PixelStore(**values), shape[2] if len(shape) > 2 else 0
+    names = ("ALIGNMENT", "ROW_LENGTH", "SKIP_ROWS", "SKIP_PIXELS", "IMAGE_HEIGHT", "SKIP_IMAGES")
+    alignment, row_length, skip_rows, skip_pixels, image_height, skip_images = (
+        int(GL.glGetIntegerv(getattr(GL, f"GL_UNPACK_{name}"))) for name in names
+    )
+    store = PixelStore(
+        alignment, row_length, skip_rows, skip_pixels, image_height=image_height, skip_images=skip_images
+    )
+    slices = shape[2] if len(shape) > 2 else 0
     width, height = (*shape, 1)[:2]
     pixel = channels * np.dtype(dtype).itemsize
     needed = store.layout(width, height, pixel, aligned=True, slices=slices)[-1]

@@ -14,13 +14,13 @@ INTERNAL_FORMATS = [
 DEPTH_FORMATS = ["GL_DEPTH_COMPONENT", "GL_DEPTH_COMPONENT16", "GL_DEPTH_COMPONENT24", "GL_DEPTH_COMPONENT32F"]
 PIXEL_FORMATS = {
     "GL_RED": 1, "GL_GREEN": 1, "GL_BLUE": 1, "GL_ALPHA": 1, "GL_RG": 2, "GL_RGB": 3, "GL_BGR": 3, "GL_RGBA": 4,
-    "GL_BGRA": 4, "GL_LUMINANCE": 1, "GL_LUMINANCE_ALPHA": 2,
+    "GL_BGRA": 4, "GL_ABGR_EXT": 4, "GL_LUMINANCE": 1, "GL_LUMINANCE_ALPHA": 2,
 }  # fmt: skip
 PIXEL_TYPES = {
     "GL_UNSIGNED_BYTE": np.uint8, "GL_BYTE": np.int8, "GL_UNSIGNED_SHORT": np.uint16, "GL_SHORT": np.int16,
     "GL_UNSIGNED_INT": np.uint32, "GL_INT": np.int32, "GL_FLOAT": np.float32,
 }  # fmt: skip
-OF_THREE, OF_FOUR = ("GL_RGB",), ("GL_RGBA", "GL_BGRA")
+OF_THREE, OF_FOUR = ("GL_RGB",), ("GL_RGBA", "GL_BGRA", "GL_ABGR_EXT")
 PACKED_KINDS: dict[str, tuple[Any, tuple[str, ...]]] = {  # integers and formats
     "GL_UNSIGNED_BYTE_3_3_2": (np.uint8, OF_THREE), "GL_UNSIGNED_BYTE_2_3_3_REV": (np.uint8, OF_THREE),
     "GL_UNSIGNED_SHORT_5_6_5": (np.uint16, OF_THREE), "GL_UNSIGNED_SHORT_5_6_5_REV": (np.uint16, OF_THREE),

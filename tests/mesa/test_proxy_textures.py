@@ -29,7 +29,7 @@ IMAGES = [  # level, internal format, width, height, border, format, type
 ]
 
 
-@pytest.mark.parametrize("target", ["GL_PROXY_TEXTURE_2D", "GL_PROXY_TEXTURE_CUBE_MAP"])
+@pytest.mark.parametrize("target", ["GL_PROXY_TEXTURE_2D", "GL_PROXY_TEXTURE_RECTANGLE", "GL_PROXY_TEXTURE_CUBE_MAP"])
 def test_a_proxy_answers_as_on_mesa(target):
     def program(gl: Any) -> list[np.ndarray]:
         token, answers = getattr(gl, target), []

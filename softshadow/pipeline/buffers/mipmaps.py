@@ -59,17 +59,17 @@ def next_level(image: Image) -> Image:
         return level
     in_bytes = image.format.kind == "unorm8"
     halved = halved_in_8_bits if in_bytes else halved_in_float
-    texels = image.view.reshape(image.slices, image.height, image.width, -1)
     if image.slices == 1:
-        level.view[:] = halved(texels[0], width, height)
+        level.view[:] = halved(image.view, width, height)
         return level
     places = centers_of_slices(image.slices, slices)
     first, second, weight = (texels_and_weights_in_8_bits if in_bytes else texels_and_weights)(places, image.slices)
+    texels = image.view.reshape(image.slices, image.height, image.width, -1)
     filtered = np.stack([halved(each, width, height) for each in texels])
     mixed = mix_in_8_bits if in_bytes else mix_in_float
-    for z in range(slices):
-        values = mixed(filtered[first[z]], filtered[second[z]], weight[z])
-        level.view[z * height : (z + 1) * height] = values
+    for k in range(slices):
+        values = mixed(filtered[first[k]], filtered[second[k]], weight[k])
+        level.view[k * height : (k + 1) * height] = values
     return level
 
 
