@@ -20,13 +20,13 @@ PIXEL_TYPES = {
     "GL_UNSIGNED_BYTE": np.uint8, "GL_BYTE": np.int8, "GL_UNSIGNED_SHORT": np.uint16, "GL_SHORT": np.int16,
     "GL_UNSIGNED_INT": np.uint32, "GL_INT": np.int32, "GL_FLOAT": np.float32,
 }  # fmt: skip
-OF_THREE, OF_FOUR = ("GL_RGB",), ("GL_RGBA", "GL_BGRA", "GL_ABGR_EXT")
+OF_THREE, OF_FOUR, ALIKE = ("GL_RGB",), ("GL_RGBA", "GL_BGRA"), ("GL_RGBA", "GL_BGRA", "GL_ABGR_EXT")
 PACKED_KINDS: dict[str, tuple[Any, tuple[str, ...]]] = {  # integers and formats
     "GL_UNSIGNED_BYTE_3_3_2": (np.uint8, OF_THREE), "GL_UNSIGNED_BYTE_2_3_3_REV": (np.uint8, OF_THREE),
     "GL_UNSIGNED_SHORT_5_6_5": (np.uint16, OF_THREE), "GL_UNSIGNED_SHORT_5_6_5_REV": (np.uint16, OF_THREE),
-    "GL_UNSIGNED_SHORT_4_4_4_4": (np.uint16, OF_FOUR), "GL_UNSIGNED_SHORT_4_4_4_4_REV": (np.uint16, OF_FOUR),
+    "GL_UNSIGNED_SHORT_4_4_4_4": (np.uint16, ALIKE), "GL_UNSIGNED_SHORT_4_4_4_4_REV": (np.uint16, ALIKE),
     "GL_UNSIGNED_SHORT_5_5_5_1": (np.uint16, OF_FOUR), "GL_UNSIGNED_SHORT_1_5_5_5_REV": (np.uint16, OF_FOUR),
-    "GL_UNSIGNED_INT_8_8_8_8": (np.uint32, OF_FOUR), "GL_UNSIGNED_INT_8_8_8_8_REV": (np.uint32, OF_FOUR),
+    "GL_UNSIGNED_INT_8_8_8_8": (np.uint32, ALIKE), "GL_UNSIGNED_INT_8_8_8_8_REV": (np.uint32, ALIKE),
     "GL_UNSIGNED_INT_10_10_10_2": (np.uint32, OF_FOUR), "GL_UNSIGNED_INT_2_10_10_10_REV": (np.uint32, OF_FOUR),
 }  # fmt: skip
 WRAPS = ["GL_REPEAT", "GL_CLAMP_TO_EDGE", "GL_MIRRORED_REPEAT", "GL_CLAMP_TO_BORDER", "GL_CLAMP"]
