@@ -60,6 +60,7 @@ from softshadow.gl.stipples import *
 from softshadow.gl.texture_coordinates import *
 from softshadow.gl.texture_copies import *
 from softshadow.gl.texture_images import *
+from softshadow.gl.texture_mipmaps import *
 from softshadow.gl.texture_queries import *
 from softshadow.gl.texture_units import *
 from softshadow.gl.textures import *
