@@ -187,4 +187,19 @@ def glNormal3iv(v: Any) -> None:
     set_normal(*vector(v, 3, from_int))
 
 
+# -- edge flag ---------------------------------------------------------------------------------------------------------
+@in_lists
+def glEdgeFlag(flag: bool) -> None:
+    """Set whether the vertices that follow begin an edge that glPolygonMode draws."""
+    context = current()
+    carry_attribute(context, "edge", 1)
+    set_attribute(context, "edge", 1, bool(flag))
+
+
+@in_lists
+def glEdgeFlagv(flag: Any) -> None:
+    """Set the edge flag from a vector."""
+    glEdgeFlag(vector(flag, 1)[0])
+
+
 __all__ = spelled_like_gl(globals())
