@@ -57,6 +57,7 @@ from softshadow.gl.refusals import all_naming_arguments
 from softshadow.gl.render_modes import *
 from softshadow.gl.renderbuffers import *
 from softshadow.gl.stipples import *
+from softshadow.gl.tessellator import *
 from softshadow.gl.texture_coordinates import *
 from softshadow.gl.texture_copies import *
 from softshadow.gl.texture_images import *
