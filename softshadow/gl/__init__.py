@@ -35,6 +35,7 @@ from softshadow.gl.fog import *
 from softshadow.gl.fragment_state import *
 from softshadow.gl.framebuffers import *
 from softshadow.gl.glu import *
+from softshadow.gl.glu_mipmaps import *
 from softshadow.gl.glu_names import *
 from softshadow.gl.glu_tokens import *
 from softshadow.gl.immediate import *

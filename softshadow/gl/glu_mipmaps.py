@@ -1,0 +1,117 @@
+"""GLU's images: gluScaleImage, and textures with all their mipmaps from one image."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import current
+from softshadow.framebuffer import LARGEST_SIDE
+from softshadow.gl.calls import spelled_like_gl
+from softshadow.gl.glu_tokens import GLU_INVALID_ENUM, GLU_INVALID_OPERATION, GLU_INVALID_VALUE
+from softshadow.gl.image_scaling import from_shorts, halve, scale, scale_shorts, to_shorts
+from softshadow.gl.pixel_memory import image_source
+from softshadow.gl.texture_images import glTexImage2D
+from softshadow.packed_colors import PACKED_COLORS
+from softshadow.pixel_store import COMPONENTS, TYPES, image_view
+from softshadow.frozen import evolve
+
+INDICES = (gl.GL_COLOR_INDEX, gl.GL_STENCIL_INDEX)
+
+
+def gluScaleImage(
+    format: int, wIn: int, hIn: int, typeIn: int, dataIn: Any, wOut: int, hOut: int, typeOut: int, dataOut: np.ndarray
+) -> int:
+    """Scale an image into the array `dataOut`; return 0, or an error code of GLU."""
+    if not (wIn and hIn and wOut and hOut):
+        return 0
+    if min(wIn, hIn, wOut, hOut) < 0:
+        return GLU_INVALID_VALUE
+    problem = _problem(format, typeIn) or _problem(format, typeOut)
+    if problem:
+        return problem
+    context = current()
+    image = image_source(context, dataIn, wIn, hIn, format, typeIn, "gluScaleImage")
+    if image is None:
+        return 0
+    is_index = format in INDICES
+    scaled = scale_shorts(to_shorts(image, is_index), wOut, hOut)
+    view = image_view(dataOut, context.pack_store, wOut, hOut, format, typeOut, "gluScaleImage")
+    view[...] = from_shorts(scaled, np.dtype(TYPES[typeOut]), is_index)
+    return 0
+
+
+def gluBuild2DMipmaps(
+    target: int, internalFormat: int, width: int, height: int, format: int, type: int, data: Any
+) -> int:
+    """Define all levels of a texture from an image of any size; return 0, or an error code of GLU.
+
+    The image is scaled to the nearest powers of two first.
+    """
+    problem = _problem(format, type)
+    if problem or width < 1 or height < 1:
+        return problem or GLU_INVALID_VALUE
+    levels = max(_nearest_power(width), _nearest_power(height)).bit_length() - 1
+    return _build(target, internalFormat, (width, height), format, type, (0, 0, levels), data)
+
+
+def gluBuild2DMipmapLevels(
+    target: int, internalFormat: int, width: int, height: int, format: int, type: int, level: int, base: int, max: int,
+    data: Any,
+) -> int:  # fmt: skip
+    """Define the levels from `base` to `max` of a texture, whose level `level` is an image; return 0 or an error code."""
+    problem = _problem(format, type)
+    if problem:
+        return problem
+    levels = level + (width if width > height else height).bit_length() - 1
+    is_power = width > 0 and height > 0 and not width & (width - 1) and not height & (height - 1)
+    if not is_power or not 0 <= level <= base <= max <= levels:
+        return GLU_INVALID_VALUE
+    return _build(target, internalFormat, (width, height), format, type, (level, base, max), data)
+
+
+def _build(
+    target: int, internal: int, size: tuple[int, int], format: int, type: int, levels: tuple[int, int, int], data: Any
+) -> int:
+    """Define levels from an image; `levels`: that of the image, and the first and last one to define."""
+    context, (level, base, last) = current(), levels
+    image = image_source(context, data, *size, format, type, "gluBuild2DMipmaps")
+    if image is None:
+        return 0
+    width, height = (min(_nearest_power(side), LARGEST_SIDE) for side in size)
+    if (width, height) != size:
+        image = scale(image, width, height)
+    store = context.unpack_store
+    context.unpack_store = evolve(
+        store, alignment=1, row_length=0, skip_rows=0, skip_pixels=0, swap_bytes=False, buffer=0
+    )
+    try:
+        while True:
+            if level >= base:
+                shape = image.shape[1], image.shape[0]
+                glTexImage2D(target, level, internal, *shape, 0, format, type, np.ascontiguousarray(image))
+            if level == last or image.shape[:2] == (1, 1):
+                return 0
+            image, level = halve(image), level + 1
+    finally:
+        context.unpack_store = store
+
+
+def _problem(format: int, type: int) -> int:
+    """Return an error code of GLU, 0 for a format and a type that images can have here."""
+    if format not in COMPONENTS or (type not in TYPES and type not in PACKED_COLORS):
+        return GLU_INVALID_ENUM
+    return GLU_INVALID_OPERATION if type in PACKED_COLORS else 0
+
+
+def _nearest_power(size: int) -> int:
+    """Return the power of two that libGLU takes for nearest: 3 becomes 4, 5 becomes 4, 6 becomes 8."""
+    power = 1
+    while size not in (1, 3):
+        size, power = size >> 1, power * 2
+    return power * (4 if size == 3 else 1)
+
+
+__all__ = spelled_like_gl(globals())
