@@ -139,7 +139,7 @@ def _set_attribute(key: str, values: list[float]) -> None:
     elif key == "normal":
         set_normal(*values)
     elif key == "edge":
-        glEdgeFlag(values[0])
+        glEdgeFlag(bool(values[0]))
     else:
         set_coordinate(int(key.removeprefix("texcoord")), *values)
 

@@ -81,7 +81,9 @@ def glPushAttrib(mask: int) -> None:
         mask,
         touched,
         state,
-        (current.color, current.normal, (*current.texcoords,), current.raster, current.edge) if mask & gl.GL_CURRENT_BIT else (),
+        (current.color, current.normal, (*current.texcoords,), current.raster, current.edge)
+        if mask & gl.GL_CURRENT_BIT
+        else (),
         context.hints.copy() if context.hints else NO_HINTS,
         context.matrix_mode,
         context.active_unit,

@@ -9,6 +9,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import current
 from softshadow.framebuffer import LARGEST_SIDE
+from softshadow.frozen import evolve
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.glu_tokens import GLU_INVALID_ENUM, GLU_INVALID_OPERATION, GLU_INVALID_VALUE
 from softshadow.gl.image_scaling import from_shorts, halve, scale, scale_shorts, to_shorts
@@ -16,7 +17,6 @@ from softshadow.gl.pixel_memory import image_source
 from softshadow.gl.texture_images import glTexImage2D
 from softshadow.packed_colors import PACKED_COLORS
 from softshadow.pixel_store import COMPONENTS, TYPES, image_view
-from softshadow.frozen import evolve
 
 INDICES = (gl.GL_COLOR_INDEX, gl.GL_STENCIL_INDEX)
 
@@ -53,36 +53,41 @@ def gluBuild2DMipmaps(
     problem = _problem(format, type)
     if problem or width < 1 or height < 1:
         return problem or GLU_INVALID_VALUE
-    levels = max(_nearest_power(width), _nearest_power(height)).bit_length() - 1
-    return _build(target, internalFormat, (width, height), format, type, (0, 0, levels), data)
+    scaled = min(_nearest_power(width), LARGEST_SIDE), min(_nearest_power(height), LARGEST_SIDE)
+    levels = max(scaled).bit_length() - 1
+    return _build(target, internalFormat, (width, height), scaled, format, type, (0, 0, levels), data)
 
 
 def gluBuild2DMipmapLevels(
     target: int, internalFormat: int, width: int, height: int, format: int, type: int, level: int, base: int, max: int,
     data: Any,
 ) -> int:  # fmt: skip
-    """Define the levels from `base` to `max` of a texture, whose level `level` is an image; return 0 or an error code."""
+    """Define levels `base` to `max` of a texture whose level `level` is an image; return 0 or an error code."""
     problem = _problem(format, type)
     if problem:
         return problem
-    levels = level + (width if width > height else height).bit_length() - 1
-    is_power = width > 0 and height > 0 and not width & (width - 1) and not height & (height - 1)
-    if not is_power or not 0 <= level <= base <= max <= levels:
+    powers = [side for side in (width, height) if side > 0 and not side & (side - 1)]
+    levels = level + (sorted(powers)[-1].bit_length() if powers else 0) - 1
+    if not 0 <= level <= base <= max <= levels:
         return GLU_INVALID_VALUE
-    return _build(target, internalFormat, (width, height), format, type, (level, base, max), data)
+    size = width, height
+    return _build(target, internalFormat, size, size, format, type, (level, base, max), data)
 
 
 def _build(
-    target: int, internal: int, size: tuple[int, int], format: int, type: int, levels: tuple[int, int, int], data: Any
-) -> int:
-    """Define levels from an image; `levels`: that of the image, and the first and last one to define."""
+    target: int, internal: int, size: tuple[int, int], scaled: tuple[int, int], format: int, type: int,
+    levels: tuple[int, int, int], data: Any,
+) -> int:  # fmt: skip
+    """Define levels from an image of a `size`, `scaled` to another one.
+
+    `levels`: that of the image, and the first and last one to define.
+    """
     context, (level, base, last) = current(), levels
     image = image_source(context, data, *size, format, type, "gluBuild2DMipmaps")
     if image is None:
         return 0
-    width, height = (min(_nearest_power(side), LARGEST_SIDE) for side in size)
-    if (width, height) != size:
-        image = scale(image, width, height)
+    if scaled != size:
+        image = scale(image, *scaled)
     store = context.unpack_store
     context.unpack_store = evolve(
         store, alignment=1, row_length=0, skip_rows=0, skip_pixels=0, swap_bytes=False, buffer=0

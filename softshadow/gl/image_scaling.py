@@ -115,8 +115,8 @@ def _mean(parts: list[np.ndarray]) -> np.ndarray:
         return total / F32(count)
     if dtype == np.int32:
         return _mean_of_ints(parts)
-    total = sum(part.astype(np.int64) for part in parts) + (2 if count == 4 else 0)
-    return np.trunc(total / count).astype(dtype)
+    whole = sum(part.astype(np.int64) for part in parts) + (2 if count == 4 else 0)
+    return np.trunc(np.asarray(whole) / count).astype(dtype)
 
 
 def _mean_of_ints(parts: list[np.ndarray]) -> np.ndarray:

@@ -113,12 +113,10 @@ class GLUtesselator:
         edge.winding, edge.sym.winding = 1, -1
         self.last_edge = edge
 
-    def combine(self, coords: Sequence[float], data: list[Any], weights: Sequence[float], is_needed: bool) -> Any:
+    def combine(self, coords: Sequence[float], data: Sequence[Any], weights: Sequence[float], is_needed: bool) -> Any:
         """Return the data of a vertex where edges cross or vertices meet: what the callback makes of it."""
         given = [None if each is NULL else each for each in data]
-        made = self.call(
-            glu.GLU_TESS_COMBINE, np.array(coords, np.float64), given, np.array(weights, np.float32)
-        )
+        made = self.call(glu.GLU_TESS_COMBINE, np.array(coords, np.float64), given, np.array(weights, np.float32))
         if made is not NULL:
             return made
         if not is_needed:
@@ -184,7 +182,8 @@ def gluTessProperty(tess: GLUtesselator, which: int, data: float) -> None:
         tess.tolerance = float(data)
     elif which == glu.GLU_TESS_WINDING_RULE and data in IS_INSIDE:
         tess.winding_rule = int(data)
-    elif which == glu.GLU_TESS_BOUNDARY_ONLY:
+    elif which == glu.GLU_TESS_BOUNDARY_ONLY or (which == glu.GLU_TESS_WINDING_RULE and data == int(data) >= 0):
+        # libGLU takes an unknown winding rule, too, for whether only outlines are made
         tess.boundary_only = data != 0
     else:
         is_known = which in (glu.GLU_TESS_TOLERANCE, glu.GLU_TESS_WINDING_RULE)

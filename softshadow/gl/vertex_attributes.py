@@ -202,7 +202,7 @@ def glEdgeFlag(flag: bool) -> None:
 @in_lists
 def glEdgeFlagv(flag: Any) -> None:
     """Set the edge flag from a vector."""
-    glEdgeFlag(vector(flag, 1)[0])
+    glEdgeFlag(bool(vector(flag, 1)[0]))
 
 
 __all__ = spelled_like_gl(globals())

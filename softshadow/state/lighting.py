@@ -84,7 +84,9 @@ class Lighting:
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""
         calls = [switch("GL_LIGHTING", self.enabled), f"glShadeModel({token_name(self.shade_model)})"]
-        calls += [f"glProvokingVertex({token_name(self.provoking_vertex)})"] if self.provoking_vertex != LAST_VERTEX else []
+        calls += (
+            [f"glProvokingVertex({token_name(self.provoking_vertex)})"] if self.provoking_vertex != LAST_VERTEX else []
+        )
         for index, light in enumerate(self.lights):
             if light != INITIAL_LIGHTS[index]:
                 calls += light.calls(index)

@@ -98,7 +98,7 @@ class EventQueue:
 
 
 def sorted_backwards(vertices: list[Vertex]) -> list[Vertex]:
-    """Return the vertices, the last one first: by quicksort with random pivots, which decides the order of equal ones."""
+    """Return the vertices, the last one first, by a quicksort whose pivots decide the order of equal ones."""
     order, seed = list(vertices), SEED
     waiting = [(0, len(order) - 1)]
     while waiting:

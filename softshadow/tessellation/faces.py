@@ -37,15 +37,11 @@ def _triangulate_monotone(face: Face) -> None:
     low = up.lprev
     while up.lnext is not low:
         if is_before(up.dst, low.org):
-            while low.lnext is not up and (
-                goes_left(low.lnext) or side(low.org, low.dst, low.lnext.dst) <= 0
-            ):
+            while low.lnext is not up and (goes_left(low.lnext) or side(low.org, low.dst, low.lnext.dst) <= 0):
                 low = connect(low.lnext, low).sym
             low = low.lprev
         else:
-            while low.lnext is not up and (
-                goes_right(up.lprev) or side(up.dst, up.org, up.lprev.org) >= 0
-            ):
+            while low.lnext is not up and (goes_right(up.lprev) or side(up.dst, up.org, up.lprev.org) >= 0):
                 up = connect(up, up.lprev).sym
             up = up.lnext
     while low.lnext.lnext is not up:

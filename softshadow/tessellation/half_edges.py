@@ -1,7 +1,7 @@
 """A planar mesh of half-edges: each edge is two of them, one per direction.
 
-Vertices, faces and edges stand in rings, whose order decides in which order triangles come out. The operations are those
-of Guibas and Stolfi 1985, "Primitives for the manipulation of general subdivisions", as libGLU has them (libtess, mesh.c).
+Vertices, faces and edges stand in rings, whose order decides in which order triangles come out. The operations are
+those of Guibas and Stolfi 1985, "Primitives for the manipulation of general subdivisions", as in libGLU (mesh.c).
 """
 
 from __future__ import annotations

@@ -11,8 +11,8 @@ from softshadow.tessellation.places import height, is_before, side
 class Region:
     """A region of the sweep line, below the edge `up`, which goes from right to left.
 
-    `is_dirty`: its order relative to the region below must be checked. `fixes_up`: the upper edge is temporary; it holds
-    the place of an edge to a vertex further to the right.
+    `is_dirty`: its order relative to the region below must be checked. `fixes_up`: the upper edge is temporary; it
+    holds the place of an edge to a vertex further to the right.
     """
 
     __slots__ = ("fixes_up", "inside", "is_dirty", "next", "prev", "up", "winding")

@@ -112,5 +112,6 @@ def key_of(command: Draw, target: Framebuffer, flat_input: bool) -> Hashable:
     return (
         id(command.vertices.position), id(command.indices), command.mode, command.modelview.tobytes(),
         command.projection.tobytes(), command.projection_kind, repr(numbers), command.offset_slope, command.offset_unit,
-        flat_input, first_provokes(state), target.size, target.flipped, bool(target.colors), None if image is None else image.format,
+        flat_input, first_provokes(state), target.size, target.flipped, bool(target.colors),
+        None if image is None else image.format,
     )  # fmt: skip

@@ -70,7 +70,7 @@ def assembled_triangles(
 
 
 def _as_rectangle(command: Draw, needs_clipping: np.ndarray) -> bool:
-    """Return whether llvmpipe tries a fan of two triangles as a rectangle, in the order of GL_LAST_VERTEX_CONVENTION."""
+    """Return whether llvmpipe tries a fan of two triangles as a rectangle, whatever the convention."""
     return command.indices is None and not needs_clipping.any() and not passes_stages(command.state)
 
 

@@ -16,7 +16,12 @@ from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.assembly import begins_stipple
 from softshadow.pipeline.geometry.clip import clip_triangles
-from softshadow.pipeline.geometry.draw_primitives import assembled_triangles, drawn_edges, has_no_edges, lines_or_points_of
+from softshadow.pipeline.geometry.draw_primitives import (
+    assembled_triangles,
+    drawn_edges,
+    has_no_edges,
+    lines_or_points_of,
+)
 from softshadow.pipeline.geometry.geometry import positions_of, vertex_outputs, window_transform
 from softshadow.pipeline.geometry.lines import LINES, clip_lines
 from softshadow.pipeline.geometry.points import clip_points
@@ -80,7 +85,8 @@ def window_primitives(command: Draw, storage: Storage) -> WindowPrimitives:
                 window, np.ascontiguousarray(clipped.values[:, :8]),
                 None if back is None else np.ascontiguousarray(clipped.values[:, 8:]), flat, clipped.triangles,
                 edges, assembled.provoking[clipped.source], state, state.cull, target.depth,
-                command.offset_slope, command.offset_unit, target.flipped, begins, command.offset_mode, has_no_edges(command),
+                command.offset_slope, command.offset_unit, target.flipped, begins, command.offset_mode,
+                has_no_edges(command),
             )  # fmt: skip
 
         outlined = outlined_with(clipped.edges)
