@@ -80,7 +80,9 @@ def glPushAttrib(mask: int) -> None:
         mask,
         touched,
         state,
-        (current.color, current.normal, (*current.texcoords,), current.raster) if mask & gl.GL_CURRENT_BIT else (),
+        (current.color, current.normal, (*current.texcoords,), current.raster, current.edge)
+        if mask & gl.GL_CURRENT_BIT
+        else (),
         context.hints.copy() if context.hints else NO_HINTS,
         context.matrix_mode,
         context.active_unit,
@@ -189,8 +191,8 @@ def _restore_current(context: Context, saved: SavedAttributes) -> None:
     for name in context.pending.names:
         if "." not in name:
             context.pending.hidden.setdefault(name, context.attribute(name))
-    color, normal, texcoords, raster = saved.current
-    context.current = CurrentVertex(color, normal, list(texcoords), raster)
+    color, normal, texcoords, raster, edge = saved.current
+    context.current = CurrentVertex(color, normal, list(texcoords), raster, edge)
 
 
 def _restore_materials(context: Context, saved: SavedAttributes) -> None:

@@ -152,6 +152,8 @@ def _validate_draw(draw: commands.Draw) -> None:
         _validate_array(name, array, np.float32, n, width)
     for name, array in vertices.materials.items():
         _validate_array(name, array, np.float32, n, *(() if name.endswith("shininess") else (4,)))
+    if vertices.edges is not None:
+        _validate_array("edge flags", vertices.edges, bool, n)
     if draw.indices is not None:
         _validate_array("indices", draw.indices, np.int32, None)
         if draw.indices.size and not (draw.indices.min() >= 0 and draw.indices.max() < n):

@@ -30,6 +30,7 @@ class Vertices:
     """The vertices of a draw, read-only: position (V, 4), color (V, 4), normal (V, 3), one texcoord (V, 4) per unit.
 
     `materials` holds what glMaterial changed between vertices: "front.diffuse" (V, 4), "back.shininess" (V,) ...
+    `edges` (V,) bool are the edge flags; None: all true.
     """
 
     position: np.ndarray
@@ -37,6 +38,7 @@ class Vertices:
     normal: np.ndarray
     texcoords: tuple[np.ndarray, ...]
     materials: Mapping[str, np.ndarray] = field(default_factory=dict)
+    edges: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)

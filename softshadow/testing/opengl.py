@@ -22,6 +22,7 @@ import numpy as np
 import OpenGL
 from OpenGL import GL, GLU, contextdata, images, platform
 from OpenGL.raw.GL.VERSION import GL_1_0 as raw
+from OpenGL.raw.GL.VERSION import GL_1_1 as arrays
 from OpenGL.raw.GL.VERSION import GL_1_5 as buffers
 
 from softshadow.mapped_memory import MappedMemory
@@ -381,7 +382,18 @@ def glGetBufferParameteriv(target: int, pname: int) -> int:
     return int(out[0])
 
 
+def glEdgeFlagPointer(stride: int, pointer: Any) -> None:
+    """Set the array of edge flags from bytes; PyOpenGL 3.1 would make 16-bit numbers of them."""
+    if isinstance(pointer, np.ndarray | list | tuple | bytes):
+        flags = np.frombuffer(pointer, np.uint8) if isinstance(pointer, bytes) else np.asarray(pointer, np.uint8)
+        _kept_flags[:] = [np.ascontiguousarray(flags)]  # GL reads them at the next draw
+        pointer = ctypes.c_void_p(_kept_flags[0].ctypes.data)
+    arrays.glEdgeFlagPointer(stride, pointer)
+
+
+_kept_flags: list[np.ndarray] = []
 OWN: dict[str, Callable[..., Any]] = {
+    "glEdgeFlagPointer": glEdgeFlagPointer,
     **{name: _under_one_key(getattr(GL, name)) for name in ("glRenderMode", "glSelectBuffer", "glFeedbackBuffer")},
     "glGetPolygonStipple": glGetPolygonStipple,
     "glGetPolygonStippleub": glGetPolygonStipple,
