@@ -90,6 +90,19 @@ FAILURES = (
         wrong_colors, COUNTED,
     ),
     Failure(
+        "depth-test-off-while-counting", "The depth test is disabled to keep the depth buffer", "stencil",
+        "E43, CA:238-239",
+        "Without depth test no depth is written, but every fragment counts as one that passed, so the faces behind "
+        "the visible surface are counted as well.",
+        lambda: Scene.named("torus"),
+        altered(
+            "volume-zpass",
+            ("glDepthMask(GL_FALSE)", "glDisable(GL_DEPTH_TEST)"), ("glDepthMask(GL_TRUE)", "glEnable(GL_DEPTH_TEST)"),
+        ),
+        Setting("volume-zpass"),
+        wrong_colors, COUNTED,
+    ),
+    Failure(
         "culling-left-on", "The light pass keeps the culling of the count", "stencil", "E3, RO1:233-265",
         "Counting the back faces of volumes leaves front faces culled, those of the scene included.",
         lambda: Scene.named("torus"),

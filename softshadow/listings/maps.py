@@ -162,15 +162,16 @@ def two_stages(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Step
     # Etapa II
     matrix = light_matrix(gl, stage) if "E50" in corrected else view_of_light(gl, stage)
     bias = ALMOST_NO_BIAS if "E52" in corrected else 0.0  # E52: else rounding decides whether a surface shadows itself
+    program = gl.program("shadow-map" if "E47" in corrected else SLIDE_SHADER)  # E47, as above
     if "E53" in corrected:
         draw(gl, stage.scene)  # E53: ambient light reaches shadows, too; the factor is for the direct light only
         gl.glEnable(gl.GL_BLEND)
         gl.glBlendFunc(gl.GL_ONE, gl.GL_ONE)
         gl.glDepthFunc(gl.GL_EQUAL)
-        use(gl, gl.program("shadow-map"), matrix, bias, 0.0)
+        use(gl, program, matrix, bias, 0.0)
         draw(gl, stage.scene, unlit=1 - AMBIENT)
     else:
-        use(gl, gl.program("shadow-map"), matrix, bias, SHADOW_FACTOR)
+        use(gl, program, matrix, bias, SHADOW_FACTOR)
         draw(gl, stage.scene, unlit=1.0)
     gl.glUseProgram(0)
     yield "Etapa II: the picture from the eye"
@@ -179,7 +180,8 @@ def two_stages(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Step
 
 def first_stage(gl: Any, corrected: frozenset[str], stage: Stage) -> np.ndarray:
     """RO2:24-47: ZS from the light, no colour written; "daca z < ZS[y][x] atunci ZS[y][x] = z"."""
-    texture = set_up(gl, frozenset({"E46", "E47"}), start=0.0)
+    # ZS[y][x] is one texel, whatever is outside
+    texture = set_up(gl, corrected | {"E46"}, start=0.0)
     framebuffer = begin_framebuffer(gl, texture)
     gl.glViewport(0, 0, MAP_SIZE, MAP_SIZE)
     gl.glMatrixMode(gl.GL_PROJECTION)
@@ -229,6 +231,7 @@ LISTINGS = (
     Listing(
         "map-two-stages", "Shadow map: Etapa I and Etapa II", "maps", "RO2:24-85", two_stages,
         {
+            "E47": "what the light does not see is lit: border of depth 1, test of s, t and q",
             "E50": "projection and scale to the map besides the view",
             "E51": "ZS is cleared to 1",
             "E52": "an offset in the map and a bias",

@@ -121,13 +121,14 @@ def flattened(thing: Thing, stage: Stage) -> Thing:
     )
 
 
-def with_offset(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
-    """CA:147-168 and CA:706-727, CastShadows::paintGL. In the second printing drawReceiver() is commented out."""
+def with_offset(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, receiver: bool = True) -> Steps:
+    """CA:147-168, CastShadows::paintGL, with or without its receiver."""
     begin_frame(gl, stage)
     if "E33" in corrected:
         mark(gl)  # E33, as in the version without an offset
     # 1. Dibuixar receptor
-    draw(gl, stage.receiver)
+    if receiver:
+        draw(gl, stage.receiver)
     yield "1. the receiver"
 
     # 2. Dibuixar l'oclusor projectat (ombra)
@@ -149,6 +150,11 @@ def with_offset(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Ste
     gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
     draw(gl, stage.occluder)
     yield "3. the occluder"
+
+
+def with_offset_again(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
+    """CA:706-727, the second printing of CastShadows::paintGL: E68, drawReceiver() is commented out."""
+    yield from with_offset(gl, corrected, stage, receiver="E68" in corrected)
 
 
 def with_stencil(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, mask: int = 1) -> Steps:
@@ -307,8 +313,11 @@ LISTINGS = (
         {"E21": "casters above the lamp or below the ground cast nothing", "E33": ON_RECEIVER},
     ),
     Listing(
-        "planar-offset", "Projection with polygon offset", "planar", "CA:147-168, CA:706-727", with_offset,
-        {"E33": ON_RECEIVER},
+        "planar-offset", "Projection with polygon offset", "planar", "CA:147-168", with_offset, {"E33": ON_RECEIVER},
+    ),
+    Listing(
+        "planar-offset-again", "Projection with polygon offset, printed again", "planar", "CA:706-727",
+        with_offset_again, {"E33": ON_RECEIVER, "E68": "the receiver is drawn"},
     ),
     Listing("planar-stencil", "Projection with stencil, mask 1", "planar", "CA:292-359", with_stencil),
     Listing("planar-stencil-255", "Projection with stencil, mask 255", "planar", "CA:743-784", with_stencil_255),
