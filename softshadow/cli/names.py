@@ -127,3 +127,15 @@ def complete_options(ctx: click.Context, param: click.Parameter, incomplete: str
         for choice in option.choices or ("",)
     ]
     return [CompletionItem(text) for text in dict.fromkeys(texts) if text.startswith(incomplete)]
+
+
+class ErratumNumber(Name):
+    """An error in the slides."""
+
+    name = kind = "error"
+
+    def names(self) -> Collection[str]:
+        """Return the numbers of all errors in the slides."""
+        from softshadow import course
+
+        return course.ERRATA

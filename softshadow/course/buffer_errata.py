@@ -73,6 +73,7 @@ ERRATA = (
         "Right up to OpenGL 2.1. Core profiles have no alpha test; multisample coverage is not listed.",
         "The order to remember: a fragment that fails the stencil test is not tested for depth.",
         ("program:stencil-before-depth",),
+        stands=True,
     ),
     Erratum(
         "E64", "RO1:181", "stencil writing is not disabled by default",

@@ -1,7 +1,7 @@
 """The slides of the courses by tag, and the codes in which comments and pages point at them.
 
-A place is a tag and the lines of the text that the slides become when they are saved as text: "SK:369" or "RO1:199-250".
-A number like E49 is that of an error in the slides (`softshadow.course.errata`).
+A place is a tag and the lines of the slides, saved as text: "SK:369" or "RO1:199-250". A number like E49 is that of an
+error in the slides (`softshadow.course.ERRATA`).
 """
 
 import re
@@ -54,4 +54,4 @@ def explanations(text: str, title_of: Callable[[str], str]) -> list[str]:
         for number in dict.fromkeys(NUMBER.findall(text))
     ]
     tags = dict.fromkeys(match[1] for match in PLACE.finditer(text))
-    return sentences + [f"{tag}:line: slides of {SOURCES[tag]}; the lines of their text" for tag in tags]
+    return sentences + [f"{tag} and a number: a line of the slides of {SOURCES[tag]}" for tag in tags]

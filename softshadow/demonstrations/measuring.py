@@ -11,9 +11,7 @@ from softshadow.errors import nearest
 from softshadow.gallery import GALLERY
 
 PROGRAMS = {
-    each.name: each
-    for file in (buffers, counts, projections, light_views, area_lights)
-    for each in file.DEMONSTRATIONS
+    each.name: each for file in (buffers, counts, projections, light_views, area_lights) for each in file.DEMONSTRATIONS
 }
 PLANES = ("colour", "depth", "stencil")
 

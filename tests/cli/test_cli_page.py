@@ -28,6 +28,7 @@ ASKED = {
     "scenes": [],
     "listings": [],
     "failures": [],
+    "errata": [],
     "doctor": [],
     "bench": ["w5", "--rounds", "1", "--size", "16x12"],
 }
