@@ -132,7 +132,7 @@ ERRATA = (
         "“Vypočítaj tienove telesa – Pohladovo nezávislé!”",
         "The geometry does not depend on the view, but what z-pass makes of it does.",
         "Volumes may be kept when the eye moves; the start value and the need for caps may not.",
-        ("program:start-values", "listing:volume-five-passes-eye"),
+        ("program:start-values",),
     ),
     Erratum(
         "E38", "CA:470, CA:482", "all bits of the count are tested",

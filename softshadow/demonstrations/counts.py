@@ -85,8 +85,9 @@ def volume_draws(gl: Any) -> list[int]:
     """E18: passes of a z-pass run that draw volumes: those without any receiver."""
     from softshadow.runs import run
 
-    drawn = run("volume-zpass", Scene.named("torus"), (48, 36))
-    receivers = {each.name for each in drawn.scene.receivers}
+    scene = Scene.named("torus")
+    drawn = run("volume-zpass", scene, (48, 36))
+    receivers = {each.name for each in scene.receivers}
     return [1, sum(not receivers & set(names) for names in drawn.ledger.total.passes)]
 
 

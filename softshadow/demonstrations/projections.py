@@ -40,7 +40,7 @@ def unclamped_light(gl: Any) -> list[int]:
         clear(gl)
         for thing in STAGE.scene:
             draw_with_colors(gl, thing, least)
-        darker.append(number((color_of(gl) < ambient).any(axis=-1)))
+        darker.append(number((color_of(gl)[..., :3] < ambient[..., :3]).any(axis=-1)))
     return darker
 
 

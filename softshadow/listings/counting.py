@@ -70,7 +70,8 @@ def volumes_around_eye(stage: Stage) -> int:
     volumes = 0
     for thing in stage.occluder:
         low, high = thing.mesh.positions.min(axis=0), thing.mesh.positions.max(axis=0)
-        enters, leaves = np.sort([(low - eye) / to_lamp, (high - eye) / to_lamp], axis=0)
+        with np.errstate(divide="ignore"):  # a ray along a side of the box meets its planes at infinity
+            enters, leaves = np.sort([(low - eye) / to_lamp, (high - eye) / to_lamp], axis=0)
         volumes += bool(max(enters.max(), 0) < min(leaves.min(), 1))
     return volumes
 
