@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.listings.listing import Listing, Steps
-from softshadow.listings.projection import along_direction, along_rays, from_point, onto_ground
+from softshadow.listings.projection import along_direction, along_rays, from_origin, from_point, onto_ground
 from softshadow.listings.stage import LOW_LAMP, OVER_THE_EDGE, STAGE, Stage, Thing, begin_frame, draw, draw_faces
 from softshadow.scene import Mesh, casting_faces
 
@@ -73,6 +73,16 @@ def matrix_from_point(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) 
     # E35: (0, 1, 0, 0), with the light on its positive side, gives w < 0 everywhere
     plane = (0.0, -1.0, 0.0, 0.0) if "E35" in corrected else GROUND
     yield from three_steps(gl, frozenset({"E33", "E34"}), stage, from_point(plane, stage.light))
+
+
+def matrix_from_origin(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
+    """CA:361-369, Projecció respecte l'origen: between translations that bring the lamp to the origin and back."""
+    a, b, c, d = (0.0, -1.0, 0.0, 0.0) if "E35" in corrected else GROUND  # E35: the same sign as for a point
+    light = np.array(stage.light[:3])
+    moved_plane = (a, b, c, float(d + np.array([a, b, c]) @ light))  # as seen from the lamp
+    to_light, back = np.eye(4), np.eye(4)
+    to_light[:3, 3], back[:3, 3] = light, -light
+    yield from three_steps(gl, frozenset({"E33", "E34"}), stage, to_light @ from_origin(moved_plane) @ back)
 
 
 def matrix_along_direction(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
@@ -217,10 +227,12 @@ def darkened(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     gl.glDisable(gl.GL_LIGHTING)
     if "E60" in corrected:
         gl.glDisable(gl.GL_DEPTH_TEST)  # E60: the depths of receiver and shadow are equal but for rounding
-    gl.glPushMatrix()
-    multiply(gl, onto_ground(stage.light))  # vynasobenie s aktuálnou transformáciou (modelview)
-    draw(gl, stage.occluder)  # render vyznačenú (occluder) geometriu, darken/black
-    gl.glPopMatrix()
+    for _ in stage.receiver:  # pre každý zatienený polygon; here it is one, the ground
+        matrix = onto_ground(stage.light)  # vypočítaj projekčnú maticu M
+        gl.glPushMatrix()
+        multiply(gl, matrix)  # vynasobenie s aktuálnou transformáciou (modelview)
+        draw(gl, stage.occluder)  # render vyznačenú (occluder) geometriu, darken/black
+        gl.glPopMatrix()
     if "E33" in corrected:
         gl.glDisable(gl.GL_STENCIL_TEST)
     yield "the flattened occluder"
@@ -299,6 +311,10 @@ LISTINGS = (
     Listing(
         "planar", "Projection onto one plane, depth test off", "planar", "CA:60-96", three_steps,
         {"E33": ON_RECEIVER, "E34": "the occluder is drawn last, not the lamp"},
+    ),
+    Listing(
+        "planar-origin", "Matrix of a light at the origin", "planar", "CA:361-369", matrix_from_origin,
+        {"E35": "the plane is turned over, so that w > 0 for casters"},
     ),
     Listing(
         "planar-point", "Matrix of a light at a point", "planar", "CA:371-383", matrix_from_point,

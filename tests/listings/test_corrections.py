@@ -14,6 +14,7 @@ COUNTS = {
     ("skeleton-depth-test", "E45"): (298, 0, 0),
     ("planar", "E33"): (16, 0, 5939),
     ("planar", "E34"): (1586, 1765, 0),
+    ("planar-origin", "E35"): (877, 0, 0),
     ("planar-point", "E35"): (877, 0, 0),
     ("planar-direction", "E36"): (307, 0, 0),
     ("planar-rays", "E21"): (752, 0, 0),
@@ -59,6 +60,8 @@ COUNTS = {
     ("map-two-stages", "E51"): (1848, 0, 0),
     ("map-two-stages", "E52"): (933, 0, 0),
     ("map-two-stages", "E53"): (5160, 0, 0),
+    ("map-loop", "E47"): (53, 0, 0),
+    ("map-loop", "E52"): (933, 0, 0),
 }
 # without effect in this view: no two volumes overlap, so parity and count agree
 NO_EFFECT = {("volume-five-passes-eye", "E38")}
