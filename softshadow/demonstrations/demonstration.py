@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from softshadow.listings.listing import Steps
 
@@ -62,7 +63,7 @@ def clear(gl: Any) -> None:
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
 
 
-def number(mask: np.ndarray) -> int:
+def number(mask: ArrayLike) -> int:
     """Return how many pixels of a mask are set, as a plain number."""
     return int(np.count_nonzero(mask))
 

@@ -33,11 +33,11 @@ NUMBERS = {
     "two-masks": (4376, 4376),
     "kept-shadow": (1778, 0),
     "colour-of-the-shadow": (1563, 0),
-    "model-matrix": (0, 0),
+    "model-matrix": (723, 0),
     "distance-of-equal-depths": (13628, 0),
     "wedge-planes": (996, 0),
     "moved-vertex": (103, 0),
-    "penumbra-width": (500, 333),
+    "penumbra-width": (500, 334),
 }
 QUICK = ("names-of-gl", "culled-faces", "replaced-value", "stencil-write-mask", "function-without-test", "start-values")
 programs = [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in NUMBERS]
