@@ -18,7 +18,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx_click",
 ]
-exclude_patterns = ["_build", "conf.py"]
+exclude_patterns = ["_build", "conf.py", "sweeps"]  # scripts, of which only the lessons are pages
 html_theme = "furo"
 html_title = f"softshadow {version}"
 html_static_path = ["_static"]
