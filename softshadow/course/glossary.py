@@ -27,11 +27,11 @@ class Term(NamedTuple):
 
 TERMS = (
     Term("shadow", "umbră", "tieň", "ombra", "The points that do not see the light.",
-         ("softshadow.Run.visibility",)),
+         ("softshadow.runs.Run.visibility",)),
     Term("umbra", "umbră pură", "hlavný tieň", "umbra", "The points that see no part of the light.",
-         ("softshadow.SoftTruth.classes",)),
+         ("softshadow.inspection.soft_truth.SoftTruth.classes",)),
     Term("penumbra", "penumbră*", "polotieň", "penombra", "The points that see a part of an area light.",
-         ("softshadow.SoftTruth.visibility",)),
+         ("softshadow.inspection.soft_truth.SoftTruth.visibility",)),
     Term("own shadow", "umbră proprie", "vlastný tieň", "ombra pròpia*",
          "Shadow on a face that is turned away from the light.", ("softshadow.inspection.shadow_kinds",)),
     Term("cast shadow", "umbră purtată", "vrhnutý tieň", "ombra projectada*", "Shadow of one object on another.",
@@ -39,19 +39,19 @@ TERMS = (
     Term("hard shadow", "umbră dură*", "ostrý tieň", "ombra dura*", "Shadow of a point light: without penumbra.",
          ("softshadow.techniques.volume_zpass",)),
     Term("soft shadow", "umbră moale*", "mäkký tieň", "ombra suau*", "Shadow of an area light: with penumbra.",
-         ("softshadow.soft_truth", "softshadow.techniques.volume_wedges"), ("softshadows",)),
+         ("softshadow.inspection.soft_truth.soft_truth", "softshadow.techniques.volume_wedges"), ("softshadows",)),
     Term("caster (occluder)", "obiect care produce umbra*", "tienidlo", "oclusor", "An object that blocks light.",
-         ("softshadow.Scene.casters", "softshadow.SceneObject.casts")),
+         ("softshadow.scene.Scene.casters", "softshadow.scene.SceneObject.casts")),
     Term("receiver", "obiect care conține umbra*", "zatienený objekt", "receptor", "An object on which shadow falls.",
-         ("softshadow.Scene.receivers", "softshadow.SceneObject.receives")),
+         ("softshadow.scene.Scene.receivers", "softshadow.scene.SceneObject.receives")),
     Term("light", "sursă de lumină", "zdroj svetla", "font de llum", "What emits light.",
-         ("softshadow.Light",)),
+         ("softshadow.scene.Light",)),
     Term("point light", "sursă punctiformă", "bodové svetlo", "font de llum puntual", "A light at one point.",
-         ("softshadow.Light.position",)),
+         ("softshadow.scene.Light.position",)),
     Term("area light", "sursă extinsă*", "plošné svetlo*", "font de llum extensa*", "A light of some size.",
-         ("softshadow.Light.shape", "softshadow.Rectangle", "softshadow.Disc")),
+         ("softshadow.scene.Light.shape", "softshadow.scene.Rectangle", "softshadow.scene.Disc")),
     Term("ambient light", "lumină ambiantă*", "okolité svetlo*", "llum ambient*",
-         "Light from everywhere, which reaches shadows, too.", ("softshadow.Scene.ambient",)),
+         "Light from everywhere, which reaches shadows, too.", ("softshadow.scene.Scene.ambient",)),
     Term("planar shadow", "umbră planară", "rovinný tieň", "ombra per projecció",
          "The shadow on a plane, drawn as the flattened caster.", ("softshadow.techniques.planar",)),
     Term("projection matrix", "matrice de proiecție*", "projekčná matica", "matriu de projecció",
@@ -67,7 +67,7 @@ TERMS = (
     Term("clipping", "decupare", "orezávanie", "retallat*", "Removing what is outside a volume or behind a plane.",
          ("softshadow.pipeline.geometry.clip",)),
     Term("shadow volume", "volum de umbră", "tieňové teleso", "volum d'ombra", "The part of space that a caster hides.",
-         ("softshadow.scene.shadow_volume", "softshadow.shadow_geometry")),
+         ("softshadow.scene.shadow_volume", "softshadow.space.shadow_geometry")),
     Term("generator (polygon)", "poligon generator", "polygón tienidla", "polígon generador*",
          "A lit polygon from which a volume starts.", ("softshadow.scene.casting_faces",)),
     Term("silhouette", "siluetă", "silueta", "silueta*", "The edges between faces towards and away from the light.",
@@ -90,10 +90,10 @@ TERMS = (
     Term("depth test", "test de adâncime", "hĺbkový test*", "depth test",
          "The comparison of a fragment's depth with the stored one.", ("softshadow.gl.glDepthFunc",)),
     Term("fragment", "fragment", "fragment*", "fragment", "What a primitive contributes to one pixel.",
-         ("softshadow.Run.pixel",)),
+         ("softshadow.runs.Run.pixel",)),
     Term("rasterization", "rasterizare", "rasterizácia", "rasterització*", "Making fragments of primitives.",
          ("softshadow.pipeline.raster",)),
-    Term("pass", "pas", "krok", "pas", "Drawing the scene, or a part of it, once.", ("softshadow.Run.ledger",)),
+    Term("pass", "pas", "krok", "pas", "Drawing the scene, or a part of it, once.", ("softshadow.runs.Run.ledger",)),
     Term("shadow map (depth map)", "shadow map", "hĺbková mapa", "shadow map", "The depth buffer of the light's view.",
          ("softshadow.techniques.map", "softshadow.techniques.depth_maps"), ("shadowmap ", "shadow-mapping")),
     Term("bias", "bias*", "depth bias", "bias", "What is subtracted from a depth before it is compared with the map.",
@@ -111,10 +111,33 @@ TERMS = (
 )  # fmt: skip
 
 
+# pages that describe the names which the API reference does not have; layout.md lists every file
+PAGES = (("softshadow.gl.", "gl21.md"), ("softshadow.techniques.", "techniques.md"))
+DOCUMENTED = (
+    "softshadow.inspection.soft_truth.", "softshadow.runs.", "softshadow.scene.Disc", "softshadow.scene.Light",
+    "softshadow.scene.Rectangle", "softshadow.scene.Scene", "softshadow.scene.penumbra_wedge.",
+    "softshadow.space.shadow_geometry",
+)  # fmt: skip
+
+
+def link(symbol: str) -> str:
+    """Return a Markdown link to the documentation of a name: the API reference, or a page.
+
+    Examples
+    --------
+    >>> link("softshadow.gl.glStencilOp")
+    '[softshadow.gl.glStencilOp](gl21.md)'
+    """
+    if symbol.startswith(DOCUMENTED):
+        return f"{{py:obj}}`{symbol}`"
+    page = next((page for start, page in PAGES if symbol.startswith(start)), "layout.md")
+    return f"[{symbol}]({page})"
+
+
 def markdown_table() -> str:
     """Return the terms as a Markdown table, in the order of the course, with links to the names of the package."""
     rows = ["| English | Romanian | Slovak | Catalan | meaning | in the package |", "|---|---|---|---|---|---|"]
     for term in TERMS:
-        names = ", ".join(f"{{py:obj}}`{name}`" for name in term.symbols)
+        names = ", ".join(link(name) for name in term.symbols)
         rows.append(f"| {' | '.join(term[:5])} | {names} |".replace("*", "\\*"))
     return "\n".join(rows)
