@@ -15,6 +15,7 @@ from softshadow.listings.stage import AMBIENT, STAGE, Stage, begin_frame, draw, 
 MAP_SIZE = 192  # SHADOW_MAP_WIDTH and SHADOW_MAP_HEIGHT: larger than the window
 LIGHT_FOV, LIGHT_NEAR, LIGHT_FAR = 34.0, 1.0, 12.0  # the floor's corners lie outside
 SHADOW_FACTOR = 0.5  # RO2:85, 0 < factor_umbra < 1
+BRIGHT = 0.98  # share of the colour in light: at 1, 0.9 would be half-way between two levels of 255
 ALMOST_NO_BIAS = 0.0005  # in the map's depth, 0 to 1: the least that E52 needs besides a slope offset
 
 
@@ -190,7 +191,7 @@ def pixel_loop(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Step
     yield "1. H from the light", {"H": stored}
 
     # 2. Zobraz scénu z pohľadu kamery
-    draw(gl, stage.scene, unlit=1.0)
+    draw(gl, stage.scene, unlit=BRIGHT)
     _, _, width, height = gl.glGetIntegerv(gl.GL_VIEWPORT)
     w = np.asarray(gl.glReadPixels(0, 0, width, height, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT), np.float64)
     picture = gl.glReadPixels(0, 0, width, height, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
