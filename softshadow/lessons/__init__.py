@@ -1,10 +1,11 @@
-"""What the lessons of the course display: a slide beside its running code, predictions and their answers, reports.
+"""What the lessons of the course display: slides beside running code, predictions and answers, reports; their decks.
 
 The lessons themselves are the py:percent files of docs/lessons. `softshadow lessons` copies them.
 """
 
 from softshadow.lessons.clickable import clickable
 from softshadow.lessons.code_beside_slide import code_beside_slide
+from softshadow.lessons.deck import lesson_slides
 from softshadow.lessons.function_check import check_function
 from softshadow.lessons.listing_run import listing_difference, run_listing
 from softshadow.lessons.prediction import compare_prediction
@@ -16,6 +17,7 @@ __all__ = [
     "clickable",
     "code_beside_slide",
     "compare_prediction",
+    "lesson_slides",
     "listing_difference",
     "run_listing",
 ]
