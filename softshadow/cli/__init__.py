@@ -24,6 +24,7 @@ from softshadow.cli.bench import bench
 from softshadow.cli.cards import cards
 from softshadow.cli.compare import compare
 from softshadow.cli.console import say, say_marked
+from softshadow.cli.errata import errata
 from softshadow.cli.exports import export, view3d
 from softshadow.cli.failures import failures
 from softshadow.cli.lessons import lessons
@@ -144,7 +145,7 @@ def main(traceback: bool) -> None:
 
 for command in (
     tour, render, steps, pixel, section, view3d, export, cards, slides, compare, replay, run, techniques, scenes,
-    listings, failures, lessons, animate, bench, sweep, warmup, doctor,
+    listings, failures, errata, lessons, animate, bench, sweep, warmup, doctor,
 ):  # fmt: skip
     main.add_command(command)
 

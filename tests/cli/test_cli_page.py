@@ -29,6 +29,7 @@ ASKED = {
     "scenes": [],
     "listings": [],
     "failures": [],
+    "errata": [],
     "doctor": [],
     "animate": ["planar", "--light-path", "orbit", "--frames", "2", "-o", "a.webp"],
     "bench": ["w5", "--rounds", "1", "--size", "16x12"],
