@@ -21,6 +21,7 @@ import softshadow
 from softshadow.cli.arguments import examples
 from softshadow.cli.bench import bench
 from softshadow.cli.cards import cards
+from softshadow.cli.check import check
 from softshadow.cli.compare import compare
 from softshadow.cli.console import say, say_marked
 from softshadow.cli.exports import export, view3d
@@ -142,7 +143,7 @@ def main(traceback: bool) -> None:
 
 for command in (
     tour, render, steps, pixel, section, view3d, export, cards, compare, replay, run, techniques, scenes, listings,
-    failures, lessons, bench, sweep, warmup, doctor,
+    failures, lessons, check, bench, sweep, warmup, doctor,
 ):  # fmt: skip
     main.add_command(command)
 
