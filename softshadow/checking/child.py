@@ -58,9 +58,7 @@ def main(job_file: str) -> None:
     os._exit(0)  # whatever threads and exit handlers the program has left
 
 
-def verdicts_of(
-    path: Path, exercise: Exercise, checks: list[Check], expected: list[Path | None]
-) -> list[Verdict]:
+def verdicts_of(path: Path, exercise: Exercise, checks: list[Check], expected: list[Path | None]) -> list[Verdict]:
     """Return the verdicts of checks of one function in a student's file."""
     caught: list[Verdict] = []
     with suppress_all(path, caught):

@@ -100,6 +100,4 @@ def _beside_solution(verdict: Verdict, expected: Expected) -> Verdict:
         return verdict
     first = verdict.differences[0]
     history = pixel_history(expected.frame, first["x"], first["y"])
-    return replace(
-        verdict, expected_history=str(history), expected_explanation=explain(history, None, False)
-    )
+    return replace(verdict, expected_history=str(history), expected_explanation=explain(history, None, False))

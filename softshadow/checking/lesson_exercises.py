@@ -8,6 +8,8 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Callable, Iterable
+from contextlib import redirect_stdout
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +19,9 @@ from softshadow.lessons.copies import lesson_files, title_of
 
 LESSON = "lesson:"
 HEADING = "# ## Exercise"
-HIDDEN = re.compile(r"\bcheck_(?:program|function)\(|^def solution\b", re.MULTILINE)  # cells that a student does not need
+HIDDEN = re.compile(
+    r"\bcheck_(?:program|function)\(|^def solution\b", re.MULTILINE
+)  # cells that a student does not need
 CELL = re.compile(r"^# %%(.*)$", re.MULTILINE)
 
 
@@ -58,10 +62,11 @@ def lesson_exercise(source: str) -> Exercise:
     needed = needed_statements(lesson, codes)
     collector = Collector()
     names: dict[str, Any] = {"__name__": "exercise", "display": lambda *_: None}
-    for code in [*needed, *codes]:
-        exec(compile(code, str(lesson), "exec", dont_inherit=True), names)
-        if "lessons" in names:
-            names["lessons"] = collector
+    with redirect_stdout(StringIO()):  # a cell prints the result of its check, which is not run
+        for code in [*needed, *codes]:
+            exec(compile(code, str(lesson), "exec", dont_inherit=True), names)
+            if "lessons" in names:
+                names["lessons"] = collector
     task = "\n\n".join(text for kind, text in cells if kind == "text").partition("\n")[2].strip()
     given = [code for code in codes if not HIDDEN.search(code)]
     start = "\n\n\n".join(["\n".join(needed_statements(lesson, given)), *given]).strip()
@@ -109,7 +114,5 @@ def names_defined(statement: ast.stmt) -> set[str]:
     if isinstance(statement, ast.FunctionDef):
         return {statement.name}
     if isinstance(statement, ast.Assign):
-        return {
-            node.id for target in statement.targets for node in ast.walk(target) if isinstance(node, ast.Name)
-        }
+        return {node.id for target in statement.targets for node in ast.walk(target) if isinstance(node, ast.Name)}
     return set()

@@ -108,8 +108,9 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
 
 def _read(pipe: IO[bytes], kept: bytearray) -> None:
     """Read all output, so that the program never waits, and keep its beginning."""
-    while block := pipe.read1(1 << 16):  # type: ignore[attr-defined]
-        kept += block[: KEPT_OUTPUT - len(kept)]
+    with pipe:
+        while block := pipe.read1(1 << 16):  # type: ignore[attr-defined]
+            kept += block[: KEPT_OUTPUT - len(kept)]
 
 
 def _without_report(ended: int | None, limits: Limits) -> Verdict:

@@ -71,7 +71,7 @@ class Verdict:
             ("The solution", self.expected_explanation, self.expected_history),
         ):
             if history:
-                parts.append(f"{title}: {explanation}\n{history}")
+                parts.append(f"{title}: {explanation}\n\n{history}")
         if self.output and not self.passed:
             parts.append(f"It printed:\n{self.output}")
         return "\n\n".join(parts)

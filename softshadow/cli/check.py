@@ -24,7 +24,6 @@ LIMITS = {"seconds=": "--time=", "megabytes=": "--memory="}  # of Python argumen
         "softshadow check --list",
         "softshadow check lesson:05",
         "softshadow check exercise.py student.py",
-        "softshadow check exercise.py student.py --json",
     )
 )
 @click.argument("exercise", metavar="[EXERCISE]", required=False, shell_complete=complete_files)
@@ -121,10 +120,13 @@ def _describe(exercise: Exercise, as_json: bool) -> None:
 
 
 def _print(exercise: Exercise, grade: Grade) -> None:
+    shown: set[str] = set()
     for test, verdict in zip(grade.checks, grade.verdicts, strict=True):
         points = test.points if verdict.passed else 0
         click.echo(f"{test.title}: {verdict.kind} ({points:g} of {test.points:g} points)")
-        show(verdict)
+        if (text := str(verdict)) not in shown:  # an error ends all checks of its function
+            show(text)
+        shown.add(text)
         if test.hint and not verdict.passed:
             show(f"Hint: {test.hint}")
         click.echo()
