@@ -19,9 +19,7 @@ from softshadow.lessons.copies import lesson_files, title_of
 
 LESSON = "lesson:"
 HEADING = "# ## Exercise"
-HIDDEN = re.compile(
-    r"\bcheck_(?:program|function)\(|^def solution\b", re.MULTILINE
-)  # cells that a student does not need
+HIDDEN = re.compile(r"\bcheck_(?:program|function)\(|^def solution\b", re.MULTILINE)  # not for students
 CELL = re.compile(r"^# %%(.*)$", re.MULTILINE)
 
 

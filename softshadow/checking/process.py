@@ -70,9 +70,10 @@ def run_submission(
 def _run(job: Path, scratch: Path, seconds: float) -> tuple[int | None, str]:
     """Run the process; return its exit code, None if the time was over, and the beginning of its output."""
     path = os.pathsep.join([str(PACKAGE), *filter(None, [os.environ.get("PYTHONPATH")])])
+    environment = {**os.environ, "PYTHONPATH": path}
     process = subprocess.Popen(
         [sys.executable, "-u", "-m", "softshadow.checking.child", str(job)], cwd=scratch, stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True, env={**os.environ, "PYTHONPATH": path},
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True, env=environment,
     )  # fmt: skip
     assert process.stdout is not None
     kept = bytearray()

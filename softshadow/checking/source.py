@@ -46,6 +46,6 @@ def cut_traceback(error: BaseException, path: Path) -> str:
         [FrameSummary(Path(each.filename).name, each.lineno, each.name, line=each.line)
          for each in frames_of(error, path)]
     )  # fmt: skip
-    head = ["Traceback (your lines):\n"] if frames else []
+    head = ["Calls in your lines, the innermost last:\n"] if frames else []
     text = "".join([*head, *frames.format(), *format_exception_only(error)])
     return text.replace(str(path.parent) + "/", "").rstrip()

@@ -16,7 +16,7 @@ from softshadow.cli.names import complete_files
 if TYPE_CHECKING:
     from softshadow.checking import Exercise, Grade
 
-LIMITS = {"seconds=": "--time=", "megabytes=": "--memory="}  # of Python arguments, the options
+LIMITS = {"seconds": "--time", "megabytes": "--memory"}  # Python arguments, and the options they correspond to
 
 
 @click.command(
@@ -41,7 +41,7 @@ def check(
     context: click.Context, exercise: str | None, submissions: tuple[str, ...], lists: bool, seconds: float,
     megabytes: int, as_csv: bool, as_json: bool,
 ) -> None:  # fmt: skip
-    """Check students' programs: do they leave the buffers that an exercise expects?
+    """Check whether students' programs leave the buffers that an exercise expects.
 
     EXERCISE is a teacher's file or lesson:NAME. Without a FILE.py its task is printed, and the code to begin with. The
     exit code is 1 if a check fails. Each program runs in its own process with a time and a memory limit. This is no
@@ -59,10 +59,8 @@ def check(
     try:
         limits = Limits(seconds, megabytes)
     except ValueError as error:
-        message = str(error)
-        for argument, option in LIMITS.items():
-            message = message.replace(argument, option)
-        raise click.UsageError(message) from None
+        argument, _, rest = str(error).partition("=")
+        raise click.UsageError(f"{LIMITS[argument]}={rest}") from None
     with redirect_stdout(sys.stderr):  # what an exercise prints is no part of the result
         loaded = load_exercise(exercise)
     if not submissions:

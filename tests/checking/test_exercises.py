@@ -41,7 +41,7 @@ def test_an_exercise_has_title_task_size_and_checks(tmp_path: Path) -> None:
     ],
 )
 def test_a_broken_exercise_says_what_is_wrong(code: str, said: str, tmp_path: Path) -> None:
-    with pytest.raises(SoftShadowError, match="exercise.py") as error:
+    with pytest.raises(SoftShadowError, match=r"exercise\.py") as error:
         load_exercise(written(tmp_path, "exercise.py", code))
     assert said in str(error.value)
 
@@ -49,8 +49,9 @@ def test_a_broken_exercise_says_what_is_wrong(code: str, said: str, tmp_path: Pa
 @pytest.mark.parametrize("lesson", lesson_files(), ids=lambda file: file.stem)
 def test_every_lesson_has_an_exercise_by_its_name(lesson: Path) -> None:
     exercise = load_exercise(f"lesson:{lesson.stem}")
-    assert exercise == load_exercise(f"lesson:{lesson.stem[:2]}") or exercise.checks
+    assert load_exercise(f"lesson:{lesson.stem[:2]}").source == exercise.source == f"lesson:{lesson.stem}"
     assert exercise.task
+    assert exercise.checks
     assert "solution" not in exercise.start
     names: dict[str, object] = {}
     exec(compile(exercise.start, lesson.name, "exec"), names)
@@ -101,7 +102,7 @@ def test_a_file_of_buffers_of_another_size_is_refused(tmp_path: Path) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "kind"),
-    [("...", "not-written"), ("0", "wrong"), ("1 / 0", "wrong"), ("abs(s * (d_r - d_b) / d_b)", "equal")],
+    [("...", "not-written"), ("0", "wrong"), ("1 / 0", "wrong"), ("s * (d_r - d_b) / d_b", "equal")],
 )
 def test_a_function_of_a_lesson_is_checked(body: str, kind: str, tmp_path: Path) -> None:
     student = written(tmp_path, "student.py", f"def penumbra_width(s, d_b, d_r):\n    return {body}\n")
