@@ -18,7 +18,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx_click",
 ]
-exclude_patterns = ["_build", "conf.py"]
+exclude_patterns = ["_build", "conf.py", "sweeps"]  # scripts, of which only the lessons are pages
 html_theme = "furo"
 html_title = f"softshadow {version}"
 html_static_path = ["_static"]
@@ -77,6 +77,20 @@ def offer_notebook(app: Any, name: str, source: list[str]) -> None:
         source[0] += f"\n# %% [markdown]\n# {link}\n"
 
 
+def fill_contributing(app: Any, name: str, source: list[str]) -> None:
+    """Let the contributor guide be a page: links to pages become links from page to page, those to files plain text."""
+    pages = Path(app.srcdir)
+
+    def link(match: re.Match[str]) -> str:
+        words, target = match[1], match[2].removeprefix("docs/")
+        is_page = target.endswith(".md") and (pages / target).is_file()
+        return f"[{words}]({target})" if is_page or "://" in target else words
+
+    if name == "contributing":
+        text = (pages.parent / "CONTRIBUTING.md").read_text(encoding="utf-8")
+        source[0] = re.sub(r"\[([^]]*)\]\(([^)]*)\)", link, text)
+
+
 def write_notebooks(app: Any, error: Exception | None) -> None:
     """Write the notebooks that the pages of the lessons link to."""
     folder = Path(app.outdir) / "lessons"
@@ -90,4 +104,5 @@ def setup(app: Any) -> None:
     """Connect the hooks; that of docstrings before napoleon's (priority 500) sees them."""
     app.connect("autodoc-process-docstring", spread_columns, priority=400)
     app.connect("source-read", offer_notebook, priority=400)
+    app.connect("source-read", fill_contributing)
     app.connect("build-finished", write_notebooks)

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from softshadow.inspection.soft_truth import SoftTruth, soft_truth
     from softshadow.pipeline import explain_paths, set_threads, use_short_cuts
     from softshadow.recordings import Recording, record, replay
-    from softshadow.report import counting_cards, cross_section
+    from softshadow.report import counting_cards, cross_section, slides
     from softshadow.runs import Run, load_run, run
     from softshadow.scene import (
         Camera,
@@ -125,6 +125,7 @@ __all__ = [
     "set_threads",
     "shadow_geometry",
     "shapes",
+    "slides",
     "soft_truth",
     "stencil_palette",
     "sweep",
@@ -151,7 +152,7 @@ _HOMES = {
     "softshadow.inspection.soft_truth": ("SoftTruth", "soft_truth"),
     "softshadow.pipeline": ("explain_paths", "set_threads", "use_short_cuts"),
     "softshadow.recordings": ("Recording", "record", "replay"),
-    "softshadow.report": ("counting_cards", "cross_section"),
+    "softshadow.report": ("counting_cards", "cross_section", "slides"),
     "softshadow.runs": ("Run", "load_run", "run"),
     "softshadow.scene": (
         "Camera", "Disc", "Light", "Material", "Mesh", "Rectangle", "Scene", "SceneObject", "Segment", "Sphere",

@@ -1,7 +1,7 @@
 """The lanes of the tests, and the examples that Hypothesis draws.
 
 Compilation makes the first call of a kernel slow, so no test has a deadline. ``SOFTSHADOW_LANE=all`` also runs the
-tests marked ``slow`` and draws ten times as many examples. With ``CI`` the same examples are drawn in every session.
+tests marked ``slow`` and draws 25 times as many examples. With ``CI`` the same examples are drawn in every session.
 """
 
 import os
@@ -13,8 +13,8 @@ from softshadow.testing import mesa_available, mesa_reason
 
 ALL_LANES = os.environ.get("SOFTSHADOW_LANE") == "all"
 
-settings.register_profile("here", deadline=None)
-settings.register_profile("ci", deadline=None, derandomize=True, print_blob=True)
+settings.register_profile("here", deadline=None, max_examples=40)
+settings.register_profile("ci", deadline=None, max_examples=40, derandomize=True, print_blob=True)
 settings.register_profile("all", deadline=None, max_examples=1000, print_blob=True)
 settings.load_profile("all" if ALL_LANES else "ci" if os.environ.get("CI") else "here")
 

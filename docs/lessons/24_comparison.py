@@ -15,7 +15,8 @@
 #
 # **Goal.** You can choose a technique: by receivers, occluders, lights, passes, and by its error.
 #
-# **Slides.** Barcelona (Andújar 2021), lines 796-803: the final table, filled in by hand.
+# **Slides.** Barcelona (Andújar 2021), lines 796-803: the final table, filled in by hand. Bucharest (Moldoveanu 2021),
+# lines 359-369. Bratislava (Zimányi & Valient 2004), lines 290-310.
 #
 # The last slide of the Barcelona course asks four questions of each technique. Here the answers come from running it.
 
@@ -53,6 +54,11 @@ for name, run in runs.items():
     print(f"{name:14} {len(total.passes):6} {total.draws:6} {total.triangles:10} {total.all_fragments:10}")
 
 # %% [markdown]
+# The slides sum up what speaks for volumes and against them: exact edges, self-shadowing, any scene; but the scene and
+# the volumes are drawn several times, most of the work is in fragments that change the stencil buffer only, and the
+# edges are hard. Both sides stand in the tables of this lesson: count the fragments above, and the wrong pixels below.
+# "All types of lights" means point lights and lights at infinity; "robust" means z-fail with closed casters (E24).
+#
 # ## Predict, then run
 #
 # With a second light, what happens to the number of passes of z-fail? The scene without light is drawn once; what is
@@ -142,4 +148,5 @@ lessons.check_function(choose, [((task,), name) for task, name in tasks.items()]
 # %% [markdown]
 # ## Sources
 #
-# Slides: CA:796-803. The completed table with all techniques is on the page of the techniques, counted from ledgers.
+# Slides: CA:796-803, RO1:359-369, SK:290-310. Corrections: E18, E24. The completed table with all techniques is on the
+# page of the techniques, counted from ledgers.

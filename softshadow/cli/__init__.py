@@ -33,6 +33,7 @@ from softshadow.cli.machine import doctor, warmup
 from softshadow.cli.replay import replay
 from softshadow.cli.runs import pixel, render, section, steps
 from softshadow.cli.script import run
+from softshadow.cli.slides import slides
 from softshadow.cli.sweeps import sweep
 from softshadow.cli.tours import tour
 from softshadow.errors import SoftShadowError
@@ -142,8 +143,8 @@ def main(traceback: bool) -> None:
 
 
 for command in (
-    tour, render, steps, pixel, section, view3d, export, cards, compare, replay, run, techniques, scenes, listings,
-    failures, lessons, check, bench, sweep, warmup, doctor,
+    tour, render, steps, pixel, section, view3d, export, cards, slides, compare, replay, run, techniques, scenes,
+    listings, failures, lessons, check, bench, sweep, warmup, doctor,
 ):  # fmt: skip
     main.add_command(command)
 

@@ -11,7 +11,10 @@ from softshadow.cli.arguments import as_json, examples
 from softshadow.cli.console import print_json, say, table
 
 PACKAGES = ("numpy", "numba", "llvmlite", "trimesh", "pillow", "imageio", "click", "rich", "pydantic", "jinja2")
-EXTRAS = {"mesa": "OpenGL", "properties": "hypothesis", "truth": "embreex", "notebook": "ipykernel"}
+EXTRAS = {
+    "mesa": "OpenGL", "properties": "hypothesis", "truth": "embreex", "notebook": "ipykernel", "exr": "OpenEXR",
+    "trace": "cramjam", "sweep": "distributed", "video": "av",
+}  # fmt: skip
 WARM_SIZE = (64, 48)
 
 

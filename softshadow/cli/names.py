@@ -5,6 +5,7 @@ The registers are imported when a name is checked or completed, so that ``--help
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Collection
 from typing import Any
 
@@ -12,14 +13,14 @@ import click
 from click.shell_completion import CompletionItem
 
 
-class Name(click.ParamType):
+class Name(click.ParamType, ABC):
     """A name of a register."""
 
     kind = ""
 
+    @abstractmethod
     def names(self) -> Collection[str]:
         """Return all names."""
-        raise NotImplementedError
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return the name; an unknown one is an error that tells the nearest."""

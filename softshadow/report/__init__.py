@@ -1,4 +1,4 @@
-"""Pages to read in a browser, made from records: one run, one failure, the tour.
+"""Pages to read in a browser, made from records: one run, one failure, the tour, slides.
 
 Pages load nothing from the network: styles and script are in them, and pictures too, or in a folder beside the page.
 """
@@ -11,6 +11,7 @@ from softshadow.report.cross_sections import Crossing, CrossSection, cross_secti
 from softshadow.report.failure_page import FailurePage, write_failure_page
 from softshadow.report.page import Section, folder_writer, named, sections
 from softshadow.report.run_page import RunPage, write_run_page
+from softshadow.report.slide_deck import Slide, Slides, slides, step_slides
 from softshadow.report.tour_page import TourPage, Visit, write_tour_page
 from softshadow.report.view3d import View3D, view3d_document, view3d_of
 
@@ -24,6 +25,8 @@ __all__ = [
     "FailurePage",
     "RunPage",
     "Section",
+    "Slide",
+    "Slides",
     "TourPage",
     "View3D",
     "Visit",
@@ -35,6 +38,8 @@ __all__ = [
     "save_svg",
     "scene_spelled",
     "sections",
+    "slides",
+    "step_slides",
     "svg_of",
     "view3d_document",
     "view3d_of",

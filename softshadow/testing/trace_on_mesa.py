@@ -55,7 +55,7 @@ def trace_on_mesa(path: str | os.PathLike[str], frames: Iterable[int], timeout: 
     SoftShadowError              the file cannot be read
     MesaError                    Mesa is missing, crashed, or took too long
     """
-    program = partial(play_on_mesa, str(path), tuple(frames))
+    program = partial(play_on_mesa, os.path.abspath(path), tuple(frames))  # its process has another working folder
     windows: list[ProgramResult] = run_on_mesa(program, (1, 1), raise_errors=False, timeout=timeout).returned
     return windows
 

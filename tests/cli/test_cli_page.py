@@ -25,6 +25,7 @@ ASKED = {
     "steps": ["planar"],
     "pixel": ["planar", "3", "4"],
     "compare": ["planar", "map"],
+    "slides": ["lesson:05"],
     "techniques": [],
     "scenes": [],
     "listings": [],

@@ -1,8 +1,11 @@
 """``softshadow techniques``, ``scenes``, ``doctor`` and ``warmup``."""
 
+import tomllib
+
 import pytest
 
 from cli.invocation import invoke_ok, json_of
+from paths import ROOT
 from softshadow import techniques
 from softshadow.cli import machine
 from softshadow.scene import scene_names
@@ -42,7 +45,8 @@ def test_doctor_tells_versions_threads_and_extras() -> None:
     facts = json_of("doctor")
     assert {"softshadow", "python", "threads", "cache_folder", "mesa"} <= set(facts)
     assert "missing" not in facts["packages"].values()
-    assert set(facts["extras"]) == set(machine.EXTRAS)
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert set(facts["extras"]) == set(machine.EXTRAS) == {*project["optional-dependencies"]} - {"test"}
     text = invoke_ok("doctor").stdout
     for name, version in facts["packages"].items():
         assert any(line.split() == [name, version] for line in text.splitlines())

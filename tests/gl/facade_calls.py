@@ -244,7 +244,8 @@ LEFT_OUT = {
     "glDrawElements": (40, 99999), "glDrawRangeElements": (40, 99999), "glMultiDrawArrays": (40, 99999),
     "glTexImage2D": (40,), "glUniform1i": (40,), "glInterleavedArrays": (99999,), "glBitmap": (40, 99999),
     "glDrawPixels": (40, 99999), "glCopyPixels": (99999,), "glPixelMapfv": (40,), "glPixelMapuiv": (40,),
-    "glPixelMapusv": (40,),
+    "glPixelMapusv": (40,), "gluSphere": (99999,), "gluCylinder": (99999,), "gluDisk": (99999,),
+    "gluPartialDisk": (99999,),
 }  # fmt: skip
 
 

@@ -10,7 +10,7 @@ from softshadow.errors import SoftShadowError
 from softshadow.pipeline import execute
 from softshadow.pipeline.commands import Clear
 
-QUICK, PARTS, LONG = 40, 4, 1000  # sequences
+QUICK, PARTS, LONG = 16, 4, 1000  # sequences
 
 
 def names_of(call: object) -> list[str]:

@@ -10,6 +10,15 @@ import pytest
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 
+# what leaves its slide, in a page of slides that shows all of them
+OVERFLOWING = """() => [...document.querySelectorAll(".slide")].flatMap((slide) => {
+  const box = slide.getBoundingClientRect();
+  return [...slide.querySelectorAll("h1, h2, p, li, td, figcaption, svg")].filter((each) => {
+    const own = each.getBoundingClientRect();
+    return own.bottom > box.bottom + 1 || own.right > box.right + 1 || own.bottom < own.top;
+  }).map((each) => `${slide.id}: ${each.tagName} ${each.textContent.slice(0, 40)}`);
+})"""
+
 
 @contextmanager
 def chromium() -> Iterator[Any]:
