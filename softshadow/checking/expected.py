@@ -76,7 +76,7 @@ def read_buffers(path: Path, size: tuple[int, int], names: tuple[str, ...] = BUF
     for name, array in arrays.items():
         if array.shape != shapes[name]:
             raise SoftShadowError(f"{path}: {name} has the shape {array.shape}; expected {shapes[name]}")
-    return ProgramResult(**arrays)
+    return ProgramResult(arrays["color"], arrays["depth"], arrays["stencil"])
 
 
 def save_buffers(path: Path, buffers: ProgramResult) -> None:
