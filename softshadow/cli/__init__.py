@@ -18,6 +18,7 @@ from typing import Any
 import click
 
 import softshadow
+from softshadow.cli.animate import animate
 from softshadow.cli.arguments import examples
 from softshadow.cli.bench import bench
 from softshadow.cli.cards import cards
@@ -144,7 +145,7 @@ def main(traceback: bool) -> None:
 
 for command in (
     tour, render, steps, pixel, section, view3d, export, cards, slides, compare, replay, run, techniques, scenes,
-    listings, failures, lessons, check, bench, sweep, warmup, doctor,
+    listings, failures, lessons, check, animate, bench, sweep, warmup, doctor,
 ):  # fmt: skip
     main.add_command(command)
 

@@ -31,6 +31,7 @@ ASKED = {
     "listings": [],
     "failures": [],
     "doctor": [],
+    "animate": ["planar", "--light-path", "orbit", "--frames", "2", "-o", "a.webp"],
     "bench": ["w5", "--rounds", "1", "--size", "16x12"],
 }
 
@@ -67,7 +68,7 @@ def test_line_of_the_page_runs(line: str) -> None:
     assert program == "softshadow"
     # later sizes win; the pixels are those of the full size
     sized = command in ("tour", "render", "steps") or (command in ("bench", "failures") and arguments)
-    size = {"compare": "24x18"}.get(command, "48x36" if sized else None)
+    size = {"compare": "24x18", "animate": "24x18"}.get(command, "48x36" if sized else None)
     size = "80x60" if command == "failures" and size else size
     started = ["--no-start"] if command == "lessons" and arguments else []
     invoke_ok(command, *arguments, *(["--size", size] if size else []), *started)

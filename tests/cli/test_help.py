@@ -20,6 +20,7 @@ COMMANDS = list(main.commands)
 SLOW = ("warmup", "bench", "tour")  # draw with all techniques, or compile every state that they draw with
 SMALL = {
     **{command: ["--size", "48x36"] for command in ("tour", "render", "steps", "failures", "listings")},
+    "animate": ["--size", "32x24", "--frames", "3"],
     "compare": ["--size", "24x18"],
     "bench": ["--size", "48x36", "--rounds", "1"],
     "lessons": ["--no-start"],
