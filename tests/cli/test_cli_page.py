@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from checking.exercises import EXERCISE, RIGHT
 from cli.invocation import invoke_ok, json_of
 from paths import ROOT, SCENES, TRACE
 from softshadow.cli import main
@@ -42,13 +43,17 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shutil.copy(SCENES / "crate.obj", "bunny.obj")
     shutil.copy(TRACE, "program.trace")
     Path("program.py").write_text(GLUT)
+    Path("exercise.py").write_text(EXERCISE)
+    for name in ("student.py", "anna.py", "ben.py"):
+        Path(name).write_text(RIGHT)
     Path("sweep.toml").write_text('technique = "blob"\nsize = "24x18"\n')
     for name in ("lesson.toml", "crate.obj"):
         shutil.copy(SCENES / name, name)
 
 
-# bench compiles every state that it draws with; the block of the README draws the tour
-LONG = ("softshadow bench ", "softshadow tour")
+# bench compiles every state that it draws with; the block of the README draws the tour; check starts a process for each
+# program, and tests/cli/test_help.py runs one
+LONG = ("softshadow bench ", "softshadow tour", "softshadow check exercise.py ")
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from checking.exercises import EXERCISE, RIGHT
 from cli.invocation import invoke, invoke_ok
 from paths import SCENES, TRACE
 from softshadow import __version__
@@ -54,6 +55,8 @@ def test_example_of_help_runs(line: str, tmp_path: Path, monkeypatch: pytest.Mon
     shutil.copy(SCENES / "crate.obj", "bunny.obj")
     shutil.copy(TRACE, "program.trace")
     Path("program.py").write_text(GLUT)
+    Path("exercise.py").write_text(EXERCISE)
+    Path("student.py").write_text(RIGHT)
     Path("sweep.toml").write_text(
         'technique = "map"\nsize = "24x18"\nmeasure = ["hard"]\noptions.map_size = [16, 32]\n'
     )
