@@ -33,7 +33,7 @@ def gluScaleImage(
     if problem:
         return problem
     context = current()
-    image = image_source(context, dataIn, wIn, hIn, format, typeIn, "gluScaleImage")
+    image = image_source(context, dataIn, wIn, hIn, 0, format, typeIn, "gluScaleImage")
     if image is None:
         return 0
     is_index = format in INDICES
@@ -83,7 +83,7 @@ def _build(
     `levels`: that of the image, and the first and last one to define.
     """
     context, (level, base, last) = current(), levels
-    image = image_source(context, data, *size, format, type, "gluBuild2DMipmaps")
+    image = image_source(context, data, *size, 0, format, type, "gluBuild2DMipmaps")
     if image is None:
         return 0
     if scaled != size:

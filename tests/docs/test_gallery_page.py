@@ -1,5 +1,6 @@
 """The gallery: every technique and its program, every failure with its answer; pictures say what they show."""
 
+import importlib
 import re
 import sys
 
@@ -15,7 +16,7 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, set[str]]:
     """The text of a small gallery, and the names of its files."""
     sys.path.insert(0, str(ROOT / "docs"))
     try:
-        from gallery_page import gallery
+        gallery = importlib.import_module("gallery_page").gallery
     finally:
         sys.path.pop(0)
     folder = tmp_path_factory.mktemp("site") / "gallery"
