@@ -6,7 +6,7 @@
 from softshadow.checking.exercise import Check, Exercise
 from softshadow.checking.grading import Grade, Grader
 from softshadow.checking.limits import Limits
-from softshadow.checking.loading import load_exercise
+from softshadow.checking.loading import exercise_for, load_exercise
 from softshadow.checking.verdict import Verdict
 
-__all__ = ["Check", "Exercise", "Grade", "Grader", "Limits", "Verdict", "load_exercise"]
+__all__ = ["Check", "Exercise", "Grade", "Grader", "Limits", "Verdict", "exercise_for", "load_exercise"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import os
 from collections.abc import Mapping
 from dataclasses import replace
@@ -42,6 +43,25 @@ def load_exercise(source: str | os.PathLike[str]) -> Exercise:
         return exercise_of(path, names)
     except (TypeError, ValueError) as error:
         raise SoftShadowError(f"{source}: {error}") from None
+
+
+def exercise_for(submission: str | os.PathLike[str]) -> str | None:
+    """Return the exercise that a student's file is for; the file is read, not run.
+
+    That is what a line like ``exercise = "lesson:05"`` names, a file relative to the student's; or the file itself, if
+    it has both functions, `program` and `expected`. None if it has neither, or cannot be read.
+    """
+    path = Path(submission)
+    try:
+        body = ast.parse(path.read_bytes()).body
+    except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
+    for statement in body:
+        match statement:
+            case ast.Assign(targets=[ast.Name(id="exercise")], value=ast.Constant(value=str(named))):
+                return named if named.startswith(LESSON) else str(path.parent / named)
+    functions = {statement.name for statement in body if isinstance(statement, ast.FunctionDef)}
+    return str(submission) if {"program", "expected"} <= functions else None
 
 
 def exercise_of(path: Path, names: Mapping[str, Any]) -> Exercise:

@@ -43,7 +43,8 @@ def check(
 ) -> None:  # fmt: skip
     """Check whether students' programs leave the buffers that an exercise expects.
 
-    EXERCISE is a teacher's file or lesson:NAME. Without a FILE.py its task is printed, and the code to begin with. The
+    EXERCISE is a teacher's file or lesson:NAME. Without a FILE.py its task is printed, and the code to begin with; but
+    a file that has the line exercise = "lesson:05", or both program(gl) and expected(gl), is checked by itself. The
     exit code is 1 if a check fails. Each program runs in its own process with a time and a memory limit. This is no
     sandbox: run programs that you do not trust in a container.
     """
@@ -54,13 +55,15 @@ def check(
         return
     if exercise is None:
         raise click.UsageError("expected an EXERCISE, or --list")
-    from softshadow.checking import Grader, Limits, load_exercise
+    from softshadow.checking import Grader, Limits, exercise_for, load_exercise
 
     try:
         limits = Limits(seconds, megabytes)
     except ValueError as error:
         argument, _, rest = str(error).partition("=")
         raise click.UsageError(f"{LIMITS[argument]}={rest}") from None
+    if not submissions and (named := exercise_for(exercise)):
+        exercise, submissions = named, (exercise,)
     with redirect_stdout(sys.stderr):  # what an exercise prints is no part of the result
         loaded = load_exercise(exercise)
     if not submissions:

@@ -58,6 +58,18 @@ def test_json_has_all_verdicts() -> None:
     assert json_of("check", "exercise.py", "right.py")["submissions"][0]["passed"] is True
 
 
+def test_a_file_that_names_its_exercise_is_checked_alone() -> None:
+    Path("named.py").write_text(f'exercise = "exercise.py"\n{RIGHT}')
+    assert invoke_ok("check", "named.py").stdout.endswith("named.py: 4 of 4 points\n")
+
+
+def test_a_file_with_its_own_solution_is_checked_alone() -> None:
+    Path("both.py").write_text(f"{EXERCISE}\n{RIGHT.replace('0.5, 0.5)', '0.5, 0.25)')}")
+    answer = invoke("check", "both.py")
+    assert answer.exit_code == 1
+    assert answer.stdout.endswith("both.py: 1 of 4 points\n")
+
+
 def test_without_a_program_the_task_is_printed_as_a_python_file() -> None:
     text = invoke_ok("check", "lesson:08").stdout
     assert "# Write step 2" in text
