@@ -71,8 +71,15 @@ def interpreted(session: nox.Session) -> None:
 
 @nox.session
 def docs(session: nox.Session) -> None:
-    """Build the documentation; a warning is an error."""
-    session.run("sphinx-build", "-q", "-W", "--keep-going", "-b", "html", "docs", *(session.posargs or ["docs/_build"]))
+    """Build the documentation, in which a warning is an error, and open pages in a browser."""
+    folder = session.posargs[0] if session.posargs else "docs/_build"
+    session.run("sphinx-build", "-q", "-W", "--keep-going", "-b", "html", "docs", folder)
+    site = {"SOFTSHADOW_SITE": os.path.abspath(folder)}
+    session.run("pytest", "-q", "-n0", "tests/docs/test_site_in_browser.py", env=site)
+    # Sphinx and the executed pages leave nothing in the tree
+    left = session.run("git", "status", "--porcelain", "docs", external=True, silent=True) or ""
+    if new := [line for line in left.splitlines() if line.startswith("??")]:
+        session.error(f"the build left {', '.join(new)}")
 
 
 @nox.session

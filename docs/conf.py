@@ -2,11 +2,16 @@
 
 import os
 import re
+import sys
 from pathlib import Path
 from typing import Any
 
-from softshadow import __version__
+from softshadow import __version__, failures
 from softshadow.lessons.copies import copy_lessons
+from softshadow.scene import scene_names
+
+sys.path.insert(0, str(Path(__file__).parent))
+from gallery_page import gallery
 
 project = "softshadow"
 author = copyright = "The softshadow developers"
@@ -18,11 +23,12 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx_click",
 ]
-exclude_patterns = ["_build", "conf.py", "sweeps"]  # scripts, of which only the lessons are pages
+exclude_patterns = ["_build", "conf.py", "gallery_page.py", "sweeps"]  # scripts, of which only the lessons are pages
 html_theme = "furo"
 html_title = f"softshadow {version}"
 html_static_path = ["_static"]
 html_css_files = ["softshadow.css"]
+html_js_files = ["softshadow.js"]
 
 myst_enable_extensions = ["colon_fence", "deflist"]
 myst_heading_anchors = 3
@@ -30,9 +36,10 @@ myst_heading_anchors = 3
 nb_custom_formats = {".py": ["jupytext.reads", {"fmt": "py:percent"}]}  # the lessons
 nb_execution_mode = "force"  # numbers and pictures on the pages are those of this version
 nb_execution_raise_on_error = True
-# of the lessons the quick lane executes four; `.ci/run --all` all
+# of the lessons the quick lane executes four, and it makes a part of the gallery; `.ci/run --all` makes all
 QUICK_LESSONS = ("05_stencil_buffer", "08_planar_with_stencil", "11_zpass", "16_shadow_maps")
-if os.environ.get("SOFTSHADOW_LANE") != "all":
+QUICK = os.environ.get("SOFTSHADOW_LANE") != "all"
+if QUICK:
     nb_execution_excludepatterns = [
         f"lessons/{path.name}"
         for path in sorted(Path(__file__).parent.glob("lessons/*.py"))
@@ -91,6 +98,14 @@ def fill_contributing(app: Any, name: str, source: list[str]) -> None:
         source[0] = re.sub(r"\[([^]]*)\]\(([^)]*)\)", link, text)
 
 
+def fill_gallery(app: Any, name: str, source: list[str]) -> None:
+    """Draw the pictures of the gallery."""
+    if name == "gallery":
+        scenes = ["boxes", "torus"] if QUICK else scene_names()
+        shown = list(failures.values())[: 4 if QUICK else None]
+        source[0] = gallery(source[0], Path(app.outdir) / "gallery", scenes, shown)
+
+
 def write_notebooks(app: Any, error: Exception | None) -> None:
     """Write the notebooks that the pages of the lessons link to."""
     folder = Path(app.outdir) / "lessons"
@@ -105,4 +120,5 @@ def setup(app: Any) -> None:
     app.connect("autodoc-process-docstring", spread_columns, priority=400)
     app.connect("source-read", offer_notebook, priority=400)
     app.connect("source-read", fill_contributing)
+    app.connect("source-read", fill_gallery)
     app.connect("build-finished", write_notebooks)

@@ -58,7 +58,7 @@ if TYPE_CHECKING:
     from softshadow.scene.light_samples import light_samples
     from softshadow.scene.placement import placement
     from softshadow.space import shadow_geometry
-    from softshadow.sweeps import SweepTable, load_sweep, sweep
+    from softshadow.sweeps import Film, SweepTable, animate, load_sweep, sweep
     from softshadow.techniques import Option, Range, Technique, describe, register
     from softshadow.techniques import names as technique_names
 
@@ -74,6 +74,7 @@ __all__ = [
     "DrawsLeftOut",
     "EdgeNearLight",
     "FarFromOrigin",
+    "Film",
     "HistoryCut",
     "InsideOutMesh",
     "Light",
@@ -106,6 +107,7 @@ __all__ = [
     "TraceError",
     "UnweldedMesh",
     "Warning",
+    "animate",
     "counting_cards",
     "cross_section",
     "describe",
@@ -162,7 +164,7 @@ _HOMES = {
     "softshadow.scene.placement": ("placement",),
     "softshadow.techniques": ("Option", "Range", "Technique", "describe", "register"),
     "softshadow.space": ("shadow_geometry",),
-    "softshadow.sweeps": ("SweepTable", "load_sweep", "sweep"),
+    "softshadow.sweeps": ("Film", "SweepTable", "animate", "load_sweep", "sweep"),
 }  # fmt: skip
 _HOME = {name: (module, name) for module, names in _HOMES.items() for name in names} | _RENAMED
 

@@ -126,6 +126,7 @@ def _has_stencil(format: Format, internal_format: int) -> bool:
 class Image:
     """Cells (height, pitch[, channels]); only the first `width` columns belong to the image.
 
+    The slices of a 3-D image lie one above the other: its cells are (slices * height, pitch[, channels]).
     `internal_format` is the token that the image was created with. A packed depth-stencil format is stored as two
     images: the depth image, and its `stencil`. `version` is a version token: equal tokens, other than None, mean
     identical cells; taking the cells clears it. Whoever takes the cells may write to them until the next command.
@@ -141,6 +142,7 @@ class Image:
     version: Hashable | None = None
     tile_bounds: Any = None
     _pending_rows: list[tuple[int, np.ndarray]] = field(default_factory=list)  # (first row, rows)
+    slices: int = 1
 
     @property
     def cells(self) -> np.ndarray:
@@ -176,14 +178,14 @@ class Image:
         self.version, self.tile_bounds = version, None
 
     @classmethod
-    def new(cls, format: Format, width: int, height: int, internal_format: int = 0) -> Image:
+    def new(cls, format: Format, width: int, height: int, internal_format: int = 0, slices: int = 1) -> Image:
         """Return an image of zeros, with a stencil image if the internal format has one."""
-        width, height = int(width), int(height)  # they may be NumPy integers
+        width, height, slices = int(width), int(height), int(slices)  # they may be NumPy integers
         stencil = cls.new(STENCIL8, width, height, internal_format) if _has_stencil(format, internal_format) else None
-        cells = zeroed_cells(height, width, format)
+        cells = zeroed_cells(height * slices, width, format)
         if format.base in (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_LUMINANCE):
             cells[..., 3] = format.largest or 1  # formats without alpha are read with alpha 1
-        return cls(format, width, height, cells, internal_format, stencil)
+        return cls(format, width, height, cells, internal_format, stencil, slices=slices)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -193,18 +195,19 @@ class Image:
 
     @property
     def view(self) -> np.ndarray:
-        """The cells without the padding, (height, width[, channels])."""
+        """The cells without the padding, (height, width[, channels]); of a 3-D image all slices as they lie."""
         return self.cells[:, : self.width]
 
     def copy(self) -> Image:
         """Return a copy with cells of its own."""
         stencil = self.stencil.copy() if self.stencil else None
-        return Image(self.format, self.width, self.height, self.cells.copy(), self.internal_format, stencil)
+        cells = self.cells.copy()
+        return Image(self.format, self.width, self.height, cells, self.internal_format, stencil, slices=self.slices)
 
     def is_laid_out_as(self, other: Image) -> bool:
         """Return whether the other image has the same size, format and internal format."""
-        mine = (self.format, self.internal_format, self.width, self.height)
-        return mine == (other.format, other.internal_format, other.width, other.height)
+        mine = (self.format, self.internal_format, self.width, self.height, self.slices)
+        return mine == (other.format, other.internal_format, other.width, other.height, other.slices)
 
     def same_as(self, other: Any) -> bool:
         """Return whether the other image has the same format, and the same cells bit for bit."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 
-THREE, FOUR = (gl.GL_RGB,), (gl.GL_RGBA, gl.GL_BGRA)
+THREE, FOUR, FOUR_ALIKE = (gl.GL_RGB,), (gl.GL_RGBA, gl.GL_BGRA), (gl.GL_RGBA, gl.GL_BGRA, gl.GL_ABGR_EXT)
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,9 @@ class PackedColor:
     @property
     def formats(self) -> tuple[int, ...]:
         """The pixel formats that the type can be used with."""
-        return THREE if len(self.fields) == len("RGB") else FOUR
+        if len(self.fields) == len("RGB"):
+            return THREE
+        return FOUR_ALIKE if len({n_bits for _, n_bits in self.fields}) == 1 else FOUR
 
     @property
     def largest(self) -> np.ndarray:

@@ -35,6 +35,7 @@ COMPONENTS: dict[int, str] = {
     gl.GL_BGR: "BGR",
     gl.GL_RGBA: "RGBA",
     gl.GL_BGRA: "BGRA",
+    gl.GL_ABGR_EXT: "ABGR",
     gl.GL_LUMINANCE: "L",
     gl.GL_LUMINANCE_ALPHA: "LA",
     gl.GL_DEPTH_COMPONENT: "Z",
@@ -74,19 +75,34 @@ class PixelStore:
     image_height: int = 0
     skip_images: int = 0
 
-    def layout(self, width: int, height: int, pixel: int, aligned: bool) -> tuple[int, int, int]:
-        """Return (first byte, bytes from row to row, total bytes) of an image with `pixel` bytes per pixel."""
+    def layout(self, width: int, height: int, pixel: int, aligned: bool, slices: int = 0) -> tuple[int, int, int, int]:
+        """Return (first byte, bytes from row to row, from slice to slice, total bytes) of an image.
+
+        `pixel` is the number of bytes per pixel; an image that is not three-dimensional has 0 slices.
+        """
         step = (self.row_length or width) * pixel
         if aligned:
             step = -(-step // self.alignment) * self.alignment
-        first = self.skip_rows * step + self.skip_pixels * pixel
-        return first, step, first + (height - 1) * step + width * pixel if width and height else 0
+        first, slice_step = self.skip_rows * step + self.skip_pixels * pixel, (self.image_height or height) * step
+        if slices:
+            first += self.skip_images * slice_step
+        end = first + (max(slices, 1) - 1) * slice_step + (height - 1) * step + width * pixel
+        return first, step, slice_step, end if width and height else 0
 
 
 def image_view(
-    memory: np.ndarray, store: PixelStore, width: int, height: int, format: int, type: int, operation: str
+    memory: np.ndarray,
+    store: PixelStore,
+    width: int,
+    height: int,
+    format: int,
+    type: int,
+    operation: str,
+    slices: int = 0,
 ) -> np.ndarray:
     """Return a view (height, width, components) of an image in client memory; its dtype may have swapped bytes.
+
+    With 1 slice or more, the image is three-dimensional: (slices, height, width, components).
 
     Rows have GL's alignment if the memory is large enough for it. Otherwise they are contiguous: PyOpenGL's users pass
     arrays and leave the alignment at 4.
@@ -97,26 +113,41 @@ def image_view(
         The memory is too small; the message gives the size needed.
     """
     dtype, components = dtype_of(type), elements_of(format, type)
-    shape = (height, width, components)
+    shape: tuple[int, ...] = (height, width, components)
     pixel = dtype.itemsize * components
     raw = memory.reshape(-1).view(np.uint8)
-    first, step, needed = store.layout(width, height, pixel, aligned=True)
+    first, step, slice_step, needed = store.layout(width, height, pixel, aligned=True, slices=slices)
     if raw.nbytes < needed:
-        first, step, needed = store.layout(width, height, pixel, aligned=False)
+        first, step, slice_step, needed = store.layout(width, height, pixel, aligned=False, slices=slices)
     if raw.nbytes < needed:
+        sides = f"{width} x {height} x {slices}" if slices else f"{width} x {height}"
         raise ValueError(
-            f"{operation}: the image has {raw.nbytes} bytes; {width} x {height} pixels of {components} {dtype} "
-            f"need {needed}"
+            f"{operation}: the image has {raw.nbytes} bytes; {sides} pixels of {components} {dtype} need {needed}"
         )
     if store.swap_bytes:
         dtype = dtype.newbyteorder()
-    return np.ndarray(shape, dtype, raw, first, (step, pixel, dtype.itemsize)) if needed else np.empty(shape, dtype)
+    strides: tuple[int, ...] = (step, pixel, dtype.itemsize)
+    if slices:
+        shape, strides = (slices, *shape), (slice_step, *strides)
+    return np.ndarray(shape, dtype, raw, first, strides) if needed else np.empty(shape, dtype)
+
+
+def stacked(image: np.ndarray) -> np.ndarray:
+    """Return an image (height, width, components); the slices of a three-dimensional one lie one above the other."""
+    return image.reshape(image.shape[0] * image.shape[1], *image.shape[2:]) if image.ndim == 4 else image
 
 
 def client_image(
-    pixels: Any, store: PixelStore, width: int, height: int, format: int, type: int, operation: str
+    pixels: Any,
+    store: PixelStore,
+    width: int,
+    height: int,
+    format: int,
+    type: int,
+    operation: str,
+    slices: int = 0,
 ) -> np.ndarray:
-    """Return a user's image as (height, width, components) with the dtype of `type`.
+    """Return a user's image as (height, width, components) with the dtype of `type`; slices one above the other.
 
     Arrays and lists of another dtype are converted, as in PyOpenGL, but floats are not truncated to integers.
 
@@ -137,7 +168,8 @@ def client_image(
                 f"{operation}: pixels are {image.dtype}; type={gl.token_name(type)} takes {dtype} numbers or bytes"
             )
         memory = np.ascontiguousarray(image, dtype)
-    return image_view(memory, store, width, height, format, type, operation).astype(dtype, copy=False)
+    view = image_view(memory, store, width, height, format, type, operation, slices)
+    return stacked(view.astype(dtype, copy=False))
 
 
 def bitmap_rows(bitmap: Any, store: PixelStore, width: int, height: int, operation: str) -> np.ndarray:
@@ -172,11 +204,19 @@ def bitmap_rows(bitmap: Any, store: PixelStore, width: int, height: int, operati
 
 
 def output_array(
-    array: Any, store: PixelStore, width: int, height: int, format: int, type: int, operation: str
+    array: Any,
+    store: PixelStore,
+    width: int,
+    height: int,
+    format: int,
+    type: int,
+    operation: str,
+    slices: int = 0,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the array that a read-out returns, and a view (h, w, components) of the image in it, to be written.
 
-    It is the user's `array`; without one, a new array of zeros, (h, w) or (h, w, components).
+    It is the user's `array`; without one, a new array of zeros, (h, w) or (h, w, components). If the image has slices,
+    array and view have one more dimension, the first.
 
     Raises
     ------
@@ -186,12 +226,13 @@ def output_array(
     dtype = dtype_of(type)
     if array is None:
         components = elements_of(format, type)
-        zeros = np.zeros((height, width) if components == 1 else (height, width, components), dtype)
-        view = zeros.reshape(height, width, components)
+        shape = (slices, height, width) if slices else (height, width)
+        zeros = np.zeros(shape if components == 1 else (*shape, components), dtype)
+        view = zeros.reshape(*shape, components)
         return zeros, view.view(dtype.newbyteorder()) if store.swap_bytes else view
     if not isinstance(array, np.ndarray) or array.dtype not in (dtype, np.dtype(np.uint8)):
         received = array.dtype if isinstance(array, np.ndarray) else repr(array)
         raise TypeError(f"{operation}: expected an array of {dtype}, got {received!s:.80}")
     if not array.flags.c_contiguous or not array.flags.writeable:
         raise ValueError(f"{operation}: the array must be C-contiguous and writeable")
-    return array, image_view(array, store, width, height, format, type, operation)
+    return array, image_view(array, store, width, height, format, type, operation, slices)

@@ -7,17 +7,23 @@ from dataclasses import dataclass, field, replace
 from softshadow import tokens as gl
 from softshadow.image import Image
 
-DEFAULT_CUBE_MAP = -1  # key of the cube map named 0 in the storage; key 0 is the 2-D texture named 0
+DEFAULTS = {  # keys in the storage of the textures named 0, by target
+    gl.GL_TEXTURE_2D: 0,
+    gl.GL_TEXTURE_CUBE_MAP: -1,
+    gl.GL_TEXTURE_1D: -2,
+    gl.GL_TEXTURE_RECTANGLE: -3,
+    gl.GL_TEXTURE_3D: -4,
+}
 
 
 def stored_name(target: int, name: int) -> int:
-    """Return the key of a texture in the storage: its name, or `DEFAULT_CUBE_MAP` for the cube map named 0."""
-    return name if name or target == gl.GL_TEXTURE_2D else DEFAULT_CUBE_MAP
+    """Return the key of a texture in the storage: its name, or that of its target in `DEFAULTS` if the name is 0."""
+    return name or DEFAULTS[target]
 
 
 @dataclass(frozen=True)
 class Sampler:
-    """The state of glTexParameter; defaults are GL's initial values.
+    """The state of glTexParameter; defaults are GL's initial values (see `initial_sampler` for rectangles).
 
     `unit_lod_bias` belongs to the texture unit: it is 0 in the texture object itself, see `Texture.in_unit`.
     """
@@ -40,11 +46,28 @@ class Sampler:
     seamless: int = gl.GL_FALSE
     generate_mipmap: bool = False
     priority: float = 1.0
+    max_anisotropy: float = 1.0
+
+
+RECTANGLE_SAMPLER = Sampler(
+    min_filter=gl.GL_LINEAR, wrap_s=gl.GL_CLAMP_TO_EDGE, wrap_t=gl.GL_CLAMP_TO_EDGE, wrap_r=gl.GL_CLAMP_TO_EDGE
+)
+
+
+def initial_sampler(target: int) -> Sampler:
+    """Return the sampler parameters of a new texture."""
+    return RECTANGLE_SAMPLER if target == gl.GL_TEXTURE_RECTANGLE else INITIAL_SAMPLER
+
+
+INITIAL_SAMPLER = Sampler()
 
 
 @dataclass(eq=False)
 class Texture:
-    """A texture object: images by (face, level); a 2-D texture has face 0; row 0 of an image is at the bottom."""
+    """A texture object: images by (face, level); row 0 of an image is at the bottom.
+
+    Only cube maps have faces other than 0. A 1-D texture is one of one row; rectangles have no mipmaps.
+    """
 
     name: int
     target: int
@@ -58,14 +81,26 @@ class Texture:
     def last_level(self, face: int = 0) -> int:
         """Return the number of the smallest mipmap level of the base image; without an image, the base level."""
         image, sampler = self.base(face), self.sampler
-        if image is None:
+        if image is None or self.target == gl.GL_TEXTURE_RECTANGLE:
             return sampler.base_level
-        return min(sampler.base_level + max(image.width, image.height, 1).bit_length() - 1, sampler.max_level)
+        largest = max(image.width, image.height, image.slices, 1)
+        return min(sampler.base_level + largest.bit_length() - 1, sampler.max_level)
 
     @property
     def faces(self) -> tuple[int, ...]:
-        """The indices of the faces: six for a cube map, one for a 2-D texture."""
+        """The indices of the faces: six for a cube map, one for any other texture."""
         return tuple(range(6)) if self.target == gl.GL_TEXTURE_CUBE_MAP else (0,)
+
+    @property
+    def is_anisotropic(self) -> bool:
+        """Whether lookups average the texels in an ellipse; Mesa ignores fractions of the limit.
+
+        1-D textures, with which Mesa crashes, cube maps and comparisons of depths are filtered as without the limit.
+        """
+        sampler, image = self.sampler, self.base()
+        if sampler.max_anisotropy < 2 or self.target in (gl.GL_TEXTURE_1D, gl.GL_TEXTURE_CUBE_MAP) or image is None:
+            return False
+        return image.format.kind != "depth" or sampler.compare_mode == gl.GL_NONE
 
     def in_unit(self, lod_bias: float, seamless: bool) -> Texture:
         """Return the texture as a unit with this level-of-detail bias samples it; the images are shared.

@@ -20,12 +20,13 @@ settings.load_profile("all" if ALL_LANES else "ci" if os.environ.get("CI") else 
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Deselect the slow tests, unless SOFTSHADOW_LANE or an expression with -m asks for them."""
-    if ALL_LANES or "slow" in config.getoption("markexpr"):
-        return
-    slow = [item for item in items if item.get_closest_marker("slow")]
-    config.hook.pytest_deselected(items=slow)
-    items[:] = [item for item in items if not item.get_closest_marker("slow")]
+    """Deselect tests of built pages where there are none, and slow ones unless the lane or -m asks for them."""
+    left_out = [] if os.environ.get("SOFTSHADOW_SITE") else ["site"]
+    if not ALL_LANES and "slow" not in config.getoption("markexpr"):
+        left_out.append("slow")
+    deselected = [item for item in items if any(item.get_closest_marker(name) for name in left_out)]
+    config.hook.pytest_deselected(items=deselected)
+    items[:] = [item for item in items if item not in set(deselected)]
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:

@@ -18,11 +18,14 @@ from typing import Any
 import click
 
 import softshadow
+from softshadow.cli.animate import animate
 from softshadow.cli.arguments import examples
 from softshadow.cli.bench import bench
 from softshadow.cli.cards import cards
+from softshadow.cli.check import check
 from softshadow.cli.compare import compare
 from softshadow.cli.console import say, say_marked
+from softshadow.cli.errata import errata
 from softshadow.cli.exports import export, view3d
 from softshadow.cli.failures import failures
 from softshadow.cli.lessons import lessons
@@ -143,7 +146,7 @@ def main(traceback: bool) -> None:
 
 for command in (
     tour, render, steps, pixel, section, view3d, export, cards, slides, compare, replay, run, techniques, scenes,
-    listings, failures, lessons, bench, sweep, warmup, doctor,
+    listings, failures, errata, lessons, check, animate, bench, sweep, warmup, doctor,
 ):  # fmt: skip
     main.add_command(command)
 

@@ -21,6 +21,11 @@ from softshadow.cli.console import CHECK_FAILED, print_json, say_if_compiling, s
 from softshadow.cli.names import ListingName
 from softshadow.cli.runs import print_steps, stencil_histograms, step_facts
 
+WHAT_CODES_ARE = (
+    "E49 is error 49 of the slides: softshadow errata E49. SK:369 is line 369 of a course's slides: softshadow errata "
+    "--source SK:369."
+)
+
 if TYPE_CHECKING:
     from softshadow.inspection.history import PixelHistory
     from softshadow.listings import Listing
@@ -31,13 +36,14 @@ if TYPE_CHECKING:
 @click.command(
     epilog=examples(
         "softshadow listings",
-        "softshadow listings volume-zpass",
         "softshadow listings volume-zpass --printed -o zpass-as-printed.png",
+        "softshadow listings volume-zpass --diff",
         "softshadow listings planar-stencil --pixel 60,80",
     )
 )
 @click.argument("name", type=ListingName(), metavar="[LISTING]", required=False)
 @click.option("--printed", is_flag=True, help="Run it as printed on the slide, without corrections.")
+@click.option("--diff", is_flag=True, help="Print the GL calls that the corrections change, as a diff, and no more.")
 @click.option("--pixel", type=Pixel(), help="Print the history of a pixel: X from the left, Y from the top.")
 @click.option("--on", type=click.Choice(["mesa"]), help="Run it on Mesa as well, and show the first different pixel.")
 @click.option("--size", type=Size(), default="128x128", show_default=True, help="Window size in pixels.")
@@ -47,7 +53,7 @@ if TYPE_CHECKING:
 @as_json
 @click.pass_context
 def listings(
-    context: click.Context, name: str | None, printed: bool, pixel: tuple[int, int] | None, on: str | None,
+    context: click.Context, name: str | None, printed: bool, diff: bool, pixel: tuple[int, int] | None, on: str | None,
     size: tuple[int, int], output: str | None, opened: bool, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """List the course's GL listings, or show one.
@@ -60,11 +66,17 @@ def listings(
 
     check_opened(opened, output)
     if name is None:
-        if printed or on or output or pixel:
-            raise click.UsageError("--printed, --pixel, --on and --output: expected the name of a LISTING")
+        if printed or diff or on or output or pixel:
+            raise click.UsageError("--printed, --diff, --pixel, --on and --output: expected the name of a LISTING")
         _list([registry.get(each) for each in registry.names()], as_json)
         return
     listing = registry.get(name)
+    if diff:
+        if printed or on or output or pixel:
+            raise click.UsageError("--diff: expected no --printed, --pixel, --on or --output besides")
+        say_if_compiling()
+        _print_diff(listing, size, as_json)
+        return
     if output:
         _refuse(output, force)
     say_if_compiling()
@@ -114,6 +126,7 @@ def _print(listing: Listing, run: Run, printed: bool) -> None:
         )
     click.echo()
     print_steps(run)
+    _print_codes(listing)
     if not listing.corrections:
         return
     click.echo()
@@ -125,6 +138,26 @@ def _print(listing: Listing, run: Run, printed: bool) -> None:
         if pixel:
             click.echo(f"\n{which}:")
             show(run_listing(listing.name, as_printed, run.size).pixel(*pixel))
+
+
+def _print_diff(listing: Listing, size: tuple[int, int], as_json: bool) -> None:
+    from softshadow.lessons import listing_difference
+
+    difference = listing_difference(listing.name, size)
+    if as_json:
+        print_json("listings", size=size, diff=difference, **_about(listing))
+        return
+    show(f"{listing.name} ({listing.slide}): - as printed, + as corrected")
+    show(difference or "nothing to correct")
+    _print_codes(listing)
+
+
+def _print_codes(listing: Listing) -> None:
+    """Print what the numbers of the corrections and the place of the slide mean."""
+    from softshadow.course import explain_codes
+
+    click.echo()
+    show("\n".join(explain_codes(f"{listing.slide} {' '.join(listing.corrections)}")))
 
 
 def _print_json(
@@ -154,6 +187,7 @@ def _list(listings: list[Listing], as_json: bool) -> None:
         return
     rows = [[each.name, each.title, each.slide, " ".join(each.corrections) or "-"] for each in listings]
     table("Listings", ["name", "title", "slide", "corrections"], rows)
+    show(f"\n{WHAT_CODES_ARE}")
 
 
 def _about(listing: Listing) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from softshadow.cli.names import TechniqueName
 def techniques(name: str | None, as_json: bool) -> None:
     """List the techniques, or describe one and its options."""
     from softshadow import techniques as registry
+    from softshadow.course import explain_codes
 
     names = [name] if name else registry.names()
     entries = [registry.get(each) for each in names]
@@ -34,7 +35,11 @@ def techniques(name: str | None, as_json: bool) -> None:
         ]
         print_json("techniques", techniques=rows)
     elif name:
-        show(registry.describe(name))
+        text = registry.describe(name)
+        show(text)
+        codes = explain_codes(text)
+        if codes:
+            show("\n".join(["", *codes]))
     else:
         table("Techniques", ["name", "title", "paper"], [[each.name, each.title, each.paper] for each in entries])
 

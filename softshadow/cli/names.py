@@ -110,6 +110,18 @@ class SceneName(Name):
         return super().shell_complete(ctx, param, incomplete) or complete_files(ctx, param, incomplete)
 
 
+class ErratumNumber(Name):
+    """An error in the slides."""
+
+    name = kind = "error"
+
+    def names(self) -> Collection[str]:
+        """Return the numbers of all errors in the slides."""
+        from softshadow import course
+
+        return course.ERRATA
+
+
 def complete_files(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Let the shell complete the path of a file."""
     return [CompletionItem(incomplete, type="file")]

@@ -1,4 +1,4 @@
-"""Progress of a sweep: a bar on a terminal, a line a minute in a file, or JSON events."""
+"""Progress of a sweep or film: a bar on a terminal, a line a minute in a file, or JSON events."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ Started = Callable[["str | None"], None]
 
 
 @contextmanager
-def progress_shown(as_json: bool) -> Iterator[tuple[Started, Report]]:
-    """Give what is called when the workers are ready, and after every point."""
+def progress_shown(as_json: bool, of: str = "points") -> Iterator[tuple[Started, Report]]:
+    """Give what is called when the workers are ready, and after every task; `of` says what the tasks are."""
     if as_json:
         yield events()
     elif sys.stderr.isatty():
-        with bar() as (started, report):
+        with bar(of) as (started, report):
             yield started, report
     else:
-        yield say_address, lines()
+        yield say_address, lines(of)
 
 
 def print_event(event: str, **contents: Any) -> None:
@@ -53,7 +53,7 @@ def say_address(dashboard: str | None) -> None:
         say(f"dashboard: {dashboard}")
 
 
-def lines() -> Report:
+def lines(of: str) -> Report:
     """Return what prints a line every minute, and one at the end."""
     start = said = time.monotonic()
     first: int | None = None
@@ -64,17 +64,17 @@ def lines() -> Report:
         first = progress.done if first is None else first
         if now - said >= EVERY or progress.done == progress.total:
             said = now
-            say(described(progress, (progress.done - first) / max(now - start, 1e-9)))
+            say(described(progress, (progress.done - first) / max(now - start, 1e-9), of))
 
     return report
 
 
-def described(progress: Progress, rate: float) -> str:
-    """Return the state of a sweep as a text; `rate` is in points per second."""
+def described(progress: Progress, rate: float, of: str = "points") -> str:
+    """Return the state of a sweep or film as a text; `rate` is in tasks per second."""
     left = progress.total - progress.done
     time_left = f", about {duration(left / rate)} left" if rate > 0 and left else ""
     return (
-        f"{progress.done} of {progress.total} points done, {progress.failed} failed, {left} left, {rate:.1f} points/s"
+        f"{progress.done} of {progress.total} {of} done, {progress.failed} failed, {left} left, {rate:.1f} {of}/s"
         f"{time_left}, {progress.workers} worker{'' if progress.workers == 1 else 's'}"
     )
 
@@ -86,21 +86,23 @@ def duration(seconds: float) -> str:
 
 
 @contextmanager
-def bar() -> Iterator[tuple[Started, Report]]:
+def bar(of: str) -> Iterator[tuple[Started, Report]]:
     """Give what shows a bar on the terminal."""
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn
+    from rich.table import Column
 
     console = Console(stderr=True)
     start = time.monotonic()
     first: int | None = None
-    with Progress(BarColumn(), TextColumn("{task.description}"), console=console) as shown:
+    text = TextColumn("{task.description}", table_column=Column(ratio=1))  # takes two lines on a narrow terminal
+    with Progress(BarColumn(bar_width=20), text, console=console, expand=True) as shown:
         task = shown.add_task("starting ...", total=None)
 
         def report(progress: Any) -> None:
             nonlocal first
             first = progress.done if first is None else first
             rate = (progress.done - first) / max(time.monotonic() - start, 1e-9)
-            shown.update(task, total=progress.total, completed=progress.done, description=described(progress, rate))
+            shown.update(task, total=progress.total, completed=progress.done, description=described(progress, rate, of))
 
         yield (lambda dashboard: shown.console.print(f"dashboard: {dashboard}") if dashboard else None), report

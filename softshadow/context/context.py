@@ -42,7 +42,7 @@ MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE:
 
 @dataclass
 class CurrentVertex:
-    """The current colour, normal and texture coordinates, which each new vertex gets, and the raster position."""
+    """The current colour, normal, texture coordinates and edge flag of new vertices, and the raster position."""
 
     color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
@@ -50,6 +50,7 @@ class CurrentVertex:
         default_factory=lambda: [(0.0, 0.0, 0.0, 1.0)] * TEXTURE_UNITS
     )
     raster: RasterPosition = INITIAL_RASTER_POSITION
+    edge: bool = True  # whether vertices begin an edge that glPolygonMode draws
 
 
 @dataclass
@@ -374,6 +375,8 @@ class Context:
         """Draw primitives under the current state; nobody may change the arrays afterwards."""
         self.flush()
         self.update_current()
+        if not self.current.edge and vertices.edges is None:
+            vertices = evolve(vertices, edges=np.broadcast_to(False, len(vertices.position)))
         self._carry_out(self._draw_command(mode, vertices, indices))
 
     def draw_primitive(self, mode: int, vertices: Vertices) -> None:

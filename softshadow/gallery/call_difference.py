@@ -14,7 +14,7 @@ MOST_PLACES = 6  # a cure by another technique differs nearly everywhere
 MOST_LINES = 6  # of one side in one place: a longer one is a whole pass, which its first calls identify
 
 
-def call_difference(wrong: Sequence[Call], cured: Sequence[Call]) -> str:
+def call_difference(wrong: Sequence[Call], cured: Sequence[Call], most_places: int = MOST_PLACES) -> str:
     """Return the calls that only one of two programs makes, under the titles of their steps.
 
     The same difference in several places of a step, as for each object, is listed once with the number of places. Calls
@@ -30,12 +30,12 @@ def call_difference(wrong: Sequence[Call], cured: Sequence[Call]) -> str:
             hunk = (added or removed)[0].step, lines
             places[hunk] = places.get(hunk, 0) + 1
     text: list[str] = []
-    for step, hunks in groupby(list(places.items())[:MOST_PLACES], key=lambda item: item[0][0]):
+    for step, hunks in groupby(list(places.items())[:most_places], key=lambda item: item[0][0]):
         text.append(f"@@ {step}")
         for (_, lines), times in hunks:
             text += lines if times == 1 else (*lines, f"  ({times} times)")
-    if len(places) > MOST_PLACES:
-        text.append(f"@@ and in {len(places) - MOST_PLACES} more places")
+    if len(places) > most_places:
+        text.append(f"@@ and in {len(places) - most_places} more places")
     return "\n".join(text)
 
 

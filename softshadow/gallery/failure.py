@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from softshadow import techniques
+from softshadow.course import explain_codes
 from softshadow.gallery.call_difference import call_difference
 from softshadow.gallery.calls import AlteredCall, Call, recorded
 from softshadow.gallery.expected import without_warnings
@@ -167,6 +168,11 @@ class Failure:
         """The cure as a diff of GL calls: - with the failure, + with the cure."""
         return call_difference(self._wrong[1], self._cured[1])
 
+    @property
+    def codes(self) -> list[str]:
+        """What the codes of `reference` mean, a sentence each."""
+        return explain_codes(self.reference)
+
     def explain(self) -> str:
         """Return a text: reason, numbers of wrong pixels, cure, and an explanation of `pixel` in both runs."""
         remark = f": {self.remark}" if self.remark else ""
@@ -184,6 +190,7 @@ class Failure:
                 "",
                 f"with the failure: {self._explained(self.wrong)}",
                 f"with the cure:    {self._explained(self.cured)}",
+                *(["", *self.codes] if self.codes else []),
             ]
         )
 

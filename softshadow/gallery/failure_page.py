@@ -18,6 +18,7 @@ def write_page(failure: Failure, path: Path) -> None:
         failure.title,
         failure.reason,
         failure.reference,
+        tuple(failure.codes),
         failure.scene.name,
         failure.size,
         failure.counted,

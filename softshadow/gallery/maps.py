@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from softshadow.gallery.calls import AlteredCall
 from softshadow.gallery.course_stage import as_listed, scene_of
 from softshadow.gallery.failure import Failure, Setting
 from softshadow.gallery.measures import (
@@ -35,6 +36,17 @@ FAILURES = (
         "Away from a texel's centre a sloping surface may be farther from the light than its own stored depth.",
         lambda: Scene.named("boxes"),
         Setting("map", {"factor": 0.0, "units": 0.0}),
+        Setting("map"),
+        wrong_inside_faces, COUNTED, why_floor=AT_CREASES,
+    ),
+    Failure(
+        "reversed-comparison", "In shadow where the point is nearer than the map", "maps", "E19, SK:334",
+        "Lit points have the stored depth or a smaller one. Farther points are hidden by what is stored.",
+        lambda: Scene.named("boxes"),
+        Setting("map", {}, (AlteredCall(
+            "glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL)",
+            "glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL)",
+        ),)),
         Setting("map"),
         wrong_inside_faces, COUNTED, why_floor=AT_CREASES,
     ),

@@ -39,7 +39,7 @@ FAILURES = (
         wrong_share, SHARE,
     ),
     Failure(
-        "corners-only", "The corners do not stand for the light between them", "soft", "SK:316-318",
+        "corners-only", "The corners do not stand for the light between them", "soft", "E26, SK:312-322",
         "Points that see all corners may not see the middle, and near the umbra one of four corners counts for a "
         "quarter of the light although hardly any of it is visible.",
         lambda: Scene.named("soft-slab"),

@@ -1,6 +1,7 @@
 """Failures of stencil, depth and culling state: the volumes are right, but one call is wrong or missing."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -8,10 +9,12 @@ from softshadow.gallery.calls import AlteredCall
 from softshadow.gallery.course_stage import as_listed, scene_of
 from softshadow.gallery.failure import Failure, Setting
 from softshadow.gallery.measures import COUNTED, wrong_colors
+from softshadow.listings import get
 from softshadow.listings.stage import STAGE
 from softshadow.scene import Mesh, Scene, SceneObject
 from softshadow.scene.placement import placement
 from softshadow.scene.shapes import box
+from softshadow.techniques import Steps, Technique
 
 PARITY = (
     ("glStencilOp(GL_KEEP, GL_INCR_WRAP, GL_KEEP)", "glStencilOp(GL_KEEP, GL_INVERT, GL_KEEP)"),
@@ -23,6 +26,17 @@ SHEETS = 256  # an 8-bit counter wraps to 0
 def altered(technique: str, *calls: tuple[str, str | None]) -> Setting:
     """Return a technique with some of its calls replaced, or omitted (None)."""
     return Setting(technique, {}, tuple(AlteredCall(call, replacement) for call, replacement in calls))
+
+
+def counted_without_depth_test(gl: Any, scene: Scene, *, size: tuple[int, int]) -> Steps:
+    """Draw the listing of z-pass; while it counts, the depth test is disabled."""
+    steps = get("volume-zpass").steps(gl)
+    yield next(steps)
+    gl.glDisable(gl.GL_DEPTH_TEST)
+    yield next(steps)
+    yield next(steps)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    yield from steps
 
 
 def stack() -> Scene:
@@ -87,6 +101,16 @@ FAILURES = (
         lambda: Scene.named("torus"),
         altered("volume-zpass", ("glEnable(GL_STENCIL_TEST)", None)),
         Setting("volume-zpass"),
+        wrong_colors, COUNTED,
+    ),
+    Failure(
+        "depth-test-off-while-counting", "The depth test is disabled while volumes are counted", "stencil",
+        "E43, CA:238-239",
+        "Without depth test no depth is written, but every fragment counts as one that passed, so the faces behind "
+        "the visible surface are counted as well.",
+        lambda: scene_of(STAGE, "two boxes"),
+        Setting(Technique("count without depth test", "", "volumes", "", counted_without_depth_test, {})),
+        as_listed("volume-zpass", stage=STAGE),
         wrong_colors, COUNTED,
     ),
     Failure(

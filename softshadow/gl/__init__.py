@@ -35,6 +35,7 @@ from softshadow.gl.fog import *
 from softshadow.gl.fragment_state import *
 from softshadow.gl.framebuffers import *
 from softshadow.gl.glu import *
+from softshadow.gl.glu_mipmaps import *
 from softshadow.gl.glu_names import *
 from softshadow.gl.glu_tokens import *
 from softshadow.gl.immediate import *
@@ -57,9 +58,11 @@ from softshadow.gl.refusals import all_naming_arguments
 from softshadow.gl.render_modes import *
 from softshadow.gl.renderbuffers import *
 from softshadow.gl.stipples import *
+from softshadow.gl.tessellator import *
 from softshadow.gl.texture_coordinates import *
 from softshadow.gl.texture_copies import *
 from softshadow.gl.texture_images import *
+from softshadow.gl.texture_mipmaps import *
 from softshadow.gl.texture_queries import *
 from softshadow.gl.texture_units import *
 from softshadow.gl.textures import *

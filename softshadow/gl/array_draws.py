@@ -15,7 +15,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context, current
 from softshadow.context.arrays import ArrayLayout, BufferObject, RowSnapshot, VertexArray
-from softshadow.gl.array_snapshots import POSITION, slice_of, snapshot_rows
+from softshadow.gl.array_snapshots import EDGE, POSITION, slice_of, snapshot_rows
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.gl.conversions import (
@@ -31,7 +31,7 @@ from softshadow.gl.immediate import A_MODE, MODES, add_vertex, can_draw, consecu
 from softshadow.gl.index_snapshots import snapshot_indices
 from softshadow.gl.texture_coordinates import set_coordinate
 from softshadow.gl.vertex_arrays import DTYPES, SLOTS, rows_of
-from softshadow.gl.vertex_attributes import set_color, set_normal
+from softshadow.gl.vertex_attributes import glEdgeFlag, set_color, set_normal
 from softshadow.pipeline.commands import Vertices
 
 INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
@@ -138,6 +138,8 @@ def _set_attribute(key: str, values: list[float]) -> None:
         set_color(*values)
     elif key == "normal":
         set_normal(*values)
+    elif key == "edge":
+        glEdgeFlag(bool(values[0]))
     else:
         set_coordinate(int(key.removeprefix("texcoord")), *values)
 
@@ -196,11 +198,15 @@ def _vertices(context: Context, rows: Rows) -> Vertices:
     vertices: Vertices | None = position.drawn.get(key)
     if vertices is None:
         columns = constants.rows(end - first)
+        edges = None
         for snapshot in others:
-            columns[snapshot.slot - 1] = slice_of(snapshot, first, end)
+            if snapshot.slot == EDGE:
+                edges = slice_of(snapshot, first, end)
+            else:
+                columns[snapshot.slot - 1] = slice_of(snapshot, first, end)
         if len(position.drawn) >= MOST_DRAWN:
             position.drawn.clear()
-        vertices = Vertices(slice_of(position, first, end), columns[0], columns[1], tuple(columns[2:]))
+        vertices = Vertices(slice_of(position, first, end), columns[0], columns[1], tuple(columns[2:]), edges=edges)
         position.drawn[key] = vertices
     return vertices
 

@@ -15,11 +15,13 @@ import numpy as np
 from softshadow.context import Context
 from softshadow.context.arrays import ArrayLayout, RowSnapshot, VertexArray
 from softshadow.gl.vertex_format import REST
+from softshadow.state import TEXTURE_UNITS
 
 LARGEST_FRACTION = (1 << 23) - 1  # llvmpipe fetches the upper 23 bits of an unsigned int
 SMALL = 4096  # bytes: up to here, `tobytes` and a comparison of bytes are faster than a call of memcmp
 CHUNK = 1 << 16  # rows that are compared at a time if they are not contiguous
 POSITION, COLOR, NORMAL, TEXCOORD = range(4)  # slots of the attributes; texture coordinates of the other units follow
+EDGE = TEXCOORD + TEXTURE_UNITS
 LARGEST_PART = 4  # a changed array is copied whole if a draw reads a fourth of it or more
 ALWAYS_WHOLE = 1 << 16  # bytes: up to here, a new array is copied whole
 MOST_SLICES = 4096  # of one snapshot
@@ -161,11 +163,18 @@ def slice_of(snapshot: RowSnapshot, first: int, end: int) -> np.ndarray:
 
 # -- conversion --------------------------------------------------------------------------------------------------------
 def _converted(rows: np.ndarray, slot: int, context: Context) -> np.ndarray:
-    """Return rows as read-only (V, width) in the context's precision: a missing fourth component is 1, others 0."""
+    """Return rows as read-only (V, width) in the context's precision: a missing fourth component is 1, others 0.
+
+    Edge flags become (V,) bool.
+    """
+    if slot == EDGE:
+        flags = rows.reshape(-1) == 1  # llvmpipe takes other numbers for GL_FALSE
+        flags.setflags(write=False)
+        return flags
     width, real = 3 if slot == NORMAL else 4, context.real
     fractions = slot in (COLOR, NORMAL) and rows.dtype.kind in "iu"  # integers represent 0 to 1 or -1 to 1
-    flags = rows.flags
-    if rows.shape[1] == width and rows.dtype == real and flags.c_contiguous and flags.aligned:
+    memory = rows.flags
+    if rows.shape[1] == width and rows.dtype == real and memory.c_contiguous and memory.aligned:
         full = rows
     else:
         full = np.empty((len(rows), width), real)

@@ -19,6 +19,7 @@ from softshadow.gl.capabilities import (
 )
 from softshadow.gl.fragment_state import extension_back
 from softshadow.state import State
+from softshadow.state.texturing import BINDINGS
 
 Fields = dict[str, tuple[str, ...]]  # group of the state: its fields, () for all
 LIGHT_MODEL = ("enabled", "color_material", "color_material_face", "color_material_mode", "shade_model")
@@ -166,7 +167,7 @@ def needs_calls(bit: int, before: State, after: State) -> bool:
         return before is not after
     if bit == gl.GL_TEXTURE_BIT:
         return any(
-            (old.bound_2d, old.bound_cube) != (new.bound_2d, new.bound_cube)
+            any(getattr(old, binding) != getattr(new, binding) for binding in BINDINGS.values())
             for old, new in zip(before.units, after.units, strict=True)
         )
     return differ(before, after, SET_BY_CALLS[bit])

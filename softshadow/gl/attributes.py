@@ -22,17 +22,16 @@ from softshadow.gl.calls import is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail
 from softshadow.gl.framebuffers import glDrawBuffer, glDrawBuffers, glReadBuffer
 from softshadow.gl.materials import start_to_follow
-from softshadow.gl.textures import BINDINGS
 from softshadow.pipeline.commands import CreateTexture, SetSampler
 from softshadow.pixel_transfer import PixelTransfer
 from softshadow.state import State, TextureUnit
-from softshadow.texture import Sampler, stored_name
+from softshadow.state.texturing import BINDINGS
+from softshadow.texture import Sampler, initial_sampler, stored_name
 
 DEEPEST_ATTRIBUTES = 16
 USED_BY_VERTICES = gl.GL_CURRENT_BIT | gl.GL_LIGHTING_BIT
 NO_HINTS: dict[int, int] = {}
 NO_SAMPLERS: dict[tuple[int, int], Sampler] = {}
-INITIAL_SAMPLER = Sampler()
 
 
 class SavedAttributes(NamedTuple):
@@ -81,7 +80,9 @@ def glPushAttrib(mask: int) -> None:
         mask,
         touched,
         state,
-        (current.color, current.normal, (*current.texcoords,), current.raster) if mask & gl.GL_CURRENT_BIT else (),
+        (current.color, current.normal, (*current.texcoords,), current.raster, current.edge)
+        if mask & gl.GL_CURRENT_BIT
+        else (),
         context.hints.copy() if context.hints else NO_HINTS,
         context.matrix_mode,
         context.active_unit,
@@ -110,7 +111,7 @@ def _bound_samplers(context: Context, units: tuple[TextureUnit, ...]) -> dict[tu
         if key in textures:
             samplers[target, key] = textures[key].sampler
         elif key <= 0:  # a default texture (name 0) always exists in GL; the storage creates it at its first use
-            samplers[target, key] = INITIAL_SAMPLER
+            samplers[target, key] = initial_sampler(target)
     context.bound_samplers = units, samplers
     return samplers
 
@@ -190,8 +191,8 @@ def _restore_current(context: Context, saved: SavedAttributes) -> None:
     for name in context.pending.names:
         if "." not in name:
             context.pending.hidden.setdefault(name, context.attribute(name))
-    color, normal, texcoords, raster = saved.current
-    context.current = CurrentVertex(color, normal, list(texcoords), raster)
+    color, normal, texcoords, raster, edge = saved.current
+    context.current = CurrentVertex(color, normal, list(texcoords), raster, edge)
 
 
 def _restore_materials(context: Context, saved: SavedAttributes) -> None:
@@ -214,7 +215,7 @@ def _restore_samplers(context: Context, saved: SavedAttributes) -> None:
         texture = context.objects.textures.get(name)
         if texture is None and name > 0:  # deleted since the push: binding the name creates it again
             context.execute(CreateTexture(name, target))
-        if sampler != (texture.sampler if texture is not None else Sampler()):
+        if sampler != (texture.sampler if texture is not None else initial_sampler(target)):
             context.execute(SetSampler(name, sampler))
 
 

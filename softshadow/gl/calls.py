@@ -10,7 +10,7 @@ import numpy as np
 
 from softshadow.context import Context, thread
 from softshadow.gl.errors import outside_begin
-from softshadow.gl.refusals import CONVERTING, refusal
+from softshadow.gl.refusals import CONVERTING, refusal, refuse_text
 
 Call = TypeVar("Call", bound=Callable[..., Any])
 
@@ -26,6 +26,8 @@ def in_lists(call: Call) -> Call:
     def recorded(*arguments: Any, **named: Any) -> Any:
         context = thread.context
         try:
+            if str in map(type, arguments):
+                refuse_text(recorded, *arguments, **named)
             if context.compiled_list is None:
                 return call(*arguments, **named)
             return record(context, call, *arguments, **named)

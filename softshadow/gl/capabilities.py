@@ -15,6 +15,7 @@ from softshadow.gl.materials import start_to_follow
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_arrays import CLIENT_STATES, is_array_enabled, switch_array
 from softshadow.state import TEXTURE_UNITS, State
+from softshadow.state.texturing import SWITCHES
 
 # capability: (group of the state, field)
 CAPABILITIES: dict[int, tuple[str, str]] = {
@@ -45,7 +46,7 @@ CAPABILITIES: dict[int, tuple[str, str]] = {
     gl.GL_FOG: ("fog", "enabled"),
     gl.GL_TEXTURE_CUBE_MAP_SEAMLESS: ("cube_maps", "seamless"),
 }
-UNIT_CAPABILITIES = {gl.GL_TEXTURE_2D: "enabled_2d", gl.GL_TEXTURE_CUBE_MAP: "enabled_cube"}
+UNIT_CAPABILITIES = SWITCHES
 TEXTURE_GENERATION = (gl.GL_TEXTURE_GEN_S, gl.GL_TEXTURE_GEN_T, gl.GL_TEXTURE_GEN_R, gl.GL_TEXTURE_GEN_Q)
 LIGHTS = range(gl.GL_LIGHT0, gl.GL_LIGHT7 + 1)
 CLIP_PLANES = range(gl.GL_CLIP_PLANE0, gl.GL_CLIP_PLANE5 + 1)

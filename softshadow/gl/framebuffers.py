@@ -27,6 +27,7 @@ Problem = tuple[int, str]
 COLOR_ATTACHMENTS = tuple(range(gl.GL_COLOR_ATTACHMENT0, gl.GL_COLOR_ATTACHMENT7 + 1))
 KINDS = {gl.GL_DEPTH_ATTACHMENT: ("depth",), gl.GL_STENCIL_ATTACHMENT: ("stencil",)}
 COLOR_RENDERABLE = (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_RGBA)  # GL 4.5, sec. 9.4.1; Mesa allows luminance, too
+FLAT = (gl.GL_TEXTURE_2D, gl.GL_TEXTURE_RECTANGLE)  # targets of textures with one image per level
 EXPECTED_TARGET = "expected GL_FRAMEBUFFER, GL_DRAW_FRAMEBUFFER or GL_READ_FRAMEBUFFER"
 BUFFER_NAMES = ("GL_NONE", "GL_FRONT", "GL_BACK")
 WINDOW_BUFFERS = (
@@ -92,7 +93,7 @@ def glFramebufferTexture2D(target: int, attachment: int, textarget: int, texture
     )
     if problem:
         return fail(problem[0], operation, problem[1])
-    face = textarget - gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X if name and textarget != gl.GL_TEXTURE_2D else 0
+    face = textarget - gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X if name and textarget not in FLAT else 0
     framebuffer = bound_framebuffer(context, target)
     attach(context, attachment, lambda point: AttachTexture(framebuffer, point, name, face, level))
     return None
@@ -134,11 +135,10 @@ def _texture_problem(context: Context, textarget: int, name: int, level: int) ->
     if texture is None:
         return gl.GL_INVALID_OPERATION, f"texture={name}: expected a texture that has been bound before"
     faces = range(gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X, gl.GL_TEXTURE_CUBE_MAP_NEGATIVE_Z + 1)
-    if textarget != gl.GL_TEXTURE_2D and textarget not in faces:
-        return gl.GL_INVALID_ENUM, (
-            f"textarget={token_name(textarget)}: expected GL_TEXTURE_2D or a face of GL_TEXTURE_CUBE_MAP"
-        )
-    if (textarget == gl.GL_TEXTURE_2D) != (texture.target == gl.GL_TEXTURE_2D):
+    if textarget not in FLAT and textarget not in faces:
+        expected = "expected GL_TEXTURE_2D, GL_TEXTURE_RECTANGLE or a face of GL_TEXTURE_CUBE_MAP"
+        return gl.GL_INVALID_ENUM, f"textarget={token_name(textarget)}: {expected}"
+    if texture.target != (textarget if textarget in FLAT else gl.GL_TEXTURE_CUBE_MAP):
         kinds = f"expected a texture for {token_name(textarget)}, got a {token_name(texture.target)}"
         return gl.GL_INVALID_OPERATION, f"texture={name}: {kinds}"
     if not 0 <= level < LARGEST_SIDE.bit_length():

@@ -104,6 +104,33 @@ def gluUnProject(
     return x / w, y / w, z / w
 
 
+def gluUnProject4(
+    winX: float, winY: float, winZ: float, clipW: float, model: Any = None, proj: Any = None, view: Any = None,
+    near: float = 0.0, far: float = 1.0,
+) -> tuple[float, float, float, float] | None:  # fmt: skip
+    """Return the homogeneous point with these window coordinates and this clip w; `near`, `far` as in glDepthRange.
+
+    Matrices and viewport default to the current ones.
+
+    Raises
+    ------
+    ValueError
+        The matrices have no inverse.
+    """
+    if any(argument is None for argument in (model, proj, view)) and outside_begin("gluUnProject4") is None:
+        return None
+    model, proj, (left, bottom, width, height) = _current_or(model, proj, view)
+    with np.errstate(all="ignore"):  # as in gluUnProject
+        across, up = (np.float64(winX) - left) / width, (np.float64(winY) - bottom) / height
+        depth = (np.float64(winZ) - near) / (np.float64(far) - near)
+        ndc = (float(across * 2 - 1), float(up * 2 - 1), float(depth * 2 - 1), float(clipW))
+    inverse = _inverse(_product(model, proj))
+    if inverse is None:
+        raise ValueError("gluUnProject4: the matrices have no inverse")
+    x, y, z, w = _applied(inverse, ndc)
+    return x, y, z, w
+
+
 def _current_or(model: Any, proj: Any, view: Any) -> tuple[list[float], list[float], tuple[float, ...]]:
     """Return two matrices as 16 numbers in column order, and a viewport; None means the current one."""
     context = current()

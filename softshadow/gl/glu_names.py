@@ -14,6 +14,11 @@ ERRORS = {
     gl.GL_INVALID_FRAMEBUFFER_OPERATION: b"invalid framebuffer operation", 0x8031: b"table too large",
     100900: b"invalid enumerant", 100901: b"invalid value", 100902: b"out of memory",
     100903: b"incompatible gl version", 100904: b"invalid operation",
+    100151: b"gluTessBeginPolygon() must precede a gluTessEndPolygon()",
+    100152: b"gluTessBeginContour() must precede a gluTessEndContour()",
+    100153: b"gluTessEndPolygon() must follow a gluTessBeginPolygon()",
+    100154: b"gluTessEndContour() must follow a gluTessBeginContour()",
+    100155: b"a coordinate is too large", 100156: b"need combine callback",
 }  # fmt: skip
 
 

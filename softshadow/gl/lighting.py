@@ -31,6 +31,8 @@ LARGEST_CUTOFF = 90.0
 MODEL_SWITCHES = {gl.GL_LIGHT_MODEL_LOCAL_VIEWER: "local_viewer", gl.GL_LIGHT_MODEL_TWO_SIDE: "two_side"}
 MODEL_NUMBERS = (*MODEL_SWITCHES, gl.GL_LIGHT_MODEL_COLOR_CONTROL)
 COLOR_CONTROLS = (gl.GL_SINGLE_COLOR, gl.GL_SEPARATE_SPECULAR_COLOR)
+CONVENTIONS = (gl.GL_FIRST_VERTEX_CONVENTION, gl.GL_LAST_VERTEX_CONVENTION)
+A_CONVENTION = "GL_FIRST_VERTEX_CONVENTION or GL_LAST_VERTEX_CONVENTION"
 A_LIGHT = "GL_LIGHT0 … GL_LIGHT7"
 A_PARAMETER = "a light parameter (GL 2.1, table 2.11)"
 
@@ -174,6 +176,14 @@ def glShadeModel(mode: int) -> None:
     modes = (gl.GL_FLAT, gl.GL_SMOOTH)
     if context is not None and is_one_of("glShadeModel", "mode", mode, modes, "GL_FLAT or GL_SMOOTH"):
         context.change("lighting", shade_model=int(mode))
+
+
+@in_lists
+def glProvokingVertex(provokeMode: int) -> None:
+    """Set which vertex of a line or triangle gives its flat colour: the first or the last one."""
+    context = outside_begin("glProvokingVertex")
+    if context is not None and is_one_of("glProvokingVertex", "provokeMode", provokeMode, CONVENTIONS, A_CONVENTION):
+        context.change("lighting", provoking_vertex=int(provokeMode))
 
 
 __all__ = spelled_like_gl(globals())

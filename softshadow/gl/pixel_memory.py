@@ -14,57 +14,70 @@ from softshadow.context import BufferObject, Context
 from softshadow.gl.buffers import offset_of, own_content
 from softshadow.gl.errors import fail
 from softshadow.gl.pixel_formats import format_problem
-from softshadow.pixel_store import PixelStore, client_image, dtype_of, elements_of, image_view, output_array
+from softshadow.pixel_store import PixelStore, client_image, dtype_of, elements_of, image_view, output_array, stacked
 
 
 class UnpackedImage(NamedTuple):
-    """An image (h, w, components) that a display list has read from memory when it was compiled."""
+    """An image (h, w, components) that a display list has read from memory when it was compiled; slices are stacked."""
 
     image: np.ndarray
 
 
 def image_for_list(
-    context: Context, pixels: Any, width: int, height: int, format: int, type: int, operation: str
+    context: Context, pixels: Any, width: int, height: int, slices: int, format: int, type: int, operation: str
 ) -> Any:
     """Return pixels as they are; while a display list is compiled, what they are now, as an `UnpackedImage`."""
     is_none = pixels is None and not context.unpack_store.buffer
-    if context.compiled_list is None or is_none or format_problem(format, type) or width <= 0 or height <= 0:
+    if (
+        context.compiled_list is None
+        or is_none
+        or format_problem(format, type)
+        or min(width, height) <= 0
+        or slices < 0
+    ):
         return pixels
-    image = image_source(context, pixels, int(width), int(height), format, type, operation)
+    image = image_source(context, pixels, int(width), int(height), int(slices), format, type, operation)
     return None if image is None else UnpackedImage(image.copy())
 
 
 def image_source(
-    context: Context, pixels: Any, width: int, height: int, format: int, type: int, operation: str
+    context: Context, pixels: Any, width: int, height: int, slices: int, format: int, type: int, operation: str
 ) -> np.ndarray | None:
-    """Return an image (h, w, components) of the client or of the bound buffer object; None after an error of GL."""
+    """Return an image (h, w, components) of the client or of the bound buffer object; None after an error of GL.
+
+    The slices of a three-dimensional image lie one above the other; any other image has 0 slices.
+    """
     store = context.unpack_store
     if isinstance(pixels, UnpackedImage):
         return pixels.image
     if not store.buffer:
-        return client_image(pixels, store, width, height, format, type, operation)
+        return client_image(pixels, store, width, height, format, type, operation, slices)
     dtype = dtype_of(type)
-    needed = store.layout(width, height, dtype.itemsize * elements_of(format, type), aligned=True)[-1]
+    needed = store.layout(width, height, dtype.itemsize * elements_of(format, type), aligned=True, slices=slices)[-1]
     memory = source(context, pixels, needed, _unit(dtype), operation)
     if memory is None:
         return None
-    return image_view(memory, store, width, height, format, type, operation).astype(dtype, copy=False)
+    view = image_view(memory, store, width, height, format, type, operation, slices)
+    return stacked(view.astype(dtype, copy=False))
 
 
 def image_destination(
-    context: Context, array: Any, width: int, height: int, format: int, type: int, operation: str
+    context: Context, array: Any, width: int, height: int, slices: int, format: int, type: int, operation: str
 ) -> tuple[Any, np.ndarray] | None:
-    """Return (what a read-out returns, a view (h, w, components) of the image in it); None after an error of GL."""
+    """Return (what a read-out returns, a view (h, w, components) of the image in it); None after an error of GL.
+
+    The view of a three-dimensional image is (slices, h, w, components); any other image has 0 slices.
+    """
     store = context.pack_store
     if not store.buffer:
-        return output_array(array, store, width, height, format, type, operation)
+        return output_array(array, store, width, height, format, type, operation, slices)
     dtype = dtype_of(type)
-    needed = store.layout(width, height, dtype.itemsize * elements_of(format, type), aligned=True)[-1]
+    needed = store.layout(width, height, dtype.itemsize * elements_of(format, type), aligned=True, slices=slices)[-1]
     bound = _accessed(context, store, array, needed, _unit(dtype), operation)
     if bound is None:
         return None
     content = own_content(context, bound)
-    return None, image_view(content[offset_of(array) :], store, width, height, format, type, operation)
+    return None, image_view(content[offset_of(array) :], store, width, height, format, type, operation, slices)
 
 
 def source(context: Context, values: Any, n_bytes: int, unit: int, operation: str) -> Any:

@@ -69,7 +69,7 @@ def glDrawPixels(width: int, height: int, format: int, type: int, pixels: Any) -
     operation, context = "glDrawPixels", current()
     image = None
     if not format_problem(format, type) and width > 0 and height > 0:  # read now, also for a list
-        image = image_source(context, pixels, int(width), int(height), format, type, operation)
+        image = image_source(context, pixels, int(width), int(height), 0, format, type, operation)
         if image is None:
             return
         image = image.copy()

@@ -91,7 +91,7 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
     if buffers is None:
         missing = kind_of(format).replace("-", " or ").replace("color", "colour")
         return fail(gl.GL_INVALID_OPERATION, operation, f"framebuffer {source.name} has no {missing} buffer to read")
-    where = image_destination(context, array, int(width), int(height), format, type, operation)
+    where = image_destination(context, array, int(width), int(height), 0, format, type, operation)
     if where is None:
         return None
     answer, view = where

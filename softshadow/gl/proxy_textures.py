@@ -7,27 +7,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.framebuffer import LARGEST_SIDE
+from softshadow.gl.texture_problems import Shape
 from softshadow.image import STENCIL8, WITH_STENCIL, Format, Image
-
-PROXIES = (gl.GL_PROXY_TEXTURE_2D, gl.GL_PROXY_TEXTURE_CUBE_MAP)
-LARGEST_BYTES = 1 << 30  # of a texture, in llvmpipe
 
 
 def define_proxy(
-    context: Context, target: int, level: int, stored: Format, internal_format: int, width: int, height: int
+    context: Context, target: int, level: int, stored: Format | None, internal_format: int, shape: Shape
 ) -> None:
-    """Set a level of a proxy texture; if a texture cannot have it, the level becomes undefined."""
-    largest = LARGEST_SIDE >> level
-    pixel = np.dtype(stored.dtype).itemsize * stored.channels
-    faces = 6 if target == gl.GL_PROXY_TEXTURE_CUBE_MAP else 1
-    fits = width <= largest and height <= largest and faces * width * height * pixel <= LARGEST_BYTES
-    fits = fits and (faces == 1 or width == height)
-    if not fits:
+    """Set a level of a proxy texture; without a format, there can be no such texture, and the level is undefined."""
+    if stored is None:
         context.proxies.pop((target, level), None)
         return
+    width, height, slices = shape
     nothing = np.zeros((0, 0, 4), stored.dtype)
-    stencil = Image(STENCIL8, width, height, nothing[..., 0]) if internal_format in WITH_STENCIL else None
-    context.proxies[target, level] = Image(stored, width, height, nothing, internal_format, stencil)
+    stencil = None
+    if internal_format in WITH_STENCIL:
+        stencil = Image(STENCIL8, width, height, nothing[..., 0], slices=slices)
+    context.proxies[target, level] = Image(stored, width, height, nothing, internal_format, stencil, slices=slices)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import functools
 import inspect
 import math
+import struct
 import sys
 from collections.abc import Callable, Container, Iterator, Mapping
 from numbers import Real
@@ -21,7 +22,9 @@ import numpy as np
 from softshadow.errors import SoftShadowError
 
 Call = TypeVar("Call", bound=Callable[..., Any])
-CONVERTING = (TypeError, ValueError, OverflowError, AttributeError, IndexError, KeyError, RecursionError)
+CONVERTING = (
+    TypeError, ValueError, OverflowError, AttributeError, IndexError, KeyError, RecursionError, struct.error,
+)  # fmt: skip
 PACKAGE = Path(__file__).parents[1]
 # where arguments are converted; an error from elsewhere is none of an argument
 FACADE = (
@@ -42,6 +45,8 @@ def names_arguments(call: Call) -> Call:
     @functools.wraps(call)
     def named(*arguments: Any, **by_name: Any) -> Any:
         try:
+            if str in map(type, arguments):
+                refuse_text(named, *arguments, **by_name)
             return call(*arguments, **by_name)
         except CONVERTING as error:
             raise refusal(named, error, *arguments, **by_name) from error
@@ -83,6 +88,14 @@ def refusal(call: Callable[..., Any], error: Exception, *arguments: Any, **by_na
     given = ", ".join(f"{parameter}={_short(value)}" for parameter, value in bound.arguments.items())
     kind = TypeError if isinstance(error, TypeError | AttributeError) else ValueError
     return kind(f"{name}({given}): {error}")
+
+
+def refuse_text(call: Callable[..., Any], *arguments: Any, **by_name: Any) -> None:
+    """Raise a TypeError if a number is given as text: PyOpenGL refuses '3', which Python would convert."""
+    bound = inspect.signature(call, eval_str=False).bind(*arguments, **by_name)
+    for parameter, value, expected in _expectations(bound):
+        if isinstance(value, str):
+            raise TypeError(f"{spelled(call)}({parameter}={_short(value)}): expected {expected}")
 
 
 def spelled(call: Callable[..., Any]) -> str:

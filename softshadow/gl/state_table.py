@@ -18,6 +18,8 @@ from softshadow.gl.framebuffers import COLOR_ATTACHMENTS
 from softshadow.gl.lists import DEEPEST_LIST
 from softshadow.gl.pixel_transfer import queries as transfer_queries
 from softshadow.gl.rasterization import LARGEST_VIEWPORT
+from softshadow.gl.texture_problems import LARGEST_3D
+from softshadow.gl.textures import LARGEST_ANISOTROPY
 from softshadow.gl.vertex_arrays import ARRAYS
 from softshadow.image import Image
 from softshadow.pixel_store import PixelStore
@@ -187,6 +189,9 @@ QUERIES: dict[str, Read] = {
     "GL_COLOR_WRITEMASK": lambda c: c.state.color.mask,
     "GL_COLOR_CLEAR_VALUE": clamped_color(lambda c: c.state.color.clear),
     "GL_ACCUM_CLEAR_VALUE": lambda c: c.state.color.clear_accum,
+    "GL_PROVOKING_VERTEX": lambda c: c.state.lighting.provoking_vertex,
+    "GL_QUADS_FOLLOW_PROVOKING_VERTEX_CONVENTION": lambda c: False,
+    "GL_EDGE_FLAG": lambda c: c.current.edge,
     "GL_SHADE_MODEL": lambda c: c.state.lighting.shade_model,
     "GL_LIGHT_MODEL_AMBIENT": lambda c: c.state.lighting.model_ambient,
     "GL_LIGHT_MODEL_LOCAL_VIEWER": lambda c: c.state.lighting.local_viewer,
@@ -219,10 +224,14 @@ QUERIES: dict[str, Read] = {
     **client_array("NORMAL", gl.GL_NORMAL_ARRAY),
     **client_array("COLOR", gl.GL_COLOR_ARRAY),
     **client_array("TEXTURE_COORD", gl.GL_TEXTURE_COORD_ARRAY),
+    **client_array("EDGE_FLAG", gl.GL_EDGE_FLAG_ARRAY),
     "GL_ARRAY_BUFFER_BINDING": lambda c: c.arrays.array_buffer,
     "GL_ELEMENT_ARRAY_BUFFER_BINDING": lambda c: c.arrays.element_buffer,
     "GL_CLIENT_ATTRIB_STACK_DEPTH": lambda c: len(c.client_stack),
+    "GL_TEXTURE_BINDING_1D": lambda c: c.state.units[c.active_unit].bound_1d,
     "GL_TEXTURE_BINDING_2D": lambda c: c.state.units[c.active_unit].bound_2d,
+    "GL_TEXTURE_BINDING_3D": lambda c: c.state.units[c.active_unit].bound_3d,
+    "GL_TEXTURE_BINDING_RECTANGLE": lambda c: c.state.units[c.active_unit].bound_rectangle,
     "GL_TEXTURE_BINDING_CUBE_MAP": lambda c: c.state.units[c.active_unit].bound_cube,
     "GL_DRAW_FRAMEBUFFER_BINDING": lambda c: c.state.draw_framebuffer,
     "GL_READ_FRAMEBUFFER_BINDING": lambda c: c.state.read_framebuffer,
@@ -269,6 +278,9 @@ QUERIES: dict[str, Read] = {
     "GL_MAX_TEXTURE_COORDS": lambda c: TEXTURE_UNITS,
     "GL_MAX_TEXTURE_IMAGE_UNITS": lambda c: TEXTURE_UNITS,
     "GL_MAX_CUBE_MAP_TEXTURE_SIZE": lambda c: LARGEST_SIDE,
+    "GL_MAX_RECTANGLE_TEXTURE_SIZE": lambda c: LARGEST_SIDE,
+    "GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT": lambda c: LARGEST_ANISOTROPY,
+    "GL_MAX_3D_TEXTURE_SIZE": lambda c: LARGEST_3D,
     "GL_MAX_DRAW_BUFFERS": lambda c: DRAW_BUFFERS,
     "GL_MAX_COLOR_ATTACHMENTS": lambda c: len(COLOR_ATTACHMENTS),
     "GL_MAX_RENDERBUFFER_SIZE": lambda c: LARGEST_SIDE,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import hypot
 from typing import Any
 
 from softshadow import tokens as gl
@@ -46,6 +47,7 @@ def glTexCoord2f(s: float, t: float) -> None:
     """Set the texture coordinate of unit 0; r = 0, q = 1."""
     context = thread.context
     try:
+        hypot(s, t)  # the quickest question whether these are numbers
         primitive = context.primitive
         if primitive is not None and primitive.steady.get("texcoord0") == 2:
             context.current.texcoords[0] = coordinate = (float(s), float(t), 0.0, 1.0)

@@ -8,24 +8,28 @@ from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import Problem
-from softshadow.gl.texture_images import (
+from softshadow.gl.texture_mipmaps import follow_base_level
+from softshadow.gl.texture_problems import (
     COMPONENT_NUMBERS,
+    Shape,
     border_problem,
-    face_of,
-    follow_base_level,
     internal_problem,
     level_problem,
     missing_problem,
     region_problem,
     size_problem,
 )
-from softshadow.gl.textures import bound_name, bound_texture, target_problem
+from softshadow.gl.textures import bound_texture, face_of, image_target_problem
 from softshadow.image import FORMATS, WITH_STENCIL, Format
 from softshadow.pipeline.commands import CopyToTexture, DefineImage
 from softshadow.pixel_transfer import PixelTransfer
 
 
-@in_lists
+def glCopyTexImage1D(target: int, level: int, internalformat: int, x: int, y: int, width: int, border: int) -> None:
+    """Define a level of the bound 1-D texture from part of a row of the read framebuffer; see `glCopyTexImage2D`."""
+    _copy_image("glCopyTexImage1D", 1, target, level, internalformat, (x, y), (width, 1, 1), border)
+
+
 def glCopyTexImage2D(
     target: int, level: int, internalformat: int, x: int, y: int, width: int, height: int, border: int
 ) -> None:
@@ -33,26 +37,58 @@ def glCopyTexImage2D(
 
     Texels outside the framebuffer become 0; if the level already had this format and size, they keep their values.
     """
-    operation = "glCopyTexImage2D"
+    _copy_image("glCopyTexImage2D", 2, target, level, internalformat, (x, y), (width, height, 1), border)
+
+
+def glCopyTexSubImage1D(target: int, level: int, xoffset: int, x: int, y: int, width: int) -> None:
+    """Copy part of a row of the read framebuffer into a level of the bound 1-D texture."""
+    _copy_part("glCopyTexSubImage1D", 1, target, level, (xoffset, 0, 0), (x, y), (width, 1, 1))
+
+
+def glCopyTexSubImage2D(
+    target: int, level: int, xoffset: int, yoffset: int, x: int, y: int, width: int, height: int
+) -> None:
+    """Copy a rectangle of the read framebuffer into a level of the bound texture."""
+    _copy_part("glCopyTexSubImage2D", 2, target, level, (xoffset, yoffset, 0), (x, y), (width, height, 1))
+
+
+def glCopyTexSubImage3D(
+    target: int, level: int, xoffset: int, yoffset: int, zoffset: int, x: int, y: int, width: int, height: int
+) -> None:
+    """Copy a rectangle of the read framebuffer into a slice of a level of the bound 3-D texture."""
+    _copy_part("glCopyTexSubImage3D", 3, target, level, (xoffset, yoffset, zoffset), (x, y), (width, height, 1))
+
+
+@in_lists
+def _copy_image(
+    operation: str,
+    dimensions: int,
+    target: int,
+    level: int,
+    internalformat: int,
+    origin: tuple[int, int],
+    shape: Shape,
+    border: int,
+) -> None:
     if (context := outside_begin(operation)) is None:
         return None
     problem = (
-        target_problem(context, target, faces=True)
-        or level_problem(level)
+        image_target_problem(target, dimensions)
+        or level_problem(target, level)
         or _source_problem(context)
         or border_problem(border)
         or internal_problem(internalformat, gl.GL_INVALID_ENUM, exclude=COMPONENT_NUMBERS)
-        or size_problem(target, level, width, height, border)
+        or size_problem(target, level, shape)
         or _copy_problem(context, FORMATS[internalformat], internalformat in WITH_STENCIL)
     )
     if problem:
         return fail(problem[0], operation, problem[1])
-    texture, face = bound_texture(context, target), face_of(target)
+    texture, face, (width, height, _) = bound_texture(context, target), face_of(target), shape
     before = texture.images.get((face, level))
     if before is None or (before.internal_format, before.width, before.height) != (internalformat, width, height):
         stored = FORMATS[internalformat]
         context.execute(DefineImage(texture.name, face, level, stored, internalformat, width, height))
-    place = (0, 0, x, y, width, height)
+    place = (0, 0, *origin, width, height)
     context.execute(
         CopyToTexture(context.state.read_framebuffer, texture.name, face, level, *place, _transfer(context))
     )
@@ -61,29 +97,29 @@ def glCopyTexImage2D(
 
 
 @in_lists
-def glCopyTexSubImage2D(
-    target: int, level: int, xoffset: int, yoffset: int, x: int, y: int, width: int, height: int
+def _copy_part(
+    operation: str, dimensions: int, target: int, level: int, corner: Shape, origin: tuple[int, int], shape: Shape
 ) -> None:
-    """Copy a rectangle of the read framebuffer into a level of the bound texture."""
-    operation = "glCopyTexSubImage2D"
     if (context := outside_begin(operation)) is None:
         return None
     problem = (
-        target_problem(context, target, faces=True)
+        image_target_problem(target, dimensions)
         or _source_problem(context)
-        or level_problem(level)
+        or level_problem(target, level)
         or missing_problem(context, target, level)
-        or region_problem(context, target, level, xoffset, yoffset, width, height)
+        or region_problem(context, target, level, corner, shape)
     )
     if problem:
         return fail(problem[0], operation, problem[1])
-    image = bound_texture(context, target).images[face_of(target), level]
+    texture, face = bound_texture(context, target), face_of(target)
+    image = texture.images[face, level]
     if problem := _copy_problem(context, image.format, image.stencil is not None):
         return fail(problem[0], operation, problem[1])
-    framebuffer, name = context.state.read_framebuffer, bound_name(context, target)
-    place = (xoffset, yoffset, x, y, width, height)
-    context.execute(CopyToTexture(framebuffer, name, face_of(target), level, *place, _transfer(context)))
-    follow_base_level(context, bound_texture(context, target), face_of(target), level)
+    (x, y, z), (width, height, _) = corner, shape
+    place = (x, y, *origin, width, height)
+    framebuffer = context.state.read_framebuffer
+    context.execute(CopyToTexture(framebuffer, texture.name, face, level, *place, _transfer(context), z))
+    follow_base_level(context, texture, face, level)
     return None
 
 

@@ -12,9 +12,8 @@ from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.pixel_formats import format_problem, kind_of, readout_problem
 from softshadow.gl.pixel_memory import image_destination
-from softshadow.gl.proxy_textures import PROXIES
-from softshadow.gl.texture_images import image_at, level_problem
-from softshadow.gl.textures import target_problem
+from softshadow.gl.texture_problems import PROXIES, level_problem
+from softshadow.gl.textures import image_at, image_target_problem
 from softshadow.image import Image
 from softshadow.pixel_store import TYPES
 from softshadow.pixel_transfer import PixelTransfer
@@ -39,11 +38,14 @@ MEMORY = {  # largest depth: the type of the texture's own memory
 
 
 def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = None) -> Any:
-    """Return a level of the bound texture, (h, w) or (h, w, components), bottom row first; an `array` is filled."""
+    """Return a level of the bound texture, (h, w) or (h, w, components), bottom row first; an `array` is filled.
+
+    Images of 3-D textures have one more dimension, the first; those of 1-D textures have one row.
+    """
     operation = "glGetTexImage"
     if (context := outside_begin(operation)) is None:
         return None
-    problem = target_problem(context, target, faces=True) or level_problem(level) or format_problem(format, type)
+    problem = image_target_problem(target) or level_problem(target, level) or format_problem(format, type)
     if problem:
         return fail(problem[0], operation, problem[1])
     context.finish()
@@ -51,12 +53,13 @@ def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = 
     if image is not None and (problem := readout_problem(format, image)):
         return fail(problem[0], operation, problem[1])
     width, height = (image.width, image.height) if image is not None else (0, 0)
-    where = image_destination(context, array, width, height, format, type, operation)
+    slices = image.slices if image is not None and target == gl.GL_TEXTURE_3D else 0
+    where = image_destination(context, array, width, height, slices, format, type, operation)
     if where is None:
         return None
     answer, view = where
     if image is not None:
-        view[...] = texture_pixels(image, format, type, context.pixel_transfer)
+        view[...] = texture_pixels(image, format, type, context.pixel_transfer).reshape(view.shape)
     return answer
 
 
@@ -82,13 +85,13 @@ def glGetTexLevelParameteriv(target: int, level: int, pname: int, params: Any = 
     if (context := outside_begin(operation)) is None:
         return None
     is_proxy = target in PROXIES
-    if problem := (None if is_proxy else target_problem(context, target, faces=True)) or level_problem(level):
+    if problem := (None if is_proxy else image_target_problem(target)) or level_problem(target, level):
         return fail(problem[0], operation, problem[1])
     image = context.proxies.get((target, level)) if is_proxy else image_at(context, target, level)
     simple = {
         gl.GL_TEXTURE_WIDTH: image.width if image else 0,
         gl.GL_TEXTURE_HEIGHT: image.height if image else 0,
-        gl.GL_TEXTURE_DEPTH: 1 if image else 0,
+        gl.GL_TEXTURE_DEPTH: image.slices if image else 0,
         gl.GL_TEXTURE_BORDER: 0,
         gl.GL_TEXTURE_COMPRESSED: 0,
         gl.GL_TEXTURE_INTERNAL_FORMAT: image.internal_format if image else gl.GL_RGBA,

@@ -14,13 +14,20 @@ from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.conversions import clamped_int, enum, first, from_int, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, names_argument, reserve
+from softshadow.image import Image
 from softshadow.pipeline.commands import AttachTexture, CreateTexture, DeleteTextures, SetSampler
-from softshadow.texture import Sampler, Texture, stored_name
+from softshadow.state.texturing import BINDINGS
+from softshadow.texture import Sampler, Texture, initial_sampler, stored_name
 from softshadow.tokens import token_name
 
-BINDINGS = {gl.GL_TEXTURE_2D: "bound_2d", gl.GL_TEXTURE_CUBE_MAP: "bound_cube"}
 FACES = tuple(range(gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X, gl.GL_TEXTURE_CUBE_MAP_NEGATIVE_Z + 1))
-EXPECTED_TARGET = "expected GL_TEXTURE_2D or GL_TEXTURE_CUBE_MAP"
+IMAGE_TARGETS = {  # by dimensions
+    0: (gl.GL_TEXTURE_1D, gl.GL_TEXTURE_2D, gl.GL_TEXTURE_RECTANGLE, gl.GL_TEXTURE_3D, *FACES),
+    1: (gl.GL_TEXTURE_1D,),
+    2: (gl.GL_TEXTURE_2D, gl.GL_TEXTURE_RECTANGLE, *FACES),
+    3: (gl.GL_TEXTURE_3D,),
+}
+EXPECTED_TARGET = "expected GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_RECTANGLE or GL_TEXTURE_CUBE_MAP"
 
 WRAPS = (gl.GL_REPEAT, gl.GL_CLAMP, gl.GL_CLAMP_TO_EDGE, gl.GL_CLAMP_TO_BORDER, gl.GL_MIRRORED_REPEAT)
 FILTERS = (gl.GL_NEAREST, gl.GL_LINEAR)
@@ -36,13 +43,16 @@ CHOICES: dict[int, tuple[str, tuple[int, ...]]] = {
     gl.GL_DEPTH_TEXTURE_MODE: ("depth_mode", (gl.GL_LUMINANCE, gl.GL_INTENSITY, gl.GL_ALPHA, gl.GL_RED)),
     gl.GL_TEXTURE_CUBE_MAP_SEAMLESS: ("seamless", (gl.GL_FALSE, gl.GL_TRUE)),
 }
+NOT_OF_RECTANGLES = (*MIPMAP_FILTERS, gl.GL_REPEAT, gl.GL_MIRRORED_REPEAT)
 LEVELS = {gl.GL_TEXTURE_BASE_LEVEL: "base_level", gl.GL_TEXTURE_MAX_LEVEL: "max_level"}
 NUMBERS = {
     gl.GL_TEXTURE_MIN_LOD: "min_lod",
     gl.GL_TEXTURE_MAX_LOD: "max_lod",
     gl.GL_TEXTURE_LOD_BIAS: "lod_bias",
     gl.GL_TEXTURE_PRIORITY: "priority",
+    gl.GL_TEXTURE_MAX_ANISOTROPY_EXT: "max_anisotropy",
 }
+LARGEST_ANISOTROPY = 16.0
 BOOLEANS = {gl.GL_GENERATE_MIPMAP: "generate_mipmap"}
 FIELDS = {name: field for name, (field, _) in CHOICES.items()} | LEVELS | NUMBERS | BOOLEANS
 
@@ -125,13 +135,32 @@ def bound_texture(context: Context, target: int) -> Texture:
     return context.objects.textures[name]
 
 
-def target_problem(context: Context, target: int, faces: bool = False) -> tuple[int, str] | None:
-    """Return (error code, message) if a target is wrong, else None; with `faces`, it is an image target."""
-    allowed = (gl.GL_TEXTURE_2D, *FACES) if faces else tuple(BINDINGS)
-    if target not in allowed:
-        expected = "expected GL_TEXTURE_2D or a face of GL_TEXTURE_CUBE_MAP" if faces else EXPECTED_TARGET
-        return gl.GL_INVALID_ENUM, f"target={token_name(target)}: {expected}"
-    return None
+def face_of(target: int) -> int:
+    """Return the index of a cube map's face, 0 for any other target of images."""
+    return FACES.index(target) if target in FACES else 0
+
+
+def image_at(context: Context, target: int, level: int) -> Image | None:
+    """Return the image of a level of the bound texture, or None if it is not defined."""
+    texture = context.objects.textures.get(bound_name(context, target))
+    return texture.images.get((face_of(target), level)) if texture is not None else None
+
+
+def target_problem(target: int) -> tuple[int, str] | None:
+    """Return (error code, message) if a target of textures is wrong, else None."""
+    if target in BINDINGS:
+        return None
+    return gl.GL_INVALID_ENUM, f"target={token_name(target)}: {EXPECTED_TARGET}"
+
+
+def image_target_problem(target: int, dimensions: int = 0) -> tuple[int, str] | None:
+    """Return (error code, message) if a target of images is wrong, else None; 0 dimensions are any number."""
+    allowed = IMAGE_TARGETS[dimensions]
+    if target in allowed:
+        return None
+    expected = ", ".join(token_name(each) for each in allowed if each not in FACES)
+    expected += " or a face of GL_TEXTURE_CUBE_MAP" if FACES[0] in allowed else ""
+    return gl.GL_INVALID_ENUM, f"target={token_name(target)}: expected {expected}"
 
 
 # -- parameters --------------------------------------------------------------------------------------------------------
@@ -168,7 +197,7 @@ def glTexParameteriv(target: int, pname: int, params: Any) -> None:
 def _set_border(operation: str, target: int, color: Sequence[float]) -> None:
     if (context := outside_begin(operation)) is None:
         return None
-    if problem := target_problem(context, target):
+    if problem := target_problem(target):
         return fail(problem[0], operation, problem[1])
     _set_sampler(context, target, border_color=tuple(np.array(color, np.float32).tolist()))
     return None
@@ -177,10 +206,12 @@ def _set_border(operation: str, target: int, color: Sequence[float]) -> None:
 def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
     if (context := outside_begin(operation)) is None:
         return None
-    if problem := target_problem(context, target):
+    if problem := target_problem(target):
         return fail(problem[0], operation, problem[1])
     if pname in CHOICES:
         (field, choices), chosen = CHOICES[pname], enum(value)
+        if target == gl.GL_TEXTURE_RECTANGLE:
+            choices = tuple(choice for choice in choices if choice not in NOT_OF_RECTANGLES)
         if chosen not in choices:
             expected = ", ".join(token_name(c) for c in choices)
             return fail(
@@ -193,13 +224,22 @@ def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
         level = clamped_int(value)
         if level < 0:
             return fail(gl.GL_INVALID_VALUE, operation, f"{token_name(pname)}={value}: expected 0 or more")
+        if target == gl.GL_TEXTURE_RECTANGLE and level not in (0, getattr(sampler_of(context, target), LEVELS[pname])):
+            code = gl.GL_INVALID_OPERATION if pname == gl.GL_TEXTURE_BASE_LEVEL else gl.GL_INVALID_VALUE
+            reason = f"{token_name(pname)}={level}: expected 0, since a rectangle has only one level"
+            return fail(code, operation, reason)
         _set_sampler(context, target, **{LEVELS[pname]: level})
     elif pname in BOOLEANS:
         _set_sampler(context, target, **{BOOLEANS[pname]: bool(clamped_int(value))})
     elif pname in NUMBERS:
         number = float(np.float32(value))
-        limited = min(max(number, 0.0), 1.0) if pname == gl.GL_TEXTURE_PRIORITY else number
-        _set_sampler(context, target, **{NUMBERS[pname]: limited})
+        if pname == gl.GL_TEXTURE_MAX_ANISOTROPY_EXT:
+            if number < 1:
+                return fail(gl.GL_INVALID_VALUE, operation, f"{token_name(pname)}={value}: expected 1 or more")
+            number = number if number < LARGEST_ANISOTROPY else LARGEST_ANISOTROPY  # also instead of NaN
+        elif pname == gl.GL_TEXTURE_PRIORITY:
+            number = min(max(number, 0.0), 1.0)
+        _set_sampler(context, target, **{NUMBERS[pname]: number})
     else:
         return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)}: expected a texture parameter")
     return None
@@ -224,6 +264,12 @@ def glGetTexParameteriv(target: int, pname: int, params: Any = None) -> Any:
     return _parameter("glGetTexParameteriv", target, pname, params, np.int32)
 
 
+def sampler_of(context: Context, target: int) -> Sampler:
+    """Return the sampler parameters of the bound texture."""
+    known = context.objects.textures.get(bound_name(context, target))
+    return known.sampler if known is not None else initial_sampler(target)
+
+
 def queried_color(context: Context, color: tuple[float, ...]) -> np.ndarray:
     """Return a texture colour as queries return it: clamped (NaN to 0), unless the colour buffer is float."""
     target = context.objects.framebuffers[context.state.draw_framebuffer].first_color
@@ -234,10 +280,9 @@ def queried_color(context: Context, color: tuple[float, ...]) -> np.ndarray:
 def _parameter(operation: str, target: int, pname: int, params: Any, dtype: type[np.generic]) -> Any:
     if (context := outside_begin(operation)) is None:
         return None
-    if problem := target_problem(context, target):
+    if problem := target_problem(target):
         return fail(problem[0], operation, problem[1])
-    known = context.objects.textures.get(bound_name(context, target))
-    sampler = known.sampler if known is not None else Sampler()
+    sampler = sampler_of(context, target)
     if pname == gl.GL_TEXTURE_BORDER_COLOR:
         color = queried_color(context, sampler.border_color)
         answer = color if dtype == np.float32 else (color.astype(np.float64) * 2147483647.0).astype(np.int32)

@@ -6,6 +6,7 @@ collected vertices, if there are any.
 
 from __future__ import annotations
 
+from math import hypot
 from typing import Any
 
 import numpy as np
@@ -127,6 +128,7 @@ def glRotatef(angle: float, x: float, y: float, z: float) -> None:
     """Multiply the current matrix by a rotation: degrees about an axis."""
     context = thread.context
     try:
+        hypot(angle, x, y, z)  # the quickest question whether these are numbers
         if (context.ready or is_ready(context, glRotatef, angle, x, y, z)) and angle and (x or y or z):
             context.matrix_stack.rotate(angle, x, y, z)
     except CONVERTING as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import hypot
 from typing import Any
 
 from softshadow.context import current, thread
@@ -40,6 +41,7 @@ def glColor3f(red: float, green: float, blue: float) -> None:
     """Set the current colour, alpha 1."""
     context = thread.context
     try:
+        hypot(red, green, blue)  # the quickest question whether these are numbers
         primitive = context.primitive
         if primitive is not None and primitive.steady.get("color") == 3:
             context.current.color = color = (float(red), float(green), float(blue), 1.0)
@@ -130,6 +132,7 @@ def glNormal3f(nx: float, ny: float, nz: float) -> None:
     """Set the current normal."""
     context = thread.context
     try:
+        hypot(nx, ny, nz)  # the quickest question whether these are numbers
         primitive = context.primitive
         if primitive is not None and primitive.steady.get("normal") == 3:
             context.current.normal = normal = (float(nx), float(ny), float(nz))
@@ -185,6 +188,21 @@ def glNormal3sv(v: Any) -> None:
 def glNormal3iv(v: Any) -> None:
     """Set the current normal from a vector of ints."""
     set_normal(*vector(v, 3, from_int))
+
+
+# -- edge flag ---------------------------------------------------------------------------------------------------------
+@in_lists
+def glEdgeFlag(flag: bool) -> None:
+    """Set whether the vertices that follow begin an edge that glPolygonMode draws."""
+    context = current()
+    carry_attribute(context, "edge", 1)
+    set_attribute(context, "edge", 1, bool(flag))
+
+
+@in_lists
+def glEdgeFlagv(flag: Any) -> None:
+    """Set the edge flag from a vector."""
+    glEdgeFlag(bool(vector(flag, 1)[0]))
 
 
 __all__ = spelled_like_gl(globals())

@@ -205,7 +205,16 @@ def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int
             columns[1],
             tuple(columns[2:]),
             {name: rows(name) for name in primitive.materials},
+            _edges_of(context, primitive, start, end),
         )
+
+
+def _edges_of(context: Context, primitive: Primitive, start: int, end: int) -> np.ndarray | None:
+    """Return the edge flags of the vertices [start, end); None if all are true."""
+    edge = context.current.edge
+    if "edge" in context.vertex_buffer.sizes:
+        return _read_only(np.array(primitive.values("edge", edge)[start:end], bool))
+    return None if edge else np.broadcast_to(False, end - start)
 
 
 def _read_only(rows: np.ndarray) -> np.ndarray:

@@ -11,6 +11,7 @@ from softshadow.frozen import evolve
 from softshadow.image import Format
 from softshadow.pipeline.commands import CreateTexture, DefineImage, Draw, SetSampler, Vertices
 from softshadow.state import ClipPlanes, Cull, Fog, Polygon, State, TextureUnit, Viewport
+from softshadow.state.texturing import SWITCHES
 from softshadow.texture import Sampler
 
 # the unit square in the order of Mesa's vertices; for images in framebuffer objects it counts rows from the top
@@ -56,7 +57,7 @@ def rounded(coordinate: float) -> np.float32:
 def _textured(state: State) -> State:
     """Return the state with the rectangle as its only texture."""
     first = TextureUnit(enabled_2d=True, bound_2d=TEXTURE, env_mode=gl.GL_REPLACE)
-    others = tuple(evolve(unit, enabled_2d=False, enabled_cube=False) for unit in state.units[1:])
+    others = tuple(evolve(unit, **dict.fromkeys(SWITCHES.values(), False)) for unit in state.units[1:])
     return evolve(state, units=(first, *others))
 
 

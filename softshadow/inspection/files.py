@@ -22,7 +22,8 @@ from softshadow.inspection.exchange import exchange
 
 MARK = "made by softshadow"  # stands at the start of every file; without it a file counts as foreign
 DESCRIPTION = "softshadow.json"  # the member of an npz that describes the others
-START = 4096  # bytes; the mark of a PNG, HTML or text file must stand within them
+MARKED_AT_END = (".pdf", ".webp", ".mp4")  # these formats have their comments behind the contents
+START = 4096  # bytes; the mark of a PNG, GIF, HTML or text file must stand within them
 HOST = re.sub(r"\W", "", node())
 TEMPORARY = re.compile(r"\.softshadow-(\w*)-([0-9]{1,10})-.*", re.DOTALL)
 
@@ -35,8 +36,8 @@ def own(path: Path) -> bool:
         if path.suffix == ".npz":
             with zipfile.ZipFile(path) as archive:
                 return f"{DESCRIPTION}.npy" in archive.namelist()
-        if path.suffix == ".pdf":
-            return MARK.encode() in path.read_bytes()  # a PDF tells its creator near its end
+        if path.suffix in MARKED_AT_END:
+            return MARK.encode() in path.read_bytes()
         with path.open("rb") as file:
             return MARK.encode() in file.read(START)
     except (OSError, ValueError, zipfile.BadZipFile):

@@ -19,6 +19,7 @@ from softshadow.programs.program import needs_blocks
 from softshadow.programs.reads import Read
 from softshadow.programs.sampling import look_up
 from softshadow.programs.wrapping import linear_texels
+from softshadow.state.texturing import OF_PROGRAMS
 from softshadow.texture import Texture
 from softshadow.tokens import token_name
 
@@ -208,8 +209,11 @@ def _tap(texel: Texel, stored: float, depth: Any, lit: bool | None, weight: floa
 
 
 def texels_read(texture: Texture, coordinates: np.ndarray) -> list[Texel]:
-    """Return the texels that one lookup reads, with their weights; none where the level depends on a 2x2 block."""
-    if needs_blocks(texture):
+    """Return the texels that one lookup in a 2-D texture or cube map reads, with their weights.
+
+    None where the level depends on a 2x2 block.
+    """
+    if needs_blocks(texture) or texture.target not in OF_PROGRAMS:
         return []
     lookup = look_up(texture, coordinates[np.newaxis])
     face = -1 if lookup.faces is None else int(lookup.faces[0])

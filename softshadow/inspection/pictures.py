@@ -51,13 +51,16 @@ def _palette() -> np.ndarray:
 
 
 # -- pictures of buffers and maps --------------------------------------------------------------------------------------
-def depth_picture(depth: np.ndarray, clear: float = 1.0) -> np.ndarray:
-    """Return depths (H, W) as greys: near is light, far is dark, over the range of the depths that are not `clear`."""
+def depth_picture(depth: np.ndarray, clear: float = 1.0, limits: tuple[float, float] | None = None) -> np.ndarray:
+    """Return depths (H, W) as greys: near is light, far is dark, over the range of the depths that are not `clear`.
+
+    With `limits` (near, far) the greys are those of this range, in which all drawn depths must lie.
+    """
     drawn = (depth != clear) & np.isfinite(depth)
     picture = np.empty((*depth.shape, 3), np.uint8)
     picture[:] = CLEAR_DEPTH
     if drawn.any():
-        near, far = float(depth[drawn].min()), float(depth[drawn].max())
+        near, far = limits or (float(depth[drawn].min()), float(depth[drawn].max()))
         far = far if far > near else near + 1
         grey = np.rint(255 - 205 * (depth[drawn].astype(np.float64) - near) / (far - near))
         picture[drawn] = grey.astype(np.uint8)[:, None]

@@ -10,7 +10,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.pipeline.commands import Clear, Command, Draw, SetSampler
 from softshadow.state import State
-from softshadow.texture import Sampler, stored_name
+from softshadow.texture import Sampler, initial_sampler, stored_name
 from softshadow.tokens import token_name
 
 FILTERS = ("GL_NEAREST", "GL_LINEAR", "GL_NEAREST_MIPMAP_NEAREST", "GL_LINEAR_MIPMAP_NEAREST",
@@ -20,11 +20,13 @@ PARAMETERS = {
     "mag_filter": FILTERS,
     "wrap_s": ("GL_REPEAT", "GL_CLAMP", "GL_CLAMP_TO_EDGE", "GL_CLAMP_TO_BORDER", "GL_MIRRORED_REPEAT"),
     "wrap_t": ("GL_REPEAT", "GL_CLAMP", "GL_CLAMP_TO_EDGE", "GL_CLAMP_TO_BORDER", "GL_MIRRORED_REPEAT"),
+    "wrap_r": ("GL_REPEAT", "GL_CLAMP", "GL_CLAMP_TO_EDGE", "GL_CLAMP_TO_BORDER", "GL_MIRRORED_REPEAT"),
     "compare_mode": ("GL_NONE", "GL_COMPARE_R_TO_TEXTURE"),
     "compare_func": ("GL_NEVER", "GL_LESS", "GL_EQUAL", "GL_LEQUAL", "GL_GREATER", "GL_NOTEQUAL", "GL_GEQUAL",
                      "GL_ALWAYS"),
     "depth_mode": ("GL_LUMINANCE", "GL_INTENSITY", "GL_ALPHA", "GL_RED"),
 }  # fmt: skip
+TARGET_NAMES = ("GL_TEXTURE_1D", "GL_TEXTURE_2D", "GL_TEXTURE_3D", "GL_TEXTURE_RECTANGLE", "GL_TEXTURE_CUBE_MAP")
 NAMES = {"compare_mode": "GL_TEXTURE_COMPARE_MODE", "compare_func": "GL_TEXTURE_COMPARE_FUNC",
          "depth_mode": "GL_DEPTH_TEXTURE_MODE"}  # fmt: skip
 
@@ -70,12 +72,10 @@ def step_state(command: Draw | Clear, earlier: Sequence[Command]) -> StepState:
     last = {each.texture: each.sampler for each in earlier if isinstance(each, SetSampler)}
     samplers = {}
     for unit in command.state.units:
-        for target, name, is_enabled in (
-            (gl.GL_TEXTURE_2D, unit.bound_2d, unit.enabled_2d),
-            (gl.GL_TEXTURE_CUBE_MAP, unit.bound_cube, unit.enabled_cube),
-        ):
-            if name and (is_enabled or command.program_name):
-                samplers[target, name] = last.get(stored_name(target, name), Sampler())
+        for target in unit.sampled_targets if command.program_name else unit.targets:
+            name = unit.bound(target)
+            if name:
+                samplers[target, name] = last.get(stored_name(target, name), initial_sampler(target))
     return StepState(
         **groups,
         modelview=command.modelview,
@@ -96,13 +96,13 @@ def matrix_calls(mode: str, matrix: np.ndarray) -> list[str]:
 
 def sampler_calls(target: int, name: int, sampler: Sampler) -> list[str]:
     """Return the calls that set the parameters of a texture which differ from their initial values."""
-    token, initial = token_name(target, ("GL_TEXTURE_2D", "GL_TEXTURE_CUBE_MAP")), Sampler()
+    token, initial = token_name(target, TARGET_NAMES), initial_sampler(target)
     calls = [
         f"glTexParameteri({token}, {NAMES.get(key, f'GL_TEXTURE_{key.upper()}')}, {token_name(value, among)})"
         for key, among in PARAMETERS.items()
         if (value := getattr(sampler, key)) != getattr(initial, key)
     ]
-    if gl.GL_CLAMP_TO_BORDER in (sampler.wrap_s, sampler.wrap_t):
+    if gl.GL_CLAMP_TO_BORDER in (sampler.wrap_s, sampler.wrap_t, sampler.wrap_r):
         color = ", ".join(f"{channel:g}" for channel in sampler.border_color)
         calls.append(f"glTexParameterfv({token}, GL_TEXTURE_BORDER_COLOR, ({color}))")
     return [f"glBindTexture({token}, {name})", *calls]

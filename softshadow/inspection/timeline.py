@@ -142,11 +142,11 @@ class Timeline:
         """Return the textures that a draw may sample. Their images are copied before anything changes them."""
         units = command.state.units
         if not command.program_name:
-            units = tuple(unit for unit in units if unit.enabled_2d or unit.enabled_cube)
+            units = tuple(unit for unit in units if unit.targets)
         textures = {}
         for unit in units:
-            for target, name in ((gl.GL_TEXTURE_2D, unit.bound_2d), (gl.GL_TEXTURE_CUBE_MAP, unit.bound_cube)):
-                key = stored_name(target, name)
+            for target in unit.sampled_targets:
+                key = stored_name(target, unit.bound(target))
                 texture = self._storage.textures.get(key)
                 if texture is not None and texture.images and key not in textures:
                     images = dict(texture.images)
@@ -174,7 +174,7 @@ class Timeline:
             no_cells = np.empty((0, 0), image.format.dtype)
             stencil = self._stand_in(image.stencil) if image.stencil is not None else None
             self._stand_ins[image] = Image(
-                image.format, image.width, image.height, no_cells, image.internal_format, stencil
+                image.format, image.width, image.height, no_cells, image.internal_format, stencil, slices=image.slices
             )
         return self._stand_ins[image]
 

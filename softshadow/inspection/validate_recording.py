@@ -126,9 +126,10 @@ def validate_image(image: Image) -> None:
     """Raise a ValueError unless the cells of an image are those of its format and size."""
     _validate_size(image)
     expected = zeroed_cells(0, image.width, image.format)
-    _validate_array("cells", image._cells, expected.dtype, image.height, *expected.shape[1:])
+    _validate_array("cells", image._cells, expected.dtype, image.height * image.slices, *expected.shape[1:])
     if image.stencil is not None:
-        if (image.stencil.width, image.stencil.height) != (image.width, image.height):
+        sides = (image.width, image.height, image.slices)
+        if (image.stencil.width, image.stencil.height, image.stencil.slices) != sides:
             raise ValueError("an image whose stencil values have another size")
         validate_image(image.stencil)
 
@@ -151,6 +152,8 @@ def _validate_draw(draw: commands.Draw) -> None:
         _validate_array(name, array, np.float32, n, width)
     for name, array in vertices.materials.items():
         _validate_array(name, array, np.float32, n, *(() if name.endswith("shininess") else (4,)))
+    if vertices.edges is not None:
+        _validate_array("edge flags", vertices.edges, bool, n)
     if draw.indices is not None:
         _validate_array("indices", draw.indices, np.int32, None)
         if draw.indices.size and not (draw.indices.min() >= 0 and draw.indices.max() < n):
@@ -187,9 +190,11 @@ def _validate_definition(command: commands.DefineImage | commands.DefineRenderbu
         array = getattr(command, name, None)
         if array is not None:
             channels = () if format.channels == 1 else (format.channels,)
-            _validate_array(name, array, format.dtype, command.height, command.width, *channels)
+            rows = command.height * getattr(command, "slices", 1)
+            _validate_array(name, array, format.dtype, rows, command.width, *channels)
 
 
 def _validate_size(image: Any) -> None:
-    if image.format not in KNOWN_FORMATS or not all(0 <= side <= LARGEST_SIDE for side in (image.width, image.height)):
-        raise ValueError(f"an image of {image.width} x {image.height} {image.format}")
+    sides = image.width, image.height, getattr(image, "slices", 1)
+    if image.format not in KNOWN_FORMATS or not all(0 <= side <= LARGEST_SIDE for side in sides):
+        raise ValueError(f"an image of {' x '.join(map(str, sides))} {image.format}")

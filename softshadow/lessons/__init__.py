@@ -7,7 +7,7 @@ from softshadow.lessons.clickable import clickable
 from softshadow.lessons.code_beside_slide import code_beside_slide
 from softshadow.lessons.deck import lesson_slides
 from softshadow.lessons.function_check import check_function
-from softshadow.lessons.listing_run import run_listing
+from softshadow.lessons.listing_run import listing_difference, run_listing
 from softshadow.lessons.prediction import compare_prediction
 from softshadow.lessons.program_check import check_program
 
@@ -18,5 +18,6 @@ __all__ = [
     "code_beside_slide",
     "compare_prediction",
     "lesson_slides",
+    "listing_difference",
     "run_listing",
 ]

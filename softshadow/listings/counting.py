@@ -39,21 +39,21 @@ def ambient_scene(gl: Any, stage: Stage, far: float | None = None) -> Steps:
     yield "Pasul 1: the scene without light"
 
 
-def begin_count(gl: Any, corrected: frozenset[str]) -> None:
-    """RO1:200-204 and RO1:304-308 without glCullFace: let draws change the stencil buffer and nothing else."""
+def begin_count(gl: Any, corrected: frozenset[str], cull: int) -> None:
+    """RO1:200-204 and RO1:304-308: let draws change the stencil buffer and nothing else; cull these faces."""
     if "E1" in corrected:
         gl.glEnable(gl.GL_STENCIL_TEST)  # E1: printed in step 4 only, after counting
         gl.glEnable(gl.GL_CULL_FACE)  # E1: printed nowhere
     gl.glDepthMask(gl.GL_FALSE)
     gl.glColorMask(gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE, gl.GL_FALSE)
     gl.glFrontFace(gl.GL_CCW)
+    gl.glCullFace(cull)
     gl.glStencilFunc(gl.GL_ALWAYS, 0x0, 0xFF)
 
 
 def count_passes(gl: Any, corrected: frozenset[str], stage: Stage) -> Steps:
     """Pasul 2 and Pasul 3 of z-pass (RO1:195-256)."""
-    begin_count(gl, corrected)
-    gl.glCullFace(gl.GL_BACK)  # nu sunt rasterizate poligoanele PUN
+    begin_count(gl, corrected, gl.GL_BACK)  # nu sunt rasterizate poligoanele PUN
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR)
     draw_volumes(gl, stage)
     yield "Pasul 2: count front faces up"
@@ -70,7 +70,8 @@ def volumes_around_eye(stage: Stage) -> int:
     volumes = 0
     for thing in stage.occluder:
         low, high = thing.mesh.positions.min(axis=0), thing.mesh.positions.max(axis=0)
-        enters, leaves = np.sort([(low - eye) / to_lamp, (high - eye) / to_lamp], axis=0)
+        with np.errstate(divide="ignore"):  # a ray along a side of the box meets its planes at infinity
+            enters, leaves = np.sort([(low - eye) / to_lamp, (high - eye) / to_lamp], axis=0)
         volumes += bool(max(enters.max(), 0) < min(leaves.min(), 1))
     return volumes
 
@@ -81,13 +82,15 @@ def start_at_near_plane(gl: Any, stage: Stage) -> Steps:
     A ray from that point leaves each of these volumes; any other volume that it enters it leaves again. So it meets as
     many more back faces than front faces of closed volumes, whatever their depth.
     """
-    begin_count(gl, frozenset({"E1"}))
+    begin_count(gl, frozenset({"E1"}), gl.GL_FRONT)
     gl.glDisable(gl.GL_DEPTH_TEST)
     for cull, operation in ((gl.GL_FRONT, gl.GL_INCR_WRAP), (gl.GL_BACK, gl.GL_DECR_WRAP)):
         gl.glCullFace(cull)
         gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, operation)
         draw_volumes(gl, stage, closed=True)
     gl.glEnable(gl.GL_DEPTH_TEST)
+    gl.glDisable(gl.GL_STENCIL_TEST)
+    gl.glDisable(gl.GL_CULL_FACE)
     yield "start the count at the near plane"
 
 

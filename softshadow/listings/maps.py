@@ -15,6 +15,7 @@ from softshadow.listings.stage import AMBIENT, STAGE, Stage, begin_frame, draw, 
 MAP_SIZE = 192  # SHADOW_MAP_WIDTH and SHADOW_MAP_HEIGHT: larger than the window
 LIGHT_FOV, LIGHT_NEAR, LIGHT_FAR = 34.0, 1.0, 12.0  # the floor's corners lie outside
 SHADOW_FACTOR = 0.5  # RO2:85, 0 < factor_umbra < 1
+BRIGHT = 0.98  # share of the colour in light: at 1, 0.9 would be half-way between two levels of 255
 ALMOST_NO_BIAS = 0.0005  # in the map's depth, 0 to 1: the least that E52 needs besides a slope offset
 
 
@@ -162,24 +163,76 @@ def two_stages(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Step
     # Etapa II
     matrix = light_matrix(gl, stage) if "E50" in corrected else view_of_light(gl, stage)
     bias = ALMOST_NO_BIAS if "E52" in corrected else 0.0  # E52: else rounding decides whether a surface shadows itself
+    program = gl.program("shadow-map" if "E47" in corrected else SLIDE_SHADER)  # E47, as above
     if "E53" in corrected:
         draw(gl, stage.scene)  # E53: ambient light reaches shadows, too; the factor is for the direct light only
         gl.glEnable(gl.GL_BLEND)
         gl.glBlendFunc(gl.GL_ONE, gl.GL_ONE)
         gl.glDepthFunc(gl.GL_EQUAL)
-        use(gl, gl.program("shadow-map"), matrix, bias, 0.0)
+        use(gl, program, matrix, bias, 0.0)
         draw(gl, stage.scene, unlit=1 - AMBIENT)
     else:
-        use(gl, gl.program("shadow-map"), matrix, bias, SHADOW_FACTOR)
+        use(gl, program, matrix, bias, SHADOW_FACTOR)
         draw(gl, stage.scene, unlit=1.0)
     gl.glUseProgram(0)
     yield "Etapa II: the picture from the eye"
     return [stored]
 
 
+def pixel_loop(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
+    """SK:345-357: the loop over the pixels [u, v] of depth w, with A = H[x, y] and B = z as maps; returns H.
+
+    The slide's loop is one array operation here. A and B are window depths of the light's view (E69), 0 to 1.
+    """
+    begin_frame(gl, stage)
+    gl.glDisable(gl.GL_LIGHTING)
+    # 1. Zobraz scénu z pohľadu svetelného zdroja; hĺbkovú mapu odlož do H
+    stored = first_stage(gl, corrected | {"E50", "E51"}, stage)
+    yield "1. H from the light", {"H": stored}
+
+    # 2. Zobraz scénu z pohľadu kamery
+    draw(gl, stage.scene, unlit=BRIGHT)
+    _, _, width, height = gl.glGetIntegerv(gl.GL_VIEWPORT)
+    w = np.asarray(gl.glReadPixels(0, 0, width, height, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT), np.float64)
+    picture = gl.glReadPixels(0, 0, width, height, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
+    yield "2. the scene from the camera"
+
+    # 3. Pre všetky pixely [u, v] s hĺbkou w: (a) [u, v, w] -> [x, y, z]
+    projection, view = (
+        np.asarray(gl.glGetFloatv(name), np.float64).reshape(4, 4).T
+        for name in (gl.GL_PROJECTION_MATRIX, gl.GL_MODELVIEW_MATRIX)
+    )
+    to_light = np.asarray(light_matrix(gl, stage), np.float64).reshape(4, 4).T @ np.linalg.inv(projection @ view)
+    u, v = np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height)
+    depth = w.reshape(height, width)
+    ndc = np.stack([2 * u - 1, 2 * v - 1, 2 * depth - 1, np.ones_like(u)], axis=-1)
+    s, t, p, q = np.moveaxis(ndc @ to_light.T, -1, 0)
+    x, y = (np.floor(MAP_SIZE * each / q).astype(int) for each in (s, t))
+    known = (depth < 1) & (x >= 0) & (x < MAP_SIZE) & (y >= 0) & (y < MAP_SIZE)
+    farthest = MAP_SIZE - 1
+    a = stored[np.clip(y, 0, farthest), np.clip(x, 0, farthest)]  # (b) A = H[x, y]
+    b = p / q  # (c) B = z
+    bias = ALMOST_NO_BIAS if "E52" in corrected else 0.0
+    in_shadow = (a < b - bias) & (depth < 1)  # (d) ak (A < B) tak je pixel [u, v] v tieni
+    if "E47" in corrected:
+        in_shadow &= known  # E47: the slide does not say what H is outside
+    image = np.frombuffer(np.asarray(picture).tobytes(), np.uint8).reshape(height, width, 4).copy()
+    image[in_shadow, :3] = image[in_shadow, :3] * AMBIENT
+    gl.glDisable(gl.GL_DEPTH_TEST)
+    gl.glWindowPos2i(0, 0)
+    gl.glDrawPixels(width, height, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, image)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    yield (
+        "3. A < B for every pixel",
+        {"A": a.astype(np.float32), "B": b.astype(np.float32), "in shadow": in_shadow.astype(np.uint8)},
+    )
+    return [stored]
+
+
 def first_stage(gl: Any, corrected: frozenset[str], stage: Stage) -> np.ndarray:
     """RO2:24-47: ZS from the light, no colour written; "daca z < ZS[y][x] atunci ZS[y][x] = z"."""
-    texture = set_up(gl, frozenset({"E46", "E47"}), start=0.0)
+    # ZS[y][x] is one texel, whatever is outside
+    texture = set_up(gl, corrected | {"E46"}, start=0.0)
     framebuffer = begin_framebuffer(gl, texture)
     gl.glViewport(0, 0, MAP_SIZE, MAP_SIZE)
     gl.glMatrixMode(gl.GL_PROJECTION)
@@ -229,10 +282,15 @@ LISTINGS = (
     Listing(
         "map-two-stages", "Shadow map: Etapa I and Etapa II", "maps", "RO2:24-85", two_stages,
         {
+            "E47": "what the light does not see is lit: border of depth 1, test of s, t and q",
             "E50": "projection and scale to the map besides the view",
             "E51": "ZS is cleared to 1",
             "E52": "an offset in the map and a bias",
             "E53": "the factor is for the direct light alone",
         },
+    ),
+    Listing(
+        "map-loop", "Shadow map: the loop over the pixels", "maps", "SK:345-357", pixel_loop,
+        {"E47": "what the light does not see is lit", "E52": "an offset in the map and a bias"},
     ),
 )  # fmt: skip

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.listings.listing import Listing, Steps
-from softshadow.listings.projection import along_direction, along_rays, from_point, onto_ground
+from softshadow.listings.projection import along_direction, along_rays, from_origin, from_point, onto_ground
 from softshadow.listings.stage import LOW_LAMP, OVER_THE_EDGE, STAGE, Stage, Thing, begin_frame, draw, draw_faces
 from softshadow.scene import Mesh, casting_faces
 
@@ -75,6 +75,16 @@ def matrix_from_point(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) 
     yield from three_steps(gl, frozenset({"E33", "E34"}), stage, from_point(plane, stage.light))
 
 
+def matrix_from_origin(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
+    """CA:361-369, Projecció respecte l'origen: between translations that bring the lamp to the origin and back."""
+    a, b, c, d = (0.0, -1.0, 0.0, 0.0) if "E35" in corrected else GROUND  # E35: the same sign as for a point
+    light = np.array(stage.light[:3])
+    moved_plane = (a, b, c, float(d + np.array([a, b, c]) @ light))  # as seen from the lamp
+    to_light, back = np.eye(4), np.eye(4)
+    to_light[:3, 3], back[:3, 3] = light, -light
+    yield from three_steps(gl, frozenset({"E33", "E34"}), stage, to_light @ from_origin(moved_plane) @ back)
+
+
 def matrix_along_direction(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     """CA:385-396, Projecció en la direcció (x,y,z): the three steps with this matrix, the lamp far away."""
     towards = np.array(stage.light[:3]) - np.array(stage.target)
@@ -121,13 +131,14 @@ def flattened(thing: Thing, stage: Stage) -> Thing:
     )
 
 
-def with_offset(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
-    """CA:147-168 and CA:706-727, CastShadows::paintGL. In the second printing drawReceiver() is commented out."""
+def with_offset(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, receiver: bool = True) -> Steps:
+    """CA:147-168, CastShadows::paintGL, with or without its receiver."""
     begin_frame(gl, stage)
     if "E33" in corrected:
         mark(gl)  # E33, as in the version without an offset
     # 1. Dibuixar receptor
-    draw(gl, stage.receiver)
+    if receiver:
+        draw(gl, stage.receiver)
     yield "1. the receiver"
 
     # 2. Dibuixar l'oclusor projectat (ombra)
@@ -149,6 +160,11 @@ def with_offset(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Ste
     gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
     draw(gl, stage.occluder)
     yield "3. the occluder"
+
+
+def with_offset_again(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
+    """CA:706-727, the second printing of CastShadows::paintGL: E68, drawReceiver() is commented out."""
+    yield from with_offset(gl, corrected, stage, receiver="E68" in corrected)
 
 
 def with_stencil(gl: Any, corrected: frozenset[str], stage: Stage = STAGE, mask: int = 1) -> Steps:
@@ -211,10 +227,12 @@ def darkened(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Steps:
     gl.glDisable(gl.GL_LIGHTING)
     if "E60" in corrected:
         gl.glDisable(gl.GL_DEPTH_TEST)  # E60: the depths of receiver and shadow are equal but for rounding
-    gl.glPushMatrix()
-    multiply(gl, onto_ground(stage.light))  # vynasobenie s aktuálnou transformáciou (modelview)
-    draw(gl, stage.occluder)  # render vyznačenú (occluder) geometriu, darken/black
-    gl.glPopMatrix()
+    for _ in stage.receiver:  # pre každý zatienený polygon; here it is one, the ground
+        matrix = onto_ground(stage.light)  # vypočítaj projekčnú maticu M
+        gl.glPushMatrix()
+        multiply(gl, matrix)  # vynasobenie s aktuálnou transformáciou (modelview)
+        draw(gl, stage.occluder)  # render vyznačenú (occluder) geometriu, darken/black
+        gl.glPopMatrix()
     if "E33" in corrected:
         gl.glDisable(gl.GL_STENCIL_TEST)
     yield "the flattened occluder"
@@ -295,6 +313,10 @@ LISTINGS = (
         {"E33": ON_RECEIVER, "E34": "the occluder is drawn last, not the lamp"},
     ),
     Listing(
+        "planar-origin", "Matrix of a light at the origin", "planar", "CA:361-369", matrix_from_origin,
+        {"E35": "the plane is turned over, so that w > 0 for casters"},
+    ),
+    Listing(
         "planar-point", "Matrix of a light at a point", "planar", "CA:371-383", matrix_from_point,
         {"E35": "the plane is turned over, so that w > 0 for casters"},
     ),
@@ -307,8 +329,11 @@ LISTINGS = (
         {"E21": "casters above the lamp or below the ground cast nothing", "E33": ON_RECEIVER},
     ),
     Listing(
-        "planar-offset", "Projection with polygon offset", "planar", "CA:147-168, CA:706-727", with_offset,
-        {"E33": ON_RECEIVER},
+        "planar-offset", "Projection with polygon offset", "planar", "CA:147-168", with_offset, {"E33": ON_RECEIVER},
+    ),
+    Listing(
+        "planar-offset-again", "Projection with polygon offset, printed again", "planar", "CA:706-727",
+        with_offset_again, {"E33": ON_RECEIVER, "E68": "the receiver is drawn"},
     ),
     Listing("planar-stencil", "Projection with stencil, mask 1", "planar", "CA:292-359", with_stencil),
     Listing("planar-stencil-255", "Projection with stencil, mask 255", "planar", "CA:743-784", with_stencil_255),

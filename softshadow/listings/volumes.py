@@ -45,8 +45,7 @@ def z_pass_decrement_first(gl: Any, corrected: frozenset[str], stage: Stage = ST
     """RO1:195-236 with Pasul 3 before Pasul 2: the slide does not forbid it, and GL_DECR stops at 0."""
     up, down = (gl.GL_INCR_WRAP, gl.GL_DECR_WRAP) if "E11" in corrected else (gl.GL_INCR, gl.GL_DECR)
     yield from ambient_scene(gl, stage)
-    begin_count(gl, frozenset({"E1"}))
-    gl.glCullFace(gl.GL_FRONT)
+    begin_count(gl, corrected, gl.GL_FRONT)
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, down)
     draw_volumes(gl, stage)
     yield "Pasul 3: count back faces down"
@@ -55,7 +54,7 @@ def z_pass_decrement_first(gl: Any, corrected: frozenset[str], stage: Stage = ST
     gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, up)
     draw_volumes(gl, stage)
     yield "Pasul 2: count front faces up"
-    yield from lit_scene(gl, frozenset({"E2"}), stage)
+    yield from lit_scene(gl, corrected, stage)
 
 
 def z_pass_general(gl: Any, corrected: frozenset[str], stage: Stage = NEAR_SHADOW) -> Steps:
@@ -67,19 +66,10 @@ def z_pass_general(gl: Any, corrected: frozenset[str], stage: Stage = NEAR_SHADO
         gl.glClearStencil(volumes_around_eye(stage))
         gl.glClear(gl.GL_STENCIL_BUFFER_BIT)
         yield "start the count at the eye"
-    begin_count(gl, frozenset({"E1"}))
-    gl.glCullFace(gl.GL_BACK)
-    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR_WRAP)
-    draw_volumes(gl, stage, closed=True)
-    yield "Pasul 2: count front faces up"
-
-    gl.glCullFace(gl.GL_FRONT)
-    gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_DECR_WRAP)
-    draw_volumes(gl, stage, closed=True)
-    yield "Pasul 3: count back faces down"
-
-    gl.glCullFace(gl.GL_BACK)
-    yield from lit_scene(gl, frozenset({"E2"}), stage)
+    yield from count_passes(gl, corrected, stage)
+    if "E3" in corrected:
+        gl.glCullFace(gl.GL_BACK)  # E3: or step 4 draws back faces only
+    yield from lit_scene(gl, corrected, stage)
 
 
 def z_fail(gl: Any, corrected: frozenset[str], stage: Stage = DOWN_THE_AXIS) -> Steps:
@@ -87,8 +77,7 @@ def z_fail(gl: Any, corrected: frozenset[str], stage: Stage = DOWN_THE_AXIS) -> 
     # E8: "volumul este decupat la marginile volumului vizual" (RO1:83): faces behind the far plane are lost
     yield from ambient_scene(gl, stage, None if "E8" in corrected else FAR)
     closed = "E6" in corrected  # E6: the "poligoane de umbră" are only the sides; a closed volume has caps, too
-    begin_count(gl, corrected)
-    gl.glCullFace(gl.GL_FRONT)  # nu sunt rasterizate polig PUV
+    begin_count(gl, corrected, gl.GL_FRONT)  # nu sunt rasterizate polig PUV
     gl.glStencilOp(gl.GL_KEEP, gl.GL_INCR, gl.GL_KEEP)
     draw_volumes(gl, stage, closed)
     yield "Pasul 2: count back faces up"
@@ -104,17 +93,16 @@ def z_fail(gl: Any, corrected: frozenset[str], stage: Stage = DOWN_THE_AXIS) -> 
 def bounded(gl: Any, corrected: frozenset[str], stage: Stage = OVER_THE_TABLE) -> Steps:
     """RO1:77-82 with depth fail: one volume for each lit polygon, which ends at that polygon scaled from the light."""
     yield from ambient_scene(gl, stage, None)
-    begin_count(gl, frozenset({"E1"}))
     for cull, operation, title in (
-        (gl.GL_FRONT, gl.GL_INCR_WRAP, "Pasul 2: count back faces up"),
-        (gl.GL_BACK, gl.GL_DECR_WRAP, "Pasul 3: count front faces down"),
+        (gl.GL_FRONT, gl.GL_INCR, "Pasul 2: count back faces up"),
+        (gl.GL_BACK, gl.GL_DECR, "Pasul 3: count front faces down"),
     ):
-        gl.glCullFace(cull)
+        begin_count(gl, corrected, cull)
         gl.glStencilOp(gl.GL_KEEP, operation, gl.GL_KEEP)
         for thing in stage.occluder:
             draw_bounded_volumes(gl, thing, stage, by_plane="E7" in corrected)
         yield title
-    yield from lit_scene(gl, frozenset({"E2"}), stage)
+    yield from lit_scene(gl, corrected, stage)
 
 
 def draw_bounded_volumes(gl: Any, thing: Thing, stage: Stage, by_plane: bool) -> None:
@@ -204,7 +192,7 @@ def five_passes(gl: Any, corrected: frozenset[str], stage: Stage = STAGE) -> Ste
 
 def five_passes_in_shadow(gl: Any, corrected: frozenset[str]) -> Steps:
     """CA:398-492 with the eye near the shadows, a case that the slide does not mention."""
-    yield from five_passes(gl, corrected | {"E38", "E63"}, NEAR_SHADOW)
+    yield from five_passes(gl, corrected, NEAR_SHADOW)
 
 
 def draw_mark(gl: Any) -> None:
@@ -247,19 +235,24 @@ def unnumbered(title: Any) -> str:
 
 
 COUNTED = "stencil test and culling are enabled before counting"
+CULLING = "culling is set back before the lit scene"
+ALL_BITS, NO_CULLING = "all bits of the count are tested, not one", "culling is disabled at the end"
 EQUAL_DEPTH = "the lit scene is drawn with GL_LEQUAL"
 LISTINGS = (
     Listing(
         "volume-zpass", "Shadow volumes, depth pass", "volumes", "RO1:169-277", z_pass,
-        {"E1": COUNTED, "E2": EQUAL_DEPTH, "E3": "culling is set back before the lit scene"},
+        {"E1": COUNTED, "E2": EQUAL_DEPTH, "E3": CULLING},
     ),
     Listing(
         "volume-zpass-reversed", "Depth pass, back faces first", "volumes", "RO1:195-236", z_pass_decrement_first,
-        {"E11": "counters that wrap, not ones that stop at 0"},
+        {"E1": COUNTED, "E2": EQUAL_DEPTH, "E11": "counters that wrap, not ones that stop at 0"},
     ),
     Listing(
         "volume-zpass-general", "Depth pass, the eye in shadow", "volumes", "RO1:281-289", z_pass_general,
-        {"E10": "the count starts from each pixel's point of the near plane, not from the eye"},
+        {
+            "E1": COUNTED, "E2": EQUAL_DEPTH, "E3": CULLING,
+            "E10": "the count starts from each pixel's point of the near plane, not from the eye",
+        },
     ),
     Listing(
         "volume-zfail", "Shadow volumes, depth fail", "volumes", "RO1:289-353", z_fail,
@@ -267,15 +260,18 @@ LISTINGS = (
     ),
     Listing(
         "volume-far-side", "Volumes that end at a scaled polygon", "volumes", "RO1:77-82", bounded,
-        {"E7": "the far side's plane, not only its vertices, is as far as the light reaches"},
+        {
+            "E1": COUNTED, "E2": EQUAL_DEPTH,
+            "E7": "the far side's plane, not only its vertices, is as far as the light reaches",
+        },
     ),
     Listing(
         "volume-five-passes", "Shadow volumes in five passes", "volumes", "CA:398-492", five_passes,
-        {"E38": "all bits of the count are tested, not one", "E63": "culling is disabled at the end"},
+        {"E38": ALL_BITS, "E63": NO_CULLING},
     ),
     Listing(
         "volume-five-passes-eye", "Five passes, the eye in shadow", "volumes", "CA:398-492", five_passes_in_shadow,
-        {"E40": "the count starts from each pixel's point of the near plane"},
+        {"E38": ALL_BITS, "E40": "the count starts from each pixel's point of the near plane", "E63": NO_CULLING},
     ),
     Listing(
         "volume-counter", "The in-out counter", "volumes", "SK:261-286", in_out_counter,

@@ -24,6 +24,7 @@ from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.memory.threads import threads
 from softshadow.pipeline.mesa.polygon_rules import has_special_fragments, passes_stages
+from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2
 from softshadow.pipeline.raster.fill import FillKernel, textbook_kernel
 from softshadow.pipeline.raster.fragment_ops import FragmentOps, fragment_ops
@@ -204,7 +205,7 @@ def writes_no_colors(command: Draw, target: Framebuffer) -> bool:
         return False
     # where Mesa shades all the same, with flat colours it may cut quads in another way, see `Varyings.flat_input`
     is_shaded, is_flat = target.colors or state.alpha.enabled, state.lighting.shade_model == gl.GL_FLAT
-    return not is_shaded or not (command.program_name or is_flat)
+    return not first_provokes(state) and (not is_shaded or not (command.program_name or is_flat))
 
 
 def keeps_depth_and_stencil(front: FragmentOps, back: FragmentOps) -> bool:

@@ -30,6 +30,7 @@ class Vertices:
     """The vertices of a draw, read-only: position (V, 4), color (V, 4), normal (V, 3), one texcoord (V, 4) per unit.
 
     `materials` holds what glMaterial changed between vertices: "front.diffuse" (V, 4), "back.shininess" (V,) ...
+    `edges` (V,) bool are the edge flags; None: all true.
     """
 
     position: np.ndarray
@@ -37,6 +38,7 @@ class Vertices:
     normal: np.ndarray
     texcoords: tuple[np.ndarray, ...]
     materials: Mapping[str, np.ndarray] = field(default_factory=dict)
+    edges: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,9 +142,10 @@ class BeginQuery:
 
 @dataclass(frozen=True, eq=False)
 class DefineImage:
-    """glTexImage2D. `cells` and `stencil` are in the storage's own layout, (height, width[, channels]), None for zeros.
+    """glTexImage. `cells` and `stencil` are in the storage's own layout, (height, width[, channels]), None for zeros.
 
-    A framebuffer object that the level is attached to gets the new image.
+    A framebuffer object that the level is attached to gets the new image. The slices of a 3-D image lie one above the
+    other: (slices * height, width[, channels]).
     """
 
     texture: int
@@ -154,11 +157,15 @@ class DefineImage:
     height: int
     cells: np.ndarray | None = None
     stencil: np.ndarray | None = None
+    slices: int = 1
 
 
 @dataclass(frozen=True, eq=False)
 class UpdateImage:
-    """glTexSubImage2D. `cells` and `stencil` are in the storage's own layout; None leaves them as they are."""
+    """glTexSubImage. `cells` and `stencil` are in the storage's own layout; None leaves them as they are.
+
+    Of a 3-D image, so many slices change, from `z` on; their cells lie one above the other.
+    """
 
     texture: int
     face: int
@@ -167,13 +174,15 @@ class UpdateImage:
     y: int
     cells: np.ndarray | None
     stencil: np.ndarray | None = None
+    z: int = 0
+    slices: int = 1
 
 
 @dataclass(frozen=True, eq=False)
 class CopyToTexture:
-    """glCopyTexSubImage2D from a framebuffer; pixels outside the framebuffer leave their texels untouched.
+    """glCopyTexSubImage from a framebuffer; pixels outside the framebuffer leave their texels untouched.
 
-    `transfer` is what glPixelTransfer changes on the way, None for nothing.
+    `transfer` is what glPixelTransfer changes on the way, None for nothing. `z` is the slice of a 3-D image.
     """
 
     framebuffer: int
@@ -187,6 +196,7 @@ class CopyToTexture:
     width: int
     height: int
     transfer: PixelTransfer | None = None
+    z: int = 0
 
 
 @dataclass(frozen=True, eq=False)

@@ -55,13 +55,13 @@ def wraps_of(sampler: Sampler, first: Image) -> tuple[int, int]:
     return wrap_code(sampler.wrap_s, first.width), wrap_code(sampler.wrap_t, first.height)
 
 
-def in_8_bits(image: Image, wraps: tuple[int, int]) -> bool:
+def in_8_bits(image: Image, wraps: tuple[int, ...]) -> bool:
     """Return whether llvmpipe filters the image in 8-bit integers."""
     return image.format.kind == "unorm8" and set(wraps) <= set(FIXED_POINT_WRAPS)
 
 
 def sample_image(
-    image: Image, sampler: Sampler, wraps: tuple[int, int], linear: bool, coordinates: np.ndarray, out: np.ndarray
+    image: Image, sampler: Sampler, wraps: tuple[int, ...], linear: bool, coordinates: np.ndarray, out: np.ndarray
 ) -> None:
     """Fill `out` (N, k) from one image with a linear or nearest filter; coordinates (N, 3) are s, t, reference."""
     sources = sources_of(image, sampler)
@@ -81,7 +81,7 @@ def sample_image(
         gather_texels(columns, rows, cells, image.width, border, unit, sources, channels)
 
 
-def nearest_places(places: np.ndarray, image: Image, wraps: tuple[int, int]) -> np.ndarray:
+def nearest_places(places: np.ndarray, image: Image, wraps: tuple[int, ...]) -> np.ndarray:
     """Return column and row (2, N) int32 of the nearest texels to coordinates (2 or more, N)."""
     texels = np.empty((2, places.shape[1]), np.int32)
     nearest_texels(places[0], image.width, wraps[0], texels[0])

@@ -45,8 +45,8 @@ def program(state: State, textures: Mapping[tuple[int, int], Texture]) -> Progra
     Parameters
     ----------
     textures : (unit, target) -> Texture
-        The bound textures. A unit uses the one of its enabled target, a cube map before a 2-D texture, and ignores it
-        if it is incomplete.
+        The bound textures. A unit uses the first complete one of its enabled targets, in the order of
+        `state.texturing.TARGETS`.
     """
     units = units_in_use(state, textures)
 
@@ -64,8 +64,7 @@ def units_in_use(state: State, textures: Mapping[tuple[int, int], Texture]) -> l
     """Return the texture units that take part in texturing."""
     units = []
     for index, unit in enumerate(state.units):
-        by_priority = ((gl.GL_TEXTURE_CUBE_MAP, unit.enabled_cube), (gl.GL_TEXTURE_2D, unit.enabled_2d))
-        enabled = [textures[index, target] for target, on in by_priority if on and (index, target) in textures]
+        enabled = [textures[index, target] for target in unit.targets if (index, target) in textures]
         if not enabled:
             continue
         from softshadow.programs import sampling  # loads kernels that draws without textures do not need

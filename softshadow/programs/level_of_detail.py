@@ -16,7 +16,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.texture import Sampler
 
-HALF, ONE = np.float32(0.5), np.float32(1.0)
+HALF, ONE, ROOT_OF_2 = np.float32(0.5), np.float32(1.0), np.float32(math.sqrt(2))
 EXPONENT_BIAS, MANTISSA_BITS, MANTISSA, ONE_BITS = 127, 23, 0x7FFFFF, 0x3F800000
 LARGEST_LEVEL = 15  # a larger GL_TEXTURE_MAX_LOD has no effect
 BIAS_STEPS, LEAST_BIAS, LARGEST_BIAS = 256, -32.0, 31.0  # Mesa stores biases in steps of 1/256
@@ -44,35 +44,58 @@ class Levels(NamedTuple):
     weight: np.ndarray
 
 
-def squared_texels_per_pixel(coordinates: np.ndarray, width: int, height: int) -> np.ndarray:
-    """Return each block's larger squared step (B,), in texels, to the next column or row; coordinates (4 B, 2+)."""
-    blocks = coordinates[:, :2].reshape(-1, 4, 2)
-    return squared_length((blocks[:, 1:3] - blocks[:, :1]), width, height)
+def squared_texels_per_pixel(coordinates: np.ndarray, *sides: int) -> np.ndarray:
+    """Return each block's larger squared step (B,), in texels, to the next column or row.
+
+    The texture has two or three `sides`, and as many of the coordinates (4 B, 2 or more) count. Those of a rectangle
+    are multiplied by its sides, too, although they are in texels already.
+    """
+    return squared_length(steps_in_blocks(coordinates, len(sides)), *sides)
 
 
-def squared_length(steps: np.ndarray, width: int, height: int) -> np.ndarray:
-    """Return the larger squared length (B,), in texels, of two steps (B, 2, 2) in texture coordinates."""
-    texels = steps * np.array((width, height), steps.dtype)
+def texels_per_pixel(coordinates: np.ndarray, width: int) -> np.ndarray:
+    """Return each block's larger step (B,), in texels of a 1-D texture, to the next column or row."""
+    steps: np.ndarray = abs(steps_in_blocks(coordinates, 1)[..., 0]).max(axis=1)
+    return steps * steps.dtype.type(width)
+
+
+def steps_in_blocks(coordinates: np.ndarray, n: int) -> np.ndarray:
+    """Return the steps (B, 2, n) of the first n coordinates to the next column and to the next row."""
+    blocks = coordinates[:, :n].reshape(-1, 4, n)
+    steps: np.ndarray = blocks[:, 1:3] - blocks[:, :1]
+    return steps
+
+
+def squared_length(steps: np.ndarray, *sides: int) -> np.ndarray:
+    """Return the larger squared length (B,), in texels, of two steps (B, 2, n) in texture coordinates."""
+    texels = steps * np.array(sides, steps.dtype)
     texels = texels * texels
-    larger: np.ndarray = (texels[..., 0] + texels[..., 1]).max(axis=1)
+    total = texels[..., 0] + texels[..., 1]
+    if len(sides) > 2:
+        total = total + texels[..., 2]
+    larger: np.ndarray = total.max(axis=1)
     return larger
 
 
-def select_levels(squared: np.ndarray, sampler: Sampler, last: int) -> Levels:
-    """Return the mipmap levels of blocks with squared steps (B,), in texels; `last` is the smallest image's level."""
+def select_levels(squared: np.ndarray, sampler: Sampler, last: int, lengths: np.ndarray | None = None) -> Levels:
+    """Return the mipmap levels of blocks with squared steps (B,), in texels; `last` is the smallest image's level.
+
+    `lengths` are the steps themselves: the nearest level of a 1-D texture is computed from them.
+    """
     squared = squared.astype(np.float32)
     between = FILTERS[sampler.min_filter][1]
     least, most, bias = max(sampler.min_lod, 0.0), sampler.max_lod, bias_of(sampler)
     nothing = np.zeros(len(squared), np.float32)
     if least != most and bias == 0 and least == 0 and most >= LARGEST_LEVEL and between != gl.GL_LINEAR:
+        if lengths is not None:
+            lengths = lengths.astype(np.float32)
+            exponents = ((lengths * ROOT_OF_2).view(np.int32) >> MANTISSA_BITS & 0xFF) - EXPONENT_BIAS
+            nearest = exponents.clip(0, last)
+            return Levels(lengths > ONE, nearest, nearest, nothing)
         exponents = (squared.view(np.int32) >> MANTISSA_BITS & 0xFF) - (EXPONENT_BIAS - 1)
         nearest = (exponents >> 1).clip(0, last)
         return Levels(squared > ONE, nearest, nearest, nothing)
-    if least == most:
-        level = np.full(len(squared), least, np.float32)
-    else:
-        level = HALF * coarse_log2(squared) + np.float32(bias)
-        level = np.maximum(np.minimum(level, np.float32(most)), np.float32(least)) if _limits(least, most) else level
+    level = _level_of_detail(squared, least, most, bias)
     minified = level > 0
     if between != gl.GL_LINEAR:
         nearest = np.rint(level).clip(0, last).astype(np.int32)
@@ -81,6 +104,20 @@ def select_levels(squared: np.ndarray, sampler: Sampler, last: int) -> Levels:
     inside = (floor >= 0) & (floor < last)
     lower = floor.clip(0, last).astype(np.int32)
     return Levels(minified, lower, lower + inside, np.where(inside, level - floor, nothing))
+
+
+def truncated_levels(squared: np.ndarray, sampler: Sampler, last: int) -> np.ndarray:
+    """Return the level of each block (B,) with an anisotropic filter; `squared` are its shorter squared steps."""
+    level = _level_of_detail(squared.astype(np.float32), max(sampler.min_lod, 0.0), sampler.max_lod, bias_of(sampler))
+    levels: np.ndarray = np.trunc(level).clip(0, last).astype(np.int32)
+    return levels
+
+
+def _level_of_detail(squared: np.ndarray, least: float, most: float, bias: float) -> np.ndarray:
+    if least == most:
+        return np.full(len(squared), least, np.float32)
+    level = HALF * coarse_log2(squared) + np.float32(bias)
+    return np.maximum(np.minimum(level, np.float32(most)), np.float32(least)) if _limits(least, most) else level
 
 
 def _limits(least: float, most: float) -> bool:

@@ -86,8 +86,9 @@ class Program:
 def needs_blocks(texture: Texture) -> bool:
     """Return whether a texture is filtered in 2x2 blocks of pixels.
 
-    This is so if its filters depend on the level of detail, or if a linear filter crosses the edges of a cube map.
+    This is so if its filters depend on the level of detail or are anisotropic, or if a linear filter crosses the edges
+    of a cube map.
     """
     sampler = texture.sampler
     over_edges = sampler.seamless and sampler.mag_filter == GL_LINEAR and texture.target == GL_TEXTURE_CUBE_MAP
-    return over_edges or sampler.min_filter != sampler.mag_filter
+    return over_edges or texture.is_anisotropic or sampler.min_filter != sampler.mag_filter

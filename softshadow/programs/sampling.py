@@ -1,7 +1,7 @@
 """Texture sampling at many coordinates, bit for bit as llvmpipe.
 
 `sample` is the entry: it reads the texture's sampler state, selects mipmap levels (`level_of_detail`), samples their
-images (`filtering`, `cube_filtering`) and writes RGBA.
+images (`filtering`, `box_filtering`, `cube_filtering`) and writes RGBA.
 """
 
 from __future__ import annotations
@@ -14,14 +14,30 @@ import numpy as np
 from softshadow.errors import StateError
 from softshadow.jit import kernel
 from softshadow.programs import cube_maps
+from softshadow.programs.anisotropy import sample_ellipses
+from softshadow.programs.box_filtering import BOXES, box_wraps, sample_box
 from softshadow.programs.cube_filtering import HEAVIEST, LINEAR, NEAREST, PIXELS_OF_A_BLOCK, filter_cube
 from softshadow.programs.filtering import UNORM8_STEP, in_8_bits, sample_image, wraps_of
-from softshadow.programs.level_of_detail import FILTERS, Levels, select_levels, squared_texels_per_pixel
+from softshadow.programs.level_of_detail import (
+    FILTERS,
+    Levels,
+    select_levels,
+    squared_texels_per_pixel,
+    texels_per_pixel,
+)
 from softshadow.programs.program import needs_blocks
 from softshadow.programs.reads import note_read
 from softshadow.programs.wrapping import ONE
 from softshadow.texture import Texture
-from softshadow.tokens import GL_CLAMP_TO_EDGE, GL_LINEAR, GL_NONE, GL_TEXTURE_CUBE_MAP
+from softshadow.tokens import (
+    GL_CLAMP_TO_EDGE,
+    GL_LINEAR,
+    GL_NONE,
+    GL_TEXTURE_1D,
+    GL_TEXTURE_2D,
+    GL_TEXTURE_3D,
+    GL_TEXTURE_CUBE_MAP,
+)
 
 WEIGHT_STEPS = np.float32(256.0)
 
@@ -53,14 +69,15 @@ def is_mipmap_complete(texture: Texture) -> bool:
 
 def _has_levels(texture: Texture, last: int) -> bool:
     image, base = texture.base(), texture.sampler.base_level
-    if image is None or image.width == 0 or image.height == 0:
+    if image is None or 0 in (image.width, image.height, image.slices):
         return False
     model = image
     for level in range(base, last + 1):
         images = [texture.images.get((face, level)) for face in texture.faces]
         if not all(image is not None and image.is_laid_out_as(model) for image in images):
             return False
-        model = replace(model, width=max(model.width // 2, 1), height=max(model.height // 2, 1))
+        width, height, slices = (max(side // 2, 1) for side in (model.width, model.height, model.slices))
+        model = replace(model, width=width, height=height, slices=slices)
     return last >= base
 
 
@@ -79,10 +96,14 @@ def project_with_reference(coordinates: np.ndarray) -> np.ndarray:
 
 
 class Lookup(NamedTuple):
-    """Positions in a texture's images: coordinates (N, 3) are s, t and the reference, faces (N,), or None for 2-D."""
+    """Positions in a texture's images: coordinates (N, 3), faces (N,) of a cube map or None.
+
+    The coordinates are s, t and r, or s, t and the reference of a depth comparison; `wraps` are the codes of the wrap
+    modes on the texture's axes.
+    """
 
     texture: Texture
-    wraps: tuple[int, int]
+    wraps: tuple[int, ...]
     coordinates: np.ndarray
     faces: np.ndarray | None
 
@@ -113,8 +134,9 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
 
     Parameters
     ----------
-    coordinates : (N, 3)         s, t, and r for depth comparison; for a cube map (N, 3) or (N, 4): direction s, t, r
-                                 and, for depth comparison, the reference
+    coordinates : (N, 3)         s, t, and r for depth comparison (t in a 1-D texture); for a 3-D texture s, t, r;
+                                 s and t of a rectangle are in texels; for a cube map (N, 3) or (N, 4): direction s, t,
+                                 r and, for depth comparison, the reference
     out : (N, k)                 k is 4 for a cube map; an incomplete texture gives (0, 0, 0, 1)
 
     Raises
@@ -131,7 +153,9 @@ def sample(texture: Texture, coordinates: np.ndarray, out: np.ndarray) -> None:
             "2x2 blocks; set both to GL_NEAREST or both to GL_LINEAR"
         )
     lookup = look_up(texture, coordinates)
-    if filters_cube_in_float(texture):
+    if texture.is_anisotropic:
+        sample_ellipses(texture, coordinates, n_levels_of_ellipses(texture), out)
+    elif filters_cube_in_float(texture):
         sample_cube_in_float(lookup, levels_of(texture, coordinates), out)
     elif sampler.min_filter == sampler.mag_filter:
         sample_level(lookup, 0, sampler.mag_filter, out)
@@ -144,12 +168,18 @@ def levels_of(texture: Texture, coordinates: np.ndarray) -> Levels:
     """Return the mipmap levels of all pixels (N,), selected per block; for a mipmapped cube map per pixel."""
     image, sampler = texture.base(), texture.sampler
     assert image is not None
+    last = texture.last_level() - sampler.base_level
+    if texture.target == GL_TEXTURE_1D:
+        lengths = texels_per_pixel(coordinates, image.width)
+        levels = select_levels(lengths * lengths, sampler, last, lengths)
+        return Levels(*(np.repeat(a, PIXELS_OF_A_BLOCK) for a in levels))
     if texture.target != GL_TEXTURE_CUBE_MAP:
-        squared = squared_texels_per_pixel(coordinates, image.width, image.height)
+        sides = (image.width, image.height, image.slices) if texture.target == GL_TEXTURE_3D else None
+        squared = squared_texels_per_pixel(coordinates, *(sides or (image.width, image.height)))
     else:
         squared = cube_maps.squared_texels_per_pixel(np.ascontiguousarray(coordinates), image.width)
         squared = squared if is_mipmapped(texture) else squared[::PIXELS_OF_A_BLOCK]
-    levels = select_levels(squared, sampler, texture.last_level() - sampler.base_level)
+    levels = select_levels(squared, sampler, last)
     return Levels(*(np.repeat(a, len(coordinates) // len(squared)) for a in levels)) if len(squared) else levels
 
 
@@ -158,7 +188,8 @@ def look_up(texture: Texture, coordinates: np.ndarray) -> Lookup:
     if texture.target != GL_TEXTURE_CUBE_MAP:
         first = texture.images.get((0, 0)) or texture.base()
         assert first is not None
-        return Lookup(texture, wraps_of(texture.sampler, first), coordinates, None)
+        wraps = wraps_of(texture.sampler, first) if texture.target == GL_TEXTURE_2D else box_wraps(texture, first)
+        return Lookup(texture, wraps, coordinates, None)
     faces, places = cube_maps.on_faces(np.ascontiguousarray(coordinates), needs_level_of_detail(texture))
     return Lookup(texture, (GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE), places, faces)
 
@@ -175,6 +206,13 @@ def is_mipmapped(texture: Texture) -> bool:
     sampler = texture.sampler
     only_level = texture.last_level() == 0 and sampler.max_lod > 0
     return FILTERS[sampler.min_filter][1] != GL_NONE and not only_level
+
+
+def n_levels_of_ellipses(texture: Texture) -> int:
+    """Return how many levels an anisotropic filter selects from; without a mipmap filter as well, if they are there."""
+    sampler = texture.sampler
+    selects = is_mipmapped(texture) or FILTERS[sampler.min_filter][0] != sampler.mag_filter
+    return texture.last_level() - sampler.base_level + 1 if selects and is_mipmap_complete(texture) else 1
 
 
 def filters_cube_in_float(texture: Texture) -> bool:
@@ -207,7 +245,9 @@ def sample_level(lookup: Lookup, level: int, filter_name: int, out: np.ndarray) 
     """Fill `out` (N, 4) from one level, counted from the base level, with one filter."""
     texture, linear = lookup.texture, filter_name == GL_LINEAR
     images, level = texture.images, level + texture.sampler.base_level
-    if lookup.faces is None:
+    if texture.target in BOXES:
+        sample_box(images[0, level], texture, lookup.wraps, linear, lookup.coordinates, out)
+    elif lookup.faces is None:
         sample_image(images[0, level], texture.sampler, lookup.wraps, linear, lookup.coordinates, out)
     else:
         for face in np.unique(lookup.faces):

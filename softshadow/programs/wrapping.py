@@ -74,6 +74,14 @@ def nearest_texel(coordinate, size, wrap):
 
 
 @kernel
+def nearest_texel_at(u, size, wrap):
+    """Return the index of the texel that contains a position in texels; wrap is one of the clamp modes."""
+    if wrap == GL_CLAMP_TO_BORDER:
+        return to_int32(np.floor(u))
+    return min(max(to_int32(u), NO_TEXELS), np.int32(size - 1))
+
+
+@kernel
 def nearest_texels(coordinates, size, wrap, texels):
     """Write `nearest_texel` of coordinates (N,) to `texels` (N,) int32.
 
@@ -108,17 +116,22 @@ def linear_texels(coordinate, size, wrap):
         u = (coordinate - np.floor(coordinate)) * length - HALF
         first = last if u < ZERO else to_integer(np.floor(u))
         return first, 0 if first == last else first + 1, u - np.floor(u)
-    if wrap == GL_CLAMP_TO_EDGE:
-        u = coordinate * length
-        u = (u if u < length else length) - HALF
-        u = u if u > ZERO else ZERO
-        first = to_integer(u)
-        return first, min(first + 1, last), u - np.floor(u)
     if wrap == GL_MIRRORED_REPEAT:
         u = mirror(coordinate) * length - HALF
         first = to_integer(np.floor(u))
         return max(first, 0), min(first + 1, last), u - np.floor(u)
-    u = coordinate * length
+    return linear_texels_at(coordinate * length, size, wrap)
+
+
+@kernel
+def linear_texels_at(u, size, wrap):
+    """Return what `linear_texels` does for a position in texels; wrap is one of the clamp modes."""
+    length, last = np.float32(size), size - 1
+    if wrap == GL_CLAMP_TO_EDGE:
+        u = (u if u < length else length) - HALF
+        u = u if u > ZERO else ZERO
+        first = to_integer(u)
+        return first, min(first + 1, last), u - np.floor(u)
     if wrap == GL_CLAMP:
         u = u if u < length else length  # NaN too
         u = u if u > ZERO else ZERO

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import TracebackType
 from typing import Any
 
@@ -26,6 +27,7 @@ class Recording:
         self.context = context
         self._steps, self._program = steps, program
         self._run: Run | None = None
+        self._is_open = True
 
     def __enter__(self) -> Recording:
         return self
@@ -34,6 +36,7 @@ class Recording:
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
         self.context.__exit__()
+        self._is_open = False
         if kind is None:
             self._run = self._divided()
 
@@ -55,18 +58,31 @@ class Recording:
         return self.run.steps
 
     def pixel(self, x: int, y: int) -> PixelHistory:
-        """Return every fragment that was generated at a pixel: x from the left, y from the top."""
-        return self.run.pixel(x, y)
+        """Return every fragment that was generated at a pixel so far: x from the left, y from the top."""
+        return self._so_far().pixel(x, y)
 
     def explain(self, x: int, y: int) -> str:
-        """Return one sentence that says what a pixel shows, and why."""
-        return self.run.explain(x, y)
+        """Return one sentence that says what a pixel shows, and why; inside of the ``with`` statement, so far."""
+        return self._so_far().explain(x, y)
+
+    def _so_far(self) -> Run:
+        """Return the run; inside of the ``with`` statement, one of what has been drawn."""
+        if not self._is_open:
+            return self.run
+        self.context.finish()
+        frame, title = self.context.frame, self.context.open_step
+        steps = frame.steps if title is None else [*frame.steps, (title, len(frame.commands))]
+        frame = replace(frame, commands=list(frame.commands), steps=list(steps))
+        return run_of("recording", frame, self._options, (), self._steps)
+
+    @property
+    def _options(self) -> dict[str, str]:
+        return {"program": self._program} if self._program else {}
 
     def _divided(self) -> Run:
         self.context.finish()
         self.context.end_open_step()
-        options = {"program": self._program} if self._program else {}
-        return run_of("recording", self.context.frame, options, (), self._steps)
+        return run_of("recording", self.context.frame, self._options, (), self._steps)
 
     def __repr__(self) -> str:
         width, height = self.context.frame.size

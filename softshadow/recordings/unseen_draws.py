@@ -103,8 +103,7 @@ class UnseenDraws:
 
 def textures_of(state: State) -> set[int]:
     """Return the names of the textures that a draw may read."""
-    bound = {unit.bound_2d for unit in state.units if unit.enabled_2d}
-    return bound | {unit.bound_cube for unit in state.units if unit.enabled_cube}
+    return {unit.bound(target) for unit in state.units for target in unit.targets}
 
 
 def buffers_cleared(command: Clear, size: tuple[int, int]) -> int:

@@ -17,6 +17,7 @@ class FailurePage:
 
     Attributes
     ----------
+    codes : tuple of str         what the codes in `reference` mean, a sentence each
     picture : (H, W, 3) uint8    both pictures side by side
     runs : (RunPage, RunPage)    with the failure, and with the cure
     pixel : (x, y)               to look at
@@ -26,6 +27,7 @@ class FailurePage:
     title: str
     reason: str
     reference: str
+    codes: tuple[str, ...]
     scene: str
     size: tuple[int, int]
     counted: str

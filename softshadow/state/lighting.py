@@ -55,6 +55,7 @@ class MaterialState:
         return [*calls, f"glMaterialf({face}, GL_SHININESS, {self.shininess:g})"]
 
 
+LAST_VERTEX = gl.GL_LAST_VERTEX_CONVENTION
 INITIAL_LIGHTS = (LightState(diffuse=WHITE, specular=WHITE), *(LightState() for _ in range(7)))
 
 
@@ -76,12 +77,16 @@ class Lighting:
     normalize: bool = False
     rescale_normal: bool = False
     shade_model: int = gl.GL_SMOOTH
+    provoking_vertex: int = gl.GL_LAST_VERTEX_CONVENTION
 
     __repr__ = printed_calls
 
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""
         calls = [switch("GL_LIGHTING", self.enabled), f"glShadeModel({token_name(self.shade_model)})"]
+        calls += (
+            [f"glProvokingVertex({token_name(self.provoking_vertex)})"] if self.provoking_vertex != LAST_VERTEX else []
+        )
         for index, light in enumerate(self.lights):
             if light != INITIAL_LIGHTS[index]:
                 calls += light.calls(index)

@@ -8,6 +8,24 @@ from softshadow import tokens as gl
 from softshadow.state.common import Color, numbers, printed_calls, switch
 from softshadow.tokens import token_name
 
+OF_PROGRAMS = (gl.GL_TEXTURE_CUBE_MAP, gl.GL_TEXTURE_2D)
+
+TARGETS = {  # of textures, and what the fields of `TextureUnit` call them; a unit samples the first that is enabled
+    gl.GL_TEXTURE_CUBE_MAP: "cube",
+    gl.GL_TEXTURE_3D: "3d",
+    gl.GL_TEXTURE_RECTANGLE: "rectangle",
+    gl.GL_TEXTURE_2D: "2d",
+    gl.GL_TEXTURE_1D: "1d",
+}
+BINDINGS = {target: f"bound_{name}" for target, name in TARGETS.items()}
+SWITCHES = {target: f"enabled_{name}" for target, name in TARGETS.items()}
+SHOWN = ((gl.GL_TEXTURE_2D, "GL_TEXTURE_2D"), (gl.GL_TEXTURE_CUBE_MAP, "GL_TEXTURE_CUBE_MAP"))
+SHOWN_IN_USE = (
+    (gl.GL_TEXTURE_1D, "GL_TEXTURE_1D"),
+    (gl.GL_TEXTURE_RECTANGLE, "GL_TEXTURE_RECTANGLE"),
+    (gl.GL_TEXTURE_3D, "GL_TEXTURE_3D"),
+)
+
 
 @dataclass(frozen=True)
 class TexGen:
@@ -57,8 +75,14 @@ class TextureUnit:
 
     enabled_2d: bool = False
     enabled_cube: bool = False
+    enabled_1d: bool = False
+    enabled_rectangle: bool = False
+    enabled_3d: bool = False
     bound_2d: int = 0
     bound_cube: int = 0
+    bound_1d: int = 0
+    bound_rectangle: int = 0
+    bound_3d: int = 0
     env_mode: int = gl.GL_MODULATE
     env_color: Color = (0.0, 0.0, 0.0, 0.0)
     combine: Combine = Combine()
@@ -68,14 +92,36 @@ class TextureUnit:
     def __repr__(self) -> str:
         return "\n".join(self.calls(0)[1:])  # a unit does not know its number
 
+    def bound(self, target: int) -> int:
+        """Return the name of the texture bound to a target."""
+        return int(getattr(self, BINDINGS[target]))
+
+    def enabled(self, target: int) -> bool:
+        """Return whether a target is enabled."""
+        return bool(getattr(self, SWITCHES[target]))
+
+    @property
+    def targets(self) -> tuple[int, ...]:
+        """The enabled targets; the unit samples the first whose texture is complete."""
+        return tuple(target for target, field in SWITCHES.items() if getattr(self, field))
+
+    @property
+    def sampled_targets(self) -> tuple[int, ...]:
+        """The targets whose textures a draw may sample: 2-D textures and cube maps, and others if they are enabled.
+
+        Shading programs sample 2-D textures and cube maps, enabled or not.
+        """
+        if self.enabled_1d or self.enabled_rectangle or self.enabled_3d:
+            return tuple(TARGETS)
+        return OF_PROGRAMS
+
     def calls(self, index: int) -> list[str]:
         """Return the GL calls that make this state."""
-        calls = [
-            f"glActiveTexture(GL_TEXTURE{index})",
-            switch("GL_TEXTURE_2D", self.enabled_2d),
-            f"glBindTexture(GL_TEXTURE_2D, {self.bound_2d})",
-            switch("GL_TEXTURE_CUBE_MAP", self.enabled_cube),
-            f"glBindTexture(GL_TEXTURE_CUBE_MAP, {self.bound_cube})",
+        calls = [f"glActiveTexture(GL_TEXTURE{index})"]
+        for target, name in (*SHOWN, *SHOWN_IN_USE):
+            if (target, name) in SHOWN or self.enabled(target) or self.bound(target):
+                calls += [switch(name, self.enabled(target)), f"glBindTexture({name}, {self.bound(target)})"]
+        calls += [
             f"glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, {token_name(self.env_mode)})",
             f"glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, ({numbers(*self.env_color)}))",
         ]

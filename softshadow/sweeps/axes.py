@@ -8,6 +8,8 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, model_validator
 
+from softshadow.sweeps import paths
+
 Scalar = bool | int | float | str
 
 
@@ -83,28 +85,23 @@ Axis = Annotated[
         custom_error_message="expected a value, a list, {from, to, count} or {random = [low, high]}",
     ),
 ]
+NOWHERE = np.zeros(3)  # paths of sweeps do not depend on where the scene has its light or camera
 Place = tuple[float, float, float] | tuple[float, float, float, float]
 
 
 class Circle(Strict):
     """Points on a horizontal circle, from one angle to another; a whole turn does not repeat its first point."""
 
-    centre: tuple[float, float, float]
+    center: tuple[float, float, float]
     radius: Annotated[float, Field(gt=0)]
     count: Annotated[int, Field(ge=1, le=100_000)]
     start_degrees: float = 0.0
-    turn_degrees: float = 360.0
+    turn_degrees: float = paths.FULL_TURN
 
-    def places(self) -> list[tuple[float, ...]]:
-        """Return the points."""
-        whole = math.isclose(abs(self.turn_degrees) % 360, 0, abs_tol=1e-9)
-        last = self.count if whole else max(self.count - 1, 1)
-        x, y, z = self.centre
-        angles = [math.radians(self.start_degrees + self.turn_degrees * i / last) for i in range(self.count)]
-        return [
-            tuple(round(n, 9) + 0.0 for n in (x + self.radius * math.cos(a), y, z + self.radius * math.sin(a)))
-            for a in angles
-        ]
+    @property
+    def route(self) -> paths.Circle:
+        """The path, as films have it."""
+        return paths.Circle(np.array(self.center), self.radius, self.start_degrees, self.turn_degrees)
 
 
 class Line(Strict):
@@ -120,10 +117,10 @@ class Line(Strict):
             raise ValueError("from and to: expected as many numbers in both")
         return self
 
-    def places(self) -> list[tuple[float, ...]]:
-        """Return the points."""
-        steps = np.linspace(self.start, self.to, self.count)
-        return [tuple(float(f"{n:.9g}") for n in place) for place in steps.tolist()]
+    @property
+    def route(self) -> paths.Polyline:
+        """The path, as films have it."""
+        return paths.Polyline(np.array([self.start, self.to]))
 
 
 class CirclePath(Strict):
@@ -165,10 +162,9 @@ def places_of(path: Places | None) -> list[tuple[float, ...]]:
     """Return the points of a path; one empty tuple, for "as in the scene", if there is none."""
     if path is None:
         return [()]
-    if isinstance(path, CirclePath):
-        return path.circle.places()
-    if isinstance(path, LinePath):
-        return path.line.places()
+    if isinstance(path, CirclePath | LinePath):
+        drawn = path.circle if isinstance(path, CirclePath) else path.line
+        return [tuple(place) for place in drawn.route.points(drawn.count, NOWHERE, NOWHERE).tolist()]
     return [tuple(place) for place in path]
 
 

@@ -14,9 +14,10 @@ from softshadow.inspection.files import refuse_foreign, write_whole
 from softshadow.report.page import write_page
 from softshadow.runs import run
 from softshadow.sweeps.journal import Journal
-from softshadow.sweeps.measured import Row, load_scene, placed
+from softshadow.sweeps.measured import load_scene, placed
 from softshadow.sweeps.point import Point
 from softshadow.sweeps.table import SweepTable
+from softshadow.sweeps.task import Row
 
 MOST_REPORTS = 200  # a report takes half a megabyte and a second; further cells open their picture
 
@@ -52,12 +53,12 @@ def save_contact_sheet(
     refuse_foreign(target, force)
     if not any(point.picture for point in points):
         raise ValueError(f"{path}: the sweep stored no pictures; expected `picture = true`")
-    pictures, reports = Journal(journal).pictures, target.with_suffix(".reports")
+    stored, reports = Journal(journal), target.with_suffix(".reports")
     varying = [name for name in table.columns if name.startswith("option_") or name in PLACES]
     varying = [name for name in varying if len({str(row.get(name)) for row in table.rows}) > 1]
     cells = []
     for index, (point, row) in enumerate(zip(points, table.rows, strict=True)):
-        picture = pictures / f"{point.key}.png"
+        picture = stored.file_of(point.key)
         shown = relative(picture, target) if row["status"] == "ok" and picture.exists() else ""
         link = shown
         if shown and index < MOST_REPORTS:

@@ -1,4 +1,4 @@
-"""The engine for several processes and machines: Dask distributes groups of points, and results stream back.
+"""The engine for several processes and machines: Dask distributes groups of tasks, and results stream back.
 
 Without an address it starts a cluster of its own: one worker process for each core, with one kernel thread each. With
 an address it uses a scheduler that runs already (docs/sweeps.md shows how to start one in a class room or under Slurm).
@@ -11,17 +11,15 @@ import concurrent.futures
 import os
 import threading
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from importlib.util import find_spec
-from pathlib import Path
 from typing import Any
 
 import softshadow
 from softshadow.errors import SoftShadowError
-from softshadow.sweeps.measured import Result, described, load_scene, measure
-from softshadow.sweeps.point import Point
+from softshadow.sweeps.task import CANNOT_LOAD, Result, Task, Work, package_digest
 
 GROUP_SECONDS = 1.0  # of work in a task: enough that sending it costs little, and little is lost with a worker
 LARGEST_GROUP = 64
@@ -36,25 +34,31 @@ NEEDS = "distributing a sweep needs the package distributed: pip install 'softsh
 
 @dataclass
 class DaskEngine:
-    """Measures points on the workers of a Dask client; `dashboard` is the address of its page, or None."""
+    """Computes tasks on the workers of a Dask client; `dashboard` is the address of its page, or None."""
 
+    work: Work
     client: Any
     dashboard: str | None
     _scenes: dict[str, Any] = field(default_factory=dict)
     _losses: int = 0
-    _seconds: float = GROUP_SECONDS  # of one point, so that the first tasks are single points
+    _alone: bool = False  # suspects are sent one after the other, when nothing else is left
+    _seconds: float = GROUP_SECONDS  # of one task, so that the first groups have one
 
-    def __call__(self, points: Sequence[Point]) -> Iterator[tuple[Point, Result]]:
-        """Yield each point with its result, in the order in which they are finished.
+    def __call__(self, tasks: Sequence[Any]) -> Iterator[tuple[Any, Result]]:
+        """Yield each task with its result, in the order in which they are finished.
 
         Raises
         ------
         SoftShadowError              the scheduler is lost; what has been yielded is complete
         """
-        waiting = list(reversed(points))
-        running: dict[Any, tuple[list[Point], float]] = {}
+        waiting: list[Any] = list(reversed(tasks))
+        suspects: list[Any] = []  # were on workers that ended; what else was there may have ended them
+        running: dict[Any, tuple[list[Any], float]] = {}
         connected = time.monotonic()
-        while waiting or running:
+        while waiting or running or suspects:
+            if not waiting and not running:
+                waiting.append(suspects.pop())
+                self._alone = True
             while waiting and len(running) < AHEAD * self.workers():
                 yield from self._submit(waiting, running)
             done, connected = self._finished(running, connected)
@@ -65,11 +69,13 @@ class DaskEngine:
                     yield from zip(group, future.result(), strict=True)
                 elif future.status in LOST:
                     self._send_again(group, waiting)
-                elif len(group) > 1:  # a worker was lost with it: find out which point it was
+                elif is_killed(future) and not self._alone:
+                    suspects += reversed(group)
+                elif len(group) > 1:  # find out which task it was
                     waiting += reversed(group)
                     self._seconds = GROUP_SECONDS
                 else:
-                    yield group[0], Result({**described(group[0]), "status": "error", "error": reason_of(future)}, None)
+                    yield group[0], self.work.failed(group[0], reason_of(future))
 
     def workers(self) -> int:
         """Return how many workers there are now, at least 1 so that tasks are sent and wait for the next one."""
@@ -78,29 +84,27 @@ class DaskEngine:
         except (OSError, RuntimeError, TimeoutError):
             return 1
 
-    def _submit(self, waiting: list[Point], running: dict[Any, Any]) -> Iterator[tuple[Point, Result]]:
-        """Send a group of points that have one scene; a scene that cannot be loaded makes a row with its error."""
+    def _submit(self, waiting: list[Any], running: dict[Any, Any]) -> Iterator[tuple[Any, Result]]:
+        """Send a group of tasks that have one scene; a scene that cannot be loaded makes a row with its error."""
         size = max(1, min(LARGEST_GROUP, int(GROUP_SECONDS / max(self._seconds, 1e-6))))
         group = [waiting.pop()]
         while waiting and len(group) < size and waiting[-1].scene == group[0].scene:
             group.append(waiting.pop())
         try:
-            scene = self._scene(group[0].scene)
-        except (SoftShadowError, ValueError, OSError) as error:
-            text = f"{type(error).__name__}: {error}"
-            for point in group:
-                yield point, Result({**described(point), "status": "error", "error": text}, None)
+            scene = self._scene(group[0])
+        except CANNOT_LOAD as error:
+            for task in group:
+                yield task, self.work.failed(task, error)
             return
-        future = self.client.submit(measured_group, group, scene, pure=False)
+        future = self.client.submit(computed_group, self.work.compute, group, scene, pure=False)
         running[future] = (group, time.monotonic())
 
-    def _scene(self, name: str) -> Any:
-        """Return a scene for a task: None for a built-in one, else the scene of a file, sent to the workers once."""
-        if not Path(name).suffix:
-            return None
-        if name not in self._scenes:
-            self._scenes[name] = self.client.scatter(load_scene(name), broadcast=True, hash=False)
-        return self._scenes[name]
+    def _scene(self, task: Task) -> Any:
+        """Return the scene of a task, sent to the workers once; None for one that they have."""
+        if task.scene not in self._scenes:
+            scene = self.work.load(task)
+            self._scenes[task.scene] = None if scene is None else self.client.scatter(scene, broadcast=True, hash=False)
+        return self._scenes[task.scene]
 
     def _finished(self, running: dict[Any, Any], connected: float) -> tuple[list[Any], float]:
         """Return the tasks that have ended, and when the scheduler was last reached."""
@@ -112,36 +116,46 @@ class DaskEngine:
         if self.client.status == "running":
             return done or [each for each in running if each.status in LOST], time.monotonic()
         if time.monotonic() - connected > LOST_AFTER or self.client.status == "closed":
-            raise SoftShadowError("the scheduler is lost; all points that were reported are safe, --resume goes on")
+            raise SoftShadowError("the scheduler is lost; all that was reported is safe, --resume goes on")
         time.sleep(0.2)
         return [], connected
 
-    def _send_again(self, group: list[Point], waiting: list[Point]) -> None:
-        """Put points back whose task the cluster has lost, with the scenes that it may have lost, too."""
+    def _send_again(self, group: list[Any], waiting: list[Any]) -> None:
+        """Put tasks back whose group the cluster has lost, with the scenes that it may have lost, too."""
         self._losses += 1
         if self._losses > MOST_LOSSES:
-            raise SoftShadowError("the cluster loses tasks again and again; all points that were reported are safe")
+            raise SoftShadowError("the cluster loses tasks again and again; all that was reported is safe")
         self._scenes.clear()
         waiting += reversed(group)
 
-    def _learn(self, seconds: float, points: int) -> None:
-        self._seconds = 0.5 * self._seconds + 0.5 * seconds / points
+    def _learn(self, seconds: float, tasks: int) -> None:
+        self._seconds = 0.5 * self._seconds + 0.5 * seconds / tasks
 
 
-def measured_group(points: list[Point], scene: Any) -> list[Result]:
-    """Return the results of points that have one scene: what a task is. A process measures one point at a time."""
+def computed_group(compute: Callable[[Any, Any], Result], tasks: list[Any], scene: Any) -> list[Result]:
+    """Return the results of tasks that have one scene. A process computes one at a time."""
     with ONE_AT_A_TIME:
-        return [measure(point, scene) for point in points]
+        return [compute(task, scene) for task in tasks]
+
+
+def error_of(future: Any) -> BaseException:
+    """Return why a task has no result."""
+    try:
+        return future.exception(timeout=1)
+    except Exception as caught:  # the reason itself may be lost
+        return caught
+
+
+def is_killed(future: Any) -> bool:
+    """Return whether workers ended with a task, or with another one that waited there with it."""
+    return type(error_of(future)).__name__ == "KilledWorker"
 
 
 def reason_of(future: Any) -> str:
-    """Return why a task has no result."""
-    try:
-        error = future.exception(timeout=1)
-    except Exception as caught:  # the reason itself may be lost
-        error = caught
-    if type(error).__name__ == "KilledWorker":
-        return "the workers that measured this point ended, each time; it may need more memory than they have"
+    """Return why a task has no result, as a text."""
+    if is_killed(future):
+        return "the workers that computed this ended, each time; it may need more memory than they have"
+    error = error_of(future)
     return f"{type(error).__name__}: {error}"
 
 
@@ -150,12 +164,18 @@ def is_installed() -> bool:
     return find_spec("distributed") is not None
 
 
+def has_bokeh() -> bool:
+    """Return whether the package bokeh is there, without which a scheduler's page has no contents."""
+    return find_spec("bokeh") is not None
+
+
 @contextmanager
-def dask_engine(scheduler: str | None = None, workers: int | None = None) -> Iterator[DaskEngine]:
+def dask_engine(work: Work, scheduler: str | None = None, workers: int | None = None) -> Iterator[DaskEngine]:
     """Connect to a scheduler, or start a cluster on this machine, and close what was started at the end.
 
     Parameters
     ----------
+    work : Work                  how the tasks are computed
     scheduler : str              address, such as "tcp://192.168.1.5:8786"; None starts a cluster
     workers : int                number of worker processes of the cluster; by default one for each core
 
@@ -185,7 +205,7 @@ def dask_engine(scheduler: str | None = None, workers: int | None = None) -> Ite
         ) from None
     try:
         refuse_other_versions(client)
-        yield DaskEngine(client, client.dashboard_link if find_spec("bokeh") else None)
+        yield DaskEngine(work, client, client.dashboard_link if client.run_on_scheduler(has_bokeh) else None)
     finally:
         client.close(timeout=5)
         if cluster is not None:
@@ -193,14 +213,12 @@ def dask_engine(scheduler: str | None = None, workers: int | None = None) -> Ite
 
 
 def refuse_other_versions(client: Any) -> None:
-    """Raise an error if a worker has another version of this package: its bits might differ."""
+    """Raise an error if a worker has another version of this package, or other sources: its bits might differ."""
     versions = set(client.run(own_version).values())
-    if versions - {softshadow.__version__}:
-        raise SoftShadowError(
-            f"workers have softshadow {', '.join(sorted(versions))}; expected {softshadow.__version__}, as here"
-        )
+    if versions - {own_version()}:
+        raise SoftShadowError(f"workers have {', '.join(sorted(versions))}; expected {own_version()}, as here")
 
 
 def own_version() -> str:
-    """Return the version of this package on a worker."""
-    return softshadow.__version__
+    """Return the version of this package on a worker, and a digest of its sources."""
+    return f"softshadow {softshadow.__version__} (sources {package_digest()})"

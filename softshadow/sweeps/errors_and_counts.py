@@ -40,14 +40,24 @@ def fingerprint(scene: Scene) -> str:
 
 
 def hard_errors(drawn: Run) -> dict[str, Any]:
-    """Return how many pixels differ from ray casting, in all and away from the edges of shadows and objects."""
+    """Return how many pixels differ from ray casting, in all and away from edges, and the error of their visibility.
+
+    `hard_rms` is the root of the mean square over all lights and compared pixels of visibility, 0 to 1, minus ray
+    casting, 0 or 1. For a technique without half tones it is the root of the share of wrong pixels.
+    """
     scene = scene_of(drawn)
     truth: Truth = remembered("hard", drawn, lambda: cast_truth(scene, drawn.size))
     seen = agreement(drawn, replace(truth, scene=scene))
+    differences = [
+        (light.visibility.astype(np.float64) - truth.lit(index))[seen[index].compared]
+        for index, light in enumerate(drawn.lights)
+    ]
+    squares = np.square(np.concatenate(differences))
     return {
         "hard_compared_px": sum(int(each.compared.sum()) for each in seen),
         "hard_wrong_px": sum(int(each.wrong.sum()) for each in seen),
         "hard_wrong_off_band_px": sum(each.off_band for each in seen),
+        "hard_rms": float(np.sqrt(squares.mean())) if squares.size else None,
     }
 
 

@@ -1,29 +1,32 @@
-"""The journal of a sweep: each finished point is on the disk before it is reported, so nothing is computed twice."""
+"""The journal of a sweep or film: each result is on the disk before it is reported, so nothing is computed twice."""
 
 from __future__ import annotations
 
 import json
 import os
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import IO, Any
 
 from softshadow.errors import SoftShadowError
-from softshadow.sweeps.measured import Result, Row
+from softshadow.sweeps.task import Result, Row
 
 FORMAT = "softshadow sweep journal 1"
+PICTURES = (".pictures", ".png")  # ending of the folder, and of the files in it
 
 
 class Journal:
-    """A file of JSON lines, one for each finished point, and a folder of pictures beside it.
+    """A file of JSON lines, one for each finished task, and a folder of their files beside it.
 
     Only one process at a time may write it. A line that a crash has cut off is ignored, and removed when the sweep goes
     on.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, files: tuple[str, str] = PICTURES) -> None:
         self.path = path
-        self.pictures = path.with_suffix(".pictures")
+        folder, self._ending = files
+        self.folder = path.with_suffix(folder)
         self._file: IO[bytes] | None = None
 
     def open(self, resume: bool) -> dict[str, Row]:
@@ -34,10 +37,11 @@ class Journal:
         SoftShadowError              it exists and `resume` is not set; another process writes it; it is another file
         """
         if self.path.exists() and not resume:
-            raise SoftShadowError(
-                f"{self.path}: a journal of an earlier sweep is here; expected --resume to go on with it, or another "
-                "output"
-            )
+            rows, end = self._read()
+            if rows or end < self.path.stat().st_size:  # nothing is lost with one that has no rows
+                raise SoftShadowError(
+                    f"{self.path}: an earlier journal is here; expected --resume to go on with it, or another output"
+                )
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             file = self.path.open(
@@ -48,7 +52,7 @@ class Journal:
         self._file = file
         if not lock(file):
             self.close()
-            raise SoftShadowError(f"{self.path}: another sweep writes this journal now; expected it to end first")
+            raise SoftShadowError(f"{self.path}: another process writes this journal now; expected it to end first")
         rows, end = self._read()
         if end < self.path.stat().st_size:
             file.truncate(end)
@@ -83,12 +87,12 @@ class Journal:
         SoftShadowError              the disk is full, or the file is gone; earlier points are safe
         """
         try:
-            if result.picture is not None:
-                self._write_picture(key, result.picture)
+            if result.file is not None:
+                self._write_file(key, result.file)
             self._append({"key": key, "row": result.row})
         except OSError as error:
             raise SoftShadowError(
-                f"{self.path}: the last point could not be written: {error.strerror}; all earlier points are safe, and "
+                f"{self.path}: the last result could not be written: {error.strerror}; all earlier ones are safe, and "
                 "--resume goes on with them"
             ) from None
 
@@ -105,21 +109,29 @@ class Journal:
             file.truncate(start)  # half a line on a full disk
             raise
 
-    def _write_picture(self, key: str, picture: bytes) -> None:
-        self.pictures.mkdir(exist_ok=True)
-        target, half = self.picture_of(key), self.pictures / f".{key}.half"
+    def _write_file(self, key: str, contents: bytes) -> None:
+        self.folder.mkdir(exist_ok=True)
+        target, half = self.file_of(key), self.folder / f".{key}.half"
         try:
             with half.open("wb") as file:
-                file.write(picture)
+                file.write(contents)
                 file.flush()
                 os.fsync(file.fileno())
             half.replace(target)
         finally:
             half.unlink(missing_ok=True)
 
-    def picture_of(self, key: str) -> Path:
-        """Return the place of a point's picture."""
-        return self.pictures / f"{key}.png"
+    def file_of(self, key: str) -> Path:
+        """Return the place of a task's file."""
+        return self.folder / f"{key}{self._ending}"
+
+    def delete(self) -> None:
+        """Delete the journal and its files, because what they are for is written."""
+        for file in self.folder.glob(f"*{self._ending}"):
+            file.unlink()
+        with suppress(OSError):  # it is not there, or has files of somebody else
+            self.folder.rmdir()
+        self.path.unlink(missing_ok=True)
 
     def close(self) -> None:
         """Close the file, which also ends the lock."""

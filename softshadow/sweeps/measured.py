@@ -5,9 +5,9 @@ from __future__ import annotations
 import hashlib
 import os
 import warnings
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
-from typing import Any
+from pathlib import Path
 
 from softshadow.errors import Warning as SoftShadowWarning
 from softshadow.inspection.files import MARK
@@ -19,18 +19,10 @@ from softshadow.scene import Camera, Light, Scene
 from softshadow.sweeps.errors_and_counts import counts, hard_errors, soft_errors
 from softshadow.sweeps.frame_times import peak_from_here, peak_memory, timed
 from softshadow.sweeps.point import MODEL_SUFFIXES, Point
+from softshadow.sweeps.task import Result, Row, Work
 from softshadow.testing.machine import machine
 
-Row = dict[str, Any]
 OTHERS = ("numpy", "numba", "python")
-
-
-@dataclass(frozen=True)
-class Result:
-    """What a point gave: its row, and its picture as the bytes of a PNG file, or None."""
-
-    row: Row
-    picture: bytes | None
 
 
 def measure(point: Point, scene: Scene | None = None) -> Result:
@@ -84,6 +76,11 @@ def load_scene(name: str) -> Scene:
     return Scene.load(name) if name.lower().endswith(".toml") else Scene.named(name)
 
 
+def sent_scene(point: Point) -> Scene | None:
+    """Return the scene of a file; None for a built-in one, which a worker has."""
+    return load_scene(point.scene) if Path(point.scene).suffix else None
+
+
 def placed(scene: Scene, point: Point) -> Scene:
     """Return a scene with the light and the camera of a point."""
     if point.light:
@@ -113,3 +110,6 @@ def _measure(point: Point, scene: Scene, row: Row) -> Result:
             if name in point.measure:
                 row |= columns(drawn)
     return Result(row, png(drawn.image) if point.picture else None)
+
+
+POINTS = Work(measure, described, sent_scene)

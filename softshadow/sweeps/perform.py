@@ -9,8 +9,8 @@ from typing import Any
 
 from softshadow.errors import SoftShadowError
 from softshadow.inspection.files import refuse_foreign
-from softshadow.sweeps.dask_engine import dask_engine
-from softshadow.sweeps.execution import Progress, execute
+from softshadow.sweeps.execution import Progress, engine_for, execute
+from softshadow.sweeps.measured import POINTS
 from softshadow.sweeps.point import Point
 from softshadow.sweeps.specification import Specification, read_specification, specified
 from softshadow.sweeps.table import SweepTable, check_suffix
@@ -66,13 +66,9 @@ def sweep(
     refuse_foreign(target, force or resume)
     points = points_of(specification)
     journal = target.with_suffix(".journal")
-    if scheduler is None and workers == 1:
-        started(None)
-        rows = execute(points, journal, resume=resume, report=report)
-    else:
-        with dask_engine(scheduler, workers) as engine:
-            started(engine.dashboard)
-            rows = execute(points, journal, engine, resume=resume, report=report, workers=engine.workers)
+    with engine_for(POINTS, scheduler, workers) as (engine, count_workers, dashboard):
+        started(dashboard)
+        rows = execute(points, journal, engine, resume=resume, report=report, workers=count_workers)
     table = SweepTable(rows)
     table.save(target, force=force or resume)
     return table

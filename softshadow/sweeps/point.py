@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import softshadow
+from softshadow.sweeps.task import package_digest
 
 MEASURES = ("hard", "soft", "counts", "time", "memory")
 MODEL_SUFFIXES = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
@@ -72,8 +72,8 @@ class Point:
 
     @property
     def key(self) -> str:
-        """A name for the point: equal for equal points, scene files and versions of this package, otherwise not."""
-        facts = {**asdict(self), "options": sorted(self.options.items()), "version": softshadow.__version__}
+        """A name for the point: equal for equal points, scene files and sources of this package, otherwise not."""
+        facts = {**asdict(self), "options": sorted(self.options.items()), "package": package_digest()}
         if Path(self.scene).suffix:
             facts["file"] = file_digest(self.scene, Path(self.scene).stat().st_mtime_ns if exists(self.scene) else 0)
         return hashlib.sha256(json.dumps(facts, sort_keys=True, default=str).encode()).hexdigest()[:24]

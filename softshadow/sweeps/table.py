@@ -16,7 +16,7 @@ import numpy as np
 from softshadow.errors import SoftShadowError, nearest
 from softshadow.inspection.files import MARK, write_whole
 from softshadow.sweeps.journal import rows_of
-from softshadow.sweeps.measured import Row
+from softshadow.sweeps.task import Row
 
 SUFFIXES = (".csv", ".parquet", ".json")
 SCHEMA = "softshadow/sweep-table/1"
@@ -56,7 +56,7 @@ class SweepTable:
         return len(self.rows)
 
     def column(self, name: str) -> str:
-        """Return the full name of a column: "map_size" may stand for "option_map_size", "rms" for "soft_rms".
+        """Return the full name of a column: "map_size" may stand for "option_map_size", "rms" for "hard_rms".
 
         Raises
         ------

@@ -22,11 +22,13 @@ import numpy as np
 import OpenGL
 from OpenGL import GL, GLU, contextdata, images, platform
 from OpenGL.raw.GL.VERSION import GL_1_0 as raw
+from OpenGL.raw.GL.VERSION import GL_1_1 as arrays
 from OpenGL.raw.GL.VERSION import GL_1_5 as buffers
 
 from softshadow.mapped_memory import MappedMemory
 from softshadow.packed_colors import PACKED_COLORS
 from softshadow.pixel_store import PACKED_TYPES, PixelStore
+from softshadow.tokens import GL_ABGR_EXT
 
 # missing in PyOpenGL 3.1's image tables; one 32-bit word per pixel, or two
 images.TYPE_TO_ARRAYTYPE[GL.GL_UNSIGNED_INT_24_8] = GL.GL_UNSIGNED_INT
@@ -43,7 +45,7 @@ CHANNELS = {
     **dict.fromkeys((GL.GL_DEPTH_COMPONENT, GL.GL_STENCIL_INDEX, GL.GL_DEPTH_STENCIL), 1),
     **dict.fromkeys((GL.GL_LUMINANCE_ALPHA, GL.GL_RG), 2),
     **dict.fromkeys((GL.GL_RGB, GL.GL_BGR), 3),
-    **dict.fromkeys((GL.GL_RGBA, GL.GL_BGRA), 4),
+    **dict.fromkeys((GL.GL_RGBA, GL.GL_BGRA, GL_ABGR_EXT), 4),
 }
 DTYPES: dict[int, Any] = {
     GL.GL_UNSIGNED_BYTE: np.uint8,
@@ -73,7 +75,8 @@ EXTENSIONS = (
     "EXT.separate_specular_color", "EXT.rescale_normal", "EXT.draw_range_elements", "EXT.multi_draw_arrays",
     "NV.depth_clamp", "ATI.separate_stencil", "ATI.draw_buffers", "SGIS.texture_edge_clamp", "SGIS.generate_mipmap",
     "SGIS.texture_border_clamp", "SGIS.texture_lod", "SGIX.depth_texture", "IBM.texture_mirrored_repeat",
-    "NV.conditional_render",
+    "NV.conditional_render", "ARB.texture_rectangle", "NV.texture_rectangle", "EXT.texture3D",
+    "EXT.texture_filter_anisotropic", "EXT.abgr",
 )  # fmt: skip
 
 _current: "MesaGL | None" = None
@@ -243,6 +246,9 @@ def glGetTexImage(target: int, level: int, format: int, type: int, array: Any = 
     width = GL.glGetTexLevelParameteriv(target, level, GL.GL_TEXTURE_WIDTH)
     height = GL.glGetTexLevelParameteriv(target, level, GL.GL_TEXTURE_HEIGHT)
     expected = _image(int(width), int(height), format, type)
+    if target == GL.GL_TEXTURE_3D:
+        depth = int(GL.glGetTexLevelParameteriv(target, level, GL.GL_TEXTURE_DEPTH))
+        expected = np.zeros((depth, *expected.shape), expected.dtype)
     out = expected if array is None else _checked(array, expected, "glGetTexImage")
     with _restored_alignment():
         GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
@@ -257,7 +263,7 @@ def glGetPolygonStipple(mask: np.ndarray | None = None) -> np.ndarray:
     return out
 
 
-def _without_row_padding(function: Callable[..., Any], size_at: int) -> Callable[..., Any]:
+def _without_row_padding(function: Callable[..., Any], size_at: int, dimensions: int = 2) -> Callable[..., Any]:
     """Return an upload function that reads images without row padding if they are too small to have it.
 
     `size_at` is the index of the width among the arguments; format, type and image are the last three.
@@ -266,7 +272,7 @@ def _without_row_padding(function: Callable[..., Any], size_at: int) -> Callable
     def upload(*arguments: Any) -> Any:
         with _restored_alignment():
             if not _bound(GL.GL_PIXEL_UNPACK_BUFFER_BINDING) and not _has_padding(
-                *arguments[size_at : size_at + 2], *arguments[-3:]
+                arguments[size_at : size_at + dimensions], *arguments[-3:]
             ):
                 GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)
             image = arguments[-1]
@@ -279,16 +285,23 @@ def _without_row_padding(function: Callable[..., Any], size_at: int) -> Callable
     return upload
 
 
-def _has_padding(width: int, height: int, pixel_format: int, pixel_type: int, image: Any) -> bool:
+def _has_padding(shape: tuple[int, ...], pixel_format: int, pixel_type: int, image: Any) -> bool:
     """Return whether an image is large enough for rows padded to GL_UNPACK_ALIGNMENT."""
     channels, dtype = _elements(pixel_format, pixel_type)
     if channels is None or dtype is None or not isinstance(image, np.ndarray):
         return False
-    names = (GL.GL_UNPACK_ALIGNMENT, GL.GL_UNPACK_ROW_LENGTH, GL.GL_UNPACK_SKIP_ROWS, GL.GL_UNPACK_SKIP_PIXELS)
-    alignment, row_length, skip_rows, skip_pixels = (int(GL.glGetIntegerv(name)) for name in names)
-    store = PixelStore(alignment, row_length, skip_rows, skip_pixels)
+    names = ("ALIGNMENT", "ROW_LENGTH", "SKIP_ROWS", "SKIP_PIXELS", "IMAGE_HEIGHT", "SKIP_IMAGES")
+    alignment, row_length, skip_rows, skip_pixels, image_height, skip_images = (
+        int(GL.glGetIntegerv(getattr(GL, f"GL_UNPACK_{name}"))) for name in names
+    )
+    store = PixelStore(
+        alignment, row_length, skip_rows, skip_pixels, image_height=image_height, skip_images=skip_images
+    )
+    slices = shape[2] if len(shape) > 2 else 0
+    width, height = (*shape, 1)[:2]
     pixel = channels * np.dtype(dtype).itemsize
-    return image.size * np.dtype(dtype).itemsize >= store.layout(width, height, pixel, aligned=True)[-1]
+    needed = store.layout(width, height, pixel, aligned=True, slices=slices)[-1]
+    return image.size * np.dtype(dtype).itemsize >= needed
 
 
 def _with_plain_names(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -369,7 +382,18 @@ def glGetBufferParameteriv(target: int, pname: int) -> int:
     return int(out[0])
 
 
+def glEdgeFlagPointer(stride: int, pointer: Any) -> None:
+    """Set the array of edge flags from bytes; PyOpenGL 3.1 would make 16-bit numbers of them."""
+    if isinstance(pointer, np.ndarray | list | tuple | bytes):
+        flags = np.frombuffer(pointer, np.uint8) if isinstance(pointer, bytes) else np.asarray(pointer, np.uint8)
+        _kept_flags[:] = [np.ascontiguousarray(flags)]  # GL reads them at the next draw
+        pointer = ctypes.c_void_p(_kept_flags[0].ctypes.data)
+    arrays.glEdgeFlagPointer(stride, pointer)
+
+
+_kept_flags: list[np.ndarray] = []
 OWN: dict[str, Callable[..., Any]] = {
+    "glEdgeFlagPointer": glEdgeFlagPointer,
     **{name: _under_one_key(getattr(GL, name)) for name in ("glRenderMode", "glSelectBuffer", "glFeedbackBuffer")},
     "glGetPolygonStipple": glGetPolygonStipple,
     "glGetPolygonStippleub": glGetPolygonStipple,
@@ -379,6 +403,10 @@ OWN: dict[str, Callable[..., Any]] = {
     "glGetBufferSubData": glGetBufferSubData,
     "glGetBufferParameteriv": glGetBufferParameteriv,
     "glGetTexImage": glGetTexImage,
+    "glTexImage1D": _without_row_padding(GL.glTexImage1D, size_at=3, dimensions=1),
+    "glTexImage3D": _without_row_padding(GL.glTexImage3D, size_at=3, dimensions=3),
+    "glTexSubImage1D": _without_row_padding(GL.glTexSubImage1D, size_at=3, dimensions=1),
+    "glTexSubImage3D": _without_row_padding(GL.glTexSubImage3D, size_at=5, dimensions=3),
     "glTexImage2D": _without_row_padding(GL.glTexImage2D, size_at=3),
     "glTexSubImage2D": _without_row_padding(GL.glTexSubImage2D, size_at=4),
     "glDrawPixels": _without_row_padding(GL.glDrawPixels, size_at=0),

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from checking.exercises import EXERCISE, RIGHT
 from cli.invocation import invoke_ok, json_of
 from paths import ROOT, SCENES, TRACE
 from softshadow.cli import main
@@ -29,7 +30,9 @@ ASKED = {
     "scenes": [],
     "listings": [],
     "failures": [],
+    "errata": [],
     "doctor": [],
+    "animate": ["planar", "--light-path", "orbit", "--frames", "2", "-o", "a.webp"],
     "bench": ["w5", "--rounds", "1", "--size", "16x12"],
 }
 
@@ -40,13 +43,17 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shutil.copy(SCENES / "crate.obj", "bunny.obj")
     shutil.copy(TRACE, "program.trace")
     Path("program.py").write_text(GLUT)
+    Path("exercise.py").write_text(EXERCISE)
+    for name in ("student.py", "anna.py", "ben.py"):
+        Path(name).write_text(RIGHT)
     Path("sweep.toml").write_text('technique = "blob"\nsize = "24x18"\n')
     for name in ("lesson.toml", "crate.obj"):
         shutil.copy(SCENES / name, name)
 
 
-# bench compiles every state that it draws with; the block of the README draws the tour
-LONG = ("softshadow bench ", "softshadow tour")
+# bench compiles every state that it draws with; the block of the README draws the tour; check starts a process for each
+# program, and tests/cli/test_help.py runs one
+LONG = ("softshadow bench ", "softshadow tour", "softshadow check exercise.py ")
 
 
 @pytest.mark.parametrize(
@@ -62,7 +69,7 @@ def test_line_of_the_page_runs(line: str) -> None:
     assert program == "softshadow"
     # later sizes win; the pixels are those of the full size
     sized = command in ("tour", "render", "steps") or (command in ("bench", "failures") and arguments)
-    size = {"compare": "24x18"}.get(command, "48x36" if sized else None)
+    size = {"compare": "24x18", "animate": "24x18"}.get(command, "48x36" if sized else None)
     size = "80x60" if command == "failures" and size else size
     started = ["--no-start"] if command == "lessons" and arguments else []
     invoke_ok(command, *arguments, *(["--size", size] if size else []), *started)

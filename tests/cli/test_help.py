@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from checking.exercises import EXERCISE, RIGHT
 from cli.invocation import invoke, invoke_ok
 from paths import SCENES, TRACE
 from softshadow import __version__
@@ -19,6 +20,7 @@ COMMANDS = list(main.commands)
 SLOW = ("warmup", "bench", "tour")  # draw with all techniques, or compile every state that they draw with
 SMALL = {
     **{command: ["--size", "48x36"] for command in ("tour", "render", "steps", "failures", "listings")},
+    "animate": ["--size", "32x24", "--frames", "3"],
     "compare": ["--size", "24x18"],
     "bench": ["--size", "48x36", "--rounds", "1"],
     "lessons": ["--no-start"],
@@ -53,6 +55,8 @@ def test_example_of_help_runs(line: str, tmp_path: Path, monkeypatch: pytest.Mon
     shutil.copy(SCENES / "crate.obj", "bunny.obj")
     shutil.copy(TRACE, "program.trace")
     Path("program.py").write_text(GLUT)
+    Path("exercise.py").write_text(EXERCISE)
+    Path("student.py").write_text(RIGHT)
     Path("sweep.toml").write_text(
         'technique = "map"\nsize = "24x18"\nmeasure = ["hard"]\noptions.map_size = [16, 32]\n'
     )

@@ -141,3 +141,14 @@ def test_foreign_file_other_ending_and_unknown_listing_are_refused() -> None:
 @pytest.mark.parametrize("words", [["--printed"], ["--pixel", "1,2"], ["-o", "a.png"], ["--on", "mesa"]])
 def test_options_of_a_run_need_the_name_of_a_listing(words: list[str]) -> None:
     assert "expected the name of a LISTING" in usage_error_of("listings", *words)
+
+
+def test_diff_shows_the_corrections_as_calls_and_what_their_numbers_mean() -> None:
+    text = invoke_ok("listings", "volume-five-passes", *SMALL, "--diff").stdout
+    assert "- glStencilFunc(GL_EQUAL, 1, 1)\n+ glStencilFunc(GL_NOTEQUAL, 0, 255)\n" in text
+    assert "+ glDisable(GL_CULL_FACE)" in text
+    assert "E38: error 38 of the slides: all bits of the count are tested" in text
+    answer = json_of("listings", "volume-five-passes", *SMALL, "--diff")
+    assert answer["diff"] in text
+    assert "nothing to correct" in invoke_ok("listings", "stencil-quads", *SMALL, "--diff").stdout
+    assert "--diff: expected no --printed" in usage_error_of("listings", "map", "--diff", "--printed")

@@ -8,6 +8,7 @@ from cli.invocation import invoke_ok, json_of
 from paths import ROOT
 from softshadow import techniques
 from softshadow.cli import machine
+from softshadow.course import explain_codes
 from softshadow.scene import scene_names
 
 
@@ -29,7 +30,9 @@ def test_json_of_techniques_has_the_options() -> None:
 
 @pytest.mark.parametrize("name", techniques.names())
 def test_one_technique_is_described_with_its_options(name: str) -> None:
-    assert invoke_ok("techniques", name).stdout == techniques.describe(name) + "\n"
+    described = techniques.describe(name)
+    codes = explain_codes(described)
+    assert invoke_ok("techniques", name).stdout == "\n".join([described, *(["", *codes] if codes else []), ""])
 
 
 def test_scenes_are_listed_with_titles_and_counts() -> None:

@@ -46,7 +46,7 @@ def command_lines() -> list[tuple[str, str]]:
             if not re.search(r"\b[A-Z]{4,}\b|\.\.\.", line)  # a placeholder
         ]
         for block in blocks(page, "sh"):
-            for line in block.splitlines():
+            for line in block.replace("\\\n", " ").splitlines():
                 called = re.match(r"(?:\w+=\S+ )*(?:\S*uv run (?:--no-dev )?)?(?:[\w.]+/bin/)?(softshadow .*)", line)
                 found += [(page.name, called[1].partition(" > ")[0])] if called else []
     return found

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from softshadow import errors, techniques
+from softshadow import course, errors, techniques
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -54,10 +54,10 @@ def test_every_cited_paper_has_an_entry() -> None:
 
 
 def test_every_correction_that_a_technique_or_a_failure_points_at_is_told() -> None:
-    told = set(re.findall(r"^\| (E\d+) \|", page("corrections.md"), re.MULTILINE))
+    told = set(course.ERRATA)
     cited = {
         number
-        for block in ("techniques", "gallery")
+        for block in ("techniques", "gallery", "listings", "lessons")
         for file in (PACKAGE / block).glob("*.py")
         for number in re.findall(r"\bE\d+\b", file.read_text(encoding="utf-8"))
     }

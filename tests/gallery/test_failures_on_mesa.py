@@ -28,7 +28,7 @@ def draw(gl: Any, failure: Failure) -> None:
 @pytest.mark.filterwarnings("ignore::softshadow.errors.Warning")
 @pytest.mark.parametrize("name", list(ss.failures))
 def test_failing_program_leaves_the_same_bits_on_mesa(name: str) -> None:
-    failure = ss.failures[name]
+    failure = ss.failures[name].at(SIZE)
     here = run_here(lambda gl: draw(gl, failure), SIZE)
     there = run_on_mesa(lambda gl: draw(gl, failure), SIZE)
     assert differences(here, there) == ()

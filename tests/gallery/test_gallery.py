@@ -20,6 +20,7 @@ KNOWN = {
     "factor-on-whole-color", "map-larger-than-window", "missing-clear", "t-junction-leak", "open-mesh-leak",
     "vertex-distance-cap", "omni-light", "pcf-bias", "light-bleeding", "wedges-by-depth", "wedge-overlap",
     "centre-silhouette", "banding", "corners-only", "constant-width", "blurred-contact", "mean-blocker",
+    "reversed-comparison", "depth-test-off-while-counting",
 }  # fmt: skip
 
 

@@ -7,7 +7,16 @@ import numpy as np
 CURVE = np.array([[0, 0, 0], [0.5, 1, 0], [1, 0, 0]], np.float32)
 SURFACE = np.array([[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]], np.float32)
 
+# calls of GLU that read memory as large as their other arguments say, or make callbacks: see tests/mesa
+OF_GLU = {
+    "gluScaleImage", "gluBuild2DMipmaps", "gluBuild2DMipmapLevels", "gluUnProject4", "gluNewTess", "gluDeleteTess",
+    "gluTessProperty", "gluGetTessProperty", "gluTessNormal", "gluTessCallback", "gluTessBeginPolygon",
+    "gluTessBeginContour", "gluTessVertex", "gluTessEndContour", "gluTessEndPolygon", "gluBeginPolygon",
+    "gluNextContour", "gluEndPolygon",
+}  # fmt: skip
 MORE_CALLS: dict[str, tuple[Any, ...]] = {
+    "glEdgeFlag": (False,), "glEdgeFlagv": ([True],), "glProvokingVertex": ("GL_FIRST_VERTEX_CONVENTION",),
+    "glEdgeFlagPointer": (0, np.ones(4, np.uint8)),
     "glRenderMode": ("GL_RENDER",), "glSelectBuffer": (16,), "glFeedbackBuffer": (16, "GL_3D"),
     "glPassThrough": (1.5,), "glInitNames": (), "glLoadName": (3,), "glPushName": (3,), "glPopName": (),
     "glBeginConditionalRender": ("@query", "GL_QUERY_WAIT"), "glEndConditionalRender": (),

@@ -1,14 +1,11 @@
 """The register: names, slides, corrections, and programs with any choice of them."""
 
 import re
-from pathlib import Path
 
 import pytest
 
-from softshadow import listings
+from softshadow import course, listings
 from softshadow.listings.listing import Listing
-
-CORRECTIONS = Path(__file__).parents[2] / "docs" / "corrections.md"
 
 
 def test_unknown_listing_is_told_the_nearest_one():
@@ -42,6 +39,6 @@ def test_listing_names_its_slide_by_text_and_lines(name):
 
 
 def test_every_correction_of_a_listing_is_told():
-    told = set(re.findall(r"^\| (E\d+) \|", CORRECTIONS.read_text(encoding="utf-8"), re.MULTILINE))
+    told = set(course.ERRATA)
     made = {number for name in listings.names() for number in listings.get(name).corrections}
     assert sorted(made - told) == []

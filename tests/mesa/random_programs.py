@@ -14,6 +14,7 @@ import numpy as np
 
 from mesa import (
     random_arrays,
+    random_boxes,
     random_buffers,
     random_combining,
     random_cube_maps,
@@ -106,6 +107,7 @@ FAMILIES = {
     "attribute stacks": Family(random_structure.pushed),
     "offscreen": Family(random_structure.offset, random_structure.offscreen, random_structure.read_offscreen),
     "cube maps": Family(random_cube_maps.mapped, random_cube_maps.cubes, random_cube_maps.copied_faces, wild=False),
+    "other dimensions": Family(random_boxes.boxed, random_boxes.boxes, random_boxes.copied_boxes, wild=False),
     "arrays": Family(random_arrays.pointed_state, random_texturing.texture, batch=random_arrays.pointed),
     "mipmaps": Family(random_mipmaps.minified, random_mipmaps.levels, wild=False),
     "images": Family(random_images.uploaded, wild=False),

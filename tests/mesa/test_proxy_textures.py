@@ -49,3 +49,23 @@ def test_a_proxy_answers_as_on_mesa(target):
 
     comparison = compare(program, (4, 4))
     assert comparison, str(comparison)
+
+
+SHAPES = [(5, 1, 1), (1, 5, 3), (16384, 1, 1), (16385, 1, 1), (2048, 1, 1), (1, 2, 2048), (1, 2, 2049), (0, 2, 3)]
+
+
+def test_proxies_of_other_dimensions_answer_as_on_mesa() -> None:
+    def program(gl: Any) -> list[np.ndarray]:
+        answers, layout = [], (0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, None)
+        for width, height, depth in SHAPES:
+            gl.glTexImage1D(gl.GL_PROXY_TEXTURE_1D, 0, gl.GL_RGBA8, width, *layout)
+            gl.glTexImage2D(gl.GL_PROXY_TEXTURE_RECTANGLE, 0, gl.GL_RGBA8, width, height, *layout)
+            gl.glTexImage3D(gl.GL_PROXY_TEXTURE_3D, 0, gl.GL_RGBA8, width, height, depth, *layout)
+            for target in ("1D", "RECTANGLE", "3D"):
+                token = getattr(gl, f"GL_PROXY_TEXTURE_{target}")
+                values = [gl.glGetTexLevelParameteriv(token, 0, getattr(gl, f"GL_TEXTURE_{p}")) for p in PROPERTIES]
+                answers.append(np.array([int(value) for value in values]))
+        return answers
+
+    comparison = compare(program, (4, 4))
+    assert comparison, str(comparison)

@@ -208,7 +208,7 @@ def test_a_missing_call_and_an_error_are_counted(tmp_path: Path) -> None:
 def test_wild_arguments_do_not_stop_a_replay(tmp_path: Path) -> None:
     traced = TracedProgram()
     traced.glLightfv(gl.GL_LIGHT0, gl.GL_POSITION, None)
-    traced.glVertexPointer("text", [], {}.get(0), b"")
+    traced.glVertexPointer(7, gl.GL_FLOAT, 0, b"")
     traced.glColor3f(1.0, 0.0, 0.0)
     traced.triangle()
     replayed = replay_frame(traced.save(tmp_path))

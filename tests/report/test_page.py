@@ -174,7 +174,7 @@ def test_script_has_each_module_once_before_those_that_import_it() -> None:
     names = re.findall(r"^(?:async )?(?:function|class|const|let) (\w+)", script, re.MULTILINE)
     assert len(names) == len(set(names))
     folder = Path(str(ss.__file__)).parent / "report" / "templates"
-    assert {path.name for path in folder.glob("*.js")} == {*modules, "tour.js", "view3d.js"}
+    assert {path.name for path in folder.glob("*.js")} == {*modules, "slides.js", "tour.js", "view3d.js"}
 
 
 def test_legend_counts_every_pixel_and_sums_up_what_is_rare() -> None:

@@ -43,10 +43,11 @@ class Processes:
         wait_until(file.exists, "the scheduler writes its address")
         return process, json.loads(file.read_text())["address"]
 
-    def worker(self, address: str) -> subprocess.Popen[bytes]:
-        """Start a worker with one thread."""
-        options = ("--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", str(self.folder / "workers"))
-        return self.start("distributed.cli.dask_worker", address, *options)
+    def worker(self, address: str, memory_limit: str | None = None) -> subprocess.Popen[bytes]:
+        """Start a worker with one thread; with a limit of memory it is ended and started again where it needs more."""
+        options = ("--nthreads", "1", "--no-dashboard", "--local-directory", str(self.folder / "workers"))
+        watched = ("--no-nanny",) if memory_limit is None else ("--memory-limit", memory_limit)
+        return self.start("distributed.cli.dask_worker", address, *options, *watched)
 
     def sweep(self, *arguments: str) -> subprocess.Popen[bytes]:
         """Start ``softshadow sweep``."""

@@ -23,7 +23,7 @@ picture = true
 [options]
 map_size = [32, 64, 128]
 [light.circle]
-centre = [0, 4, 0]
+center = [0, 4, 0]
 radius = 2
 count = 3
 """
@@ -102,3 +102,18 @@ def test_sweep_of_a_client_that_ended_goes_on(folder: Path, signals: str) -> Non
         assert client.wait(PATIENCE) == 0, started.log(client)
     assert lines_of(journal)[: len(safe)] == safe
     assert len(lines_of(journal)) == len(ss.load_sweep(folder / "table.csv")) == POINTS
+
+
+def test_point_that_needs_too_much_memory_becomes_a_row_and_its_neighbours_are_measured(tmp_path: Path) -> None:
+    (tmp_path / "sweep.toml").write_text(
+        'technique = "blob"\nscene = "boxes"\nmeasure = ["counts"]\n'
+        'size = ["160x120", "64x48", "5000x5000", "80x60", "96x72"]\n'
+    )
+    with processes(tmp_path) as started:
+        _, address = started.scheduler("first")
+        started.worker(address, memory_limit="800MB")
+        client = started.sweep("sweep.toml", "-o", "table.csv", "--scheduler", address)
+        assert client.wait(PATIENCE) == 1, started.log(client)
+    rows = ss.load_sweep(tmp_path / "table.csv").rows
+    assert [row["status"] for row in rows] == ["ok", "ok", "error", "ok", "ok"]
+    assert "it may need more memory than they have" in rows[2]["error"]

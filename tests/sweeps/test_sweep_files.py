@@ -52,7 +52,7 @@ def test_logarithmic_random_numbers_have_uniform_logarithms() -> None:
 
 
 def test_light_on_a_circle_keeps_its_distance_and_does_not_repeat_the_first_place() -> None:
-    made = points(light={"circle": {"centre": [1, 4, 2], "radius": 3, "count": 12}})
+    made = points(light={"circle": {"center": [1, 4, 2], "radius": 3, "count": 12}})
     places = np.array([each.light for each in made])
     assert np.allclose(np.hypot(places[:, 0] - 1, places[:, 2] - 2), 3, atol=1e-8)  # written with 9 decimals
     assert len({tuple(place) for place in places.tolist()}) == 12
@@ -81,7 +81,7 @@ def test_equal_points_are_measured_once_but_repetitions_are_kept() -> None:
         ),
         ({"frames": 0}, "sweep.toml: frames: expected greater than or equal to 1"),
         ({"light": [[1, 2]]}, "sweep.toml: light: expected a list of points [x, y, z], {circle = ...} or {line"),
-        ({"light": {"circle": {"radius": 2, "count": 2}}}, "sweep.toml: light.circle.centre: Field required"),
+        ({"light": {"circle": {"radius": 2, "count": 2}}}, "sweep.toml: light.circle.center: Field required"),
         ({"measure": ["hrad"]}, "sweep.toml: measure: unknown measure 'hrad': did you mean 'hard'?"),
     ],
 )  # fmt: skip

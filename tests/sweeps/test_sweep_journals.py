@@ -2,14 +2,17 @@
 
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import pytest
 
+import softshadow
 from softshadow import SoftShadowError
 from softshadow.sweeps import Point, Progress, Result, execute
+from softshadow.sweeps.dask_engine import refuse_other_versions
 from softshadow.sweeps.journal import Journal
+from softshadow.sweeps.task import package_digest
 
 POINTS = [Point("map", "boxes", {"map_size": size}) for size in range(16, 26)]
 
@@ -67,7 +70,7 @@ def test_progress_counts_done_and_failed_points(tmp_path: Path) -> None:
 
 def test_journal_of_an_earlier_sweep_is_not_overwritten(tmp_path: Path) -> None:
     execute(POINTS[:1], tmp_path / "a.journal", Counting())
-    with pytest.raises(SoftShadowError, match=r"a.journal: a journal of an earlier sweep is here; expected --resume"):
+    with pytest.raises(SoftShadowError, match=r"a.journal: an earlier journal is here; expected --resume"):
         execute(POINTS, tmp_path / "a.journal", Counting())
 
 
@@ -75,7 +78,7 @@ def test_two_sweeps_do_not_write_one_journal(tmp_path: Path) -> None:
     pytest.importorskip("fcntl")
     with Journal(tmp_path / "a.journal") as journal:
         journal.open(resume=False)
-        with pytest.raises(SoftShadowError, match="another sweep writes this journal now"):
+        with pytest.raises(SoftShadowError, match="another process writes this journal now"):
             execute(POINTS, tmp_path / "a.journal", Counting(), resume=True)
 
 
@@ -90,6 +93,7 @@ FULL = """
 import resource, sys
 from pathlib import Path
 from sweeps.test_sweep_journals import POINTS, Counting
+import softshadow
 from softshadow import SoftShadowError
 from softshadow.sweeps import execute
 resource.setrlimit(resource.RLIMIT_FSIZE, (700, 700))  # bytes in a file: as a full disk
@@ -106,7 +110,7 @@ def test_full_disk_ends_the_sweep_with_all_earlier_points_safe(tmp_path: Path) -
     command = [sys.executable, "-c", FULL, str(path)]
     ended = subprocess.run(command, capture_output=True, text=True, cwd=Path(__file__).parents[1], check=True)
     assert "could not be written" in ended.stdout
-    assert "all earlier points are safe, and --resume goes on" in ended.stdout
+    assert "all earlier ones are safe, and --resume goes on" in ended.stdout
     assert path.read_bytes().endswith(b"}\n")
     safe = len(path.read_bytes().splitlines()) - 1
     assert 0 < safe < len(POINTS)
@@ -124,3 +128,33 @@ def test_key_tells_points_apart_and_notices_an_edited_model(tmp_path: Path) -> N
     model.write_text("v 0 0 1\n\n")
     assert point.key != before
     assert len({each.key for each in POINTS}) == len(POINTS)
+
+
+def test_rows_of_other_sources_of_the_package_are_not_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = POINTS[0].key
+    monkeypatch.setattr("softshadow.sweeps.point.package_digest", lambda: "after an edit")
+    assert POINTS[0].key != before
+
+
+def test_digest_of_the_package_changes_with_any_of_its_sources(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "techniques").mkdir()
+    for name in ("__init__.py", "techniques/map.py"):
+        (tmp_path / name).write_text("a = 1\n")
+    monkeypatch.setattr(softshadow, "__file__", str(tmp_path / "__init__.py"))
+    digest = package_digest.__wrapped__
+    seen = [digest()]
+    (tmp_path / "techniques/map.py").write_text("a = 2\n")
+    seen.append(digest())
+    (tmp_path / "techniques/map.py").rename(tmp_path / "techniques/other.py")
+    seen.append(digest())
+    assert len(set(seen)) == 3
+    assert digest() == seen[-1]
+
+
+def test_worker_with_other_sources_is_refused() -> None:
+    class Client:
+        def run(self, function: Callable[[], str]) -> dict[str, str]:
+            return {"tcp://a:1": function(), "tcp://b:1": "softshadow 0.1.0 (sources 0123)"}
+
+    with pytest.raises(SoftShadowError, match=r"workers have .*softshadow 0.1.0 \(sources 0123\).*; expected softsh"):
+        refuse_other_versions(Client())

@@ -14,7 +14,7 @@ from cli.invocation import invoke_ok
 from paths import SCENES
 from softshadow.sweeps import PlotRequest, save_plot
 from softshadow.sweeps.plot import grouped
-from softshadow.testing import agreement
+from softshadow.testing import agreement, cast_truth
 
 SWEEP = {
     "technique": ["map", "volume-zfail"],
@@ -75,6 +75,17 @@ def test_numbers_are_those_of_a_run(table: ss.SweepTable) -> None:
     assert row["stencil_max"] == run.stencil.max()
     assert row["fragments"] == run.ledger.total.all_fragments
     assert row["hard_wrong_px"] == sum(int(each.wrong.sum()) for each in agreement(run))
+    truth = cast_truth(scene, (48, 36))
+    (light,), (compared,) = run.lights, agreement(run)
+    squares = (light.visibility.astype(float) - truth.lit(0))[compared.compared] ** 2
+    assert (
+        row["hard_rms"]
+        == np.sqrt(squares.mean())
+        == pytest.approx(
+            np.sqrt(row["hard_wrong_px"] / row["hard_compared_px"]),
+            rel=1e-12,  # a square root of a mean of 0 and 1
+        )
+    )
     assert 0 < row["frame_min_ms"] <= row["frame_ms"]
     assert row["peak_memory_MB"] is None or row["peak_memory_MB"] > 30
     assert row["core_alone"] in (True, False)
@@ -83,6 +94,7 @@ def test_numbers_are_those_of_a_run(table: ss.SweepTable) -> None:
 def test_short_names_of_columns_are_found_or_explained(table: ss.SweepTable) -> None:
     assert table.column("map_size") == "option_map_size"
     assert table.column("wrong_px") == "hard_wrong_px"
+    assert table.column("rms") == "hard_rms"
     assert np.array_equal(table["map_size"], [32, 32, 64, 64] * 2 + [np.nan] * 4, equal_nan=True)
     with pytest.raises(ss.SoftShadowError, match="did you mean 'width_px'"):
         table.column("widht_px")

@@ -43,7 +43,7 @@ def copy_to_texture(command: CopyToTexture, storage: Storage) -> None:
     source = storage.framebuffers[command.framebuffer]
     image = storage.textures[command.texture].images[command.face, command.level]
     rows, columns, moved_x, moved_y = clipped(source, command.x, command.y, command.width, command.height)
-    left, bottom = command.x_offset + moved_x, command.y_offset + moved_y
+    left, bottom = command.x_offset + moved_x, command.z * image.height + command.y_offset + moved_y
     for buffer, source_buffer in _buffer_pairs(source, image):
         cells = bottom_up(source, source_buffer)[rows, columns]
         height, width = cells.shape[:2]

@@ -2,7 +2,8 @@
 
 Where both sides are even, a texel is the mean of 2x2 texels, in 8 bits rounded up per axis. Where a side is odd, the
 weights of the linear filter vary from texel to texel, and float formats keep every bit of the interpolated coordinates:
-those of two triangles that share the diagonal from the first texel to the last.
+those of two triangles that share the diagonal from the first texel to the last. A 3-D level is drawn slice by slice:
+each is a mixture of two filtered slices.
 
 References: GL 2.1 sec. 3.8.8 (automatic mipmap generation); u_gen_mipmap.c of Mesa 22.3 (a blit per level).
 """
@@ -36,7 +37,8 @@ def generate_mipmaps(command: GenerateMipmaps, storage: Storage) -> None:
         for face in texture.faces:
             old_image = images.get((face, level))
             if old_image is None or not old_image.is_laid_out_as(model):
-                images[face, level] = Image.new(model.format, model.width, model.height, model.internal_format)
+                shape = model.width, model.height, model.internal_format, model.slices
+                images[face, level] = Image.new(model.format, *shape)
             storage.reattach(command.texture, face, level, images[face, level])
 
 
@@ -47,17 +49,36 @@ def half_of(side: int) -> int:
 
 def next_level(image: Image) -> Image:
     """Return the image of the next level."""
-    level = Image.new(image.format, half_of(image.width), half_of(image.height), image.internal_format)
-    if not level.width or not level.height:
+    width, height, slices = half_of(image.width), half_of(image.height), half_of(image.slices)
+    level = Image.new(image.format, width, height, image.internal_format, slices)
+    if 0 in (width, height, slices):
         return level
-    if image.format.kind == "unorm8":
-        level.view[:] = halved_in_8_bits(image.view, level.width, level.height)
-    elif image.format.kind == "depth":
-        z = halved_in_float(sampled_depth(image.view, image.format)[..., np.newaxis], level.width, level.height)[..., 0]
+    if image.format.kind == "depth":
+        z = halved_in_float(sampled_depth(image.view, image.format)[..., np.newaxis], width, height)[..., 0]
         level.view[:] = quantized_depth(z, image.format)
-    else:
-        level.view[:] = halved_in_float(image.view, level.width, level.height)
+        return level
+    in_bytes = image.format.kind == "unorm8"
+    halved = halved_in_8_bits if in_bytes else halved_in_float
+    if image.slices == 1:
+        level.view[:] = halved(image.view, width, height)
+        return level
+    places = centers_of_slices(image.slices, slices)
+    first, second, weight = (texels_and_weights_in_8_bits if in_bytes else texels_and_weights)(places, image.slices)
+    texels = image.view.reshape(image.slices, image.height, image.width, -1)
+    filtered = np.stack([halved(each, width, height) for each in texels])
+    mixed = mix_in_8_bits if in_bytes else mix_in_float
+    for k in range(slices):
+        values = mixed(filtered[first[k]], filtered[second[k]], weight[k])
+        level.view[k * height : (k + 1) * height] = values
     return level
+
+
+def centers_of_slices(n: int, n_halved: int) -> np.ndarray:
+    """Return where the centres of the slices of the next level lie among n slices: coordinates (n_halved,)."""
+    step = np.float32(n) / np.float32(n_halved)
+    places = np.arange(n_halved, dtype=np.float32) * step + np.float32(0.5 / n_halved * n)
+    coordinates: np.ndarray = places / np.float32(n)
+    return coordinates
 
 
 def centers(n: int, n_other: int, from_far_end: bool) -> np.ndarray:
@@ -85,7 +106,14 @@ def texels_and_weights_in_8_bits(coordinates: np.ndarray, size: int) -> tuple[np
 
 def mix_in_8_bits(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """Return the mixtures of bytes, rounded as llvmpipe's 8-bit interpolation rounds them."""
+    a, b = a.astype(np.int32), b.astype(np.int32)
     mixed: np.ndarray = a + ((weight * (b - a) * 128 + 16384) >> 15)
+    return mixed
+
+
+def mix_in_float(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Return the mixtures of floats."""
+    mixed: np.ndarray = weight * (b - a) + a
     return mixed
 
 

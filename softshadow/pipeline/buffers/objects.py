@@ -20,17 +20,17 @@ from softshadow.pipeline.commands import (
     SetSampler,
     UpdateImage,
 )
-from softshadow.texture import Texture
+from softshadow.texture import Texture, initial_sampler
 
 
 def create_texture(command: CreateTexture, storage: Storage) -> None:
     """Create a texture object without images."""
-    storage.textures[command.texture] = Texture(command.texture, command.target)
+    storage.textures[command.texture] = Texture(command.texture, command.target, initial_sampler(command.target))
 
 
 def define_image(command: DefineImage, storage: Storage) -> None:
     """Give a level of a texture a new image, also in the framebuffers that it is attached to."""
-    image = Image.new(command.format, command.width, command.height, command.internal_format)
+    image = Image.new(command.format, command.width, command.height, command.internal_format, command.slices)
     if command.cells is not None:
         image.view[:] = command.cells
     if command.stencil is not None and image.stencil is not None:
@@ -40,12 +40,15 @@ def define_image(command: DefineImage, storage: Storage) -> None:
 
 
 def update_image(command: UpdateImage, storage: Storage) -> None:
-    """Write a rectangle of a level of a texture."""
+    """Write a rectangle of a level of a texture, or a box of a 3-D texture."""
     image = storage.textures[command.texture].images[command.face, command.level]
     for target, cells in ((image, command.cells), (image.stencil, command.stencil)):
         if target is not None and cells is not None:
-            height, width = cells.shape[:2]
-            target.view[command.y : command.y + height, command.x : command.x + width] = cells
+            slices = cells.reshape(command.slices, len(cells) // command.slices, *cells.shape[1:])
+            height, width = slices.shape[1:3]
+            for z, cells_of_slice in enumerate(slices, command.z):
+                y = z * image.height + command.y
+                target.view[y : y + height, command.x : command.x + width] = cells_of_slice
 
 
 def set_sampler(command: SetSampler, storage: Storage) -> None:

@@ -22,6 +22,7 @@ from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.geometry import process_geometry, triangles_with_outputs, vertex_outputs
 from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.mesa.polygon_rules import passes_stages
+from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.records import Geometry
 
 FEW_VERTICES = 512  # draws of fewer take less time than the comparison
@@ -111,5 +112,6 @@ def key_of(command: Draw, target: Framebuffer, flat_input: bool) -> Hashable:
     return (
         id(command.vertices.position), id(command.indices), command.mode, command.modelview.tobytes(),
         command.projection.tobytes(), command.projection_kind, repr(numbers), command.offset_slope, command.offset_unit,
-        flat_input, target.size, target.flipped, bool(target.colors), None if image is None else image.format,
+        flat_input, first_provokes(state), target.size, target.flipped, bool(target.colors),
+        None if image is None else image.format,
     )  # fmt: skip

@@ -156,7 +156,12 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     assert image is not None
     is_depth = image.format.kind == "depth"
     kind = np.float32 if is_depth else np.uint8
-    if texture.target != gl.GL_TEXTURE_2D or setting.env_mode not in MODES or image.format.dtype != kind:
+    if (
+        texture.target != gl.GL_TEXTURE_2D
+        or texture.is_anisotropic
+        or setting.env_mode not in MODES
+        or image.format.dtype != kind
+    ):
         return False
     wraps = wraps_of(sampler, texture.images.get((0, 0)) or image)
     within, between = FILTERS[sampler.min_filter]

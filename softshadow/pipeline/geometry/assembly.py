@@ -25,10 +25,19 @@ QUAD_ACROSS = ((0, 1, 3, 3), (1, 2, 3, 3))  # cut along the other diagonal
 QUAD_OF_STRIP = ((0, 1, 3, 3), (2, 0, 3, 3))
 CLIPPED_QUAD_OF_STRIP = ((2, 0, 3, 3), (0, 1, 3, 3))  # the same diagonal, but the other triangle comes first
 STRIP_PAIR = ((0, 1, 2, 2), (2, 1, 3, 3))  # the odd triangle is (i+1, i, i+2), so that both turn the same way
+# With GL_FIRST_VERTEX_CONVENTION the provoking vertex comes first; of quads it stays the last one.
+FIRST_OF_QUAD = ((3, 0, 1, 3), (3, 1, 2, 3))
+FIRST_OF_QUAD_STRIP = ((3, 0, 1, 3), (3, 2, 0, 3))
+FIRST_OF_CLIPPED_QUAD_STRIP = ((3, 2, 0, 3), (3, 0, 1, 3))
+FIRST_OF_STRIP_PAIR = ((0, 1, 2, 0), (1, 3, 2, 1))
 
 
 def assemble(
-    mode: int, n_vertices: int, in_clipped_segment: np.ndarray | None = None, across: bool = False
+    mode: int,
+    n_vertices: int,
+    in_clipped_segment: np.ndarray | None = None,
+    across: bool = False,
+    first_provokes: bool = False,
 ) -> Triangles:
     """Return the triangles that a number of vertices make; incomplete primitives are dropped.
 
@@ -40,34 +49,42 @@ def assemble(
         another way (draw_decompose_tmp.h).
     across : bool
         Cut all quads along the other diagonal, as Mesa does for indexed and flat-shaded ones.
+    first_provokes : bool
+        GL_FIRST_VERTEX_CONVENTION: the provoking vertex is the first corner of each triangle.
 
     References
     ----------
     GL 2.1, sec. 2.6.1 (primitives) and 2.14.7 (flat shading).
     """
     if mode == gl.GL_TRIANGLES:
-        return separate_triangles(np.arange(n_vertices, dtype=np.int32))
+        return separate_triangles(np.arange(n_vertices, dtype=np.int32), first_provokes)
     if mode in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
-        rows = _quads(mode, n_vertices, in_clipped_segment, across)
+        rows = _quads(mode, n_vertices, in_clipped_segment, across, first_provokes)
     elif mode == gl.GL_TRIANGLE_STRIP:
         n_triangles = max(n_vertices - 2, 0)
-        rows = _repeat(STRIP_PAIR, (n_triangles + 1) // 2, 2)[:n_triangles]
+        rows = _repeat(FIRST_OF_STRIP_PAIR if first_provokes else STRIP_PAIR, (n_triangles + 1) // 2, 2)[:n_triangles]
     else:
-        middle = np.arange(1, max(n_vertices - 1, 1), dtype=np.int32)
-        first = np.zeros_like(middle)
-        fan = (middle, middle + 1, first, first) if mode == gl.GL_POLYGON else (first, middle, middle + 1, middle + 1)
-        rows = np.stack(fan, axis=1)
+        rows = np.stack(_fan(mode, n_vertices, first_provokes), axis=1)
     rows = np.ascontiguousarray(rows, np.int32)
     return Triangles(np.ascontiguousarray(rows[:, :3]), np.ascontiguousarray(rows[:, 3]))
 
 
-def separate_triangles(order: np.ndarray) -> Triangles:
+def _fan(mode: int, n_vertices: int, first_provokes: bool) -> tuple[np.ndarray, ...]:
+    """Return the three corners and the provoking vertex of the triangles of a fan or polygon."""
+    middle = np.arange(1, max(n_vertices - 1, 1), dtype=np.int32)
+    first, last = np.zeros_like(middle), middle + 1
+    if mode == gl.GL_POLYGON:
+        return (first, middle, last, first) if first_provokes else (middle, last, first, first)
+    return (middle, last, first, middle) if first_provokes else (first, middle, last, last)
+
+
+def separate_triangles(order: np.ndarray, first_provokes: bool = False) -> Triangles:
     """Return a triangle for each three vertices of `order` (N,), as views of it: a mesh may have millions."""
     corners = order[: len(order) // 3 * 3].reshape(-1, 3)
-    return Triangles(corners, corners[:, 2])
+    return Triangles(corners, corners[:, 0 if first_provokes else 2])
 
 
-def edge_flags(mode: int, n_triangles: int) -> np.ndarray:
+def edge_flags(mode: int, n_triangles: int, first_provokes: bool = False) -> np.ndarray:
     """Return which edges of the assembled triangles are edges of the primitives.
 
     (T, 3) uint8, for the edges from corner i to corner i + 1; quads are cut as in a clipped segment. glPolygonMode does
@@ -78,7 +95,10 @@ def edge_flags(mode: int, n_triangles: int) -> np.ndarray:
         edges[0::2, 1] = edges[1::2, 2] = 0
     elif mode == gl.GL_POLYGON:
         edges[1:, 2] = edges[:-1, 1] = 0
-    return edges
+    else:
+        return edges
+    # the same edges, with the last corner put first
+    return np.ascontiguousarray(np.roll(edges, 1, axis=1)) if first_provokes else edges
 
 
 def begins_stipple(mode: int, n_triangles: int) -> np.ndarray:
@@ -91,10 +111,18 @@ def begins_stipple(mode: int, n_triangles: int) -> np.ndarray:
     return begins
 
 
-def _quads(mode: int, n_vertices: int, in_clipped_segment: np.ndarray | None, across: bool) -> np.ndarray:
-    unclipped_cut, clipped_cut = (QUAD, QUAD_ACROSS) if mode == gl.GL_QUADS else (QUAD_OF_STRIP, CLIPPED_QUAD_OF_STRIP)
+def _quads(
+    mode: int, n_vertices: int, in_clipped_segment: np.ndarray | None, across: bool, first_provokes: bool
+) -> np.ndarray:
+    if mode == gl.GL_QUADS:
+        cuts = (FIRST_OF_QUAD, FIRST_OF_QUAD) if first_provokes else (QUAD_ACROSS if across else QUAD, QUAD_ACROSS)
+    elif first_provokes:
+        cuts = FIRST_OF_QUAD_STRIP, FIRST_OF_CLIPPED_QUAD_STRIP
+    else:
+        cuts = QUAD_OF_STRIP, CLIPPED_QUAD_OF_STRIP
+    unclipped_cut, clipped_cut = cuts
     n_quads, stride = quads_and_stride(mode, n_vertices)
-    rows = _repeat(QUAD_ACROSS if across and mode == gl.GL_QUADS else unclipped_cut, n_quads, stride)
+    rows = _repeat(unclipped_cut, n_quads, stride)
     if in_clipped_segment is not None:
         triangle_rows = np.repeat(in_clipped_segment, 2)
         rows[triangle_rows] = _repeat(clipped_cut, n_quads, stride)[triangle_rows]

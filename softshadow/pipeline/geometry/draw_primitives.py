@@ -8,11 +8,12 @@ from softshadow import matrices
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.geometry.assembly import Triangles, assemble, separate_triangles, through_indices
+from softshadow.pipeline.geometry.assembly import Triangles, assemble, edge_flags, separate_triangles, through_indices
 from softshadow.pipeline.geometry.clip import outcodes
 from softshadow.pipeline.geometry.lines import LINES, assemble_lines
 from softshadow.pipeline.geometry.vertex import to_clip, to_window
 from softshadow.pipeline.mesa.polygon_rules import passes_stages
+from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.mesa.quad_cuts import in_clipped_segment, quads_and_stride
 from softshadow.pipeline.mesa.rectangles import LAST_NINE, is_left_out, start_of_last_nine
 
@@ -46,12 +47,14 @@ def assembled_triangles(
     `needs_clipping` (V,) bool, of the draw's vertices; `joined_needs_clipping` (N,), of the vertices of all joined
     draws; `across`: cut quads along the other diagonal (`Varyings.flat_input`).
     """
-    indices = command.indices
+    indices, first = command.indices, first_provokes(command.state)
     if command.mode == gl.GL_TRIANGLES and indices is not None:
-        return separate_triangles(indices)
+        return separate_triangles(indices, first)
     n_vertices = len(needs_clipping) if indices is None else len(indices)
     if command.mode not in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
-        assembled = assemble(command.mode, n_vertices)
+        if command.mode == gl.GL_TRIANGLE_FAN and n_vertices == 4 and not across:
+            first = first and not _as_rectangle(command, needs_clipping)
+        assembled = assemble(command.mode, n_vertices, first_provokes=first)
     else:
         all_needs_clipping = needs_clipping if joined_needs_clipping is None else joined_needs_clipping
         clipped_quads = (
@@ -61,8 +64,26 @@ def assembled_triangles(
             clipped_quads = clipped_quads[command.joined_start // 4 :][: n_vertices // 4]
         if passes_stages(command.state):
             clipped_quads = np.ones(quads_and_stride(command.mode, n_vertices)[0], bool)  # cut like clipped ones
-        assembled = assemble(command.mode, n_vertices, clipped_quads, across=across or indices is not None)
+        across = across or indices is not None
+        assembled = assemble(command.mode, n_vertices, clipped_quads, across=across, first_provokes=first)
     return assembled if indices is None else through_indices(assembled, indices)
+
+
+def _as_rectangle(command: Draw, needs_clipping: np.ndarray) -> bool:
+    """Return whether llvmpipe tries a fan of two triangles as a rectangle, whatever the convention."""
+    return command.indices is None and not needs_clipping.any() and not passes_stages(command.state)
+
+
+def drawn_edges(command: Draw, corners: np.ndarray) -> np.ndarray:
+    """Return which edges of triangles (T, 3) glPolygonMode draws, (T, 3) uint8: from corner i to corner i + 1."""
+    edges, flags = edge_flags(command.mode, len(corners), first_provokes(command.state)), command.vertices.edges
+    return edges if flags is None else np.ascontiguousarray(edges & flags[corners].astype(np.uint8))
+
+
+def has_no_edges(command: Draw) -> bool:
+    """Return whether the edge flag of all vertices is one current value, GL_FALSE."""
+    flags = command.vertices.edges
+    return flags is not None and flags.strides[0] == 0 and not flags.any()
 
 
 def last_three_are_left_out(command: Draw, target: Framebuffer, planes: np.ndarray) -> bool:

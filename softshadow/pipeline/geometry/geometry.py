@@ -11,9 +11,9 @@ from softshadow import matrices
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.geometry.assembly import begins_stipple, edge_flags
+from softshadow.pipeline.geometry.assembly import begins_stipple
 from softshadow.pipeline.geometry.clip import NO_EDGES, Clipped, clip_triangles
-from softshadow.pipeline.geometry.draw_primitives import lines_or_points_of, triangles_of
+from softshadow.pipeline.geometry.draw_primitives import drawn_edges, has_no_edges, lines_or_points_of, triangles_of
 from softshadow.pipeline.geometry.lines import LINES, clip_lines
 from softshadow.pipeline.geometry.lines_and_points import set_up_lines_of, set_up_points_of
 from softshadow.pipeline.geometry.points import clip_points
@@ -26,9 +26,11 @@ from softshadow.pipeline.geometry.triangle_setup import (
     merge_by_id,
     offset_of,
     set_up,
+    snapped_vertices,
 )
 from softshadow.pipeline.geometry.vertex import append_rows, process_vertices, to_window
 from softshadow.pipeline.mesa.polygon_rules import is_stippled, offset_is_on, passes_stages
+from softshadow.pipeline.mesa.provoking_vertex import first_provokes, order_for_setup, order_pieces
 from softshadow.pipeline.records import Discards, Geometry
 from softshadow.programs import Program, Varyings, VertexInputs
 from softshadow.programs.inverse import inverse
@@ -84,7 +86,7 @@ def triangles_with_outputs(
     columns = parts[0] if len(parts) == 1 else np.hstack(parts)
     if command.mode in (gl.GL_POINTS, *LINES):
         primitives = lines_or_points_of(command)
-        provoking = primitives[:, -1]
+        provoking = primitives[:, 0 if first_provokes(state) else -1]
         clip_primitives = clip_points if command.mode == gl.GL_POINTS else clip_lines
         clipped = clip_primitives(clip, columns, primitives, codes, planes)
     else:
@@ -92,8 +94,10 @@ def triangles_with_outputs(
         across = varyings.flat_input and (bool(target.colors) or state.alpha.enabled)  # else Mesa does not shade
         assembled = triangles_of(command, target, codes, planes, across)
         provoking = assembled.provoking
-        edges = edge_flags(command.mode, len(provoking)) if with_stages else NO_EDGES
+        edges = drawn_edges(command, assembled.corners) if with_stages else NO_EDGES
         clipped = clip_triangles(clip, columns, assembled.corners, codes, planes, edges, command.linear)
+        if first_provokes(state):
+            clipped = _in_provoking_order(clipped, codes, assembled.corners)
     if len(clipped.clip) > len(clip):  # the new vertices of clipping come last
         window = append_rows(window, to_window(clipped.clip[len(clip) :], *window_transform(command, target)))
     k = varyings.values.shape[1]
@@ -117,6 +121,21 @@ def triangles_with_outputs(
     cut = (codes[assembled.corners] != 0).any(axis=1)[clipped.source]
     begins = np.where(cut, np.diff(clipped.source, prepend=-1) != 0, begins)
     return _outlined(geometry, clipped, command, target, cull, begins, vertex_sizes)
+
+
+def _in_provoking_order(clipped: Clipped, codes: np.ndarray, corners: np.ndarray) -> Clipped:
+    """Return the pieces of triangles (T, 3) in the order of GL_FIRST_VERTEX_CONVENTION."""
+    cut = (codes[corners] != 0).any(axis=1)[clipped.source]
+    triangles, edges = order_pieces(clipped.triangles, clipped.edges, cut)
+    return clipped._replace(triangles=triangles, edges=edges)
+
+
+def _corners_for_setup(window: np.ndarray, triangles: np.ndarray, state: State) -> np.ndarray:
+    if not first_provokes(state) or not len(triangles):
+        return triangles
+    snapped, _ = snapped_vertices(window)
+    a, b, c = (snapped[triangles[:, corner]].astype(np.int64) for corner in range(3))
+    return order_for_setup(triangles, (a - b)[:, 0] * (c - a)[:, 1] - (c - a)[:, 0] * (a - b)[:, 1])
 
 
 def positions_of(command: Draw, target: Framebuffer) -> Positions:
@@ -148,7 +167,8 @@ def has_float_units(command: Draw, target: Framebuffer) -> bool:
 def filled_geometry(geometry: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull) -> Geometry:
     """Return the geometry with its triangles set up."""
     window = geometry.window
-    triangles = set_up(window, clipped.triangles, cull, filled_offset(command, target), target.flipped)
+    corners = _corners_for_setup(window, clipped.triangles, command.state)
+    triangles = set_up(window, corners, cull, filled_offset(command, target), target.flipped)
     if has_float_units(command, target):
         add_float_units(triangles.depth[:, 3], window[triangles.vertices, 2], command.state.polygon.units)
     return geometry._replace(triangles=triangles)
@@ -183,12 +203,13 @@ def _outlined(
     outlined = outline(
         geometry.window, geometry.values, geometry.back, geometry.flat, clipped.triangles, clipped.edges,
         geometry.provoking, state, cull, target.depth, command.offset_slope, command.offset_unit, flipped,
-        begins, command.offset_mode,
+        begins, command.offset_mode, has_no_edges(command),
     )  # fmt: skip
     no_offset = offset_of(
         Polygon(), target.depth, outlined.window.dtype.type, command.offset_slope, command.offset_unit, flipped
     )
-    filled = set_up(outlined.window, outlined.triangles, cull, no_offset, flipped)
+    corners = _corners_for_setup(outlined.window, outlined.triangles, state)
+    filled = set_up(outlined.window, corners, cull, no_offset, flipped)
     filled = filled._replace(ids=outlined.triangles[filled.ids, 0] // 3)
     geometry = geometry._replace(
         window=outlined.window,

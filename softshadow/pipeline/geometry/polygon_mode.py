@@ -56,6 +56,7 @@ def outline(
     flipped: bool,
     begins: np.ndarray,
     offset_mode: int = 0,
+    no_edges: bool = False,
 ) -> Outlined:
     """Return the triangles, lines and points that the polygon modes make of triangles in the window.
 
@@ -69,6 +70,7 @@ def outline(
     depth, slope, unit : of the polygon offset, as for `offset_of`
     begins : (T,) bool, triangles at which the line stipple begins anew
     offset_mode : the polygon mode whose offset is added; 0: that of the first triangle that is not culled
+    no_edges : whether no vertex begins an edge; then Mesa culls the triangles that are not filled
     """
     corners = window[triangles]
     det = _determinant(corners)
@@ -79,8 +81,9 @@ def outline(
     # a triangle without area is culled as a back face, but drawn in the mode of clockwise ones
     mode = np.where(negative == counter_clockwise_is_front, *modes)
     polygon = state.polygon
+    has_edges = mode == gl.GL_FILL if no_edges else np.ones(len(mode), bool)
     if offset_is_on(polygon):
-        decisive = np.flatnonzero(_not_culled(front, state.cull))[:1]
+        decisive = np.flatnonzero(_not_culled(front, state.cull) & has_edges)[:1]
         if offset_mode == 0 and len(decisive):
             offset_mode = int(mode[decisive[0]])
         offset = _mode_offset(polygon, offset_mode or gl.GL_FILL)
@@ -90,7 +93,7 @@ def outline(
         back_lit = (det != 0) & ~front  # a triangle without area is lit as a front face
         corner_values[back_lit], provoking_values[back_lit] = back[triangles[back_lit]], back[provoking[back_lit]]
     corner_values[:, :, flat] = provoking_values[:, None, flat]
-    visible = _not_culled(front, cull)
+    visible = _not_culled(front, cull) & has_edges
     first = np.arange(len(triangles), dtype=np.int32) * 3
     filled = first[visible & (mode == gl.GL_FILL)]
     as_lines, as_points = visible & (mode == gl.GL_LINE), visible & (mode == gl.GL_POINT)

@@ -36,11 +36,11 @@ def program_of(command: Draw, storage: Storage) -> tuple[Program, Mapping[str, A
 
 
 def bound_textures(state: State, storage: Storage) -> dict[tuple[int, int], Texture]:
-    """Return the bound textures by (unit, target), with the LOD bias and the seamless filter of their units."""
+    """Return the textures that a draw may sample by (unit, target), with the LOD bias and seamless filter of units."""
     bound = {}
     for index, unit in enumerate(state.units):
-        for target, name in ((gl.GL_TEXTURE_2D, unit.bound_2d), (gl.GL_TEXTURE_CUBE_MAP, unit.bound_cube)):
-            texture = storage.textures.get(stored_name(target, name))
+        for target in unit.sampled_targets:
+            texture = storage.textures.get(stored_name(target, unit.bound(target)))
             if texture is not None:
                 bound[index, target] = texture.in_unit(unit.lod_bias, state.cube_maps.seamless)
     return bound

@@ -14,15 +14,21 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import Storage
 from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.geometry.assembly import begins_stipple, edge_flags
+from softshadow.pipeline.geometry.assembly import begins_stipple
 from softshadow.pipeline.geometry.clip import clip_triangles
-from softshadow.pipeline.geometry.draw_primitives import assembled_triangles, lines_or_points_of
+from softshadow.pipeline.geometry.draw_primitives import (
+    assembled_triangles,
+    drawn_edges,
+    has_no_edges,
+    lines_or_points_of,
+)
 from softshadow.pipeline.geometry.geometry import positions_of, vertex_outputs, window_transform
 from softshadow.pipeline.geometry.lines import LINES, clip_lines
 from softshadow.pipeline.geometry.points import clip_points
 from softshadow.pipeline.geometry.polygon_mode import Outlined, outline
 from softshadow.pipeline.geometry.vertex import to_window
 from softshadow.pipeline.mesa.polygon_rules import effective_modes
+from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.programs.fixed_function import is_separate
 from softshadow.state import State
 
@@ -57,11 +63,12 @@ def window_primitives(command: Draw, storage: Storage) -> WindowPrimitives:
             if command.mode in LINES and _is_flat(command.state):
                 ends = clipped.triangles
                 values, window = values[ends].reshape(-1, 8), window[ends].reshape(-1, 4)
-                values[0::2, :4] = values[1::2, :4]
+                other = slice(0, None, 2) if first_provokes(command.state) else slice(1, None, 2)
+                values[0::2, :4] = values[1::2, :4] = values[other, :4].copy()
                 clipped = clipped._replace(triangles=np.arange(ends.size).reshape(-1, 2))
             return _upright(window, values, clipped.triangles.tolist(), target.size[1], target.flipped)
         assembled = assembled_triangles(command, np.ones(len(clip), bool))
-        edges = edge_flags(command.mode, len(assembled.corners))
+        edges = drawn_edges(command, assembled.corners)
         clipped = clip_triangles(clip, columns, assembled.corners, codes, planes, edges)
         window = np.concatenate([window, to_window(clipped.clip[len(clip) :], *window_transform(command, target))])
         flat = np.zeros(8, bool)
@@ -79,6 +86,7 @@ def window_primitives(command: Draw, storage: Storage) -> WindowPrimitives:
                 None if back is None else np.ascontiguousarray(clipped.values[:, 8:]), flat, clipped.triangles,
                 edges, assembled.provoking[clipped.source], state, state.cull, target.depth,
                 command.offset_slope, command.offset_unit, target.flipped, begins, command.offset_mode,
+                has_no_edges(command),
             )  # fmt: skip
 
         outlined = outlined_with(clipped.edges)

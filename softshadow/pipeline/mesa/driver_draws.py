@@ -121,6 +121,7 @@ def join_vertices(parts: Sequence[Vertices]) -> Vertices:
         _concatenated([part.normal for part in parts]),
         tuple(_concatenated([part.texcoords[unit] for part in parts]) for unit in units),
         {name: _concatenated([part.materials[name] for part in parts]) for name in parts[0].materials},
+        None if parts[0].edges is None else _concatenated([part.edges for part in parts if part.edges is not None]),
     )
 
 

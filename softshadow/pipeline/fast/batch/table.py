@@ -41,6 +41,7 @@ from softshadow.pipeline.geometry.clip import NEAR_FAR
 from softshadow.pipeline.geometry.program import bound_textures
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.mesa.polygon_rules import passes_stages
+from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.mesa.rectangles import start_of_last_nine
 from softshadow.programs import reflectances
 from softshadow.programs.fixed_function import Unit, is_separate, needs_vertex_color, units_in_use
@@ -179,7 +180,8 @@ def _differ_in_lights_only(a: State, b: State) -> bool:
 
 def _structure(lights: Lighting) -> tuple[object, ...]:
     """Return what decides which columns the varyings have."""
-    return lights.enabled, lights.two_side, lights.color_control, lights.shade_model, lights.color_material
+    shading = lights.shade_model, lights.provoking_vertex
+    return lights.enabled, lights.two_side, lights.color_control, lights.color_material, *shading
 
 
 def can_run(command: Draw) -> bool:
@@ -200,7 +202,7 @@ def can_begin_run(command: Draw, target: Framebuffer) -> bool:
     state = command.state
     if not can_run(command) or not target.attachments or passes_stages(state) or any(state.clip_planes.enabled):
         return False
-    if state.lines != PLAIN_LINES or state.points != PLAIN_POINTS:
+    if state.lines != PLAIN_LINES or state.points != PLAIN_POINTS or first_provokes(state):
         return False
     modes = [gen.mode for unit in state.units for gen in unit.gen if gen.enabled]
     return all(mode in GENERATED for mode in modes)

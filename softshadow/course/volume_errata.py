@@ -1,0 +1,180 @@
+"""Errors in the slides on shadow volumes."""
+
+from softshadow.course.erratum import Erratum
+
+ERRATA = (
+    Erratum(
+        "E1", "RO1:199-250", "the stencil test and culling are enabled before counting",
+        "Pasul 2 and 3 call `glCullFace`, `glStencilFunc` and `glStencilOp`; `glEnable(GL_STENCIL_TEST)` comes in "
+        "Pasul 4, `glEnable(GL_CULL_FACE)` nowhere",
+        "A disabled stencil test does not write, and without culling both steps count all faces.",
+        "Enable both before Pasul 2.",
+        ("listing:volume-zpass", "listing:volume-zfail", "failure:stencil-test-forgotten"),
+    ),
+    Erratum(
+        "E2", "RO1:265-277", "the lit scene is drawn with GL_LEQUAL",
+        "Pasul 4 leaves the depth comparison “f.z < z-buffer” of the steps before",
+        "The scene is drawn a second time, with equal depth, and equal is not less.",
+        "`glDepthFunc(GL_LEQUAL)` or `GL_EQUAL` before Pasul 4.",
+        ("listing:volume-zpass", "listing:volume-zfail", "failure:less-in-lit-pass"),
+    ),
+    Erratum(
+        "E3", "RO1:233-265", "culling is reset before the lit scene",
+        "`glCullFace(GL_FRONT)` of Pasul 3 is never changed back",
+        "Pasul 4 draws the back faces of the scene only.",
+        "`glCullFace(GL_BACK)`, or disable culling, before Pasul 4.",
+        ("listing:volume-zpass", "failure:culling-left-on"),
+    ),
+    Erratum(
+        "E5", "RO1:334", "glCullFace(GL_BACK) removes back faces",
+        "`glCullFace(GL_BACK); //se vor elimina fețele din față`",
+        "The comment says that front faces are removed.",
+        "The call is right: it removes back faces (PUN); the comment is wrong.",
+        ("program:culled-faces",),
+    ),
+    Erratum(
+        "E6", "RO1:299-353", "z-fail needs closed volumes",
+        "z-fail draws the “poligoane de umbră”, which RO1:93 defines as “fețele laterale”",
+        "A ray that leaves a volume through an open end is counted once instead of twice.",
+        "Draw a light cap and a dark cap as well.",
+        ("listing:volume-zfail", "failure:missing-caps"),
+    ),
+    Erratum(
+        "E7", "RO1:82", "the plane of the far side must be far, not only its vertices",
+        "a face “dincolo de care intensitatea luminii sursei este neglijabilă”",
+        "A flat face is nearer to the light in its middle than at its vertices, so the volume ends too early there.",
+        "Scale by at least R / distance(light, plane of the generator).",
+        ("listing:volume-far-side", "failure:vertex-distance-cap"),
+    ),
+    Erratum(
+        "E8", "RO1:83", "no plane may cut the counted faces",
+        "“Volumul de umbră este decupat la marginile volumului vizual.”",
+        "Clipping cuts polygons, not solids: at the near plane it breaks z-pass, at the far plane z-fail.",
+        "A projection without far plane, or depth clamping; for z-pass a start value at the near plane.",
+        ("listing:volume-zfail", "failure:finite-far-plane"),
+    ),
+    Erratum(
+        "E9", "RO1:116-126", "in shadow where the difference is not 0",
+        "P is in shadow if the number of PUV on the ray is “mai mare” than the number of PUN",
+        "That holds only if the ray starts outside all volumes: then the difference is the number of volumes that "
+        "contain P. A ray that starts inside one leaves it without having entered it, and the difference may be "
+        "negative.",
+        "The rule is ≠ 0 with a start value; for rays from outside, > 0 says the same.",
+        ("program:negative-differences",),
+    ),
+    Erratum(
+        "E10", "RO1:122, RO1:283", "the count starts at the near plane, pixel by pixel",
+        "the counter starts with “numărul de volume de umbră care conțin poziția observatorului”",
+        "Rays are clipped at the near plane, and a volume may cut the near rectangle.",
+        "Start with the number of volumes around each pixel's point of the near plane.",
+        ("listing:volume-zpass-general", "failure:constant-eye-count"),
+    ),
+    Erratum(
+        "E11", "RO1:231", "counters that wrap",
+        "`GL_INCR` and `GL_DECR`",
+        "They stop at 255 and at 0: a decrement that comes first is lost, and so are counts beyond 255.",
+        "`GL_INCR_WRAP` and `GL_DECR_WRAP`; with the saturating ones, all increments first and fewer than 256 volumes.",
+        ("listing:volume-zpass-reversed", "failure:decr-before-incr", "failure:overflow-256"),
+    ),
+    Erratum(
+        "E12", "RO1:134", "a silhouette has several loops",
+        "the silhouette is “un set conectat de laturi”",
+        "A silhouette may consist of several closed loops, which may touch; in open meshes an edge may count more "
+        "than once, and an edge that is divided on one side only matches none.",
+        "Take every edge whose faces do not cancel, loop or not.",
+        ("program:silhouette-loops", "failure:t-junction-leak"),
+    ),
+    Erratum(
+        "E13", "RO1:78, RO1:136", "all faces of an open mesh cast",
+        "the generator is “un poligon iluminat (vizibil din poziția sursei)”",
+        "That is enough for closed solids. An open sheet also blocks light that reaches its back.",
+        "Of open meshes, turn every face towards the light and count each layer.",
+        ("failure:open-mesh-parity",),
+    ),
+    Erratum(
+        "E14", "RO1:289", "depth fail is older than Doom 3",
+        "“Carmack's reverse (descoperita de John Carmack in dezvoltarea jocului Doom 3)”",
+        "He found it independently and made it known.",
+        "Bilodeau and Songy presented it in 1999.",
+        ("source:W. Bilodeau and M. Songy, “Real time shadows”, 1999; US patent 6384822 (expired)",),
+    ),
+    Erratum(
+        "E17", "RO1:361", "clear and count again for every light",
+        "volumes work “pentru oricate surse de lumina”",
+        "The slides do not say how. Counts of one light left in the buffer are shadows for the next.",
+        "For each light: clear the stencil buffer, count, and add the light in a pass of its own.",
+        ("failure:missing-clear",),
+    ),
+    Erratum(
+        "E18", "RO1:368", "volumes are drawn twice",
+        "the shadow polygons are rasterized “o singura data dar in 2 pasi”",
+        "Two passes are two draws of the same geometry.",
+        "Twice; once with separate stencil operations for front and back faces.",
+        ("program:volume-draws",),
+    ),
+    Erratum(
+        "E20", "SK:267-268", "shadow where the counter is greater than 0",
+        "“Counter == 0: osvetleny, Counter >= 0: tineny”",
+        "Both lines hold where the counter is 0.",
+        "> 0, or ≠ 0 if counters wrap.",
+        ("listing:volume-counter", "failure:counter-at-least-0"),
+    ),
+    Erratum(
+        "E24", "SK:290-303", "hard volumes know points and directions only",
+        "“Všetky typy svetiel”, “Robustný”",
+        "One volume per caster is one point of the light: there is no penumbra (RO1:369 says so). It is robust only "
+        "with z-fail or a start value at the near plane, and with clean meshes.",
+        "Point and directional lights; area lights need many points, or wedges.",
+        ("program:missing-penumbra", "failure:eye-in-shadow"),
+    ),
+    Erratum(
+        "E25", "SK:276", "the start value depends on the view",
+        "“Vypočítaj tienove telesa – Pohladovo nezávislé!”",
+        "The geometry does not depend on the view, but what z-pass makes of it does.",
+        "Volumes may be kept when the eye moves; the start value and the need for caps may not.",
+        ("program:start-values",),
+    ),
+    Erratum(
+        "E38", "CA:470, CA:482", "all bits of the count are tested",
+        "`glStencilFunc(GL_EQUAL, 1, 1)` for dark, `glStencilFunc(GL_EQUAL, 0, 1)` for lit",
+        "The last bit of a count is its parity: two volumes look like none.",
+        "Dark where `GL_NOTEQUAL, 0, ~0`, lit where `GL_EQUAL, 0, ~0`.",
+        ("listing:volume-five-passes", "failure:mask-1", "failure:parity-overlap"),
+    ),
+    Erratum(
+        "E39", "CA:425", "GL_ALWAYS ignores the mask",
+        "`glStencilFunc(GL_ALWAYS, 0, 0)`",
+        "A mask of 0 looks as if nothing were written. But it belongs to the comparison, and this one always passes.",
+        "Harmless, unlike the masks of E38.",
+        ("program:mask-of-always",),
+        stands=True,
+    ),
+    Erratum(
+        "E40", "CA:404-492", "z-pass needs a start value",
+        "the listing says nothing about the eye",
+        "Z-pass is right only where the near rectangle lies outside all volumes.",
+        "Start the count at the near plane, or use z-fail.",
+        ("listing:volume-five-passes-eye", "failure:eye-in-shadow"),
+    ),
+    Erratum(
+        "E58", "RO1:248-249, RO1:349", "the difference is counted down",
+        "“se decrementeaza nr. de poligoane PUV” in z-pass, “PUN” in z-fail; `]-` is printed for `--`",
+        "The number of PUV does not decrease. What decreases is the counter, which holds a difference.",
+        "In z-pass a PUN fragment in front, in z-fail a PUV fragment behind decrements the difference.",
+        ("program:count-or-difference",),
+    ),
+    Erratum(
+        "E61", "RO1:178-179", "only glClear initializes buffers",
+        "“sunt initializate in mod automat pentru fiecare cadru imagine”",
+        "No buffer is cleared between frames unless the program asks for it.",
+        "`glClear` at the beginning of each frame; the stencil write mask and the scissor box apply to it.",
+        ("program:second-frame", "failure:missing-clear"),
+    ),
+    Erratum(
+        "E63", "CA:487", "culling is disabled at the end",
+        "“Restaura l'estat inicial” restores the depth comparison and the stencil test",
+        "GL_CULL_FACE stays enabled, and the next frame's back faces are missing.",
+        "`glDisable(GL_CULL_FACE)` as well.",
+        ("listing:volume-five-passes",),
+    ),
+)  # fmt: skip

@@ -1,0 +1,206 @@
+"""Images made larger or smaller by box filters, in the arithmetic of libGLU (libutil, mipmap.c).
+
+GLU has two filters: gluScaleImage works on 16-bit numbers and wraps at the edges of the image; mipmaps are scaled and
+halved in the type of the image. All arrays are (height, width, components).
+"""
+
+from __future__ import annotations
+
+from math import floor
+from typing import NamedTuple
+
+import numpy as np
+
+F32 = np.float32
+ONE = F32(1)
+
+
+# -- gluScaleImage -----------------------------------------------------------------------------------------------------
+def to_shorts(image: np.ndarray, is_index: bool) -> np.ndarray:
+    """Return an image as 16-bit numbers over the whole range; indices keep their values."""
+    if image.dtype == np.float32:
+        return (image if is_index else image * F32(65535)).astype(np.int64).astype(np.uint16)
+    wide = image.astype(np.int64)
+    if is_index:
+        return wide.astype(np.uint16)
+    scaled = {
+        np.uint8: lambda: wide * 257, np.int8: lambda: wide * 516, np.uint16: lambda: wide, np.int16: lambda: wide * 2,
+        np.uint32: lambda: wide >> 16, np.int32: lambda: wide >> 15,
+    }[image.dtype.type]()  # fmt: skip
+    return scaled.astype(np.uint16)
+
+
+def from_shorts(shorts: np.ndarray, dtype: np.dtype, is_index: bool) -> np.ndarray:
+    """Return 16-bit numbers as an image of a type."""
+    if dtype == np.float32:
+        return shorts.astype(F32) if is_index else (shorts / 65535.0).astype(F32)
+    wide = shorts.astype(np.int64)
+    if is_index:
+        return wide.astype(dtype)
+    scaled = {
+        np.uint8: lambda: wide >> 8, np.int8: lambda: wide >> 9, np.uint16: lambda: wide, np.int16: lambda: wide >> 1,
+        np.uint32: lambda: wide * 65537, np.int32: lambda: wide * 65537 // 2,
+    }[dtype.type]()  # fmt: skip
+    return scaled.astype(dtype)
+
+
+class Taps(NamedTuple):
+    """Which input rows or columns each output one reads (n, k), and their shares (n, k) float32, 0 for none."""
+
+    places: np.ndarray
+    shares: np.ndarray
+
+
+def scale_shorts(image: np.ndarray, width: int, height: int) -> np.ndarray:
+    """Return a 16-bit image in another size."""
+    if image.shape[:2] == (2 * height, 2 * width):
+        return halve(image)
+    rows, columns = _taps(image.shape[0], height), _taps(image.shape[1], width)
+    values = image.astype(F32)
+    totals, area = np.zeros((height, width, image.shape[2]), F32), np.zeros((height, width, 1), F32)
+    for i in range(rows.places.shape[1]):
+        for j in range(columns.places.shape[1]):
+            share = (rows.shares[:, None, i] * columns.shares[None, :, j])[..., None]
+            area += share
+            totals += values[rows.places[:, i]][:, columns.places[:, j]] * share
+    return ((totals.astype(np.float64) + 0.5) / area).astype(np.uint16)
+
+
+def _taps(size_in: int, size_out: int) -> Taps:
+    """Return what each of `size_out` rows or columns reads of `size_in`; places beyond the edges wrap."""
+    step = F32(size_in) / F32(size_out)
+    reach = float(step / F32(2)) if size_in > size_out else 0.5
+    places: list[list[int]] = []
+    shares: list[list[np.float32]] = []
+    for number in range(size_out):
+        center = F32(float(step) * (number + 0.5))
+        low, high = F32(float(center) - reach), F32(float(center) + reach)
+        place, here = floor(low), low
+        places.append([])
+        shares.append([])
+        while here < high:
+            places[-1].append((place + size_in) % size_in)
+            shares[-1].append(high - here if high < place + 1 else F32(place + 1) - here)
+            place += 1
+            here = F32(place)
+    longest = max(map(len, places))
+    return Taps(
+        np.array([[*row, *[0] * (longest - len(row))] for row in places]),
+        np.array([[*row, *[F32(0)] * (longest - len(row))] for row in shares], F32),
+    )
+
+
+# -- mipmaps -----------------------------------------------------------------------------------------------------------
+def halve(image: np.ndarray) -> np.ndarray:
+    """Return an image of half the size: the mean of each 2 x 2 pixels, or of each two if a side is 1."""
+    height, width = image.shape[:2]
+    a, b = (image[0 : height & ~1 : 2], image[1::2]) if height > 1 else (image, None)
+    if height > 1 and width > 1:
+        assert b is not None
+        even = slice(0, width & ~1, 2)
+        return _mean([a[:, even], a[:, 1::2], b[:, even], b[:, 1::2]])
+    if width > 1:
+        return _mean([np.ascontiguousarray(image[:, place : width & ~1 : 2]) for place in (0, 1)])
+    assert b is not None
+    return _mean([a, b])
+
+
+def _mean(parts: list[np.ndarray]) -> np.ndarray:
+    """Return the mean of two or four images; integers are rounded as libGLU does for their type."""
+    dtype, count = parts[0].dtype, len(parts)
+    if dtype == np.float32:
+        total = parts[0].copy()
+        for part in parts[1:]:
+            total += part
+        return total / F32(count)
+    if dtype == np.int32:
+        return _mean_of_ints(parts)
+    whole = sum(part.astype(np.int64) for part in parts) + (2 if count == 4 else 0)
+    return np.trunc(np.asarray(whole) / count).astype(dtype)
+
+
+def _mean_of_ints(parts: list[np.ndarray]) -> np.ndarray:
+    """Return the mean of 32-bit integers, in single precision; libGLU takes those of a single row for unsigned."""
+    if len(parts) == 4:
+        total = sum(part.astype(F32) for part in parts)
+        return np.trunc((total / F32(4)).astype(np.float64) + 0.5).astype(np.int32)
+    mean = (parts[0].view(np.uint32).astype(F32) + parts[1].view(np.uint32).astype(F32)).astype(np.float64) / 2
+    fits = mean < -float(np.iinfo(np.int32).min)
+    return np.where(fits, mean, np.iinfo(np.int32).min).astype(np.int32)  # as the processor converts what does not fit
+
+
+class Boxes(NamedTuple):
+    """The box of input rows or columns of each output one: from `low` + `low_share` to `high` + `high_share`."""
+
+    low: np.ndarray
+    low_share: np.ndarray
+    high: np.ndarray
+    high_share: np.ndarray
+
+
+def scale(image: np.ndarray, width: int, height: int) -> np.ndarray:
+    """Return an image in another size, in its own type."""
+    height_in, width_in, components = image.shape
+    if (height_in, width_in) == (2 * height, 2 * width):
+        return halve(image)
+    rows, columns = _boxes(height_in, height, height_in - 1), _boxes(width_in, width, width_in)
+    area = (F32(width_in) / F32(width)) * (F32(height_in) / F32(height))
+    pixels = image.reshape(-1, components).astype(F32)
+    totals = np.zeros((height, width, components), F32)
+    top, bottom, left, right = rows.low[:, None], rows.high[:, None], columns.low[None], columns.high[None]
+    below, above = rows.low_share[:, None], rows.high_share[:, None]
+    before, after = columns.low_share[None], columns.high_share[None]
+    tall, wide = bottom > top, right > left
+
+    def values(row: np.ndarray, column: np.ndarray) -> np.ndarray:
+        return pixels[np.minimum(row * width_in + column, len(pixels) - 1)]
+
+    def add(row: np.ndarray, column: np.ndarray, share: np.ndarray, where: np.ndarray) -> None:
+        np.add(totals, values(row, column) * np.asarray(share, F32)[..., None], out=totals, where=where[..., None])
+
+    first_row = np.where(tall, ONE - below, above - below)
+    first_column = np.where(wide, ONE - before, after - before)
+    always = np.ones((height, width), bool)
+    most_rows, most_columns = int((bottom - top).max()), int((right - left).max())
+    add(top, left, first_row * first_column, always)
+    for step in range(1, most_columns):
+        add(top, left + step, first_row + 0 * after, always & (left + step < right))
+    add(top, right, first_row * after, always & wide)
+    for step in range(1, most_rows):
+        add(top + step, left, first_column + 0 * above, ~wide & (top + step < bottom))
+    add(bottom, left, first_column * above, tall & always)
+    for step in range(1, most_columns):
+        add(bottom, left + step, above + 0 * after, tall & (left + step < right))
+    add(bottom, right, above * after, tall & wide)
+    for step in range(1, most_rows):
+        # libGLU moves on by a pixel in each row here
+        row, aside = top + step, step - 1
+        both = values(row, left + aside) * (ONE - before)[..., None] + values(row, right + aside) * after[..., None]
+        np.add(totals, both, out=totals, where=(tall & wide & (row < bottom))[..., None])
+    for step in range(1, most_rows):
+        for across in range(1, most_columns):
+            inside = (top + step < bottom) & (left + across < right)
+            add(top + step, left + across, np.ones((height, width), F32), inside)
+    scaled = totals / area
+    if image.dtype == np.float32:
+        return scaled
+    limit = np.iinfo(image.dtype)
+    return np.clip(np.trunc(scaled.astype(np.float64)), limit.min, limit.max).astype(image.dtype)
+
+
+def _boxes(size_in: int, size_out: int, highest: int) -> Boxes:
+    """Return the boxes of `size_out` rows or columns, none above `highest`; their bounds add up in single precision."""
+    step = F32(size_in) / F32(size_out)
+    whole = floor(step)
+    share = step - F32(whole)
+    low, low_share, high, high_share = 0, F32(0), whole, share
+    boxes: list[tuple[int, np.float32, int, np.float32]] = []
+    for _ in range(size_out):
+        high = min(high, highest)
+        boxes.append((low, low_share, high, high_share))
+        low, low_share = high, high_share
+        high, high_share = high + whole, high_share + share
+        if high_share > 1:
+            high, high_share = high + 1, high_share - ONE
+    lows, low_shares, highs, high_shares = zip(*boxes, strict=True)
+    return Boxes(np.array(lows), np.array(low_shares, F32), np.array(highs), np.array(high_shares, F32))
