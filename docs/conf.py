@@ -8,8 +8,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from docutils import nodes
-
 from softshadow import __version__, failures
 from softshadow.lessons.copies import copy_lessons
 from softshadow.scene import scene_names
@@ -110,8 +108,10 @@ def fill_gallery(app: Any, name: str, source: list[str]) -> None:
         source[0] = gallery(source[0], Path(app.outdir) / "gallery", scenes, shown)
 
 
-def describe_pictures(app: Any, doctree: nodes.document) -> None:
+def describe_pictures(app: Any, doctree: Any) -> None:
     """Give the pictures that cells show a text: the section they are in, and the statement that makes them."""
+    from docutils import nodes  # the tests import this file without Sphinx
+
     for image in doctree.findall(nodes.image):
         if image.get("alt"):
             continue
@@ -126,7 +126,7 @@ def describe_pictures(app: Any, doctree: nodes.document) -> None:
         image["alt"] = f"{title}: picture made by {statement}" if statement else f"{title}, as a picture"
 
 
-def ancestors(node: nodes.Node) -> Iterator[nodes.Element]:
+def ancestors(node: Any) -> Iterator[Any]:
     """The nodes that contain a node, from the inside."""
     while node.parent is not None:
         node = node.parent
