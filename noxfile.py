@@ -72,7 +72,7 @@ def interpreted(session: nox.Session) -> None:
 @nox.session
 def docs(session: nox.Session) -> None:
     """Build the documentation, in which a warning is an error, and open pages in a browser."""
-    folder = session.posargs[0] if session.posargs else "docs/_build"
+    folder = session.posargs[0] if session.posargs else "docs/_build/html"
     session.run("sphinx-build", "-q", "-W", "--keep-going", "-b", "html", "docs", folder)
     site = {"SOFTSHADOW_SITE": os.path.abspath(folder)}
     session.run("pytest", "-q", "-n0", "tests/docs/test_site_in_browser.py", env=site)

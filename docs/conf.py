@@ -1,8 +1,10 @@
 """Sphinx settings: MyST pages whose code cells run when the pages are built."""
 
+import ast
 import os
 import re
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -106,6 +108,31 @@ def fill_gallery(app: Any, name: str, source: list[str]) -> None:
         source[0] = gallery(source[0], Path(app.outdir) / "gallery", scenes, shown)
 
 
+def describe_pictures(app: Any, doctree: Any) -> None:
+    """Give the pictures that cells show a text: the section they are in, and the statement that makes them."""
+    from docutils import nodes  # the tests import this file without Sphinx
+
+    for image in doctree.findall(nodes.image):
+        if image.get("alt"):
+            continue
+        above = list(ancestors(image))
+        title = next((each[0].astext() for each in above if isinstance(each, nodes.section)), "")
+        cell = next((each for each in above if "cell" in each.get("classes", ())), nodes.container())
+        code = "".join(each.astext() for each in cell if "cell_input" in each.get("classes", ()))
+        try:
+            statement = " ".join(ast.unparse(ast.parse(code).body[-1]).split())
+        except (SyntaxError, IndexError):  # the code is not shown
+            statement = ""
+        image["alt"] = f"{title}: picture made by {statement}" if statement else f"{title}, as a picture"
+
+
+def ancestors(node: Any) -> Iterator[Any]:
+    """The nodes that contain a node, from the inside."""
+    while node.parent is not None:
+        node = node.parent
+        yield node
+
+
 def write_notebooks(app: Any, error: Exception | None) -> None:
     """Write the notebooks that the pages of the lessons link to."""
     folder = Path(app.outdir) / "lessons"
@@ -121,4 +148,5 @@ def setup(app: Any) -> None:
     app.connect("source-read", offer_notebook, priority=400)
     app.connect("source-read", fill_contributing)
     app.connect("source-read", fill_gallery)
+    app.connect("doctree-read", describe_pictures)
     app.connect("build-finished", write_notebooks)

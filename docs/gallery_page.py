@@ -23,6 +23,7 @@ from softshadow.scene import Scene, scene_title
 SIZE = (160, 120)
 DIFFERS = 0.1  # of the light; pictures have steps of 1/255, so that smaller differences are not seen
 REPORTED = "torus"  # the scene of which every technique has a report
+LARGEST_REPORT = 1_000_000  # bytes of the report of a failure; the command makes larger ones
 
 
 def gallery(text: str, folder: Path, scenes: Iterable[str], failures: Iterable[Failure]) -> str:
@@ -44,6 +45,11 @@ def failure_block(failure: Failure, folder: Path) -> str:
     """Return a failing picture, with its answer behind a click."""
     page = folder / f"failure-{failure.name}.html"
     write_page(failure, page)
+    command = f"<code>softshadow failures {failure.name} -o report.html</code>"
+    report = f'<a href="gallery/{page.name}">Report of both</a>, {command}'
+    if page.stat().st_size > LARGEST_REPORT:
+        page.unlink()
+        report = f"{command} makes a report of both."
     for side, run in (("wrong", failure.wrong), ("cured", failure.cured)):
         save(run.image, folder / f"failure-{failure.name}-{side}.webp")
     about = f"Scene {failure.scene.name}, drawn by {failure.technique}"
@@ -55,7 +61,7 @@ def failure_block(failure: Failure, folder: Path) -> str:
         "<details><summary>What is wrong, and why?</summary>",
         figure(pictures[1], f"{about}, with the cure", "with the cure", failure.size),
         f"<p><strong>{escape(failure.title)}.</strong> {escape(failure.reason)} {escape(counts)}</p>",
-        f'<p><a href="gallery/{page.name}">Report of both</a>, <code>softshadow failures {failure.name}</code></p>',
+        f"<p>{report}</p>",
         "</details></div>",
     )
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.calls import in_lists, spelled_like_gl
@@ -72,6 +74,7 @@ def _copy_image(
 ) -> None:
     if (context := outside_begin(operation)) is None:
         return None
+    origin, shape = _whole(origin), _whole(shape)
     problem = (
         image_target_problem(target, dimensions)
         or level_problem(target, level)
@@ -102,6 +105,7 @@ def _copy_part(
 ) -> None:
     if (context := outside_begin(operation)) is None:
         return None
+    corner, origin, shape = _whole(corner), _whole(origin), _whole(shape)
     problem = (
         image_target_problem(target, dimensions)
         or _source_problem(context)
@@ -121,6 +125,11 @@ def _copy_part(
     context.execute(CopyToTexture(framebuffer, texture.name, face, level, *place, _transfer(context), z))
     follow_base_level(context, texture, face, level)
     return None
+
+
+def _whole(numbers: tuple[int, ...]) -> Any:
+    """Return numbers without their fractions, as ctypes converts what PyOpenGL gets."""
+    return tuple(int(number) for number in numbers)
 
 
 def _transfer(context: Context) -> PixelTransfer | None:

@@ -45,7 +45,7 @@ def test_wild_arguments_end_in_errors_that_name_the_call():
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("part", range(PARTS))
-def test_wild_arguments_of_thousands_of_sequences_end_in_errors_that_name_the_call(part):
+def test_wild_arguments_of_many_sequences_end_in_errors_that_name_the_call(part):
     seeds = range(QUICK + part * LONG, QUICK + (part + 1) * LONG)
     assert [error for seed in seeds for error in unnamed_errors(seed)] == []
 
