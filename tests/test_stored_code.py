@@ -131,6 +131,20 @@ def test_another_version_of_numba_loads_kernels_in_its_own_way(run: Any) -> None
     assert run(other + RUN) == RESULT.format(True)
 
 
+def test_another_version_of_numba_compiles_in_its_own_way(run: Any) -> None:
+    late = """
+@kernel
+def part(x):
+    return x * 2
+@kernel
+def late(x):
+    return part(x) + part(1)
+print(type(late._compiler).__name__, late(3))
+"""
+    assert run("stored_code.KernelCompiler = lambda *arguments: arguments.missing" + late) == "_FunctionCompiler 8"
+    assert run(late) == "KernelCompiler 8"
+
+
 def files_of(folder: Path, ending: str) -> list[Path]:
     found = sorted((folder / "cache").rglob(f"*{ending}"))
     assert found

@@ -61,13 +61,14 @@ class PartLibrary(JITCodeLibrary):
         return self.name, PART, (b"", self._get_module_for_linking().as_bitcode())
 
 
-NumbaCompiler: Any = vars(dispatcher)["_FunctionCompiler"]  # type checkers do not see it
+# type checkers do not see it; where another version of Numba lacks it, `KernelDispatcher` keeps that version's own
+NumbaCompiler: Any = getattr(dispatcher, "_FunctionCompiler", object)
 
 
 class KernelCompiler(NumbaCompiler):
-    """Compiles a kernel as a part of others, or for Python."""
+    """Compiles a kernel as a part of others if `for_kernels` is set, or for Python."""
 
-    for_kernels = False
+    for_kernels: bool
 
     def _compile_core(self, args: Any, return_type: Any) -> Any:
         if not self.for_kernels:

@@ -236,9 +236,11 @@ class KernelDispatcher(NumbaDispatcher):
     def __init__(self, py_func: Any, **options: Any) -> None:
         super().__init__(py_func, **options)
         theirs: Any = self._compiler
-        self._compiler: Any = KernelCompiler(
-            py_func, self.targetdescr, theirs.targetoptions, theirs.locals, theirs.pipeline_class
-        )
+        with contextlib.suppress(*OTHER_VERSION):
+            self._compiler: Any = KernelCompiler(
+                py_func, self.targetdescr, theirs.targetoptions, theirs.locals, theirs.pipeline_class
+            )
+        self._compiler.for_kernels = False  # set by `get_call_template`
         self._former_parts: list[Any] = []  # the environments of which callers use
 
     def enable_caching(self) -> None:
