@@ -51,7 +51,7 @@ def test_programs_and_uncovered_states_are_shaded_by_the_textbook():
     with explain_paths() as paths:
         for seed in range(12):
             random_picture(seed, units=2)
-    assert "program" in {path.shading for path in paths}  # for example with a depth texture of 32 bits
+    assert "program" in {path.shading for path in paths}  # for example with a cube map
 
 
 def test_the_kernels_are_compiled_when_it_pays(monkeypatch):
