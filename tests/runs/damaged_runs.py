@@ -123,9 +123,9 @@ class Damager:
         with np.errstate(over="ignore"):
             huge = np.full(array.shape, 2**30).astype(array.dtype)
             changes = [
-                array.astype(np.float16), array.astype(str), array.ravel(), array[..., :1], array[:0], array[np.newaxis],
-                huge, huge * huge, np.asfortranarray(array), np.zeros((), array.dtype), array.astype(bool),
-                array.astype(array.dtype.newbyteorder()),
+                array.astype(np.float16), array.astype(str), array.ravel(), array[..., :1], array[:0],
+                array[np.newaxis], huge, huge * huge, np.asfortranarray(array), np.zeros((), array.dtype),
+                array.astype(bool), array.astype(array.dtype.newbyteorder()),
             ]  # fmt: skip
         self.reseal(path, **{name: changes[int(rng.integers(len(changes)))]})
 
