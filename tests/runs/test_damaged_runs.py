@@ -1,7 +1,7 @@
 """Saved runs that are not as they were written: each is refused in one sentence, or loaded and usable."""
 
-import os
 import json
+import os
 import zipfile
 from pathlib import Path
 
@@ -64,7 +64,7 @@ def test_a_state_without_all_its_clip_planes_is_refused(damager, tmp_path):
     plane = '{"tuple": [0.0, 0.0, 0.0, 0.0]}, '
     text = json.dumps(damager.description)
     damager.reseal(tmp_path / "a.npz", text.replace(f'"equations": {{"tuple": [{plane}', '"equations": {"tuple": [', 1))
-    with pytest.raises(ss.SoftShadowError, match="ClipPlanes.equations: expected 6 values"):
+    with pytest.raises(ss.SoftShadowError, match=r"ClipPlanes\.equations: expected 6 values"):
         ss.load_run(tmp_path / "a.npz")
 
 
