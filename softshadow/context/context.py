@@ -187,6 +187,7 @@ class Context:
         """The state, immutable; the same object until something changes."""
         groups = self._state
         if self._changed or groups.followed is not None:
+            self._settle()
             return groups.snapshot()
         state: State = groups.root.value
         return state
@@ -243,7 +244,7 @@ class Context:
 
     def stop_following(self) -> None:
         """Give the materials the values that they had when the present colour was Mesa's current one."""
-        before, self.pending.before_following = self.pending.before_following, None
+        before, self.pending.before_following, self.pending.settled = self.pending.before_following, None, None
         if isinstance(before, tuple):
             self._state.followed = before
         elif before is not None:
@@ -253,9 +254,14 @@ class Context:
 
     def material(self, side: str) -> dict[str, Any]:
         """Return the fields of the "front" or "back" material."""
-        if self._state.followed is not None:
-            self._state.settle()
+        self._settle()
         return self.groups[f"lighting.{side}"].fields
+
+    def _settle(self) -> None:
+        """Store the colour in the materials that follow it. Hidden materials still return before it."""
+        if self._state.followed is not None:
+            self.pending.settled = self._state.followed
+            self._state.settle()
 
     def set(self, **groups: Any) -> None:
         """Replace groups of the state, each by its name."""
@@ -439,7 +445,10 @@ class Context:
         pending.before_following = None
         if not pending.old_values and not pending.hidden:
             return
-        followed = self._state.followed
+        follows = self.groups["lighting"].fields["color_material"]
+        followed = (self._state.followed or pending.settled) if follows else None
+        if pending.hidden:
+            self._settle()
         for name, value in pending.hidden.items():
             pending.old_values.setdefault(name, self.attribute(name))
             self.set_attribute(name, value)
@@ -450,6 +459,7 @@ class Context:
                 self.touched |= gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT
         pending.hidden.clear()
         pending.old_values.clear()
+        pending.settled = None
 
     # -- recording -----------------------------------------------------------------------------------------------------
     def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:

@@ -21,6 +21,7 @@ class PendingAttributes:
     hidden : dict            name: the value that was set, where glPopAttrib or glColor has put another current value
     before_following         the materials before they followed a colour that is not yet current: as
                              `StateGroups.followed`, or their values by name
+    settled                  the colour that materials followed last, stored in them since: as `StateGroups.followed`
     reset_due : bool         whether the next change of state resets the attributes
     has_vertices : bool      whether it does so because of vertices, not of a query of current values
     """
@@ -29,5 +30,6 @@ class PendingAttributes:
     old_values: dict[str, Any] = field(default_factory=dict)
     hidden: dict[str, Any] = field(default_factory=dict)
     before_following: Any = None
+    settled: Any = None
     reset_due: bool = False
     has_vertices: bool = False

@@ -95,29 +95,19 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
     """
     if all(set(fields) <= set(followed(context, side)) for side in SIDES[face]):
         return  # nothing changes: the vertices before and after are still drawn together
-    if not context.ready:
-        has_vertices = context.pending.has_vertices
-        context.flush()
-        if has_vertices:  # Mesa draws them here, but resets the attributes at the next change of state
-            context.pending.reset_due = context.pending.has_vertices = True
-        context.ready = context.primitive is None and context.compiled_list is None
-    old_values, follows = context.pending.old_values, context.groups["lighting"].fields["color_material"]
+    follows, primitive = context.groups["lighting"].fields["color_material"], context.primitive
     for side in SIDES[face]:
         free, names = fields, NAMES[side]
         if follows:
             fixed = followed(context, side)
             free = {field: value for field, value in fields.items() if field not in fixed}
-        for field in free:
-            if names[field] not in old_values:
-                context.remember_attribute(names[field])
-        if context.primitive is not None:
-            material = context.material(side)
-            for field, value in free.items():
-                name = names[field]
-                carry_attribute(context, name, np.size(value))
-                context.primitive.materials |= {name}
-                context.primitive.change(name, material[field], value)
-        context.change_fields(MATERIALS[side], free)
+        for field, value in free.items():
+            name = names[field]
+            carry_attribute(context, name, np.size(value))
+            if primitive is not None:
+                primitive.materials |= {name}
+                primitive.change(name, context.material(side)[field], value)
+            context.set_attribute(name, value)
 
 
 # -- colours that follow glColor ---------------------------------------------------------------------------------------

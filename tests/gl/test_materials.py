@@ -146,8 +146,53 @@ def make_material_calls(face: str, field: str, calls: list[tuple[Any, ...]], nam
         ("quad", 2, 2),
     ],
 )
+@example(
+    "GL_FRONT",
+    "GL_AMBIENT",
+    [
+        ("glMaterialfv", "GL_FRONT", "GL_AMBIENT", (0.9, 0.3, 0.5)),
+        ("glEnable", "GL_COLOR_MATERIAL"),
+        ("glColor3f", (0.9, 0.3, 0.5)),
+        ("glMaterialfv", "GL_FRONT", "GL_DIFFUSE", (0.9, 0.3, 0.5)),
+        ("glColor3f", (1.0, 1.0, 1.0)),
+        ("quad", 0, 0),
+    ],
+)
+@example(
+    "GL_FRONT",
+    "GL_AMBIENT",
+    [
+        ("glMaterialfv", "GL_FRONT", "GL_AMBIENT", (0.9, 0.3, 0.5)),
+        ("glEnable", "GL_COLOR_MATERIAL"),
+        ("glColor3f", (0.1, 0.4, 0.8)),
+        ("glEnable", "GL_COLOR_MATERIAL"),  # on already: nothing happens
+        ("quad", 0, 0),
+    ],
+)
 def test_colours_and_materials_in_any_order_are_those_of_mesa(
     face: str, field: str, calls: list[tuple[Any, ...]]
 ) -> None:
     comparison = compare(partial(make_material_calls, face, field, calls), SIZE)
+    assert comparison, str(comparison)
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize("n_vertices", [6, 12])  # Mesa's vertices after glMaterial carry their colour after 8 at most
+@pytest.mark.parametrize("with_material", [False, True])
+def test_colours_after_a_material_are_carried_or_constant_as_in_mesa(n_vertices, with_material):
+    def program(namespace: Any) -> None:
+        namespace.glBegin(namespace.GL_TRIANGLES)
+        for number in range(n_vertices):
+            namespace.glVertex2f(number % 3 - 1, number % 2 - 1)
+        namespace.glEnd()
+        if with_material:
+            namespace.glMaterialfv(namespace.GL_FRONT, namespace.GL_DIFFUSE, RED)
+        for level in np.linspace(0, 1, 20).tolist():
+            namespace.glColor3f(0.9 * level, level, 0.3)
+            namespace.glBegin(namespace.GL_QUADS)
+            for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+                namespace.glVertex3f(x * (1 - 0.7 * level), y * (1 - level), level)
+            namespace.glEnd()
+
+    comparison = compare(program, SIZE)
     assert comparison, str(comparison)
