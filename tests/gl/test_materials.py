@@ -181,17 +181,18 @@ def test_colours_and_materials_in_any_order_are_those_of_mesa(
 @pytest.mark.parametrize("with_material", [False, True])
 def test_colours_after_a_material_are_carried_or_constant_as_in_mesa(n_vertices, with_material):
     def program(namespace: Any) -> None:
+        namespace.gluPerspective(60, SIZE[0] / SIZE[1], 0.5, 10)
         namespace.glBegin(namespace.GL_TRIANGLES)
         for number in range(n_vertices):
-            namespace.glVertex2f(number % 3 - 1, number % 2 - 1)
+            namespace.glVertex3f(number % 3 - 1, number % 2 - 1, -2)
         namespace.glEnd()
         if with_material:
             namespace.glMaterialfv(namespace.GL_FRONT, namespace.GL_DIFFUSE, RED)
-        for level in np.linspace(0, 1, 20).tolist():
-            namespace.glColor3f(0.9 * level, level, 0.3)
+        for level in (0.9, 0.7, 0.5, 0.3, 0.1):  # half-way between two of 255 levels: the last bit decides
+            namespace.glColor3f(level, level, level)
             namespace.glBegin(namespace.GL_QUADS)
             for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
-                namespace.glVertex3f(x * (1 - 0.7 * level), y * (1 - level), level)
+                namespace.glVertex3f(2 * x * level, 2 * y * level, -2 + 0.7 * x + 0.3 * y)
             namespace.glEnd()
 
     comparison = compare(program, SIZE)
