@@ -75,12 +75,19 @@ assert dark[1.0] == 0
 my_guess = ...  # "about a quarter", "about the same", "none"
 
 # %%
-finer = int(ss.run("map", floor, size=(320, 240), map_size=256, factor=0.0, units=0.0).shadow_mask.sum())
+finer = int(
+    ss.run(
+        "map", floor, size=(320, 240), map_size=256, factor=0.0, units=0.0
+    ).shadow_mask.sum()
+)
 print(f"{dark[0.0]} with 64 x 64 texels, {finer} with 256 x 256")
 lessons.compare_prediction(
-    "How does the number change?", my_guess, "about the same" if 0.5 < finer / dark[0.0] < 2 else "not about the same",
-    "Half of every patch is behind its sample, however small the patch is: the stripes become finer, not fewer.",
-)  # fmt: skip
+    "How does the number change?",
+    my_guess,
+    "about the same" if 0.5 < finer / dark[0.0] < 2 else "not about the same",
+    "Half of every patch is behind its sample, however small the patch is: the stripes "
+    "become finer, not fewer.",
+)
 
 # %% [markdown]
 # ## The buffers after each step
@@ -118,9 +125,19 @@ for name in ("peter-panning", "constant-bias", "offset-and-bias"):
 
 # %%
 for surface in ("front", "back", "midpoint"):
-    stored = ss.run("map", torus, size=(320, 240), map_size=256, factor=0.0, units=0.0, surface=surface)
+    stored = ss.run(
+        "map",
+        torus,
+        size=(320, 240),
+        map_size=256,
+        factor=0.0,
+        units=0.0,
+        surface=surface,
+    )
     wrong = stored.compare(truth="hard").parts["all"].wrong
-    print(f"surface={surface!r}, without any offset: {wrong} pixels differ from ray casting")
+    print(
+        f"surface={surface!r}, without any offset: {wrong} pixels differ from ray casting"
+    )
 
 # %% [markdown]
 # ## Exercise
