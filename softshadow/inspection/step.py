@@ -136,21 +136,32 @@ class Step:
         return f"{where}. {sentence(step_in_words(self))} The window has {width} x {height} pixels."
 
 
-def step_in_words(step: Step) -> str:
-    """Return what the pictures of a step show, without its number: those of `shown_buffers`, and the shadows."""
+def step_in_words(step: Step, before: Step | None = None) -> str:
+    """Return what the pictures of a step show: those of `shown_buffers`, and the shadows.
+
+    `before` is the step before it, if that was described already: buffers that are the same are not described again.
+    """
     maps = step.maps.stored
     parts = [f"map {maps_in_words(maps)}"] if maps else []
     if not maps or not all(draw.framebuffer for draw in step.draws):
-        before = step.replay.after_step(step.index - 1).color[..., :3] if step.index else None
+        earlier = step.replay.after_step(step.index - 1) if step.index else None
         window = {
-            "colour": colors_in_words(step.image, before),
+            "colour": colors_in_words(step.image, None if earlier is None else earlier.color[..., :3]),
             "depth": depths_in_words(step.depth),
             "stencil": counts_in_words(step.stencil),
         }
-        parts = [*(f"{name}: {words}" for name, words in window.items()), *parts]
+        same = [name for name in window if before is not None and same_buffer(name, step, before)]
+        parts = [f"{name}: {words}" for name, words in window.items() if name not in same] + parts
+        parts += [f"{' and '.join(same)} as before"] if same else []
     if "visibility" in step.maps:
         parts.append(visibility_in_words(step.maps["visibility"], step.maps.get("valid")))
     return "; ".join(parts)
+
+
+def same_buffer(name: str, one: Step, other: Step) -> bool:
+    """Return whether a buffer of the window ("colour", "depth", "stencil") is the same after two steps."""
+    attribute = {"colour": "image"}.get(name, name)
+    return np.array_equal(getattr(one, attribute), getattr(other, attribute))
 
 
 def sentence(words: str) -> str:

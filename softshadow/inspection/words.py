@@ -6,6 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+CLEAR = 1.0  # depth where nothing was drawn
+DEPTH_MAP = "ZS"  # the names of maps of depths begin with it
 MOST_COUNTS = 6  # values of a stencil buffer that are listed; the others are one sum
 
 
@@ -72,7 +74,7 @@ def counts_in_words(counts: np.ndarray) -> str:
     return ", ".join([*shown, *([f"other values in {rest:,}"] if rest else [])])
 
 
-def depths_in_words(depth: np.ndarray, clear: float | None = 1.0) -> str:
+def depths_in_words(depth: np.ndarray, clear: float | None = CLEAR) -> str:
     """Return in how much of a picture (H, W) something was drawn, and the range of its depths.
 
     `clear` is the value where nothing was drawn, None if there is none.
@@ -123,8 +125,8 @@ def percent(share: float) -> str:
     return f"{100 * share:.0f} %"
 
 
-def map_in_words(name: str, values: np.ndarray, valid: np.ndarray | None = None, clear: float | None = None) -> str:
-    """Return what the picture of a map shows, as `map_pictures` draws it.
+def map_in_words(name: str, values: np.ndarray, valid: np.ndarray | None = None) -> str:
+    """Return what the picture of a map shows. Maps whose names begin with ZS hold depths.
 
     Examples
     --------
@@ -136,8 +138,9 @@ def map_in_words(name: str, values: np.ndarray, valid: np.ndarray | None = None,
     if values.ndim == 2 and name.split()[:1] == ["visibility"]:
         return visibility_in_words(values, valid)
     if values.ndim == 2:
-        is_counts = values.dtype == np.uint8
-        return counts_in_words(values) if is_counts else depths_in_words(values, 1.0 if clear is None else clear)
+        if values.dtype == np.uint8:
+            return counts_in_words(values)
+        return depths_in_words(values, CLEAR if name.startswith(DEPTH_MAP) else None)
     if values.dtype == np.uint8:
         return colors_in_words(values)
     channels = (depths_in_words(values[..., index], None) for index in range(values.shape[2]))

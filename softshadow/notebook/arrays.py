@@ -8,7 +8,7 @@ import numpy as np
 
 from softshadow.inspection import Step
 from softshadow.inspection.pictures import UNDEFINED, colors_of, is_visibility, map_picture
-from softshadow.inspection.words import colors_in_words, map_in_words, visibility_in_words
+from softshadow.inspection.words import DEPTH_MAP, colors_in_words, map_in_words, visibility_in_words
 from softshadow.notebook.buffers import show_counts, show_range
 from softshadow.notebook.cells import Region, add_colorbar, cells, draw_cells, heading_of, new_axes, step_of
 from softshadow.notebook.descriptions import describe_axes
@@ -17,8 +17,6 @@ from softshadow.runs import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-DEPTH_MAP = "ZS"  # the names of maps of depths begin with it
 
 
 def show_image(

@@ -32,7 +32,7 @@ def describe(shown: Figure | Axes) -> str:
     Two ones: 0 in 2 pixels, 1 in 2.
     """
     if hasattr(shown, "axes") and isinstance(shown.axes, list):  # a figure
-        title = shown.get_suptitle()  # type: ignore[union-attr]
+        title = shown.get_suptitle()
         parts = [f"{title}."] if title else []
         return " ".join([*parts, *(axes_in_words(each) for each in shown.axes if each.axison)])
     return axes_in_words(shown)  # type: ignore[arg-type]
@@ -66,8 +66,8 @@ def _series_in_words(ax: Axes) -> list[str]:
 class Described:
     """What turns figures into pictures for a notebook, with a description of each beside it."""
 
-    def __init__(self, draw: Any, kind: str) -> None:
-        self._draw, self._kind = draw, kind
+    def __init__(self, draw: Any) -> None:
+        self._draw = draw
 
     def __call__(self, figure: Figure) -> Any:
         """Return the picture and its metadata."""
@@ -83,7 +83,6 @@ def tell_notebook() -> None:
     formatters = getattr(getattr(shell, "display_formatter", None), "formatters", {})
     figure = sys.modules["matplotlib.figure"].Figure
     for kind in PICTURES:
-        formatter = formatters.get(kind)
-        draw = formatter.type_printers.get(figure) if formatter is not None else None
+        draw = formatters[kind].type_printers.get(figure) if kind in formatters else None
         if draw is not None and not isinstance(draw, Described):
-            formatter.for_type(figure, Described(draw, kind))
+            formatters[kind].for_type(figure, Described(draw))

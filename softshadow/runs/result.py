@@ -53,6 +53,8 @@ from softshadow.space.shadow_parts import scene_of
 if TYPE_CHECKING:
     from softshadow.report import CrossSection, View3D
 
+MOST_DESCRIBED = 8  # steps
+
 
 @dataclass(frozen=True, eq=False)
 class RunLight:
@@ -425,6 +427,8 @@ class Run:
     def describe(self) -> str:
         """Return what the pictures of the run show, in words: of each step the counts, ranges and changes.
 
+        Of a run with many steps the first ones and the last are described.
+
         Examples
         --------
         >>> import softshadow as ss
@@ -435,7 +439,13 @@ class Run:
         width, height = self.size
         name = self.steps[0].run_name or self.technique
         lines = [f"{name}, {width} x {height} pixels, steps 0 to {len(self.steps) - 1}."]
-        lines += [f"Step {step.index}, {step.title}: {step_in_words(step)}." for step in self.steps]
+        shown = list(self.steps)
+        if len(shown) > MOST_DESCRIBED:
+            lines[0] = f"{lines[0][:-1]}, of which 0 to {MOST_DESCRIBED - 2} and the last are described."
+            shown = [*shown[: MOST_DESCRIBED - 1], shown[-1]]
+        for step in shown:
+            before = self.steps[step.index - 1] if step.index else None
+            lines.append(f"Step {step.index}, {step.title}: {step_in_words(step, before)}.")
         return "\n".join(lines)
 
 
