@@ -24,6 +24,7 @@
 # %%
 import warnings
 
+import numpy as np
 from IPython.display import display
 
 import softshadow as ss
@@ -65,6 +66,48 @@ for factor in (0.0, 0.25, 0.5, 0.75, 1.0):
     dark[factor] = int(run.shadow_mask.sum())
     print(f"factor {factor:4}: {dark[factor]:6} pixels in shadow")
 assert dark[1.0] == 0
+
+# %% [markdown]
+# ## The bits of the map
+#
+# The theorem is about exact numbers, but a map stores whole numbers of 16, 24 or 32 bits, or floats (`map_format`).
+# Rounding moves a stored depth by up to half a step. That is what the *units* are for: one unit is one step. To see
+# rounding alone, let the light stand above the floor: there is no slope, so the factor adds nothing. The same scene
+# with the light at eight heights; the number of pixels in shadow is that of the worst height:
+
+
+# %%
+def below(height):
+    return ss.Scene("floor", floor.camera, [ss.Light((0, height, 0))], floor.objects)
+
+
+def maps_of_heights(**options):
+    heights = (4, 4.5, 5, 5.5, 6, 6.5, 7, 7.5)
+    same = {"size": (80, 60), "map_size": 64, "factor": 0.0, **options}
+    return [ss.run("map", below(height), **same) for height in heights]
+
+
+worst = {}
+for name in ("d16", "d24", "d32", "d32f"):
+    for units in (0.0, 1.0, 256.0):
+        runs = maps_of_heights(map_format=name, units=units)
+        worst[name, units] = max(int(run.shadow_mask.sum()) for run in runs)
+    counts = [worst[name, units] for units in (0.0, 1.0, 256.0)]
+    print(f"{name:4}: {counts} dark pixels with 0, 1, 256 units")
+assert worst["d16", 1.0] == worst["d24", 1.0] == 0 < worst["d32", 1.0]
+
+# %% [markdown]
+# One unit is enough for 16 and 24 bits. It is not for 32 bits, although this map rounds least: the depth that is
+# compared with it is a float, which has 24 bits, and its rounding stays. One unit of this map is 2⁻³² of the range;
+# 256 of them are 2⁻²⁴, one step of such a float. So more bits than 24 do not make the bias smaller. Fewer bits do make
+# it larger: one unit of 16 bits is 256 times one of 24.
+
+# %%
+exact = maps_of_heights(map_format="d32f", units=0.0)
+for name in ("d16", "d24"):
+    pairs = zip(maps_of_heights(map_format=name, units=0.0), exact, strict=True)
+    error = max(np.abs(a.maps["ZS"].astype(float) - b.maps["ZS"]).max() for a, b in pairs)
+    print(f"{name}: stored depths are wrong by up to 2^{np.log2(error):.2f}")
 
 # %% [markdown]
 # ## Predict, then run
