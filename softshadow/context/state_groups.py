@@ -42,7 +42,7 @@ def is_same(a: Any, b: Any) -> bool:
     if type(a) is tuple:
         are_plain = a and type(a[0]) is float and 0.0 not in a  # then equal numbers have the same bits
         return bool(are_plain) or all(map(is_same, a, b))
-    return bool(a) or repr(a) == repr(b)
+    return (type(a) is float and a != 0.0) or repr(a) == repr(b)
 
 
 # glColor under GL_COLOR_MATERIAL: the sides whose material follows ("front" or "back"), its fields, the colour

@@ -135,7 +135,8 @@ def _short(value: Any) -> str:
 
 def _is_number(value: Any) -> bool:
     """Return whether a value is a number that a float can hold."""
-    if not isinstance(value, Real) and not (isinstance(value, np.ndarray) and value.ndim == 0):
+    is_scalar = isinstance(value, np.ndarray) and value.ndim == 0 and value.dtype.kind in "biuf"
+    if not isinstance(value, Real) and not is_scalar:
         return False
     try:
         float(value)
