@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from html import escape
 from io import BytesIO
@@ -23,6 +23,11 @@ CAPTIONS = {
     "listing": ("without {number}", "corrected"),
     "failure": ("with the failure", "with the cure"),
     "program": ("by the slide", "right"),
+}
+IN_WORDS: dict[str, Callable[[np.ndarray], str]] = {
+    "colour": colors_in_words,
+    "stencil": counts_in_words,
+    "depth": depths_in_words,
 }
 
 
@@ -64,7 +69,7 @@ def pair(what: str, buffer: str, values: tuple[np.ndarray, np.ndarray], captions
     differs = values[0] != values[1]
     place = place_in_words(differs.any(axis=-1) if differs.ndim == 3 else differs, "differ")
     pictures = tuple(depth_picture(each) if buffer == "depth" else colors_of(each) for each in values)
-    say = {"colour": colors_in_words, "stencil": counts_in_words, "depth": depths_in_words}[buffer]
+    say = IN_WORDS[buffer]
     words = [
         f"{what}, {buffer} {caption}: {say(each)}; {place}" for each, caption in zip(values, captions, strict=True)
     ]
@@ -100,7 +105,7 @@ def of_program(name: str, number: str) -> Versions:
     watching = Watching(gl)
     with gl.create_context(*WINDOW):
         PROGRAMS[name].program(watching)
-    return [(buffer, *read[-2:]) for buffer, read in watching.read.items() if len(read) > 1]
+    return [(buffer, read[-2], read[-1]) for buffer, read in watching.read.items() if len(read) > 1]
 
 
 VERSIONS_OF = {"listing": of_listing, "failure": of_failure, "program": of_program}
