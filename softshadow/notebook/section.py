@@ -71,20 +71,8 @@ def show_section(
     through = f"the eye and pixel {tuple(pixel)}" if pixel is not None else "the middle of the casters"
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
     ax.set_title(f"Section of {section.scene.name} through {section.light.name} and {through}", fontsize="medium")
-    describe_axes(ax, section_in_words(section))
+    describe_axes(ax, section.describe())
     return ax
-
-
-def section_in_words(section: CrossSection) -> str:
-    """Return what a section shows: its objects, the sides of volumes, and the counts along the line of sight."""
-    casters = [thing.name for thing in section.scene.objects if thing.casts]
-    parts = [f"casters {', '.join(casters)}, {len(section.sides)} sides of shadow volumes"]
-    if section.crossings:
-        steps = ", ".join(f"{crossing.step:+d} = {crossing.count}" for crossing in section.crossings)
-        parts.append(f"the line of sight crosses {len(section.crossings)} sides: {steps}")
-    elif section.point is not None:
-        parts.append("the line of sight crosses no side")
-    return "; ".join(parts)
 
 
 def _bounds(section: CrossSection) -> tuple[np.ndarray, np.ndarray]:

@@ -70,3 +70,17 @@ def test_words_tell_clear_depths_and_many_counts_and_one_colour_apart() -> None:
     assert map_in_words("ZS", np.array([[1.0, 0.5]])) == "drawn in 50 % of the pixels, 0.5 to 0.5"
     assert map_in_words("mean depth", np.array([[1.0, 0.5]])) == "0.5 to 1"
     assert Maps().describe() == "no maps"
+
+
+def test_a_section_says_counts_and_how_much_is_in_shadow() -> None:
+    section = ss.cross_section("soft-slab")
+    words = section.describe()
+    shares = np.array([share for _, share in section.strips("floor")])
+    assert ((shares > 0) & (shares < 1)).any()
+    assert "floor: " in words
+    assert " in shadow, " in words
+    svg, metadata = section._repr_svg_()
+    assert svg.startswith("<svg")
+    assert metadata == {"alt": words}
+    counted = ss.cross_section("overlapping", (132, 101), (232, 174)).describe()
+    assert counted.endswith("the line of sight crosses 4 sides: +1 = 1, +1 = 2, -1 = 1, -1 = 0.")
