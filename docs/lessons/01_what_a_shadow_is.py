@@ -102,7 +102,9 @@ torus = ss.Scene.named("torus")
 pictures = [
     ss.run(name, torus, size=(200, 150)).image for name in ("blob", "volume-zfail")
 ]
-axes = ss.notebook.show_image(np.concatenate(pictures, axis=1))
+axes = ss.notebook.show_image(
+    np.concatenate(pictures, axis=1), title="The torus: left a blob, right its shadow"
+)
 
 # %% [markdown]
 # ## The families

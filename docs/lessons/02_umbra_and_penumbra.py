@@ -51,9 +51,7 @@ print(
     f"umbra {np.mean(share == 0):.1%}, penumbra "
     f"{np.mean((share > 0) & (share < 1)):.1%}, lit {np.mean(share == 1):.1%}"
 )
-ax = ss.notebook.show_image(
-    np.repeat((255 * truth.visibility)[..., None], 3, axis=2).astype(np.uint8)
-)
+ax = ss.notebook.show_map(truth.visibility, "visibility", title="Visible share")
 
 # %% [markdown]
 # ## The slide and the program
@@ -68,7 +66,7 @@ lessons.code_beside_slide("volume-zpass", step=3)
 
 # %%
 run = ss.run("volume-sampled", scene, size=size, samples=16)
-axes = ss.notebook.show_image(run.image)
+axes = ss.notebook.show_image(run)
 
 # %% [markdown]
 # ## Click a pixel

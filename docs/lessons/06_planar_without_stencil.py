@@ -32,7 +32,7 @@ from softshadow import lessons
 warnings.simplefilter("ignore", ss.Warning)
 scene, size = ss.Scene.named("boxes"), (320, 240)
 blob = ss.run("blob", scene, size=size)
-axes = ss.notebook.show_image(blob.image)
+axes = ss.notebook.show_image(blob)
 
 # %% [markdown]
 # ## The slide and the program

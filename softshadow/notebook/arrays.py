@@ -48,7 +48,10 @@ def show_image(
     part = cells(image, title or heading_of("Colour", source), region)
     axes = new_axes(ax, "show_image", image.shape[0] / image.shape[1])
     draw_cells(axes, part, part.values, lambda color: "#" + "".join(f"{channel:02x}" for channel in color))
-    describe_axes(axes, colors_in_words(part.values))
+    words = colors_in_words(part.values)
+    if step is not None and region is None and "visibility" in step.maps:
+        words += f"; {visibility_in_words(step.maps['visibility'], step.maps.get('valid'))}"
+    describe_axes(axes, words)
     return axes
 
 

@@ -48,7 +48,7 @@ def axes_in_words(ax: Axes) -> str:
     """Return the titles of axes, and what they show: the words noted for them, or labels and series."""
     title = " ".join(" ".join(ax.get_title(place) for place in ("left", "center", "right")).split())
     words = _words.get(ax) or "; ".join(_series_in_words(ax))
-    return ": ".join(part for part in (title, words) if part) + "."
+    return ": ".join(part.rstrip(".") for part in (title, words) if part) + "."
 
 
 def _series_in_words(ax: Axes) -> list[str]:

@@ -115,7 +115,8 @@ class CrossSection:
         parts += [f"{thing.name}: {self._light_on(thing.name)}" for thing in self.scene.receivers]
         if self.crossings:
             steps = ", ".join(f"{crossing.step:+d} = {crossing.count}" for crossing in self.crossings)
-            parts.append(f"the line of sight crosses {len(self.crossings)} sides: {steps}")
+            sides = "1 side" if len(self.crossings) == 1 else f"{len(self.crossings)} sides"
+            parts.append(f"the line of sight crosses {sides}: {steps}")
         elif self.point is not None:
             parts.append("the line of sight crosses no side")
         return "; ".join(parts) + "."
