@@ -83,6 +83,14 @@ def docs(session: nox.Session) -> None:
 
 
 @nox.session
+def links(session: nox.Session) -> None:
+    """Ask for every link of the documentation to another site; needs the network, so .ci/run leaves it out."""
+    with tempfile.TemporaryDirectory() as folder:
+        quiet = ("-D", "nb_execution_mode=off", "-D", "suppress_warnings=myst-nb.lexer")  # no cell runs
+        session.run("sphinx-build", "-q", "-b", "linkcheck", *quiet, "docs", folder)
+
+
+@nox.session
 def package(session: nox.Session) -> None:
     """Build sdist and wheel, install the wheel and use it outside the checkout."""
     uv = os.environ.get("UV") or shutil.which("uv") or str(ROOT / ".tools" / "bin" / "uv")

@@ -1,10 +1,8 @@
 """Sphinx settings: MyST pages whose code cells run when the pages are built."""
 
-import ast
 import os
 import re
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -52,6 +50,7 @@ nb_execution_timeout = 300
 nb_merge_streams = True
 nb_render_markdown_format = "myst"  # tables made by cells
 nb_mime_priority_overrides = [("*", "image/png", 25)]  # of a run its picture, not a report of 0.3 MB each
+FEWEST_WORDS = 4  # in the description of a picture
 
 smartquotes_action = "qe"  # two hyphens are an option, not a dash
 default_role = "py:obj"
@@ -108,29 +107,30 @@ def fill_gallery(app: Any, name: str, source: list[str]) -> None:
         source[0] = gallery(source[0], Path(app.outdir) / "gallery", scenes, shown)
 
 
-def describe_pictures(app: Any, doctree: Any) -> None:
-    """Give the pictures that cells show a text: the section they are in, and the statement that makes them."""
-    from docutils import nodes  # the tests import this file without Sphinx
+def use_descriptions() -> None:
+    """Give the pictures that cells show the text that belongs to them: what the object that is shown says of itself."""
+    from myst_nb.core.render import NbElementRenderer  # the tests import this file without Sphinx
+
+    render = NbElementRenderer.render_image
+
+    def render_image(self: Any, data: Any) -> list[Any]:
+        shown = render(self, data)
+        for image in shown:
+            if words := data.output_metadata.get(data.mime_type, {}).get("alt"):
+                image["alt"] = words
+        return shown
+
+    NbElementRenderer.render_image = render_image
+
+
+def check_descriptions(app: Any, doctree: Any) -> None:
+    """Warn of pictures without a text that says what is seen; a warning ends the build."""
+    from docutils import nodes
+    from sphinx.util import logging
 
     for image in doctree.findall(nodes.image):
-        if image.get("alt"):
-            continue
-        above = list(ancestors(image))
-        title = next((each[0].astext() for each in above if isinstance(each, nodes.section)), "")
-        cell = next((each for each in above if "cell" in each.get("classes", ())), nodes.container())
-        code = "".join(each.astext() for each in cell if "cell_input" in each.get("classes", ()))
-        try:
-            statement = " ".join(ast.unparse(ast.parse(code).body[-1]).split())
-        except (SyntaxError, IndexError):  # the code is not shown
-            statement = ""
-        image["alt"] = f"{title}: picture made by {statement}" if statement else f"{title}, as a picture"
-
-
-def ancestors(node: Any) -> Iterator[Any]:
-    """The nodes that contain a node, from the inside."""
-    while node.parent is not None:
-        node = node.parent
-        yield node
+        if len(image.get("alt", "").split()) < FEWEST_WORDS:
+            logging.getLogger(__name__).warning("a picture without a description: %s", image["uri"], location=image)
 
 
 def write_notebooks(app: Any, error: Exception | None) -> None:
@@ -148,5 +148,6 @@ def setup(app: Any) -> None:
     app.connect("source-read", offer_notebook, priority=400)
     app.connect("source-read", fill_contributing)
     app.connect("source-read", fill_gallery)
-    app.connect("doctree-read", describe_pictures)
+    app.connect("doctree-read", check_descriptions)
+    use_descriptions()
     app.connect("build-finished", write_notebooks)

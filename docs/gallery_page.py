@@ -17,6 +17,7 @@ from softshadow.errors import SceneError
 from softshadow.gallery import Failure
 from softshadow.gallery.failure_page import write_page
 from softshadow.inspection.hard_truth import hard_visibility
+from softshadow.inspection.words import colors_in_words, place_in_words, visibility_in_words
 from softshadow.runs import Run
 from softshadow.scene import Scene, scene_title
 
@@ -53,13 +54,16 @@ def failure_block(failure: Failure, folder: Path) -> str:
     for side, run in (("wrong", failure.wrong), ("cured", failure.cured)):
         save(run.image, folder / f"failure-{failure.name}-{side}.webp")
     about = f"Scene {failure.scene.name}, drawn by {failure.technique}"
+    differ = place_in_words((failure.wrong.image != failure.cured.image).any(axis=-1), "differ from the right picture")
+    before = f"{about}, with a mistake: {failure.number_wrong:,} pixels are wrong; {differ}"
+    after = f"{about}, with the cure: {failure.number_cured:,} pixels are wrong; {colors_in_words(failure.cured.image)}"
     counts = f"{failure.number_wrong} wrong pixels before, {failure.number_cured} after. {failure.remark}"
     pictures = [f"failure-{failure.name}-{side}.webp" for side in ("wrong", "cured")]
     return html(
         f'<div class="failure" id="failure-{failure.name}">',
-        figure(pictures[0], f"{about}; something is wrong", f"<code>{failure.technique}</code>", failure.size),
+        figure(pictures[0], before, f"<code>{failure.technique}</code>", failure.size),
         "<details><summary>What is wrong, and why?</summary>",
-        figure(pictures[1], f"{about}, with the cure", "with the cure", failure.size),
+        figure(pictures[1], after, "with the cure", failure.size),
         f"<p><strong>{escape(failure.title)}.</strong> {escape(failure.reason)} {escape(counts)}</p>",
         f"<p>{report}</p>",
         "</details></div>",
@@ -72,7 +76,8 @@ def scene_block(name: str, folder: Path) -> str:
     visibilities, seen = hard_visibility(scene, SIZE)
     truth = np.mean(visibilities, axis=0)
     save(np.where(seen, 255 * truth, 128).astype(np.uint8), folder / f"{name}.webp")
-    figures = [figure(f"{name}.webp", f"Scene {name}: lit pixels white, shadows black", "ray casting", SIZE)]
+    words = f"Scene {name} by ray casting, lit pixels white, shadows black: {visibility_in_words(truth, seen)}"
+    figures = [figure(f"{name}.webp", words, "ray casting", SIZE)]
     for technique in techniques.names():
         try:
             run = ss.run(technique, scene, size=SIZE)
@@ -87,7 +92,7 @@ def run_figure(run: Run, scene: Scene, truth: np.ndarray, folder: Path) -> str:
     """Return the picture of a run, with the number of pixels that differ from the truth."""
     stem = f"{scene.name}-{run.technique}"
     save(run.image, folder / f"{stem}.webp")
-    words = f"Scene {scene.name}, shadows by {run.technique}"
+    words = f"Scene {scene.name}, shadows by {run.technique}: {visibility_in_words(run.visibility, run.valid)}"
     caption = f'<a href="#program-{run.technique}"><code>{run.technique}</code></a>'
     if not any(light.shape for light in scene.lights):
         differs = int(np.count_nonzero((np.abs(run.visibility - truth) > DIFFERS) & run.valid))

@@ -84,9 +84,12 @@ y, x = (int(n) for n in np.argwhere(run.shadow_mask)[run.shadow_mask.sum() // 2]
 ambient, final = run[0].image[y, x, :3], run.image[y, x, :3]
 print(run.explain(x, y))
 lessons.compare_prediction(
-    "What is the colour of a point in shadow?", my_color, "ambient" if (ambient == final).all() else "something else",
-    "Emission and ambient light are there with and without a shadow; only the light's own part is missing.",
-)  # fmt: skip
+    "What is the colour of a point in shadow?",
+    my_color,
+    "ambient" if (ambient == final).all() else "something else",
+    "Emission and ambient light are there with and without a shadow; only the light's "
+    "own part is missing.",
+)
 
 # %% [markdown]
 # ## Why shadows matter
@@ -96,8 +99,12 @@ lessons.compare_prediction(
 
 # %%
 torus = ss.Scene.named("torus")
-pictures = [ss.run(name, torus, size=(200, 150)).image for name in ("blob", "volume-zfail")]
-axes = ss.notebook.show_image(np.concatenate(pictures, axis=1))
+pictures = [
+    ss.run(name, torus, size=(200, 150)).image for name in ("blob", "volume-zfail")
+]
+axes = ss.notebook.show_image(
+    np.concatenate(pictures, axis=1), title="The torus: left a blob, right its shadow"
+)
 
 # %% [markdown]
 # ## The families

@@ -48,9 +48,10 @@ truth = ss.soft_truth(scene, size)
 # %%
 share = truth.visibility[truth.valid]
 print(
-    f"umbra {np.mean(share == 0):.1%}, penumbra {np.mean((share > 0) & (share < 1)):.1%}, lit {np.mean(share == 1):.1%}"
+    f"umbra {np.mean(share == 0):.1%}, penumbra "
+    f"{np.mean((share > 0) & (share < 1)):.1%}, lit {np.mean(share == 1):.1%}"
 )
-ax = ss.notebook.show_image(np.repeat((255 * truth.visibility)[..., None], 3, axis=2).astype(np.uint8))
+ax = ss.notebook.show_map(truth.visibility, "visibility", title="Visible share")
 
 # %% [markdown]
 # ## The slide and the program
@@ -65,7 +66,7 @@ lessons.code_beside_slide("volume-zpass", step=3)
 
 # %%
 run = ss.run("volume-sampled", scene, size=size, samples=16)
-axes = ss.notebook.show_image(run.image)
+axes = ss.notebook.show_image(run)
 
 # %% [markdown]
 # ## Click a pixel
@@ -93,28 +94,44 @@ def penumbra_share(changed):
 def with_light(scale=1.0, height=1.0):
     light = scene.lights[0]
     shape = replace(
-        light.shape, edge_u=np.multiply(light.shape.edge_u, scale), edge_v=np.multiply(light.shape.edge_v, scale)
+        light.shape,
+        edge_u=np.multiply(light.shape.edge_u, scale),
+        edge_v=np.multiply(light.shape.edge_v, scale),
     )
     position = light.position * (1, height, 1, 1)
     return replace(scene, lights=(replace(light, shape=shape, position=position),))
 
 
 before = penumbra_share(scene)
-larger, nearer = penumbra_share(with_light(scale=1.5)), penumbra_share(with_light(height=0.85))
+larger, nearer = (
+    penumbra_share(with_light(scale=1.5)),
+    penumbra_share(with_light(height=0.85)),
+)
 slab = scene.casters[0]
 lift = np.eye(4)
 lift[1, 3] = 0.3
 raised = tuple(
-    replace(each, object_to_world=lift @ each.object_to_world) if each.name == slab.name else each
+    replace(each, object_to_world=lift @ each.object_to_world)
+    if each.name == slab.name
+    else each
     for each in scene.objects
 )
 apart = penumbra_share(replace(scene, objects=raised))
-print(f"as it is {before:.3f}, larger light {larger:.3f}, occluder higher {apart:.3f}, light nearer {nearer:.3f}")
-wider = [letter for letter, now in zip("abc", (larger, apart, nearer), strict=True) if now > before]
+print(
+    f"as it is {before:.3f}, larger light {larger:.3f}, occluder higher {apart:.3f}, "
+    f"light nearer {nearer:.3f}"
+)
+wider = [
+    letter
+    for letter, now in zip("abc", (larger, apart, nearer), strict=True)
+    if now > before
+]
 lessons.compare_prediction(
-    "Which can make the penumbra wider?", my_answer, " and ".join([", ".join(wider[:-1]), wider[-1]]),
+    "Which can make the penumbra wider?",
+    my_answer,
+    " and ".join([", ".join(wider[:-1]), wider[-1]]),
     "All three: each of them makes s larger, or (d_r − d_b)/d_b.",
-)  # fmt: skip
+)
 
 # %% [markdown]
 # "Bring them closer together" does not say who moves (E54); the formula covers every case.
@@ -153,7 +170,13 @@ def penumbra_width(s, d_b, d_r):
 
 
 # %%
-cases = [((1, 2, 4), 1.0), ((0, 2, 4), 0.0), ((2, 2, 4), 2.0), ((1, 1, 4), 3.0), ((1, 4, 4), 0.0)]
+cases = [
+    ((1, 2, 4), 1.0),
+    ((0, 2, 4), 0.0),
+    ((2, 2, 4), 2.0),
+    ((1, 1, 4), 3.0),
+    ((1, 4, 4), 0.0),
+]
 lessons.check_function(penumbra_width, cases, within=1e-12)
 
 # %% [markdown]

@@ -90,9 +90,12 @@ distances = near / (1 - steps * (far - near) / far)
 gap = float(np.diff(distances)[0])
 print(f"{gap:.3f} units")
 lessons.compare_prediction(
-    "How far apart are they?", my_step, float(10 ** np.floor(np.log10(gap))),
-    "A step of depth is d²/n times a step of the buffer: it grows with the square of the distance.",
-)  # fmt: skip
+    "How far apart are they?",
+    my_step,
+    float(10 ** np.floor(np.log10(gap))),
+    "A step of depth is d²/n times a step of the buffer: it grows with the square of "
+    "the distance.",
+)
 
 # %% [markdown]
 # ## The same scene with three near planes
@@ -102,7 +105,10 @@ for near in (1.0, 0.01, 0.0001):
     close = replace(scene, camera=replace(scene.camera, near=near))
     drawn = ss.run("volume-zfail", close, size=size)
     wrong = drawn.compare(truth="hard").parts["all"].wrong
-    print(f"near {near:6}: {wrong:5} pixels differ", *[type(each).__name__ for each in drawn.warnings])
+    print(
+        f"near {near:6}: {wrong:5} pixels differ",
+        *[type(each).__name__ for each in drawn.warnings],
+    )
 
 # %% [markdown]
 # ## Equal depths

@@ -71,9 +71,11 @@ my_winner = ...  # "A" or "B"
 y, x = 64, 32
 red, green = (int(channel) for channel in run.image[y, x, :2])
 lessons.compare_prediction(
-    "Which one is seen?", my_winner, "A" if red > green else "B",
+    "Which one is seen?",
+    my_winner,
+    "A" if red > green else "B",
     "B is moved away from the eye, so it fails the depth test where A is.",
-)  # fmt: skip
+)
 
 # %% [markdown]
 # ## The size of a unit
@@ -95,7 +97,10 @@ def depth_with(factor, units):
 
 
 for units in (0, 1, 2, 10):
-    print(f"units {units:2}: {depth_with(0, units) - depth_with(0, 0):3} steps of the depth buffer")
+    print(
+        f"units {units:2}: {depth_with(0, units) - depth_with(0, 0):3} steps of the "
+        "depth buffer"
+    )
 
 # %% [markdown]
 # ## The second quiz: a skeleton seen through its skin
@@ -114,9 +119,15 @@ def skeleton_pixels(program):
 for name in listings.names():
     if name.startswith("skeleton"):
         listing = listings.get(name)
-        print(f"{listing.title:42} {skeleton_pixels(listing.printed):4} pixels of the skeleton")
+        print(
+            f"{listing.title:42} {skeleton_pixels(listing.printed):4} pixels of the "
+            "skeleton"
+        )
 last = listings.get("skeleton-depth-test").corrected
-print(f"{'option a, the skeleton drawn last (E45)':42} {skeleton_pixels(last):4} pixels of the skeleton")
+print(
+    f"{'option a, the skeleton drawn last (E45)':42} {skeleton_pixels(last):4} pixels "
+    "of the skeleton"
+)
 
 # %% [markdown]
 # Option (a), the depth test off, fails only because the skin is drawn *last*. If the skeleton is drawn last with the

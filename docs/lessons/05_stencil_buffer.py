@@ -80,14 +80,19 @@ x, y = 64, 64
 r, g, b = (int(channel) for channel in run.image[y, x, :3])
 display(
     lessons.compare_prediction(
-        "The stencil value in the overlap?", my_stencil, int(run.stencil[y, x]),
+        "The stencil value in the overlap?",
+        my_stencil,
+        int(run.stencil[y, x]),
         "The first quad wrote 1, and the second one keeps what is there.",
     ),
     lessons.compare_prediction(
-        "The colour in the overlap?", my_color, "red" if r > g else "green",
-        "The test of the second quad is 0 == 1, which is false, so its fragment is discarded.",
+        "The colour in the overlap?",
+        my_color,
+        "red" if r > g else "green",
+        "The test of the second quad is 0 == 1, which is false, so its fragment is "
+        "discarded.",
     ),
-)  # fmt: skip
+)
 
 # %%
 run.pixel(x, y)
@@ -112,9 +117,11 @@ def replace_by_7(gl):
 
 written = testing.run_here(replace_by_7, (4, 4)).stencil
 lessons.compare_prediction(
-    "Which value is written by GL_REPLACE with glStencilFunc(GL_ALWAYS, 7, 1)?", my_value, int(written[0, 0]),
+    "Which value is written by GL_REPLACE with glStencilFunc(GL_ALWAYS, 7, 1)?",
+    my_value,
+    int(written[0, 0]),
     "All bits of the reference are written; E42 in the list of corrections.",
-)  # fmt: skip
+)
 
 # %% [markdown]
 # ## The quiz of the slides
@@ -135,7 +142,11 @@ def drawn_under(func):
 
 
 for name in ("GL_ALWAYS", "GL_NEVER", "GL_EQUAL", "GL_GREATER"):
-    print(f"{name:10}", drawn_under(lambda gl, name=name: getattr(gl, name)), "of 16 pixels are drawn")
+    print(
+        f"{name:10}",
+        drawn_under(lambda gl, name=name: getattr(gl, name)),
+        "of 16 pixels are drawn",
+    )
 
 # %% [markdown]
 # ## What goes wrong, and its cure
@@ -156,7 +167,9 @@ print(failure.explain())
 lessons.code_beside_slide("stencil-setup")
 
 # %%
-print(np.unique(testing.run_here(listings.get("stencil-setup").corrected, (8, 8)).stencil))
+print(
+    np.unique(testing.run_here(listings.get("stencil-setup").corrected, (8, 8)).stencil)
+)
 
 # %% [markdown]
 # The write mask is all ones unless a program changes it. The Bucharest slides say that writing is off at first (lines
@@ -171,7 +184,8 @@ print(np.unique(testing.run_here(listings.get("stencil-setup").corrected, (8, 8)
 # %%
 def program(gl):
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
-    # 1. mark the pixels of the small square, without colour: glRectf(-0.4, -0.4, 0.4, 0.4)
+    # 1. mark the pixels of the small square, without colour:
+    #    glRectf(-0.4, -0.4, 0.4, 0.4)
 
     # 2. draw the large square where there is no mark
     gl.glRectf(-0.8, -0.8, 0.8, 0.8)

@@ -32,7 +32,7 @@ from softshadow import lessons
 warnings.simplefilter("ignore", ss.Warning)
 scene, size = ss.Scene.named("boxes"), (320, 240)
 blob = ss.run("blob", scene, size=size)
-axes = ss.notebook.show_image(blob.image)
+axes = ss.notebook.show_image(blob)
 
 # %% [markdown]
 # ## The slide and the program
@@ -70,13 +70,20 @@ my_answer = ...  # "all", "nothing", "a part of it, in a pattern"
 
 # %%
 whole = int(ss.run("planar", scene, size=size, method="offset").shadow_mask.sum())
-fighting = int(ss.run("planar", scene, size=size, method="offset", factor=0.0, units=0.0).shadow_mask.sum())
+fighting = int(
+    ss.run(
+        "planar", scene, size=size, method="offset", factor=0.0, units=0.0
+    ).shadow_mask.sum()
+)
 print(f"{whole} pixels with the offset, {fighting} without")
+part = "a part of it, in a pattern" if fighting else "nothing"
+seen = "all" if fighting >= whole else part
 lessons.compare_prediction(
-    "Which part is visible without the offset?", my_answer,
-    "all" if fighting >= whole else "nothing" if not fighting else "a part of it, in a pattern",
+    "Which part is visible without the offset?",
+    my_answer,
+    seen,
     "Rounding decides at each pixel which of two equal depths is smaller.",
-)  # fmt: skip
+)
 
 # %% [markdown]
 # ## What goes wrong, and its cure
@@ -84,7 +91,12 @@ lessons.compare_prediction(
 # Each of these is cured by the stencil version of lesson 8, except for one: a caster has no shadow on itself.
 
 # %%
-for name in ("shadow-outside-receiver", "painting-over-nearer", "casters-before-shadow", "no-self-shadow"):
+for name in (
+    "shadow-outside-receiver",
+    "painting-over-nearer",
+    "casters-before-shadow",
+    "no-self-shadow",
+):
     failure = ss.failures[name]
     display(failure)
     print(failure.reason)

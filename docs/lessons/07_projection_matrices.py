@@ -77,14 +77,20 @@ lessons.code_beside_slide("planar-point", step=0)
 my_answer = ...  # "the same shadow", "no shadow"
 
 # %%
-w_before, w_after = (S @ point)[3], (shadow_matrix((0, -1, 0, 0), (-2, 4, 1.5, 1)) @ point)[3]
+w_before, w_after = (
+    (S @ point)[3],
+    (shadow_matrix((0, -1, 0, 0), (-2, 4, 1.5, 1)) @ point)[3],
+)
 print(f"w is {w_before:g} with one sign and {w_after:g} with the other")
 failure = ss.failures["wrong-matrix-sign"]
 display(failure)
 lessons.compare_prediction(
-    "What does GL draw with the opposite sign?", my_answer, "no shadow",
-    "Divided by w, both give the same point. But GL clips before it divides, and everything with w < 0 is outside.",
-)  # fmt: skip
+    "What does GL draw with the opposite sign?",
+    my_answer,
+    "no shadow",
+    "Divided by w, both give the same point. But GL clips before it divides, and "
+    "everything with w < 0 is outside.",
+)
 
 # %% [markdown]
 # ## The buffers after each step
@@ -113,7 +119,10 @@ lessons.clickable(run)
 for name in ("anti-shadow", "false-shadow", "cpu-division", "light-direction"):
     failure = ss.failures[name]
     display(failure)
-    print(failure.reason, f"{failure.number_wrong} pixels are wrong, with the cure {failure.number_cured}.")
+    print(
+        failure.reason,
+        f"{failure.number_wrong} pixels are wrong, with the cure {failure.number_cured}.",
+    )
 
 # %% [markdown]
 # The slides of Bratislava divide on the CPU, ray by ray (lines 139-152). Then nothing is clipped, and triangles that

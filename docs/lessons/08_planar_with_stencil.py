@@ -69,13 +69,20 @@ my_first, my_second = ..., ...
 
 # %%
 y, x = (int(n) for n in np.argwhere(run.shadow_mask)[run.shadow_mask.sum() // 2])
-removing = [row for row in run.pixel(x, y) if row.stencil_before is not None and row.step == 1]
+removing = [
+    row for row in run.pixel(x, y) if row.stencil_before is not None and row.step == 1
+]
 values = [row.stencil_after for row in removing]
 print("stencil value after each fragment of step 1:", values)
 display(
-    lessons.compare_prediction("After the first layer?", my_first, values[0], "GL_ZERO, where the mark was 1."),
     lessons.compare_prediction(
-        "After the second?", my_second, values[1], "The test is 1 == 0 now: the second layer is discarded."
+        "After the first layer?", my_first, values[0], "GL_ZERO, where the mark was 1."
+    ),
+    lessons.compare_prediction(
+        "After the second?",
+        my_second,
+        values[1],
+        "The test is 1 == 0 now: the second layer is discarded.",
     ),
 )
 
@@ -119,7 +126,8 @@ def receiver(gl):
 def program(gl):
     receiver(gl)
     # your calls
-    gl.glRectf(-0.4, -0.4, 0.6, 0.4)  # the flattened caster; a part of it is beyond the receiver
+    # the flattened caster; a part of it is beyond the receiver
+    gl.glRectf(-0.4, -0.4, 0.6, 0.4)
 
 
 # %% tags=["hide-input"]

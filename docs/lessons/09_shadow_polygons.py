@@ -66,10 +66,20 @@ my_faces = ...
 # %%
 found = shadow_polygons(scene, scene.lights[0])
 for thing, polygons in zip(scene.objects, found, strict=True):
-    print(f"{thing.name:8} {len(polygons.own):3} faces in their own shadow, {len(polygons.cast):3} cast on it")
-own = [len(polygons.own) for thing, polygons in zip(scene.objects, found, strict=True) if thing.casts]
+    print(
+        f"{thing.name:8} {len(polygons.own):3} faces in their own shadow, "
+        f"{len(polygons.cast):3} cast on it"
+    )
+own = [
+    len(polygons.own)
+    for thing, polygons in zip(scene.objects, found, strict=True)
+    if thing.casts
+]
 lessons.compare_prediction(
-    "How many triangles of a box are in their own shadow?", my_faces, own[0], "Two for each side that looks away."
+    "How many triangles of a box are in their own shadow?",
+    my_faces,
+    own[0],
+    "Two for each side that looks away.",
 )
 
 # %% [markdown]
@@ -81,7 +91,10 @@ lessons.compare_prediction(
 # %%
 for form in ("faces", "silhouettes"):
     drawn = ss.run("shadow-polygons", scene, size=size, form=form)
-    print(f"{form:12} {drawn.ledger.total.triangles:5} triangles, {int(drawn.shadow_mask.sum())} pixels in shadow")
+    print(
+        f"{form:12} {drawn.ledger.total.triangles:5} triangles, "
+        f"{int(drawn.shadow_mask.sum())} pixels in shadow"
+    )
 
 # %% [markdown]
 # ## Independent of the camera
@@ -89,7 +102,9 @@ for form in ("faces", "silhouettes"):
 # The polygons are computed in world space. Another camera draws the same ones, and the shadows are right there, too:
 
 # %%
-elsewhere = ss.Scene("from above", ss.Camera((0.5, 7, 1), (0, 0, 0)), scene.lights, scene.objects)
+elsewhere = ss.Scene(
+    "from above", ss.Camera((0.5, 7, 1), (0, 0, 0)), scene.lights, scene.objects
+)
 print(ss.run("shadow-polygons", elsewhere, size=size).compare(truth="hard"))
 
 # %% [markdown]
@@ -115,7 +130,12 @@ def kind_of_shadow(facing, blocked):
 
 
 # %%
-cases = [((True, False), "lit"), ((True, True), "cast"), ((False, False), "own"), ((False, True), "own")]
+cases = [
+    ((True, False), "lit"),
+    ((True, True), "cast"),
+    ((False, False), "own"),
+    ((False, True), "own"),
+]
 lessons.check_function(kind_of_shadow, cases)
 
 # %% [markdown]

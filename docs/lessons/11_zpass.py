@@ -79,11 +79,17 @@ ax = ss.notebook.show_section(run, (x, y))
 my_entries, my_exits = ..., ...
 
 # %%
-rows = [row for row in run.pixel(x, y) if "volume" in str(row.object) and row.stencil_after != row.stencil_before]
+rows = [
+    row
+    for row in run.pixel(x, y)
+    if "volume" in str(row.object) and row.stencil_after != row.stencil_before
+]
 up = sum(row.stencil_after > row.stencil_before for row in rows)
 down = len(rows) - up
 display(
-    lessons.compare_prediction("How many front faces are counted at this pixel?", my_entries, up),
+    lessons.compare_prediction(
+        "How many front faces are counted at this pixel?", my_entries, up
+    ),
     lessons.compare_prediction(
         "How many back faces?",
         my_exits,
@@ -104,7 +110,10 @@ print(run.explain(x, y))
 truth = ss.testing.cast_truth(scene, (320, 240))
 inside = run.valid & ~truth.band()
 assert (run.stencil[inside] == truth.counts[0][inside]).all()
-print(f"{inside.sum()} pixels compared, {(run.stencil[inside] != truth.counts[0][inside]).sum()} differ")
+print(
+    f"{inside.sum()} pixels compared, "
+    f"{(run.stencil[inside] != truth.counts[0][inside]).sum()} differ"
+)
 
 # %% [markdown]
 # The volumes do not depend on the eye, only on light and casters. So they are computed once for many pictures. What
@@ -148,9 +157,25 @@ def count(faces, surface):
 
 
 # %%
-faces = [(0.30, "front"), (0.40, "front"), (0.55, "back"), (0.80, "back"), (0.90, "front"), (0.95, "back")]
-expected = {0.25: 0, 0.35: 1, 0.50: 2, 0.60: 1, 0.85: 0, 0.92: 1}  # by the depth of the surface
-lessons.check_function(count, [((faces, surface), number) for surface, number in expected.items()])
+faces = [
+    (0.30, "front"),
+    (0.40, "front"),
+    (0.55, "back"),
+    (0.80, "back"),
+    (0.90, "front"),
+    (0.95, "back"),
+]
+expected = {
+    0.25: 0,
+    0.35: 1,
+    0.50: 2,
+    0.60: 1,
+    0.85: 0,
+    0.92: 1,
+}  # by the depth of the surface
+lessons.check_function(
+    count, [((faces, surface), number) for surface, number in expected.items()]
+)
 
 # %% [markdown]
 # ## Sources

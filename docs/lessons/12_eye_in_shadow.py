@@ -58,9 +58,12 @@ lit = run.valid & ~truth.band() & (truth.counts[0] == 0)
 values, pixels = np.unique(run.stencil[lit], return_counts=True)
 most = int(values[pixels.argmax()])
 lessons.compare_prediction(
-    "The stencil value of most lit pixels?", my_value, most,
-    "0 - 1 is 255 in eight bits: the line of sight leaves the volume without having entered it.",
-)  # fmt: skip
+    "The stencil value of most lit pixels?",
+    my_value,
+    most,
+    "0 - 1 is 255 in eight bits: the line of sight leaves the volume without having "
+    "entered it.",
+)
 
 # %% [markdown]
 # ## The slide and the program: the general case
@@ -103,7 +106,10 @@ lessons.clickable(ss.run("volume-zpass", cut, size=(240, 180), start="near-plane
 for name in ("eye-in-shadow", "constant-eye-count"):
     failure = ss.failures[name]
     display(failure)
-    print(failure.reason, f"{failure.number_wrong} pixels are wrong, with the cure {failure.number_cured}.")
+    print(
+        failure.reason,
+        f"{failure.number_wrong} pixels are wrong, with the cure {failure.number_cured}.",
+    )
 
 # %% [markdown]
 # ## Exercise
@@ -119,7 +125,10 @@ def needs_a_start(scene):
 
 # %%
 expected = {"boxes": False, "torus": False, "eye-in-shadow": True, "near-cut": True}
-lessons.check_function(needs_a_start, [((ss.Scene.named(name),), answer) for name, answer in expected.items()])
+lessons.check_function(
+    needs_a_start,
+    [((ss.Scene.named(name),), answer) for name, answer in expected.items()],
+)
 
 # %% [markdown]
 # ## Sources

@@ -68,7 +68,9 @@ my_wrong = ...
 # %%
 compared = run.compare(truth="hard")
 wrong = int((compared.error > 0)[~compared.band].sum())
-lessons.compare_prediction("How many pixels are wrong?", my_wrong, wrong, "Z-fail does not ask where the eye is.")
+lessons.compare_prediction(
+    "How many pixels are wrong?", my_wrong, wrong, "Z-fail does not ask where the eye is."
+)
 
 # %% [markdown]
 # ## Why caps?
@@ -91,9 +93,14 @@ for name in ("missing-caps", "finite-far-plane"):
 # %%
 warnings.simplefilter("ignore", ss.Warning)
 sunlight = ss.Scene.named("sunlight")
-near_end = replace(sunlight, camera=replace(sunlight.camera, far=float(np.linalg.norm(sunlight.camera.eye)) + 1))
+near_end = replace(
+    sunlight,
+    camera=replace(sunlight.camera, far=float(np.linalg.norm(sunlight.camera.eye)) + 1),
+)
 for far in ("infinite", "clamp", "finite"):
-    compared = ss.run("volume-zfail", near_end, size=(320, 240), far=far).compare(truth="hard")
+    compared = ss.run("volume-zfail", near_end, size=(320, 240), far=far).compare(
+        truth="hard"
+    )
     print(f"far={far!r}: {compared.parts['all'].wrong} pixels differ from ray casting")
 
 # %% [markdown]
@@ -105,7 +112,9 @@ for far in ("infinite", "clamp", "finite"):
 
 # %%
 torus = ss.Scene.named("torus")
-zpass, zfail = (ss.run(name, torus, size=(320, 240)) for name in ("volume-zpass", "volume-zfail"))
+zpass, zfail = (
+    ss.run(name, torus, size=(320, 240)) for name in ("volume-zpass", "volume-zfail")
+)
 assert (zpass.stencil[zpass.valid] == zfail.stencil[zfail.valid]).all()
 
 # %% [markdown]
@@ -120,9 +129,25 @@ def count_behind(faces, surface):
 
 
 # %%
-faces = [(0.30, "front"), (0.40, "front"), (0.55, "back"), (0.80, "back"), (0.90, "front"), (0.95, "back")]
-expected = {0.25: 0, 0.35: 1, 0.50: 2, 0.60: 1, 0.85: 0, 0.92: 1}  # by the depth of the surface
-lessons.check_function(count_behind, [((faces, surface), number) for surface, number in expected.items()])
+faces = [
+    (0.30, "front"),
+    (0.40, "front"),
+    (0.55, "back"),
+    (0.80, "back"),
+    (0.90, "front"),
+    (0.95, "back"),
+]
+expected = {
+    0.25: 0,
+    0.35: 1,
+    0.50: 2,
+    0.60: 1,
+    0.85: 0,
+    0.92: 1,
+}  # by the depth of the surface
+lessons.check_function(
+    count_behind, [((faces, surface), number) for surface, number in expected.items()]
+)
 
 # %% [markdown]
 # ## Sources

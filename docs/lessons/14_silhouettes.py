@@ -44,7 +44,9 @@ size = (320, 240)
 for generator in ("silhouette", "per-polygon"):
     run = ss.run("volume-zfail", torus, size=size, generator=generator)
     total = run.ledger.total
-    print(f"{generator:12} {total.triangles:6} triangles {total.all_fragments:8} fragments")
+    print(
+        f"{generator:12} {total.triangles:6} triangles {total.all_fragments:8} fragments"
+    )
 
 # %% [markdown]
 # Both give the same counts? Not the same numbers in the stencil buffer between the steps, but the same shadows. The
@@ -87,13 +89,18 @@ facing = casting_faces(caster.mesh, position).facing
 share = float(np.mean(facing))
 display(
     lessons.compare_prediction(
-        "How many edges?", my_edges, 3 * triangles // 2, "Three for each triangle, each of them shared by two."
+        "How many edges?",
+        my_edges,
+        3 * triangles // 2,
+        "Three for each triangle, each of them shared by two.",
     ),
     lessons.compare_prediction(
-        "How many faces look towards the light?", my_share,
-        "half" if 0.35 < share < 0.65 else "nearly all" if share > 0.5 else "few", f"{share:.0%} of them.",
+        "How many faces look towards the light?",
+        my_share,
+        "half" if 0.35 < share < 0.65 else "nearly all" if share > 0.5 else "few",
+        f"{share:.0%} of them.",
     ),
-)  # fmt: skip
+)
 
 # %% [markdown]
 # ## Open meshes

@@ -56,8 +56,15 @@ my_count, my_bit = ..., ...
 run = ss.run("volume-zpass", overlapping, size=size)
 largest = int(run.stencil[run.valid].max())
 display(
-    lessons.compare_prediction("The largest count?", my_count, largest, "One for each volume that contains the point."),
-    lessons.compare_prediction("Its lowest bit?", my_bit, largest & 1, "0, as if the point were in no volume."),
+    lessons.compare_prediction(
+        "The largest count?",
+        my_count,
+        largest,
+        "One for each volume that contains the point.",
+    ),
+    lessons.compare_prediction(
+        "Its lowest bit?", my_bit, largest & 1, "0, as if the point were in no volume."
+    ),
 )
 
 # %% [markdown]
@@ -85,9 +92,17 @@ for warning in parity.warnings:
 # it in turn. A convex caster always is such a one.
 
 # %%
-one = ss.Scene("one box", overlapping.camera, overlapping.lights, [overlapping.objects[0], overlapping.casters[0]])
+one = ss.Scene(
+    "one box",
+    overlapping.camera,
+    overlapping.lights,
+    [overlapping.objects[0], overlapping.casters[0]],
+)
 compared = ss.run("volume-parity", one, size=size).compare(truth="hard")
-print(int((compared.error > 0)[~compared.band].sum()), "pixels are wrong off the edges of shadows")
+print(
+    int((compared.error > 0)[~compared.band].sum()),
+    "pixels are wrong off the edges of shadows",
+)
 
 # %% [markdown]
 # ## What goes wrong, and its cure
@@ -99,7 +114,10 @@ print(int((compared.error > 0)[~compared.band].sum()), "pixels are wrong off the
 for name in ("decr-before-incr", "overflow-256", "parity-overlap"):
     failure = ss.failures[name]
     display(failure)
-    print(failure.reason, f"{failure.number_wrong} pixels are wrong, with the cure {failure.number_cured}.")
+    print(
+        failure.reason,
+        f"{failure.number_wrong} pixels are wrong, with the cure {failure.number_cured}.",
+    )
 
 # %% [markdown]
 # 256 volumes around a point count as none in eight bits. No operation helps; the cure is to count them in groups, or to
@@ -122,9 +140,20 @@ def saturating(steps, bits):
 # %%
 up_first, down_first = [+1, +1, -1], [-1, +1, +1]
 display(
-    lessons.check_function(wrapping, [((up_first, 8), 1), ((down_first, 8), 1), (([+1] * 256, 8), 0), (([-1], 8), 255)])
+    lessons.check_function(
+        wrapping,
+        [
+            ((up_first, 8), 1),
+            ((down_first, 8), 1),
+            (([+1] * 256, 8), 0),
+            (([-1], 8), 255),
+        ],
+    )
 )
-lessons.check_function(saturating, [((up_first, 8), 1), ((down_first, 8), 2), (([+1] * 256, 8), 255), (([-1], 8), 0)])
+lessons.check_function(
+    saturating,
+    [((up_first, 8), 1), ((down_first, 8), 2), (([+1] * 256, 8), 255), (([-1], 8), 0)],
+)
 
 # %% [markdown]
 # ## Sources

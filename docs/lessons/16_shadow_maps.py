@@ -83,14 +83,20 @@ my_passes = ...
 # %%
 display(
     lessons.compare_prediction(
-        "Which depth is larger in shadow?", my_larger, "own",
-        "Something nearer to the light is stored. One of the courses prints it the other way round (E19).",
+        "Which depth is larger in shadow?",
+        my_larger,
+        "own",
+        "Something nearer to the light is stored. One of the courses prints it the "
+        "other way round (E19).",
     ),
     lessons.compare_prediction(
-        "How often is the scene drawn?", my_passes, len(run.steps),
-        "Once from the light, once from the eye without the light, once with it where the map says so.",
+        "How often is the scene drawn?",
+        my_passes,
+        len(run.steps),
+        "Once from the light, once from the eye without the light, once with it where "
+        "the map says so.",
     ),
-)  # fmt: skip
+)
 
 # %%
 run.ledger
@@ -101,7 +107,9 @@ run.ledger
 # It is drawn once for any number of views, as long as light and casters stand still.
 
 # %%
-elsewhere = ss.Scene("from above", ss.Camera((0.5, 7, 1), (0, 0, 0)), scene.lights, scene.objects)
+elsewhere = ss.Scene(
+    "from above", ss.Camera((0.5, 7, 1), (0, 0, 0)), scene.lights, scene.objects
+)
 again = ss.run("map", elsewhere, size=(320, 240), map_size=256)
 assert (again.maps["ZS"] == run.maps["ZS"]).all()
 

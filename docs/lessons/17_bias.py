@@ -24,6 +24,7 @@
 # %%
 import warnings
 
+import numpy as np
 from IPython.display import display
 
 import softshadow as ss
@@ -67,6 +68,48 @@ for factor in (0.0, 0.25, 0.5, 0.75, 1.0):
 assert dark[1.0] == 0
 
 # %% [markdown]
+# ## The bits of the map
+#
+# The theorem is about exact numbers, but a map stores whole numbers of 16, 24 or 32 bits, or floats (`map_format`).
+# Rounding moves a stored depth by up to half a step. That is what the *units* are for: one unit is one step. To see
+# rounding alone, let the light stand above the floor: there is no slope, so the factor adds nothing. The same scene
+# with the light at eight heights; the number of pixels in shadow is that of the worst height:
+
+
+# %%
+def below(height):
+    return ss.Scene("floor", floor.camera, [ss.Light((0, height, 0))], floor.objects)
+
+
+def maps_of_heights(**options):
+    heights = (4, 4.5, 5, 5.5, 6, 6.5, 7, 7.5)
+    same = {"size": (80, 60), "map_size": 64, "factor": 0.0, **options}
+    return [ss.run("map", below(height), **same) for height in heights]
+
+
+worst = {}
+for name in ("d16", "d24", "d32", "d32f"):
+    for units in (0.0, 1.0, 256.0):
+        runs = maps_of_heights(map_format=name, units=units)
+        worst[name, units] = max(int(run.shadow_mask.sum()) for run in runs)
+    counts = [worst[name, units] for units in (0.0, 1.0, 256.0)]
+    print(f"{name:4}: {counts} dark pixels with 0, 1, 256 units")
+assert worst["d16", 1.0] == worst["d24", 1.0] == 0 < worst["d32", 1.0]
+
+# %% [markdown]
+# One unit is enough for 16 and 24 bits. It is not for 32 bits, although this map rounds least: the depth that is
+# compared with it is a float, which has 24 bits, and its rounding stays. One unit of this map is 2⁻³² of the range;
+# 256 of them are 2⁻²⁴, one step of such a float. So more bits than 24 do not make the bias smaller. Fewer bits do make
+# it larger: one unit of 16 bits is 256 times one of 24.
+
+# %%
+exact = maps_of_heights(map_format="d32f", units=0.0)
+for name in ("d16", "d24"):
+    pairs = zip(maps_of_heights(map_format=name, units=0.0), exact, strict=True)
+    error = max(np.abs(a.maps["ZS"].astype(float) - b.maps["ZS"]).max() for a, b in pairs)
+    print(f"{name}: stored depths are wrong by up to 2^{np.log2(error):.2f}")
+
+# %% [markdown]
 # ## Predict, then run
 #
 # The map becomes four times as large, 256 × 256, and the factor stays 0. How does the number of dark pixels change?
@@ -75,12 +118,19 @@ assert dark[1.0] == 0
 my_guess = ...  # "about a quarter", "about the same", "none"
 
 # %%
-finer = int(ss.run("map", floor, size=(320, 240), map_size=256, factor=0.0, units=0.0).shadow_mask.sum())
+finer = int(
+    ss.run(
+        "map", floor, size=(320, 240), map_size=256, factor=0.0, units=0.0
+    ).shadow_mask.sum()
+)
 print(f"{dark[0.0]} with 64 x 64 texels, {finer} with 256 x 256")
 lessons.compare_prediction(
-    "How does the number change?", my_guess, "about the same" if 0.5 < finer / dark[0.0] < 2 else "not about the same",
-    "Half of every patch is behind its sample, however small the patch is: the stripes become finer, not fewer.",
-)  # fmt: skip
+    "How does the number change?",
+    my_guess,
+    "about the same" if 0.5 < finer / dark[0.0] < 2 else "not about the same",
+    "Half of every patch is behind its sample, however small the patch is: the stripes "
+    "become finer, not fewer.",
+)
 
 # %% [markdown]
 # ## The buffers after each step
@@ -118,9 +168,19 @@ for name in ("peter-panning", "constant-bias", "offset-and-bias"):
 
 # %%
 for surface in ("front", "back", "midpoint"):
-    stored = ss.run("map", torus, size=(320, 240), map_size=256, factor=0.0, units=0.0, surface=surface)
+    stored = ss.run(
+        "map",
+        torus,
+        size=(320, 240),
+        map_size=256,
+        factor=0.0,
+        units=0.0,
+        surface=surface,
+    )
     wrong = stored.compare(truth="hard").parts["all"].wrong
-    print(f"surface={surface!r}, without any offset: {wrong} pixels differ from ray casting")
+    print(
+        f"surface={surface!r}, without any offset: {wrong} pixels differ from ray casting"
+    )
 
 # %% [markdown]
 # ## Exercise

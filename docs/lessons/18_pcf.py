@@ -71,9 +71,11 @@ square = ss.run("map-pcf", scene, size=size, map_size=128, kernel=3)
 values = np.unique(square.visibility[square.valid].round(4))
 print(values)
 lessons.compare_prediction(
-    "How many different values of the visibility are there?", my_values, len(values),
+    "How many different values of the visibility are there?",
+    my_values,
+    len(values),
     "0 to 9 of the nine comparisons can pass.",
-)  # fmt: skip
+)
 
 # %% [markdown]
 # ## What the filter does, and what it does not
@@ -84,7 +86,9 @@ lessons.compare_prediction(
 # %%
 for kernel in (1, 3, 5, 9):
     blurred = ss.run("map-pcf", scene, size=size, map_size=128, kernel=kernel)
-    partly = int(((blurred.visibility > 0) & (blurred.visibility < 1))[blurred.valid].sum())
+    partly = int(
+        ((blurred.visibility > 0) & (blurred.visibility < 1))[blurred.valid].sum()
+    )
     print(f"{kernel} x {kernel} texels: {partly:5} pixels are partly lit")
 
 # %% [markdown]

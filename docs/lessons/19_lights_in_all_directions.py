@@ -62,7 +62,10 @@ axes = ss.notebook.show_steps(run)
 cube = ss.run("map-cube", room, size=size)
 for name, picture in (("one map", run), ("six maps", cube)):
     parts = picture.compare(truth="hard").parts
-    print(f"{name:9} {parts['all'].wrong:5} of {parts['all'].pixels} pixels differ from ray casting")
+    print(
+        f"{name:9} {parts['all'].wrong:5} of {parts['all'].pixels} pixels differ from "
+        "ray casting"
+    )
 
 # %% [markdown]
 # ## Click a pixel
@@ -81,9 +84,12 @@ my_passes = ...
 # %%
 passes = cube.ledger.total.passes
 lessons.compare_prediction(
-    "How many passes?", my_passes, len(passes),
-    "Six from the light. From the eye three: without the light, a mark where the maps say lit, and with the light.",
-)  # fmt: skip
+    "How many passes?",
+    my_passes,
+    len(passes),
+    "Six from the light. From the eye three: without the light, a mark where the maps "
+    "say lit, and with the light.",
+)
 
 # %% [markdown]
 # ## A spot light
@@ -116,7 +122,12 @@ def face(x, y, z):
 
 
 # %%
-cases = [((3, 1, 2), "+x"), ((-3, 1, 2), "-x"), ((0.1, 0.2, -0.3), "-z"), ((0, 5, 1), "+y")]
+cases = [
+    ((3, 1, 2), "+x"),
+    ((-3, 1, 2), "-x"),
+    ((0.1, 0.2, -0.3), "-z"),
+    ((0, 5, 1), "+y"),
+]
 lessons.check_function(face, cases)
 
 # %% [markdown]

@@ -65,7 +65,9 @@ lessons.clickable(run)
 my_factor = ...  # 1, 3 or 10
 
 # %%
-on_the_floor = ss.testing.cast_truth(scene, size).objects == 0  # the floor is the first object
+on_the_floor = (
+    ss.testing.cast_truth(scene, size).objects == 0
+)  # the floor is the first object
 
 
 def wrong_on_the_floor(name, texels):
@@ -77,7 +79,10 @@ wrong = {name: wrong_on_the_floor(name, 64) for name in ("map", "map-silhouette"
 print(wrong)
 factor = wrong["map"] / wrong["map-silhouette"]
 lessons.compare_prediction(
-    "How many times as many?", my_factor, 10 if factor > 6 else 3 if factor > 1.7 else 1, f"{factor:.1f} times here."
+    "How many times as many?",
+    my_factor,
+    10 if factor > 6 else 3 if factor > 1.7 else 1,
+    f"{factor:.1f} times here.",
 )
 
 # %% [markdown]
@@ -114,7 +119,12 @@ def side(x, y, px, py):
 
 # %%
 lessons.check_function(
-    side, [((0.2, 0.5, 0.3, 0.9), "left"), ((0.4, 0.5, 0.3, 0.9), "right"), ((0.9, 0.1, 0.3, 0.2), "right")]
+    side,
+    [
+        ((0.2, 0.5, 0.3, 0.9), "left"),
+        ((0.4, 0.5, 0.3, 0.9), "right"),
+        ((0.9, 0.1, 0.3, 0.2), "right"),
+    ],
 )
 
 # %% [markdown]

@@ -60,10 +60,12 @@ for samples in (4, 16, 64):
     print(f"{samples:3} points: RMS error in the penumbra {errors[samples]:.4f}")
 factor = float(np.sqrt(errors[4] / errors[64]))
 lessons.compare_prediction(
-    "By which factor does the error fall when there are four times as many points?", my_factor,
+    "By which factor does the error fall when there are four times as many points?",
+    my_factor,
     "less than 2" if factor < 1.8 else "about 2" if factor < 2.2 else "more than 2",
-    f"{factor:.2f}. The points are a regular grid here; with pattern='sobol' the error falls faster.",
-)  # fmt: skip
+    f"{factor:.2f}. The points are a regular grid here; with pattern='sobol' the error "
+    "falls faster.",
+)
 
 # %% [markdown]
 # ## The buffers after each step
@@ -93,7 +95,10 @@ for name, options in (
     ("map-sampled", {"samples": 16}),
 ):
     compared = ss.run(name, scene, size=size, **options).compare(truth=truth)
-    print(f"{name:20} RMS {compared.parts['all'].rms:.4f}, in the penumbra {compared.parts['penumbra'].rms:.4f}")
+    print(
+        f"{name:20} RMS {compared.parts['all'].rms:.4f}, in the penumbra "
+        f"{compared.parts['penumbra'].rms:.4f}"
+    )
 
 # %% [markdown]
 # ## What goes wrong, and its cure
@@ -118,7 +123,12 @@ def soft(shadows):
 # %%
 one, two = np.array([1, 0, 0]), np.array([1, 1, 0])
 lessons.check_function(
-    soft, [(([one, two],), [1, 0.5, 0]), (([one],), [1, 0, 0]), (([one, two, two, two],), [1, 0.75, 0])]
+    soft,
+    [
+        (([one, two],), [1, 0.5, 0]),
+        (([one],), [1, 0, 0]),
+        (([one, two, two, two],), [1, 0.75, 0]),
+    ],
 )
 
 # %% [markdown]

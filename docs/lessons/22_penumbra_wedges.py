@@ -79,9 +79,13 @@ my_error = ...  # 0, 0.1 or 0.5
 compared = run.compare(truth=truth)
 print(compared)
 lessons.compare_prediction(
-    "How large is the largest error?", my_error, round(float(compared.parts["all"].max), 2),
-    "One flat caster has no edges that hide each other, so the sum over its edges is the area itself.", within=0.01,
-)  # fmt: skip
+    "How large is the largest error?",
+    my_error,
+    round(float(compared.parts["all"].max), 2),
+    "One flat caster has no edges that hide each other, so the sum over its edges is "
+    "the area itself.",
+    within=0.01,
+)
 
 # %% [markdown]
 # ## What goes wrong, and its cure

@@ -73,7 +73,11 @@ my_factor = ...
 from dataclasses import replace
 
 light = scene.lights[0]
-shape = replace(light.shape, edge_u=2 * np.asarray(light.shape.edge_u), edge_v=2 * np.asarray(light.shape.edge_v))
+shape = replace(
+    light.shape,
+    edge_u=2 * np.asarray(light.shape.edge_u),
+    edge_v=2 * np.asarray(light.shape.edge_v),
+)
 wide = replace(scene, lights=(replace(light, shape=shape),))
 name = next(name for name in run.maps if "penumbra" in name)
 
@@ -85,7 +89,11 @@ def middle_width(drawn):
 
 ratio = middle_width(ss.run("map-pcss", wide, size=size)) / middle_width(run)
 lessons.compare_prediction(
-    "By which factor does the width grow?", my_factor, round(ratio, 1), "w is proportional to s.", within=0.15
+    "By which factor does the width grow?",
+    my_factor,
+    round(ratio, 1),
+    "w is proportional to s.",
+    within=0.15,
 )
 
 # %% [markdown]
@@ -94,7 +102,10 @@ lessons.compare_prediction(
 # %%
 for technique in ("map", "map-pcf", "map-pcss"):
     compared = ss.run(technique, scene, size=size).compare(truth=truth)
-    print(f"{technique:9} RMS {compared.parts['all'].rms:.4f}, in the penumbra {compared.parts['penumbra'].rms:.4f}")
+    print(
+        f"{technique:9} RMS {compared.parts['all'].rms:.4f}, in the penumbra "
+        f"{compared.parts['penumbra'].rms:.4f}"
+    )
 
 # %% [markdown]
 # One slab, parallel to the light and the floor, is the best case: there is one blocker distance, and its mean is right.

@@ -51,7 +51,10 @@ lessons.code_beside_slide("map", step=2)
 print(f"{'technique':14} {'passes':>6} {'draws':>6} {'triangles':>10} {'fragments':>10}")
 for name, run in runs.items():
     total = run.ledger.total
-    print(f"{name:14} {len(total.passes):6} {total.draws:6} {total.triangles:10} {total.all_fragments:10}")
+    print(
+        f"{name:14} {len(total.passes):6} {total.draws:6} {total.triangles:10} "
+        f"{total.all_fragments:10}"
+    )
 
 # %% [markdown]
 # The slides sum up what speaks for volumes and against them: exact edges, self-shadowing, any scene; but the scene and
@@ -69,12 +72,17 @@ my_passes = ...
 
 # %%
 two = ss.run("volume-zfail", "two-lights", size=size)
-one_light = ss.Scene("one light", two.scene.camera, two.scene.lights[:1], two.scene.objects)
+one_light = ss.Scene(
+    "one light", two.scene.camera, two.scene.lights[:1], two.scene.objects
+)
 one = ss.run("volume-zfail", one_light, size=size)
 n_one, n_two = (len(run.ledger.total.passes) for run in (one, two))
 print(f"one light: {n_one} passes")
 lessons.compare_prediction(
-    "How many passes with two lights?", my_passes, n_two, "Front faces, back faces and the lit scene, for each light."
+    "How many passes with two lights?",
+    my_passes,
+    n_two,
+    "Front faces, back faces and the lit scene, for each light.",
 )
 
 # %% [markdown]
@@ -83,7 +91,10 @@ lessons.compare_prediction(
 # %%
 for name, run in runs.items():
     compared = run.compare(truth="hard")
-    print(f"{name:14} {compared.parts['all'].wrong:5} of {compared.parts['all'].pixels} pixels differ from ray casting")
+    print(
+        f"{name:14} {compared.parts['all'].wrong:5} of {compared.parts['all'].pixels} "
+        "pixels differ from ray casting"
+    )
 
 # %% [markdown]
 # Soft shadows, against the exact visible area of the light:
@@ -101,7 +112,10 @@ for name in (
     "map-sampled",
 ):
     parts = ss.run(name, soft, size=size).compare(truth=truth).parts
-    print(f"{name:19} RMS {parts['all'].rms:.4f}, in the penumbra {parts['penumbra'].rms:.4f}")
+    print(
+        f"{name:19} RMS {parts['all'].rms:.4f}, in the penumbra "
+        f"{parts['penumbra'].rms:.4f}"
+    )
 
 # %% [markdown]
 # ## The buffers after each step

@@ -17,11 +17,12 @@ from typing import TYPE_CHECKING, Any
 
 from softshadow import gl
 from softshadow.checking.exercise import Check, Exercise
-from softshadow.checking.expected import read_buffers
+from softshadow.checking.expected import buffers_of_run, read_buffers
 from softshadow.checking.loading import load_exercise
 from softshadow.checking.memory import limit_memory, unlimit_memory
-from softshadow.checking.source import cut_traceback, execute, line_of
+from softshadow.checking.source import cut_traceback, execute, is_script, line_of
 from softshadow.checking.verdict import Verdict
+from softshadow.errors import SoftShadowError
 from softshadow.inspection.explanation import explain
 from softshadow.lessons.function_check import check_function
 from softshadow.lessons.program_check import BUFFERS
@@ -30,7 +31,10 @@ from softshadow.testing import differences, history_of_first, run_here, run_reco
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from softshadow.context import Frame
+    from softshadow.runs import Run
     from softshadow.testing import BufferDifference
+    from softshadow.testing.result import ProgramResult
 
 
 def main(job_file: str) -> None:
@@ -62,6 +66,9 @@ def verdicts_of(path: Path, exercise: Exercise, checks: list[Check], expected: l
     """Return the verdicts of checks of one function in a student's file."""
     caught: list[Verdict] = []
     with suppress_all(path, caught):
+        if checks[0].cases is None and is_script(path, checks[0].program):
+            run = run_of_script(path, exercise.size)
+            return verdicts_on(buffers_of_run(run), run.frame, checks, [each for each in expected if each is not None])
         function = execute(path, "submission").get(checks[0].program)
         if not callable(function):
             name = checks[0].program
@@ -91,6 +98,8 @@ def verdict_of(error: BaseException, path: Path) -> Verdict:
         return Verdict("memory", f"The program needs more memory than it may use{where}.", line, told)
     if isinstance(error, SystemExit):
         return Verdict("exited", f"The program ends its process{where}: {type(error).__name__}.", line, told)
+    if isinstance(error, SoftShadowError) and not isinstance(error, gl.GLError) and line is None:
+        return Verdict("no-program", f"{error}.", None, told)
     if isinstance(error, gl.GLError):
         return Verdict("gl-error", f"A GL call failed{where}: {error}", line, told)
     return Verdict("python-error", f"The program ended with {type(error).__name__}{where}.", line, told)
@@ -107,11 +116,33 @@ def run_program(
 ) -> list[Verdict]:
     """Run ``program(gl)`` once, and return the verdicts of checks of its buffers."""
     result, frame = run_recorded(program, exercise.size)
-    result = replace(result, returned=None)
+    return verdicts_on(replace(result, returned=None), frame, checks, expected)
+
+
+def run_of_script(path: Path, size: tuple[int, int]) -> Run:
+    """Return the run of a program written for PyOpenGL that opens its own window, drawn in a window of this size.
+
+    Raises
+    ------
+    BaseException                what the program raises; SoftShadowError if it opens no window
+    """
+    from softshadow.windows import run_script  # a program of gl does not need it
+
+    try:
+        return run_script(path, size=size)
+    except SoftShadowError as error:
+        if error.__cause__ is not None:
+            raise error.__cause__ from None
+        raise
+
+
+def verdicts_on(result: ProgramResult, frame: Frame, checks: list[Check], expected: list[Path]) -> list[Verdict]:
+    """Return the verdicts of checks of the buffers that a program has left; `frame` is its recording."""
+    size = result.stencil.shape[1], result.stencil.shape[0]
     verdicts = []
     for check, file in zip(checks, expected, strict=True):
         ignored = {name: getattr(result, name) for name in BUFFERS if name not in check.buffers}
-        wanted = replace(read_buffers(file, exercise.size), **ignored)
+        wanted = replace(read_buffers(file, size), **ignored)
         found = tuple(each for each in differences(result, wanted) if each.count > check.allowed)
         history = history_of_first(frame, found)
         if history is None:

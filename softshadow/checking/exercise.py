@@ -18,8 +18,9 @@ class Check:
     ----------
     title : str
     program : str                the name of the student's function
-    expected : callable, str or None     the solution ``expected(gl)``, "listing:NAME", or the path of an .npz with
-        the arrays of `buffers`, their bottom row first; None for the function `expected` of the exercise
+    expected : callable, str or None     the solution ``expected(gl)``, "listing:NAME", or the path of an .npz: a run
+        that `Run.save` wrote, or the arrays of `buffers`, their bottom row first; None for the function `expected` of
+        the exercise
     buffers : tuple of str       which are compared: "color", "depth", "stencil"
     allowed : int                pixels of each buffer that may differ
     cases : tuple or None        ((arguments, result), ...): the function is called with arguments, not with ``gl``

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import sys
 import tokenize
 from pathlib import Path
@@ -26,6 +27,25 @@ def execute(path: Path, name: str) -> dict[str, Any]:
     sys.path.insert(0, str(path.parent))
     exec(compile(text, str(path), "exec", dont_inherit=True), vars(module))
     return vars(module)
+
+
+def is_script(path: Path, function: str) -> bool:
+    """Return whether a file is a program for PyOpenGL: it imports OpenGL, and has no function of this name.
+
+    The file is read, not run. What is no Python is no script.
+    """
+    try:
+        tree = ast.parse(path.read_bytes())
+    except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):
+        return False
+    imported: list[str] = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            imported += [each.name for each in node.names]
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            imported.append(node.module)
+    defined = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+    return function not in defined and any(name.partition(".")[0] == "OpenGL" for name in imported)
 
 
 def frames_of(error: BaseException, path: Path) -> list[FrameSummary]:

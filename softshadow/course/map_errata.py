@@ -94,7 +94,8 @@ ERRATA = (
         "`texCoord = lightMatrix*vec4(vertex,1);`",
         "`lightMatrix` takes world space, but `vertex` is in object space: an object that a model matrix places is "
         "compared at another place of the map.",
-        "`lightMatrix * modelMatrix * vec4(vertex, 1)`, or vertices in world space as in the listings here.",
+        "`lightMatrix * (modelMatrix * vec4(vertex, 1))`, as in the program `shadow-map`; or vertices in world "
+        "space, as in the listings here.",
         ("program:model-matrix",),
     ),
     Erratum(

@@ -38,7 +38,7 @@ def picture(gl: Any, placed: bool, in_product: bool) -> np.ndarray:
     Parameters
     ----------
     placed                       the box is placed by a model matrix; otherwise its vertices are in world space
-    in_product                   the model matrix is part of the product that gives the texture coordinates
+    in_product                   the program gets the model matrix, for the product that gives the texture coordinates
     """
     begin_frame(gl, STAGE)
     gl.glDisable(gl.GL_LIGHTING)
@@ -64,7 +64,7 @@ def picture(gl: Any, placed: bool, in_product: bool) -> np.ndarray:
     use(gl, program, matrix, 0.0, AMBIENT)
     draw(gl, STAGE.receiver, unlit=1.0)
     if in_product:
-        use(gl, program, MODEL.T @ matrix, 0.0, AMBIENT)  # GL's memory order: columns
+        gl.glUniformMatrix4fv(gl.glGetUniformLocation(program, "modelMatrix"), 1, gl.GL_TRUE, MODEL)
     draw_box(gl, placed, unlit=1.0)
     gl.glUseProgram(0)
     return color_of(gl)

@@ -3,12 +3,13 @@
 from softshadow.course import Erratum
 from softshadow.course.sources import explain_place
 from softshadow.demonstrations.measuring import Measured, measure
+from softshadow.demonstrations.pictures import pairs_of
 
 COMMANDS = {"listing": "softshadow listings", "failure": "softshadow failures"}
 
 
 def entry(erratum: Erratum) -> str:
-    """Return one error as Markdown, with its numbers measured now."""
+    """Return one error as Markdown, with its numbers measured now, and pictures where they differ."""
     lines = [
         f"**{erratum.number}: {erratum.title}** ({erratum.place})",
         "",
@@ -17,7 +18,8 @@ def entry(erratum: Erratum) -> str:
         f"- Right: {erratum.right}",
         *(f"- {shown(erratum.number, each)}" for each in measure(erratum.number)),
     ]
-    return "\n".join(lines)
+    pictures = [f"```{{raw}} html\n{pair.html()}\n```" for pair in pairs_of(erratum.number)]
+    return "\n\n".join(["\n".join(lines), *pictures])
 
 
 def shown(number: str, measured: Measured) -> str:

@@ -16,7 +16,8 @@ from softshadow.gallery.calls import AlteredCall, Call, recorded
 from softshadow.gallery.expected import without_warnings
 from softshadow.gallery.measures import STRICTER, deepest, share_of_light
 from softshadow.inspection.explanation import causes_of, explain
-from softshadow.inspection.pictures import notebook_display
+from softshadow.inspection.pictures import Shown, notebook_display
+from softshadow.inspection.words import place_in_words
 from softshadow.runs import Run, run
 from softshadow.scene import Scene
 from softshadow.techniques import Technique
@@ -216,6 +217,15 @@ class Failure:
     def __repr__(self) -> str:
         return f"Failure({self.name!r}: {self.title})"
 
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Shown:
         """Return what a notebook displays: the pictures."""
-        return notebook_display(self.explain(), np.asarray(self.picture()))
+        return notebook_display(self.explain(), np.asarray(self.picture()), self.describe())
+
+    def describe(self) -> str:
+        """Return what both pictures show, in words: the numbers of wrong pixels, and where the pictures differ."""
+        differ = place_in_words((self.wrong.image != self.cured.image).any(axis=-1), "differ")
+        return (
+            f"{self.title}: scene {self.scene.name}, drawn by {self.technique}. On the left, with the failure, "
+            f"{self.number_wrong:,} pixels are wrong; on the right, with the cure, {self.number_cured:,}. "
+            f"Of the two pictures {differ}. A ring marks the pixel {self.pixel[0]}, {self.pixel[1]}."
+        )

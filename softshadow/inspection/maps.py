@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from softshadow.errors import nearest
-from softshadow.inspection.pictures import contact_sheet, is_visibility, map_pictures, notebook_display
+from softshadow.inspection.pictures import Shown, contact_sheet, is_visibility, map_pictures, notebook_display
+from softshadow.inspection.words import maps_in_words
 
 
 class Maps(dict[str, np.ndarray]):
@@ -19,11 +20,15 @@ class Maps(dict[str, np.ndarray]):
     def __repr__(self) -> str:
         return "\n".join(f"{name}  {summary(values)}" for name, values in self.items()) or "no maps"
 
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Shown:
         """Return what a notebook displays: the maps as pictures."""
         if not self:
-            return {"text/plain": repr(self)}
-        return notebook_display(repr(self), contact_sheet([("", map_pictures(self))]))
+            return {"text/plain": repr(self)}, {}
+        return notebook_display(repr(self), contact_sheet([("", map_pictures(self))]), self.describe())
+
+    def describe(self) -> str:
+        """Return what the pictures of the maps show, in words: sizes, counts and ranges."""
+        return maps_in_words(self) or "no maps"
 
     @property
     def stored(self) -> dict[str, np.ndarray]:

@@ -203,6 +203,13 @@ def save_png(picture: np.ndarray, path: Path) -> None:
     path.write_bytes(png(picture))
 
 
-def notebook_display(text: str, picture: np.ndarray) -> dict[str, str]:
-    """Return what a notebook displays: a picture, and a text for where pictures cannot be shown."""
-    return {"text/plain": text, "image/png": b64encode(png(picture)).decode()}
+Shown = tuple[dict[str, str], dict[str, dict[str, str]]]  # data by type, and metadata of each, as notebooks take them
+
+
+def notebook_display(text: str, picture: np.ndarray, alt: str) -> Shown:
+    """Return what a notebook displays: a picture, and a text for where pictures cannot be shown.
+
+    `alt` says what the picture shows. It is the metadata that notebooks and pages made of them give to screen readers.
+    """
+    data = {"text/plain": text, "image/png": b64encode(png(picture)).decode()}
+    return data, {"image/png": {"alt": " ".join(alt.split())}}

@@ -12,9 +12,16 @@ import numpy as np
 from softshadow.context import Frame
 from softshadow.errors import nearest
 from softshadow.inspection.maps import Maps
-from softshadow.inspection.pictures import contact_sheet, depth_picture, map_pictures, notebook_display
+from softshadow.inspection.pictures import Shown, contact_sheet, depth_picture, map_pictures, notebook_display
 from softshadow.inspection.replay import Buffers, Replay
 from softshadow.inspection.step_state import StepState, step_state
+from softshadow.inspection.words import (
+    colors_in_words,
+    counts_in_words,
+    depths_in_words,
+    maps_in_words,
+    visibility_in_words,
+)
 from softshadow.pipeline.commands import PRIMITIVES, Clear, Command, Draw
 from softshadow.pipeline.geometry.draw_primitives import primitive_count
 from softshadow.tokens import token_name
@@ -35,7 +42,8 @@ class DrawSummary:
 class Step:
     """One step: the window's buffers when it ended, and its commands.
 
-    `maps` are the named buffers that the technique yielded with it, row 0 on top.
+    `maps` are the named buffers that the technique yielded with it, row 0 on top. `run_name` is what its run is called,
+    such as "volume-zfail on torus".
     """
 
     index: int
@@ -43,6 +51,7 @@ class Step:
     maps: Maps
     frame: Frame
     replay: Replay
+    run_name: str = ""
 
     @property
     def buffers(self) -> Buffers:
@@ -108,9 +117,56 @@ class Step:
     def __repr__(self) -> str:
         return f"Step({self.index}, {self.title!r}, {len(self.draws)} {'draw' if len(self.draws) == 1 else 'draws'})"
 
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Shown:
         """Return what a notebook displays: colour, depth and stencil after the step, and its maps."""
-        return notebook_display(repr(self), sheet_of([self]))
+        return notebook_display(repr(self), sheet_of([self]), self.describe())
+
+    def describe(self) -> str:
+        """Return what the pictures of the step show, in words: counts of pixels, ranges of depths, what changed.
+
+        Examples
+        --------
+        >>> import softshadow as ss
+        >>> print(ss.run("volume-zfail", "torus", (64, 48))["count back faces"].describe())
+        volume-zfail on torus, step 1 of 0 to 3, count back faces. Colour: ...; stencil: 0 in ... pixels, ...
+        """
+        width, height = self.frame.size
+        run = f"{self.run_name}, " if self.run_name else ""
+        where = f"{run}step {self.index} of 0 to {len(self.frame.steps) - 1}, {self.title}"
+        return f"{where}. {sentence(step_in_words(self))} The window has {width} x {height} pixels."
+
+
+def step_in_words(step: Step, before: Step | None = None) -> str:
+    """Return what the pictures of a step show: those of `shown_buffers`, and the shadows.
+
+    `before` is the step before it, if that was described already: buffers that are the same are not described again.
+    """
+    maps = step.maps.stored
+    parts = [f"map {maps_in_words(maps)}"] if maps else []
+    if not maps or not all(draw.framebuffer for draw in step.draws):
+        earlier = step.replay.after_step(step.index - 1) if step.index else None
+        window = {
+            "colour": colors_in_words(step.image, None if earlier is None else earlier.color[..., :3]),
+            "depth": depths_in_words(step.depth),
+            "stencil": counts_in_words(step.stencil),
+        }
+        same = [name for name in window if before is not None and same_buffer(name, step, before)]
+        parts = [f"{name}: {words}" for name, words in window.items() if name not in same] + parts
+        parts += [f"{' and '.join(same)} as before"] if same else []
+    if "visibility" in step.maps:
+        parts.append(visibility_in_words(step.maps["visibility"], step.maps.get("valid")))
+    return "; ".join(parts)
+
+
+def same_buffer(name: str, one: Step, other: Step) -> bool:
+    """Return whether a buffer of the window ("colour", "depth", "stencil") is the same after two steps."""
+    attribute = {"colour": "image"}.get(name, name)
+    return np.array_equal(getattr(one, attribute), getattr(other, attribute))
+
+
+def sentence(words: str) -> str:
+    """Return words as a sentence, with a large letter and a full stop."""
+    return f"{words[:1].upper()}{words[1:]}."
 
 
 def sheet_of(steps: Sequence[Step]) -> np.ndarray:

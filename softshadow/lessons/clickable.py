@@ -31,5 +31,5 @@ def clickable(run: Run) -> Clickable:
     ----------
     run : Run                    a small one: its report is stored in the page
     """
-    bundle = run._repr_mimebundle_()
+    bundle, _ = run._repr_mimebundle_()
     return Clickable(bundle["text/html"], bundle["text/plain"])

@@ -1,4 +1,4 @@
-"""The shaders of CA:577-637 as a program: the program "shadow-map" without its test of the light's frustum.
+"""The shaders of CA:577-637 as a program: "shadow-map" without its test of the light's frustum and its model matrix.
 
 The GLSL is the slide's, written for version 1.20, with the two colours that the slide leaves out.
 """
@@ -8,11 +8,24 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.programs import Program, register
+from softshadow.programs import Program, Varyings, VertexInputs, register
 from softshadow.programs.sampling import project, sample
 from softshadow.programs.shadow_map import SHADOW_MAP
+from softshadow.programs.texture_coordinates import transform
 
 NAME = "slide-shadow-map"
+VERTEX = """#version 120
+uniform mat4 lightMatrix;
+varying vec4 color;
+varying vec4 texCoord;
+
+void main()
+{
+    color = gl_Color;
+    texCoord = lightMatrix * gl_Vertex;
+    gl_Position = ftransform();
+}
+"""
 FRAGMENT = """#version 120
 uniform sampler2D shadowMap;
 uniform vec4 ambient;
@@ -33,6 +46,12 @@ void main()
 """
 
 
+def vertex(vertices: VertexInputs) -> Varyings:
+    """Return color and texCoord; E66: the slide has no model matrix, so vertices have to be in world space."""
+    in_map = transform(vertices.uniforms["lightMatrix"], vertices.position)
+    return Varyings(np.concatenate([vertices.color, in_map], axis=1), np.zeros(8, bool))
+
+
 def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
     """Write the colour in light or in shadow into `out` (N, 4)."""
     projected = project(inputs[:, 4:])
@@ -45,7 +64,7 @@ def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> N
 # registered on import of the listings: in this process, and in the one that Mesa runs in
 register(
     Program(
-        NAME, SHADOW_MAP.vertex, shade, SHADOW_MAP.uniforms, SHADOW_MAP.samplers,
-        glsl_vertex=SHADOW_MAP.glsl_vertex, glsl_fragment=FRAGMENT,
+        NAME, vertex, shade, {name: value for name, value in SHADOW_MAP.uniforms.items() if name != "modelMatrix"},
+        SHADOW_MAP.samplers, glsl_vertex=VERTEX, glsl_fragment=FRAGMENT,
     )
 )  # fmt: skip

@@ -6,8 +6,9 @@ from the top.
 
 from softshadow.notebook.arrays import show_image, show_map
 from softshadow.notebook.buffers import show_depth, show_stencil
+from softshadow.notebook.descriptions import describe
 from softshadow.notebook.play import play
 from softshadow.notebook.section import show_section
 from softshadow.notebook.steps import show_steps
 
-__all__ = ["play", "show_depth", "show_image", "show_map", "show_section", "show_stencil", "show_steps"]
+__all__ = ["describe", "play", "show_depth", "show_image", "show_map", "show_section", "show_stencil", "show_steps"]

@@ -8,15 +8,15 @@ import numpy as np
 
 from softshadow.inspection import Step
 from softshadow.inspection.pictures import UNDEFINED, colors_of, is_visibility, map_picture
+from softshadow.inspection.words import DEPTH_MAP, colors_in_words, map_in_words, visibility_in_words
 from softshadow.notebook.buffers import show_counts, show_range
 from softshadow.notebook.cells import Region, add_colorbar, cells, draw_cells, heading_of, new_axes, step_of
+from softshadow.notebook.descriptions import describe_axes
 from softshadow.notebook.extra import needed
 from softshadow.runs import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-DEPTH_MAP = "ZS"  # the names of maps of depths begin with it
 
 
 def show_image(
@@ -48,6 +48,10 @@ def show_image(
     part = cells(image, title or heading_of("Colour", source), region)
     axes = new_axes(ax, "show_image", image.shape[0] / image.shape[1])
     draw_cells(axes, part, part.values, lambda color: "#" + "".join(f"{channel:02x}" for channel in color))
+    words = colors_in_words(part.values)
+    if step is not None and region is None and "visibility" in step.maps:
+        words += f"; {visibility_in_words(step.maps['visibility'], step.maps.get('valid'))}"
+    describe_axes(axes, words)
     return axes
 
 
@@ -90,12 +94,14 @@ def show_map(
     if values.ndim == 3:
         picture = cells(map_picture(values), "", region).values
         draw_cells(axes, part, picture, lambda texel: ", ".join(f"{value:.6g}" for value in texel))
+        describe_axes(axes, map_in_words(name, part.values))
         return axes
     if values.dtype == np.uint8:
         return show_counts(part, axes, legend)
     if values.dtype == np.bool_:
         draw_cells(axes, part, colors_of(map_picture(part.values)), str)
         axes.set_title(f"{part.heading}: {np.count_nonzero(part.values)} of {part.values.size} true (white)")
+        describe_axes(axes, map_in_words(name, part.values))
         return axes
     if is_visibility(name):
         undefined = np.zeros_like(part.values, bool) if valid is None else ~cells(valid, "", region).values
@@ -103,6 +109,7 @@ def show_map(
         greys = needed("matplotlib", "show_map").colormaps["gray"]
         greys = greys.with_extremes(bad=[channel / 255 for channel in UNDEFINED])
         image = draw_cells(axes, part, shown, lambda value: f"{float(value):.4f}", cmap=greys, vmin=0, vmax=1)
+        describe_axes(axes, visibility_in_words(part.values, ~undefined))
         if legend:
             label = "share of the light" + (", blue: not defined" if undefined.any() else "")
             add_colorbar(axes, image, label)

@@ -8,6 +8,7 @@ import numpy as np
 
 from softshadow.inspection import Step
 from softshadow.inspection.pictures import CLEAR_DEPTH, WRAPPED, colors_of, stencil_palette
+from softshadow.inspection.words import counts_in_words, depths_in_words
 from softshadow.notebook.cells import (
     Cells,
     Region,
@@ -19,6 +20,7 @@ from softshadow.notebook.cells import (
     step_of,
     write_digits,
 )
+from softshadow.notebook.descriptions import describe_axes
 from softshadow.notebook.extra import needed
 from softshadow.runs import Run
 
@@ -66,6 +68,7 @@ def show_counts(part: Cells, ax: Axes, legend: bool) -> Axes:
     """Draw counts (H, W) uint8 in the palette, with digits where there is room, and a legend."""
     picture = colors_of(part.values)
     draw_cells(ax, part, picture, lambda count: str(int(count)))
+    describe_axes(ax, counts_in_words(part.values))
     if part.fits_digits:
         write_digits(ax, part, picture)
     if legend:
@@ -132,6 +135,7 @@ def show_range(part: Cells, ax: Axes, clear: float | None, unit: str, colorbar: 
     shown = np.ma.masked_array(part.values, left_out)
     greys = colormaps["gray_r"].with_extremes(bad=[channel / 255 for channel in CLEAR_DEPTH])
     image = draw_cells(ax, part, shown, lambda value: f"{float(value):.6f}", cmap=greys, **how)
+    describe_axes(ax, f"{unit} {depths_in_words(part.values, clear)}")
     if left_out.all():
         ax.set_title(f"{part.heading} (nothing drawn)")
     elif colorbar:

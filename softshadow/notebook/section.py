@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from softshadow.notebook.cells import new_axes
+from softshadow.notebook.descriptions import describe_axes
 from softshadow.notebook.extra import needed
 from softshadow.report import CrossSection, cross_section
 from softshadow.report.cross_section_svg import CASTER, LIGHT, MARGIN, RAY, RECEIVER, VOLUME
@@ -70,6 +71,7 @@ def show_section(
     through = f"the eye and pixel {tuple(pixel)}" if pixel is not None else "the middle of the casters"
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
     ax.set_title(f"Section of {section.scene.name} through {section.light.name} and {through}", fontsize="medium")
+    describe_axes(ax, section.describe())
     return ax
 
 

@@ -20,10 +20,11 @@ from softshadow.programs.percentage_closer import count_lit
 from softshadow.programs.program import Program, Varyings, VertexInputs
 from softshadow.programs.reads import note_depths
 from softshadow.programs.sampling import divide
-from softshadow.programs.texture_coordinates import transform
+from softshadow.programs.shadow_map import in_map
 
 VERTEX = """#version 120
 uniform mat4 lightMatrix;
+uniform mat4 modelMatrix = mat4(1.0);
 varying vec4 color;
 varying vec3 eyePosition;
 varying vec3 normal;
@@ -34,7 +35,7 @@ void main()
     color = gl_Color;
     eyePosition = (gl_ModelViewMatrix * gl_Vertex).xyz;
     normal = gl_NormalMatrix * gl_Normal;
-    texCoord = lightMatrix * gl_Vertex;
+    texCoord = lightMatrix * (modelMatrix * gl_Vertex);
     gl_Position = ftransform();
 }
 """
@@ -77,8 +78,7 @@ void main()
 def vertex(vertices: VertexInputs) -> Varyings:
     """Return color, eyePosition, normal and texCoord: the vertex in the light's texture space."""
     lighting = blinn_phong_vertex(vertices).values
-    in_map = transform(vertices.uniforms["lightMatrix"], vertices.position)
-    return Varyings(np.concatenate([lighting, in_map], axis=1), np.zeros(14, bool))
+    return Varyings(np.concatenate([lighting, in_map(vertices)], axis=1), np.zeros(14, bool))
 
 
 def shade_once(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
@@ -111,6 +111,7 @@ def _program(name: str, radius: int, shade_pixels: Any) -> Program:
     uniforms = {
         **BLINN_PHONG.uniforms,
         "lightMatrix": np.eye(4, dtype=np.float32),
+        "modelMatrix": np.eye(4, dtype=np.float32),
         "shadowMap": 0,
         "texel": 0.0,
         "bias": 0.0,

@@ -1,5 +1,8 @@
 """The course's shadow map lookup per pixel: project, compare the depth, and take the lit or the shadowed colour.
 
+`lightMatrix` takes world space into the map. An object that a model matrix places needs this matrix as `modelMatrix`.
+By default it is the identity, for vertices in world space. The slide leaves it out (E66).
+
 Outside the light's frustum and behind the light a pixel is lit, because there is no depth to compare with. The depth
 offset is either the polygon offset of the first pass or `bias` here, not both.
 
@@ -23,13 +26,14 @@ ZERO, ONE = np.float32(0.0), np.float32(1.0)
 
 VERTEX = """#version 120
 uniform mat4 lightMatrix;
+uniform mat4 modelMatrix = mat4(1.0);
 varying vec4 color;
 varying vec4 texCoord;
 
 void main()
 {
     color = gl_Color;
-    texCoord = lightMatrix * gl_Vertex;
+    texCoord = lightMatrix * (modelMatrix * gl_Vertex);
     gl_Position = ftransform();
 }
 """
@@ -55,9 +59,14 @@ void main()
 
 def vertex(vertices: VertexInputs) -> Varyings:
     """Return color and texCoord: the vertex in the light's texture space."""
-    light_matrix = vertices.uniforms["lightMatrix"]
-    values = np.concatenate([vertices.color, transform(light_matrix, vertices.position)], axis=1)
+    values = np.concatenate([vertices.color, in_map(vertices)], axis=1)
     return Varyings(values, np.zeros(8, bool))
+
+
+def in_map(vertices: VertexInputs) -> np.ndarray:
+    """Return the vertices (V, 4) in the light's texture space: to world space by the model matrix, then on."""
+    world = transform(vertices.uniforms["modelMatrix"], vertices.position)
+    return transform(vertices.uniforms["lightMatrix"], world)
 
 
 def shade(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.ndarray) -> None:
@@ -90,6 +99,7 @@ SHADOW_MAP = Program(
     shade,
     uniforms={
         "lightMatrix": np.eye(4, dtype=np.float32),
+        "modelMatrix": np.eye(4, dtype=np.float32),
         "shadowMap": 0,
         "ambient": (0.3, 0.3, 0.3, 1.0),
         "bias": 0.0,

@@ -26,5 +26,7 @@ def run_of(
     """
     divide(frame, steps)
     replay = Replay(frame)
-    divided = Steps([Step(index, title, Maps(), frame, replay) for index, (title, _) in enumerate(frame.steps)])
+    run_name = " ".join([kind, *(["of", str(options["program"])] if options.get("program") else [])])
+    titles = [title for title, _ in frame.steps]
+    divided = Steps([Step(index, title, Maps(), frame, replay, run_name) for index, title in enumerate(titles)])
     return Run(kind, None, frame.size, options, warnings, divided, frame)

@@ -24,6 +24,11 @@ STYLE = (
 )
 
 
+def svg_and_words(section: CrossSection) -> tuple[str, dict[str, str]]:
+    """Return what a notebook displays: the SVG, and what it shows in words as metadata."""
+    return svg_of(section), {"alt": section.describe()}
+
+
 def save_svg(section: CrossSection, path: str | os.PathLike[str], force: bool = False) -> Path:
     """Write the drawing of a section to a file, and return its path.
 

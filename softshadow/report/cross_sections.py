@@ -15,6 +15,7 @@ import numpy as np
 
 from softshadow.errors import nearest
 from softshadow.inspection.hard_truth import seen_faces
+from softshadow.inspection.words import percent
 from softshadow.report.cut import cut_triangles, join_segments
 from softshadow.scene import Disc, Light, Rectangle, Scene, SceneObject, Segment
 from softshadow.techniques.shadow_volumes import CasterVolume, volumes_of
@@ -104,10 +105,38 @@ class CrossSection:
                     pieces.append((np.stack([start, end]), visible_share((start + end) / 2, self.ends, segments)))
         return pieces
 
+    def describe(self) -> str:
+        """Return what the section shows, in words: casters, sides of volumes, how much is in shadow, the counts."""
+        casters = ", ".join(thing.name for thing in self.scene.casters)
+        parts = [
+            f"Section of scene {self.scene.name} through {self.light.name}: casters {casters}",
+            f"{len(self.sides)} sides of shadow volumes",
+        ]
+        parts += [f"{thing.name}: {self._light_on(thing.name)}" for thing in self.scene.receivers]
+        if self.crossings:
+            steps = ", ".join(f"{crossing.step:+d} = {crossing.count}" for crossing in self.crossings)
+            sides = "1 side" if len(self.crossings) == 1 else f"{len(self.crossings)} sides"
+            parts.append(f"the line of sight crosses {sides}: {steps}")
+        elif self.point is not None:
+            parts.append("the line of sight crosses no side")
+        return "; ".join(parts) + "."
+
+    def _light_on(self, name: str) -> str:
+        """Return in words how much of an object's outline is in shadow."""
+        pieces = self.strips(name)
+        lengths = np.array([np.linalg.norm(end - start) for (start, end), _ in pieces])
+        shares = np.array([share for _, share in pieces])
+        if not lengths.sum():
+            return "not cut"
+        dark, partly = (
+            float(lengths[which].sum() / lengths.sum()) for which in (shares <= 0, (shares > 0) & (shares < 1))
+        )
+        return f"{percent(dark)} in shadow" + (f", {percent(partly)} in part" if partly else "")
+
     if TYPE_CHECKING:
         # softshadow.report attaches this: its module imports this one
 
-        def _repr_svg_(self, /) -> str: ...
+        def _repr_svg_(self, /) -> tuple[str, dict[str, str]]: ...
 
 
 def cross_section(

@@ -110,6 +110,7 @@ def _record(stored: Mapping[str, np.ndarray], description: dict[str, Any]) -> Ru
     if len(maps) != len(frame.steps):
         raise ValueError(f"{len(frame.steps)} steps with the maps of {len(maps)}")
     replay = Replay(frame)
+    run_name = f"{technique} on {scene.name}" if scene is not None else technique
     steps = []
     for index, names in enumerate(maps):
         buffers = Buffers(*(stored[f"steps/{index}/{name}"] for name in Buffers._fields))
@@ -118,5 +119,5 @@ def _record(stored: Mapping[str, np.ndarray], description: dict[str, Any]) -> Ru
         own_maps = {name: stored[f"maps/{index}/{name}"] for name in names}
         for name, values in own_maps.items():
             validate_map(frame, name, values)
-        steps.append(Step(index, frame.steps[index][0], Maps(own_maps), frame, replay))
+        steps.append(Step(index, frame.steps[index][0], Maps(own_maps), frame, replay, run_name))
     return RunRecord(technique, scene, options, warnings, Steps(steps), frame)

@@ -11,7 +11,7 @@ from html import escape
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from softshadow.inspection.pictures import notebook_display
+from softshadow.inspection.pictures import Shown, notebook_display
 from softshadow.inspection.step import sheet_of
 from softshadow.runs.archive import RunRecord
 from softshadow.runs.saving import write_file
@@ -29,14 +29,14 @@ def report_html(run: RunRecord) -> str:
         return path.read_text(encoding="utf-8")
 
 
-def mimebundle(run: RunRecord, text: str) -> dict[str, str]:
+def mimebundle(run: RunRecord, text: str, alt: str) -> Shown:
     """Return what a notebook displays: the report, or a sentence in its place if it is too large; picture; text."""
-    shown = notebook_display(text, sheet_of(run.steps))
+    shown, metadata = notebook_display(text, sheet_of(run.steps), alt)
     width, height = run.frame.size
     page = report_html(run) if width * height * len(run.steps) <= MOST_PIXELS else ""
     if page and len(page) <= LARGEST_REPORT:
-        return {"text/html": framed(page, text), **shown}
-    return {"text/html": _too_large(len(page), shown["image/png"], text), **shown}
+        return {"text/html": framed(page, text), **shown}, metadata
+    return {"text/html": _too_large(len(page), shown["image/png"], alt), **shown}, metadata
 
 
 def framed(page: str, text: str) -> str:
@@ -50,10 +50,10 @@ def framed(page: str, text: str) -> str:
     )
 
 
-def _too_large(length: int, png: str, text: str) -> str:
+def _too_large(length: int, png: str, alt: str) -> str:
     size = f"has {length / 1e6:.1f} MB" if length else "would have many megabytes"
     return (
-        f'<img src="data:image/png;base64,{png}" alt="{escape(text.splitlines()[0])}">'
+        f'<img src="data:image/png;base64,{png}" alt="{escape(alt)}">'
         f"<p>The report of this run {size}, too much for a notebook: "
         f'<code>run.save("report.html")</code> writes it to a file.</p>'
     )

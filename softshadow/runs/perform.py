@@ -76,7 +76,9 @@ def run(
     replay = Replay(context.frame, keep_bytes)
     maps, caught = _draw(technique, scene, context, replay, options)
     own = [message for message in (*scene.warnings(), *caught) if isinstance(message, errors.Warning)]
-    steps = Steps([Step(i, title, maps[i], context.frame, replay) for i, (title, _) in enumerate(context.frame.steps)])
+    run_name = f"{technique.name} on {scene.name}"
+    titles = [title for title, _ in context.frame.steps]
+    steps = Steps([Step(i, title, maps[i], context.frame, replay, run_name) for i, title in enumerate(titles)])
     if not any(isinstance(message, CounterSaturated) for message in own):
         own += saturated(steps, stencil_bits)
     own += lost_counts(technique.name, scene, (width, height), options, stencil_bits)

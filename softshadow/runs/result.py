@@ -38,7 +38,9 @@ from softshadow.inspection.comparison import jumps
 from softshadow.inspection.fragment_maps import FragmentMaps, fragment_maps
 from softshadow.inspection.hard_truth import hard_visibility
 from softshadow.inspection.maps import summary
+from softshadow.inspection.pictures import Shown
 from softshadow.inspection.shadow_kinds import shadow_kinds
+from softshadow.inspection.step import step_in_words
 from softshadow.runs.archive import RunRecord, read_npz
 from softshadow.runs.display import mimebundle
 from softshadow.runs.map_texels import image_of_map
@@ -50,6 +52,8 @@ from softshadow.space.shadow_parts import scene_of
 
 if TYPE_CHECKING:
     from softshadow.report import CrossSection, View3D
+
+MOST_DESCRIBED = 8  # steps
 
 
 @dataclass(frozen=True, eq=False)
@@ -416,9 +420,33 @@ class Run:
         parts = [repr(self.technique), about, f"{width} x {height}", f"{len(self.steps)} steps"]
         return f"Run({', '.join(part for part in parts if part)})"
 
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Shown:
         """Return what a notebook displays: the report, unless it is too large; the steps as a picture; a text."""
-        return mimebundle(self.record, f"{self!r}\n{self.steps!r}")
+        return mimebundle(self.record, f"{self!r}\n{self.steps!r}", self.describe())
+
+    def describe(self) -> str:
+        """Return what the pictures of the run show, in words: of each step the counts, ranges and changes.
+
+        Of a run with many steps the first ones and the last are described.
+
+        Examples
+        --------
+        >>> import softshadow as ss
+        >>> print(ss.run("volume-zfail", "torus", (64, 48)).describe())
+        volume-zfail on torus, 64 x 48 pixels, steps 0 to 3.
+        Step 0, ...
+        """
+        width, height = self.size
+        name = self.steps[0].run_name or self.technique
+        lines = [f"{name}, {width} x {height} pixels, steps 0 to {len(self.steps) - 1}."]
+        shown = list(self.steps)
+        if len(shown) > MOST_DESCRIBED:
+            lines[0] = f"{lines[0][:-1]}, of which 0 to {MOST_DESCRIBED - 2} and the last are described."
+            shown = [*shown[: MOST_DESCRIBED - 1], shown[-1]]
+        for step in shown:
+            before = self.steps[step.index - 1] if step.index else None
+            lines.append(f"Step {step.index}, {step.title}: {step_in_words(step, before)}.")
+        return "\n".join(lines)
 
 
 def load_run(path: str | os.PathLike[str]) -> Run:

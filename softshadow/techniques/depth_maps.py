@@ -22,13 +22,27 @@ Factor = Annotated[float, "slope offset: first argument of glPolygonOffset while
 Units = Annotated[float, "slope offset: second argument of glPolygonOffset while the map is drawn"]
 Bias = Annotated[float, "constant subtracted from a point's depth (0 to 1 in the map) before it is compared"]
 NormalBias = Annotated[float, "how far a point is moved along its normal before it is looked up, in world units"]
+MapFormat = Annotated[
+    Literal["d16", "d24", "d32", "d32f"],
+    "how the map stores depths: whole numbers of 16, 24 or 32 bits, or 32-bit floats",
+]
 Outside = Annotated[
     Literal["lit", "shadow", "edge"],
     "points that the light does not see are lit, in shadow, or as the map's edge texel says",
 ]
 
 
-def depth_texture(gl: Any, map_size: int, filtering: int, outside: Outside = "lit") -> int:
+FORMATS = {
+    "d16": "GL_DEPTH_COMPONENT16",
+    "d24": "GL_DEPTH_COMPONENT24",
+    "d32": "GL_DEPTH_COMPONENT32",
+    "d32f": "GL_DEPTH_COMPONENT32F",
+}
+
+
+def depth_texture(
+    gl: Any, map_size: int, filtering: int, outside: Outside = "lit", map_format: MapFormat = "d24"
+) -> int:
     """Return a bound depth texture; points outside it are lit, in shadow, or as its edge texel says."""
     name: int = gl.glGenTextures(1)
     gl.glBindTexture(gl.GL_TEXTURE_2D, name)
@@ -43,16 +57,22 @@ def depth_texture(gl: Any, map_size: int, filtering: int, outside: Outside = "li
         gl.glTexParameteri(gl.GL_TEXTURE_2D, parameter, value)
     border = 0.0 if outside == "shadow" else 1.0  # no point is nearer than 0 or farther than 1
     gl.glTexParameterfv(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_BORDER_COLOR, (border,) * 4)
-    set_depths(gl, np.ones((map_size, map_size), np.float32))  # texels that a copy does not reach stay far (E51)
+    far = np.ones((map_size, map_size), np.float32)  # texels that a copy does not reach stay far (E51)
+    set_depths(gl, far, map_format)
     return name
 
 
-def set_depths(gl: Any, depths: np.ndarray) -> None:
+def set_depths(gl: Any, depths: np.ndarray, map_format: MapFormat = "d24") -> None:
     """Fill the bound texture with depths (n, n) float32."""
     height, width = depths.shape
-    gl.glTexImage2D(
-        gl.GL_TEXTURE_2D, 0, gl.GL_DEPTH_COMPONENT24, width, height, 0, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT, depths
-    )
+    stored = internal_format(gl, map_format)
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, stored, width, height, 0, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT, depths)
+
+
+def internal_format(gl: Any, map_format: MapFormat) -> int:
+    """Return GL's name for the way in which a map stores depths."""
+    name: int = getattr(gl, FORMATS[map_format])
+    return name
 
 
 def read_depths(gl: Any, texture: int) -> np.ndarray:

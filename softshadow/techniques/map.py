@@ -46,6 +46,7 @@ def steps(
     *,
     size: tuple[int, int],
     map_size: depth_maps.MapSize = 512,
+    map_format: depth_maps.MapFormat = "d24",
     factor: depth_maps.Factor = 1.0,
     units: depth_maps.Units = 1.0,
     bias: depth_maps.Bias = 0.0,
@@ -73,7 +74,7 @@ def steps(
     shadow_maps = []
     filtering = gl.GL_LINEAR if filter == "linear" else gl.GL_NEAREST
     for light, camera in zip(scene.lights, cameras, strict=True):
-        shadow_map = depth_maps.depth_texture(gl, map_size, filtering, outside)
+        shadow_map = depth_maps.depth_texture(gl, map_size, filtering, outside, map_format)
         with depth_target(gl, shadow_map, map_size, storage):
             # 1. the camera at the light
             gl.glViewport(0, 0, map_size, map_size)
@@ -97,7 +98,7 @@ def steps(
             {name: depth_maps.read_depths(gl, shadow_map)},
         )
         if surface == "midpoint":
-            yield from depth_layers.store_midpoint(gl, scene, light, camera, shadow_map, map_size)
+            yield from depth_layers.store_midpoint(gl, scene, light, camera, shadow_map, map_size, map_format)
         gl.glDisable(gl.GL_CULL_FACE)
         gl.glDisable(gl.GL_POLYGON_OFFSET_FILL)
         shadow_maps.append(shadow_map)

@@ -48,6 +48,7 @@ def steps(
     *,
     size: tuple[int, int],
     map_size: depth_maps.MapSize = 512,
+    map_format: depth_maps.MapFormat = "d24",
     factor: depth_maps.Factor = 1.0,
     units: depth_maps.Units = 1.0,
     bias: depth_maps.Bias = 0.0,
@@ -70,7 +71,7 @@ def steps(
     # pass 1: the depth of the casters, seen from the light to each of six sides
     cube_maps = []
     for light in scene.lights:
-        cube_map, maps = cube_texture(gl, map_size), {}
+        cube_map, maps = cube_texture(gl, map_size, map_format), {}
         for index, (name, _, _) in enumerate(FACES):
             face = gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X + index
             with (
@@ -114,7 +115,7 @@ def steps(
     gl.glDeleteTextures(cube_maps)
 
 
-def cube_texture(gl: Any, map_size: int) -> int:
+def cube_texture(gl: Any, map_size: int, map_format: depth_maps.MapFormat) -> int:
     """Return a bound cube map of depths, all 1."""
     name: int = gl.glGenTextures(1)
     gl.glBindTexture(gl.GL_TEXTURE_CUBE_MAP, name)
@@ -125,10 +126,11 @@ def cube_texture(gl: Any, map_size: int) -> int:
         (gl.GL_TEXTURE_WRAP_T, gl.GL_CLAMP_TO_EDGE),
     ):
         gl.glTexParameteri(gl.GL_TEXTURE_CUBE_MAP, parameter, value)
+    stored = depth_maps.internal_format(gl, map_format)
     far = np.ones((map_size, map_size), np.float32)
     for index in range(len(FACES)):
         gl.glTexImage2D(
-            gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X + index, 0, gl.GL_DEPTH_COMPONENT24, map_size, map_size, 0,
+            gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X + index, 0, stored, map_size, map_size, 0,
             gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT, far,
         )  # fmt: skip
     return name

@@ -34,6 +34,7 @@ def steps(
     *,
     size: tuple[int, int],
     map_size: depth_maps.MapSize = 512,
+    map_format: depth_maps.MapFormat = "d24",
     factor: Annotated[
         float | None, "slope offset: first argument of glPolygonOffset; by default the kernel, one more if bilinear"
     ] = None,
@@ -61,7 +62,7 @@ def steps(
     # pass 1: the depth of the casters, seen from the light
     shadow_maps = []
     for light, camera in zip(scene.lights, cameras, strict=True):
-        shadow_map = depth_maps.depth_texture(gl, map_size, gl.GL_NEAREST, outside)
+        shadow_map = depth_maps.depth_texture(gl, map_size, gl.GL_NEAREST, outside, map_format)
         with depth_maps.polygon_offset(gl, factor, units):
             depth_maps.draw_into(gl, scene, camera, shadow_map, map_size)
         shadow_maps.append(shadow_map)

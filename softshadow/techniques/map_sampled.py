@@ -50,6 +50,7 @@ def steps(
     pattern: light_points.LightPattern = "grid",
     seed: light_points.Seed = 0,
     map_size: depth_maps.MapSize = 512,
+    map_format: depth_maps.MapFormat = "d24",
     factor: depth_maps.Factor = 1.0,
     units: depth_maps.Units = 1.0,
     bias: depth_maps.Bias = 0.0,
@@ -74,7 +75,7 @@ def steps(
     for light in scene.lights:
         lamps = light_points.points_of(light, samples, pattern, seed)
         at_once = min(together or (MOST if len(lamps) > FEW_POINTS else 1), len(lamps))
-        maps = [depth_maps.depth_texture(gl, map_size, gl.GL_NEAREST, outside) for _ in range(at_once)]
+        maps = [depth_maps.depth_texture(gl, map_size, gl.GL_NEAREST, outside, map_format) for _ in range(at_once)]
         visibility = visibility_texture(gl, size)
         framebuffer, depths = bind_with_depth(gl, visibility, size)
         program = gl.program("map-visibility" if at_once == 1 else "map-visibility-8")

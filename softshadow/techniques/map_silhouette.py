@@ -36,6 +36,7 @@ def steps(
     *,
     size: tuple[int, int],
     map_size: depth_maps.MapSize = 512,
+    map_format: depth_maps.MapFormat = "d24",
     # the farthest corner of a cell is one texel away on each axis, and glPolygonOffset uses the larger slope of the two
     factor: depth_maps.Factor = 2.0,
     units: depth_maps.Units = 1.0,
@@ -51,7 +52,7 @@ def steps(
     # pass 1: the depth of the casters, seen from the light, and the silhouette in its texels
     maps_of_lights = []
     for light, camera in zip(scene.lights, cameras, strict=True):
-        shadow_map = depth_maps.depth_texture(gl, map_size, gl.GL_NEAREST, outside)
+        shadow_map = depth_maps.depth_texture(gl, map_size, gl.GL_NEAREST, outside, map_format)
         with depth_maps.polygon_offset(gl, factor, units):
             depth_maps.draw_into(gl, scene, camera, shadow_map, map_size)
         stored = depth_maps.read_depths(gl, shadow_map)

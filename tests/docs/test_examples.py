@@ -19,6 +19,7 @@ from cli.invocation import invoke_ok
 from paths import ROOT, SCENES, TRACE
 from softshadow import gl
 from softshadow.cli import main
+from softshadow.lessons.copies import lesson_files
 from windows.window_programs import GLUT
 
 PAGES = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
@@ -134,3 +135,11 @@ def test_programs_of_a_page_run_one_after_the_other(page: Path, folder: None) ->
 def test_shown_code_fits_a_page_of_900_pixels(page: Path) -> None:
     shown = "\n".join(blocks(page, "python", "sh", "toml", "{code-cell}"))
     assert [line for line in shown.splitlines() if len(line) > LONGEST] == []
+
+
+@pytest.mark.parametrize("lesson", lesson_files(), ids=lambda file: file.stem)
+def test_cells_of_lessons_fit_a_page_of_900_pixels(lesson: Path) -> None:
+    cells = re.split(r"^# %%", lesson.read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]
+    code = [line for cell in cells if not cell.startswith(" [markdown]") for line in cell.splitlines()]
+    assert code
+    assert [line for line in code if len(line) > LONGEST] == []

@@ -134,7 +134,7 @@ def test_picture_holds_both_runs_and_rings_the_pixel() -> None:
         np.testing.assert_array_equal(panel[2 * y, 2 * x], run.image[y, x])
         np.testing.assert_array_equal(panel[0, 0], run.image[0, 0])
         assert (panel[2 * y + 1, 2 * x + 1 + 7] == (0xD5, 0x5E, 0x00)).all()
-    shown = failure._repr_mimebundle_()
+    shown = failure._repr_mimebundle_()[0]
     assert shown["text/plain"] == failure.explain()
     assert shown["image/png"]
 

@@ -51,8 +51,8 @@ def test_titles_complete_keys(run):
 def test_maps_print_their_sizes_and_ranges(run):
     assert repr(run.maps).splitlines()[0].startswith("ZS  32 x 32 float32, 0.")
     assert repr(Maps()) == "no maps"
-    assert run.maps._repr_mimebundle_()["image/png"]
-    assert Maps()._repr_mimebundle_() == {"text/plain": "no maps"}
+    assert run.maps._repr_mimebundle_()[0]["image/png"]
+    assert Maps()._repr_mimebundle_()[0] == {"text/plain": "no maps"}
     with pytest.raises(KeyError, match="there is no map 'SZ': did you mean 'ZS'"):
         run.maps["SZ"]
     assert run.maps.get("SZ") is None

@@ -181,3 +181,37 @@ def test_a_missing_library_is_named_with_the_extra(zfail, monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
     with pytest.raises(ImportError, match="play needs anywidget"):
         ss.notebook.play("map", "torus")
+
+
+# -- words for screen readers ------------------------------------------------------------------------------------------
+def test_figures_say_in_words_what_they_show(zfail, shadow_map):
+    counted = ss.notebook.describe(ss.notebook.show_stencil(zfail[1]))
+    assert counted.startswith("Stencil: after step 1, count back faces: 0 in ")
+    assert ss.notebook.describe(ss.notebook.show_map(shadow_map, "valid")).endswith(" true (x 0 to 63, y 3 to 47).")
+    grid = ss.notebook.show_steps(zfail)
+    said = ss.notebook.describe(grid[0, 0].figure)
+    assert said.startswith("volume-zfail on torus. 0 draw the scene without the light colour: ")
+    assert said.count("stencil: ") == 4
+
+
+def test_other_plots_say_their_labels_and_series():
+    figure, ax = plt.subplots()
+    ax.plot([1, 2], [3, 5], label="time")
+    ax.set(title="Growth", xlabel="lights", ylabel="ms")
+    assert ss.notebook.describe(figure) == "Growth: x: lights; y: ms; time: 2 points, x 1 to 2, y 3 to 5."
+
+
+def test_a_notebook_gets_the_words_beside_the_picture(zfail, monkeypatch):
+    from IPython.core.formatters import DisplayFormatter
+    from IPython.core.pylabtools import print_figure
+    from matplotlib.figure import Figure
+
+    display = DisplayFormatter()
+    display.formatters["image/png"].for_type(Figure, print_figure)
+    shell = type("Shell", (), {"display_formatter": display})()
+    monkeypatch.setattr("IPython.get_ipython", lambda: shell)
+    for _ in range(2):  # the second figure finds the notebook told already
+        ax = ss.notebook.show_stencil(zfail[1])
+        data, metadata = display.format(ax.figure)
+        assert data["image/png"].startswith(b"\x89PNG")
+        assert metadata["image/png"] == {"alt": ss.notebook.describe(ax.figure)}

@@ -126,7 +126,7 @@ def test_nothing_serious_for_screen_readers_and_a_narrow_page_does_not_scroll_si
 def test_the_report_of_a_displayed_run_works_in_a_page_without_network(name):
     run = ss.run(name, "torus", SIZE)
     with browser_page(viewport={"width": 1000, "height": 900}) as page:
-        page.set_content(run._repr_mimebundle_()["text/html"])
+        page.set_content(run._repr_mimebundle_()[0]["text/html"])
         inside = page.frame_locator("iframe")
         inside.locator("body").wait_for()
         assert name in inside.locator("body").inner_text()

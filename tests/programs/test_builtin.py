@@ -107,7 +107,9 @@ def test_shadow_map_is_its_glsl_twin(filter_name):
         light_matrix = rng.normal(0, 0.5, (4, 4)).astype(np.float32)
         light_matrix[:, 3] += (0.5, 0.5, 0.5, 1.5)
 
-        uniforms = {"lightMatrix": light_matrix, "bias": 0.01, "ambient": (0.3, 0.2, 0.1, 1.0)}
+        model_matrix = rng.normal(0, 0.3, (4, 4)).astype(np.float32) + IDENTITY
+        matrices = {"lightMatrix": light_matrix} | ({"modelMatrix": model_matrix} if seed else {})
+        uniforms = {**matrices, "bias": 0.01, "ambient": (0.3, 0.2, 0.1, 1.0)}
         ours = shaded("shadow-map", vertices, {**uniforms, "shadowMap": depth_map(np.floor(depths * D24), filter_name)})
         assert 0 < (ours != vertices.color).any(axis=1).mean() < 1
         assert same_bits(ours, shaded_on_mesa("shadow-map", vertices, uniforms, texture_of(depths, filter_name)))
@@ -136,7 +138,15 @@ def test_blinn_phong_under_a_shadow_map_is_its_glsl_twin(name, filter_name):
         light_matrix[:, 3] += (0.5, 0.5, 0.5, 1.5)
         colors = {"ambient": (0.1, 0.2, 0.3), "diffuse": (0.6, 0.5, 0.4), "specular": (0.3, 0.4, 0.5)}
         light = {"lightPosition": (1.0, 2.0, 3.0, 1.0), "shininess": 10.0}
-        uniforms = {**colors, **light, "lightMatrix": light_matrix, "bias": 0.01, "texel": 1 / 16}
+        model_matrix = np.float32([[1, 0.1, 0, 0.2], [0, 1, 0.3, 0], [0.2, 0, 0.9, 0.1], [0, 0, 0, 1]])
+        uniforms = {
+            **colors,
+            **light,
+            "lightMatrix": light_matrix,
+            "modelMatrix": model_matrix,
+            "bias": 0.01,
+            "texel": 1 / 16,
+        }
         ours = shaded(name, vertices, {**uniforms, "shadowMap": depth_map(np.floor(depths * D24), filter_name)})
         without = shaded("blinn-phong", vertices, {**colors, **light})
         assert 0 < (ours != without).any(axis=1).mean() < 1

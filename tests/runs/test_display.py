@@ -31,7 +31,7 @@ def page_in(shown: str) -> str:
 
 
 def test_a_notebook_gets_the_report_a_picture_and_a_text(run):
-    shown = run._repr_mimebundle_()
+    shown = run._repr_mimebundle_()[0]
     assert list(shown) == ["text/html", "text/plain", "image/png"]
     assert page_in(shown["text/html"]).startswith("<!doctype html>")
     assert shown["text/plain"].splitlines()[0] == repr(run)
@@ -40,12 +40,12 @@ def test_a_notebook_gets_the_report_a_picture_and_a_text(run):
 
 def test_the_report_in_the_frame_is_the_one_that_is_saved(run, tmp_path):
     saved = run.save(tmp_path / "run.html").read_text(encoding="utf-8")
-    assert page_in(run._repr_mimebundle_()["text/html"]) == saved
+    assert page_in(run._repr_mimebundle_()[0]["text/html"]) == saved
 
 
 def test_a_report_that_is_too_large_gives_way_to_a_sentence(run, monkeypatch):
     monkeypatch.setattr(display, "LARGEST_REPORT", 1000)
-    shown = run._repr_mimebundle_()
+    shown = run._repr_mimebundle_()[0]
     assert "iframe" not in shown["text/html"]
     assert re.search(r"The report of this run has 0\.\d MB.*run\.save", shown["text/html"])
     assert f"data:image/png;base64,{shown['image/png']}" in shown["text/html"]
@@ -54,12 +54,12 @@ def test_a_report_that_is_too_large_gives_way_to_a_sentence(run, monkeypatch):
 def test_a_report_that_would_be_much_too_large_is_not_begun(run, monkeypatch):
     monkeypatch.setattr(display, "MOST_PIXELS", 3 * 64 * 48 - 1)
     monkeypatch.setattr(display, "report_html", lambda run: pytest.fail("begun"))
-    assert "would have many megabytes" in run._repr_mimebundle_()["text/html"]
+    assert "would have many megabytes" in run._repr_mimebundle_()[0]["text/html"]
 
 
 def test_names_with_html_are_shown_as_text(run):
     scene = ss.Scene('"><script>alert(1)</script>', run.scene.camera, run.scene.lights, run.scene.objects)
-    shown = ss.run("map", scene, SIZE, map_size=16)._repr_mimebundle_()["text/html"]
+    shown = ss.run("map", scene, SIZE, map_size=16)._repr_mimebundle_()[0]["text/html"]
     assert "<script>" not in shown  # that of the report is escaped in its frame
     assert "<script>alert" not in page_in(shown)
 

@@ -95,4 +95,4 @@ def test_a_run_of_ones_own_technique_can_be_saved(tmp_path, name):
         assert (again.technique, again.options) == ("only-clear", {"value": 5})
         np.testing.assert_array_equal(again.stencil, run.stencil)
         again.save(tmp_path / "again.html")
-    assert "text/html" in run._repr_mimebundle_()
+    assert "text/html" in run._repr_mimebundle_()[0]

@@ -351,6 +351,6 @@ def test_a_run_holds_no_pickle(zfail, tmp_path):
 
 # -- display -----------------------------------------------------------------------------------------------------------
 def test_a_notebook_gets_text_and_a_picture(zfail):
-    shown = zfail._repr_mimebundle_()
+    shown = zfail._repr_mimebundle_()[0]
     assert shown["text/plain"].startswith("Run('volume-zfail', scene 'torus', 64 x 48, 4 steps)")
     assert shown["image/png"].startswith("iVBORw0KGgo")  # a PNG's first bytes in base64

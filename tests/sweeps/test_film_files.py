@@ -127,7 +127,7 @@ def test_mp4_without_its_library_is_an_error_that_names_it(film: ss.Film, monkey
 
 
 def test_notebook_shows_the_film_and_elsewhere_its_poster(film: ss.Film, tmp_path: Path) -> None:
-    shown = film._repr_mimebundle_()
+    shown = film._repr_mimebundle_()[0]
     data = re.search(r'src="data:image/webp;base64,([^"]*)"', shown["text/html"])
     assert data is not None
     (tmp_path / "film.webp").write_bytes(base64.b64decode(data[1]))
@@ -139,7 +139,7 @@ def test_notebook_shows_the_film_and_elsewhere_its_poster(film: ss.Film, tmp_pat
 
 def test_film_too_large_for_a_notebook_is_shown_as_its_poster(film: ss.Film, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("softshadow.sweeps.films.film.LARGEST_SHOWN", 10)
-    shown = film._repr_mimebundle_()
+    shown = film._repr_mimebundle_()[0]
     assert "image/webp" not in shown["text/html"]
     assert 'film.save("film.webp")' in shown["text/html"]
 

@@ -44,6 +44,10 @@ VARIANTS: list[tuple[str, dict[str, Any]]] = [
     ("planar-accumulated", {"samples": 5, "pattern": "jittered", "method": "accumulation"}),
     ("planar-nested", {"layers": 3, "texture_size": 64}),
     ("map", {"surface": "midpoint", "map_size": 64, "factor": 0.0, "normal_bias": 0.02}),
+    ("map", {"map_format": "d16", "storage": "copy", "map_size": 48}),
+    ("map", {"map_format": "d32f", "surface": "midpoint", "map_size": 64}),
+    ("map-pcss", {"map_format": "d32", "map_size": 64, "search": 4, "taps": 5}),
+    ("map-cube", {"map_format": "d16", "map_size": 64}),
 ]
 
 

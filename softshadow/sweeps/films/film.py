@@ -16,7 +16,8 @@ import numpy as np
 
 from softshadow import errors
 from softshadow.inspection.files import is_folder, write_whole
-from softshadow.inspection.pictures import notebook_display, save_png
+from softshadow.inspection.pictures import Shown, notebook_display, save_png
+from softshadow.inspection.words import colors_in_words, place_in_words
 from softshadow.sweeps.films.changes import Change
 from softshadow.sweeps.films.writers import check_film, write_film
 
@@ -93,24 +94,32 @@ class Film:
             f"{self.seconds:.1f} s: {changing})"
         )
 
+    def describe(self) -> str:
+        """Return what the film shows, in words: what changes, and how far the last picture differs from the first."""
+        changing = "; ".join(f"{change.labels[0]} to {change.labels[-1]}" for change in self.changes)
+        differ = place_in_words((self.pictures[0] != self.pictures[-1]).any(axis=-1), "differ")
+        return (
+            f"Film of {self.technique} on scene {self.scene}, {len(self)} frames in {self.seconds:.1f} seconds, from "
+            f"{changing}. Between the first frame and the last, {differ}. "
+            f"Frame {self.poster_frame}: {colors_in_words(self.poster)}."
+        )
+
     @cached_property
     def _webp(self) -> bytes:
         with TemporaryDirectory() as folder:
             return self.save(Path(folder) / "film.webp").read_bytes()
 
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Shown:
         """Return what a notebook displays: the film, or a sentence if it is too large; the poster; a text."""
-        shown = notebook_display(repr(self), self.poster)
-        size = len(self._webp)
+        shown, metadata = notebook_display(repr(self), self.poster, self.describe())
+        size, words = len(self._webp), escape(self.describe())
         if size > LARGEST_SHOWN:
-            image = f'<img src="data:image/png;base64,{shown["image/png"]}" alt="{escape(repr(self))}">'
+            image = f'<img src="data:image/png;base64,{shown["image/png"]}" alt="{words}">'
             too_large = f"<p>The film has {size / 1e6:.1f} MB, too much for a notebook: "
-            return {
-                "text/html": f'{image}{too_large}<code>film.save("film.webp")</code> writes it to a file.</p>',
-                **shown,
-            }
-        data = b64encode(self._webp).decode()
-        return {"text/html": f'<img src="data:image/webp;base64,{data}" alt="{escape(repr(self))}">', **shown}
+            page = f'{image}{too_large}<code>film.save("film.webp")</code> writes it to a file.</p>'
+        else:
+            page = f'<img src="data:image/webp;base64,{b64encode(self._webp).decode()}" alt="{words}">'
+        return {"text/html": page, **shown}, metadata
 
 
 def check_output(path: str | os.PathLike[str]) -> None:
