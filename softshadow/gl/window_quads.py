@@ -12,7 +12,7 @@ from softshadow.image import Format
 from softshadow.pipeline.commands import CreateTexture, DefineImage, Draw, SetSampler, Vertices
 from softshadow.state import ClipPlanes, Cull, Fog, Polygon, State, TextureUnit, Viewport
 from softshadow.state.texturing import SWITCHES
-from softshadow.texture import Sampler
+from softshadow.texture import DEFAULTS, Sampler
 
 # the unit square in the order of Mesa's vertices; for images in framebuffer objects it counts rows from the top
 CORNERS = np.array([[0, 1], [1, 1], [1, 0], [0, 0]])
@@ -20,7 +20,7 @@ CORNERS_FROM_TOP = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
 TRIANGLES = np.array([0, 1, 2, 0, 2, 3])  # a fan, as in Mesa
 
 
-TEXTURE = -2  # key in the storage of the texture that holds the rectangle
+TEXTURE = min(DEFAULTS.values()) - 1  # key in the storage of the texture that holds the rectangle
 SAMPLER = Sampler(
     min_filter=gl.GL_NEAREST, mag_filter=gl.GL_NEAREST, wrap_s=gl.GL_CLAMP_TO_EDGE, wrap_t=gl.GL_CLAMP_TO_EDGE
 )
