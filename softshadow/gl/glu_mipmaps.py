@@ -116,9 +116,12 @@ def packed_tightly(context: Context) -> Iterator[None]:
 
 def wrong_image(format: int, type: int) -> int:
     """Return an error code of GLU, 0 for a format and a type that images can have here."""
-    if format not in COMPONENTS or (type not in TYPES and type not in PACKED_COLORS):
+    packed = PACKED_COLORS.get(type)
+    if format not in COMPONENTS or (type not in TYPES and packed is None):
         return GLU_INVALID_ENUM
-    return GLU_INVALID_OPERATION if type in PACKED_COLORS else 0
+    if packed is not None and packed.small_floats is not None:  # newer than GLU
+        return GLU_INVALID_ENUM
+    return GLU_INVALID_OPERATION if packed is not None else 0
 
 
 def nearest_power(size: int) -> int:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.color_values import color_as_float
 from softshadow.context import Context, current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.depth_rectangles import copy_depths, draw_rectangle_of_depths, texture_of_depths
@@ -25,7 +26,7 @@ from softshadow.gl.window_quads import textured_rectangle
 from softshadow.image import Format, storage_format
 from softshadow.packed_colors import PACKED_COLORS
 from softshadow.pipeline.buffers.copy import bottom_up, clipped
-from softshadow.pixels import color_as_float, pack_color, unpack_color
+from softshadow.pixels import pack_color, unpack_color
 from softshadow.tokens import token_name
 
 LARGEST_SHORT = 2**15 - 1

@@ -32,6 +32,9 @@ from softshadow.tokens import GL_ABGR_EXT
 
 # missing in PyOpenGL 3.1's image tables; one 32-bit word per pixel, or two
 images.TYPE_TO_ARRAYTYPE[GL.GL_UNSIGNED_INT_24_8] = GL.GL_UNSIGNED_INT
+for _words in (GL.GL_UNSIGNED_INT_5_9_9_9_REV, GL.GL_UNSIGNED_INT_10F_11F_11F_REV):
+    images.TYPE_TO_ARRAYTYPE[_words] = GL.GL_UNSIGNED_INT
+    images.TIGHT_PACK_FORMATS[_words] = 3
 images.TYPE_TO_ARRAYTYPE[GL.GL_FLOAT_32_UNSIGNED_INT_24_8_REV] = GL.GL_UNSIGNED_BYTE  # passed as bytes
 
 
