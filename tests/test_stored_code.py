@@ -9,7 +9,9 @@ from typing import Any, NamedTuple
 import numba
 import numpy as np
 import pytest
+from numba.core.compiler import Flags
 
+from softshadow.jit.parts import KernelFlags
 from softshadow.jit.stored_code import type_of
 
 KERNELS = """
@@ -45,6 +47,20 @@ def several(array, names):
     for i in range(array.shape[0]):
         copy[i] = array[i] * names[0]
     return copy, names, array[0] > 0
+
+@allocating_kernel
+def checked(x):
+    if x < 0:
+        raise ValueError("negative", x)
+    return x
+
+@allocating_kernel
+def sum_with_one(x):
+    return checked(x) + 1
+
+@allocating_kernel
+def sum_with_two(x):
+    return checked(x) + 2
 
 def make(number):
     @kernel
@@ -113,6 +129,20 @@ def test_another_version_of_numba_loads_kernels_in_its_own_way(run: Any) -> None
     run(RUN)
     other = "del stored_code.StoredResults.rebuild_without_compiler\n"
     assert run(other + RUN) == RESULT.format(True)
+
+
+def test_another_version_of_numba_compiles_in_its_own_way(run: Any) -> None:
+    late = """
+@kernel
+def part(x):
+    return x * 2
+@kernel
+def late(x):
+    return part(x) + part(1)
+print(type(late._compiler).__name__, late(3))
+"""
+    assert run("stored_code.KernelCompiler = lambda *arguments: arguments.missing" + late) == "_FunctionCompiler 8"
+    assert run(late) == "KernelCompiler 8"
 
 
 def files_of(folder: Path, ending: str) -> list[Path]:
@@ -198,6 +228,67 @@ def test_only_allocating_kernels_count_references(run: Any) -> None:
 def test_wrong_arguments_have_numbas_own_message(run: Any) -> None:
     code = "try:\n    inner(object())\nexcept Exception as error:\n    print(type(error).__name__)"
     assert run(code) == "TypingError"
+
+
+COMPILATIONS = """
+from numba.core import event
+compiled = []
+
+class Count(event.Listener):
+    def on_start(self, event):
+        compiled.append(event.data["dispatcher"].py_func.__name__)
+
+    def on_end(self, event):
+        pass
+
+event.register("numba:compile", Count())
+"""
+
+
+def test_a_kernel_called_by_another_one_first_and_then_by_python_is_complete(run: Any) -> None:
+    numbers = "print(outer(3), many_calls(2), inner(3), inner(4), len(inner.signatures), compiler_started())\n"
+    wrapped = "print(*['PyArg' in code for code in inner.inspect_llvm().values()])\n"
+    assert run(f"outer(3)\n{wrapped}{numbers}{wrapped}") == "False\n107 9 7 9 1 True\nTrue"
+    assert run(numbers) == "107 9 7 9 1 False"
+
+
+def test_a_part_from_disk_is_not_compiled_again_for_another_caller(run: Any) -> None:
+    assert run("print(outer(3))") == "107"
+    code = COMPILATIONS + "print(many_calls(2), compiled)\nprint(inner(3), compiled)"
+    assert run(code) == "9 ['many_calls']\n7 ['many_calls', 'inner']"
+
+
+@pytest.mark.slow
+def test_an_error_raised_in_a_part_has_its_values(run: Any) -> None:
+    code = """
+for number in (2, -2):
+    try:
+        print(sum_with_one(number))
+    except ValueError as error:
+        print(error)
+"""
+    assert run(code) == "3\n('negative', -2)"
+    assert run(code) == "3\n('negative', -2)"
+    later = code.replace("sum_with_one", "sum_with_two")  # compiled with the part from disk
+    assert run(later) == "4\n('negative', -2)"
+
+
+def test_flags_of_kernels_are_compared_as_numbas() -> None:
+    plain = Flags()
+    plain.nrt, plain.error_model = True, "numpy"
+    ours, other = KernelFlags(plain), KernelFlags(plain)
+    other.boundscheck = True
+    assert hash(ours) == hash(plain)
+    assert ours.values() == plain.values()
+    assert ours == plain == ours
+    assert ours != other
+    assert plain != other
+
+
+def test_a_part_has_the_flags_of_a_complete_kernel() -> None:
+    complete, part = KernelFlags(), KernelFlags()
+    part.no_compile = part.no_cpython_wrapper = True
+    assert complete == part
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import click
@@ -31,7 +33,7 @@ def warmup(as_json: bool) -> None:
     from softshadow.runs import run
 
     start = time.perf_counter()
-    with warnings.catch_warnings(), use_short_cuts("always"):
+    with warnings.catch_warnings(), use_short_cuts("always"), _without_collection():
         warnings.simplefilter("ignore", SoftShadowWarning)  # the images are not used
         for name in techniques.names():
             for options in _option_sets(name):
@@ -45,6 +47,20 @@ def warmup(as_json: bool) -> None:
         folder = cache_folder()
         where = f"compiled code is in {folder}" if folder else "not cached: no cache folder is writable"
         click.echo(f"ready in {seconds:.1f} s, {where}")
+
+
+@contextmanager
+def _without_collection() -> Iterator[None]:
+    """Pause garbage collection: between two kernels it would look at all that the compiler has made."""
+    import gc
+
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
 
 
 def _option_sets(name: str) -> list[dict[str, Any]]:

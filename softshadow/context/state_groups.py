@@ -37,9 +37,12 @@ def is_same(a: Any, b: Any) -> bool:
     """Return whether two values of a field have the same bits; -0.0 equals 0.0, but is another number."""
     if a is b:
         return True
-    if a != b:
+    if a != b or type(a) is not type(b):
         return False
-    return all(map(is_same, a, b)) if type(a) is tuple else repr(a) == repr(b)
+    if type(a) is tuple:
+        are_plain = a and type(a[0]) is float and 0.0 not in a  # then equal numbers have the same bits
+        return bool(are_plain) or all(map(is_same, a, b))
+    return (type(a) is float and a != 0.0) or repr(a) == repr(b)
 
 
 # glColor under GL_COLOR_MATERIAL: the sides whose material follows ("front" or "back"), its fields, the colour

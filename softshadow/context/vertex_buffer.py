@@ -140,7 +140,7 @@ class VertexBuffer:
     def join(self, label: str, origin: Origin | None, vertices: Vertices) -> None:
         """Add the vertices of a pair to the joined pairs; `label` names the debug groups they belong to."""
         assert self.joined_pairs is not None
-        self.joined_pairs.parts.append(((label, origin), vertices))
+        self.joined_pairs.add(label, origin, vertices)
 
     def end_pair(self, mode: int, vertices: int) -> None:
         """Count a glBegin ... glEnd pair; draw if it is empty and of another mode, or the 64th."""

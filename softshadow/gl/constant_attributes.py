@@ -63,6 +63,7 @@ class ConstantAttributes:
         self.texcoords: tuple[tuple[float, ...], ...] = ((),) * TEXTURE_UNITS
         self.texcoord_bits: tuple[bytes, ...] = ()  # the same object for the same bits
         self.known_bits: dict[tuple[bytes, ...], tuple[bytes, ...]] = {}
+        self.texcoord_attributes: tuple[ConstantAttribute, ...] = ()
         self.known: dict[bytes, ConstantAttribute] = {}
         self.sets: dict[tuple[bytes, int], ConstantSet] = {}
         self.last: ConstantSet | None = None
@@ -72,12 +73,13 @@ class ConstantAttributes:
         if not all(map(is_, current.texcoords, self.texcoords)):
             bits = tuple([PACK_COORDINATES(*value) for value in current.texcoords])
             self.texcoords, self.texcoord_bits = tuple(current.texcoords), self.known_bits.setdefault(bits, bits)
+            self.texcoord_attributes = tuple([self._attribute(context, value) for value in current.texcoords])
         color, normal = current.color, current.normal
         key = PACK_COLOR_AND_NORMAL(*color, *normal), id(self.texcoord_bits)
         found = self.sets.get(key)
         if found is None:
-            values = (color, normal, *current.texcoords)
-            found = self.sets[key] = ConstantSet(tuple([self._attribute(context, value) for value in values]))
+            color_and_normal = self._attribute(context, color), self._attribute(context, normal)
+            found = self.sets[key] = ConstantSet((*color_and_normal, *self.texcoord_attributes))
         self.color, self.normal, self.last = color, normal, found
         return found
 

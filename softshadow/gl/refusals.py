@@ -76,7 +76,7 @@ def refusal(call: Callable[..., Any], error: Exception, *arguments: Any, **by_na
     if isinstance(error, SoftShadowError) or str(error).startswith((f"{name}(", f"{name}:")):
         return error
     try:
-        bound = inspect.signature(call, eval_str=False).bind(*arguments, **by_name)
+        bound = _signature(call).bind(*arguments, **by_name)
     except TypeError as mismatch:
         return TypeError(f"{name}: {mismatch}")
     for parameter, value, expected in _expectations(bound):
@@ -92,10 +92,15 @@ def refusal(call: Callable[..., Any], error: Exception, *arguments: Any, **by_na
 
 def refuse_text(call: Callable[..., Any], *arguments: Any, **by_name: Any) -> None:
     """Raise a TypeError if a number is given as text: PyOpenGL refuses '3', which Python would convert."""
-    bound = inspect.signature(call, eval_str=False).bind(*arguments, **by_name)
+    bound = _signature(call).bind(*arguments, **by_name)
     for parameter, value, expected in _expectations(bound):
         if isinstance(value, str):
             raise TypeError(f"{spelled(call)}({parameter}={_short(value)}): expected {expected}")
+
+
+@functools.cache
+def _signature(call: Callable[..., Any]) -> inspect.Signature:
+    return inspect.signature(call, eval_str=False)
 
 
 def spelled(call: Callable[..., Any]) -> str:
@@ -130,7 +135,8 @@ def _short(value: Any) -> str:
 
 def _is_number(value: Any) -> bool:
     """Return whether a value is a number that a float can hold."""
-    if not isinstance(value, Real) and not (isinstance(value, np.ndarray) and value.ndim == 0):
+    is_scalar = isinstance(value, np.ndarray) and value.ndim == 0 and value.dtype.kind in "biuf"
+    if not isinstance(value, Real) and not is_scalar:
         return False
     try:
         float(value)

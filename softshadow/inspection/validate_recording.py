@@ -18,7 +18,7 @@ from softshadow.framebuffer import DEPTH_FORMATS, LARGEST_SIDE, NOTHING
 from softshadow.image import EXACT_DEPTH, FORMATS, STENCIL8, Image, zeroed_cells
 from softshadow.inspection.replay import Buffers
 from softshadow.pipeline import commands
-from softshadow.state import Polygon
+from softshadow.state import Polygon, State
 from softshadow.state.rasterization import SOLID
 
 # what GL calls hold: signed or unsigned numbers of 32 bits
@@ -33,6 +33,15 @@ def _hints(kind: type) -> dict[str, Any]:
     return get_type_hints(kind)
 
 
+@cache
+def _lengths(kind: type) -> dict[str, int]:
+    """Return the lengths of the tuples in a group of the state: texture units, lights, clip planes ..."""
+    if not kind.__module__.startswith(State.__module__):
+        return {}
+    initial = vars(kind())
+    return {name: len(value) for name, value in initial.items() if isinstance(value, tuple)}
+
+
 def validate_fields(kind: type, values: Mapping[str, Any]) -> None:
     """Raise a ValueError unless values are those of all fields of a class, each of its type."""
     hints = _hints(kind)
@@ -42,6 +51,9 @@ def validate_fields(kind: type, values: Mapping[str, Any]) -> None:
     for name, value in values.items():
         if name != "history_bytes":  # nothing more is recorded
             validate_type(f"{kind.__name__}.{name}", value, hints[name])
+    for name, length in _lengths(kind).items():
+        if len(values[name]) != length:
+            raise ValueError(f"{kind.__name__}.{name}: expected {length} values")
     if kind is Polygon and len(values["stipple"]) != len(SOLID):
         raise ValueError(f"Polygon.stipple: expected {len(SOLID)} bytes")
 

@@ -22,8 +22,11 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.environment import Environment, lookup_environment
 from numba.core.registry import CPUDispatcher
+from numba.core.sigutils import normalize_signature
 from numba.core.typing.typeof import Purpose, typeof
 from numba.np import numpy_support
+
+from softshadow.jit.parts import PART, KernelCompiler, PartLibrary, as_part, is_part
 
 # what the parts of Numba that are used here raise where another version lacks them or builds them differently
 OTHER_VERSION = (AttributeError, KeyError, TypeError, ValueError)
@@ -72,9 +75,14 @@ class StoredResults(CompileResultCacheImpl):
         return StoredResult((*result, ()), parts, frozenset(defined), frozenset(external))
 
     def rebuild(self, target_context: Any, payload: StoredResult) -> Any:
-        """Return the result, made in Numba's own way."""
+        """Return the result for kernels to call: complete ones are made in Numba's own way."""
         environments = tuple(rebuild_environment(*parts) for parts in payload.environments)
-        return super().rebuild(target_context, (*payload.result[:-1], environments))
+        name, kind, (_, bitcode) = payload.result[0]
+        if kind != PART:
+            return super().rebuild(target_context, (*payload.result[:-1], environments))
+        library = PartLibrary(target_context.codegen(), name)
+        library.bitcode, library._finalized = bitcode, True
+        return as_part(_result_of(payload, target_context, library, None, environments))
 
     def rebuild_without_compiler(self, target_context: Any, payload: StoredResult) -> Any:
         """Return the result with its machine code ready to be called, or None if it needs what is not there."""
@@ -83,9 +91,7 @@ class StoredResults(CompileResultCacheImpl):
         register_runtime()
         if not all(name in engine._defined_symbols or llvm.address_of_symbol(name) for name in payload.external):
             return None
-        library_parts, fndesc, environment, signature, objectmode, lifted, annotation, reload, referenced = (
-            payload.result
-        )
+        library_parts, fndesc, environment, _, objectmode, _, _, reload, _ = payload.result
         name, kind, (machine_code, bitcode) = library_parts
         if kind != "object" or reload or objectmode:
             return None
@@ -99,11 +105,16 @@ class StoredResults(CompileResultCacheImpl):
         referenced = tuple(rebuild_environment(*parts) for parts in payload.environments)
         for each in referenced:
             codegen.set_env(each.env_name, each)
-        return compiler.compile_result(
-            target_context=target_context, typing_context=target_context.typing_context, library=library,
-            environment=environment, entry_point=entry_point, fndesc=fndesc, type_annotation=annotation,
-            signature=signature, objectmode=objectmode, lifted=lifted, reload_init=reload, referenced_envs=referenced,
-        )  # fmt: skip
+        return _result_of(payload, target_context, library, entry_point, referenced)
+
+
+def _result_of(payload: StoredResult, target_context: Any, library: Any, entry_point: Any, referenced: Any) -> Any:
+    _, fndesc, environment, signature, objectmode, lifted, annotation, reload, _ = payload.result
+    return compiler.compile_result(
+        target_context=target_context, typing_context=target_context.typing_context, library=library,
+        environment=environment, entry_point=entry_point, fndesc=fndesc, type_annotation=annotation,
+        signature=signature, objectmode=objectmode, lifted=lifted, reload_init=reload, referenced_envs=referenced,
+    )  # fmt: skip
 
 
 def rebuild_environment(module: str, constants: list[Any], name: str) -> Any:
@@ -183,11 +194,27 @@ class KernelCache(FunctionCache):
     """The files of one kernel. What cannot be read is compiled anew, what cannot be written is compiled again later."""
 
     _impl_class = StoredResults
+    for_kernels = False
 
     def __init__(self, py_func: Any) -> None:
         super().__init__(py_func)
         stamp, base = self._impl.locator.get_source_stamp(), self._impl.filename_base
         self._cache_file = KernelFiles(cache_path=self._cache_path, filename_base=base, source_stamp=stamp)
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return the stored result for these types, or None; kernels can call a part or a complete one."""
+        result = super().load_overload(sig, target_context)
+        if result is None and self.for_kernels:
+            self.for_kernels = False
+            try:
+                result = super().load_overload(sig, target_context)
+            finally:
+                self.for_kernels = True
+        return result
+
+    def _index_key(self, sig: Any, codegen: Any) -> Any:
+        key = super()._index_key(sig, codegen)
+        return (*key, PART) if self.for_kernels else key
 
     def load_without_compiler(self, argument_types: tuple[Any, ...], target_context: Any) -> Any:
         """Return the stored result for these types, or None."""
@@ -205,6 +232,16 @@ NumbaDispatcher: Any = CPUDispatcher  # type checkers do not see the attributes 
 
 class KernelDispatcher(NumbaDispatcher):
     """A compiled function that looks for its machine code on disk before it starts the compiler."""
+
+    def __init__(self, py_func: Any, **options: Any) -> None:
+        super().__init__(py_func, **options)
+        theirs: Any = self._compiler
+        with contextlib.suppress(*OTHER_VERSION):
+            self._compiler: Any = KernelCompiler(
+                py_func, self.targetdescr, theirs.targetoptions, theirs.locals, theirs.pipeline_class
+            )
+        self._compiler.for_kernels = False  # set by `get_call_template`
+        self._former_parts: list[Any] = []  # the environments of which callers use
 
     def enable_caching(self) -> None:
         """Store and find machine code in the folder that Numba's configuration names now."""
@@ -225,7 +262,31 @@ class KernelDispatcher(NumbaDispatcher):
         A whole number written as an argument has the type of all others: Numba would compile this kernel again for it.
         """
         args, kws = [plain_type(each) for each in args], {name: plain_type(each) for name, each in kws.items()}
-        return super().get_call_template(args, kws)
+        before = self._compiler.for_kernels
+        self._compiler.for_kernels = self._cache.for_kernels = True
+        try:
+            return super().get_call_template(args, kws)
+        finally:
+            self._compiler.for_kernels = self._cache.for_kernels = before
+
+    def compile(self, sig: Any) -> Any:
+        """Return the entry point for these types; kernels get a part, if nothing was called from Python yet."""
+        with global_compiler_lock:
+            if not self._compiler.for_kernels:
+                self._forget_part(tuple(normalize_signature(sig)[0]))
+            return super().compile(sig)
+
+    def add_overload(self, cres: Any) -> None:
+        """Add a result; Python does not see a part."""
+        if is_part(cres):
+            self.overloads[tuple(cres.signature.args)] = cres
+        else:
+            super().add_overload(cres)
+
+    def _forget_part(self, argument_types: tuple[Any, ...]) -> None:
+        result = self.overloads.get(argument_types)
+        if result is not None and is_part(result):
+            self._former_parts.append(self.overloads.pop(argument_types))
 
     def _compile_for_args(self, *args: Any, **kws: Any) -> Any:
         """Return the machine code for these arguments; Numba calls this when they are of new types."""
@@ -237,6 +298,7 @@ class KernelDispatcher(NumbaDispatcher):
 
     def _entry_point_from_disk(self, argument_types: tuple[Any, ...]) -> Any:
         with global_compiler_lock:
+            self._forget_part(argument_types)
             result = self.overloads.get(argument_types)
             if result is None and isinstance(self._cache, KernelCache):
                 result = self._cache.load_without_compiler(argument_types, self.targetctx)

@@ -25,7 +25,8 @@ from softshadow.tokens import GL_TEXTURE_RECTANGLE
 
 LAST_WEIGHT = 1023
 TWO, FOUR, SCALE = np.float32(2.0), np.float32(4.0), np.float32(LAST_WEIGHT)
-WIDEST = 1 << 14  # texels of an ellipse's box on an axis: no loop may be endless, whatever the coordinates are
+# texels of an ellipse's box: no loop may be endless, whatever the coordinates are
+MOST_TEXELS, WIDEST = 1 << 28, 1 << 14  # in all; on both axes, where there would be more
 
 
 def _weights() -> np.ndarray:
@@ -113,16 +114,19 @@ def average_ellipses(
         u, v = coordinates[0, n] * scaled[0] - HALF, coordinates[1, n] * scaled[1] - HALF
         u0, u1 = to_integer(np.floor(u - half_width)), to_integer(np.ceil(u + half_width))
         v0, v1 = to_integer(np.floor(v - half_height)), to_integer(np.ceil(v + half_height))
+        columns, rows = min(u1 - u0, MOST_TEXELS), min(v1 - v0, MOST_TEXELS)
+        if (columns + 1) * (rows + 1) > MOST_TEXELS:
+            columns, rows = min(columns, WIDEST), min(rows, WIDEST)
         left = np.float32(u0) - u
         first_step, first_q = (TWO * left + ONE) * a, (left * left) * a
         total, red, green, blue, alpha = ZERO, ZERO, ZERO, ZERO, ZERO
         k = nearest_on_axis(coordinates[2, n], sides[2], wraps[2], normalized) if len(wraps) > 2 else 0
-        for j in range(v0, min(v1, v0 + WIDEST) + 1):
+        for j in range(v0, v0 + rows + 1):
             up = np.float32(j) - v
             step, q = up * b + first_step, (c * up + b * left) * up + first_q
             t = np.float32(j) / np.float32(sides[1])
             row = row_of(nearest_on_axis(t, sides[1], wraps[1], normalized), k, sides)
-            for i in range(u0, min(u1, u0 + WIDEST) + 1):
+            for i in range(u0, u0 + columns + 1):
                 weight = weight_at(weights, q)
                 if weight != ZERO:
                     s = np.float32(i) / np.float32(sides[0])

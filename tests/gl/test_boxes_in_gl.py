@@ -135,3 +135,23 @@ def test_anisotropic_filters_average_the_texels_of_mesa(filters):
 
     comparison = compare(program, SIZE)
     assert comparison, str(comparison)
+
+
+@pytest.mark.mesa
+def test_a_long_ellipse_averages_all_its_texels():
+    size = 3, 3
+
+    def program(on: Any) -> None:
+        texels = np.random.default_rng(6).integers(0, 256, (8, 4, 4), dtype=np.uint8)
+        target, far = on.GL_TEXTURE_RECTANGLE, 20_000.0 * size[0]  # so many texels are in one pixel
+        on.glTexImage2D(target, 0, on.GL_RGBA8, 4, 8, 0, on.GL_RGBA, on.GL_UNSIGNED_BYTE, texels)
+        on.glTexParameterf(target, on.GL_TEXTURE_MAX_ANISOTROPY_EXT, 4.0)
+        on.glEnable(target)
+        on.glBegin(on.GL_QUADS)
+        for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+            on.glTexCoord2f(s * far, 4 + 4 * t)
+            on.glVertex2f(s, t)
+        on.glEnd()
+
+    comparison = compare(program, size)
+    assert comparison, str(comparison)

@@ -120,12 +120,13 @@ class Damager:
         names = [name for name in self.arrays if name != DESCRIPTION]
         name = names[int(rng.integers(len(names)))]
         array = self.arrays[name]
-        huge = np.full(array.shape, 2**30).astype(array.dtype)
-        changes = [
-            array.astype(np.float16), array.astype(str), array.ravel(), array[..., :1], array[:0], array[np.newaxis],
-            huge, huge * huge, np.asfortranarray(array), np.zeros((), array.dtype), array.astype(bool),
-            array.astype(array.dtype.newbyteorder()),
-        ]  # fmt: skip
+        with np.errstate(over="ignore"):
+            huge = np.full(array.shape, 2**30).astype(array.dtype)
+            changes = [
+                array.astype(np.float16), array.astype(str), array.ravel(), array[..., :1], array[:0],
+                array[np.newaxis], huge, huge * huge, np.asfortranarray(array), np.zeros((), array.dtype),
+                array.astype(bool), array.astype(array.dtype.newbyteorder()),
+            ]  # fmt: skip
         self.reseal(path, **{name: changes[int(rng.integers(len(changes)))]})
 
     def nest_deeply(self, rng: np.random.Generator, path: Path) -> None:

@@ -1,5 +1,6 @@
 """Saved runs that are not as they were written: each is refused in one sentence, or loaded and usable."""
 
+import json
 import os
 import zipfile
 from pathlib import Path
@@ -57,6 +58,14 @@ def test_damaged_runs_are_refused_in_one_sentence(damager, tmp_path):
 @pytest.mark.slow
 def test_thousands_of_damaged_runs_are_refused_in_one_sentence(damager, tmp_path):
     assert refused_or_usable(damager, range(QUICK, LONG), tmp_path) > LONG / 2
+
+
+def test_a_state_without_all_its_clip_planes_is_refused(damager, tmp_path):
+    plane = '{"tuple": [0.0, 0.0, 0.0, 0.0]}, '
+    text = json.dumps(damager.description)
+    damager.reseal(tmp_path / "a.npz", text.replace(f'"equations": {{"tuple": [{plane}', '"equations": {"tuple": [', 1))
+    with pytest.raises(ss.SoftShadowError, match=r"ClipPlanes\.equations: expected 6 values"):
+        ss.load_run(tmp_path / "a.npz")
 
 
 def test_any_changed_byte_of_the_contents_is_noticed(damager, tmp_path):

@@ -16,6 +16,7 @@ from softshadow import tokens as gl
 from softshadow.image import Format, Image
 from softshadow.pipeline.fast.fragment_block import COLUMNS
 from softshadow.pipeline.shade.blend import FOUR_BYTES, BlendOps, blend_ops
+from softshadow.pixels import LARGEST_SAMPLED, LARGEST_UINT
 from softshadow.programs.filtering import DEPTH_SOURCES, SOURCES, in_8_bits, unit_of, wraps_of
 from softshadow.programs.fixed_function import Unit, is_separate
 from softshadow.programs.fog import linear_terms, scaled_density
@@ -54,6 +55,7 @@ COMPARISONS = {
     gl.GL_GEQUAL: 6, gl.GL_ALWAYS: 15,
 }  # fmt: skip
 NO_TEXELS = np.zeros(1, np.int32)
+ROWS_AT_ONCE = 16  # of an image; they stay in the processor's cache
 RGB, ALPHA = 0x00FFFFFF, 0xFF000000
 
 
@@ -155,12 +157,11 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     image, sampler = texture.base(), texture.sampler
     assert image is not None
     is_depth = image.format.kind == "depth"
-    kind = np.float32 if is_depth else np.uint8
     if (
         texture.target != gl.GL_TEXTURE_2D
         or texture.is_anisotropic
         or setting.env_mode not in MODES
-        or image.format.dtype != kind
+        or not _holds_texels(image.format)
     ):
         return False
     wraps = wraps_of(sampler, texture.images.get((0, 0)) or image)
@@ -199,6 +200,13 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     return True
 
 
+def _holds_texels(format: Format) -> bool:
+    """Return whether the texels of a format are stored in 32 bits, or are kept so beside the image."""
+    if format.kind == "depth":
+        return format.dtype == np.float32 or format.largest == LARGEST_UINT
+    return format.dtype == np.uint8
+
+
 def level_mode(sampler: Sampler, needs_levels: bool) -> tuple[int, tuple[float, float, float]]:
     """Return how the level of detail is computed, and its least and largest value and bias."""
     least, most, bias = max(sampler.min_lod, 0.0), sampler.max_lod, bias_of(sampler)
@@ -233,30 +241,44 @@ def level_offsets(image: Image, last: int) -> list[int]:
     return offsets
 
 
-_packed: WeakKeyDictionary[Image, tuple[list[tuple[Image, object]], np.ndarray]] = WeakKeyDictionary()
+# images that texels were made from with their versions, and these texels, by the base image
+_made: WeakKeyDictionary[Image, tuple[list[tuple[Image, object]], np.ndarray]] = WeakKeyDictionary()
 
 
 def texels_of(texture: Texture) -> np.ndarray:
     """Return all texels (n,) int32 of a texture: its only level with the padding, or its levels one after the other."""
     base, sampler = texture.base(), texture.sampler
     assert base is not None
-    if FILTERS[sampler.min_filter][1] == gl.GL_NONE or texture.last_level() == sampler.base_level:
-        return base.read_cells.reshape(-1).view(np.int32)
-    images = [texture.images[0, level] for level in range(sampler.base_level, texture.last_level() + 1)]
-    known = _packed.get(base)
+    is_single = FILTERS[sampler.min_filter][1] == gl.GL_NONE or texture.last_level() == sampler.base_level
+    if is_single and base.format.largest != LARGEST_UINT:
+        return _in_32_bits(base.read_cells)
+    images = [base]
+    if not is_single:
+        images = [texture.images[0, level] for level in range(sampler.base_level, texture.last_level() + 1)]
+    known = _made.get(base)
     if known is not None and len(known[0]) == len(images):
         for image, (same, version) in zip(images, known[0], strict=True):
             if image is not same or image.version is not version:
                 break
         else:
             return known[1]
-    texels = np.concatenate(
-        [image.read_cells[:, : image.width].reshape(-1).view(np.int32) for image in images], dtype=np.int32
-    )
+    parts = [_in_32_bits(image.read_cells if is_single else image.read_cells[:, : image.width]) for image in images]
+    texels = parts[0] if is_single else np.concatenate(parts, dtype=np.int32)
     for image in images:
         image.version = image.version if image.version is not None else object()
-    _packed[base] = [(image, image.version) for image in images], texels
+    _made[base] = [(image, image.version) for image in images], texels
     return texels
+
+
+def _in_32_bits(cells: np.ndarray) -> np.ndarray:
+    """Return cells (n,) int32: four bytes, or the bits of a depth in float32; of 32-bit depths the upper 23 bits."""
+    if cells.dtype != np.float64:
+        return cells.reshape(-1).view(np.int32)
+    upper = np.empty(cells.shape, np.float32)
+    for first in range(0, len(cells), ROWS_AT_ONCE):
+        rows = slice(first, first + ROWS_AT_ONCE)
+        upper[rows] = np.minimum(np.floor(cells[rows] * (1 / 512)), LARGEST_SAMPLED)
+    return upper.reshape(-1).view(np.int32)
 
 
 def _write_blending(state: State, ops: BlendOps, switches: np.ndarray) -> None:

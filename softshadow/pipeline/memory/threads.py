@@ -8,6 +8,7 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextvars import copy_context
+from functools import cache
 from itertools import pairwise
 from threading import Lock
 from typing import TypeVar, cast
@@ -39,13 +40,18 @@ def set_threads(n: int) -> None:
 def threads() -> int:
     """Return how many threads a draw may use: the number set, else SOFTSHADOW_THREADS, else the number of cores.
 
+    The variable is read once.
+
     Raises
     ------
     ValueError
         The environment variable is not a whole number from 1 on.
     """
-    if _threads[0]:
-        return _threads[0]
+    return _threads[0] or _default_threads()
+
+
+@cache
+def _default_threads() -> int:
     text = os.environ.get(VARIABLE, "").strip()
     if not text:
         return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -31,16 +31,17 @@ MAX_PAIRS = 64  # with so many collected pairs, Mesa draws them (VBO_MAX_PRIM)
 class JoinedPairs:
     """Joined pairs that are not drawn yet: `first` is the command of the first one, with the state of all.
 
-    `parts` holds the debug groups, the origin and the vertices of each pair.
+    `parts` holds the debug groups, the origin and the vertices of each pair, `n_vertices` the number of all.
     """
 
     first: Draw
     parts: list[tuple[tuple[str, Origin | None], Vertices]] = field(default_factory=list)
+    n_vertices: int = 0
 
-    @property
-    def n_vertices(self) -> int:
-        """The number of vertices of all pairs."""
-        return sum(len(vertices.position) for _, vertices in self.parts)
+    def add(self, label: str, origin: Origin | None, vertices: Vertices) -> None:
+        """Add the vertices of a pair; `label` names the debug groups they belong to."""
+        self.parts.append(((label, origin), vertices))
+        self.n_vertices += len(vertices.position)
 
     @property
     def takes_more(self) -> bool:

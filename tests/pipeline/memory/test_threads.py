@@ -44,7 +44,9 @@ def test_parts_make_up_the_whole(some_threads, n):
 @pytest.fixture
 def no_threads_set(monkeypatch):
     monkeypatch.setattr(pool, "_threads", [0])
-    return monkeypatch
+    pool._default_threads.cache_clear()
+    yield monkeypatch
+    pool._default_threads.cache_clear()
 
 
 def test_the_environment_sets_the_number_of_threads_until_set_threads_does(no_threads_set):
