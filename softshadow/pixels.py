@@ -214,7 +214,8 @@ def unpack_color(
         return encoded_bytes(unpack_color(pixels, pixel_format, bytes_of(format), type, transfer), format)
     if pixel_format == gl.GL_COLOR_INDEX:
         indices = pixels[..., 0].astype(np.int64) & LARGEST_UINT
-        return to_cells(transfer.indexed_color(transfer.shifted(indices)), format)
+        colors = to_unorm8(transfer.indexed_color(transfer.shifted(indices)))  # as in Mesa, whatever the format
+        return unpack_color(colors, gl.GL_RGBA, format, gl.GL_UNSIGNED_BYTE)
     packed = PACKED_COLORS.get(type)
     if transfer.through_floats:
         floats = packed_to_float(pixels, packed) if packed else to_float(pixels)

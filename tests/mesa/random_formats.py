@@ -114,6 +114,29 @@ def uploads(seed: int, formats: list[str], n: int = 12) -> Any:
     return program
 
 
+def transfers(seed: int, formats: list[str]) -> Any:
+    """Return a program that defines textures from colour indices, and from pixels that are scaled on the way."""
+
+    def program(gl: Any) -> list[np.ndarray]:
+        make, told = Textures(gl, seed), []
+        for name in "RGBA":
+            gl.glPixelMapfv(make.named(f"GL_PIXEL_MAP_I_TO_{name}"), 16, make.rng.random(16).astype(np.float32))
+        for internal in formats:
+            target, kind = make.new(), make.pick(["GL_UNSIGNED_BYTE", "GL_UNSIGNED_SHORT", "GL_FLOAT"])
+            indices = make.rng.integers(0, 16, (8, 16)).astype(TYPES[kind])
+            gl.glTexImage2D(target, 0, make.named(internal), 16, 8, 0, gl.GL_COLOR_INDEX, make.named(kind), indices)
+            told.append(make.read())
+            gl.glPixelTransferf(gl.GL_RED_SCALE, 0.7)
+            gl.glPixelTransferf(gl.GL_BLUE_BIAS, 0.2)
+            gl.glTexImage2D(target, 0, make.named(internal), 16, 8, 0, *make.pixels(make.pair(), 16, 8))
+            gl.glPixelTransferf(gl.GL_RED_SCALE, 1)
+            gl.glPixelTransferf(gl.GL_BLUE_BIAS, 0)
+            told.append(make.read())
+        return told
+
+    return program
+
+
 def lookups(seed: int, formats: list[str]) -> Any:
     """Return a program that draws triangles with a texture, to bytes or to floats."""
 

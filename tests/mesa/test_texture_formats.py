@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mesa.random_formats import FORMATS, OF_FEW_BITS, SIZE, SRGB, copies, lookups, mipmaps, uploads
+from mesa.random_formats import FORMATS, OF_FEW_BITS, SIZE, SRGB, copies, lookups, mipmaps, transfers, uploads
 from softshadow import gl
 from softshadow.testing import compare
 
@@ -28,6 +28,10 @@ def test_lookups_in_all_formats_give_the_same_colors(seed: int) -> None:
     check(lookups(seed, FORMATS), SIZE)
 
 
+def test_transferred_pixels_store_the_same_texels() -> None:
+    check(transfers(1, FORMATS))
+
+
 def test_copies_of_framebuffers_store_the_same_texels() -> None:
     check(copies(1, FORMATS), SIZE)
 
@@ -42,6 +46,7 @@ def test_many_textures_in_all_formats_are_those_of_mesa(seed: int) -> None:
     check(uploads(seed, FORMATS))
     check(lookups(seed, FORMATS), SIZE)
     check(lookups(seed, OF_FEW_BITS), SIZE)
+    check(transfers(seed, FORMATS))
     check(copies(seed, FORMATS), SIZE)
     check(mipmaps(seed, [name for name in FORMATS if name not in DRAWN_SRGB]))
 
