@@ -52,8 +52,11 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 # bench compiles every state that it draws with; the block of the README draws the tour; check starts a process for each
-# program, and tests/cli/test_help.py runs one
-LONG = ("softshadow bench ", "softshadow tour", "softshadow check exercise.py ")
+# program, and tests/cli/test_help.py runs one; the others draw all techniques or failures
+LONG = (
+    "softshadow bench ", "softshadow tour", "softshadow check exercise.py ", "softshadow compare --all-soft",
+    "softshadow failures --numbers", "softshadow render --all",
+)  # fmt: skip
 
 
 @pytest.mark.parametrize(

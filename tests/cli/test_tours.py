@@ -25,6 +25,7 @@ def names(folder: Path) -> set[str]:
     return {str(path.relative_to(folder)) for path in folder.rglob("*")}
 
 
+@pytest.mark.slow
 def test_page_and_stops_are_named_on_stderr(here: Path) -> None:
     answer = invoke_ok("tour", *SMALL)
     assert answer.stdout == ""
@@ -68,7 +69,7 @@ def test_folder_of_somebody_else_needs_force_and_keeps_its_files() -> None:
         pytest.param(OSError("the disk is gone"), marks=pytest.mark.slow),
     ],
 )
-@pytest.mark.parametrize("earlier", [False, True])
+@pytest.mark.parametrize("earlier", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_tour_that_ends_early_leaves_what_was_there(
     error: type[BaseException] | BaseException, earlier: bool, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

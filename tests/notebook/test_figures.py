@@ -106,6 +106,7 @@ def test_the_map_of_a_map_technique_is_the_one_that_is_shown_by_default(shadow_m
     assert image.get_clim() == (ZS[ZS < 1].min(), ZS[ZS < 1].max())
 
 
+@pytest.mark.slow
 def test_every_map_of_every_technique_can_be_shown():
     small = {"map_size": 16, "texture_size": 16, "layers": 2, "samples": 2}
     for name in ("map-silhouette", "map-variance", "volume-wedges", "map-cube", "volume-zpass-plus", "planar-nested"):

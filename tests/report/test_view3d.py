@@ -71,11 +71,11 @@ def test_the_page_shows_the_crossings_of_the_history(browser, tmp_path):
     ("technique", "scene", "options"),
     [
         ("volume-zfail", "torus", {}),
-        ("volume-zfail", "sunlight", {"cap": "finite"}),
-        ("volume-zpass", "overlapping", {}),
+        pytest.param("volume-zfail", "sunlight", {"cap": "finite"}, marks=pytest.mark.slow),
+        pytest.param("volume-zpass", "overlapping", {}, marks=pytest.mark.slow),
         ("volume-zpass", "eye-in-shadow", {"start": "near-plane"}),
-        ("volume-zpass-plus", "eye-in-shadow", {}),
-        ("volume-parity", "overlapping", {}),
+        pytest.param("volume-zpass-plus", "eye-in-shadow", {}, marks=pytest.mark.slow),
+        pytest.param("volume-parity", "overlapping", {}, marks=pytest.mark.slow),
     ],
 )
 def test_crossings_that_the_page_computes_are_those_of_the_stencil_buffer(browser, technique, scene, options, tmp_path):

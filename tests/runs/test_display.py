@@ -64,6 +64,7 @@ def test_names_with_html_are_shown_as_text(run):
     assert "<script>alert" not in page_in(shown)
 
 
+@pytest.mark.slow
 def test_an_exported_notebook_shows_the_report_without_kernel_and_network(tmp_path):
     cells = f"# %%\nimport softshadow as ss\nss.run('map', 'torus', {SIZE}, map_size=64)\n"
     notebook = jupytext.reads(cells, fmt="py:percent")

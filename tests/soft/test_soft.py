@@ -48,6 +48,7 @@ def test_all_candidates_are_compared_and_shown(slab):
     assert sheet.shape[0] > len(results) * SIZE[1]
 
 
+@pytest.mark.slow
 def test_a_time_is_filled_with_samples_but_not_exceeded(slab):
     scene, truth = slab
     (result,) = compare_techniques(scene, truth, ["volume-sampled"], seconds=1e9)

@@ -62,6 +62,7 @@ def test_film_is_read_as_it_was_written(film: ss.Film, plain: ss.Film, extension
         assert image.info.get("loop") == 0  # again and again
 
 
+@pytest.mark.slow
 def test_mp4_is_h264_with_the_frames_in_little_changed_colours(film: ss.Film, tmp_path: Path) -> None:
     av = pytest.importorskip("av")
     path = film.save(tmp_path / "film.mp4")

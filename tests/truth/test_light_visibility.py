@@ -68,6 +68,7 @@ def test_umbra_vanishes_behind_a_large_light_and_grows_as_the_light_shrinks(size
     assert seen == pytest.approx(1 - covered**2)
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(
     open_meshes(), places, st.sampled_from([Rectangle((1, 0, 0), (0, 0, 1)), Rectangle((1.5, 0, 2), (-0.8, 0, 0.6))])
@@ -92,6 +93,7 @@ def test_half_plane_before_a_disc_leaves_a_circular_segment(place: np.ndarray, e
     assert seen == pytest.approx(1 - (np.arccos(offset) - offset * np.sqrt(1 - offset**2)) / np.pi, abs=ROUNDING)
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(st.lists(st.integers(0, 71), min_size=3, max_size=8, unique=True), places, st.sampled_from([0.2, 0.8]))
 @example([0, 20, 40], np.array([0.5, 0, 0.25]), 0.8)
@@ -142,6 +144,7 @@ def test_too_many_pieces_for_the_exact_area_are_named() -> None:
 # -- rays --------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(any_mesh(), light_shapes, st.integers(0, 5))
 def test_rays_are_within_their_standard_error_of_the_area(mesh: Mesh, shape: LightShape, seed: int) -> None:
