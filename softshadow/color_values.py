@@ -8,6 +8,7 @@ from softshadow import tokens as gl
 from softshadow.jit import kernel, read_only
 from softshadow.packed_colors import PackedColor, with_more_bits
 from softshadow.pixel_store import COMPONENTS
+from softshadow.texel_codes import clamped
 
 F32 = np.float32
 LARGE = 1 << 18  # bytes of an image from which calling a kernel pays
@@ -91,7 +92,7 @@ def packed_to_float(words: np.ndarray, packed: PackedColor) -> np.ndarray:
 def to_unorm8(values: np.ndarray) -> np.ndarray:
     """Return numbers of any client type as bytes: 255 for 1."""
     if values.dtype.kind == "f":
-        return np.rint(np.fmax(values.astype(F32), F32(0)).clip(F32(0), F32(1)) * F32(255)).astype(np.uint8)
+        return np.rint(clamped(values.astype(F32)) * F32(255)).astype(np.uint8)
     largest = largest_of(values.dtype.type)
     positive = np.maximum(values, 0).astype(np.uint64)
     return ((positive * np.uint64(255) + np.uint64(largest // 2)) // np.uint64(largest)).astype(np.uint8)
@@ -119,9 +120,10 @@ def from_unorm8(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
 
 
 def from_float(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
-    """Return floats as numbers of a client type; integers are clamped to what the type can hold."""
+    """Return floats as numbers of a client type; integers are clamped to what the type can hold, and 0 for NaN."""
     if np.dtype(dtype).kind == "f":
         return values.astype(dtype)
+    values = np.where(np.isnan(values), F32(0), values)
     largest = largest_of(dtype)
     low = F32(-1) if np.dtype(dtype).kind == "i" else F32(0)
     # 2**32 - 1 is not a float32: 1 gives 2**32, which wraps around to 0 in 32 bits

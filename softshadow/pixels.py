@@ -30,7 +30,7 @@ from softshadow.packed_colors import PACKED_COLORS, PackedColor, with_more_bits
 from softshadow.packed_floats import SharedExponent
 from softshadow.pixel_store import COMPONENTS, PACKED_TYPES, TYPES
 from softshadow.pixel_transfer import PixelTransfer
-from softshadow.texel_codes import as_halves, cells_of, codes_of, codes_of_floats
+from softshadow.texel_codes import as_halves, cells_of, clamped, codes_of, codes_of_floats
 
 LARGEST_UINT = (1 << 32) - 1
 LARGEST_24 = (1 << 24) - 1
@@ -272,16 +272,16 @@ def pack_color(
     sign = ("u" if kind.small_floats is None else "f") if isinstance(kind, PackedColor) else np.dtype(kind).kind
     sums = from_framebuffer and "L" in names and format.base in (gl.GL_RG, gl.GL_RGB, gl.GL_RGBA)
     is_shared = isinstance(kind, PackedColor) and isinstance(kind.small_floats, SharedExponent)  # clamped in Mesa only
-    clamped = from_framebuffer and (sign != "f" or is_shared) and format.kind != "unorm8"
+    is_clamped = from_framebuffer and (sign != "f" or is_shared) and format.kind != "unorm8"
     if transfer.through_floats:
         rgba, one = transfer.color(color_as_float(rgba)), 1
-        clamped = clamped or (sums and format.kind == "unorm8")
-    if clamped:
+        is_clamped = is_clamped or (sums and format.kind == "unorm8")
+    if is_clamped:
         rgba = np.clip(rgba, F32(0), F32(1))
     if sums:
         rgba = color_as_float(rgba)
         total = rgba[..., 0] + rgba[..., 1] + rgba[..., 2]
-        if clamped or format.kind == "unorm8":
+        if is_clamped or format.kind == "unorm8":
             total = np.clip(total, F32(0), F32(1))
         rgba = np.stack([total, total, total, rgba[..., 3]], axis=-1)
     elif "L" in names and sign == "u" and not from_framebuffer:
@@ -309,5 +309,5 @@ def _packed(values: np.ndarray, packed: PackedColor, format: Format) -> np.ndarr
         elif of_bytes and format.base == gl.GL_RGBA:  # Mesa converts such bytes without floats
             components[..., part] = with_more_bits(values[..., part].astype(np.int64), 8, n_bits)
         else:
-            components[..., part] = np.rint(np.clip(floats[..., part], F32(0), F32(1)) * F32(largest))
+            components[..., part] = np.rint(clamped(floats[..., part]) * F32(largest))
     return packed.join(components)[..., np.newaxis]

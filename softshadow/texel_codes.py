@@ -37,7 +37,8 @@ def resized(codes: np.ndarray, n_bits: int, wanted: int) -> np.ndarray:
 
 def clamped(values: np.ndarray) -> np.ndarray:
     """Return floats clamped to [0, 1]; NaN becomes 0."""
-    return np.minimum(np.fmax(values, F32(0)), F32(1))
+    with np.errstate(invalid="ignore"):
+        return np.where(values > 0, np.minimum(values, F32(1)), F32(0))
 
 
 def rounded_up(values: np.ndarray, n_bits: int) -> np.ndarray:

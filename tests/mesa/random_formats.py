@@ -41,6 +41,7 @@ FILTERS = ["GL_NEAREST", "GL_LINEAR"]
 MIPMAP_FILTERS = [f"{within}_MIPMAP_{between}" for within in FILTERS for between in ("NEAREST", "LINEAR")]
 MODES = ["GL_REPLACE", "GL_MODULATE", "GL_DECAL", "GL_BLEND", "GL_ADD"]
 SIZE = (48, 40)
+FINITE = np.uint32(0x7FDFFBFF)  # no exponent with its highest bit: neither infinities nor what is not a number
 
 
 class Textures:
@@ -69,6 +70,8 @@ class Textures:
         pixel_format, kind = pair
         if kind in PACKED_KINDS:
             image = packed_words(self.rng, width, height, kind)
+            if kind == "GL_UNSIGNED_INT_10F_11F_11F_REV":
+                image &= FINITE
         else:
             shape, dtype = (height, width, PIXEL_FORMATS[pixel_format]), np.dtype(TYPES[kind])
             if dtype.kind == "f":
