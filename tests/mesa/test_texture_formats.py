@@ -41,7 +41,7 @@ def test_computed_mipmaps_store_the_same_texels() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(100, 350))
+@pytest.mark.parametrize("seed", range(100, 160))
 def test_many_textures_in_all_formats_are_those_of_mesa(seed: int) -> None:
     check(uploads(seed, FORMATS))
     check(lookups(seed, FORMATS), SIZE)
