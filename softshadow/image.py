@@ -25,7 +25,9 @@ class Format:
     """The format of one cell.
 
     `base` is GL's base internal format, `kind` one of "unorm8", "float", "depth", "stencil". `largest` is the integer
-    that represents 1.0 in a fixed-point depth format (0 for float depth), or the largest stencil value.
+    that represents 1.0 in a fixed-point depth format (0 for float depth), or the largest stencil value. Colours that
+    are neither bytes nor single-precision floats have an `encoding` ("unorm", "half" or "srgb") and so many `bits` in
+    R, G, B and A, see `texel_codes`.
     """
 
     base: int
@@ -33,6 +35,23 @@ class Format:
     dtype: type[np.generic]
     channels: int
     largest: int = 0
+    encoding: str = ""
+    bits: tuple[int, ...] = ()
+
+    @property
+    def is_clamped(self) -> bool:
+        """Whether all values that it can store are in [0, 1]."""
+        return self.largest > 0 or self.encoding in ("unorm", "srgb")
+
+    @property
+    def has_few_bits(self) -> bool:
+        """Whether its colours have less than 8 bits."""
+        return self.kind == "unorm8" and self.encoding != ""
+
+    @property
+    def is_array(self) -> bool:
+        """Whether Mesa stores the channels as an array of numbers, not as parts of one integer."""
+        return set(self.bits) <= {0, 8, 16}
 
     @property
     def written(self) -> tuple[bool, bool, bool, bool]:
@@ -43,6 +62,26 @@ class Format:
 
 def _unorm8(base: int) -> Format:
     return Format(base, "unorm8", np.uint8, 4, 255)
+
+
+CHANNELS = {  # of R, G, B and A that a base format has; luminance and intensity are stored in several
+    gl.GL_RGBA: (1, 1, 1, 1),
+    gl.GL_RGB: (1, 1, 1, 0),
+    gl.GL_RG: (1, 1, 0, 0),
+    gl.GL_RED: (1, 0, 0, 0),
+    gl.GL_ALPHA: (0, 0, 0, 1),
+    gl.GL_LUMINANCE: (1, 1, 1, 0),
+    gl.GL_LUMINANCE_ALPHA: (1, 1, 1, 1),
+    gl.GL_INTENSITY: (1, 1, 1, 1),
+}
+
+
+def _encoded(base: int, encoding: str, *n_bits: int) -> Format:
+    """Return a format with so many bits in each channel, or in R, G, B and A."""
+    bits = tuple(has * n for has, n in zip(CHANNELS[base], n_bits * 4 if len(n_bits) == 1 else n_bits, strict=True))
+    if encoding == "unorm" and max(bits) < 8:
+        return Format(base, "unorm8", np.uint8, 4, 255, encoding, bits)
+    return Format(base, "float", np.float32, 4, 0, encoding, bits)
 
 
 def _float(base: int) -> Format:
@@ -79,6 +118,75 @@ FORMATS: dict[int, Format] = {
     gl.GL_LUMINANCE8_ALPHA8: _unorm8(gl.GL_LUMINANCE_ALPHA),
     gl.GL_INTENSITY: _unorm8(gl.GL_INTENSITY),
     gl.GL_INTENSITY8: _unorm8(gl.GL_INTENSITY),
+    **{
+        name: _unorm8(base)
+        for name, base in (
+            (gl.GL_ALPHA4, gl.GL_ALPHA),
+            (gl.GL_LUMINANCE4, gl.GL_LUMINANCE),
+            (gl.GL_INTENSITY4, gl.GL_INTENSITY),
+            (gl.GL_LUMINANCE6_ALPHA2, gl.GL_LUMINANCE_ALPHA),
+        )
+    },
+    gl.GL_R3_G3_B2: _encoded(gl.GL_RGB, "unorm", 3, 3, 2, 0),
+    gl.GL_RGB4: _encoded(gl.GL_RGB, "unorm", 4),
+    gl.GL_RGB5: _encoded(gl.GL_RGB, "unorm", 5),
+    gl.GL_RGB565: _encoded(gl.GL_RGB, "unorm", 5, 6, 5, 0),
+    gl.GL_RGB10: _encoded(gl.GL_RGB, "unorm", 10),
+    gl.GL_RGBA2: _encoded(gl.GL_RGBA, "unorm", 4),
+    gl.GL_RGBA4: _encoded(gl.GL_RGBA, "unorm", 4),
+    gl.GL_RGB5_A1: _encoded(gl.GL_RGBA, "unorm", 5, 5, 5, 1),
+    gl.GL_RGB10_A2: _encoded(gl.GL_RGBA, "unorm", 10, 10, 10, 2),
+    gl.GL_LUMINANCE4_ALPHA4: _encoded(gl.GL_LUMINANCE_ALPHA, "unorm", 4),
+    **{
+        name: _encoded(base, "unorm", 16)
+        for name, base in (
+            (gl.GL_RGB12, gl.GL_RGB),
+            (gl.GL_RGB16, gl.GL_RGB),
+            (gl.GL_RGBA12, gl.GL_RGBA),
+            (gl.GL_RGBA16, gl.GL_RGBA),
+            (gl.GL_R16, gl.GL_RED),
+            (gl.GL_RG16, gl.GL_RG),
+            (gl.GL_ALPHA12, gl.GL_ALPHA),
+            (gl.GL_ALPHA16, gl.GL_ALPHA),
+            (gl.GL_LUMINANCE12, gl.GL_LUMINANCE),
+            (gl.GL_LUMINANCE16, gl.GL_LUMINANCE),
+            (gl.GL_LUMINANCE12_ALPHA4, gl.GL_LUMINANCE_ALPHA),
+            (gl.GL_LUMINANCE12_ALPHA12, gl.GL_LUMINANCE_ALPHA),
+            (gl.GL_LUMINANCE16_ALPHA16, gl.GL_LUMINANCE_ALPHA),
+            (gl.GL_INTENSITY12, gl.GL_INTENSITY),
+            (gl.GL_INTENSITY16, gl.GL_INTENSITY),
+        )
+    },
+    **{
+        name: _encoded(base, "srgb", 8)
+        for name, base in (
+            (gl.GL_SRGB, gl.GL_RGB),
+            (gl.GL_SRGB8, gl.GL_RGB),
+            (gl.GL_SRGB_ALPHA, gl.GL_RGBA),
+            (gl.GL_SRGB8_ALPHA8, gl.GL_RGBA),
+            (gl.GL_SLUMINANCE, gl.GL_LUMINANCE),
+            (gl.GL_SLUMINANCE8, gl.GL_LUMINANCE),
+            (gl.GL_SLUMINANCE_ALPHA, gl.GL_LUMINANCE_ALPHA),
+            (gl.GL_SLUMINANCE8_ALPHA8, gl.GL_LUMINANCE_ALPHA),
+        )
+    },
+    **{
+        name: _encoded(base, "half", 16)
+        for name, base in (
+            (gl.GL_RGBA16F, gl.GL_RGBA),
+            (gl.GL_RGB16F, gl.GL_RGB),
+            (gl.GL_RG16F, gl.GL_RG),
+            (gl.GL_R16F, gl.GL_RED),
+            (gl.GL_ALPHA16F_ARB, gl.GL_ALPHA),
+            (gl.GL_LUMINANCE16F_ARB, gl.GL_LUMINANCE),
+            (gl.GL_LUMINANCE_ALPHA16F_ARB, gl.GL_LUMINANCE_ALPHA),
+            (gl.GL_INTENSITY16F_ARB, gl.GL_INTENSITY),
+        )
+    },
+    gl.GL_ALPHA32F_ARB: _float(gl.GL_ALPHA),
+    gl.GL_LUMINANCE32F_ARB: _float(gl.GL_LUMINANCE),
+    gl.GL_LUMINANCE_ALPHA32F_ARB: _float(gl.GL_LUMINANCE_ALPHA),
+    gl.GL_INTENSITY32F_ARB: _float(gl.GL_INTENSITY),
     gl.GL_RGBA32F: _float(gl.GL_RGBA),
     gl.GL_RGB32F: _float(gl.GL_RGB),
     gl.GL_RG32F: _float(gl.GL_RG),
@@ -97,18 +205,42 @@ FORMATS: dict[int, Format] = {
 WITH_STENCIL = (gl.GL_DEPTH_STENCIL, gl.GL_DEPTH24_STENCIL8, gl.GL_DEPTH32F_STENCIL8)
 
 
-def storage_format(internal_format: int, type: int = gl.GL_FLOAT) -> Format:
-    """Return the format that stores an internal format; unsized depth gets the client's integer size, as in Mesa.
+# what Mesa stores an unsized internal format as, given the client's types: it takes over the pixels unchanged
+UNSIZED: dict[int, dict[int, int]] = {
+    gl.GL_DEPTH_COMPONENT: {
+        gl.GL_UNSIGNED_SHORT: gl.GL_DEPTH_COMPONENT16, gl.GL_UNSIGNED_INT: gl.GL_DEPTH_COMPONENT32,
+    },
+    gl.GL_RGBA: {
+        gl.GL_UNSIGNED_SHORT: gl.GL_RGBA16, gl.GL_UNSIGNED_SHORT_4_4_4_4: gl.GL_RGBA4,
+        gl.GL_UNSIGNED_SHORT_4_4_4_4_REV: gl.GL_RGBA4, gl.GL_UNSIGNED_SHORT_5_5_5_1: gl.GL_RGB5_A1,
+        gl.GL_UNSIGNED_SHORT_1_5_5_5_REV: gl.GL_RGB5_A1, gl.GL_UNSIGNED_INT_10_10_10_2: gl.GL_RGB10_A2,
+        gl.GL_UNSIGNED_INT_2_10_10_10_REV: gl.GL_RGB10_A2,
+    },
+    gl.GL_RGB: {
+        gl.GL_UNSIGNED_BYTE_3_3_2: gl.GL_R3_G3_B2, gl.GL_UNSIGNED_BYTE_2_3_3_REV: gl.GL_R3_G3_B2,
+        gl.GL_UNSIGNED_SHORT_5_6_5: gl.GL_RGB565, gl.GL_UNSIGNED_SHORT_5_6_5_REV: gl.GL_RGB565,
+        gl.GL_UNSIGNED_SHORT_5_5_5_1: gl.GL_RGB5, gl.GL_UNSIGNED_INT_2_10_10_10_REV: gl.GL_RGB10,
+    },
+    gl.GL_LUMINANCE: {gl.GL_UNSIGNED_SHORT: gl.GL_LUMINANCE16},
+    gl.GL_LUMINANCE_ALPHA: {gl.GL_UNSIGNED_SHORT: gl.GL_LUMINANCE16_ALPHA16},
+    gl.GL_ALPHA: {gl.GL_UNSIGNED_SHORT: gl.GL_ALPHA16},
+    gl.GL_RED: {gl.GL_UNSIGNED_SHORT: gl.GL_R16},
+    gl.GL_RG: {gl.GL_UNSIGNED_SHORT: gl.GL_RG16},
+}  # fmt: skip
+
+
+def storage_format(internal_format: int, type: int = gl.GL_FLOAT, pixel_format: int = gl.GL_NONE) -> Format:
+    """Return the format that stores an internal format; an unsized one gets the bits of the client's, as in Mesa.
 
     Raises
     ------
     KeyError
         The internal format is not part of this subset.
     """
-    if internal_format == gl.GL_DEPTH_COMPONENT and type in (gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT):
-        sized = gl.GL_DEPTH_COMPONENT16 if type == gl.GL_UNSIGNED_SHORT else gl.GL_DEPTH_COMPONENT32
-        return FORMATS[sized]
-    return FORMATS[internal_format]
+    sized = UNSIZED.get(internal_format, {}).get(type, internal_format)
+    if type == gl.GL_UNSIGNED_SHORT and internal_format not in (pixel_format, gl.GL_DEPTH_COMPONENT):
+        sized = internal_format
+    return FORMATS[sized]
 
 
 def zeroed_cells(height: int, width: int, format: Format) -> np.ndarray:

@@ -10,16 +10,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.packed_floats import SharedExponent, SmallFloats
 
 THREE, FOUR, FOUR_ALIKE = (gl.GL_RGB,), (gl.GL_RGBA, gl.GL_BGRA), (gl.GL_RGBA, gl.GL_BGRA, gl.GL_ABGR_EXT)
 
 
 @dataclass(frozen=True)
 class PackedColor:
-    """A packed type: the integer, and (lowest bit, number of bits) of each component, in the order of the format."""
+    """A packed type: the integer, and (lowest bit, number of bits) of each component, in the order of the format.
+
+    The components are integers, or floats of few bits, whose fields do not matter.
+    """
 
     dtype: np.dtype
     fields: tuple[tuple[int, int], ...]
+    small_floats: SharedExponent | SmallFloats | None = None
 
     @property
     def formats(self) -> tuple[int, ...]:
@@ -68,6 +73,8 @@ PACKED_COLORS: dict[int, PackedColor] = {
     **_types(np.uint16, "GL_UNSIGNED_SHORT_5_5_5_1", "GL_UNSIGNED_SHORT_1_5_5_5_REV", 5, 5, 5, 1),
     **_types(np.uint32, "GL_UNSIGNED_INT_8_8_8_8", "GL_UNSIGNED_INT_8_8_8_8_REV", 8, 8, 8, 8),
     **_types(np.uint32, "GL_UNSIGNED_INT_10_10_10_2", "GL_UNSIGNED_INT_2_10_10_10_REV", 10, 10, 10, 2),
+    gl.GL_UNSIGNED_INT_5_9_9_9_REV: PackedColor(np.dtype(np.uint32), ((0, 9), (9, 9), (18, 9)), SharedExponent()),
+    gl.GL_UNSIGNED_INT_10F_11F_11F_REV: PackedColor(np.dtype(np.uint32), ((0, 11), (11, 11), (22, 10)), SmallFloats()),
 }
 
 

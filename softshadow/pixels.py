@@ -10,25 +10,32 @@ from __future__ import annotations
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.color_values import (
+    F32,
+    as_rgba,
+    color_as_float,
+    from_float,
+    from_unorm8,
+    largest_of,
+    packed_to_float,
+    packed_to_unorm8,
+    swizzled,
+    to_base,
+    to_float,
+    to_unorm8,
+)
+from softshadow.encoded_pixels import bytes_of, decoded, encoded, encoded_bytes
 from softshadow.image import D32F, Format
-from softshadow.jit import kernel, read_only
 from softshadow.packed_colors import PACKED_COLORS, PackedColor, with_more_bits
+from softshadow.packed_floats import SharedExponent
 from softshadow.pixel_store import COMPONENTS, PACKED_TYPES, TYPES
 from softshadow.pixel_transfer import PixelTransfer
+from softshadow.texel_codes import as_halves, cells_of, clamped, codes_of, codes_of_floats
 
-F32 = np.float32
 LARGEST_UINT = (1 << 32) - 1
 LARGEST_24 = (1 << 24) - 1
 LARGEST_SAMPLED = (1 << 23) - 1  # llvmpipe samples the upper 23 bits of 32-bit depth
-LARGE = 1 << 18  # bytes of an image from which calling a kernel pays
 UNCHANGED = PixelTransfer()
-CHANNEL = {"R": 0, "G": 1, "B": 2, "A": 3}
-
-
-def largest_of(dtype: type[np.generic]) -> int:
-    """Return the integer that represents 1 in a client type."""
-    kind = np.dtype(dtype)
-    return int(1 << (8 * kind.itemsize - (kind.kind == "i"))) - 1
 
 
 def stored_units(units: np.ndarray) -> np.ndarray:
@@ -191,43 +198,6 @@ def pack_depth_stencil(
 
 
 # -- colour ------------------------------------------------------------------------------------------------------------
-def to_base(rgba: np.ndarray, base: int) -> np.ndarray:
-    """Return RGBA (..., 4) as sampling reads it in a base internal format (GL 2.1, table 3.15)."""
-    one = 255 if rgba.dtype == np.uint8 else 1
-    sources = {
-        gl.GL_RGBA: "RGBA",
-        gl.GL_RGB: "RGB1",
-        gl.GL_RG: "RG01",
-        gl.GL_RED: "R001",
-        gl.GL_ALPHA: "000A",
-        gl.GL_LUMINANCE: "RRR1",
-        gl.GL_LUMINANCE_ALPHA: "RRRA",
-        gl.GL_INTENSITY: "RRRR",
-    }[base]
-    return _swizzled(rgba, sources, one)
-
-
-def _swizzled(rgba: np.ndarray, sources: str, one: int) -> np.ndarray:
-    if sources == "RGBA":
-        return rgba
-    out = np.empty((*rgba.shape[:-1], len(sources)), rgba.dtype)
-    if sources == "RGB" and rgba.dtype == np.uint8 and rgba.ndim == 3 and rgba.size >= LARGE:
-        copy_rgb(read_only(rgba), out)
-        return out
-    for channel, source in enumerate(sources):
-        out[..., channel] = rgba[..., CHANNEL[source]] if source in CHANNEL else one * int(source)
-    return out
-
-
-@kernel
-def copy_rgb(rgba: np.ndarray, rgb: np.ndarray) -> None:
-    """Write the first three channels of pixels (h, w, 4) to (h, w, 3); NumPy would take one channel after the other."""
-    for y in range(rgba.shape[0]):
-        for x in range(rgba.shape[1]):
-            j, i = np.uint64(y), np.uint64(x)
-            rgb[j, i, 0], rgb[j, i, 1], rgb[j, i, 2] = rgba[j, i, 0], rgba[j, i, 1], rgba[j, i, 2]
-
-
 def unpack_color(
     pixels: np.ndarray,
     pixel_format: int,
@@ -235,71 +205,39 @@ def unpack_color(
     type: int = gl.GL_NONE,
     transfer: PixelTransfer = UNCHANGED,
 ) -> np.ndarray:
-    """Return client colours (h, w, components) as the cells (h, w, 4) of an 8-bit or float image.
+    """Return client colours (h, w, components) as the cells (h, w, 4) of an image of colours.
 
     `type` is that of packed pixels, one element per pixel; others are known by their dtype. Colour indices become
     colours by the tables of glPixelMap.
     """
+    if format.encoding == "srgb":
+        return encoded_bytes(unpack_color(pixels, pixel_format, bytes_of(format), type, transfer), format)
     if pixel_format == gl.GL_COLOR_INDEX:
         indices = pixels[..., 0].astype(np.int64) & LARGEST_UINT
-        return to_cells(transfer.indexed_color(transfer.shifted(indices)), format)
+        colors = to_unorm8(transfer.indexed_color(transfer.shifted(indices)))  # as in Mesa, whatever the format
+        return unpack_color(colors, gl.GL_RGBA, format, gl.GL_UNSIGNED_BYTE)
     packed = PACKED_COLORS.get(type)
     if transfer.through_floats:
-        floats = _packed_to_float(pixels, packed) if packed else _to_float(pixels)
-        return to_cells(transfer.color(_rgba(floats, pixel_format, 1)), format)
+        floats = packed_to_float(pixels, packed) if packed else to_float(pixels)
+        return to_cells(transfer.color(as_rgba(floats, pixel_format, 1)), format)
+    if format.encoding:
+        return encoded(pixels, pixel_format, format, type)
     if format.kind == "unorm8":
-        values, one = _packed_to_unorm8(pixels, packed) if packed else _to_unorm8(pixels), 255
+        values, one = packed_to_unorm8(pixels, packed) if packed else to_unorm8(pixels), 255
     else:
-        values, one = _packed_to_float(pixels, packed) if packed else _to_float(pixels), 1
-    return to_base(_rgba(values, pixel_format, one), format.base)
+        values, one = packed_to_float(pixels, packed) if packed else to_float(pixels), 1
+    return to_base(as_rgba(values, pixel_format, one), format.base)
 
 
 def to_cells(rgba: np.ndarray, format: Format) -> np.ndarray:
-    """Return float colours (h, w, 4) as the cells of an 8-bit or float image."""
-    return to_base(_to_unorm8(rgba) if format.kind == "unorm8" else rgba, format.base)
-
-
-def _rgba(values: np.ndarray, pixel_format: int, one: int) -> np.ndarray:
-    """Return the components of client pixels (h, w, n) as RGBA (h, w, 4)."""
-    rgba = np.zeros((*values.shape[:2], 4), values.dtype)
-    rgba[..., 3] = one
-    for component, name in enumerate(COMPONENTS[pixel_format]):
-        for channel in "RGB" if name == "L" else name:
-            rgba[..., CHANNEL[channel]] = values[..., component]
-    return rgba
-
-
-def _packed_to_unorm8(words: np.ndarray, packed: PackedColor) -> np.ndarray:
-    components = packed.split(words[..., 0])
-    for part, (_, n_bits) in enumerate(packed.fields):
-        values = components[..., part]
-        more = (values * 255 + 511) // 1023 if n_bits > 8 else with_more_bits(values, n_bits, 8)
-        components[..., part] = more
-    return components.astype(np.uint8)
-
-
-def _packed_to_float(words: np.ndarray, packed: PackedColor) -> np.ndarray:
-    floats: np.ndarray = packed.split(words[..., 0]).astype(F32) * (F32(1) / packed.largest.astype(F32))
-    return floats
-
-
-def _to_unorm8(values: np.ndarray) -> np.ndarray:
-    if values.dtype.kind == "f":
-        return np.rint(np.clip(values.astype(F32), F32(0), F32(1)) * F32(255)).astype(np.uint8)
-    largest = largest_of(values.dtype.type)
-    positive = np.maximum(values, 0).astype(np.uint64)
-    return ((positive * np.uint64(255) + np.uint64(largest // 2)) // np.uint64(largest)).astype(np.uint8)
-
-
-def _to_float(values: np.ndarray) -> np.ndarray:
-    if values.dtype.kind == "f":
-        return values.astype(F32)
-    return np.maximum(values.astype(F32) * (F32(1) / F32(largest_of(values.dtype.type))), F32(-1))
-
-
-def color_as_float(cells: np.ndarray) -> np.ndarray:
-    """Return the cells of a colour image as float32."""
-    return _to_float(cells)
+    """Return float colours (h, w, 4) as the cells of an image of colours."""
+    if format.encoding == "srgb":
+        return encoded_bytes(to_base(to_unorm8(rgba), format.base), format)
+    if format.encoding == "half":
+        return to_base(as_halves(rgba, truncated=True), format.base)
+    if format.encoding:
+        return cells_of(codes_of_floats(to_base(rgba, format.base), format, is_direct=True), format)
+    return to_base(to_unorm8(rgba) if format.kind == "unorm8" else rgba, format.base)
 
 
 def client_kind(type: int) -> type[np.generic] | PackedColor:
@@ -317,43 +255,52 @@ def pack_color(
 ) -> np.ndarray:
     """Return colour cells (h, w, 4) as client pixels (h, w, components), or (h, w, 1) of a packed type.
 
-    Luminance and intensity are read as (L, 0, 0, A). With `from_framebuffer`, luminance is R + G + B, and colours are
-    clamped to [0, 1] before conversion to integers. Texture colours are clamped for unsigned types only, where
-    luminance is converted to floats first; the alpha of a format without alpha is the largest integer.
+    Luminance and intensity are read as (L, 0, 0, A), sRGB without being decoded. With `from_framebuffer`, luminance is
+    R + G + B, and colours are clamped to [0, 1] before conversion to integers. Texture colours are clamped for unsigned
+    types only, where luminance is converted to floats first; the alpha of a format without alpha is the largest
+    integer.
     """
+    if format.encoding == "srgb":
+        cells, format = codes_of(cells, format).astype(np.uint8), bytes_of(format)
+        cells = to_base(cells, format.base)
+    elif format.encoding == "unorm":
+        return decoded(cells, format, pixel_format, kind)
     one = 255 if format.kind == "unorm8" else 1
     base = {gl.GL_LUMINANCE: "R001", gl.GL_INTENSITY: "R001", gl.GL_LUMINANCE_ALPHA: "R00A"}.get(format.base, "RGBA")
-    rgba = _swizzled(cells, base, one)
+    rgba = swizzled(cells, base, one)
     names = COMPONENTS[pixel_format]
-    sign = "u" if isinstance(kind, PackedColor) else np.dtype(kind).kind
+    sign = ("u" if kind.small_floats is None else "f") if isinstance(kind, PackedColor) else np.dtype(kind).kind
     sums = from_framebuffer and "L" in names and format.base in (gl.GL_RG, gl.GL_RGB, gl.GL_RGBA)
-    clamped = from_framebuffer and sign != "f" and format.kind != "unorm8"
+    is_shared = isinstance(kind, PackedColor) and isinstance(kind.small_floats, SharedExponent)  # clamped in Mesa only
+    is_clamped = from_framebuffer and (sign != "f" or is_shared) and format.kind != "unorm8"
     if transfer.through_floats:
         rgba, one = transfer.color(color_as_float(rgba)), 1
-        clamped = clamped or (sums and format.kind == "unorm8")
-    if clamped:
+        is_clamped = is_clamped or (sums and format.kind == "unorm8")
+    if is_clamped:
         rgba = np.clip(rgba, F32(0), F32(1))
     if sums:
         rgba = color_as_float(rgba)
         total = rgba[..., 0] + rgba[..., 1] + rgba[..., 2]
-        if clamped or format.kind == "unorm8":
+        if is_clamped or format.kind == "unorm8":
             total = np.clip(total, F32(0), F32(1))
         rgba = np.stack([total, total, total, rgba[..., 3]], axis=-1)
     elif "L" in names and sign == "u" and not from_framebuffer:
         rgba, one = color_as_float(rgba), 1
-    chosen = _swizzled(rgba, names.replace("L", "R"), one)
+    chosen = swizzled(rgba, names.replace("L", "R"), one)
     if isinstance(kind, PackedColor):
         return _packed(chosen, kind, format)
     if chosen.dtype == np.uint8:
-        return _from_unorm8(chosen, kind)
-    pixels = _from_float(chosen, kind)
-    if sign == "i" and not from_framebuffer and not format.written[3]:
+        return from_unorm8(chosen, kind)
+    pixels = from_float(chosen, kind)
+    if sign == "i" and not from_framebuffer and (base[3] == "1" or not format.written[3]):
         pixels[..., [name == "A" for name in names]] = largest_of(kind)
     return pixels
 
 
 def _packed(values: np.ndarray, packed: PackedColor, format: Format) -> np.ndarray:
     """Return components (h, w, n), bytes or floats, as packed pixels (h, w, 1)."""
+    if packed.small_floats is not None:
+        return packed.small_floats.words(color_as_float(values))[..., np.newaxis]
     components = np.empty(values.shape, np.int64)
     of_bytes, floats = values.dtype == np.uint8, color_as_float(values)
     for part, (largest, (_, n_bits)) in enumerate(zip(packed.largest.tolist(), packed.fields, strict=True)):
@@ -362,23 +309,5 @@ def _packed(values: np.ndarray, packed: PackedColor, format: Format) -> np.ndarr
         elif of_bytes and format.base == gl.GL_RGBA:  # Mesa converts such bytes without floats
             components[..., part] = with_more_bits(values[..., part].astype(np.int64), 8, n_bits)
         else:
-            components[..., part] = np.rint(np.clip(floats[..., part], F32(0), F32(1)) * F32(largest))
+            components[..., part] = np.rint(clamped(floats[..., part]) * F32(largest))
     return packed.join(components)[..., np.newaxis]
-
-
-def _from_unorm8(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
-    if dtype == np.uint8:
-        return values
-    if np.dtype(dtype).kind == "f":
-        return _to_float(values).astype(dtype)
-    return ((values.astype(np.int64) * largest_of(dtype) + 127) // 255).astype(dtype)
-
-
-def _from_float(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
-    if np.dtype(dtype).kind == "f":
-        return values.astype(dtype)
-    largest = largest_of(dtype)
-    low = F32(-1) if np.dtype(dtype).kind == "i" else F32(0)
-    # 2**32 - 1 is not a float32: 1 gives 2**32, which wraps around to 0 in 32 bits
-    scaled = np.rint(np.clip(values, low, F32(1)) * F32(largest)).astype(np.int64).astype(dtype)
-    return np.where(values > F32(1), dtype(largest), scaled) if np.dtype(dtype).kind == "i" else scaled

@@ -20,10 +20,43 @@ EXAMPLES: dict[int, tuple[int, tuple[int, ...]]] = {  # word and components by t
     gl.GL_UNSIGNED_INT_10_10_10_2: (1 << 22 | 2 << 12 | 3 << 2 | 1, (1, 2, 3, 1)),
     gl.GL_UNSIGNED_INT_2_10_10_10_REV: (1 << 30 | 3 << 20 | 2 << 10 | 1, (1, 2, 3, 1)),
 }
+COLORS: dict[int, list[tuple[int, tuple[float, ...]]]] = {  # words and their colours
+    gl.GL_UNSIGNED_INT_5_9_9_9_REV: [
+        (16 << 27 | 256, (1.0, 0.0, 0.0)), (31 << 27 | 511 << 18, (0.0, 0.0, 65408.0)),
+        (257 << 9, (0.0, 257 / 2**24, 0.0)),
+    ],
+    gl.GL_UNSIGNED_INT_10F_11F_11F_REV: [
+        (15 << 6 | (16 << 6 | 32) << 11 | 14 << 27, (1.0, 3.0, 0.5)), (30 << 6 | 63, (65024.0, 0.0, 0.0)),
+        ((30 << 5 | 31) << 22, (0.0, 0.0, 64512.0)), (31 << 6, (np.inf, 0.0, 0.0)),
+    ],
+}  # fmt: skip
+LEAST_STEP = 2.0**-5  # of a mantissa of 5 bits for numbers between 1 and 2
 
 
 def test_every_type_has_an_example():
-    assert EXAMPLES.keys() == PACKED_COLORS.keys()
+    of_integers = {kind for kind, packed in PACKED_COLORS.items() if packed.small_floats is None}
+    assert EXAMPLES.keys() == of_integers
+    assert COLORS.keys() == PACKED_COLORS.keys() - of_integers
+
+
+@pytest.mark.parametrize("kind", COLORS, ids=gl.token_name)
+def test_small_floats_are_those_of_the_specification(kind):
+    small_floats = PACKED_COLORS[kind].small_floats
+    for word, color in COLORS[kind]:
+        words = np.array([word], np.uint32)
+        np.testing.assert_array_equal(small_floats.floats(words), np.array([color], np.float32))
+        assert small_floats.words(np.array([color], np.float32)).tolist() == [word]
+
+
+@pytest.mark.parametrize("kind", COLORS, ids=gl.token_name)
+def test_colors_keep_the_first_bits_of_their_mantissas(kind):
+    small_floats = PACKED_COLORS[kind].small_floats
+    colors = np.random.default_rng(3).uniform(0, 2, (1000, 3)).astype(np.float32)
+    again = small_floats.floats(small_floats.words(colors))
+    assert np.abs(again - colors).max() <= LEAST_STEP
+    np.testing.assert_array_equal(small_floats.floats(small_floats.words(again)), again)
+    nothing = np.array([[-1, -np.inf, -0.0]], np.float32)
+    assert small_floats.floats(small_floats.words(nothing)).tolist() == [[0, 0, 0]]
 
 
 @pytest.mark.parametrize("kind", EXAMPLES, ids=gl.token_name)
@@ -34,7 +67,7 @@ def test_components_are_in_the_bits_of_the_specification(kind):
     assert packed.join(packed.split(words)).tolist() == words.tolist()
 
 
-@pytest.mark.parametrize("kind", PACKED_COLORS, ids=gl.token_name)
+@pytest.mark.parametrize("kind", EXAMPLES, ids=gl.token_name)
 def test_the_largest_components_are_the_word_of_all_bits(kind):
     packed = PACKED_COLORS[kind]
     assert packed.join(packed.largest) == np.iinfo(packed.dtype).max

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from softshadow import pixels
+from softshadow import color_values
 from softshadow import tokens as gl
 from softshadow.image import D24, D32F, FORMATS
 from softshadow.pixels import (
@@ -114,6 +114,6 @@ def test_luminance_out_of_a_framebuffer_is_the_sum():
 def test_the_rgb_of_a_large_image_is_that_of_its_rgba(flipped):
     rgba = np.random.default_rng(3).integers(0, 256, (301, 299, 4), np.uint8)[:, 5:]
     rgba = rgba[::-1] if flipped else rgba
-    assert rgba.size >= pixels.LARGE
-    read = pixels.pack_color(rgba, FORMATS[gl.GL_RGBA8], gl.GL_RGB, np.uint8, from_framebuffer=True)
+    assert rgba.size >= color_values.LARGE
+    read = pack_color(rgba, FORMATS[gl.GL_RGBA8], gl.GL_RGB, np.uint8, from_framebuffer=True)
     np.testing.assert_array_equal(read, rgba[..., :3])

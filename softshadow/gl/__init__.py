@@ -36,6 +36,7 @@ from softshadow.gl.fragment_state import *
 from softshadow.gl.framebuffers import *
 from softshadow.gl.glu import *
 from softshadow.gl.glu_mipmaps import *
+from softshadow.gl.glu_mipmaps_1d_3d import *
 from softshadow.gl.glu_names import *
 from softshadow.gl.glu_tokens import *
 from softshadow.gl.immediate import *
@@ -57,6 +58,7 @@ from softshadow.gl.rasterization import *
 from softshadow.gl.refusals import all_naming_arguments
 from softshadow.gl.render_modes import *
 from softshadow.gl.renderbuffers import *
+from softshadow.gl.sample_coverage import *
 from softshadow.gl.stipples import *
 from softshadow.gl.tessellator import *
 from softshadow.gl.texture_coordinates import *

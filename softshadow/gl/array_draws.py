@@ -89,6 +89,28 @@ def glMultiDrawArrays(mode: int, first: Any, count: Any, drawcount: int) -> None
             _draw(context, int(mode), _rows(context, operation, start, start + int(number)), None)
 
 
+def glMultiDrawElements(mode: int, count: Any, type: int, indices: Any, drawcount: int) -> None:
+    """Draw `drawcount` times as glDrawElements does, each with its number of indices and its array or offset."""
+    context, operation = outside_begin("glMultiDrawElements"), "glMultiDrawElements"
+    if context is None:
+        return
+    context.flush()
+    counts = np.ravel(count)[: max(drawcount, 0)].tolist()
+    places = list(indices)[: len(counts)]
+    if drawcount < 0:
+        fail(gl.GL_INVALID_VALUE, operation, f"drawcount={drawcount}: expected 0 or more")
+    elif not is_one_of(operation, "mode", mode, MODES, A_MODE) or not is_one_of(
+        operation, "type", type, INDEX_TYPES, AN_INDEX_TYPE
+    ):
+        return
+    elif min(counts, default=0) < 0:
+        fail(gl.GL_INVALID_VALUE, operation, f"count={counts}: expected 0 or more")
+    elif context.arrays.element_buffer or all(place is not None for place in places):  # else Mesa draws nothing
+        for number, place in zip(counts, places, strict=True):
+            if number:
+                _draw_elements(operation, mode, number, type, place)
+
+
 def _draw_elements(operation: str, mode: int, count: int, type: int, indices: Any) -> None:
     context = outside_begin(operation)
     if context is None:

@@ -60,7 +60,16 @@ GROUPS: dict[int, Fields] = {
     gl.GL_TRANSFORM_BIT: {"clip_planes": (), "lighting": ("normalize", "rescale_normal"), "depth": ("clamp",)},
     gl.GL_TEXTURE_BIT: {"units": ()},
     gl.GL_VIEWPORT_BIT: {"viewport": ()},
-    gl.GL_MULTISAMPLE_BIT: {"color": ("multisample",)},
+    gl.GL_MULTISAMPLE_BIT: {
+        "color": (
+            "multisample",
+            "alpha_to_coverage",
+            "alpha_to_one",
+            "sample_coverage",
+            "coverage_value",
+            "coverage_inverted",
+        ),
+    },
 }
 # the fields that Mesa restores by GL calls, which flush the collected vertices; it copies the others
 SET_BY_CALLS: dict[int, Fields] = {

@@ -180,7 +180,8 @@ def _is_complete(context: Context, point: int, attachment: Attachment) -> bool:
         return False
     if point in KINDS:
         return image.format.kind in KINDS[point]
-    return image.format.kind in ("unorm8", "float") and image.format.base in COLOR_RENDERABLE
+    is_drawn_to = image.format.kind in ("unorm8", "float") and not image.format.encoding
+    return is_drawn_to and image.format.base in COLOR_RENDERABLE
 
 
 def glCheckFramebufferStatus(target: int) -> int:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import current
+from softshadow.context import Context, current
 from softshadow.framebuffer import LARGEST_SIDE
 from softshadow.frozen import evolve
 from softshadow.gl.calls import spelled_like_gl
@@ -29,7 +31,7 @@ def gluScaleImage(
         return 0
     if min(wIn, hIn, wOut, hOut) < 0:
         return GLU_INVALID_VALUE
-    problem = _problem(format, typeIn) or _problem(format, typeOut)
+    problem = wrong_image(format, typeIn) or wrong_image(format, typeOut)
     if problem:
         return problem
     context = current()
@@ -50,10 +52,10 @@ def gluBuild2DMipmaps(
 
     The image is scaled to the nearest powers of two first.
     """
-    problem = _problem(format, type)
+    problem = wrong_image(format, type)
     if problem or width < 1 or height < 1:
         return problem or GLU_INVALID_VALUE
-    scaled = min(_nearest_power(width), LARGEST_SIDE), min(_nearest_power(height), LARGEST_SIDE)
+    scaled = min(nearest_power(width), LARGEST_SIDE), min(nearest_power(height), LARGEST_SIDE)
     levels = max(scaled).bit_length() - 1
     return _build(target, internalFormat, (width, height), scaled, format, type, (0, 0, levels), data)
 
@@ -63,7 +65,7 @@ def gluBuild2DMipmapLevels(
     data: Any,
 ) -> int:  # fmt: skip
     """Define levels `base` to `max` of a texture whose level `level` is an image; return 0 or an error code."""
-    problem = _problem(format, type)
+    problem = wrong_image(format, type)
     if problem:
         return problem
     powers = [side for side in (width, height) if side > 0 and not side & (side - 1)]
@@ -88,11 +90,7 @@ def _build(
         return 0
     if scaled != size:
         image = scale(image, *scaled)
-    store = context.unpack_store
-    context.unpack_store = evolve(
-        store, alignment=1, row_length=0, skip_rows=0, skip_pixels=0, swap_bytes=False, buffer=0
-    )
-    try:
+    with packed_tightly(context):
         while True:
             if level >= base:
                 shape = image.shape[1], image.shape[0]
@@ -100,18 +98,33 @@ def _build(
             if level == last or image.shape[:2] == (1, 1):
                 return 0
             image, level = halve(image), level + 1
+
+
+@contextmanager
+def packed_tightly(context: Context) -> Iterator[None]:
+    """Read images from memory without any padding, and restore the pixel store at the end."""
+    store = context.unpack_store
+    context.unpack_store = evolve(
+        store, alignment=1, row_length=0, skip_rows=0, skip_pixels=0, image_height=0, skip_images=0, swap_bytes=False,
+        buffer=0,
+    )  # fmt: skip
+    try:
+        yield
     finally:
         context.unpack_store = store
 
 
-def _problem(format: int, type: int) -> int:
+def wrong_image(format: int, type: int) -> int:
     """Return an error code of GLU, 0 for a format and a type that images can have here."""
-    if format not in COMPONENTS or (type not in TYPES and type not in PACKED_COLORS):
+    packed = PACKED_COLORS.get(type)
+    if format not in COMPONENTS or (type not in TYPES and packed is None):
         return GLU_INVALID_ENUM
-    return GLU_INVALID_OPERATION if type in PACKED_COLORS else 0
+    if packed is not None and packed.small_floats is not None:  # newer than GLU
+        return GLU_INVALID_ENUM
+    return GLU_INVALID_OPERATION if packed is not None else 0
 
 
-def _nearest_power(size: int) -> int:
+def nearest_power(size: int) -> int:
     """Return the power of two that libGLU takes for nearest: 3 becomes 4, 5 becomes 4, 6 becomes 8."""
     power = 1
     while size not in (1, 3):

@@ -55,7 +55,7 @@ def scale_shorts(image: np.ndarray, width: int, height: int) -> np.ndarray:
     """Return a 16-bit image in another size."""
     if image.shape[:2] == (2 * height, 2 * width):
         return halve(image)
-    rows, columns = _taps(image.shape[0], height), _taps(image.shape[1], width)
+    rows, columns = taps(image.shape[0], height), taps(image.shape[1], width)
     values = image.astype(F32)
     totals, area = np.zeros((height, width, image.shape[2]), F32), np.zeros((height, width, 1), F32)
     for i in range(rows.places.shape[1]):
@@ -66,7 +66,7 @@ def scale_shorts(image: np.ndarray, width: int, height: int) -> np.ndarray:
     return ((totals.astype(np.float64) + 0.5) / area).astype(np.uint16)
 
 
-def _taps(size_in: int, size_out: int) -> Taps:
+def taps(size_in: int, size_out: int) -> Taps:
     """Return what each of `size_out` rows or columns reads of `size_in`; places beyond the edges wrap."""
     step = F32(size_in) / F32(size_out)
     reach = float(step / F32(2)) if size_in > size_out else 0.5

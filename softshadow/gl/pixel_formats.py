@@ -18,7 +18,8 @@ def format_problem(format: int, type: int) -> Problem | None:
         return gl.GL_INVALID_ENUM, f"type={token_name(type, TYPE_NAMES)}: expected {expected} for GL_DEPTH_STENCIL"
     if type in PACKED_COLORS and format not in PACKED_COLORS[type].formats:
         expected = " or ".join(token_name(f) for f in PACKED_COLORS[type].formats)
-        return gl.GL_INVALID_OPERATION, f"format={token_name(format)}: expected {expected} for {token_name(type)}"
+        code = gl.GL_INVALID_ENUM if type == gl.GL_UNSIGNED_INT_5_9_9_9_REV else gl.GL_INVALID_OPERATION
+        return code, f"format={token_name(format)}: expected {expected} for {token_name(type)}"
     if type in PACKED_TYPES and format != gl.GL_DEPTH_STENCIL:
         return gl.GL_INVALID_OPERATION, f"format={token_name(format)}: expected GL_DEPTH_STENCIL for {token_name(type)}"
     if format not in COMPONENTS:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.color_values import color_as_float, to_unorm8
 from softshadow.context import Context, current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.depth_rectangles import copy_depths, draw_rectangle_of_depths, texture_of_depths
@@ -25,18 +26,19 @@ from softshadow.gl.window_quads import textured_rectangle
 from softshadow.image import Format, storage_format
 from softshadow.packed_colors import PACKED_COLORS
 from softshadow.pipeline.buffers.copy import bottom_up, clipped
-from softshadow.pixels import color_as_float, pack_color, unpack_color
+from softshadow.pixels import pack_color, unpack_color
+from softshadow.texel_codes import as_floats, resized
 from softshadow.tokens import token_name
 
 LARGEST_SHORT = 2**15 - 1
 IN_BYTES = [  # the packed types whose colours Mesa's texture has in 8 bits
     kind for kind, packed in PACKED_COLORS.items() if any(n_bits in (5, 6) for _, n_bits in packed.fields)
 ]
-FLOATS = (gl.GL_FLOAT, gl.GL_HALF_FLOAT)
-INDEXED = {  # type of colour indices: the number for 1 in Mesa's texture of their colours, else 255
-    gl.GL_UNSIGNED_SHORT: 2**16 - 1,
-    gl.GL_SHORT: LARGEST_SHORT,
-    gl.GL_INT: LARGEST_SHORT,
+INDEXED = {  # type of colour indices: the bits for each channel in Mesa's texture of their colours, else 8
+    gl.GL_BYTE: 7,
+    gl.GL_UNSIGNED_SHORT: 16,
+    gl.GL_SHORT: 15,
+    gl.GL_INT: 15,
 }
 COPIED = {  # type of glCopyPixels: format of its pixels
     gl.GL_COLOR: gl.GL_RGBA,
@@ -109,12 +111,13 @@ def _missing_buffer(context: Context, format: int) -> str:
 
 def _colors(context: Context, image: np.ndarray, format: int, type: int) -> np.ndarray:
     """Return client colours as the texture of the rectangle has them, after pixel transfer."""
-    if image.dtype == np.int32:  # Mesa's texture has the upper 16 bits of it
-        image = (image >> 16).astype(np.float32) * (np.float32(1) / np.float32(LARGEST_SHORT))
     transfer = context.pixel_transfer
     if format == gl.GL_COLOR_INDEX:
-        colors, one = transfer.indexed_color(image[..., 0].astype(np.int64)), np.float32(INDEXED.get(type, 255))
-        return colors if type in FLOATS else np.rint(colors * one) * (np.float32(1) / one)
+        colors = to_unorm8(transfer.indexed_color(image[..., 0].astype(np.int64)))
+        n_bits = INDEXED.get(type, 8)
+        return as_floats(resized(colors, 8, n_bits), n_bits)
+    if image.dtype == np.int32:  # Mesa's texture has the upper 16 bits of it
+        image = (image >> 16).astype(np.float32) * (np.float32(1) / np.float32(LARGEST_SHORT))
     if image.dtype == np.int8 and transfer.changes_color:  # whose signs Mesa's texture keeps
         image = image.astype(np.float32) * (np.float32(1) / np.float32(127))
         image = np.maximum(image, np.float32(-1))

@@ -78,7 +78,7 @@ def glRenderbufferStorage(target: int, internalformat: int, width: int, height: 
         return fail(gl.GL_INVALID_ENUM, operation, f"target={token_name(target)}: expected GL_RENDERBUFFER")
     if context.renderbuffer == 0:
         return fail(gl.GL_INVALID_OPERATION, operation, "no renderbuffer is bound")
-    if internalformat not in FORMATS or internalformat in (1, 2, 3, 4):
+    if internalformat not in FORMATS or internalformat in (1, 2, 3, 4) or FORMATS[internalformat].encoding:
         return fail(
             gl.GL_INVALID_ENUM,
             operation,

@@ -269,6 +269,8 @@ QUERIES: dict[str, Read] = {
     "GL_FEEDBACK_BUFFER_TYPE": lambda c: c.render_mode.feedback.kind,
     "GL_RGBA_MODE": lambda c: True,
     "GL_STEREO": lambda c: False,
+    "GL_SAMPLE_COVERAGE_VALUE": lambda c: c.state.color.coverage_value,
+    "GL_SAMPLE_COVERAGE_INVERT": lambda c: c.state.color.coverage_inverted,
     "GL_SAMPLES": lambda c: 0,
     "GL_SAMPLE_BUFFERS": lambda c: 0,
     "GL_SUBPIXEL_BITS": lambda c: 8,

@@ -87,9 +87,9 @@ def _copy_image(
     if problem:
         return fail(problem[0], operation, problem[1])
     texture, face, (width, height, _) = bound_texture(context, target), face_of(target), shape
-    before = texture.images.get((face, level))
-    if before is None or (before.internal_format, before.width, before.height) != (internalformat, width, height):
-        stored = FORMATS[internalformat]
+    before, stored = texture.images.get((face, level)), FORMATS[internalformat]
+    layout = stored, internalformat, width, height
+    if before is None or (before.format, before.internal_format, before.width, before.height) != layout:
         context.execute(DefineImage(texture.name, face, level, stored, internalformat, width, height))
     place = (0, 0, *origin, width, height)
     context.execute(

@@ -190,7 +190,7 @@ def _define(
     )
     if problem:
         return fail(problem[0], operation, problem[1])
-    stored = storage_format(internalformat, type)
+    stored = storage_format(internalformat, type, format)
     problem = size_problem(target, level, shape) or memory_problem(target, shape, stored)
     if is_proxy:
         define_proxy(context, target, level, None if problem else stored, internalformat, shape)

@@ -30,6 +30,7 @@ SIZES: dict[int, tuple[int, ...]] = {  # the base formats that have the channel
     gl.GL_TEXTURE_DEPTH_SIZE: (gl.GL_DEPTH_COMPONENT,),
     gl.GL_TEXTURE_STENCIL_SIZE: (gl.GL_STENCIL_INDEX,),
 }
+CHANNEL_OF = {gl.GL_TEXTURE_GREEN_SIZE: 1, gl.GL_TEXTURE_BLUE_SIZE: 2, gl.GL_TEXTURE_ALPHA_SIZE: 3}
 MEMORY = {  # largest depth: the type of the texture's own memory
     2**16 - 1: gl.GL_UNSIGNED_SHORT,
     2**32 - 1: gl.GL_UNSIGNED_INT,
@@ -119,6 +120,8 @@ def channel_bits(image: Image, size: int) -> int:
         return 8 if image.stencil is not None or image.format.kind == "stencil" else 0
     if image.format.base not in SIZES[size]:
         return 0
+    if image.format.bits:
+        return image.format.bits[CHANNEL_OF.get(size, 0)]
     if image.format.kind == "unorm8":
         return 8
     return int(image.format.largest).bit_length() or 32

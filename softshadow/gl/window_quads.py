@@ -10,9 +10,9 @@ from softshadow.framebuffer import DEFAULT
 from softshadow.frozen import evolve
 from softshadow.image import Format
 from softshadow.pipeline.commands import CreateTexture, DefineImage, Draw, SetSampler, Vertices
-from softshadow.state import ClipPlanes, Cull, Fog, Polygon, State, TextureUnit, Viewport
+from softshadow.state import ClipPlanes, Cull, Polygon, State, TextureUnit, Viewport
 from softshadow.state.texturing import SWITCHES
-from softshadow.texture import Sampler
+from softshadow.texture import DEFAULTS, Sampler
 
 # the unit square in the order of Mesa's vertices; for images in framebuffer objects it counts rows from the top
 CORNERS = np.array([[0, 1], [1, 1], [1, 0], [0, 0]])
@@ -20,7 +20,7 @@ CORNERS_FROM_TOP = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
 TRIANGLES = np.array([0, 1, 2, 0, 2, 3])  # a fan, as in Mesa
 
 
-TEXTURE = -2  # key in the storage of the texture that holds the rectangle
+TEXTURE = min(DEFAULTS.values()) - 1  # key in the storage of the texture that holds the rectangle
 SAMPLER = Sampler(
     min_filter=gl.GL_NEAREST, mag_filter=gl.GL_NEAREST, wrap_s=gl.GL_CLAMP_TO_EDGE, wrap_t=gl.GL_CLAMP_TO_EDGE
 )
@@ -78,7 +78,9 @@ def draw_of_quads(context: Context, quads: np.ndarray, state: State, textured: b
     position = np.ones((4 * len(quads), 4), real)
     position[:, 0] = quads[:, 2 * corners[:, 0]].reshape(-1).astype(real) / real(size[0]) * real(2) - real(1)
     position[:, 1] = quads[:, 1 + 2 * corners[:, 1]].reshape(-1).astype(real) / real(size[1]) * real(2) - real(1)
-    position[:, 2] = real(raster.window[2]) * real(2) - real(1)
+    position[:, 2] = 0  # the projection adds the depth: in Mesa, fog is that of the distance 0
+    projection = np.eye(4)
+    projection[2, 3] = real(raster.window[2]) * real(2) - real(1)
     values = (raster.color, (0, 0, 1), *raster.texcoords)
     rows = [np.tile(np.array(value, real), (len(position), 1)) for value in values]
     if textured:
@@ -93,7 +95,7 @@ def draw_of_quads(context: Context, quads: np.ndarray, state: State, textured: b
         vertices=Vertices(position, rows[0], rows[1], tuple(rows[2:])),
         indices=indices,
         modelview=identity,
-        projection=identity,
+        projection=context.frozen(projection),
         texture_matrices=(identity,) * len(raster.texcoords),
         label="/".join(context.labels),
     )
@@ -107,7 +109,6 @@ def _without_vertex_stages(state: State, size: tuple[int, int], in_window: bool)
         cull=Cull(front_face=gl.GL_CW if in_window else gl.GL_CCW),  # as in Mesa, for the stencil test of two sides
         polygon=Polygon(),
         lighting=evolve(state.lighting, enabled=False),
-        fog=Fog(),
         clip_planes=ClipPlanes(),
         depth=evolve(state.depth, clamp=False),
         units=tuple(evolve(unit, gen=tuple(evolve(each, enabled=False) for each in unit.gen)) for unit in state.units),

@@ -62,7 +62,7 @@ def sample_box(
     """
     sampler, sources = texture.sampler, sources_of(image, texture.sampler)
     places, channels = np.ascontiguousarray(coordinates.T), out.T
-    cells, border, unit = texels_of(image, sampler, coordinates.dtype)
+    cells, border, unit = texels_of(image, sampler, coordinates.dtype, in_8_bits(image, wraps))
     sides = np.array((image.width, image.height, image.slices))
     axes = np.array(wraps)
     where = places, cells, sides, axes, texture.target != GL_TEXTURE_RECTANGLE

@@ -15,7 +15,15 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.jit import kernel
-from softshadow.programs.filtering import CONSTANT_ZERO, clamp_to_unit, mix, passes, sources_of, texels_in_float
+from softshadow.programs.filtering import (
+    CONSTANT_ZERO,
+    cells_in_float,
+    clamp_to_unit,
+    mix,
+    passes,
+    sources_of,
+    texels_in_float,
+)
 from softshadow.programs.wrapping import HALF, ONE, ZERO, linear_texels, nearest_texel, to_integer
 from softshadow.texture import Texture
 from softshadow.tokens import GL_CLAMP_TO_EDGE, GL_NONE
@@ -89,7 +97,11 @@ def gather_texels_by_level(texture: Texture, levels: np.ndarray, texels: np.ndar
             chosen = (of_texels == level) & (texels[..., 0] == face)
             if chosen.any():
                 x, y = texels[chosen, 1], texels[chosen, 2]
-                cells = texture.images[face, int(level)].cells[y, x]
+                source = texture.images[face, int(level)]
+                if source.format.has_few_bits:
+                    values[chosen] = cells_in_float(source)[y, x]
+                    continue
+                cells = source.cells[y, x]
                 values[chosen] = texels_in_float(cells.reshape(len(x), -1), image.format, real)
     return values
 

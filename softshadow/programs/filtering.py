@@ -8,7 +8,9 @@ do.
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -26,6 +28,7 @@ from softshadow.programs.wrapping import (
     nearest_texels,
     wrap_code,
 )
+from softshadow.texel_codes import as_floats, codes_of
 from softshadow.texture import Sampler
 from softshadow.tokens import GL_ALWAYS, GL_EQUAL, GL_GEQUAL, GL_GREATER, GL_LEQUAL, GL_LESS, GL_NOTEQUAL
 
@@ -70,7 +73,7 @@ def sample_image(
         cells = image.cells if image.cells.ndim == 3 else image.cells[:, :, np.newaxis]
         filter_fixed_point(places, cells, image.width, wraps, sources, channels)
         return
-    cells, border, unit = texels_of(image, sampler, coordinates.dtype)
+    cells, border, unit = texels_of(image, sampler, coordinates.dtype, in_8_bits(image, wraps))
     where = places, cells, image.width, wraps, border, unit
     if image.format.kind == "depth" and sampler.compare_mode != gl.GL_NONE:
         compare_depth(*where, linear, sampler.compare_func, image.format.largest > 0, sources, channels)
@@ -89,15 +92,38 @@ def nearest_places(places: np.ndarray, image: Image, wraps: tuple[int, ...]) -> 
     return texels
 
 
-def texels_of(image: Image, sampler: Sampler, real: np.dtype) -> tuple[np.ndarray, np.ndarray, Any]:
+def texels_of(
+    image: Image, sampler: Sampler, real: np.dtype, as_bytes: bool = False
+) -> tuple[np.ndarray, np.ndarray, Any]:
     """Return the arguments of `fetch`: cells (H, pitch, channels), border colour, value of one cell unit.
 
-    `real` is the float type: float64 in the "exact" precision.
+    `real` is the float type: float64 in the "exact" precision. `as_bytes`: channels of few bits are widened to 8, as
+    llvmpipe does where it filters `in_8_bits`.
     """
-    cells = image.cells if image.cells.ndim == 3 else image.cells[:, :, np.newaxis]
+    as_bytes = as_bytes or not image.format.has_few_bits
+    cells = image.cells if as_bytes else cells_in_float(image)
+    cells = cells if cells.ndim == 3 else cells[:, :, np.newaxis]
     border = np.array(sampler.border_color, real)
-    border = border.clip(ZERO, ONE) if image.format.largest else border
-    return cells, border, unit_of(image.format, real)
+    border = border.clip(ZERO, ONE) if image.format.is_clamped else border
+    return cells, border, unit_of(image.format, real) if as_bytes else real.type(ONE)
+
+
+_in_float: WeakKeyDictionary[Image, tuple[Hashable, np.ndarray]] = WeakKeyDictionary()
+
+
+def cells_in_float(image: Image) -> np.ndarray:
+    """Return the cells of an image with few bits as llvmpipe filters them in float: not widened to 8 bits before."""
+    known = _in_float.get(image)
+    if known is not None and image.version is not None and known[0] is image.version:
+        return known[1]
+    image.version = image.version if image.version is not None else object()
+    codes = codes_of(image.read_cells, image.format)
+    floats = np.ones(codes.shape, np.float32)
+    for channel, n_bits in enumerate(image.format.bits):
+        if n_bits:
+            floats[..., channel] = as_floats(codes[..., channel], n_bits)
+    _in_float[image] = image.version, floats
+    return floats
 
 
 def sources_of(image: Image, sampler: Sampler) -> np.ndarray:

@@ -44,12 +44,12 @@ def apply_environment(
             if mode == gl.GL_MODULATE:
                 rgb *= texel_rgb
             elif mode == gl.GL_ADD:
-                rgb[:] = np.minimum(rgb + texel_rgb, ONE)
+                rgb[:] = (rgb + texel_rgb).clip(ZERO, ONE)
             else:
                 rgb[:] = mix(rgb, constant[:3], texel_rgb)
         if has_alpha:
             if base == gl.GL_INTENSITY and mode == gl.GL_ADD:
-                alpha[:] = np.minimum(alpha + texel_alpha, ONE)
+                alpha[:] = (alpha + texel_alpha).clip(ZERO, ONE)
             elif base == gl.GL_INTENSITY and mode == gl.GL_BLEND:
                 alpha[:] = mix(alpha, constant[3], texel_alpha)
             else:

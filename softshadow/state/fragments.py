@@ -142,7 +142,8 @@ class Blend:
 class ColorBuffer:
     """Colour mask and clear colours.
 
-    GL_DITHER and GL_MULTISAMPLE are on initially. With 8 bits per channel and one sample per pixel they have no effect.
+    GL_DITHER and GL_MULTISAMPLE are on initially. With 8 bits per channel and one sample per pixel they have no effect,
+    nor have the state of glSampleCoverage and its capabilities.
     """
 
     mask: tuple[bool, bool, bool, bool] = (True, True, True, True)
@@ -150,6 +151,11 @@ class ColorBuffer:
     clear_accum: Color = (0.0, 0.0, 0.0, 0.0)
     dither: bool = True
     multisample: bool = True
+    alpha_to_coverage: bool = False
+    alpha_to_one: bool = False
+    sample_coverage: bool = False
+    coverage_value: float = 1.0
+    coverage_inverted: bool = False
 
     __repr__ = printed_calls
 
@@ -161,4 +167,8 @@ class ColorBuffer:
             f"glClearAccum({numbers(*self.clear_accum)})",
             switch("GL_DITHER", self.dither),
             switch("GL_MULTISAMPLE", self.multisample),
+            switch("GL_SAMPLE_ALPHA_TO_COVERAGE", self.alpha_to_coverage),
+            switch("GL_SAMPLE_ALPHA_TO_ONE", self.alpha_to_one),
+            switch("GL_SAMPLE_COVERAGE", self.sample_coverage),
+            f"glSampleCoverage({self.coverage_value:g}, {'GL_TRUE' if self.coverage_inverted else 'GL_FALSE'})",
         ]

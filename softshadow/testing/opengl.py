@@ -32,6 +32,9 @@ from softshadow.tokens import GL_ABGR_EXT
 
 # missing in PyOpenGL 3.1's image tables; one 32-bit word per pixel, or two
 images.TYPE_TO_ARRAYTYPE[GL.GL_UNSIGNED_INT_24_8] = GL.GL_UNSIGNED_INT
+for _words in (GL.GL_UNSIGNED_INT_5_9_9_9_REV, GL.GL_UNSIGNED_INT_10F_11F_11F_REV):
+    images.TYPE_TO_ARRAYTYPE[_words] = GL.GL_UNSIGNED_INT
+    images.TIGHT_PACK_FORMATS[_words] = 3
 images.TYPE_TO_ARRAYTYPE[GL.GL_FLOAT_32_UNSIGNED_INT_24_8_REV] = GL.GL_UNSIGNED_BYTE  # passed as bytes
 
 
@@ -76,7 +79,12 @@ EXTENSIONS = (
     "NV.depth_clamp", "ATI.separate_stencil", "ATI.draw_buffers", "SGIS.texture_edge_clamp", "SGIS.generate_mipmap",
     "SGIS.texture_border_clamp", "SGIS.texture_lod", "SGIX.depth_texture", "IBM.texture_mirrored_repeat",
     "NV.conditional_render", "ARB.texture_rectangle", "NV.texture_rectangle", "EXT.texture3D",
-    "EXT.texture_filter_anisotropic", "EXT.abgr",
+    "EXT.texture_filter_anisotropic", "EXT.abgr", "ARB.point_parameters", "EXT.point_parameters", "ARB.point_sprite",
+    "ARB.window_pos", "ARB.pixel_buffer_object", "EXT.pixel_buffer_object", "ARB.half_float_pixel",
+    "ARB.shader_objects", "ARB.vertex_shader",
+    "ARB.fragment_shader", "ARB.texture_compression", "EXT.packed_pixels", "EXT.provoking_vertex", "NV.point_sprite",
+    "NV.texgen_reflection", "NV.half_float", "NV.packed_depth_stencil", "EXT.texture_sRGB",
+    "EXT.texture_compression_s3tc", "EXT.texture_compression_latc", "EXT.texture_shared_exponent", "EXT.packed_float",
 )  # fmt: skip
 
 _current: "MesaGL | None" = None
@@ -392,8 +400,23 @@ def glEdgeFlagPointer(stride: int, pointer: Any) -> None:
 
 
 _kept_flags: list[np.ndarray] = []
+
+
+def glMultiDrawElements(mode: int, count: Any, type: int, indices: Any, drawcount: int) -> None:
+    """Draw from several arrays of indices; PyOpenGL takes their addresses only."""
+    kept = [
+        np.ascontiguousarray(place, DTYPES.get(type)) if isinstance(place, np.ndarray | list) else place
+        for place in indices
+    ]
+    places = [place.ctypes.data if isinstance(place, np.ndarray) else place for place in kept]
+    GL.glMultiDrawElements(
+        mode, np.asarray(count, np.int32), type, (ctypes.c_void_p * max(len(places), 1))(*places), drawcount
+    )
+
+
 OWN: dict[str, Callable[..., Any]] = {
     "glEdgeFlagPointer": glEdgeFlagPointer,
+    "glMultiDrawElements": glMultiDrawElements,
     **{name: _under_one_key(getattr(GL, name)) for name in ("glRenderMode", "glSelectBuffer", "glFeedbackBuffer")},
     "glGetPolygonStipple": glGetPolygonStipple,
     "glGetPolygonStippleub": glGetPolygonStipple,

@@ -39,6 +39,8 @@ SINGLE: dict[str, tuple[Any, ...]] = {
     "glGetRenderbufferParameteriv": ("GL_RENDERBUFFER", "GL_RENDERBUFFER_WIDTH"),
     "glInterleavedArrays": ("GL_C4UB_V3F", 0, np.zeros(48, np.uint8)), "glIsBuffer": ("@buffer",),
     "glMultiDrawArrays": ("GL_TRIANGLES", np.array([0, 1], np.int32), np.array([3, 2], np.int32), 2),
+    "glMultiDrawElements": ("GL_TRIANGLES", np.array([3, 3], np.int32), "GL_UNSIGNED_INT", [INDICES, INDICES], 2),
+    "glSampleCoverage": (0.5, True),
     "glPopClientAttrib": (), "glPushClientAttrib": ("GL_CLIENT_VERTEX_ARRAY_BIT",),
     "glColor": (0.5, 0.25, 0.75), "glVertex": (0.5, 0.25, 0.75), "glMaterial": ("GL_FRONT", "GL_DIFFUSE", [1, 0, 1, 0]),
     "glTexParameter": ("GL_TEXTURE_2D", "GL_TEXTURE_MIN_FILTER", "GL_NEAREST"),
@@ -249,6 +251,7 @@ def prepare(gl: Any) -> World:
 LEFT_OUT = {
     "glArrayElement": (-1, 40, 99999), "glBufferData": (40, 99999), "glDrawArrays": (-1, 40, 99999),
     "glDrawElements": (40, 99999), "glDrawRangeElements": (40, 99999), "glMultiDrawArrays": (40, 99999),
+    "glMultiDrawElements": (40, 99999),
     "glTexImage1D": (40,), "glTexImage2D": (40,), "glTexImage3D": (40,), "glUniform1i": (40,),
     "glInterleavedArrays": (99999,), "glBitmap": (40, 99999),
     "glDrawPixels": (40, 99999), "glCopyPixels": (99999,), "glPixelMapfv": (40,), "glPixelMapuiv": (40,),

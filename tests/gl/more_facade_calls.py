@@ -9,7 +9,9 @@ SURFACE = np.array([[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]], np.float32)
 
 # calls of GLU that read memory as large as their other arguments say, or make callbacks: see tests/mesa
 OF_GLU = {
-    "gluScaleImage", "gluBuild2DMipmaps", "gluBuild2DMipmapLevels", "gluUnProject4", "gluNewTess", "gluDeleteTess",
+    "gluScaleImage", "gluBuild2DMipmaps", "gluBuild2DMipmapLevels", "gluBuild1DMipmaps",
+    "gluBuild1DMipmapLevels", "gluBuild3DMipmaps", "gluBuild3DMipmapLevels", "gluUnProject4",
+    "gluNewTess", "gluDeleteTess",
     "gluTessProperty", "gluGetTessProperty", "gluTessNormal", "gluTessCallback", "gluTessBeginPolygon",
     "gluTessBeginContour", "gluTessVertex", "gluTessEndContour", "gluTessEndPolygon", "gluBeginPolygon",
     "gluNextContour", "gluEndPolygon",

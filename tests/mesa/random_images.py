@@ -28,6 +28,7 @@ PACKED_KINDS: dict[str, tuple[Any, tuple[str, ...]]] = {  # integers and formats
     "GL_UNSIGNED_SHORT_5_5_5_1": (np.uint16, OF_FOUR), "GL_UNSIGNED_SHORT_1_5_5_5_REV": (np.uint16, OF_FOUR),
     "GL_UNSIGNED_INT_8_8_8_8": (np.uint32, ALIKE), "GL_UNSIGNED_INT_8_8_8_8_REV": (np.uint32, ALIKE),
     "GL_UNSIGNED_INT_10_10_10_2": (np.uint32, OF_FOUR), "GL_UNSIGNED_INT_2_10_10_10_REV": (np.uint32, OF_FOUR),
+    "GL_UNSIGNED_INT_5_9_9_9_REV": (np.uint32, OF_THREE), "GL_UNSIGNED_INT_10F_11F_11F_REV": (np.uint32, OF_THREE),
 }  # fmt: skip
 WRAPS = ["GL_REPEAT", "GL_CLAMP_TO_EDGE", "GL_MIRRORED_REPEAT", "GL_CLAMP_TO_BORDER", "GL_CLAMP"]
 
@@ -85,8 +86,6 @@ def _upload(
     pixel_format, kind = _names(writer)
     if kind in PACKED_KINDS:
         pixels = packed_words(writer.rng, row, rows, kind)
-        sized = {"GL_RGB": "GL_RGB8", "GL_RGBA": "GL_RGBA8"}  # else Mesa has as many bits as the type
-        place = tuple(sized.get(part, part) if isinstance(part, str) else part for part in place)
     else:
         pixels = client_pixels(writer, row, rows, PIXEL_FORMATS[pixel_format], kind)
     sides = (width, height, *border)

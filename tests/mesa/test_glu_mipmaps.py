@@ -1,4 +1,4 @@
-"""gluScaleImage and gluBuild2DMipmaps give the bytes of libGLU, gluUnProject4 its numbers."""
+"""gluScaleImage and gluBuild*DMipmaps give the bytes of libGLU, gluUnProject4 its numbers."""
 
 import ctypes
 import ctypes.util
@@ -76,6 +76,55 @@ def test_many_scaled_images_and_mipmaps_are_those_of_libglu() -> None:
     assert compared, str(compared)
 
 
+def rows_and_boxes(seeds: range) -> Any:
+    """Return a program that builds mipmaps of 1-D and 3-D textures, and reads all of them back.
+
+    Boxes are at least as high as wide: with lower ones libGLU reads memory that is not the image's, and with signed
+    numbers below 0 it ends the program.
+    """
+
+    def program(gl: Any) -> list[np.ndarray]:
+        told: list[np.ndarray] = []
+        gl.glPixelStorei(gl.GL_UNPACK_ALIGNMENT, 1)
+        gl.glPixelStorei(gl.GL_PACK_ALIGNMENT, 1)
+        for seed in seeds:
+            rng = np.random.default_rng(seed)
+            kind, name = str(rng.choice(list(TYPES))), str(rng.choice(list(FORMATS)))
+            width, height, depth = map(int, rng.integers(1, 12, 3))
+            height = max(width, height)
+            row = image(rng, kind, width, 1, FORMATS[name], False)
+            box = image(rng, kind, width, height * depth, FORMATS[name], False)
+            described = getattr(gl, name), getattr(gl, kind)
+            sizes = "GL_TEXTURE_WIDTH", "GL_TEXTURE_HEIGHT", "GL_TEXTURE_DEPTH"
+            for target in (gl.GL_TEXTURE_1D, gl.GL_TEXTURE_3D):
+                gl.glBindTexture(target, gl.glGenTextures(1))
+                if target == gl.GL_TEXTURE_1D:
+                    code = gl.gluBuild1DMipmaps(target, gl.GL_RGBA32F, width, *described, row)
+                else:
+                    code = gl.gluBuild3DMipmaps(target, gl.GL_RGBA32F, width, height, depth, *described, box)
+                told.append(np.array([code]))
+                for level in range(LEVELS):
+                    read = (gl.glGetTexLevelParameteriv(target, level, getattr(gl, size)) for size in sizes)
+                    sides = np.array([int(side) for side in read])
+                    told.append(sides)
+                    if sides[0]:
+                        told.append(np.ravel(gl.glGetTexImage(target, level, gl.GL_RGBA, gl.GL_FLOAT)))
+        return told
+
+    return program
+
+
+def test_mipmaps_of_rows_and_boxes_are_those_of_libglu() -> None:
+    compared = compare(rows_and_boxes(range(12)), SIZE)
+    assert compared, str(compared)
+
+
+@pytest.mark.slow
+def test_many_mipmaps_of_rows_and_boxes_are_those_of_libglu() -> None:
+    compared = compare(rows_and_boxes(range(100, 300)), SIZE)
+    assert compared, str(compared)
+
+
 def some_levels(gl: Any) -> list[np.ndarray]:
     """Return the sizes of the levels that gluBuild2DMipmapLevels has defined, and its answers to wrong arguments."""
     pixels = np.arange(8 * 4 * 3, dtype=np.uint8).reshape(4, 8, 3)
@@ -94,7 +143,21 @@ def some_levels(gl: Any) -> list[np.ndarray]:
         int(gl.gluScaleImage(gl.GL_RGB, -1, 4, gl.GL_UNSIGNED_BYTE, pixels, 2, 2, gl.GL_UNSIGNED_BYTE, pixels.copy())),
         int(gl.gluScaleImage(gl.GL_RGB, 0, 4, gl.GL_UNSIGNED_BYTE, pixels, 2, 2, gl.GL_UNSIGNED_BYTE, pixels.copy())),
     ]  # fmt: skip
-    widths = [int(gl.glGetTexLevelParameteriv(gl.GL_TEXTURE_2D, level, gl.GL_TEXTURE_WIDTH)) for level in range(5)]
+    row, box = (gl.GL_TEXTURE_1D, 3, 8), (gl.GL_TEXTURE_3D, 3, 4, 4, 2)
+    for levels in ((1, 2, 3), (2, 1, 3), (0, 0, 9)):
+        answers.append(int(gl.gluBuild1DMipmapLevels(*row, *plain, *levels, pixels)))
+        answers.append(int(gl.gluBuild3DMipmapLevels(*box, *plain, *levels, pixels)))
+    answers += [
+        int(gl.gluBuild1DMipmapLevels(gl.GL_TEXTURE_1D, 3, 5, *plain, 0, 0, 1, pixels)),
+        int(gl.gluBuild1DMipmaps(gl.GL_TEXTURE_1D, 3, 0, *plain, pixels)),
+        int(gl.gluBuild1DMipmaps(*row, gl.GL_TEXTURE_2D, gl.GL_UNSIGNED_BYTE, pixels)),
+        int(gl.gluBuild3DMipmaps(gl.GL_TEXTURE_3D, 3, 4, -1, 2, *plain, pixels)),
+    ]
+    widths = [
+        int(gl.glGetTexLevelParameteriv(target, level, gl.GL_TEXTURE_WIDTH))
+        for target in (gl.GL_TEXTURE_2D, gl.GL_TEXTURE_1D, gl.GL_TEXTURE_3D)
+        for level in range(5)
+    ]
     return [np.array(answers), np.array(widths)]
 
 

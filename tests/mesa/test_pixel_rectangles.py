@@ -140,3 +140,45 @@ def test_the_stencil_of_two_sides_and_framebuffer_objects(in_framebuffer_object,
         ]
 
     check(program, (30, 20))
+
+
+def fogged(gl, seed):
+    """Rectangles and bitmaps in fog, at several depths, drawn to the window, to bytes or to floats."""
+    rng = np.random.default_rng(seed)
+    internal = [None, gl.GL_RGBA8, gl.GL_RGBA32F][seed % 3]
+    if internal is not None:
+        gl.glBindTexture(gl.GL_TEXTURE_2D, texture := gl.glGenTextures(1))
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, internal, 32, 24, 0, gl.GL_RGBA, gl.GL_FLOAT, None)
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, gl.glGenFramebuffers(1))
+        gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, texture, 0)
+        gl.glBindTexture(gl.GL_TEXTURE_2D, 0)
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT)
+    gl.glEnable(gl.GL_FOG)
+    if seed % 2:
+        gl.glEnable(gl.GL_BLEND)
+        gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
+    for mode in (gl.GL_LINEAR, gl.GL_EXP, gl.GL_LINEAR, gl.GL_EXP2):
+        gl.glFogi(gl.GL_FOG_MODE, mode)
+        for name, value in zip(("START", "END", "DENSITY"), rng.random(3) * (3, 2, 2) - (2, 0.5, 0), strict=True):
+            gl.glFogf(getattr(gl, f"GL_FOG_{name}"), value)
+        gl.glFogfv(gl.GL_FOG_COLOR, rng.random(4).astype(np.float32))
+        gl.glColor4f(*rng.random(4))
+        gl.glRasterPos3f(*(rng.random(3) * 1.6 - 1))
+        gl.glDrawPixels(6, 5, gl.GL_RGBA, gl.GL_FLOAT, rng.random((5, 6, 4)).astype(np.float32))
+        gl.glRasterPos3f(*(rng.random(3) * 1.6 - 1))
+        gl.glCopyPixels(3, 2, 7, 6, gl.GL_COLOR)
+        gl.glRasterPos3f(*(rng.random(3) * 1.6 - 1))
+        gl.glBitmap(8, 4, 0, 0, 3, 1, rng.integers(0, 256, 16).astype(np.uint8).tobytes())
+        gl.glFlush()  # else Mesa draws the bitmap later, in another fog
+    return np.ravel(gl.glReadPixels(0, 0, 32, 24, gl.GL_RGBA, gl.GL_FLOAT))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_fog_is_that_of_the_distance_0(seed):
+    check(lambda gl: fogged(gl, seed), (32, 24))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3, 60))
+def test_many_rectangles_in_fog_are_those_of_mesa(seed):
+    check(lambda gl: fogged(gl, seed), (32, 24))

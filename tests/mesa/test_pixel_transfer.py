@@ -141,7 +141,7 @@ def test_drawn_and_copied_colours(internal, kind):
 
 
 @pytest.mark.parametrize("kind", SETTINGS)
-@pytest.mark.parametrize("type", ["GL_UNSIGNED_BYTE", "GL_UNSIGNED_SHORT", "GL_UNSIGNED_INT", "GL_FLOAT", "GL_SHORT"])
+@pytest.mark.parametrize("type", sorted(PIXEL_TYPES))
 def test_colour_indices_become_colours(type, kind):
     rng = np.random.default_rng(2)
     indices = rng.integers(0, 255, (HEIGHT, WIDTH)).astype(PIXEL_TYPES[type])

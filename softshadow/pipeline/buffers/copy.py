@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
+from softshadow.color_values import color_as_float, to_base
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.image import Image
 from softshadow.pipeline.commands import CopyToTexture
 from softshadow.pixel_transfer import PixelTransfer
 from softshadow.pixels import (
     LARGEST_UINT,
-    color_as_float,
     pack_depth,
     quantized_depth,
     sampled_depth,
     stored_units,
-    to_base,
     to_cells,
 )
+from softshadow.texel_codes import drawn_cells
 
 
 def bottom_up(target: Framebuffer, image: Image) -> np.ndarray:
@@ -95,6 +95,8 @@ def convert_color(cells: np.ndarray, source: Image, image: Image) -> np.ndarray:
     """Return cells of one colour image in the format of another; stencil values stay as they are."""
     if image.format.kind == "stencil":
         return cells
+    if image.format.encoding:
+        return drawn_cells(to_base(color_as_float(cells), image.format.base), image.format)
     if source.format.kind != image.format.kind:
         if image.format.kind == "float":
             cells = color_as_float(cells)

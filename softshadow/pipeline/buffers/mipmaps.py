@@ -14,11 +14,14 @@ from typing import Any
 
 import numpy as np
 
+from softshadow import tokens as gl
+from softshadow.color_values import color_as_float
 from softshadow.framebuffer import Storage
-from softshadow.image import Image
+from softshadow.image import Format, Image
 from softshadow.pipeline.commands import GenerateMipmaps
 from softshadow.pipeline.constants import HALF, ONE
 from softshadow.pixels import quantized_depth, sampled_depth
+from softshadow.texel_codes import SRGB, cells_of, codes_of, drawn_cells, srgb_codes
 
 STEPS = 256  # of the filter weights in 8 bits
 
@@ -57,10 +60,13 @@ def next_level(image: Image) -> Image:
         z = halved_in_float(sampled_depth(image.view, image.format)[..., np.newaxis], width, height)[..., 0]
         level.view[:] = quantized_depth(z, image.format)
         return level
+    if image.format.encoding == "srgb" and image.format.base not in (gl.GL_RGB, gl.GL_RGBA):
+        level.view[:] = cells_of(_mean_codes(image, width, height, slices), image.format)
+        return level
     in_bytes = image.format.kind == "unorm8"
     halved = halved_in_8_bits if in_bytes else halved_in_float
     if image.slices == 1:
-        level.view[:] = halved(image.view, width, height)
+        level.view[:] = _stored(halved(image.view, width, height), image.format)
         return level
     places = centers_of_slices(image.slices, slices)
     first, second, weight = (texels_and_weights_in_8_bits if in_bytes else texels_and_weights)(places, image.slices)
@@ -69,8 +75,38 @@ def next_level(image: Image) -> Image:
     mixed = mix_in_8_bits if in_bytes else mix_in_float
     for k in range(slices):
         values = mixed(filtered[first[k]], filtered[second[k]], weight[k])
-        level.view[k * height : (k + 1) * height] = values
+        level.view[k * height : (k + 1) * height] = _stored(values, image.format)
     return level
+
+
+def _stored(values: np.ndarray, format: Format) -> np.ndarray:
+    """Return filtered colours, bytes or floats, as cells; sRGB is encoded."""
+    if not format.encoding:
+        return values
+    cells = drawn_cells(color_as_float(values.astype(format.dtype)), format)
+    if format.encoding == "srgb":
+        cells[..., :3] = SRGB[srgb_codes(values[..., :3])]
+    return cells
+
+
+def _mean_codes(image: Image, width: int, height: int, slices: int) -> np.ndarray:
+    """Return the means of encoded texels (slices * height, width, 4), rounded down: Mesa draws no sRGB luminance.
+
+    Those of several slices are rounded.
+    """
+    codes = codes_of(image.view, image.format).reshape(image.slices, image.height, image.width, 4)
+    steps = [2 if side > 1 else 1 for side in codes.shape[:3]]
+    total = np.zeros((slices, height, width, 4), np.int64)
+    for k in range(2):
+        for i in range(2):
+            for j in range(2):
+                picked = codes
+                for axis, (offset, n) in enumerate(zip((k, i, j), (slices, height, width), strict=True)):
+                    first = offset if steps[axis] == 2 else 0
+                    picked = np.take(picked, np.arange(n) * steps[axis] + first, axis)
+                total += picked
+    half = 4 if image.slices > 1 else 0
+    return ((total + half) // 8).reshape(slices * height, width, 4)
 
 
 def centers_of_slices(n: int, n_halved: int) -> np.ndarray:

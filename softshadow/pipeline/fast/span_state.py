@@ -165,6 +165,8 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     ):
         return False
     wraps = wraps_of(sampler, texture.images.get((0, 0)) or image)
+    if image.format.has_few_bits and not in_8_bits(image, wraps):
+        return False
     within, between = FILTERS[sampler.min_filter]
     linear = gl.GL_LINEAR in (within, sampler.mag_filter)
     compares = is_depth and sampler.compare_mode != gl.GL_NONE
