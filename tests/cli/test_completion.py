@@ -26,7 +26,7 @@ def completed(*words: str) -> list[str]:
         (["listings", ""], listings.names()),
         (["render", "map", "--scene", "soft-"], ["soft-slab", "soft-overlap", "soft-torus"]),
         (["render", "map", "-O", "st"], ["storage=framebuffer", "storage=copy"]),
-        (["render", "map", "-O", "map_"], ["map_size="]),
+        (["render", "map", "-O", "map_s"], ["map_size="]),
         (["compare", "map", "map-pcf", "-O", "kern"], ["kernel="]),
         (["rend"], ["render"]),
         (["render", "map", "--op"], ["--option", "--open"]),

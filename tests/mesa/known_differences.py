@@ -9,8 +9,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from mesa.gl_calls import Call
 
 CORNERS = [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.7)]
@@ -75,15 +73,6 @@ def rectangle_and_level_triangle(gl: Any) -> list[Any]:
     return [gl.glReadPixels(0, 0, side, side, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)]
 
 
-def short_texels(gl: Any) -> None:
-    texels = np.full((1, 1, 4), 25854, np.uint16)  # 100.6 / 255
-    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 1, 1, 0, gl.GL_RGBA, gl.GL_UNSIGNED_SHORT, texels)
-    gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
-    gl.glEnable(gl.GL_TEXTURE_2D)
-    gl.glColor4f(0.75, 0.75, 0.75, 0.75)
-    triangle(gl, gl.GL_TRIANGLES, CORNERS[:3])
-
-
 def shiny_backs(gl: Any) -> None:
     for capability in ("GL_LIGHTING", "GL_LIGHT0"):
         gl.glEnable(getattr(gl, capability))
@@ -114,11 +103,6 @@ def late_color(gl: Any) -> None:
     gl.glEnd()
     gl.glEndList()
     gl.glCallList(1)
-
-
-def has_short_texels(calls: list[Call]) -> bool:
-    images = (values for name, values in calls if name == "glTexImage2D")
-    return any(values[2] == values[6] and values[7] == "GL_UNSIGNED_SHORT" for values in images)
 
 
 def follows_back_only(calls: list[Call]) -> bool:
@@ -166,15 +150,6 @@ KNOWN = (
         255,
         shiny_backs,
         gives_back_only,
-    ),
-    KnownDifference(
-        "colours of 16 bits",
-        "textures whose internal format is GL_RGBA, GL_LUMINANCE or the like, and whose pixels are GL_UNSIGNED_SHORT "
-        "of the same format",
-        "Mesa keeps 16 bits a channel then, here it is 8 as for all other pixels",
-        1,
-        short_texels,
-        has_short_texels,
     ),
 )
 FAULTS = (
