@@ -135,9 +135,7 @@ FAMILIES = {
         random_packed.packed_state, random_packed.packed_targets, random_packed.read_packed
     ),
     "pixel rectangles": Family(random_pixels.transferred, wild=False),
-    "secondary colours": Family(
-        random_attributes.added, random_attributes.textured, batch=random_attributes.with_added
-    ),
+    "secondary colours": Family(random_attributes.summed, random_attributes.textured, batch=random_attributes.colored),
     "small pairs": Family(random_attributes.followed, batch=random_attributes.small_pairs),
 }
 
