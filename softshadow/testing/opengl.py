@@ -87,6 +87,7 @@ EXTENSIONS = (
     "ARB.shader_objects", "ARB.vertex_shader",
     "ARB.fragment_shader", "ARB.texture_compression", "EXT.packed_pixels", "EXT.provoking_vertex", "NV.point_sprite",
     "NV.texgen_reflection", "NV.half_float", "NV.packed_depth_stencil", "EXT.texture_sRGB",
+    "ARB.vertex_program", "EXT.secondary_color", "EXT.fog_coord",
     "EXT.texture_compression_s3tc", "EXT.texture_compression_latc", "EXT.texture_shared_exponent", "EXT.packed_float",
 )  # fmt: skip
 
