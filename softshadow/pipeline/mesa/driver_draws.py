@@ -21,9 +21,11 @@ from softshadow import tokens as gl
 from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw, Origin, Vertices
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, offset_is_on
+from softshadow.state import BLACK
 
 CORNERS = {gl.GL_TRIANGLES: 3, gl.GL_QUADS: 4}  # vertices per primitive, for the modes whose pairs are joined
 SEPARATE = {gl.GL_POINTS: 1, gl.GL_LINES: 2, **CORNERS}  # vertices per primitive, for the modes that share none
+OPTIONAL = {"edges": True, "secondary": BLACK, "fog_coordinates": 0.0}  # the last fields of `Vertices`: initial values
 MAX_PAIRS = 64  # with so many collected pairs, Mesa draws them (VBO_MAX_PRIM)
 
 
@@ -115,18 +117,29 @@ def join_vertices(parts: Sequence[Vertices]) -> Vertices:
     """Return the vertices of all parts, which have the same attributes; a constant attribute stays broadcast."""
     if len(parts) == 1:
         return parts[0]
-    first, units = parts[0], range(len(parts[0].texcoords))
+    units = range(len(parts[0].texcoords))
     return Vertices(
         _concatenated([part.position for part in parts]),
         _concatenated([part.color for part in parts]),
         _concatenated([part.normal for part in parts]),
         tuple(_concatenated([part.texcoords[unit] for part in parts]) for unit in units),
         {name: _concatenated([part.materials[name] for part in parts]) for name in parts[0].materials},
-        None if first.edges is None else _concatenated([part.edges for part in parts if part.edges is not None]),
-        None if first.secondary is None else _concatenated([p.secondary for p in parts if p.secondary is not None]),
-        None
-        if first.fog_coordinates is None
-        else _concatenated([part.fog_coordinates for part in parts if part.fog_coordinates is not None]),
+        *(_optional(parts, name) for name in OPTIONAL),
+    )
+
+
+def _optional(parts: Sequence[Vertices], name: str) -> np.ndarray | None:
+    """Return an attribute of all parts; None if all have its initial value."""
+    rows = [getattr(part, name) for part in parts]
+    known = next((each for each in rows if each is not None), None)
+    if known is None:
+        return None
+    initial = np.array(OPTIONAL[name], known.dtype)
+    return _concatenated(
+        [
+            np.broadcast_to(initial, (len(part.position), *initial.shape)) if each is None else each
+            for part, each in zip(parts, rows, strict=True)
+        ]
     )
 
 
