@@ -43,7 +43,9 @@ def place_words(lookup: MapLookup) -> str:
 
 def own_depth(lookup: MapLookup, depth: float, digits: str) -> str:
     """Return the depth of the point, or its distance, with the bias that has been subtracted from it."""
-    if not lookup.bias or depth >= lookup.farthest:  # beyond the far plane as on it
+    if depth >= lookup.farthest:  # beyond the far plane as on it
+        return f"at least {digits}, where the map ends" if lookup.measure == "distance" else digits
+    if not lookup.bias:
         return digits
     return f"{depth + lookup.bias:.{DIGITS}g} - {lookup.bias:g} bias"
 
