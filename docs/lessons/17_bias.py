@@ -40,8 +40,8 @@ print(acne.explain())
 # ## The slide and the program
 #
 # The Barcelona slides move the surfaces away from the light while the map is drawn: `glPolygonOffset(factor, units)`
-# adds `factor · m + units · r`, where m is the largest slope of the depth, |∂z/∂x| or |∂z/∂y|, and r the smallest step
-# of the depth buffer. The same slides also subtract 0.01 in the shader, "only if the offset was not used" (E48).
+# adds `factor · m + units · r`, where m is the larger of the slopes |∂z/∂x| and |∂z/∂y|, and r here is two steps of the
+# depth buffer (lesson 4). The same slides also subtract 0.01 in the shader, "only if the offset was not used" (E48).
 
 # %%
 lessons.code_beside_slide("map-bias", step=1)
@@ -71,7 +71,7 @@ assert dark[1.0] == 0
 # ## The bits of the map
 #
 # The theorem is about exact numbers, but a map stores whole numbers of 16, 24 or 32 bits, or floats (`map_format`).
-# Rounding moves a stored depth by up to half a step. That is what the *units* are for: one unit is one step. To see
+# Rounding moves a stored depth by up to half a step. That is what the *units* are for: one unit is two steps. To see
 # rounding alone, let the light stand above the floor: there is no slope, so the factor adds nothing. The same scene
 # with the light at eight heights; the number of pixels in shadow is that of the worst height:
 
@@ -97,10 +97,10 @@ for name in ("d16", "d24", "d32", "d32f"):
 assert worst["d16", 1.0] == worst["d24", 1.0] == 0 < worst["d32", 1.0]
 
 # %% [markdown]
-# One unit is enough for 16 and 24 bits. It is not for 32 bits, although this map rounds least: the depth that is
-# compared with it is a float, which has 24 bits, and its rounding stays. One unit of this map is 2⁻³² of the range;
-# 256 of them are 2⁻²⁴, one step of such a float. So more bits than 24 do not make the bias smaller. Fewer bits do make
-# it larger: one unit of 16 bits is 256 times one of 24.
+# One unit is enough for 16 and 24 bits. It is not enough for 32 bits, although this map rounds least: the depth that is
+# compared with it is a float, which has 24 bits, and its rounding stays. One unit of this map is 2⁻³¹ of the range; 256
+# of them are 2⁻²³, two steps of a float between ½ and 1. So more bits than 24 do not make the bias smaller. Fewer bits
+# do make it larger: one unit of 16 bits is 256 times one of 24.
 
 # %%
 exact = maps_of_heights(map_format="d32f", units=0.0)
@@ -203,7 +203,10 @@ def pair(name, distance, x):
             plate, ss.scene.placement((x, height, 0)), receives=True, name=f"{name} plate"
         ),
         ss.SceneObject(
-            tile, ss.scene.placement((x, height + 0.4, 0)), name=f"{name} tile"
+            tile,
+            ss.scene.placement((x, height + 0.4, 0)),
+            material=ss.Material((0.9, 0.6, 0.2)),
+            name=f"{name} tile",
         ),
     ]
 

@@ -8,8 +8,8 @@ holds window depth (E69). This technique does what the slide says.
 Paper: Brabec, Annen & Seidel 2002, "Practical shadow mapping", which argues for depths in equal steps.
 
 Window depth has fine steps near the light's near plane and coarse ones far away, so a constant bias in it is a small
-distance near the light and a large one far from it. Here `bias` is the same distance everywhere. A light at infinity
-has no distance; that along its rays is stored, from the plane where its camera stands.
+distance near the light and a large one far from it. Here `bias` is the same distance everywhere. For a light at
+infinity, distances are measured along its rays, from the plane of the light's camera.
 
 Known failures: those of `map`. A constant cannot follow the slope, and `glPolygonOffset` moves window depth, not the
 colours that are compared: without `normal_bias`, surfaces that are steep to the light shadow themselves in stripes
