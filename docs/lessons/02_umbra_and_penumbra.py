@@ -135,8 +135,8 @@ lessons.compare_prediction(
 )
 
 # %% [markdown]
-# The quiz only says that they are brought "closer together", not which of them moves (E54). The formula covers every
-# case.
+# The slides also let occluder and receiver come closer (line 53), but do not say which of them moves (E54). The formula
+# covers every case.
 #
 # ## The buffers after each step
 #

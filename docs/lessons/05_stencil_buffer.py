@@ -127,9 +127,10 @@ lessons.compare_prediction(
 # %% [markdown]
 # ## The quiz of the slides
 #
-# *What is glStencilFunc for?* (Barcelona, lines 667-674.) Answer (a): it decides which fragments pass. Answer (d), that
-# its reference has nothing to do with what is written, is not quite right: `GL_REPLACE` writes it, as you have just
-# seen (E44). The decision can be demonstrated: with `GL_NEVER` no fragment passes, whatever the operations are.
+# *What is glStencilFunc for?* (Barcelona, lines 667-674.) Answer (a) is right: it decides which fragments pass. Answer
+# (d), that it determines the values to write, is crossed out on the slide in favour of `glStencilOp`. It is not quite
+# wrong: `GL_REPLACE` writes the reference of `glStencilFunc`, as you have just seen (E44). Answer (a) can be
+# demonstrated: with `GL_NEVER` no fragment passes, whatever the operations are.
 
 
 # %%
