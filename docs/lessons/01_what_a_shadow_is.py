@@ -94,8 +94,8 @@ lessons.compare_prediction(
 # %% [markdown]
 # ## Why shadows matter
 #
-# If only the shadows of a picture are moved, its objects seem to be at other heights (the demonstration of perception on
-# the Barcelona slides, lines 21-34). Without a shadow, nobody can tell how high an object is above the floor.
+# If only the shadows of a picture are moved, its objects seem to be at other heights (the demonstration of perception
+# on the Barcelona slides, lines 21-34). Without a shadow, nobody can tell how high an object is above the floor.
 
 # %%
 torus = ss.Scene.named("torus")

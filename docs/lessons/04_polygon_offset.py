@@ -37,8 +37,8 @@ from softshadow import lessons, listings, testing
 # ## The slide and the program
 #
 # The Barcelona slides print the formula twice, with units divided by r and with units multiplied by r (E30), and
-# without absolute values (E31). The listing `offset-formula` applies it by hand, to a quad whose depth falls towards the right
-# and to one whose depth rises:
+# without absolute values (E31). The listing `offset-formula` applies it by hand, to a quad whose depth falls towards
+# the right and to one whose depth rises:
 
 # %%
 lessons.code_beside_slide("offset-formula", step=0)

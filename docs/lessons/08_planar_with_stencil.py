@@ -62,7 +62,8 @@ lessons.clickable(run)
 # %% [markdown]
 # ## Predict, then run
 #
-# Two layers of a box cover one pixel of its shadow. What is the stencil value after the first layer, and after the second?
+# Two layers of a box cover one pixel of its shadow. What is the stencil value after the first layer, and after the
+# second?
 
 # %%
 my_first, my_second = ..., ...

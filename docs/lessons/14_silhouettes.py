@@ -106,8 +106,8 @@ display(
 # ## Open meshes
 #
 # A sheet has edges with only one face. Such an edge is always a silhouette edge. A sheet also blocks the light if the
-# light shines on its back. So *all* faces of an open mesh cast shadows: those that look away are turned round, and every
-# layer counts once (E13). The tube below has no lids:
+# light shines on its back. So *all* faces of an open mesh cast shadows: those that look away are turned round, and
+# every layer counts once (E13). The tube below has no lids:
 
 # %%
 tube = ss.run("volume-zfail", "open-tube", size=size)

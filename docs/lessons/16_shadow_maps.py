@@ -116,8 +116,8 @@ assert (again.maps["ZS"] == run.maps["ZS"]).all()
 # %% [markdown]
 # ## What goes wrong, and its cure
 #
-# The Bucharest slides ("umbre 2") have only the light's *view* matrix between point and texel: projection, division by w
-# and the scale to texels are missing (E50). Nor do they say that the map must be cleared to the largest depth first
+# The Bucharest slides ("umbre 2") have only the light's *view* matrix between point and texel: projection, division by
+# w and the scale to texels are missing (E50). Nor do they say that the map must be cleared to the largest depth first
 # (E51).
 
 # %%

@@ -15,7 +15,8 @@
 #
 # **Goal.** You know why a surface shadows itself, how much offset is enough, and what too much of it costs.
 #
-# **Slides.** Bratislava (Zimányi & Valient 2004), lines 331 and 369-377. Barcelona (Andújar 2021), lines 524-557 and 620.
+# **Slides.** Bratislava (Zimányi & Valient 2004), lines 331 and 369-377. Barcelona (Andújar 2021), lines 524-557 and
+# 620.
 #
 # A texel stores *one* depth for a whole patch of the scene. If the surface slopes away from the light, half of the
 # patch lies farther away than the stored depth. Compared with it, this half is "farther than what the light sees": the
@@ -254,10 +255,10 @@ assert steps["near plate"][0] < steps["near plate"][1]
 assert steps["far plate"][0] > steps["far plate"][1]
 
 # %% [markdown]
-# **Precision.** The depth map has its finest steps near the lamp, finer than those of a float; at the far plate they are
-# coarser. One step of window depth *z* is 2⁻²⁴ · *d*² (*f* − *n*) / *nf* in world units: four times as much at twice the
-# distance *d* along the view. A float has 24 bits at any distance, so its step is the same share of the distance, to
-# within a factor of two.
+# **Precision.** The depth map has its finest steps near the lamp, finer than those of a float; at the far plate they
+# are coarser. One step of window depth *z* is 2⁻²⁴ · *d*² (*f* − *n*) / *nf* in world units: four times as much at
+# twice the distance *d* along the view. A float has 24 bits at any distance, so its step is the same share of the
+# distance, to within a factor of two.
 #
 # **The bias.** By the same law, a constant bias in window depth is a larger distance far from the lamp than near it. In
 # the distance map it is the same distance everywhere. Now let the bias of both maps grow until all shadows are lost.

@@ -20,8 +20,8 @@
 # lines 324-401) and the width of the penumbra (Barcelona, Andújar 2021, lines 43-54).
 #
 # Percentage-closer filtering blurs every edge by the same width. A penumbra has the width w = s · (d_r − d_b)/d_b. A
-# lookup in a shadow map has both distances: d_r is that of the point, d_b the stored one. So: search the neighbourhood for
-# blockers, take the mean of their depths, compute w, and filter as widely as that (Fernando 2005).
+# lookup in a shadow map has both distances: d_r is that of the point, d_b the stored one. So: search the neighbourhood
+# for blockers, take the mean of their depths, compute w, and filter as widely as that (Fernando 2005).
 
 # %%
 import warnings
