@@ -57,6 +57,7 @@ def test_last_row_of_a_listing_equals_its_buffers(name):
             assert (row.depth_after, row.stencil_after) == (window.depth[y, x], window.stencil[y, x])
 
 
+@pytest.mark.thin(4)
 @pytest.mark.parametrize("scene", SCENES)
 @each_technique
 def test_table_fits_in_100_columns(name, scene):
