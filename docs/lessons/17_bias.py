@@ -51,8 +51,8 @@ lessons.code_beside_slide("map-bias", step=1)
 # ## The theorem
 #
 # On a plane, a point is at most half a texel away from the sample in each direction. So its depth differs from the
-# stored one by at most ½|∂z/∂x| + ½|∂z/∂y| ≤ m. An offset of `factor = 1` is enough, and no constant that ignores the
-# slope is (E49). The scene: a floor alone, so that every dark pixel is the floor's own shadow.
+# stored one by at most ½|∂z/∂x| + ½|∂z/∂y| ≤ m. An offset of `factor = 1` is enough. A constant, which ignores the
+# slope, is too small for some plane (E49). The scene is a floor alone, so every dark pixel is the floor's own shadow.
 
 # %%
 floor = ss.Scene(
