@@ -19,6 +19,13 @@ OF_GLU = {
 MORE_CALLS: dict[str, tuple[Any, ...]] = {
     "glEdgeFlag": (False,), "glEdgeFlagv": ([True],), "glProvokingVertex": ("GL_FIRST_VERTEX_CONVENTION",),
     "glEdgeFlagPointer": (0, np.ones(4, np.uint8)),
+    "glSecondaryColorPointer": (3, "GL_FLOAT", 0, np.ones((4, 3), np.float32)),
+    "glFogCoordPointer": ("GL_FLOAT", 0, np.ones(4, np.float32)),
+    **{f"glSecondaryColor3{kind}": (0.25, 0.5, 1.0) for kind in "fd"},
+    **{f"glSecondaryColor3{kind}v": ([0.25, 0.5, 1.0],) for kind in "fd"},
+    **{f"glSecondaryColor3{kind}": (1, 2, 3) for kind in ("b", "s", "i", "ub", "us", "ui")},
+    **{f"glSecondaryColor3{kind}v": ([1, 2, 3],) for kind in ("b", "s", "i", "ub", "us", "ui")},
+    **{f"glFogCoord{kind}": (0.5,) for kind in "fd"}, **{f"glFogCoord{kind}v": ([0.5],) for kind in "fd"},
     "glRenderMode": ("GL_RENDER",), "glSelectBuffer": (16,), "glFeedbackBuffer": (16, "GL_3D"),
     "glPassThrough": (1.5,), "glInitNames": (), "glLoadName": (3,), "glPushName": (3,), "glPopName": (),
     "glBeginConditionalRender": ("@query", "GL_QUERY_WAIT"), "glEndConditionalRender": (),
