@@ -197,15 +197,15 @@ for surface in ("front", "back", "midpoint"):
 # %%
 def pair(name, distance, x):
     height = 12 - distance
-    plate = ss.scene.shapes.floor(0.3 * distance)
-    tile = ss.scene.shapes.floor(0.1 * distance)
+    plate = ss.shapes.floor(0.3 * distance)
+    tile = ss.shapes.floor(0.1 * distance)
     return [
         ss.SceneObject(
-            plate, ss.scene.placement((x, height, 0)), receives=True, name=f"{name} plate"
+            plate, ss.placement((x, height, 0)), receives=True, name=f"{name} plate"
         ),
         ss.SceneObject(
             tile,
-            ss.scene.placement((x, height + 0.4, 0)),
+            ss.placement((x, height + 0.4, 0)),
             material=ss.Material((0.9, 0.6, 0.2)),
             name=f"{name} tile",
         ),
