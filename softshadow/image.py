@@ -28,7 +28,7 @@ class Format:
     `base` is GL's base internal format, `kind` one of "unorm8", "float", "depth", "stencil". `largest` is the integer
     that represents 1.0 in a fixed-point depth format (0 for float depth), or the largest stencil value. Colours that
     are neither bytes nor single-precision floats have an `encoding` ("unorm", "half" or "srgb") and so many `bits` in
-    R, G, B and A, see `texel_codes`.
+    R, G, B and A, see `texel_codes`; those of signed compressed formats are "snorm", floats in [-1, 1].
     """
 
     base: int

@@ -55,7 +55,7 @@ def _srgb(base: int) -> Format:
 
 
 def _signed(base: int) -> Format:
-    return Format(base, "float", np.float32, 4)
+    return Format(base, "float", np.float32, 4, 0, "snorm")
 
 
 def _dxt1(has_alpha: bool) -> Callable[[np.ndarray], np.ndarray]:
@@ -127,6 +127,11 @@ COMPRESSED: dict[int, CompressedFormat] = {
     gl.GL_COMPRESSED_SIGNED_LUMINANCE_ALPHA_LATC2_EXT: _of_channels(16, gl.GL_LUMINANCE_ALPHA, "xxxy", True),
     gl.GL_COMPRESSED_LUMINANCE_ALPHA_3DC_ATI: _of_channels(16, gl.GL_LUMINANCE_ALPHA, "xxxy", False),
 }
+
+# those that queries return: the others suit some images only
+FOR_ANY_IMAGE = (
+    gl.GL_COMPRESSED_RGB_S3TC_DXT1_EXT, gl.GL_COMPRESSED_RGBA_S3TC_DXT3_EXT, gl.GL_COMPRESSED_RGBA_S3TC_DXT5_EXT,
+)  # fmt: skip
 
 
 def decoded(blocks: np.ndarray, format: CompressedFormat, width: int, height: int) -> np.ndarray:

@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from softshadow import tokens as gl
 from softshadow.compression import COMPRESSED, CompressedFormat, decoded
 from softshadow.context import Context, current
 from softshadow.gl.calls import in_lists, spelled_like_gl
@@ -113,7 +112,8 @@ def glGetCompressedTexImage(target: int, level: int, img: Any = None) -> Any:
     if problem:
         return fail(problem[0], operation, problem[1])
     context.finish()
-    assert image is not None and image.blocks is not None
+    assert image is not None
+    assert image.blocks is not None
     return destination(context, img, image.blocks.reshape(-1).copy(), operation)
 
 

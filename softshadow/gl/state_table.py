@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.compression import COMPRESSED
+from softshadow.compression import FOR_ANY_IMAGE
 from softshadow.context import MATRIX_STACK_DEPTHS, Context, MatrixStack
 from softshadow.context.render_mode import MOST_NAMES
 from softshadow.framebuffer import DEFAULT, DRAW_BUFFERS, LARGEST_SIDE, Framebuffer
@@ -293,6 +293,8 @@ QUERIES: dict[str, Read] = {
     "GL_MAX_RECTANGLE_TEXTURE_SIZE": lambda c: LARGEST_SIDE,
     "GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT": lambda c: LARGEST_ANISOTROPY,
     "GL_MAX_3D_TEXTURE_SIZE": lambda c: LARGEST_3D,
+    "GL_NUM_COMPRESSED_TEXTURE_FORMATS": lambda c: len(FOR_ANY_IMAGE),
+    "GL_COMPRESSED_TEXTURE_FORMATS": lambda c: FOR_ANY_IMAGE,
     "GL_MAX_DRAW_BUFFERS": lambda c: DRAW_BUFFERS,
     "GL_MAX_COLOR_ATTACHMENTS": lambda c: len(COLOR_ATTACHMENTS),
     "GL_MAX_RENDERBUFFER_SIZE": lambda c: LARGEST_SIDE,

@@ -58,9 +58,9 @@ def glPrioritizeTextures(n: int, textures: Any, priorities: Any) -> None:
     if len(names) < count or len(numbers) < count:
         raise ValueError(f"glPrioritizeTextures: n={n}, with {len(names)} textures and {len(numbers)} priorities")
     compiled = current().compiled_list
-    if n < 0 and (compiled is None or compiled.executes):  # Mesa's lists record one call for each texture
-        if outside_begin("glPrioritizeTextures") is not None:
-            fail(gl.GL_INVALID_VALUE, "glPrioritizeTextures", f"n={n}: expected 0 or more")
+    is_carried_out = compiled is None or compiled.executes  # Mesa's lists record one call for each texture
+    if n < 0 and is_carried_out and outside_begin("glPrioritizeTextures") is not None:
+        fail(gl.GL_INVALID_VALUE, "glPrioritizeTextures", f"n={n}: expected 0 or more")
     for name, priority in zip(names, numbers, strict=True):
         _prioritize(int(name), clamped_priority(priority))
 

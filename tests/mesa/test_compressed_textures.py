@@ -62,8 +62,8 @@ def wrong_calls(gl: Any) -> list[int]:
         (texture, 0, generic, 8, 8, 0, 32), (texture, 0, 77, 8, 8, 0, 32), (texture, 0, dxt5, 7, 5, 0, 64),
         (cube, 0, dxt1, 8, 8, 0, 32), (cube, 0, dxt1, 8, 4, 0, 16), (gl.GL_TEXTURE_1D, 0, dxt1, 8, 8, 0, 32),
         (gl.GL_TEXTURE_RECTANGLE, 0, dxt1, 8, 8, 0, 32), (gl.GL_PROXY_TEXTURE_2D, 0, dxt1, 8, 8, 0, 32),
-        (gl.GL_TEXTURE_CUBE_MAP, 0, dxt1, 8, 8, 0, 32), (texture, 0, dxt1, 8, -8, 0, 32), (texture, 0, dxt1, 0, 0, 0, 0),
-        (texture, 0, dxt1, 8, 12, 0, 48),
+        (gl.GL_TEXTURE_CUBE_MAP, 0, dxt1, 8, 8, 0, 32), (texture, 0, dxt1, 8, -8, 0, 32),
+        (texture, 0, dxt1, 0, 0, 0, 0), (texture, 0, dxt1, 8, 12, 0, 48),
     ):  # fmt: skip
         call(define, target, level, internal, width, height, border, n_bytes, BLOCKS)
     for level, x, y, width, height, internal, n_bytes in (
