@@ -11,12 +11,11 @@ from __future__ import annotations
 from softshadow import tokens as gl
 from softshadow.compression import COMPRESSED
 from softshadow.gl.pixel_formats import Problem
-from softshadow.gl.texture_problems import RECTANGLES, VOLUMES, Shape
+from softshadow.gl.texture_problems import ONE_DIMENSION, RECTANGLES, VOLUMES, Shape
 from softshadow.gl.textures import FACES
 from softshadow.image import BLOCK_SIDE, Image
 from softshadow.tokens import token_name
 
-ONE_DIMENSION = (gl.GL_TEXTURE_1D, gl.GL_PROXY_TEXTURE_1D)
 GENERIC = (
     gl.GL_COMPRESSED_ALPHA, gl.GL_COMPRESSED_LUMINANCE, gl.GL_COMPRESSED_LUMINANCE_ALPHA, gl.GL_COMPRESSED_INTENSITY,
     gl.GL_COMPRESSED_RED, gl.GL_COMPRESSED_RG, gl.GL_COMPRESSED_RGB, gl.GL_COMPRESSED_RGBA, gl.GL_COMPRESSED_SRGB,

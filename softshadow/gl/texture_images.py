@@ -10,7 +10,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context, current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
-from softshadow.gl.pixel_formats import format_problem, kind_of, upload_problem
+from softshadow.gl.pixel_formats import kind_of, pixels_problem, upload_problem
 from softshadow.gl.pixel_memory import image_for_list, image_source
 from softshadow.gl.proxy_textures import define_proxy
 from softshadow.gl.texture_mipmaps import follow_base_level
@@ -181,9 +181,9 @@ def _define(
     problem = (
         (None if is_proxy else image_target_problem(target, dimensions))
         or level_problem(target, level)
-        or border_problem(border)
+        or border_problem(target, border)
         or negative_problem(shape)
-        or format_problem(format, type)
+        or pixels_problem(format, type)
         or internal_problem(internalformat, gl.GL_INVALID_VALUE)
         or upload_problem(format, FORMATS[internalformat], internalformat in WITH_STENCIL)
         or base_format_problem(target, internalformat)
@@ -191,7 +191,7 @@ def _define(
     if problem:
         return fail(problem[0], operation, problem[1])
     stored = storage_format(internalformat, type, format)
-    problem = size_problem(target, level, shape) or memory_problem(target, shape, stored)
+    problem = size_problem(target, level, shape, border) or memory_problem(target, shape, stored)
     if is_proxy:
         define_proxy(context, target, level, None if problem else stored, internalformat, shape)
         return None
@@ -203,7 +203,8 @@ def _define(
     if parts is None:
         return None
     texture, face = bound_texture(context, target), face_of(target)
-    width, height, slices = shape
+    width, height, slices = inner = _inside(shape) if border else shape
+    parts = _cropped(parts[0], shape, inner), _cropped(parts[1], shape, inner)
     context.execute(
         DefineImage(texture.name, face, level, stored, internalformat, width, height, *parts, slices=slices)
     )
@@ -230,7 +231,7 @@ def _update(
         or level_problem(target, level)
         or negative_problem(shape)
         or missing_problem(context, target, level)
-        or format_problem(format, type)
+        or pixels_problem(format, type)
     )
     if problem:
         return fail(problem[0], operation, problem[1])
@@ -249,6 +250,23 @@ def _update(
         context.execute(UpdateImage(texture.name, face, level, x, y, *parts, z=z, slices=shape[2]))
         follow_base_level(context, texture, face, level)
     return None
+
+
+def _inside(shape: Shape) -> Shape:
+    """Return the sides of an image without its border, which Mesa drops; it keeps heights and depths below 3."""
+    width, height, slices = shape
+    return width - 2, height - 2 if height > 2 else height, slices - 2 if slices > 2 else slices
+
+
+def _cropped(cells: np.ndarray | None, shape: Shape, inner: Shape) -> np.ndarray | None:
+    """Return the middle of an image (slices * height, width[, channels]); None for none."""
+    if cells is None or shape == inner:
+        return cells
+    width, height, slices = shape
+    places = (slice((whole - part) // 2, (whole + part) // 2) for whole, part in zip(shape, inner, strict=True))
+    columns, rows, planes = places
+    images = cells.reshape(slices, height, width, *cells.shape[2:])[planes, rows, columns]
+    return np.ascontiguousarray(images).reshape(inner[2] * inner[1], inner[0], *cells.shape[2:])
 
 
 def _cells(

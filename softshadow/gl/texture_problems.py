@@ -26,6 +26,7 @@ LARGEST_BYTES = 1 << 30  # of a texture, in llvmpipe
 COMPONENT_NUMBERS = (1, 2, 3, 4)  # internal formats of GL 1.0, which glCopyTexImage does not take
 RECTANGLES = (gl.GL_TEXTURE_RECTANGLE, gl.GL_PROXY_TEXTURE_RECTANGLE)
 VOLUMES = (gl.GL_TEXTURE_3D, gl.GL_PROXY_TEXTURE_3D)
+ONE_DIMENSION = (gl.GL_TEXTURE_1D, gl.GL_PROXY_TEXTURE_1D)
 CUBE_MAPS = (*FACES, gl.GL_PROXY_TEXTURE_CUBE_MAP)
 PROXIES = {
     gl.GL_PROXY_TEXTURE_1D: 1,
@@ -50,11 +51,11 @@ def level_problem(target: int, level: int) -> Problem | None:
     return gl.GL_INVALID_VALUE, f"level={level}: expected {f'0 to {largest}' if largest else '0'}"
 
 
-def border_problem(border: int) -> Problem | None:
+def border_problem(target: int, border: int) -> Problem | None:
     """Return what is wrong with the width of a border."""
-    if border == 0:
+    if border == 0 or (border == 1 and target not in RECTANGLES):
         return None
-    return gl.GL_INVALID_VALUE, f"border={border}: expected 0 (texel borders are not part of this subset)"
+    return gl.GL_INVALID_VALUE, f"border={border}: expected {'0' if target in RECTANGLES else '0 or 1'}"
 
 
 def negative_problem(shape: Shape) -> Problem | None:
@@ -70,13 +71,14 @@ def sides(shape: Shape) -> str:
     return f"width={width}, height={height}" + (f", depth={depth}" if depth != 1 else "")
 
 
-def size_problem(target: int, level: int, shape: Shape) -> Problem | None:
-    """Return what is wrong with the sides of an image."""
+def size_problem(target: int, level: int, shape: Shape, border: int = 0) -> Problem | None:
+    """Return what is wrong with the sides of an image, its border included."""
     if problem := negative_problem(shape):
         return problem
-    largest = largest_side(target) >> level
-    if max(shape if target in VOLUMES else shape[:2]) > largest:
-        return gl.GL_INVALID_VALUE, f"{sides(shape)}: expected 0 to {largest} at level {level}"
+    least, largest = 2 * border, (largest_side(target) >> level) + 2 * border
+    lengths = shape[: 3 if target in VOLUMES else 1 if target in ONE_DIMENSION else 2]
+    if not least <= min(lengths) <= max(lengths) <= largest:
+        return gl.GL_INVALID_VALUE, f"{sides(shape)}: expected {least} to {largest} at level {level}"
     if target in CUBE_MAPS and shape[0] != shape[1]:
         return gl.GL_INVALID_VALUE, f"{sides(shape)}: expected a square face of a cube map"
     return None
