@@ -14,7 +14,16 @@ from softshadow.context import BufferObject, Context
 from softshadow.gl.buffers import offset_of, own_content
 from softshadow.gl.errors import fail
 from softshadow.gl.pixel_formats import pixels_problem
-from softshadow.pixel_store import PixelStore, bitmap_rows, client_image, dtype_of, elements_of, image_view, output_array, stacked
+from softshadow.pixel_store import (
+    PixelStore,
+    bitmap_rows,
+    client_image,
+    dtype_of,
+    elements_of,
+    image_view,
+    output_array,
+    stacked,
+)
 
 
 class UnpackedImage(NamedTuple):

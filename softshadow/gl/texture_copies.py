@@ -15,6 +15,7 @@ from softshadow.gl.texture_problems import (
     COMPONENT_NUMBERS,
     Shape,
     border_problem,
+    compressed_problem,
     internal_problem,
     level_problem,
     missing_problem,
@@ -119,7 +120,7 @@ def _copy_part(
         return fail(problem[0], operation, problem[1])
     texture, face = bound_texture(context, target), face_of(target)
     image = texture.images[face, level]
-    if problem := _copy_problem(context, image.format, image.stencil is not None):
+    if problem := _copy_problem(context, image.format, image.stencil is not None) or compressed_problem(image):
         return fail(problem[0], operation, problem[1])
     (x, y, z), (width, height, _) = corner, shape
     place = (x, y, *origin, width, height)

@@ -19,6 +19,7 @@ from softshadow.gl.texture_problems import (
     Shape,
     base_format_problem,
     border_problem,
+    compressed_problem,
     internal_problem,
     level_problem,
     memory_problem,
@@ -237,8 +238,10 @@ def _update(
         return fail(problem[0], operation, problem[1])
     texture, face = bound_texture(context, target), face_of(target)
     image = texture.images[face, level]
-    problem = upload_problem(format, image.format, image.stencil is not None) or region_problem(
-        context, target, level, corner, shape
+    problem = (
+        upload_problem(format, image.format, image.stencil is not None)
+        or region_problem(context, target, level, corner, shape)
+        or compressed_problem(image)
     )
     if problem:
         return fail(problem[0], operation, problem[1])

@@ -7,6 +7,7 @@ from softshadow.context import Context
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.pixel_formats import Problem
+from softshadow.gl.texture_problems import compressed_problem
 from softshadow.gl.textures import bound_name, bound_texture, target_problem
 from softshadow.pipeline.commands import GenerateMipmaps
 from softshadow.texture import Texture
@@ -38,7 +39,7 @@ def _base_problem(context: Context, target: int) -> Problem | None:
         return gl.GL_INVALID_OPERATION, f"the bound texture needs {missing}: call glTexImage2D first"
     if first.stencil is not None or first.format.kind == "stencil":
         return gl.GL_INVALID_OPERATION, "the bound texture has stencil values, which cannot have mipmaps"
-    return None
+    return compressed_problem(first)
 
 
 def follow_base_level(context: Context, texture: Texture, face: int, level: int) -> None:
@@ -46,6 +47,9 @@ def follow_base_level(context: Context, texture: Texture, face: int, level: int)
     sampler = texture.sampler
     base = texture.base(face)
     if sampler.generate_mipmap and level == sampler.base_level and base is not None and base.stencil is None:
+        if problem := compressed_problem(base):
+            fail(problem[0], "GL_GENERATE_MIPMAP", problem[1])
+            return
         _generate(context, texture, (face,))
 
 

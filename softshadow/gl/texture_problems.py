@@ -17,7 +17,7 @@ from softshadow.context import Context
 from softshadow.framebuffer import LARGEST_SIDE
 from softshadow.gl.pixel_formats import Problem
 from softshadow.gl.textures import FACES, image_at
-from softshadow.image import FORMATS, Format
+from softshadow.image import FORMATS, Format, Image
 from softshadow.tokens import token_name
 
 LARGEST_LEVEL = LARGEST_SIDE.bit_length() - 1
@@ -96,6 +96,9 @@ def internal_problem(internalformat: int, code: int, exclude: tuple[int, ...] = 
     """Return what is wrong with an internal format; the error code differs from call to call."""
     if internalformat in FORMATS and internalformat not in exclude:
         return None
+    if token_name(internalformat).startswith("GL_COMPRESSED"):
+        expected = "this package compresses no pixels; glCompressedTexImage2D takes blocks"
+        return code, f"internalformat={token_name(internalformat)}: {expected}"
     known = ", ".join(token_name(f) for f in FORMATS if f not in COMPONENT_NUMBERS)
     return code, f"internalformat={token_name(internalformat)}: expected one of {known}"
 
@@ -112,6 +115,14 @@ def missing_problem(context: Context, target: int, level: int) -> Problem | None
     if image_at(context, target, level) is not None:
         return None
     return gl.GL_INVALID_OPERATION, f"level {level} of the bound texture is not defined: call glTexImage first"
+
+
+def compressed_problem(image: Image | None) -> Problem | None:
+    """Return what is wrong with an image that pixels would have to be compressed for."""
+    if image is None or image.blocks is None:
+        return None
+    reason = f"the image is {token_name(image.internal_format)}: this package compresses no pixels"
+    return gl.GL_INVALID_OPERATION, reason
 
 
 def region_problem(context: Context, target: int, level: int, corner: Shape, shape: Shape) -> Problem | None:

@@ -132,6 +132,14 @@ def test_textures_of_other_blocks_or_without_data_are_told() -> None:
             gl.glCompressedTexImage2D(gl.GL_TEXTURE_2D, 0, getattr(gl, DXT1), 8, 8, 0, 32, BLOCKS[:16])
         gl.glCompressedTexImage2D(gl.GL_TEXTURE_2D, 0, getattr(gl, DXT1), 8, 8, 0, 32, None)
         assert not gl.glGetCompressedTexImage(gl.GL_TEXTURE_2D, 0).any()
+        for call, *arguments in (
+            (gl.glTexSubImage2D, 0, 0, 0, 4, 4, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, BLOCKS), (gl.glGenerateMipmap,),
+            (gl.glCopyTexSubImage2D, 0, 0, 0, 0, 0, 4, 4),
+            (gl.glTexImage2D, 0, gl.GL_COMPRESSED_RGB, 4, 4, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, BLOCKS),
+            (gl.glCopyTexImage2D, 0, gl.GL_COMPRESSED_RGB, 0, 0, 4, 4, 0),
+        ):  # fmt: skip
+            with pytest.raises(gl.GLError, match="this package compresses no pixels"):
+                call(gl.GL_TEXTURE_2D, *arguments)
         gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, gl.glGenFramebuffers(1))
         gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, 1, 0)
         status = gl.glCheckFramebufferStatus(gl.GL_FRAMEBUFFER)

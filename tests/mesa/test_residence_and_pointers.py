@@ -26,7 +26,8 @@ def code_of(call: Any, *arguments: Any) -> int:
 def residence(gl: Any) -> list[Any]:
     """Return who is resident, and priorities."""
     names = gl.glGenTextures(4)
-    target, told = gl.GL_TEXTURE_2D, []
+    target = gl.GL_TEXTURE_2D
+    told: list[Any] = []
     for name in names[:2]:
         gl.glBindTexture(target, name)
 
