@@ -12,12 +12,17 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.compression.alpha_blocks import channel, channel_as_read
+from softshadow.compression.alpha_encoding import channel_blocks
 from softshadow.compression.color_blocks import colors
+from softshadow.compression.color_encoding import LARGEST_TRANSPARENT, color_blocks
 from softshadow.image import BLOCK_SIDE, Format
 from softshadow.texel_codes import SRGB
 
 CHUNK = 1 << 14  # blocks that are decoded at a time
 STEP_OF_SIGNED, STEP_OF_UNSIGNED = np.float32(1) / np.float32(127), np.float32(1) / np.float32(255)
+
+
+Encode = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -27,13 +32,15 @@ class CompressedFormat:
     `block_bytes` is the size of a block, `stored` the format of the decoded cells, `approximate_bits` what queries
     return as the number of bits of each channel that there is. `decode` returns the channels (..., 16, 4) of blocks
     (..., block_bytes): bytes, or signed numbers. `decode_to_read` does so for glGetTexImage, where Mesa does not read
-    what llvmpipe's lookups read.
+    what llvmpipe's lookups read. `encode` returns the blocks (N, block_bytes) of texels (N, 16, 4), 0 to 255, of which
+    the image has those that are valid (N, 16); None if this package does not compress pixels to the format.
     """
 
     block_bytes: int
     stored: Format
     approximate_bits: int
     decode: Callable[[np.ndarray], np.ndarray]
+    encode: Encode | None = None
     decode_to_read: Callable[[np.ndarray], np.ndarray] | None = None
 
     def blocks(self, width: int, height: int) -> tuple[int, int]:
@@ -96,27 +103,62 @@ def _channels(
     return decode
 
 
+def _encode_dxt1(has_alpha: bool) -> Encode:
+    def encode(texels: np.ndarray, valid: np.ndarray) -> np.ndarray:
+        transparent = (texels[..., 3] <= LARGEST_TRANSPARENT) & has_alpha
+        return color_blocks(texels[..., :3], valid, transparent, is_dxt1=True)
+
+    return encode
+
+
+def _encode_dxt3(texels: np.ndarray, valid: np.ndarray) -> np.ndarray:
+    nibbles = np.where(valid, texels[..., 3] >> 4, 0)
+    alpha = (nibbles[:, ::2] | nibbles[:, 1::2] << 4).astype(np.uint8)
+    return np.concatenate([alpha, _colors_of_four(texels, valid)], axis=1)
+
+
+def _encode_dxt5(texels: np.ndarray, valid: np.ndarray) -> np.ndarray:
+    return np.concatenate(
+        [channel_blocks(texels[..., 3], valid, is_alpha=True), _colors_of_four(texels, valid)], axis=1
+    )
+
+
+def _colors_of_four(texels: np.ndarray, valid: np.ndarray) -> np.ndarray:
+    return color_blocks(texels[..., :3], valid, np.zeros_like(valid), is_dxt1=False)
+
+
+def _encode_channels(*places: int) -> Encode:
+    def encode(texels: np.ndarray, valid: np.ndarray) -> np.ndarray:
+        return np.concatenate([channel_blocks(texels[..., place], valid) for place in places], axis=1)
+
+    return encode
+
+
+ENCODED_PLACES = {gl.GL_RED: (0,), gl.GL_RG: (0, 1), gl.GL_LUMINANCE: (0,), gl.GL_LUMINANCE_ALPHA: (0, 3)}
+
+
 def _of_s3tc(
-    block_bytes: int, base: int, decode: Callable[[np.ndarray], np.ndarray], is_srgb: bool
+    block_bytes: int, base: int, decode: Callable[[np.ndarray], np.ndarray], is_srgb: bool, encode: Encode
 ) -> CompressedFormat:
-    return CompressedFormat(block_bytes, _srgb(base) if is_srgb else _unorm8(base), 4, decode)
+    return CompressedFormat(block_bytes, _srgb(base) if is_srgb else _unorm8(base), 4, decode, encode)
 
 
 def _of_channels(block_bytes: int, base: int, places: str, is_signed: bool) -> CompressedFormat:
     stored = _signed(base) if is_signed else _unorm8(base)
     to_read = _channels(places, is_signed, channel_as_read) if base == gl.GL_LUMINANCE_ALPHA else None
-    return CompressedFormat(block_bytes, stored, 8, _channels(places, is_signed), to_read)
+    encode = None if is_signed else _encode_channels(*ENCODED_PLACES[base])
+    return CompressedFormat(block_bytes, stored, 8, _channels(places, is_signed), encode, to_read)
 
 
 COMPRESSED: dict[int, CompressedFormat] = {
-    gl.GL_COMPRESSED_RGB_S3TC_DXT1_EXT: _of_s3tc(8, gl.GL_RGB, _dxt1(False), False),
-    gl.GL_COMPRESSED_RGBA_S3TC_DXT1_EXT: _of_s3tc(8, gl.GL_RGBA, _dxt1(True), False),
-    gl.GL_COMPRESSED_RGBA_S3TC_DXT3_EXT: _of_s3tc(16, gl.GL_RGBA, _dxt3, False),
-    gl.GL_COMPRESSED_RGBA_S3TC_DXT5_EXT: _of_s3tc(16, gl.GL_RGBA, _dxt5, False),
-    gl.GL_COMPRESSED_SRGB_S3TC_DXT1_EXT: _of_s3tc(8, gl.GL_RGB, _dxt1(False), True),
-    gl.GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT1_EXT: _of_s3tc(8, gl.GL_RGBA, _dxt1(True), True),
-    gl.GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT3_EXT: _of_s3tc(16, gl.GL_RGBA, _dxt3, True),
-    gl.GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT5_EXT: _of_s3tc(16, gl.GL_RGBA, _dxt5, True),
+    gl.GL_COMPRESSED_RGB_S3TC_DXT1_EXT: _of_s3tc(8, gl.GL_RGB, _dxt1(False), False, _encode_dxt1(False)),
+    gl.GL_COMPRESSED_RGBA_S3TC_DXT1_EXT: _of_s3tc(8, gl.GL_RGBA, _dxt1(True), False, _encode_dxt1(True)),
+    gl.GL_COMPRESSED_RGBA_S3TC_DXT3_EXT: _of_s3tc(16, gl.GL_RGBA, _dxt3, False, _encode_dxt3),
+    gl.GL_COMPRESSED_RGBA_S3TC_DXT5_EXT: _of_s3tc(16, gl.GL_RGBA, _dxt5, False, _encode_dxt5),
+    gl.GL_COMPRESSED_SRGB_S3TC_DXT1_EXT: _of_s3tc(8, gl.GL_RGB, _dxt1(False), True, _encode_dxt1(False)),
+    gl.GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT1_EXT: _of_s3tc(8, gl.GL_RGBA, _dxt1(True), True, _encode_dxt1(True)),
+    gl.GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT3_EXT: _of_s3tc(16, gl.GL_RGBA, _dxt3, True, _encode_dxt3),
+    gl.GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT5_EXT: _of_s3tc(16, gl.GL_RGBA, _dxt5, True, _encode_dxt5),
     gl.GL_COMPRESSED_RED_RGTC1: _of_channels(8, gl.GL_RED, "x001", False),
     gl.GL_COMPRESSED_SIGNED_RED_RGTC1: _of_channels(8, gl.GL_RED, "x001", True),
     gl.GL_COMPRESSED_RG_RGTC2: _of_channels(16, gl.GL_RG, "xy01", False),
@@ -128,6 +170,31 @@ COMPRESSED: dict[int, CompressedFormat] = {
     gl.GL_COMPRESSED_LUMINANCE_ALPHA_3DC_ATI: _of_channels(16, gl.GL_LUMINANCE_ALPHA, "xxxy", False),
 }
 
+# what Mesa stores images in that are to be compressed in some way, of all but one dimension; the others as they are
+CHOSEN = {
+    gl.GL_COMPRESSED_RGB: gl.GL_COMPRESSED_RGB_S3TC_DXT1_EXT,
+    gl.GL_COMPRESSED_RGBA: gl.GL_COMPRESSED_RGBA_S3TC_DXT5_EXT,
+    gl.GL_COMPRESSED_SRGB: gl.GL_COMPRESSED_SRGB_S3TC_DXT1_EXT,
+    gl.GL_COMPRESSED_SRGB_ALPHA: gl.GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT3_EXT,
+    gl.GL_COMPRESSED_RED: gl.GL_COMPRESSED_RED_RGTC1,
+    gl.GL_COMPRESSED_RG: gl.GL_COMPRESSED_RG_RGTC2,
+    gl.GL_COMPRESSED_LUMINANCE: gl.GL_COMPRESSED_LUMINANCE_LATC1_EXT,
+    gl.GL_COMPRESSED_LUMINANCE_ALPHA: gl.GL_COMPRESSED_LUMINANCE_ALPHA_LATC2_EXT,
+}
+UNCOMPRESSED = {
+    gl.GL_COMPRESSED_ALPHA: gl.GL_ALPHA,
+    gl.GL_COMPRESSED_INTENSITY: gl.GL_INTENSITY,
+    gl.GL_COMPRESSED_SLUMINANCE: gl.GL_SLUMINANCE,
+    gl.GL_COMPRESSED_SLUMINANCE_ALPHA: gl.GL_SLUMINANCE_ALPHA,
+    gl.GL_COMPRESSED_RGB: gl.GL_RGB,
+    gl.GL_COMPRESSED_RGBA: gl.GL_RGBA,
+    gl.GL_COMPRESSED_SRGB: gl.GL_SRGB,
+    gl.GL_COMPRESSED_SRGB_ALPHA: gl.GL_SRGB_ALPHA,
+    gl.GL_COMPRESSED_RED: gl.GL_RED,
+    gl.GL_COMPRESSED_RG: gl.GL_RG,
+    gl.GL_COMPRESSED_LUMINANCE: gl.GL_LUMINANCE,
+    gl.GL_COMPRESSED_LUMINANCE_ALPHA: gl.GL_LUMINANCE_ALPHA,
+}
 # those that queries return: the others suit some images only
 FOR_ANY_IMAGE = (
     gl.GL_COMPRESSED_RGB_S3TC_DXT1_EXT, gl.GL_COMPRESSED_RGBA_S3TC_DXT3_EXT, gl.GL_COMPRESSED_RGBA_S3TC_DXT5_EXT,
@@ -137,6 +204,28 @@ FOR_ANY_IMAGE = (
 def decoded(blocks: np.ndarray, format: CompressedFormat, width: int, height: int) -> np.ndarray:
     """Return the cells (height, width, 4) of blocks (rows, columns, block_bytes) uint8."""
     return _decoded(blocks, width, height, format.decode, format.stored)
+
+
+def chosen_format(internal_format: int, dimensions: int) -> int:
+    """Return the internal format that Mesa stores images in; it is another one for GL_COMPRESSED_RGB and the like."""
+    chosen = CHOSEN.get(internal_format) if dimensions > 1 else None
+    return chosen or UNCOMPRESSED.get(internal_format, internal_format)
+
+
+def encoded(cells: np.ndarray, format: CompressedFormat) -> np.ndarray:
+    """Return the blocks (rows, columns, block_bytes) uint8 of colours (height, width, 4) uint8."""
+    assert format.encode is not None
+    height, width = cells.shape[:2]
+    rows, columns = format.blocks(width, height)
+    padded = np.zeros((rows * BLOCK_SIDE, columns * BLOCK_SIDE, 5), np.uint8)
+    padded[:height, :width, :4], padded[:height, :width, 4] = cells, 1
+    texels = padded.reshape(rows, BLOCK_SIDE, columns, BLOCK_SIDE, 5).swapaxes(1, 2)
+    texels = texels.reshape(rows * columns, BLOCK_SIDE**2, 5)
+    blocks = np.empty((rows * columns, format.block_bytes), np.uint8)
+    for first in range(0, len(blocks), CHUNK):
+        part = texels[first : first + CHUNK].astype(np.int64)
+        blocks[first : first + CHUNK] = format.encode(part[..., :4], part[..., 4] > 0)
+    return blocks.reshape(rows, columns, format.block_bytes)
 
 
 def read_back(blocks: np.ndarray, format: CompressedFormat, width: int, height: int) -> np.ndarray:

@@ -84,6 +84,26 @@ def alignment_problem(image: Image | None, corner: Shape, shape: Shape) -> Probl
     return None
 
 
+def compression_problem(internalformat: int, code: int) -> Problem | None:
+    """Return what is wrong with a format that pixels are to be compressed to."""
+    if COMPRESSED[internalformat].encode is not None:
+        return None
+    return code, f"internalformat={token_name(internalformat)}: this package does not compress pixels to it"
+
+
+def to_compress_problem(target: int, border: int) -> Problem | None:
+    """Return what is wrong with the target or border of glTexImage with a compressed format."""
+    if target in (*ONE_DIMENSION, *RECTANGLES, *VOLUMES):
+        return gl.GL_INVALID_ENUM, f"target={token_name(target)}: no format compresses such textures"
+    return whole_border_problem(border)
+
+
+def to_update_problem(image: Image, corner: Shape, shape: Shape) -> Problem | None:
+    """Return what is wrong with a rectangle of pixels that replace some of a compressed image."""
+    problem = compression_problem(image.internal_format, gl.GL_INVALID_OPERATION)
+    return alignment_problem(image, corner, shape) or problem
+
+
 def not_compressed_problem(image: Image | None) -> Problem | None:
     """Return what is wrong if there is no image, or one that is not compressed."""
     if image is None:

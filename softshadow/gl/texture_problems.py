@@ -97,8 +97,7 @@ def internal_problem(internalformat: int, code: int, exclude: tuple[int, ...] = 
     if internalformat in FORMATS and internalformat not in exclude:
         return None
     if token_name(internalformat).startswith("GL_COMPRESSED"):
-        expected = "this package compresses no pixels; glCompressedTexImage2D takes blocks"
-        return code, f"internalformat={token_name(internalformat)}: {expected}"
+        return code, f"internalformat={token_name(internalformat)}: this package does not compress to it here"
     known = ", ".join(token_name(f) for f in FORMATS if f not in COMPONENT_NUMBERS)
     return code, f"internalformat={token_name(internalformat)}: expected one of {known}"
 
@@ -118,10 +117,10 @@ def missing_problem(context: Context, target: int, level: int) -> Problem | None
 
 
 def compressed_problem(image: Image | None) -> Problem | None:
-    """Return what is wrong with an image that pixels would have to be compressed for."""
+    """Return what is wrong with an image that a framebuffer would be copied to, or that mipmaps would be made of."""
     if image is None or image.blocks is None:
         return None
-    reason = f"the image is {token_name(image.internal_format)}: this package compresses no pixels"
+    reason = f"the image is {token_name(image.internal_format)}: this package does not compress copies and mipmaps"
     return gl.GL_INVALID_OPERATION, reason
 
 

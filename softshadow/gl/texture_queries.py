@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.compression import COMPRESSED
+from softshadow.compression import COMPRESSED, UNCOMPRESSED
 from softshadow.frozen import evolve
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.compressed_reading import compressed_pixels
@@ -100,9 +100,7 @@ def glGetTexLevelParameteriv(target: int, level: int, pname: int, params: Any = 
         gl.GL_TEXTURE_DEPTH: image.slices if image else 0,
         gl.GL_TEXTURE_BORDER: 0,
         gl.GL_TEXTURE_COMPRESSED: int(image is not None and image.internal_format in COMPRESSED),
-        gl.GL_TEXTURE_INTERNAL_FORMAT: SYNONYMS.get(image.internal_format, image.internal_format)
-        if image
-        else gl.GL_RGBA,
+        gl.GL_TEXTURE_INTERNAL_FORMAT: _internal_format(image) if image else gl.GL_RGBA,
     }
     if pname in simple:
         answer = simple[pname]
@@ -123,6 +121,12 @@ def glGetTexLevelParameterfv(target: int, level: int, pname: int, params: Any = 
     """Return a property of a level of the bound texture, a float."""
     answer = glGetTexLevelParameteriv(target, level, pname, params)
     return None if answer is None else float(answer)
+
+
+def _internal_format(image: Image) -> int:
+    """Return what queries return as the internal format: the base format of images that were to be compressed."""
+    wanted = image.internal_format
+    return image.format.base if wanted in UNCOMPRESSED else SYNONYMS.get(wanted, wanted)
 
 
 def channel_bits(image: Image, size: int) -> int:

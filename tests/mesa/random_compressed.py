@@ -17,6 +17,12 @@ CHANNELS = prefixed(
     "COMPRESSED_SIGNED_LUMINANCE_ALPHA_LATC2_EXT COMPRESSED_LUMINANCE_ALPHA_3DC_ATI"
 )
 COMPRESSED = [*S3TC, *CHANNELS]
+GENERIC = prefixed(
+    "COMPRESSED_RGB COMPRESSED_RGBA COMPRESSED_SRGB COMPRESSED_SRGB_ALPHA COMPRESSED_RED COMPRESSED_RG "
+    "COMPRESSED_ALPHA COMPRESSED_LUMINANCE COMPRESSED_LUMINANCE_ALPHA COMPRESSED_INTENSITY COMPRESSED_SLUMINANCE "
+    "COMPRESSED_SLUMINANCE_ALPHA"
+)
+FROM_PIXELS = [*(name for name in COMPRESSED if "SIGNED" not in name), *GENERIC]
 THREE_DC = 0x8837  # GL_COMPRESSED_LUMINANCE_ALPHA_3DC_ATI, which PyOpenGL does not have
 OF_8_BYTES = ("DXT1", "RGTC1", "LATC1")
 QUERIES = prefixed(
@@ -40,6 +46,20 @@ class CompressedTextures(Textures):
         blocks[near, 1] = blocks[near, 0] + self.rng.integers(0, 2)
         return blocks.reshape(-1)
 
+    def smooth(self, width: int, height: int) -> tuple[int, int, np.ndarray]:
+        """Return pixel format, type and an image of bytes: noise, few colours, or colours near each other."""
+        shape, kind = (height, width, 4), self.rng.integers(4)
+        if kind == 0:
+            image = self.rng.integers(0, 256, shape)
+        elif kind == 1:
+            image = self.rng.choice([0, 255, *self.rng.integers(0, 256, 2)], shape)
+        elif kind == 2:
+            image = self.rng.integers(0, 256, 4) + self.rng.integers(-6, 7, shape)
+        else:
+            slopes = self.rng.integers(-9, 9, (2, 4))
+            image = self.rng.integers(0, 256, 4) + np.indices((height, width)).transpose(1, 2, 0) @ slopes
+        return self.gl.GL_RGBA, self.gl.GL_UNSIGNED_BYTE, image.clip(0, 255).astype(np.uint8)
+
     def define(self, target: int, level: int, name: str, width: int, height: int) -> None:
         blocks = self.blocks(name, width, height)
         self.gl.glCompressedTexImage2D(target, level, self.named(name), width, height, 0, blocks)
@@ -61,6 +81,34 @@ def uploads(seed: int, formats: list[str], n: int = 8) -> Any:
                 )
             told.append(np.array([int(gl.glGetTexLevelParameteriv(target, 0, make.named(each))) for each in QUERIES]))
             told += [gl.glGetCompressedTexImage(target, 0), make.read(), make.read(make.pair())]
+        return told
+
+    return program
+
+
+def from_pixels(seed: int, formats: list[str], n: int = 8) -> Any:
+    """Return a program that lets GL compress images, and parts of them, and reads and queries the results.
+
+    Rows are whole: where a row of texels ends within a block, Mesa's codes depend on what was in memory before.
+    """
+
+    def program(gl: Any) -> list[np.ndarray]:
+        make, told = CompressedTextures(gl, seed), []
+        for _ in range(n):
+            target, name = make.new(), make.pick(formats)
+            width, height = int(make.rng.choice([16, 8, 4])), int(make.rng.choice([16, 13, 4, 3, 1, 8]))
+            pair = make.pair() if make.rng.random() < 0.5 else ("GL_RGBA", "GL_UNSIGNED_BYTE")
+            of_bytes = pair == ("GL_RGBA", "GL_UNSIGNED_BYTE")
+            pixels = make.smooth(width, height) if of_bytes else make.pixels(pair, width, height)
+            gl.glTexImage2D(target, 0, make.named(name), width, height, 0, *pixels)
+            if width > 4 and height > 4:
+                gl.glTexSubImage2D(target, 0, 4, 4, width - 4, height - 4, *make.smooth(width - 4, height - 4))
+            is_compressed = int(gl.glGetTexLevelParameteriv(target, 0, gl.GL_TEXTURE_COMPRESSED))
+            queries = [each for each in QUERIES if is_compressed or "IMAGE_SIZE" not in each]
+            told.append(np.array([int(gl.glGetTexLevelParameteriv(target, 0, make.named(each))) for each in queries]))
+            told += [make.read(), make.read(make.pair())]
+            if is_compressed and width % 4 == height % 4 == 0:  # of others, too
+                told.append(gl.glGetCompressedTexImage(target, 0))
         return told
 
     return program

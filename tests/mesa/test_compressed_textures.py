@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mesa.random_compressed import COMPRESSED, CompressedTextures, lookups, uploads
+from mesa.random_compressed import COMPRESSED, FROM_PIXELS, CompressedTextures, from_pixels, lookups, uploads
 from mesa.random_formats import SIZE
 from softshadow import gl
 from softshadow.testing import compare
@@ -31,10 +31,16 @@ def test_lookups_in_all_compressed_formats_give_the_same_colors(seed: int) -> No
     check(lookups(seed, COMPRESSED), SIZE)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_pixels_are_compressed_to_the_blocks_of_mesa(seed: int) -> None:
+    check(from_pixels(seed, FROM_PIXELS))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(100, 200))
 def test_many_compressed_textures_are_those_of_mesa(seed: int) -> None:
     check(uploads(seed, COMPRESSED, n=4))
+    check(from_pixels(seed, FROM_PIXELS, n=4))
     check(lookups(seed, COMPRESSED), SIZE)
 
 
@@ -73,6 +79,18 @@ def wrong_calls(gl: Any) -> list[int]:
         (0, 0, 0, -4, 4, dxt1, 8),
     ):  # fmt: skip
         call(update, texture, level, x, y, width, height, internal, n_bytes, BLOCKS)
+    color = (gl.GL_RGB, gl.GL_UNSIGNED_BYTE, None)
+    for name, target, sides in (
+        ("glTexImage1D", gl.GL_TEXTURE_1D, (4,)), ("glTexImage2D", texture, (4, 4)), ("glTexImage2D", cube, (4, 4)),
+        ("glTexImage3D", volume, (4, 4, 1)), ("glTexImage2D", gl.GL_TEXTURE_RECTANGLE, (4, 4)),
+    ):  # fmt: skip
+        for border in (0, 1):
+            call(name, target, 0, dxt1, *sides, border, *color)
+    call("glTexImage1D", gl.GL_TEXTURE_1D, 0, generic, 4, 0, *color)
+    gl.glTexImage2D(texture, 0, dxt1, 8, 8, 0, *color)
+    pixels = gl.GL_RGB, gl.GL_UNSIGNED_BYTE, BLOCKS
+    for x, y, width, height in ((4, 4, 4, 4), (2, 0, 4, 4), (0, 0, 3, 4), (4, 4, 4, 8), (0, 0, 0, 0)):
+        call("glTexSubImage2D", texture, 0, x, y, width, height, *pixels)
     call("glCompressedTexImage1D", gl.GL_TEXTURE_1D, 0, dxt1, 4, 0, 8, BLOCKS)
     call("glCompressedTexImage3D", volume, 0, dxt1, 4, 4, 1, 0, 8, BLOCKS)
     call("glCompressedTexSubImage1D", gl.GL_TEXTURE_1D, 0, 0, 4, dxt1, 8, BLOCKS)
@@ -133,12 +151,11 @@ def test_textures_of_other_blocks_or_without_data_are_told() -> None:
         gl.glCompressedTexImage2D(gl.GL_TEXTURE_2D, 0, getattr(gl, DXT1), 8, 8, 0, 32, None)
         assert not gl.glGetCompressedTexImage(gl.GL_TEXTURE_2D, 0).any()
         for call, *arguments in (
-            (gl.glTexSubImage2D, 0, 0, 0, 4, 4, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, BLOCKS), (gl.glGenerateMipmap,),
-            (gl.glCopyTexSubImage2D, 0, 0, 0, 0, 0, 4, 4),
-            (gl.glTexImage2D, 0, gl.GL_COMPRESSED_RGB, 4, 4, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, BLOCKS),
+            (gl.glGenerateMipmap,), (gl.glCopyTexSubImage2D, 0, 0, 0, 0, 0, 4, 4),
             (gl.glCopyTexImage2D, 0, gl.GL_COMPRESSED_RGB, 0, 0, 4, 4, 0),
+            (gl.glTexImage2D, 0, gl.GL_COMPRESSED_SIGNED_RED_RGTC1, 4, 4, 0, gl.GL_RED, gl.GL_FLOAT, None),
         ):  # fmt: skip
-            with pytest.raises(gl.GLError, match="this package compresses no pixels"):
+            with pytest.raises(gl.GLError, match="this package does not compress"):
                 call(gl.GL_TEXTURE_2D, *arguments)
         gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, gl.glGenFramebuffers(1))
         gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, 1, 0)
