@@ -117,10 +117,10 @@ def missing_problem(context: Context, target: int, level: int) -> Problem | None
 
 
 def compressed_problem(image: Image | None) -> Problem | None:
-    """Return what is wrong with an image that a framebuffer would be copied to, or that mipmaps would be made of."""
+    """Return what is wrong with an image that a framebuffer would be copied to."""
     if image is None or image.blocks is None:
         return None
-    reason = f"the image is {token_name(image.internal_format)}: this package does not compress copies and mipmaps"
+    reason = f"the image is {token_name(image.internal_format)}: this package does not compress copies"
     return gl.GL_INVALID_OPERATION, reason
 
 
