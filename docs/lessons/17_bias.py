@@ -285,9 +285,9 @@ lessons.compare_prediction(
     "Which shadow is lost first in the depth map?",
     my_first_lost,
     min(first_lost["map"]) if len(first_lost["map"]) == 1 else "all at once",
-    "The same difference of window depth is the largest distance where the map is coarsest, "
-    "far from the lamp. In the distance map all three are lost between 0.38 and 0.45, as the gap "
-    "is 0.4 to 0.43 everywhere.",
+    "The same difference of window depth is the largest distance where the map is "
+    "coarsest, far from the lamp. In the distance map all three are lost between 0.38 "
+    "and 0.45, as the gap is 0.4 to 0.43 everywhere.",
 )
 
 # %% [markdown]
