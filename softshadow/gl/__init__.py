@@ -62,6 +62,7 @@ from softshadow.gl.refusals import all_naming_arguments
 from softshadow.gl.render_modes import *
 from softshadow.gl.renderbuffers import *
 from softshadow.gl.sample_coverage import *
+from softshadow.gl.secondary_colors import *
 from softshadow.gl.stipples import *
 from softshadow.gl.tessellator import *
 from softshadow.gl.texture_coordinates import *

@@ -82,7 +82,16 @@ def glPushAttrib(mask: int) -> None:
         mask,
         touched,
         state,
-        (current.color, current.normal, (*current.texcoords,), current.raster, current.edge, current.index)
+        (
+            current.color,
+            current.normal,
+            (*current.texcoords,),
+            current.raster,
+            current.edge,
+            current.secondary,
+            current.fog_coordinate,
+            current.index,
+        )
         if mask & gl.GL_CURRENT_BIT
         else (),
         context.hints.copy() if context.hints else NO_HINTS,
@@ -200,8 +209,8 @@ def _restore_current(context: Context, saved: SavedAttributes) -> None:
     for name in context.pending.names:
         if "." not in name:
             context.pending.hidden.setdefault(name, context.attribute(name))
-    color, normal, texcoords, raster, edge, index = saved.current
-    context.current = CurrentVertex(color, normal, list(texcoords), raster, edge, index)
+    color, normal, texcoords, *others = saved.current
+    context.current = CurrentVertex(color, normal, list(texcoords), *others)
 
 
 def _restore_materials(context: Context, saved: SavedAttributes) -> None:

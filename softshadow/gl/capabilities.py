@@ -47,6 +47,7 @@ CAPABILITIES: dict[int, tuple[str, str]] = {
     gl.GL_NORMALIZE: ("lighting", "normalize"),
     gl.GL_RESCALE_NORMAL: ("lighting", "rescale_normal"),
     gl.GL_FOG: ("fog", "enabled"),
+    gl.GL_COLOR_SUM: ("fog", "color_sum"),
     gl.GL_TEXTURE_CUBE_MAP_SEAMLESS: ("cube_maps", "seamless"),
 }
 UNIT_CAPABILITIES = SWITCHES

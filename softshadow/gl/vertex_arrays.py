@@ -11,7 +11,16 @@ from softshadow import tokens as gl
 from softshadow.context import ArrayLayout, ClientArrays, current
 from softshadow.context.arrays import VertexArray
 from softshadow.frozen import evolve
-from softshadow.gl.array_snapshots import COLOR, EDGE, NORMAL, POSITION, TEXCOORD, vertex_array
+from softshadow.gl.array_snapshots import (
+    COLOR,
+    EDGE,
+    FOG_COORDINATE,
+    NORMAL,
+    POSITION,
+    SECONDARY,
+    TEXCOORD,
+    vertex_array,
+)
 from softshadow.gl.buffers import offset_of
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
@@ -25,8 +34,7 @@ TYPES = {
 DTYPES = {type: np.dtype(dtype) for type, dtype in TYPES.items()}
 SLOTS = {"position": POSITION, "color": COLOR, "normal": NORMAL}
 SLOTS |= {f"texcoord{unit}": TEXCOORD + unit for unit in range(TEXTURE_UNITS)}
-SLOTS["edge"] = EDGE
-SLOTS["index"] = EDGE + 1
+SLOTS |= {"edge": EDGE, "secondary": SECONDARY, "fog_coordinate": FOG_COORDINATE, "index": FOG_COORDINATE + 1}
 POSITION_TYPES = (gl.GL_SHORT, gl.GL_INT, gl.GL_FLOAT, gl.GL_DOUBLE)
 NORMAL_TYPES = (gl.GL_BYTE, *POSITION_TYPES)
 COLOR_INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, *POSITION_TYPES)
@@ -36,10 +44,11 @@ ARRAYS = {
     gl.GL_NORMAL_ARRAY: "normal",
     gl.GL_COLOR_ARRAY: "color",
     gl.GL_EDGE_FLAG_ARRAY: "edge",
+    gl.GL_SECONDARY_COLOR_ARRAY: "secondary",
+    gl.GL_FOG_COORD_ARRAY: "fog_coordinate",
     gl.GL_INDEX_ARRAY: "index",
 }
 CLIENT_STATES = (*ARRAYS, gl.GL_TEXTURE_COORD_ARRAY)
-ABSENT_ARRAYS = (gl.GL_SECONDARY_COLOR_ARRAY, gl.GL_FOG_COORD_ARRAY)
 # glInterleavedArrays: components of texture coordinate, colour (key of `COLORS`), normal and position
 INTERLEAVED = {
     gl.GL_V2F: (0, "", 0, 2), gl.GL_V3F: (0, "", 0, 3), gl.GL_C4UB_V2F: (0, "4ub", 0, 2),
@@ -65,10 +74,9 @@ def glDisableClientState(array: int) -> None:
 
 def _client_state(operation: str, array: int, on: bool) -> None:
     context = outside_begin(operation)
-    if context is None or (array in ABSENT_ARRAYS and not on):  # they are always disabled
+    if context is None:
         return
-    expected = "GL_VERTEX_ARRAY, GL_NORMAL_ARRAY, GL_COLOR_ARRAY, GL_TEXTURE_COORD_ARRAY …"
-    if is_one_of(operation, "array", array, CLIENT_STATES, expected):
+    if is_one_of(operation, "array", array, CLIENT_STATES, "GL_VERTEX_ARRAY, GL_NORMAL_ARRAY … GL_FOG_COORD_ARRAY"):
         switch_array(context.arrays, array, on)
 
 
@@ -116,6 +124,16 @@ def glTexCoordPointer(size: int, type: int, stride: int, pointer: Any) -> None:
     """Set the array of texture coordinates of the client's active unit: `size` 1 to 4 components per vertex."""
     key = f"texcoord{current().arrays.active_unit}"
     _pointer("glTexCoordPointer", key, size, (1, 2, 3, 4), type, POSITION_TYPES, stride, pointer)
+
+
+def glSecondaryColorPointer(size: int, type: int, stride: int, pointer: Any) -> None:
+    """Set the array of secondary colours: `size` 3 (or 4, as in Mesa); unsigned integers represent 0 to 1."""
+    _pointer("glSecondaryColorPointer", "secondary", size, (3, 4), type, TYPES, stride, pointer)
+
+
+def glFogCoordPointer(type: int, stride: int, pointer: Any) -> None:
+    """Set the array of fog coordinates: one number per vertex."""
+    _pointer("glFogCoordPointer", "fog_coordinate", 1, (1,), type, (gl.GL_FLOAT, gl.GL_DOUBLE), stride, pointer)
 
 
 def glEdgeFlagPointer(stride: int, pointer: Any) -> None:

@@ -30,7 +30,8 @@ class Vertices:
     """The vertices of a draw, read-only: position (V, 4), color (V, 4), normal (V, 3), one texcoord (V, 4) per unit.
 
     `materials` holds what glMaterial changed between vertices: "front.diffuse" (V, 4), "back.shininess" (V,) ...
-    `edges` (V,) bool are the edge flags; None: all true.
+    `edges` (V,) bool are the edge flags; None: all true. `secondary` (V, 4) are the secondary colours, None: all black;
+    `fog_coordinates` (V,), None: all 0.
     """
 
     position: np.ndarray
@@ -39,6 +40,8 @@ class Vertices:
     texcoords: tuple[np.ndarray, ...]
     materials: Mapping[str, np.ndarray] = field(default_factory=dict)
     edges: np.ndarray | None = None
+    secondary: np.ndarray | None = None
+    fog_coordinates: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)

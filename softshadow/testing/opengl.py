@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 import OpenGL
 from OpenGL import GL, GLU, contextdata, images, platform
+from OpenGL.raw.GL._glgets import _glget_size_mapping as sizes_of_answers
 from OpenGL.raw.GL.VERSION import GL_1_0 as raw
 from OpenGL.raw.GL.VERSION import GL_1_1 as arrays
 from OpenGL.raw.GL.VERSION import GL_1_3 as compressed
@@ -37,6 +38,8 @@ for _words in (GL.GL_UNSIGNED_INT_5_9_9_9_REV, GL.GL_UNSIGNED_INT_10F_11F_11F_RE
     images.TYPE_TO_ARRAYTYPE[_words] = GL.GL_UNSIGNED_INT
     images.TIGHT_PACK_FORMATS[_words] = 3
 images.TYPE_TO_ARRAYTYPE[GL.GL_FLOAT_32_UNSIGNED_INT_24_8_REV] = GL.GL_UNSIGNED_BYTE  # passed as bytes
+for _color in (GL.GL_CURRENT_SECONDARY_COLOR, GL.GL_CURRENT_RASTER_SECONDARY_COLOR):
+    sizes_of_answers[_color] = (4,)  # PyOpenGL has room for one number, so that GL would write behind it
 
 
 def _context_key(context: Any = None) -> Any:

@@ -20,6 +20,13 @@ OF_GLU = {
 MORE_CALLS: dict[str, tuple[Any, ...]] = {
     "glEdgeFlag": (False,), "glEdgeFlagv": ([True],), "glProvokingVertex": ("GL_FIRST_VERTEX_CONVENTION",),
     "glEdgeFlagPointer": (0, np.ones(4, np.uint8)),
+    "glSecondaryColorPointer": (3, "GL_FLOAT", 0, np.ones((4, 3), np.float32)),
+    "glFogCoordPointer": ("GL_FLOAT", 0, np.ones(4, np.float32)),
+    **{f"glSecondaryColor3{kind}": (0.25, 0.5, 1.0) for kind in "fd"},
+    **{f"glSecondaryColor3{kind}v": ([0.25, 0.5, 1.0],) for kind in "fd"},
+    **{f"glSecondaryColor3{kind}": (1, 2, 3) for kind in ("b", "s", "i", "ub", "us", "ui")},
+    **{f"glSecondaryColor3{kind}v": ([1, 2, 3],) for kind in ("b", "s", "i", "ub", "us", "ui")},
+    **{f"glFogCoord{kind}": (0.5,) for kind in "fd"}, **{f"glFogCoord{kind}v": ([0.5],) for kind in "fd"},
     "glIndexMask": (7,), "glClearIndex": (3.0,), "glIndexPointer": ("GL_FLOAT", 0, INDICES),
     **{f"glIndex{kind}": (2.5 if kind in "df" else 2,) for kind in INDEX_KINDS},
     **{f"glIndex{kind}v": ([2.5 if kind in "df" else 2],) for kind in INDEX_KINDS},
