@@ -90,7 +90,8 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
     else:
         front = Colors(clamp_colors(vertices.color), None)
     if state.fog.color_sum:
-        front, back = (colors and with_secondary(colors, lighting.enabled, vertices) for colors in (front, back))
+        front = with_secondary(front, lighting.enabled, vertices)
+        back = with_secondary(back, lighting.enabled, vertices) if back is not None else None
     settings = [state.units[unit.index] for unit in units]
     normals: Normals | None = None
     if any(needs_normals(setting) for setting in settings):
