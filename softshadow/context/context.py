@@ -14,6 +14,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context.arrays import BufferObject, ClientArrays
+from softshadow.context.color_indices import ColorIndices
 from softshadow.context.evaluators import EvaluatorSettings, initial_maps
 from softshadow.context.kept_materials import with_kept_materials
 from softshadow.context.matrix_stacks import MatrixStack
@@ -53,6 +54,7 @@ class CurrentVertex:
     edge: bool = True  # whether vertices begin an edge that glPolygonMode draws
     secondary: tuple[float, float, float, float] = BLACK
     fog_coordinate: float = 0.0
+    index: float = 1.0  # of a colour, which nothing is drawn with
 
 
 @dataclass
@@ -152,10 +154,12 @@ class Context:
         self.hints: dict[int, int] = {}  # those that are not GL_DONT_CARE
         self.pack_store, self.unpack_store = PixelStore(), PixelStore()
         self.pixel_zoom = (1.0, 1.0)
+        self.color_indices = ColorIndices()
         self.pixel_transfer = PixelTransfer()
         self.proxies: dict[tuple[int, int], Image] = {}  # by (target, level): images without cells
         # the highest name returned by glGen*, per kind; an object exists in storage once it has been bound
         self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query", "buffer", "list"), 0)
+        self.generated_textures: dict[int, float] = {}  # names that glGenTextures has returned: their priorities
         self.renderbuffer = 0
         self.render_mode = RenderMode()
         self.maps, self.evaluators = initial_maps(), EvaluatorSettings()

@@ -17,6 +17,7 @@ from softshadow.context import Context, current
 from softshadow.context.arrays import ArrayLayout, BufferObject, RowSnapshot, VertexArray
 from softshadow.gl.array_snapshots import EDGE, FOG_COORDINATE, POSITION, SECONDARY, slice_of, snapshot_rows
 from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.color_indices import set_index
 from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.gl.conversions import (
     from_byte,
@@ -42,6 +43,7 @@ Rows = tuple[list[RowSnapshot], int, int]  # of each array, positions first, and
 KEYS = tuple(SLOTS)  # names of the arrays by slot
 OPTIONAL = {EDGE: "edges", SECONDARY: "secondary", FOG_COORDINATE: "fog_coordinates"}  # fields of `Vertices`
 MOST_DRAWN = 4096  # ranges of one array with the vertices that were drawn
+NOT_DRAWN = ("index",)  # arrays that only glArrayElement reads
 NORMALIZED = ("color", "normal", "secondary")  # integers represent 0 to 1 or -1 to 1
 CONVERSIONS: dict[type[np.generic], Callable[[Any], float]] = {  # by glArrayElement, as in glColor and glNormal
     np.int8: from_byte, np.uint8: from_unsigned_byte, np.int16: from_short, np.uint16: from_unsigned_short,
@@ -169,6 +171,8 @@ def _set_attribute(key: str, values: list[float]) -> None:
         set_secondary(*values)
     elif key == "fog_coordinate":
         set_fog_coordinate(*values)
+    elif key == "index":
+        set_index(values[0])
     else:
         set_coordinate(int(key.removeprefix("texcoord")), *values)
 
@@ -242,7 +246,7 @@ def _vertices(context: Context, rows: Rows) -> Vertices:
 
 def _active_arrays(context: Context) -> tuple[VertexArray, ...]:
     """Return the enabled arrays that a draw reads, positions first."""
-    arrays = (_array(context, key) for key in KEYS if key in context.arrays.enabled)
+    arrays = (_array(context, key) for key in KEYS if key in context.arrays.enabled and key not in NOT_DRAWN)
     return tuple(array for array in arrays if array is not None)
 
 

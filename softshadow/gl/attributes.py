@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 from softshadow import tokens as gl
 from softshadow.context import Context, CurrentVertex, thread
+from softshadow.context.color_indices import ColorIndices
 from softshadow.context.evaluators import EvaluatorSettings
 from softshadow.frozen import evolve, evolve_to
 from softshadow.gl.attribute_groups import GROUPS, changed_groups, needs_calls, with_group
@@ -55,6 +56,7 @@ class SavedAttributes(NamedTuple):
     read_buffer: int
     pixel_zoom: tuple[float, float]
     pixel_transfer: PixelTransfer
+    color_indices: ColorIndices
     evaluators: EvaluatorSettings
     samplers: dict[tuple[int, int], Sampler]  # of the bound textures, by (target, key in the storage)
 
@@ -88,6 +90,7 @@ def glPushAttrib(mask: int) -> None:
             current.edge,
             current.secondary,
             current.fog_coordinate,
+            current.index,
         )
         if mask & gl.GL_CURRENT_BIT
         else (),
@@ -99,6 +102,7 @@ def glPushAttrib(mask: int) -> None:
         framebuffers[state.read_framebuffer].read_buffer,
         context.pixel_zoom,
         context.pixel_transfer,
+        context.color_indices,
         context.evaluators,
         samplers,
     )
@@ -179,8 +183,11 @@ def _restore(context: Context, bit: int, saved: SavedAttributes) -> None:
         context.select_matrices(saved.matrix_mode)
     elif bit == gl.GL_EVAL_BIT:
         context.evaluators = saved.evaluators
+    elif bit == gl.GL_COLOR_BUFFER_BIT:
+        context.color_indices = saved.color_indices
     if bit == gl.GL_ENABLE_BIT:
         context.evaluators = evolve(context.evaluators, enabled=saved.evaluators.enabled)
+        context.color_indices = evolve(context.color_indices, logic_enabled=saved.color_indices.logic_enabled)
     if bit == gl.GL_ENABLE_BIT and saved.state.lighting.color_material and not now.lighting.color_material:
         start_to_follow(context)
 
@@ -189,7 +196,10 @@ def _needs_more_calls(context: Context, bit: int, saved: SavedAttributes) -> boo
     """Return whether Mesa makes GL calls to restore what is not in `State`."""
     return (
         bit == gl.GL_PIXEL_MODE_BIT
-        or (bit == gl.GL_COLOR_BUFFER_BIT and _sets_draw_buffer(context, saved))
+        or (
+            bit == gl.GL_COLOR_BUFFER_BIT
+            and (context.color_indices != saved.color_indices or _sets_draw_buffer(context, saved))
+        )
         or (bit == gl.GL_HINT_BIT and context.hints != saved.hints)
         or (bit == gl.GL_TEXTURE_BIT and context.active_unit != saved.active_unit)
     )

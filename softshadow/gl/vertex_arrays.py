@@ -34,9 +34,10 @@ TYPES = {
 DTYPES = {type: np.dtype(dtype) for type, dtype in TYPES.items()}
 SLOTS = {"position": POSITION, "color": COLOR, "normal": NORMAL}
 SLOTS |= {f"texcoord{unit}": TEXCOORD + unit for unit in range(TEXTURE_UNITS)}
-SLOTS |= {"edge": EDGE, "secondary": SECONDARY, "fog_coordinate": FOG_COORDINATE}
+SLOTS |= {"edge": EDGE, "secondary": SECONDARY, "fog_coordinate": FOG_COORDINATE, "index": FOG_COORDINATE + 1}
 POSITION_TYPES = (gl.GL_SHORT, gl.GL_INT, gl.GL_FLOAT, gl.GL_DOUBLE)
 NORMAL_TYPES = (gl.GL_BYTE, *POSITION_TYPES)
+COLOR_INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, *POSITION_TYPES)
 LARGEST_STRIDE = 2048  # Mesa's GL_MAX_VERTEX_ATTRIB_STRIDE
 ARRAYS = {
     gl.GL_VERTEX_ARRAY: "position",
@@ -45,6 +46,7 @@ ARRAYS = {
     gl.GL_EDGE_FLAG_ARRAY: "edge",
     gl.GL_SECONDARY_COLOR_ARRAY: "secondary",
     gl.GL_FOG_COORD_ARRAY: "fog_coordinate",
+    gl.GL_INDEX_ARRAY: "index",
 }
 CLIENT_STATES = (*ARRAYS, gl.GL_TEXTURE_COORD_ARRAY)
 # glInterleavedArrays: components of texture coordinate, colour (key of `COLORS`), normal and position
@@ -72,7 +74,7 @@ def glDisableClientState(array: int) -> None:
 
 def _client_state(operation: str, array: int, on: bool) -> None:
     context = outside_begin(operation)
-    if context is None or (array == gl.GL_INDEX_ARRAY and not on):  # it is always disabled
+    if context is None:
         return
     if is_one_of(operation, "array", array, CLIENT_STATES, "GL_VERTEX_ARRAY, GL_NORMAL_ARRAY … GL_FOG_COORD_ARRAY"):
         switch_array(context.arrays, array, on)
@@ -80,7 +82,7 @@ def _client_state(operation: str, array: int, on: bool) -> None:
 
 def switch_array(arrays: ClientArrays, array: int, on: bool) -> None:
     """Enable or disable an array; that of texture coordinates is the array of the active unit."""
-    key = _key_of(arrays, array)
+    key = array_name(arrays, array)
     if (key in arrays.enabled) != on:
         (arrays.enabled.add if on else arrays.enabled.discard)(key)
         arrays.active = None
@@ -88,10 +90,11 @@ def switch_array(arrays: ClientArrays, array: int, on: bool) -> None:
 
 def is_array_enabled(arrays: ClientArrays, array: int) -> bool:
     """Return whether an array is enabled."""
-    return _key_of(arrays, array) in arrays.enabled
+    return array_name(arrays, array) in arrays.enabled
 
 
-def _key_of(arrays: ClientArrays, array: int) -> str:
+def array_name(arrays: ClientArrays, array: int) -> str:
+    """Return the name of an array in `ClientArrays`; of texture coordinates it is that of the active unit."""
     return ARRAYS.get(array) or f"texcoord{arrays.active_unit}"
 
 
@@ -136,6 +139,11 @@ def glFogCoordPointer(type: int, stride: int, pointer: Any) -> None:
 def glEdgeFlagPointer(stride: int, pointer: Any) -> None:
     """Set the array of edge flags: one byte per vertex."""
     _pointer("glEdgeFlagPointer", "edge", 1, (1,), gl.GL_UNSIGNED_BYTE, TYPES, stride, pointer)
+
+
+def glIndexPointer(type: int, stride: int, pointer: Any) -> None:
+    """Set the array of colour indices, which only glArrayElement reads: one number per vertex."""
+    _pointer("glIndexPointer", "index", 1, (1,), type, COLOR_INDEX_TYPES, stride, pointer)
 
 
 def _pointer(
@@ -214,6 +222,8 @@ def glInterleavedArrays(format: int, stride: int, pointer: Any) -> None:
         memory = _memory(pointer)
         places = [memory[end:] for end in ends[:4]]
     color_type = gl.GL_UNSIGNED_BYTE if color == "4ub" else gl.GL_FLOAT
+    for array in (gl.GL_EDGE_FLAG_ARRAY, gl.GL_INDEX_ARRAY):
+        glDisableClientState(array)
     for array, size, point in (
         (gl.GL_TEXTURE_COORD_ARRAY, texcoord, lambda: glTexCoordPointer(texcoord, gl.GL_FLOAT, step, places[0])),
         (gl.GL_COLOR_ARRAY, numbers, lambda: glColorPointer(numbers, color_type, step, places[1])),

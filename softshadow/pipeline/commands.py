@@ -148,7 +148,7 @@ class DefineImage:
     """glTexImage. `cells` and `stencil` are in the storage's own layout, (height, width[, channels]), None for zeros.
 
     A framebuffer object that the level is attached to gets the new image. The slices of a 3-D image lie one above the
-    other: (slices * height, width[, channels]).
+    other: (slices * height, width[, channels]). `blocks` are those of a compressed image, see `Image`.
     """
 
     texture: int
@@ -161,13 +161,15 @@ class DefineImage:
     cells: np.ndarray | None = None
     stencil: np.ndarray | None = None
     slices: int = 1
+    blocks: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class UpdateImage:
     """glTexSubImage. `cells` and `stencil` are in the storage's own layout; None leaves them as they are.
 
-    Of a 3-D image, so many slices change, from `z` on; their cells lie one above the other.
+    Of a 3-D image, so many slices change, from `z` on; their cells lie one above the other. `blocks` replace those of a
+    compressed image from the one at (x, y) on.
     """
 
     texture: int
@@ -179,6 +181,7 @@ class UpdateImage:
     stencil: np.ndarray | None = None
     z: int = 0
     slices: int = 1
+    blocks: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,6 +24,7 @@ from OpenGL import GL, GLU, contextdata, images, platform
 from OpenGL.raw.GL._glgets import _glget_size_mapping as sizes_of_answers
 from OpenGL.raw.GL.VERSION import GL_1_0 as raw
 from OpenGL.raw.GL.VERSION import GL_1_1 as arrays
+from OpenGL.raw.GL.VERSION import GL_1_3 as compressed
 from OpenGL.raw.GL.VERSION import GL_1_5 as buffers
 
 from softshadow.mapped_memory import MappedMemory
@@ -84,7 +85,8 @@ EXTENSIONS = (
     "NV.conditional_render", "ARB.texture_rectangle", "NV.texture_rectangle", "EXT.texture3D",
     "EXT.texture_filter_anisotropic", "EXT.abgr", "ARB.point_parameters", "EXT.point_parameters", "ARB.point_sprite",
     "ARB.window_pos", "ARB.pixel_buffer_object", "EXT.pixel_buffer_object", "ARB.half_float_pixel",
-    "ARB.shader_objects", "ARB.vertex_shader",
+    "ARB.shader_objects", "ARB.vertex_shader", "ARB.vertex_program", "EXT.secondary_color", "EXT.fog_coord",
+    "EXT.texture_compression_rgtc",
     "ARB.fragment_shader", "ARB.texture_compression", "EXT.packed_pixels", "EXT.provoking_vertex", "NV.point_sprite",
     "NV.texgen_reflection", "NV.half_float", "NV.packed_depth_stencil", "EXT.texture_sRGB",
     "ARB.vertex_program", "EXT.secondary_color", "EXT.fog_coord",
@@ -275,6 +277,34 @@ def glGetPolygonStipple(mask: np.ndarray | None = None) -> np.ndarray:
     return out
 
 
+def _compressed_upload(name: str, image_at: int) -> Callable[..., Any]:
+    """Return an upload of compressed images; the image is argument `image_at`, with or without its number of bytes."""
+    raw_function = getattr(compressed, name)
+
+    def upload(*arguments: Any) -> None:
+        image = arguments[-1]
+        n_bytes = arguments[image_at] if len(arguments) > image_at + 1 else np.asarray(image).nbytes
+        kept = np.ascontiguousarray(image) if isinstance(image, np.ndarray) else None
+        address = image if kept is None else ctypes.c_void_p(kept.ctypes.data)
+        raw_function(*arguments[:image_at], n_bytes, address)
+
+    return upload
+
+
+def glGetCompressedTexImage(target: int, level: int, img: Any = None) -> np.ndarray | None:
+    """Return the blocks of a texture's level; PyOpenGL's function fails."""
+    if _bound(GL.GL_PIXEL_PACK_BUFFER_BINDING):
+        compressed.glGetCompressedTexImage(target, level, ctypes.c_void_p(img or 0))
+        return None
+    is_compressed = GL.glGetTexLevelParameteriv(target, level, GL.GL_TEXTURE_COMPRESSED)
+    n_bytes = (
+        int(GL.glGetTexLevelParameteriv(target, level, GL.GL_TEXTURE_COMPRESSED_IMAGE_SIZE)) if is_compressed else 0
+    )
+    out = np.zeros(max(n_bytes, 1), np.uint8)
+    compressed.glGetCompressedTexImage(target, level, ctypes.c_void_p(out.ctypes.data))
+    return out[:n_bytes]
+
+
 def _without_row_padding(function: Callable[..., Any], size_at: int, dimensions: int = 2) -> Callable[..., Any]:
     """Return an upload function that reads images without row padding if they are too small to have it.
 
@@ -446,6 +476,11 @@ OWN: dict[str, Callable[..., Any]] = {
     "glGetBufferSubData": glGetBufferSubData,
     "glGetBufferParameteriv": glGetBufferParameteriv,
     "glGetTexImage": glGetTexImage,
+    "glGetCompressedTexImage": glGetCompressedTexImage,
+    **{f"glCompressedTexImage{n}D": _compressed_upload(f"glCompressedTexImage{n}D", 4 + n) for n in (1, 2, 3)},
+    **{
+        f"glCompressedTexSubImage{n}D": _compressed_upload(f"glCompressedTexSubImage{n}D", 3 + 2 * n) for n in (1, 2, 3)
+    },
     "glTexImage1D": _without_row_padding(GL.glTexImage1D, size_at=3, dimensions=1),
     "glTexImage3D": _without_row_padding(GL.glTexImage3D, size_at=3, dimensions=3),
     "glTexSubImage1D": _without_row_padding(GL.glTexSubImage1D, size_at=3, dimensions=1),

@@ -12,7 +12,9 @@ from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.records import Fragments, Spans
 
 STRIDE = 16  # pixels of a long span that are compared together
-ROWS_PER_TASK = 128  # that a thread searches in one go
+PIXELS_PER_PART = 1 << 17
+WORTH_SHARING = 1 << 20  # pixels from which several threads count their spans
+WORTH_COLLECTING = 20_000  # spans; one takes as long as 32 pixels
 
 
 def _empty_spans(n: int) -> Spans:
@@ -30,8 +32,8 @@ def visible_spans(ids: np.ndarray, first_row: int) -> Spans:
     ids : (rows, pitch) int32, the triangle of each pixel or -1
     first_row : the row of the buffers that row 0 of `ids` belongs to
     """
-    parts = parts_of(len(ids), ROWS_PER_TASK)
-    n_visible = share(lambda n: count_visible(ids[slice(*parts[n])]), len(parts))
+    parts = parts_of(len(ids), PIXELS_PER_PART // ids.shape[1])
+    n_visible = share(lambda n: count_visible(ids[slice(*parts[n])]), len(parts), ids.size >= WORTH_SHARING)
     starts = np.cumsum([(0, 0), *n_visible], axis=0)  # the first span and the first fragment of each part
     spans = _empty_spans(starts[-1, 0])
 
@@ -40,7 +42,7 @@ def visible_spans(ids: np.ndarray, first_row: int) -> Spans:
         rows = slice(first_span, starts[n + 1, 0])
         collect_visible(ids[first:end], first_row + first, first_fragment, *(array[rows] for array in spans))
 
-    share(collect, len(parts))
+    share(collect, len(parts), starts[-1, 0] + ids.size // 32 >= WORTH_COLLECTING)
     spans.start[-1] = starts[-1, 1]
     return spans
 
