@@ -85,7 +85,8 @@ def test_combined_units_are_mesas(seed):
         fixed_function = program(context.state, textures)
     second = np.broadcast_to(np.float32([0.3, 0.7, 0, 1]), (POINTS, 4))
     ours = np.empty_like(colors)
-    fixed_function.shade(np.concatenate([colors, texcoord, second], axis=1), {}, ours)
+    # the last columns are for GL_PRIMARY_COLOR
+    fixed_function.shade(np.concatenate([colors, texcoord, second, colors], axis=1), {}, ours)
     names = [{token_name(p): v for p, v in each.items()} for each in settings]
     if seed in REARRANGED:
         assert np.abs(ours - theirs).max() <= LAST_BIT, names
