@@ -84,6 +84,8 @@ def carry_attribute(context: Context, name: str, size: int) -> int:
         context.vertex_buffer.submit()
         if name not in sizes and had_many:
             sizes.clear()
+            context.reset_attributes()
+            context.remember_attribute(name)
     sizes[name], context.ready = size, False
     return size
 
