@@ -21,7 +21,7 @@ from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.raster_position import INITIAL_RASTER_POSITION, RasterPosition
 from softshadow.context.recording import Frame
 from softshadow.context.render_mode import RenderMode
-from softshadow.context.state_groups import StateGroups, affects_draws
+from softshadow.context.state_groups import Followed, StateGroups, affects_draws
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
@@ -34,7 +34,7 @@ from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
 from softshadow.pixel_transfer import PixelTransfer
 from softshadow.programs import Program
-from softshadow.state import TEXTURE_UNITS, State
+from softshadow.state import TEXTURE_UNITS, Lighting, State
 
 NO_UNIFORMS: Mapping[str, Any] = {}
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
@@ -195,6 +195,20 @@ class Context:
     @state.setter
     def state(self, state: State) -> None:
         self._state.restore(state)
+
+    @property
+    def drawn_state(self) -> State:
+        """The state as draws have it: materials may not contain yet the colour that they follow (`followed`)."""
+        return self._state.drawn()
+
+    @property
+    def followed(self) -> Followed | None:
+        """The colour that materials follow, but do not contain yet in `drawn_state`."""
+        return self._state.followed
+
+    def settled(self, lighting: Lighting, followed: Followed | None) -> Lighting:
+        """Return an earlier lighting whose materials contain the colour that they followed then."""
+        return self._state.settled(lighting, followed)
 
     def change_field(self, group: str, name: str, value: Any) -> None:
         """Set a field of a group of the state; if the change affects draws, draw the collected vertices first."""
@@ -464,8 +478,10 @@ class Context:
     # -- recording -----------------------------------------------------------------------------------------------------
     def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
         state = self._state.drawn()
-        if self._state.followed is None and state.lighting.color_material:
-            state = with_kept_materials(state, vertices.color)
+        if state.lighting.color_material:
+            followed = self._state.followed
+            if followed is None or followed[2] is not self.current.color:
+                state = with_kept_materials(self.state, vertices.color)
         program = state.program
         modelview, modelview_kind = self.modelview_stack.drawn()
         projection, projection_kind = self.projection_stack.drawn()

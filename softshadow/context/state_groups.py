@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Mapping
-from ctypes import c_float
 from operator import is_
 from typing import Any
 
-from softshadow.state import Color, State
+from softshadow.frozen import evolve
+from softshadow.state import Color, Lighting, State
 
 # parts of groups that are groups themselves: (group, field)
 PARTS = (
@@ -25,6 +25,7 @@ TUPLES: tuple[tuple[str, str], ...] = (
 # fields that draws do not use: clear values, and the face that glStencilFunc sets
 UNDRAWN = frozenset(("clear", "clear_accum", "active_back"))
 PACK = struct.Struct("4d").pack
+COLOR = struct.Struct("4f")
 PAST = 64  # values of each group that are kept
 
 
@@ -198,7 +199,7 @@ class StateGroups:
         if self.followed is None:
             return
         (sides, fields, color), self.followed = self.followed, None
-        rounded = tuple(c_float(value).value for value in color) if self._single else color
+        rounded = self._rounded(color)
         for side in sides:
             group = self.groups[f"lighting.{side}"]
             for field in fields:
@@ -206,9 +207,19 @@ class StateGroups:
                     group.fields[field] = rounded
                     self.changed.add(group)
 
+    def settled(self, lighting: Lighting, followed: Followed | None) -> Lighting:
+        """Return an earlier lighting whose materials contain the colour that they followed then."""
+        if followed is None:
+            return lighting
+        sides, fields, color = followed
+        colors: Any = dict.fromkeys(fields, self._rounded(color))
+        return evolve(lighting, **{side: evolve(getattr(lighting, side), **colors) for side in sides})
+
+    def _rounded(self, color: Color) -> Color:
+        return COLOR.unpack(COLOR.pack(*color)) if self._single else color  # type: ignore[return-value]
+
     def restore(self, state: State) -> None:
-        """Replace the state by an immutable one."""
-        self.followed = None
+        """Replace the state by an immutable one; materials that follow a colour still follow it."""
         for group in self.changed:
             group.fields = dict(vars(group.value))
         self.changed.clear()

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 from softshadow import tokens as gl
 from softshadow.context import Context, CurrentVertex, thread
 from softshadow.context.evaluators import EvaluatorSettings
+from softshadow.context.state_groups import Followed
 from softshadow.frozen import evolve, evolve_to
 from softshadow.gl.attribute_groups import GROUPS, changed_groups, needs_calls, with_group
 from softshadow.gl.calls import is_allowed, spelled_like_gl
@@ -30,6 +31,7 @@ from softshadow.texture import Sampler, initial_sampler, stored_name
 
 DEEPEST_ATTRIBUTES = 16
 USED_BY_VERTICES = gl.GL_CURRENT_BIT | gl.GL_LIGHTING_BIT
+WITH_MATERIALS = gl.GL_LIGHTING_BIT | gl.GL_ENABLE_BIT  # groups with materials, or with whether they follow colours
 NO_HINTS: dict[int, int] = {}
 NO_SAMPLERS: dict[tuple[int, int], Sampler] = {}
 
@@ -37,7 +39,7 @@ NO_SAMPLERS: dict[tuple[int, int], Sampler] = {}
 class SavedAttributes(NamedTuple):
     """An entry of the attribute stack: the whole state; `mask` says which groups the pop restores.
 
-    The stack holds plain tuples, which are made faster.
+    The stack holds plain tuples, which are made faster. The materials of `state` do not contain the colour `followed`.
 
     `touched` are the bits of the groups that had changed between the previous push and this one, and `current` the
     fields of `CurrentVertex`. What may change is a copy, and is saved only if `mask` includes it.
@@ -46,6 +48,7 @@ class SavedAttributes(NamedTuple):
     mask: int
     touched: int
     state: State
+    followed: Followed | None
     current: tuple[Any, ...]
     hints: dict[int, int]
     matrix_mode: int
@@ -67,11 +70,11 @@ def glPushAttrib(mask: int) -> None:
     if len(context.attribute_stack) == DEEPEST_ATTRIBUTES:
         fail(gl.GL_STACK_OVERFLOW, "glPushAttrib", f"this stack holds {DEEPEST_ATTRIBUTES} entries")
         return
-    state = context.state
+    state = context.drawn_state
     touched = context.touched if state is context.state_at_push else _changed_since_push(context, state)
     if mask & USED_BY_VERTICES and context.pending.old_values:
         context.update_current()
-        state = context.state
+        state = context.drawn_state
     framebuffers, current, samplers = context.objects.framebuffers, context.current, NO_SAMPLERS
     if mask & gl.GL_TEXTURE_BIT:
         known = context.bound_samplers
@@ -80,6 +83,7 @@ def glPushAttrib(mask: int) -> None:
         mask,
         touched,
         state,
+        context.followed,
         (current.color, current.normal, (*current.texcoords,), current.raster, current.edge)
         if mask & gl.GL_CURRENT_BIT
         else (),
@@ -130,7 +134,7 @@ def glPopAttrib() -> None:
     mask, touched = entry[:2]
     if mask & gl.GL_CURRENT_BIT and context.pending.old_values:
         context.update_current()
-    state = context.state
+    state = context.drawn_state
     mask &= context.touched if state is context.state_at_push else _changed_since_push(context, state)
     if mask:
         saved = SavedAttributes(*entry)
@@ -138,17 +142,17 @@ def glPopAttrib() -> None:
             if mask & bit:
                 _restore(context, bit, saved)
         _restore_buffers(context, mask, saved)
-        state = context.state
+        state = context.drawn_state
     context.touched, context.state_at_push = touched, state
 
 
 def _restore(context: Context, bit: int, saved: SavedAttributes) -> None:
     """Restore one group; if Mesa does it by GL calls, these flush the collected vertices first."""
-    now = context.state
+    now = context.state if bit & WITH_MATERIALS else context.drawn_state
     restored = with_group(bit, now, saved.state)
     if context.has_collected and (needs_calls(bit, now, restored) or _needs_more_calls(context, bit, saved)):
         context.flush()
-        now = context.state
+        now = context.state if bit & WITH_MATERIALS else context.drawn_state
         restored = with_group(bit, now, saved.state)
     if restored is not now:
         context.state = restored
@@ -196,7 +200,7 @@ def _restore_current(context: Context, saved: SavedAttributes) -> None:
 
 
 def _restore_materials(context: Context, saved: SavedAttributes) -> None:
-    pending, old = context.pending, saved.state.lighting
+    pending, old = context.pending, context.settled(saved.state.lighting, saved.followed)
     for name in pending.names:
         if "." in name and name not in pending.old_values:
             pending.hidden.setdefault(name, context.attribute(name))

@@ -8,12 +8,14 @@ they do not carry yet, or with fewer components, submits the collected vertices,
 from __future__ import annotations
 
 import sys
+from struct import pack
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, Primitive
+from softshadow.frozen import create
 from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
@@ -21,7 +23,8 @@ from softshadow.state import TEXTURE_UNITS
 
 REST = (0.0, 0.0, 0.0, 1.0)  # default values of components that a call does not set
 TEXCOORDS = tuple(f"texcoord{unit}" for unit in range(TEXTURE_UNITS))
-COLUMNS = ("color", "normal", *TEXCOORDS)  # attributes in the order of `ConstantSet`
+# attributes by their place in a `ConstantSet`
+PLACES = {name: place for place, name in enumerate(("color", "normal", *TEXCOORDS))}
 NO_MATERIALS: frozenset[str] = frozenset()
 FEW_VERTICES = 8  # with more collected vertices, a new attribute outside glBegin makes Mesa reset all others
 
@@ -189,24 +192,37 @@ def _cut(primitive: Primitive, n: int) -> Cut:
 
 def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int | None = None) -> Vertices:
     """Return the vertices [start, end) of a primitive; attributes that they do not carry are repeats of one row."""
-    real, carried, end = context.real, context.vertex_buffer.sizes, len(primitive) if end is None else end
-
-    def rows(name: str) -> np.ndarray:
-        return _read_only(np.array(primitive.values(name, context.attribute(name))[start:end], real))
-
+    end = len(primitive) if end is None else end
     columns = constant_attributes(context).rows(end - start)
-    with np.errstate(over="ignore"):
-        for number, name in enumerate(COLUMNS):
-            if name in carried:
-                columns[number] = rows(name)
-        return Vertices(
-            _read_only(np.array(primitive.positions[4 * start : 4 * end], real)).reshape(-1, 4),
-            columns[0],
-            columns[1],
-            tuple(columns[2:]),
-            {name: rows(name) for name in primitive.materials},
-            _edges_of(context, primitive, start, end),
-        )
+    for name in context.vertex_buffer.sizes:
+        number = PLACES.get(name)
+        if number is not None:
+            columns[number] = _rows(context, primitive, name, start, end)
+    return create(
+        Vertices,
+        position=_packed(context, primitive.positions[4 * start : 4 * end], end - start, 4),
+        color=columns[0],
+        normal=columns[1],
+        texcoords=tuple(columns[2:]),
+        materials={name: _rows(context, primitive, name, start, end) for name in primitive.materials},
+        edges=_edges_of(context, primitive, start, end),
+    )
+
+
+def _rows(context: Context, primitive: Primitive, name: str, start: int, end: int) -> np.ndarray:
+    """Return an attribute at the vertices [start, end), read-only: (n, components), or (n,) for numbers."""
+    current = context.attribute(name)
+    if not isinstance(current, tuple):
+        return _packed(context, primitive.values(name, current)[start:end])
+    width = len(current)
+    return _packed(context, primitive.components(name, current)[width * start : width * end], end - start, width)
+
+
+def _packed(context: Context, numbers: list[float], *shape: int) -> np.ndarray:
+    """Return numbers as a read-only array in the context's precision; too large ones become infinite."""
+    # in a third of the time of np.array, which looks at each number twice
+    kind = "f" if context.real is np.float32 else "d"
+    return np.ndarray(shape or len(numbers), context.real, pack(f"{len(numbers)}{kind}", *numbers))
 
 
 def _edges_of(context: Context, primitive: Primitive, start: int, end: int) -> np.ndarray | None:
