@@ -8,7 +8,6 @@ they do not carry yet, or with fewer components, submits the collected vertices,
 from __future__ import annotations
 
 import sys
-from struct import pack
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,8 +22,7 @@ from softshadow.state import TEXTURE_UNITS
 
 REST = (0.0, 0.0, 0.0, 1.0)  # default values of components that a call does not set
 TEXCOORDS = tuple(f"texcoord{unit}" for unit in range(TEXTURE_UNITS))
-# attributes by their place in a `ConstantSet`
-PLACES = {name: place for place, name in enumerate(("color", "normal", *TEXCOORDS))}
+ANY_TEXCOORD = frozenset(TEXCOORDS)
 NO_MATERIALS: frozenset[str] = frozenset()
 FEW_VERTICES = 8  # with more collected vertices, a new attribute outside glBegin makes Mesa reset all others
 
@@ -192,37 +190,30 @@ def _cut(primitive: Primitive, n: int) -> Cut:
 
 def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int | None = None) -> Vertices:
     """Return the vertices [start, end) of a primitive; attributes that they do not carry are repeats of one row."""
+    carried, constants = context.vertex_buffer.sizes, constant_attributes(context)
     end = len(primitive) if end is None else end
-    columns = constant_attributes(context).rows(end - start)
-    for name in context.vertex_buffer.sizes:
-        number = PLACES.get(name)
-        if number is not None:
-            columns[number] = _rows(context, primitive, name, start, end)
+    count = end - start
+
+    def rows(name: str) -> np.ndarray:
+        current = context.attribute(name)
+        if not isinstance(current, tuple):
+            return context.packed(primitive.values(name, current)[start:end])
+        width = len(current)
+        return context.packed(primitive.components(name, current)[width * start : width * end], count, width)
+
+    texcoords = constants.texcoords.rows(count)
+    if not ANY_TEXCOORD.isdisjoint(carried):
+        places = enumerate(TEXCOORDS)
+        texcoords = tuple([rows(name) if name in carried else texcoords[place] for place, name in places])
     return create(
         Vertices,
-        position=_packed(context, primitive.positions[4 * start : 4 * end], end - start, 4),
-        color=columns[0],
-        normal=columns[1],
-        texcoords=tuple(columns[2:]),
-        materials={name: _rows(context, primitive, name, start, end) for name in primitive.materials},
+        position=context.packed(primitive.positions[4 * start : 4 * end], count, 4),
+        color=rows("color") if "color" in carried else constants.color.rows(count),
+        normal=rows("normal") if "normal" in carried else constants.normal.rows(count),
+        texcoords=texcoords,
+        materials={name: rows(name) for name in primitive.materials},
         edges=_edges_of(context, primitive, start, end),
     )
-
-
-def _rows(context: Context, primitive: Primitive, name: str, start: int, end: int) -> np.ndarray:
-    """Return an attribute at the vertices [start, end), read-only: (n, components), or (n,) for numbers."""
-    current = context.attribute(name)
-    if not isinstance(current, tuple):
-        return _packed(context, primitive.values(name, current)[start:end])
-    width = len(current)
-    return _packed(context, primitive.components(name, current)[width * start : width * end], end - start, width)
-
-
-def _packed(context: Context, numbers: list[float], *shape: int) -> np.ndarray:
-    """Return numbers as a read-only array in the context's precision; too large ones become infinite."""
-    # in a third of the time of np.array, which looks at each number twice
-    kind = "f" if context.real is np.float32 else "d"
-    return np.ndarray(shape or len(numbers), context.real, pack(f"{len(numbers)}{kind}", *numbers))
 
 
 def _edges_of(context: Context, primitive: Primitive, start: int, end: int) -> np.ndarray | None:
