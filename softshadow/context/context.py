@@ -433,10 +433,16 @@ class Context:
         if name.startswith("texcoord"):
             self.current.texcoords[int(name.removeprefix("texcoord"))] = value
         elif material:
-            self.material(side)[material] = value
-            self._changed.add(self.groups[f"lighting.{side}"])
+            self.set_material(side, material, value)
         else:
             setattr(self.current, name, value)
+
+    def set_material(self, side: str, field: str, value: Any) -> None:
+        """Set a field of the "front" or "back" material, without drawing the collected vertices first."""
+        self._settle()
+        material = self.groups[f"lighting.{side}"]
+        material.fields[field] = value
+        self._changed.add(material)
 
     def remember_attribute(self, name: str) -> None:
         """Remember the current value of an attribute that is about to be set."""

@@ -53,29 +53,25 @@ Followed = tuple[tuple[str, ...], tuple[str, ...], Color]
 class Group:
     """A group of the state: its fields, and its last immutable value.
 
-    `past` holds the latest values: a program that goes back and forth between states gets the same objects again, and
-    what was derived from them.
+    The latest values are kept: a program that goes back and forth between states gets the same objects again, and what
+    was derived from them.
     """
 
-    __slots__ = ("field", "fields", "index", "is_kept", "parent", "parts", "past", "value")
+    __slots__ = ("_equal", "field", "fields", "index", "known", "parent", "parts", "value")
 
     def __init__(self, value: Any, parent: Group | None, field: str, index: int = -1) -> None:
         self.value, self.parent, self.field, self.index = value, parent, field, index
         self.fields: dict[str, Any] = dict(vars(value))
-        self.is_kept = False  # `past` holds the value, or has held it
-        self.parts: list[Group] = []  # groups among the fields: equal ones are the same object
-        # values of the fields, and of the group; -0.0 and 0.0 have the same key
-        self.past: dict[tuple[Any, ...], list[tuple[tuple[Any, ...], Any]]] = {}
+        self.parts: dict[str, list[Group]] = {}  # groups among the fields: equal ones are the same object
+        self.known: dict[tuple[int, ...], Any] = {}  # values by the identity of their fields
+        self._equal: dict[tuple[Any, ...], list[Any]] = {}  # the same values by `_key`
 
     def publish(self) -> bool:
-        """Make the immutable value anew, and store it in the parent's fields; return whether a field has changed."""
-        before, fields = self.value, self.fields
-        if all(map(is_, fields.values(), before.__dict__.values())):
+        """Make the immutable value anew, and store it in the parent's fields; return whether it has changed."""
+        value = self.known.get(tuple(map(id, self.fields.values()))) or self._equal_or_new()
+        if value is self.value:
             return False
-        if all(map(is_same, fields.values(), before.__dict__.values())):
-            fields.update(before.__dict__)
-            return False
-        self.value = value = self._past_or_new()
+        self.value = value
         if self.parent is not None:
             siblings = self.parent.fields
             if self.index >= 0:
@@ -86,48 +82,51 @@ class Group:
 
     def replace(self, value: Any) -> None:
         """Replace the immutable value, and those of the parts that differ."""
-        self.value, self.fields, self.is_kept = value, dict(vars(value)), False
-        for part in self.parts:
-            new = self.fields[part.field]
-            if part.index >= 0:
-                new = new[part.index]
-            if new is not part.value:
-                part.replace(new)
+        before, self.value, self.fields = self.value.__dict__, value, dict(vars(value))
+        for field, parts in self.parts.items():
+            new = self.fields[field]
+            if new is not before[field]:
+                for part in parts:
+                    item = new[part.index] if part.index >= 0 else new
+                    if item is not part.value:
+                        part.replace(item)
 
-    def _past_or_new(self) -> Any:
-        """Return an immutable value with the present fields: a past one if it has the same bits."""
-        values = tuple(self.fields.values())
-        key = self._key(values)
-        for past_values, past in self.past.get(key, ()):
-            if self.parts or all(map(is_same, past_values, values)):
-                self.fields.update(past.__dict__)
-                self.is_kept = True
-                return past
-        before = self.value
-        if not self.is_kept:
-            before_values = tuple(before.__dict__.values())
-            self._keep(self._key(before_values), before_values, before)
-        value = object.__new__(type(before))
+    def _equal_or_new(self) -> Any:
+        """Return an immutable value with the present fields: the last one or an earlier one if it has the same bits."""
+        if self._ids(self.value) not in self.known:
+            self._keep(self.value)
+            if all(map(is_, self.value.__dict__.values(), self.fields.values())):
+                return self.value
+        for value in self._equal.get(self._key(self.fields), ()):
+            if self.parts or all(map(is_same, value.__dict__.values(), self.fields.values())):
+                self.fields.update(value.__dict__)
+                return value
+        value = object.__new__(type(self.value))
         value.__dict__.update(self.fields)
-        self._keep(key, values, value)
-        self.is_kept = True
+        self._keep(value)
         return value
 
-    def _key(self, values: tuple[Any, ...]) -> tuple[Any, ...]:
+    def _keep(self, value: Any) -> None:
+        if len(self.known) == PAST:
+            oldest = self.known.pop(next(iter(self.known)))
+            key = self._key(oldest.__dict__)
+            self._equal[key] = [each for each in self._equal[key] if each is not oldest]
+            if not self._equal[key]:
+                del self._equal[key]
+        self.known[self._ids(value)] = value
+        self._equal.setdefault(self._key(value.__dict__), []).append(value)
+
+    @staticmethod
+    def _ids(value: Any) -> tuple[int, ...]:
+        """Return by what a value is known: no other object gets these ids as long as it is kept."""
+        return tuple(map(id, value.__dict__.values()))
+
+    def _key(self, fields: Mapping[str, Any]) -> tuple[Any, ...]:
         """Return equal keys for equal values; groups are equal if they are the same objects."""
+        values = tuple(fields.values())
         if not self.parts:
             return values
         return tuple([tuple(map(id, value)) if type(value) is tuple else id(value) for value in values])
-
-    def _keep(self, key: tuple[Any, ...], values: tuple[Any, ...], value: Any) -> None:
-        if key not in self.past:
-            if len(self.past) == PAST:
-                del self.past[next(iter(self.past))]
-            self.past[key] = []
-        same_key = self.past[key]
-        if not any(past is value for _, past in same_key):
-            del same_key[PAST - 1 :]
-            same_key.append((values, value))
 
 
 class StateGroups:
@@ -164,7 +163,7 @@ class StateGroups:
     def _add(self, name: str, parent: Group, field: str, index: int = -1) -> None:
         value = parent.fields[field]
         group = self.groups[name] = Group(value[index] if index >= 0 else value, parent, field, index)
-        parent.parts.append(group)
+        parent.parts.setdefault(field, []).append(group)
 
     def snapshot(self) -> State:
         """Return the state; the same object as before if nothing has changed."""
