@@ -136,7 +136,7 @@ def _draw_opaque(
     region, fragments = covered(triangles, region_of(state, target))
     if region.first_row >= region.end_row:
         return
-    forward = choose_forward(plan, state, target, geometry, region, fragments)
+    forward = choose_forward(plan, state, target, geometry, region, fragments, storage)
     if forward:
         forward()
         return
