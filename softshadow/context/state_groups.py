@@ -63,12 +63,14 @@ class Group:
         self.value, self.parent, self.field, self.index = value, parent, field, index
         self.fields: dict[str, Any] = dict(vars(value))
         self.parts: dict[str, list[Group]] = {}  # groups among the fields: equal ones are the same object
-        self.known: dict[tuple[int, ...], Any] = {}  # values by the identity of their fields
-        self._equal: dict[tuple[Any, ...], list[Any]] = {}  # the same values by `_key`
+        # values by the identity of their fields, each with its `_key`
+        self.known: dict[tuple[int, ...], tuple[Any, tuple[Any, ...]]] = {}
+        self._equal: dict[tuple[Any, ...], list[Any]] = {}  # the same values by their key
 
     def publish(self) -> bool:
         """Make the immutable value anew, and store it in the parent's fields; return whether it has changed."""
-        value = self.known.get(tuple(map(id, self.fields.values()))) or self._equal_or_new()
+        known = self.known.get(tuple(map(id, self.fields.values())))
+        value = self._equal_or_new() if known is None else known[0]
         if value is self.value:
             return False
         self.value = value
@@ -94,27 +96,27 @@ class Group:
     def _equal_or_new(self) -> Any:
         """Return an immutable value with the present fields: the last one or an earlier one if it has the same bits."""
         if self._ids(self.value) not in self.known:
-            self._keep(self.value)
+            self._keep(self.value, self._key(self.value.__dict__))
             if all(map(is_, self.value.__dict__.values(), self.fields.values())):
                 return self.value
-        for value in self._equal.get(self._key(self.fields), ()):
+        key = self._key(self.fields)
+        for value in self._equal.get(key, ()):
             if self.parts or all(map(is_same, value.__dict__.values(), self.fields.values())):
                 self.fields.update(value.__dict__)
                 return value
         value = object.__new__(type(self.value))
         value.__dict__.update(self.fields)
-        self._keep(value)
+        self._keep(value, key)
         return value
 
-    def _keep(self, value: Any) -> None:
+    def _keep(self, value: Any, key: tuple[Any, ...]) -> None:
         if len(self.known) == PAST:
-            oldest = self.known.pop(next(iter(self.known)))
-            key = self._key(oldest.__dict__)
-            self._equal[key] = [each for each in self._equal[key] if each is not oldest]
-            if not self._equal[key]:
-                del self._equal[key]
-        self.known[self._ids(value)] = value
-        self._equal.setdefault(self._key(value.__dict__), []).append(value)
+            oldest, its_key = self.known.pop(next(iter(self.known)))
+            self._equal[its_key] = [each for each in self._equal[its_key] if each is not oldest]
+            if not self._equal[its_key]:
+                del self._equal[its_key]
+        self.known[self._ids(value)] = value, key
+        self._equal.setdefault(key, []).append(value)
 
     @staticmethod
     def _ids(value: Any) -> tuple[int, ...]:
@@ -215,7 +217,7 @@ class StateGroups:
         return evolve(lighting, **{side: evolve(getattr(lighting, side), **colors) for side in sides})
 
     def _rounded(self, color: Color) -> Color:
-        return COLOR.unpack(COLOR.pack(*color)) if self._single else color  # type: ignore[return-value]
+        return COLOR.unpack(COLOR.pack(*color)) if self._single else color
 
     def restore(self, state: State) -> None:
         """Replace the state by an immutable one; materials that follow a colour still follow it."""

@@ -234,10 +234,10 @@ def test_alpha_of_block(
     """
     depth_range, ref = DepthRange(low, high), alpha_test[ALPHA_REF]
     if_less, if_equal, if_greater = alpha_test[IF_LESS], alpha_test[IF_EQUAL], alpha_test[IF_GREATER]
-    for n in range(np.uint64(n_fragments)):
-        value = compared_byte(room[alpha + n])
+    for i in range(np.uint64(n_fragments)):
+        value = compared_byte(room[alpha + i])
         result = if_less if value < ref else if_equal
-        whole[MASK + n] = if_greater if value > ref else result
+        whole[MASK + i] = if_greater if value > ref else result
     for s in range(np.uint64(n_spans)):
         t, j = np.uint64(triangles[s]), np.uint64(spans[SPAN_ROW, s])
         n, end, f = np.uint64(spans[SPAN_START, s]), np.uint64(spans[SPAN_START, s + NEXT]), np.uint64(faces_front[t])

@@ -9,6 +9,7 @@ from softshadow.pipeline.records import DepthRange, Region, Setup
 from softshadow.state import Points, State
 
 NO_ATTENUATION = Points().attenuation
+UNIT_RANGES: dict[type, DepthRange] = {real: DepthRange(real(0), real(1)) for real in (np.float32, np.float64)}
 
 
 def region_of(state: State, target: Framebuffer) -> Region:
@@ -37,7 +38,7 @@ def depth_range_of(state: State, real: type) -> DepthRange:
     It is [0, 1]; with GL_DEPTH_CLAMP, the depth range as the viewport's scale and shift give it.
     """
     if not state.depth.clamp:
-        return DepthRange(real(0), real(1))
+        return UNIT_RANGES[real]
     near, far = real(state.viewport.near), real(state.viewport.far)
     scale, shift = real(0.5) * (far - near), real(0.5) * (far + near)
     return DepthRange(min(shift - scale, shift + scale), max(shift - scale, shift + scale))

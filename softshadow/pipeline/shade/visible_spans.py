@@ -32,16 +32,18 @@ def visible_spans(ids: np.ndarray, first_row: int) -> Spans:
     """
     parts = parts_of(len(ids), ROWS_PER_TASK)
     n_visible = share(lambda n: count_visible(ids[slice(*parts[n])]), len(parts))
-    starts = np.cumsum([(0, 0), *n_visible], axis=0)  # the first span and the first fragment of each part
-    spans = _empty_spans(starts[-1, 0])
+    starts = [(0, 0)]  # the first span and the first fragment of each part
+    for n_spans, n_fragments in n_visible:
+        starts.append((starts[-1][0] + n_spans, starts[-1][1] + n_fragments))
+    spans = _empty_spans(starts[-1][0])
 
     def collect(n: int) -> None:
         (first, end), (first_span, first_fragment) = parts[n], starts[n]
-        rows = slice(first_span, starts[n + 1, 0])
+        rows = slice(first_span, starts[n + 1][0])
         collect_visible(ids[first:end], first_row + first, first_fragment, *(array[rows] for array in spans))
 
     share(collect, len(parts))
-    spans.start[-1] = starts[-1, 1]
+    spans.start[-1] = starts[-1][1]
     return spans
 
 
