@@ -429,13 +429,14 @@ class Context:
 
     def set_attribute(self, name: str, value: Any) -> None:
         """Set a current value by its name, without drawing the collected vertices first."""
-        side, _, material = name.partition(".")
-        if name.startswith("texcoord"):
+        current = self.current.__dict__
+        if name in current:
+            current[name] = value
+        elif name.startswith("texcoord"):
             self.current.texcoords[int(name.removeprefix("texcoord"))] = value
-        elif material:
-            self.set_material(side, material, value)
         else:
-            setattr(self.current, name, value)
+            side, _, material = name.partition(".")
+            self.set_material(side, material, value)
 
     def set_material(self, side: str, field: str, value: Any) -> None:
         """Set a field of the "front" or "back" material, without drawing the collected vertices first."""

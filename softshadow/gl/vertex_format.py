@@ -155,7 +155,6 @@ def _wrap(context: Context, primitive: Primitive) -> None:
     """Draw the collected vertices, and keep those that the rest of the primitive needs."""
     if not primitive.positions:
         context.vertex_buffer.submit()
-        primitive.select(())
         return
     _count(context, primitive)
     n = len(primitive)
