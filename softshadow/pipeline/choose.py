@@ -58,6 +58,7 @@ WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volu
 BANDS_PER_THREAD = 2  # more would balance the threads better, but a triangle is set up again in each band that it meets
 FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangle: finding their spans would cost more
 TRIANGLES_OF_QUAD = 2
+SPARSE = 0.3  # fragments for each pixel of their region: from fewer on, most of the search for spans finds nothing
 # draws of so many triangles are cheaper to fill, shading each visible pixel once, than to draw triangle by triangle
 MANY_TRIANGLES = 4096
 LARGE_DRAW = 50_000  # fragments of a draw that counts when the kernels of the fixed function are to be compiled
@@ -329,13 +330,16 @@ def choose_forward(
 ) -> Callable[[], None] | None:
     """Return the function that draws triangle by triangle from coverage to pixels, or None where another way is taken.
 
-    It is for draws in order, for opaque ones of few fragments, and for a large quad that is not drawn again and again:
-    each of its pixels is shaded only once, too. `fragments` is about how many they are; with a `storage`, quads are
-    looked for.
+    It is for draws in order, for opaque ones of few fragments, and where finding visible spans would cost more than it
+    saves: for a quad, or few fragments in a large region; but not if such a draw is made again and again. `fragments`
+    is about how many they are; without a `storage`, only their number decides.
     """
     is_small = fragments <= FEW_FRAGMENTS and _short_cuts.get() != "always"  # which wants its fill to be compiled
-    is_quad = storage is not None and len(geometry.triangles.ids) <= TRIANGLES_OF_QUAD
-    if not plan.forward or not (plan.in_order or is_small or (is_quad and _short_cuts.get() is True)):
+    hides_little = storage is not None and (
+        len(geometry.triangles.ids) <= TRIANGLES_OF_QUAD
+        or fragments < SPARSE * (region.right - region.left) * (region.end_row - region.first_row)
+    )
+    if not plan.forward or not (plan.in_order or is_small or (hides_little and _short_cuts.get() is True)):
         return None
     numbers = forward_state(state, target, geometry)
     if numbers is None or not _are_compiled(fragments):

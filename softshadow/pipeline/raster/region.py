@@ -45,12 +45,13 @@ def depth_range_of(state: State, real: type) -> DepthRange:
 
 
 def covered(triangles: Setup, region: Region) -> tuple[Region, int]:
-    """Return the region cut to the rows that the triangles meet, and about how many fragments they have."""
+    """Return the region cut to the rows and columns that the triangles meet, and about how many fragments they have."""
     parts = parts_of(len(triangles.corners))
     extents = share(lambda n: extent(triangles.corners, *parts[n]), len(parts))
-    firsts, ends, areas = zip(*extents, strict=True)
-    cut = region._replace(first_row=max(region.first_row, min(firsts)), end_row=min(region.end_row, max(ends)))
-    return cut, sum(areas) >> 8
+    firsts, ends, lefts, rights, areas = zip(*extents, strict=True)
+    left, right = max(region.left, min(lefts)), min(region.right, max(rights))
+    rows = max(region.first_row, min(firsts)), min(region.end_row, max(ends))
+    return Region(left, max(left, right), *rows, region.downwards), sum(areas) >> 8
 
 
 def buffer_cells(target: Framebuffer, real: np.dtype, *, writes_depth: bool = True) -> tuple[np.ndarray, np.ndarray]:
