@@ -17,6 +17,7 @@ import numpy as np
 from softshadow import tokens as gl
 
 _writing = Lock()
+BLOCK_SIDE = 4  # texels of a block of a compressed image, in both directions
 PITCH = 32  # rows are padded to whole chunks of 32 pixels: kernels may write past the width, but not into the next row
 
 
@@ -27,7 +28,7 @@ class Format:
     `base` is GL's base internal format, `kind` one of "unorm8", "float", "depth", "stencil". `largest` is the integer
     that represents 1.0 in a fixed-point depth format (0 for float depth), or the largest stencil value. Colours that
     are neither bytes nor single-precision floats have an `encoding` ("unorm", "half" or "srgb") and so many `bits` in
-    R, G, B and A, see `texel_codes`.
+    R, G, B and A, see `texel_codes`; those of signed compressed formats are "snorm", floats in [-1, 1].
     """
 
     base: int
@@ -262,7 +263,8 @@ class Image:
     `internal_format` is the token that the image was created with. A packed depth-stencil format is stored as two
     images: the depth image, and its `stencil`. `version` is a version token: equal tokens, other than None, mean
     identical cells; taking the cells clears it. Whoever takes the cells may write to them until the next command.
-    `tile_bounds` is what the fill stage knows about the cells; it is forgotten with them.
+    `tile_bounds` is what the fill stage knows about the cells; it is forgotten with them. A compressed image also has
+    its `blocks` (rows, columns, bytes), which the cells were decoded from.
     """
 
     format: Format
@@ -275,6 +277,7 @@ class Image:
     tile_bounds: Any = None
     _pending_rows: list[tuple[int, np.ndarray]] = field(default_factory=list)  # (first row, rows)
     slices: int = 1
+    blocks: np.ndarray | None = None
 
     @property
     def cells(self) -> np.ndarray:
@@ -333,8 +336,11 @@ class Image:
     def copy(self) -> Image:
         """Return a copy with cells of its own."""
         stencil = self.stencil.copy() if self.stencil else None
-        cells = self.cells.copy()
-        return Image(self.format, self.width, self.height, cells, self.internal_format, stencil, slices=self.slices)
+        image = Image(
+            self.format, self.width, self.height, self.cells.copy(), self.internal_format, stencil, slices=self.slices
+        )
+        image.blocks = None if self.blocks is None else self.blocks.copy()
+        return image
 
     def is_laid_out_as(self, other: Image) -> bool:
         """Return whether the other image has the same size, format and internal format."""

@@ -21,7 +21,7 @@
 #
 # A point is in shadow if the light does not see it. Finding shadows is therefore the problem of hidden surfaces once
 # more, with the light in place of the eye. An **occluder** hides the light from a **receiver**. A face that looks away
-# from the light is in its **own** shadow; where something else is between, the shadow is **cast**.
+# from the light is in its **own** shadow; where another surface lies between, the shadow is **cast**.
 
 # %%
 import warnings
@@ -39,7 +39,7 @@ run = ss.run("volume-zfail", scene, size=size)
 # %% [markdown]
 # ## Own and cast
 #
-# The run knows the kind of shadow at each pixel: 0 none, 1 own, 2 cast.
+# `shadow_kinds` returns the kind of shadow at each pixel: 0 none, 1 own, 2 cast.
 
 # %%
 kinds = run.shadow_kinds()
@@ -49,8 +49,8 @@ for kind, name in enumerate(("lit", "own shadow", "cast shadow")):
 # %% [markdown]
 # ## The slide and the program
 #
-# All techniques of the courses have the same frame around them: the scene without the light, then what finds the
-# shadows, then the light where there are none. The first step of the Bucharest program:
+# Shadow volumes and shadow maps have three parts: draw the scene without the light, find the shadows, and add the light
+# where there are none. The first step of the Bucharest program:
 
 # %%
 lessons.code_beside_slide("volume-zpass", step=0)
@@ -64,7 +64,7 @@ axes = ss.notebook.show_steps(run)
 # %% [markdown]
 # ## Click a pixel
 #
-# Ask for pixels at the foot of a box, on its dark side, on the floor behind it. The sentence above the table names the
+# Click at the foot of a box, on its dark side, and on the floor behind it. The sentence above the table names the
 # caster.
 
 # %%
@@ -94,8 +94,8 @@ lessons.compare_prediction(
 # %% [markdown]
 # ## Why shadows matter
 #
-# The same picture with shadows at other places shows objects at other heights (the slides' perception demonstration,
-# Barcelona, lines 21-34). Without a shadow, the position of an object over the floor cannot be seen at all.
+# If only the shadows of a picture are moved, its objects seem to be at other heights (the demonstration of perception
+# on the Barcelona slides, lines 21-34). Without a shadow, nobody can tell how high an object is above the floor.
 
 # %%
 torus = ss.Scene.named("torus")
@@ -128,8 +128,8 @@ for name in ("factor-on-whole-color", "missing-clear"):
 # %% [markdown]
 # ## Exercise
 #
-# Write the colour of a point: `emission` and `ambient` are always there; `lights` has, for each light, its direct part
-# and whether it is visible (1 or 0). One channel, at most 1.
+# Write the colour of a point, in one channel, at most 1. `emission` and `ambient` are always there. `lights` has a pair
+# for each light: its direct part, and whether the point sees it (1 or 0).
 
 
 # %%

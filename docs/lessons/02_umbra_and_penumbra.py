@@ -19,9 +19,9 @@
 # **Slides.** Barcelona (Andújar 2021), lines 37-54 and the quiz in lines 676-686. Bratislava (Zimányi & Valient 2004),
 # lines 55-70.
 #
-# A **point** light is seen or not seen from a place: there is only lit and **umbra**, full shadow. An **area** light
-# may be seen in part: that is the **penumbra**. For a light of width s at the distance d_r from the receiver, and the
-# edge of an occluder at the distance d_b from the light, all parallel, similar triangles give the width of the
+# A point of a surface either sees a **point** light or does not: it is lit or in the **umbra**, the full shadow. It may
+# see an **area** light in part: then it is in the **penumbra**. Let a light of width s, the edge of an occluder at the
+# distance d_b from it, and a receiver at the distance d_r be parallel. Then similar triangles give the width of the
 # penumbra:
 #
 #     w = s · (d_r − d_b) / d_b
@@ -56,7 +56,8 @@ ax = ss.notebook.show_map(truth.visibility, "visibility", title="Visible share")
 # %% [markdown]
 # ## The slide and the program
 #
-# No listing of the courses draws soft shadows. The hard program that all of them start from has one light at one point:
+# No listing of the courses draws soft shadows. Soft techniques start from a program for hard shadows, which has one
+# light at one point:
 
 # %%
 lessons.code_beside_slide("volume-zpass", step=3)
@@ -134,7 +135,8 @@ lessons.compare_prediction(
 )
 
 # %% [markdown]
-# "Bring them closer together" does not say who moves (E54); the formula covers every case.
+# The slides also let occluder and receiver come closer (line 53), but do not say which of them moves (E54). The formula
+# covers every case.
 #
 # ## The buffers after each step
 #
@@ -148,8 +150,8 @@ axes = ss.notebook.show_steps(one)
 # %% [markdown]
 # ## What goes wrong, and its cure
 #
-# Few samples show as bands. And the corners of the light do not stand for the light between them: four samples at the
-# corners give five grey levels, and call a point lit although a part of the light is hidden (E26).
+# If there are few samples, bands are visible. And the corners of a light are not the whole light: four samples at the
+# corners give five grey levels, and count a point as lit although a part of the light is hidden (E26).
 
 # %%
 for name in ("banding", "corners-only"):
@@ -160,8 +162,8 @@ for name in ("banding", "corners-only"):
 # %% [markdown]
 # ## Exercise
 #
-# Write the width of the penumbra and of the umbra's loss. `s` is the width of the light, `d_b` and `d_r` are the
-# distances of occluder and receiver from the light.
+# Write the width of the penumbra. `s` is the width of the light, `d_b` and `d_r` are the distances of occluder and
+# receiver from the light.
 
 
 # %%

@@ -48,12 +48,12 @@ for d in (1, 2, 5, 10, 50, 100):
     print(f"{d:8}  {window_depth(d, 0.1, 100):16.4f}  {window_depth(d, 1, 100):14.4f}")
 
 # %% [markdown]
-# With the near plane at 0.1, half of all depths belong to the first 10 centimetres behind it.
+# With the near plane at 0.1, half of all depths belong to the first 0.1 units behind it.
 #
 # ## The slide and the program
 #
-# A shadow needs the depth buffer twice or more: a second drawing of the same surface must pass. The Barcelona program
-# draws depth alone first:
+# A shadow technique draws the same surfaces twice or more, and the second drawing must pass the depth test. The
+# Barcelona program draws the depth alone first:
 
 # %%
 lessons.code_beside_slide("volume-five-passes", step=0)

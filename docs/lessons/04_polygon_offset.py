@@ -18,14 +18,14 @@
 #
 # **Slides.** Barcelona (Andújar 2021), lines 100-145, and the quizzes in lines 648-665 and 690-703.
 #
-# Two polygons in one plane have equal depths only in theory. Their vertices differ, so rounding differs from pixel to
-# pixel, and the depth test lets now one of them pass, now the other: **z-fighting**. `glPolygonOffset(factor, units)`
-# adds a small number to the depth of each fragment of a polygon:
+# Two polygons in one plane have equal depths only in theory. Their vertices differ, so their depths are rounded
+# differently. At one pixel the first polygon is nearer, at the next pixel the second: **z-fighting**.
+# `glPolygonOffset(factor, units)` adds a small number to the depth of each fragment of a polygon:
 #
 #     offset = factor · m + units · r
 #
-# m is the larger of |∂z/∂x| and |∂z/∂y|, and r the smallest difference that the depth buffer surely tells apart. A
-# positive offset moves the polygon away from the eye.
+# m is the larger of |∂z/∂x| and |∂z/∂y|, and r the smallest difference that is certain to give two different values in
+# the depth buffer. A positive offset moves the polygon away from the eye.
 
 # %%
 from IPython.display import display
@@ -36,9 +36,9 @@ from softshadow import lessons, listings, testing
 # %% [markdown]
 # ## The slide and the program
 #
-# The Barcelona slides print the formula twice, once with units divided by r, once multiplied (E30), and without
-# absolute values (E31). The listing `offset-formula` applies it by hand, to a quad whose depth falls towards the right
-# and to one whose depth rises:
+# The Barcelona slides print the formula twice, with units divided by r and with units multiplied by r (E30), and
+# without absolute values (E31). The listing `offset-formula` applies it by hand, to a quad whose depth falls towards
+# the right and to one whose depth rises:
 
 # %%
 lessons.code_beside_slide("offset-formula", step=0)
@@ -80,7 +80,7 @@ lessons.compare_prediction(
 # %% [markdown]
 # ## The size of a unit
 #
-# On this rasterizer, as on Mesa, r is 2/(2²⁴ − 1) for a depth buffer of 24 bits: two steps, "surely told apart" (E32).
+# On this rasterizer, as on Mesa, r is 2/(2²⁴ − 1) for a depth buffer of 24 bits: two steps (E32).
 # Draw a square that faces the eye (m = 0) and read the depth buffer:
 
 
@@ -105,7 +105,7 @@ for units in (0, 1, 2, 10):
 # %% [markdown]
 # ## The second quiz: a skeleton seen through its skin
 #
-# A skeleton stands inside a closed skin and must be visible in any case (Barcelona, lines 690-703). The slides offer
+# A skeleton inside a closed skin must always be visible (Barcelona, lines 690-703). The slides offer
 # four calls and reject all of them; then they split the depth range: the skeleton gets 0 to 0.5, the skin 0.5 to 1, so
 # every depth of the skeleton is nearer.
 
@@ -131,7 +131,8 @@ print(
 
 # %% [markdown]
 # Option (a), the depth test off, fails only because the skin is drawn *last*. If the skeleton is drawn last with the
-# depth test off, it is seen, too (E45), but its own faces are not sorted: some of its back shows through its front.
+# depth test off, it is visible as well (E45), but its own faces are not sorted: parts of its back show through its
+# front.
 #
 # ## What goes wrong, and its cure
 

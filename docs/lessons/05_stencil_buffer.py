@@ -25,7 +25,8 @@
 # - `glStencilOp(sfail, zfail, zpass)` is the **update**. It names three operations: for fragments that fail the stencil
 #   test, for those that pass it and fail the depth test, and for those that pass both.
 #
-# Where the depth test is disabled, `zpass` counts. The update happens whether or not the test compares anything.
+# If the depth test is disabled, `zpass` applies. The update takes place for any `func`, also for `GL_ALWAYS` and
+# `GL_NEVER`, which compare nothing.
 
 # %%
 import numpy as np
@@ -68,7 +69,7 @@ lessons.clickable(run)
 # %% [markdown]
 # ## Predict, then run
 #
-# Take the pixel in the middle, where the quads overlap. What is its stencil value at the end, and which colour has it?
+# Take the pixel in the middle, where the quads overlap. What is its stencil value at the end, and what is its colour?
 # Replace the three dots.
 
 # %%
@@ -100,8 +101,8 @@ run.pixel(x, y)
 # %% [markdown]
 # ## What the mask of the test does not do
 #
-# `GL_REPLACE` writes the whole reference value. The mask of `glStencilFunc` cuts only the comparison; only
-# `glStencilMask` cuts what is written. Predict the value that a quad writes with the reference 7 and the mask 1:
+# `GL_REPLACE` writes the whole reference value. The mask of `glStencilFunc` limits only the comparison; only
+# `glStencilMask` limits what is written. Predict the value that a quad writes with the reference 7 and the mask 1:
 
 # %%
 my_value = ...
@@ -126,9 +127,10 @@ lessons.compare_prediction(
 # %% [markdown]
 # ## The quiz of the slides
 #
-# *What is glStencilFunc for?* (Barcelona, lines 667-674.) Answer (a): it decides which fragments pass. Answer (d), that
-# its reference has nothing to do with what is written, is not quite right: `GL_REPLACE` writes it, as you have just
-# seen (E44). The decision can be demonstrated: with `GL_NEVER` no fragment passes, whatever the operations are.
+# *What is glStencilFunc for?* (Barcelona, lines 667-674.) Answer (a) is right: it decides which fragments pass. Answer
+# (d), that it determines the values to write, is crossed out on the slide in favour of `glStencilOp`. It is not quite
+# wrong: `GL_REPLACE` writes the reference of `glStencilFunc`, as you have just seen (E44). Answer (a) can be
+# demonstrated: with `GL_NEVER` no fragment passes, whatever the operations are.
 
 
 # %%
@@ -160,7 +162,7 @@ display(failure)
 print(failure.explain())
 
 # %% [markdown]
-# The write mask is also obeyed by `glClear`; the test is not (Barcelona, lines 224-226). The listing `stencil-setup`
+# `glClear` obeys the write mask, but not the test (Barcelona, lines 224-226). The listing `stencil-setup`
 # shows both: a clear to 255 under `GL_NEVER` changes all bits, a clear to 0 under `glStencilMask(0x0F)` only four.
 
 # %%

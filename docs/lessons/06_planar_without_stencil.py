@@ -19,7 +19,7 @@
 #
 # Flatten the caster onto the floor by a matrix, draw it dark, and it looks like a shadow (Blinn 1988). Three draws: the
 # floor, the flattened caster, the caster. Still simpler, and older, is the *blob*: a dark ellipse below the object,
-# which knows nothing of the light.
+# which does not depend on the light.
 
 # %%
 import warnings
@@ -44,7 +44,7 @@ lessons.code_beside_slide("planar", step=1)
 
 # %% [markdown]
 # With the depth test off, nothing keeps the shadow behind nearer objects, and nothing ends it at the edge of the floor
-# (E33). It works only because nothing but the floor has been drawn yet: the order is receiver, shadow, casters (E60).
+# (E33). It works only because the floor alone has been drawn so far: the order is receiver, shadow, casters (E60).
 #
 # ## The buffers after each step
 
@@ -115,6 +115,7 @@ def shadow_of(x, y, l_y):
 
 # %%
 cases = [((1, 2, 4), 2.0), ((1, 0, 4), 1.0), ((0, 3, 4), 0.0), ((-1, 1, 4), -4 / 3)]
+cases += [((1, 4, 4), None), ((2, 5, 4), None)]
 lessons.check_function(shadow_of, cases, within=1e-12)
 
 # %% [markdown]

@@ -62,7 +62,8 @@ lessons.clickable(run)
 # %% [markdown]
 # ## Predict, then run
 #
-# Two layers of a box cover one pixel of its shadow. What is the stencil value after the first layer, after the second?
+# Two layers of a box cover one pixel of its shadow. What is the stencil value after the first layer, and after the
+# second?
 
 # %%
 my_first, my_second = ..., ...
@@ -98,7 +99,8 @@ for name in ("z-fighting", "shadow-outside-receiver", "double-blending"):
 # %% [markdown]
 # ## What stays wrong
 #
-# Receivers must be planar, one pass and one matrix for each; no object shadows itself or another one; the edge is hard.
+# Receivers must be planar, and each needs a pass and a matrix of its own. No object casts a shadow on itself or on
+# another one. The edge is hard.
 # The ray caster shows what is missing:
 
 # %%

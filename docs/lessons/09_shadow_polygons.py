@@ -13,7 +13,7 @@
 # %% [markdown]
 # # 9. Shadow polygons
 #
-# **Goal.** You know the shadows that are computed in the scene itself, not in the picture: once, for every camera.
+# **Goal.** You know how shadows are computed in the scene itself, not in the picture: once, for all cameras.
 #
 # **Slides.** Bucharest (Moldoveanu 2021), lines 32-71.
 #
@@ -99,7 +99,7 @@ for form in ("faces", "silhouettes"):
 # %% [markdown]
 # ## Independent of the camera
 #
-# The polygons are computed in world space. Another camera draws the same ones, and the shadows are right there, too:
+# The polygons are computed in world space. Another camera draws the same ones, and its shadows are right as well:
 
 # %%
 elsewhere = ss.Scene(
@@ -117,11 +117,12 @@ for name in ("painting-over-nearer", "modulative-lights"):
     print(failure.reason)
 
 # %% [markdown]
-# The cost is the reason why nobody draws large scenes like this: every face is compared with every other one.
+# Large scenes are not drawn like this, because every face is compared with every other one.
 #
 # ## Exercise
 #
-# Which kind of shadow has a point? `facing`: its face looks towards the light; `blocked`: something lies between.
+# In which kind of shadow is a point? `facing`: its face looks towards the light; `blocked`: another surface lies
+# between.
 
 
 # %%

@@ -17,9 +17,9 @@
 #
 # **Slides.** Bratislava (Zimányi & Valient 2004), lines 211-268. Bucharest (Moldoveanu 2021), lines 93-126.
 #
-# In two dimensions a caster is a segment, its volume is the region behind it, bounded by the segment and two rays. Draw
-# a line from the eye to a point. Where it enters a volume write +1, where it leaves one −1. If the eye is in no volume,
-# the sum is the number of volumes around the point; the point is in shadow if the sum is not 0.
+# In two dimensions a caster is a segment. Its volume is the region behind it, bounded by the segment and two rays. Draw
+# a line from the eye to a point. Where it enters a volume, write +1, and where it leaves one, −1. If the eye is in no
+# volume, the sum is the number of volumes around the point. The point is in shadow if the sum is not 0.
 
 # %%
 import warnings
@@ -48,7 +48,7 @@ ax = ss.notebook.show_section(run, (x, y))
 # ## The slide and the program
 #
 # The Bratislava slides call it an in-out counter. As printed, a point is in shadow if the counter is ≥ 0, which is
-# always so (E20):
+# always true (E20):
 
 # %%
 lessons.code_beside_slide("volume-counter", step=2)
@@ -81,10 +81,10 @@ lessons.compare_prediction("What is the sum?", my_sum, int(run.stencil[y, x]))
 # `softshadow cards volume-zpass --scene overlapping -n 6` prints six such pixels with empty fields, and the answers on
 # the back.
 #
-# ## Which start?
+# ## The start of the count
 #
-# If the eye is inside a volume, the sum is too small by the number of volumes around the eye. The Bucharest slides
-# start the counter there. The stencil buffer starts at the *near plane* instead, see lesson 12.
+# If the eye is inside a volume, the sum is too small by the number of volumes around the eye. So the Bucharest slides
+# start the counter with this number. A count in the stencil buffer begins at the *near plane* instead: see lesson 12.
 #
 # ## What goes wrong, and its cure
 

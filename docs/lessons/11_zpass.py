@@ -121,8 +121,8 @@ print(
 #
 # ## Five passes instead of four
 #
-# The Barcelona slides first draw depth alone, then count, then draw the scene dark and lit. The result has the same
-# shadows. The cost is one more pass over the scene:
+# The Barcelona slides first draw the depth alone, then count, then draw the scene dark and lit. The shadows are the
+# same. The scene is drawn once more than in the run of this page, whose passes are:
 
 # %%
 run.ledger
@@ -131,7 +131,7 @@ run.ledger
 # ## What goes wrong, and its cure
 #
 # The Barcelona listing tests only the lowest bit of the count: `glStencilFunc(GL_EQUAL, 0, 1)`. Where two volumes
-# overlap, the count is 2, its lowest bit is 0, and the point reads as lit (E38).
+# overlap, the count is 2, its lowest bit is 0, and the point counts as lit (E38).
 
 # %%
 failure = ss.failures["mask-1"]

@@ -20,7 +20,8 @@
 #
 # Z-pass counts the faces between the eye and the surface. More exactly: between the **near plane** and the surface,
 # since nothing in front of the near plane is drawn. If the line of sight begins inside a volume, the face through which
-# it would have entered is behind the beginning. It is never counted, and every count on this line is one too low.
+# it enters this volume lies before the beginning. The face is never counted, and every count on this line is one too
+# low.
 
 # %%
 import warnings
@@ -37,7 +38,7 @@ run = ss.run("volume-zpass", scene, size=(320, 240))
 run
 
 # %% [markdown]
-# The technique does what the slide says, but it does not stay silent:
+# The technique does what the slide says, and it warns:
 
 # %%
 for warning in run.warnings:
@@ -114,8 +115,8 @@ for name in ("eye-in-shadow", "constant-eye-count"):
 # %% [markdown]
 # ## Exercise
 #
-# How far may the eye move before z-pass with `start="none"` is wrong? Write a test: it gets a scene and returns whether
-# a volume touches the near rectangle. Hint: `run.warnings` of a z-pass run has a `NearClipZPass` exactly then.
+# Write a test that tells whether a scene is too difficult for z-pass with `start="none"`: it returns whether a volume
+# touches the near rectangle. Hint: `run.warnings` of a z-pass run has a `NearClipZPass` exactly then.
 
 
 # %%

@@ -69,7 +69,7 @@ my_wrong = ...
 compared = run.compare(truth="hard")
 wrong = int((compared.error > 0)[~compared.band].sum())
 lessons.compare_prediction(
-    "How many pixels are wrong?", my_wrong, wrong, "Z-fail does not ask where the eye is."
+    "How many pixels are wrong?", my_wrong, wrong, "Z-fail counts from infinity."
 )
 
 # %% [markdown]
@@ -104,11 +104,11 @@ for far in ("infinite", "clamp", "finite"):
     print(f"far={far!r}: {compared.parts['all'].wrong} pixels differ from ray casting")
 
 # %% [markdown]
-# ## Both counts are one
+# ## The two counts compared
 #
-# Z-pass and z-fail count different faces, but the whole line of sight crosses every closed volume as often inwards as
-# outwards. So both counts differ by the start of z-pass only: zpass + N(near) = zfail, where N(near) is the number of
-# volumes around the beginning of the line. Where no volume touches the near rectangle they are equal:
+# Z-pass and z-fail count different faces. But a whole line, without beginning and end, enters every closed volume as
+# often as it leaves it. So the counts differ only by the start of z-pass: zpass + N(near) = zfail, where N(near) is the
+# number of volumes around the beginning of the line. Where no volume touches the near rectangle, they are equal:
 
 # %%
 torus = ss.Scene.named("torus")

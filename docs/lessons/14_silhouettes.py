@@ -49,8 +49,8 @@ for generator in ("silhouette", "per-polygon"):
     )
 
 # %% [markdown]
-# Both give the same counts? Not the same numbers in the stencil buffer between the steps, but the same shadows. The
-# program of the slides extrudes every occluder by its silhouette:
+# Both give the same shadows, although the numbers in the stencil buffer differ between the steps. The program of the
+# slides extrudes the silhouette of every occluder:
 
 # %%
 lessons.code_beside_slide("volume-zpass", step=1)
@@ -74,8 +74,8 @@ axes = ss.notebook.show_steps(run)
 # %% [markdown]
 # ## Predict, then run
 #
-# In a closed mesh every edge belongs to two faces. How many edges have the torus's triangles, and how many faces look
-# towards the light, roughly: half of them, nearly all, or few?
+# In a closed mesh every edge belongs to two faces. How many edges do the triangles of the torus have? And roughly how
+# many of its faces look towards the light: half of them, nearly all, or few?
 
 # %%
 my_edges = ...  # from the number of triangles below
@@ -105,9 +105,9 @@ display(
 # %% [markdown]
 # ## Open meshes
 #
-# A sheet has edges with only one face. They are silhouette edges, always. A sheet also blocks the light if the light
-# shines on its back, so *all* faces of an open mesh cast, turned towards the light, once for each layer (E13). The tube
-# below has no lids:
+# A sheet has edges with only one face. Such an edge is always a silhouette edge. A sheet also blocks the light if the
+# light shines on its back. So *all* faces of an open mesh cast shadows: those that look away are turned round, and
+# every layer counts once (E13). The tube below has no lids:
 
 # %%
 tube = ss.run("volume-zfail", "open-tube", size=size)
@@ -119,7 +119,7 @@ print(tube.compare(truth="hard"))
 # ## What goes wrong, and its cure
 #
 # An edge that is divided on one side only, a *T-junction*, is not one edge for the program, and the volume gets a
-# crack. Models from files often have vertices that are stored twice, with two normals: they have to be taken as one.
+# crack. Models from files often have vertices that are stored twice, with two normals: they have to be treated as one.
 
 # %%
 for name in ("t-junction-leak", "open-mesh-leak", "open-mesh-parity"):

@@ -19,8 +19,8 @@
 # **Slides.** Barcelona (Andújar 2021), lines 398-492. Bucharest (Moldoveanu 2021), lines 195-236. Bratislava (Zimányi &
 # Valient 2004), lines 261-268.
 #
-# The stencil buffer has eight bits, so a count can be told from another one only if they differ by less than 256. With
-# one bit, only even and odd can be told apart. And `GL_INCR` and `GL_DECR` do not wrap around: they stop at 255 and at
+# The stencil buffer has eight bits, so two counts that differ by 256 look the same. With one bit, only even and odd can
+# be told apart. And `GL_INCR` and `GL_DECR` do not wrap around: they stop at 255 and at
 # 0, so the order matters.
 
 # %%
@@ -89,7 +89,7 @@ for warning in parity.warnings:
 
 # %% [markdown]
 # For one closed caster whose volume does not overlap itself, parity is exactly right: a line of sight enters and leaves
-# it in turn. A convex caster always is such a one.
+# it in turn. This holds for every convex caster.
 
 # %%
 one = ss.Scene(
@@ -108,7 +108,7 @@ print(
 # ## What goes wrong, and its cure
 #
 # `GL_DECR` stops at 0. If a back face is counted before the front face, the decrement is lost, and the increment that
-# follows leaves a 1 too much (E11). Wrapping operations do not care about the order.
+# follows leaves a count that is too large by 1 (E11). With wrapping operations the order does not matter.
 
 # %%
 for name in ("decr-before-incr", "overflow-256", "parity-overlap"):

@@ -64,7 +64,7 @@ lessons.clickable(run)
 # ## From the pixel to the texel, by hand
 #
 # The chain of spaces: world → light's view → clip → divide by w → scale and shift from [−1, 1] to [0, 1]. The slides
-# write the last three as one texture matrix (Barcelona, lines 559-575): ½·scale-and-shift × projection × view.
+# write all but the division as one texture matrix (Barcelona, lines 559-575): scale and shift by ½ × projection × view.
 
 # %%
 y, x = (int(n) for n in np.argwhere(run.shadow_mask)[run.shadow_mask.sum() // 2])
@@ -116,9 +116,9 @@ assert (again.maps["ZS"] == run.maps["ZS"]).all()
 # %% [markdown]
 # ## What goes wrong, and its cure
 #
-# The first lecture of the Bucharest course has only the light's *view* matrix between point and texel: projection,
-# division by w and the scale to texels are missing (E50). And nobody says that the map must be cleared to the largest
-# depth first (E51).
+# The Bucharest slides ("umbre 2") have only the light's *view* matrix between point and texel: projection, division by
+# w and the scale to texels are missing (E50). Nor do they say that the map must be cleared to the largest depth first
+# (E51).
 
 # %%
 for name in ("light-view-only", "map-not-cleared", "edge-smear"):
@@ -144,6 +144,8 @@ cases = [
     (((0.0, 0.0, 0.0, 1.0), 256), (128, 128, 0.5)),
     (((-1.0, -1.0, -1.0, 1.0), 256), (0, 0, 0.0)),
     (((1.0, 0.5, 1.0, 2.0), 4), (3, 2, 0.75)),
+    (((0.0, 0.0, 0.0, -1.0), 256), None),
+    (((3.0, 0.0, 0.0, 2.0), 256), None),
 ]
 lessons.check_function(texel_of, cases, within=1e-12)
 

@@ -19,7 +19,7 @@
 #
 # The edge of a shadow map's shadow has steps as large as a texel. Colour textures hide their texels by *filtering*: the
 # mean of the neighbouring texels. For depths this is wrong: the mean of a near and a far depth is the depth of a
-# surface that does not exist. Percentage-closer filtering (Reeves, Salesin and Cook 1987) turns the order round: first
+# surface that does not exist. Percentage-closer filtering (Reeves, Salesin and Cook 1987) reverses the order: first
 # compare, then take the mean of the results.
 
 # %%
@@ -94,8 +94,8 @@ for kernel in (1, 3, 5, 9):
 # %% [markdown]
 # ## What goes wrong, and its cure
 #
-# The bias theorem of the last lesson spoke of one texel. A filter compares texels that are farther away, so it needs as
-# many times the slope offset.
+# The bias theorem of the last lesson is about one texel. A filter compares with texels that are farther away, so its
+# slope offset must grow with its width.
 
 # %%
 for name in ("jagged-edges", "linear-filtered-depth", "pcf-bias", "constant-width"):

@@ -59,7 +59,8 @@ lessons.clickable(run)
 # %% [markdown]
 # ## Predict, then run
 #
-# A plain map has how many times as many wrong pixels on the floor, with 64 × 64 texels: about 1, 3, or 10 or more?
+# Both maps have 64 × 64 texels. How many times as many wrong pixels does the plain map have on the floor: about 1, 3,
+# or 10 or more?
 
 # %%
 my_factor = ...  # 1, 3 or 10

@@ -18,9 +18,9 @@
 #
 # **Slides.** Bratislava (Zimányi & Valient 2004), lines 42-51, 121-126 and 312-322.
 #
-# Replace the area light by n points, draw n hard shadows, and take the mean. Every hard technique can do it: flattened
-# casters (Heckbert and Herf 1997), volumes (Brotman and Badler 1984), maps. The visibility has n + 1 values, so the
-# shadow has n + 1 shades.
+# Replace the area light by n points, draw n hard shadows, and take the mean. Every hard technique can be used:
+# flattened casters (Heckbert and Herf 1997), volumes (Brotman and Badler 1984), maps. The visibility has n + 1 values,
+# so the shadow has n + 1 shades.
 
 # %%
 import warnings
@@ -38,7 +38,8 @@ truth = ss.soft_truth(scene, size)
 # %% [markdown]
 # ## The slide and the program
 #
-# The courses have no listing. Each point of the light is a frame of one that they have, such as the stencil count:
+# The courses have no listing of it. Each point of the light takes one frame of a hard technique, such as the stencil
+# count:
 
 # %%
 lessons.code_beside_slide("volume-zpass", step=1)

@@ -40,8 +40,8 @@ truth = ss.soft_truth(scene, size)
 # %% [markdown]
 # ## The slide and the program
 #
-# The slides that introduce wedges are lost, and those on their rasterization are empty. The first half is the stencil
-# count that you know:
+# The slides that introduce wedges are missing, and those on their rasterization are empty. The first half is the
+# stencil count of the lessons before:
 
 # %%
 lessons.code_beside_slide("volume-zpass", step=1)

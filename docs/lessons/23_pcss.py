@@ -20,8 +20,8 @@
 # lines 324-401) and the width of the penumbra (Barcelona, Andújar 2021, lines 43-54).
 #
 # Percentage-closer filtering blurs every edge by the same width. A penumbra has the width w = s · (d_r − d_b)/d_b. A
-# shadow map knows d_r, the depth of the point, and d_b, the depth that it stores. So: search the neighbourhood for
-# blockers, take the mean of their depths, compute w, and filter as widely as that (Fernando 2005).
+# lookup in a shadow map has both distances: d_r is that of the point, d_b the stored one. So: search the neighbourhood
+# for blockers, take the mean of their depths, compute w, and filter as widely as that (Fernando 2005).
 
 # %%
 import warnings
@@ -97,7 +97,7 @@ lessons.compare_prediction(
 )
 
 # %% [markdown]
-# ## How right is it?
+# ## How exact is it?
 
 # %%
 for technique in ("map", "map-pcf", "map-pcss"):
@@ -112,8 +112,8 @@ for technique in ("map", "map-pcf", "map-pcss"):
 #
 # ## What goes wrong, and its cure
 #
-# Two blockers at different distances count as one between them. And a light that is partly hidden by what the map does
-# not store, because something else is nearer, is not seen at all.
+# Two blockers at different distances count as one between them. And a blocker that the map does not store, because
+# another one is nearer to the light, has no effect.
 
 # %%
 for name_of_failure in ("mean-blocker", "constant-width"):

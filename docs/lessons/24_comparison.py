@@ -18,7 +18,7 @@
 # **Slides.** Barcelona (Andújar 2021), lines 796-803: the final table, filled in by hand. Bucharest (Moldoveanu 2021),
 # lines 359-369. Bratislava (Zimányi & Valient 2004), lines 290-310.
 #
-# The last slide of the Barcelona course asks four questions of each technique. Here the answers come from running it.
+# The last slide of the Barcelona course asks four questions of each technique. Here the answers come from running them.
 
 # %%
 import warnings
@@ -130,7 +130,7 @@ axes = ss.notebook.show_steps(runs["map"])
 lessons.clickable(runs["volume-zfail"])
 
 # %% [markdown]
-# ## What goes wrong with which
+# ## What goes wrong with each
 #
 # Planar shadows fall on planes only. Counting needs closed casters and a start. Maps need a frustum, a bias and texels.
 # The gallery has a picture of each:

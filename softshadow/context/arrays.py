@@ -13,6 +13,7 @@ from softshadow import tokens as gl
 
 CACHE_BYTES = 256 << 20  # of each cache: a few meshes of a million triangles
 CACHE_ENTRIES = 4096
+INITIAL_SIZES = {"secondary": 3}  # of arrays that do not begin with 4 components
 
 
 @dataclass(frozen=True)
@@ -155,8 +156,9 @@ class BufferObject:
 class ClientArrays:
     """Vertex arrays: which are enabled, the array or buffer of each, and what draws have read from them.
 
-    Names are "position", "color", "normal", "texcoord0" ... `active` holds the arrays that a draw reads, position
-    first; None after a change. `constants` are the attributes without an array as the last draw had them.
+    Names are keys of `gl.vertex_arrays.SLOTS`: "position", "color", "texcoord0" ... `active` holds the arrays that a
+    draw reads, position first; None after a change. `constants` are the attributes without an array as the last draw
+    had them.
     """
 
     enabled: set[str] = field(default_factory=set)
@@ -174,4 +176,4 @@ class ClientArrays:
 
     def layout(self, name: str) -> ArrayLayout:
         """Return the layout of an array; before its first pointer call, GL's initial one."""
-        return self.layouts.get(name, ArrayLayout())
+        return self.layouts.get(name) or ArrayLayout(INITIAL_SIZES.get(name, 4))

@@ -15,6 +15,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context.arrays import BufferObject, ClientArrays
+from softshadow.context.color_indices import ColorIndices
 from softshadow.context.evaluators import EvaluatorSettings, initial_maps
 from softshadow.context.kept_materials import with_kept_materials
 from softshadow.context.matrix_stacks import MatrixStack
@@ -35,7 +36,7 @@ from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
 from softshadow.pixel_transfer import PixelTransfer
 from softshadow.programs import Program
-from softshadow.state import TEXTURE_UNITS, Lighting, State
+from softshadow.state import BLACK, TEXTURE_UNITS, Lighting, State
 
 NO_UNIFORMS: Mapping[str, Any] = {}
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
@@ -43,7 +44,7 @@ MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE:
 
 @dataclass
 class CurrentVertex:
-    """The current colour, normal, texture coordinates and edge flag of new vertices, and the raster position."""
+    """The current attributes of new vertices, and the raster position."""
 
     color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
@@ -52,6 +53,9 @@ class CurrentVertex:
     )
     raster: RasterPosition = INITIAL_RASTER_POSITION
     edge: bool = True  # whether vertices begin an edge that glPolygonMode draws
+    secondary: tuple[float, float, float, float] = BLACK
+    fog_coordinate: float = 0.0
+    index: float = 1.0  # of a colour, which nothing is drawn with
 
 
 @dataclass
@@ -151,10 +155,12 @@ class Context:
         self.hints: dict[int, int] = {}  # those that are not GL_DONT_CARE
         self.pack_store, self.unpack_store = PixelStore(), PixelStore()
         self.pixel_zoom = (1.0, 1.0)
+        self.color_indices = ColorIndices()
         self.pixel_transfer = PixelTransfer()
         self.proxies: dict[tuple[int, int], Image] = {}  # by (target, level): images without cells
         # the highest name returned by glGen*, per kind; an object exists in storage once it has been bound
         self.names = dict.fromkeys(("texture", "framebuffer", "renderbuffer", "query", "buffer", "list"), 0)
+        self.generated_textures: dict[int, float] = {}  # names that glGenTextures has returned: their priorities
         self.renderbuffer = 0
         self.render_mode = RenderMode()
         self.maps, self.evaluators = initial_maps(), EvaluatorSettings()
@@ -401,9 +407,18 @@ class Context:
         """Draw primitives under the current state; nobody may change the arrays afterwards."""
         self.flush()
         self.update_current()
-        if not self.current.edge and vertices.edges is None:
-            vertices = evolve(vertices, edges=np.broadcast_to(False, len(vertices.position)))
-        self._carry_out(self._draw_command(mode, vertices, indices))
+        self._carry_out(self._draw_command(mode, self._with_current(vertices), indices))
+
+    def _with_current(self, vertices: Vertices) -> Vertices:
+        """Return vertices with the current edge flag, secondary colour and fog coordinate, where they have no array."""
+        current, added = self.current, {}
+        if not current.edge and vertices.edges is None:
+            added["edges"] = np.broadcast_to(False, len(vertices.position))
+        if current.secondary != BLACK and vertices.secondary is None:
+            added["secondary"] = np.broadcast_to(self.frozen(current.secondary), (len(vertices.position), 4))
+        if current.fog_coordinate != 0 and vertices.fog_coordinates is None:
+            added["fog_coordinates"] = np.broadcast_to(self.frozen(current.fog_coordinate), len(vertices.position))
+        return evolve(vertices, **added) if added else vertices
 
     def draw_primitive(self, mode: int, vertices: Vertices) -> None:
         """Draw a primitive of immediate mode at once; the vertex format stays for those that follow."""

@@ -9,7 +9,7 @@ from softshadow.state import TEXTURE_UNITS
 
 @dataclass(frozen=True)
 class RasterPosition:
-    """Window x, y, z and clip w, with the colour and texture coordinates that were current; in GL's initial state.
+    """Window x, y, z and clip w, with the colours and texture coordinates that were current; in GL's initial state.
 
     Nothing is drawn while it is not valid, because it was set outside the view volume.
     """
@@ -18,6 +18,7 @@ class RasterPosition:
     valid: bool = True
     distance: float = 0.0
     color: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0)
+    secondary: tuple[float, ...] = (0.0, 0.0, 0.0, 1.0)
     texcoords: tuple[tuple[float, ...], ...] = ((0.0, 0.0, 0.0, 1.0),) * TEXTURE_UNITS
 
 

@@ -58,6 +58,9 @@ class Contents:
             self._add_rows(*vertices.texcoords)
         for array in vertices.materials.values():
             self._add_array(array)
+        for optional in (vertices.edges, vertices.secondary, vertices.fog_coordinates):
+            if optional is not None and optional.strides[0]:
+                self._add_array(optional)
 
     def _add_rows(self, *attributes: np.ndarray) -> None:
         for array in attributes:

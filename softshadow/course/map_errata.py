@@ -102,7 +102,8 @@ ERRATA = (
         "E69", "SK:331", "the map holds window z, not the distance",
         "“Pixle nesú info o svojej vzdialenosti ku zdroju”",
         "A depth buffer holds window z: equal on planes across the light's view, where distances differ.",
-        "Compare window z with window z, or distance with distance, never one with the other.",
+        "Compare window z with window z, or distance with distance (technique `map-distance`), never one with the "
+        "other.",
         ("program:distance-of-equal-depths",),
     ),
 )  # fmt: skip

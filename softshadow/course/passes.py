@@ -69,6 +69,7 @@ ROWS = (
     Row("volume-zfail", ANY, CLOSED, POINT, 1, 2, "", {"two_sided": True}),
     Row("volume-parity", ANY, "closed, no overlaps", POINT, 1, 2),
     Row("map", ANY, ANY, SPOT, 1, 2, "×2; not omnidirectional", unseen=True),
+    Row("map-distance", ANY, ANY, SPOT, 1, 3),
     Row("map-pcf", ANY, ANY, SPOT, 1, 3),
     Row("map-silhouette", ANY, ANY, SPOT, 1, 3),
     Row("map-pcss", ANY, ANY, AREA, 1, 3),

@@ -26,6 +26,8 @@ from softshadow.gl.buffers import *
 from softshadow.gl.capabilities import *
 from softshadow.gl.clears import *
 from softshadow.gl.clip_planes import *
+from softshadow.gl.color_indices import *
+from softshadow.gl.compressed_images import *
 from softshadow.gl.conditional_rendering import *
 from softshadow.gl.debug_groups import *
 from softshadow.gl.errors import *
@@ -48,6 +50,7 @@ from softshadow.gl.occlusion import *
 from softshadow.gl.pixel_rectangles import *
 from softshadow.gl.pixel_transfer import *
 from softshadow.gl.pixels import *
+from softshadow.gl.pointers import *
 from softshadow.gl.points import *
 from softshadow.gl.programs import *
 from softshadow.gl.pyopengl import *
@@ -59,6 +62,7 @@ from softshadow.gl.refusals import all_naming_arguments
 from softshadow.gl.render_modes import *
 from softshadow.gl.renderbuffers import *
 from softshadow.gl.sample_coverage import *
+from softshadow.gl.secondary_colors import *
 from softshadow.gl.stipples import *
 from softshadow.gl.tessellator import *
 from softshadow.gl.texture_coordinates import *
@@ -66,6 +70,7 @@ from softshadow.gl.texture_copies import *
 from softshadow.gl.texture_images import *
 from softshadow.gl.texture_mipmaps import *
 from softshadow.gl.texture_queries import *
+from softshadow.gl.texture_residence import *
 from softshadow.gl.texture_units import *
 from softshadow.gl.textures import *
 from softshadow.gl.transforms import *

@@ -15,8 +15,9 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context, current
 from softshadow.context.arrays import ArrayLayout, BufferObject, RowSnapshot, VertexArray
-from softshadow.gl.array_snapshots import EDGE, POSITION, slice_of, snapshot_rows
+from softshadow.gl.array_snapshots import EDGE, FOG_COORDINATE, POSITION, SECONDARY, slice_of, snapshot_rows
 from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.color_indices import set_index
 from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.gl.conversions import (
     from_byte,
@@ -27,8 +28,10 @@ from softshadow.gl.conversions import (
     from_unsigned_short,
 )
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
+from softshadow.gl.fog import set_fog_coordinate
 from softshadow.gl.immediate import A_MODE, MODES, add_vertex, can_draw, consecutive_indices
 from softshadow.gl.index_snapshots import snapshot_indices
+from softshadow.gl.secondary_colors import set_secondary
 from softshadow.gl.texture_coordinates import set_coordinate
 from softshadow.gl.vertex_arrays import DTYPES, SLOTS, rows_of
 from softshadow.gl.vertex_attributes import glEdgeFlag, set_color, set_normal
@@ -38,8 +41,10 @@ INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
 AN_INDEX_TYPE = "GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT or GL_UNSIGNED_INT"
 Rows = tuple[list[RowSnapshot], int, int]  # of each array, positions first, and which: [first, end)
 KEYS = tuple(SLOTS)  # names of the arrays by slot
+OPTIONAL = {EDGE: "edges", SECONDARY: "secondary", FOG_COORDINATE: "fog_coordinates"}  # fields of `Vertices`
 MOST_DRAWN = 4096  # ranges of one array with the vertices that were drawn
-NORMALIZED = ("color", "normal")  # integers represent 0 to 1 or -1 to 1
+NOT_DRAWN = ("index",)  # arrays that only glArrayElement reads
+NORMALIZED = ("color", "normal", "secondary")  # integers represent 0 to 1 or -1 to 1
 CONVERSIONS: dict[type[np.generic], Callable[[Any], float]] = {  # by glArrayElement, as in glColor and glNormal
     np.int8: from_byte, np.uint8: from_unsigned_byte, np.int16: from_short, np.uint16: from_unsigned_short,
     np.int32: from_int, np.uint32: from_unsigned_int,
@@ -162,6 +167,12 @@ def _set_attribute(key: str, values: list[float]) -> None:
         set_normal(*values)
     elif key == "edge":
         glEdgeFlag(bool(values[0]))
+    elif key == "secondary":
+        set_secondary(*values)
+    elif key == "fog_coordinate":
+        set_fog_coordinate(*values)
+    elif key == "index":
+        set_index(values[0])
     else:
         set_coordinate(int(key.removeprefix("texcoord")), *values)
 
@@ -220,22 +231,22 @@ def _vertices(context: Context, rows: Rows) -> Vertices:
     vertices: Vertices | None = position.drawn.get(key)
     if vertices is None:
         columns = constants.rows(end - first)
-        edges = None
+        optional = {}
         for snapshot in others:
-            if snapshot.slot == EDGE:
-                edges = slice_of(snapshot, first, end)
+            if snapshot.slot in OPTIONAL:
+                optional[OPTIONAL[snapshot.slot]] = slice_of(snapshot, first, end)
             else:
                 columns[snapshot.slot - 1] = slice_of(snapshot, first, end)
         if len(position.drawn) >= MOST_DRAWN:
             position.drawn.clear()
-        vertices = Vertices(slice_of(position, first, end), columns[0], columns[1], tuple(columns[2:]), edges=edges)
+        vertices = Vertices(slice_of(position, first, end), columns[0], columns[1], tuple(columns[2:]), **optional)
         position.drawn[key] = vertices
     return vertices
 
 
 def _active_arrays(context: Context) -> tuple[VertexArray, ...]:
     """Return the enabled arrays that a draw reads, positions first."""
-    arrays = (_array(context, key) for key in KEYS if key in context.arrays.enabled)
+    arrays = (_array(context, key) for key in KEYS if key in context.arrays.enabled and key not in NOT_DRAWN)
     return tuple(array for array in arrays if array is not None)
 
 

@@ -22,6 +22,8 @@ SMALL = 4096  # bytes: up to here, `tobytes` and a comparison of bytes are faste
 CHUNK = 1 << 16  # rows that are compared at a time if they are not contiguous
 POSITION, COLOR, NORMAL, TEXCOORD = range(4)  # slots of the attributes; texture coordinates of the other units follow
 EDGE = TEXCOORD + TEXTURE_UNITS
+SECONDARY, FOG_COORDINATE = EDGE + 1, EDGE + 2
+WIDTHS = {NORMAL: 3, FOG_COORDINATE: 1}  # numbers of a vertex, where they are not 4
 LARGEST_PART = 4  # a changed array is copied whole if a draw reads a fourth of it or more
 ALWAYS_WHOLE = 1 << 16  # bytes: up to here, a new array is copied whole
 MOST_SLICES = 4096  # of one snapshot
@@ -165,14 +167,14 @@ def slice_of(snapshot: RowSnapshot, first: int, end: int) -> np.ndarray:
 def _converted(rows: np.ndarray, slot: int, context: Context) -> np.ndarray:
     """Return rows as read-only (V, width) in the context's precision: a missing fourth component is 1, others 0.
 
-    Edge flags become (V,) bool.
+    Edge flags become (V,) bool, fog coordinates (V,).
     """
     if slot == EDGE:
         flags = rows.reshape(-1) == 1  # llvmpipe takes other numbers for GL_FALSE
         flags.setflags(write=False)
         return flags
-    width, real = 3 if slot == NORMAL else 4, context.real
-    fractions = slot in (COLOR, NORMAL) and rows.dtype.kind in "iu"  # integers represent 0 to 1 or -1 to 1
+    width, real = WIDTHS.get(slot, 4), context.real
+    fractions = slot in (COLOR, NORMAL, SECONDARY) and rows.dtype.kind in "iu"  # integers represent 0 to 1 or -1 to 1
     memory = rows.flags
     if rows.shape[1] == width and rows.dtype == real and memory.c_contiguous and memory.aligned:
         full = rows
@@ -185,6 +187,8 @@ def _converted(rows: np.ndarray, slot: int, context: Context) -> np.ndarray:
         else:
             with np.errstate(over="ignore"):
                 full[:, : rows.shape[1]] = _fractions(rows, real) if fractions else rows
+    if slot == FOG_COORDINATE:
+        full = full.reshape(-1)
     full.setflags(write=False)
     return full
 

@@ -31,7 +31,7 @@ GROUPS: dict[int, Fields] = {
     gl.GL_DEPTH_BUFFER_BIT: {"depth": ("enabled", "func", "write", "clear")},
     gl.GL_ENABLE_BIT: {},
     gl.GL_EVAL_BIT: {},
-    gl.GL_FOG_BIT: {"fog": ()},
+    gl.GL_FOG_BIT: {"fog": ("enabled", "mode", "density", "start", "end", "color")},
     gl.GL_HINT_BIT: {},
     gl.GL_LIGHTING_BIT: {
         "lighting": (*LIGHT_MODEL, "lights", "model_ambient", "local_viewer", "two_side", "color_control"),
@@ -99,10 +99,11 @@ BITS: dict[str, list[tuple[int, tuple[str, ...]]]] = {}
 for _bit, _groups in GROUPS.items():
     for _group, _fields in _groups.items():
         BITS.setdefault(_group, []).append((_bit, _fields))
-# GL_TEXTURE_CUBE_MAP_SEAMLESS, which is newer than GL 2.1, belongs to no group
+# GL_TEXTURE_CUBE_MAP_SEAMLESS, which is newer than GL 2.1, belongs to no group; Mesa forgets GL_COLOR_SUM
+UNPUSHED = (gl.GL_TEXTURE_CUBE_MAP_SEAMLESS, gl.GL_COLOR_SUM)
 PUSHED: dict[str, list[tuple[int, str]]] = {}  # group of the state: (capability, field)
 for _cap, (_group, _field) in CAPABILITIES.items():
-    if _cap != gl.GL_TEXTURE_CUBE_MAP_SEAMLESS:
+    if _cap not in UNPUSHED:
         PUSHED.setdefault(_group, []).append((_cap, _field))
 PER_UNIT = (*UNIT_CAPABILITIES, *TEXTURE_GENERATION)
 

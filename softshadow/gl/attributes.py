@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 from softshadow import tokens as gl
 from softshadow.context import Context, CurrentVertex, thread
+from softshadow.context.color_indices import ColorIndices
 from softshadow.context.evaluators import EvaluatorSettings
 from softshadow.context.state_groups import Followed
 from softshadow.frozen import evolve, evolve_to
@@ -60,6 +61,7 @@ class SavedAttributes(NamedTuple):
     read_buffer: int
     pixel_zoom: tuple[float, float]
     pixel_transfer: PixelTransfer
+    color_indices: ColorIndices
     evaluators: EvaluatorSettings
     samplers: dict[tuple[int, int], Sampler]  # of the bound textures, by (target, key in the storage)
 
@@ -86,7 +88,16 @@ def glPushAttrib(mask: int) -> None:
         touched,
         state,
         context.followed,
-        (current.color, current.normal, (*current.texcoords,), current.raster, current.edge)
+        (
+            current.color,
+            current.normal,
+            (*current.texcoords,),
+            current.raster,
+            current.edge,
+            current.secondary,
+            current.fog_coordinate,
+            current.index,
+        )
         if mask & gl.GL_CURRENT_BIT
         else (),
         context.hints.copy() if context.hints else NO_HINTS,
@@ -97,6 +108,7 @@ def glPushAttrib(mask: int) -> None:
         framebuffers[state.read_framebuffer].read_buffer,
         context.pixel_zoom,
         context.pixel_transfer,
+        context.color_indices,
         context.evaluators,
         samplers,
     )
@@ -175,7 +187,10 @@ def _needs_more_calls(context: Context, bit: int, saved: SavedAttributes) -> boo
     """Return whether Mesa makes GL calls to restore what is not in `State`."""
     return (
         bit == gl.GL_PIXEL_MODE_BIT
-        or (bit == gl.GL_COLOR_BUFFER_BIT and _sets_draw_buffer(context, saved))
+        or (
+            bit == gl.GL_COLOR_BUFFER_BIT
+            and (context.color_indices != saved.color_indices or _sets_draw_buffer(context, saved))
+        )
         or (bit == gl.GL_HINT_BIT and context.hints != saved.hints)
         or (bit == gl.GL_TEXTURE_BIT and context.active_unit != saved.active_unit)
     )
@@ -185,8 +200,8 @@ def _restore_current(context: Context, saved: SavedAttributes) -> None:
     for name in context.pending.names:
         if "." not in name:
             context.pending.hidden.setdefault(name, context.attribute(name))
-    color, normal, texcoords, raster, edge = saved.current
-    context.current = CurrentVertex(color, normal, list(texcoords), raster, edge)
+    color, normal, texcoords, *others = saved.current
+    context.current = CurrentVertex(color, normal, list(texcoords), *others)
 
 
 def _restore_materials(context: Context, saved: SavedAttributes) -> None:
@@ -236,9 +251,15 @@ def _restore_evaluators(context: Context, saved: SavedAttributes) -> None:
     context.evaluators = saved.evaluators
 
 
-def _restore_enabled_maps(context: Context, saved: SavedAttributes) -> None:
+def _restore_color_indices(context: Context, saved: SavedAttributes) -> None:
+    context.color_indices = saved.color_indices
+
+
+def _restore_enabled(context: Context, saved: SavedAttributes) -> None:
     if context.evaluators.enabled != saved.evaluators.enabled:
         context.evaluators = evolve(context.evaluators, enabled=saved.evaluators.enabled)
+    if context.color_indices.logic_enabled != saved.color_indices.logic_enabled:
+        context.color_indices = evolve(context.color_indices, logic_enabled=saved.color_indices.logic_enabled)
 
 
 # what is restored besides the fields of `State`
@@ -251,7 +272,8 @@ OTHERS = {
     gl.GL_PIXEL_MODE_BIT: _restore_pixel_mode,
     gl.GL_TRANSFORM_BIT: _restore_matrix_mode,
     gl.GL_EVAL_BIT: _restore_evaluators,
-    gl.GL_ENABLE_BIT: _restore_enabled_maps,
+    gl.GL_COLOR_BUFFER_BIT: _restore_color_indices,
+    gl.GL_ENABLE_BIT: _restore_enabled,
 }
 
 

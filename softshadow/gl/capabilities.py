@@ -47,6 +47,7 @@ CAPABILITIES: dict[int, tuple[str, str]] = {
     gl.GL_NORMALIZE: ("lighting", "normalize"),
     gl.GL_RESCALE_NORMAL: ("lighting", "rescale_normal"),
     gl.GL_FOG: ("fog", "enabled"),
+    gl.GL_COLOR_SUM: ("fog", "color_sum"),
     gl.GL_TEXTURE_CUBE_MAP_SEAMLESS: ("cube_maps", "seamless"),
 }
 UNIT_CAPABILITIES = SWITCHES
@@ -54,7 +55,16 @@ TEXTURE_GENERATION = (gl.GL_TEXTURE_GEN_S, gl.GL_TEXTURE_GEN_T, gl.GL_TEXTURE_GE
 LIGHTS = range(gl.GL_LIGHT0, gl.GL_LIGHT7 + 1)
 CLIP_PLANES = range(gl.GL_CLIP_PLANE0, gl.GL_CLIP_PLANE5 + 1)
 MAPS = {*COMPONENTS, gl.GL_AUTO_NORMAL}
-KNOWN = {*MAPS, *CAPABILITIES, *UNIT_CAPABILITIES, *TEXTURE_GENERATION, *LIGHTS, *CLIP_PLANES, *CLIENT_STATES}
+KNOWN = {
+    gl.GL_INDEX_LOGIC_OP,
+    *MAPS,
+    *CAPABILITIES,
+    *UNIT_CAPABILITIES,
+    *TEXTURE_GENERATION,
+    *LIGHTS,
+    *CLIP_PLANES,
+    *CLIENT_STATES,
+}
 # those that only set one field of a group: (group in `Context.groups`, field)
 PLACES = CAPABILITIES | {light: (f"lighting.lights.{index}", "enabled") for index, light in enumerate(LIGHTS)}
 del PLACES[gl.GL_STENCIL_TEST_TWO_SIDE_EXT], PLACES[gl.GL_COLOR_MATERIAL]
@@ -100,6 +110,11 @@ def _switch_other(context: Context, cap: int, on: bool) -> None:
         switch_array(context.arrays, cap, on)
     elif cap in MAPS:
         switch_map(context, cap, on)
+    elif cap == gl.GL_INDEX_LOGIC_OP:
+        if context.color_indices.logic_enabled != on:
+            context.flush()
+            context.touched |= gl.GL_COLOR_BUFFER_BIT | gl.GL_ENABLE_BIT
+            context.color_indices = evolve(context.color_indices, logic_enabled=on)
     elif cap in UNIT_CAPABILITIES:
         context.change_field(UNITS[unit], UNIT_CAPABILITIES[cap], on)
     elif is_on(context.state, cap, unit) != on:
@@ -166,6 +181,8 @@ def glIsEnabled(cap: int) -> bool | None:
         return is_array_enabled(context.arrays, cap)
     if cap in MAPS:
         return cap in context.evaluators.enabled
+    if cap == gl.GL_INDEX_LOGIC_OP:
+        return context.color_indices.logic_enabled
     return is_on(context.state, cap, context.active_unit)
 
 

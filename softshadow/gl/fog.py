@@ -1,4 +1,4 @@
-"""Fog parameters."""
+"""Fog parameters, and the current fog coordinate, which fog may depend on in place of the distance."""
 
 from __future__ import annotations
 
@@ -6,13 +6,17 @@ from collections.abc import Callable
 from typing import Any
 
 from softshadow import tokens as gl
+from softshadow.context import current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import enum, first, from_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.fragment_state import rounded, rounded_number
+from softshadow.gl.vertex_format import carry_attribute, set_attribute
 
 NUMBERS = {gl.GL_FOG_DENSITY: "density", gl.GL_FOG_START: "start", gl.GL_FOG_END: "end"}
 MODES = (gl.GL_LINEAR, gl.GL_EXP, gl.GL_EXP2)
+SOURCES = (gl.GL_FRAGMENT_DEPTH, gl.GL_FOG_COORD)
+A_NUMBER = "GL_FOG_MODE, GL_FOG_COORD_SRC, GL_FOG_DENSITY, GL_FOG_START or GL_FOG_END"
 
 
 @in_lists
@@ -32,8 +36,7 @@ def glFogf(pname: int, param: float) -> None:
     """Set a fog parameter that is a single number."""
     if outside_begin("glFogf") is None:
         return
-    expected = "GL_FOG_MODE, GL_FOG_DENSITY, GL_FOG_START or GL_FOG_END"
-    if is_one_of("glFogf", "pname", pname, (gl.GL_FOG_MODE, *NUMBERS), expected):
+    if is_one_of("glFogf", "pname", pname, (gl.GL_FOG_MODE, gl.GL_FOG_COORD_SRC, *NUMBERS), A_NUMBER):
         _set("glFogf", pname, param, float)
 
 
@@ -42,9 +45,8 @@ glFogi = glFogf
 
 def _set(operation: str, pname: int, params: Any, color: Callable[[Any], float]) -> None:
     context = outside_begin(operation)
-    expected = "GL_FOG_MODE, GL_FOG_DENSITY, GL_FOG_START, GL_FOG_END or GL_FOG_COLOR"
-    allowed = (gl.GL_FOG_MODE, gl.GL_FOG_COLOR, *NUMBERS)
-    if context is None or not is_one_of(operation, "pname", pname, allowed, expected):
+    allowed = (gl.GL_FOG_MODE, gl.GL_FOG_COORD_SRC, gl.GL_FOG_COLOR, *NUMBERS)
+    if context is None or not is_one_of(operation, "pname", pname, allowed, f"GL_FOG_COLOR, {A_NUMBER}"):
         return
     if pname == gl.GL_FOG_COLOR:
         context.change("fog", color=rounded(context, *vector(params, 4, color)))
@@ -53,10 +55,36 @@ def _set(operation: str, pname: int, params: Any, color: Callable[[Any], float])
     if pname == gl.GL_FOG_MODE:
         if is_one_of(operation, "param", mode := enum(value), MODES, "GL_LINEAR, GL_EXP or GL_EXP2"):
             context.change("fog", mode=mode)
+    elif pname == gl.GL_FOG_COORD_SRC:
+        if is_one_of(operation, "param", source := enum(value), SOURCES, "GL_FRAGMENT_DEPTH or GL_FOG_COORD"):
+            context.change("fog", source=source)
     elif pname == gl.GL_FOG_DENSITY and value < 0:
         fail(gl.GL_INVALID_VALUE, operation, f"param={value:g}: expected 0 or more for GL_FOG_DENSITY")
     else:
         context.change("fog", **{NUMBERS[pname]: rounded_number(context, value)})
+
+
+# -- coordinates of vertices -------------------------------------------------------------------------------------------
+def set_fog_coordinate(coord: float) -> None:
+    """Set the current fog coordinate."""
+    context = current()
+    carry_attribute(context, "fog_coordinate", 1)
+    set_attribute(context, "fog_coordinate", 1, float(coord))
+
+
+@in_lists
+def glFogCoordf(coord: float) -> None:
+    """Set the current fog coordinate."""
+    set_fog_coordinate(coord)
+
+
+@in_lists
+def glFogCoordfv(coord: Any) -> None:
+    """Set the current fog coordinate from a vector."""
+    set_fog_coordinate(*vector(coord, 1))
+
+
+glFogCoordd, glFogCoorddv = glFogCoordf, glFogCoordfv
 
 
 __all__ = spelled_like_gl(globals())

@@ -31,6 +31,13 @@ def format_problem(format: int, type: int) -> Problem | None:
     return None
 
 
+def pixels_problem(format: int, type: int) -> Problem | None:
+    """Return what `format_problem` does for pixels that are drawn or stored: indices may also be a bitmap."""
+    if type == gl.GL_BITMAP and format in (gl.GL_COLOR_INDEX, gl.GL_STENCIL_INDEX):
+        return None
+    return format_problem(format, type)
+
+
 TYPE_NAMES = ("GL_BYTE", "GL_DOUBLE")
 
 

@@ -13,8 +13,17 @@ from softshadow import tokens as gl
 from softshadow.context import BufferObject, Context
 from softshadow.gl.buffers import offset_of, own_content
 from softshadow.gl.errors import fail
-from softshadow.gl.pixel_formats import format_problem
-from softshadow.pixel_store import PixelStore, client_image, dtype_of, elements_of, image_view, output_array, stacked
+from softshadow.gl.pixel_formats import pixels_problem
+from softshadow.pixel_store import (
+    PixelStore,
+    bitmap_rows,
+    client_image,
+    dtype_of,
+    elements_of,
+    image_view,
+    output_array,
+    stacked,
+)
 
 
 class UnpackedImage(NamedTuple):
@@ -31,7 +40,7 @@ def image_for_list(
     if (
         context.compiled_list is None
         or is_none
-        or format_problem(format, type)
+        or pixels_problem(format, type)
         or min(width, height) <= 0
         or slices < 0
     ):
@@ -50,6 +59,8 @@ def image_source(
     store = context.unpack_store
     if isinstance(pixels, UnpackedImage):
         return pixels.image
+    if type == gl.GL_BITMAP:
+        return _bits(context, pixels, width, height * max(slices, 1), format, operation)
     if not store.buffer:
         return client_image(pixels, store, width, height, format, type, operation, slices)
     dtype = dtype_of(type)
@@ -59,6 +70,26 @@ def image_source(
         return None
     view = image_view(memory, store, width, height, format, type, operation, slices)
     return stacked(view.astype(dtype, copy=False))
+
+
+def _bits(context: Context, bitmap: Any, width: int, height: int, format: int, operation: str) -> np.ndarray | None:
+    """Return a bitmap as indices (h, w, 1) uint8, 0 and 1; None after an error of GL.
+
+    Of colour indices Mesa reads one row directly after the other, without their padding.
+    """
+    store = context.unpack_store
+    bytes_of_row = -(-(store.row_length or width) // (8 * store.alignment)) * store.alignment
+    memory = source(context, bitmap, (store.skip_rows + height) * bytes_of_row, 1, operation)
+    if memory is None:
+        return None
+    rows = bitmap_rows(memory, store, width, height, operation)
+    if format == gl.GL_COLOR_INDEX:
+        raw = np.frombuffer(memory, np.uint8) if isinstance(memory, bytes | bytearray) else np.asarray(memory, np.uint8)
+        first = 8 * store.skip_rows * bytes_of_row + store.skip_pixels
+        order: Any = "little" if store.lsb_first else "big"
+        bits = np.unpackbits(raw.reshape(-1), bitorder=order)[first : first + width * height]
+        rows = bits.reshape(height, width)
+    return rows[..., np.newaxis].astype(np.uint8)
 
 
 def image_destination(

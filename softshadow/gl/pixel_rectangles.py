@@ -19,7 +19,7 @@ from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.depth_rectangles import copy_depths, draw_rectangle_of_depths, texture_of_depths
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
-from softshadow.gl.pixel_formats import format_problem, kind_of
+from softshadow.gl.pixel_formats import kind_of, pixels_problem
 from softshadow.gl.pixel_memory import image_source
 from softshadow.gl.render_modes import is_rendered
 from softshadow.gl.window_quads import textured_rectangle
@@ -70,7 +70,7 @@ def glDrawPixels(width: int, height: int, format: int, type: int, pixels: Any) -
     """
     operation, context = "glDrawPixels", current()
     image = None
-    if not format_problem(format, type) and width > 0 and height > 0:  # read now, also for a list
+    if not pixels_problem(format, type) and width > 0 and height > 0:  # read now, also for a list
         image = image_source(context, pixels, int(width), int(height), 0, format, type, operation)
         if image is None:
             return
@@ -85,7 +85,7 @@ def _draw_pixels(width: int, height: int, format: int, type: int, image: np.ndar
         return
     if width < 0 or height < 0:
         fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 or more")
-    elif problem := format_problem(format, type):
+    elif problem := pixels_problem(format, type):
         fail(problem[0], operation, problem[1])
     elif missing := _missing_buffer(context, format):
         fail(gl.GL_INVALID_OPERATION, operation, missing)

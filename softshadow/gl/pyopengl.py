@@ -16,7 +16,14 @@ from softshadow.gl.materials import glMaterialf, glMaterialfv
 from softshadow.gl.texture_coordinates import glTexCoord2d
 from softshadow.gl.textures import glTexParameterf, glTexParameterfv, glTexParameteri
 from softshadow.gl.transforms import glRotated, glScaled, glTranslated
-from softshadow.gl.vertex_arrays import TYPES, glColorPointer, glNormalPointer, glTexCoordPointer, glVertexPointer
+from softshadow.gl.vertex_arrays import (
+    TYPES,
+    glColorPointer,
+    glIndexPointer,
+    glNormalPointer,
+    glTexCoordPointer,
+    glVertexPointer,
+)
 from softshadow.gl.vertex_attributes import glColor3d, glColor3fv, glColor4d, glColor4fv, glNormal3d
 
 glRotate, glTranslate, glScale = glRotated, glTranslated, glScaled
@@ -104,6 +111,9 @@ glNormalPointerb, glNormalPointerd, glNormalPointerf, glNormalPointeri, glNormal
     glColorPointerb, glColorPointerd, glColorPointerf, glColorPointeri, glColorPointers,
     glColorPointerub, glColorPointerui, glColorPointerus,
 ) = _pointers(glColorPointer, 4, 3, OF_COLORS)  # fmt: skip
+(
+    glIndexPointerb, glIndexPointerd, glIndexPointerf, glIndexPointeri, glIndexPointers, glIndexPointerub,
+) = _pointers(glIndexPointer, 1, None, (gl.GL_BYTE, *SIGNED, gl.GL_UNSIGNED_BYTE))  # fmt: skip
 glDrawElementsub = _indexed("glDrawElementsub", gl.GL_UNSIGNED_BYTE)
 glDrawElementsui = _indexed("glDrawElementsui", gl.GL_UNSIGNED_INT)
 glDrawElementsus = _indexed("glDrawElementsus", gl.GL_UNSIGNED_SHORT)

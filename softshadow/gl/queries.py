@@ -15,7 +15,10 @@ from softshadow.gl.conversions import nearest_int, to_int
 from softshadow.gl.errors import outside_begin, wrong_enum
 from softshadow.gl.state_table import BY_TOKEN, NORMALIZED
 
-CURRENT_VALUES = (gl.GL_CURRENT_COLOR, gl.GL_CURRENT_NORMAL, gl.GL_CURRENT_TEXTURE_COORDS)
+CURRENT_VALUES = (
+    gl.GL_CURRENT_COLOR, gl.GL_CURRENT_NORMAL, gl.GL_CURRENT_TEXTURE_COORDS, gl.GL_CURRENT_SECONDARY_COLOR,
+    gl.GL_CURRENT_FOG_COORD, gl.GL_CURRENT_INDEX,
+)  # fmt: skip
 DOUBLES = (gl.GL_DEPTH_RANGE, gl.GL_DEPTH_CLEAR_VALUE)  # state that GL stores in double precision
 STRINGS = {
     gl.GL_VENDOR: b"softshadow",

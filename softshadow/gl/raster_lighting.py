@@ -1,4 +1,4 @@
-"""The colour of a lit raster position, in the arithmetic of Mesa's C code, which differs from that of vertices.
+"""The colours of a lit raster position, in the arithmetic of Mesa's C code, which differs from that of vertices.
 
 References: GL 2.1, sec. 2.14.1 (lighting); rastpos.c of Mesa 22.3, which takes the point in object space for one in
 the space of the lights.
@@ -21,8 +21,13 @@ SMALLEST_DISTANCE, SMALLEST_ATTENUATION, SMALLEST_HIGHLIGHT = F32(1e-6), F32(1e-
 TOWARDS_EYE = np.array([0, 0, 1], F32)
 
 
-def raster_color(context: Context, point: np.ndarray, modelview: np.ndarray, kind: int) -> tuple[float, ...]:
-    """Return the colour (4) of a raster position at a point (4,) in object space; `kind` is that of the modelview."""
+def raster_colors(
+    context: Context, point: np.ndarray, modelview: np.ndarray, kind: int
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Return the colour (4) of a raster position at a point (4,) in object space, and the secondary one.
+
+    `kind` is that of the modelview matrix.
+    """
     lighting = context.state.lighting
     material, normal = lighting.front, np.array(context.current.normal, F32)
     to_object = inverse(modelview, kind)
@@ -31,12 +36,17 @@ def raster_color(context: Context, point: np.ndarray, modelview: np.ndarray, kin
         normal = np.array([_dot(normal, to_object[:3, i]) for i in range(3)], F32)
     color = vector(material.emission)[:3] + vector(lighting.model_ambient)[:3] * vector(material.ambient)[:3]
     towards_eye = modelview[2, :3] if object_space else TOWARDS_EYE
+    secondary = np.zeros(3, F32)
     for light in enabled_lights(lighting):
         position = vector(light.position)
         position = transformed(to_object, position) if object_space else position
-        color = color + _contribution(light, position, lighting, point[:3], normal, towards_eye)
-    channels = [*color, F32(material.diffuse[3])]
-    return tuple(float(min(max(channel, F32(0)), F32(1))) for channel in channels)
+        added, highlight = _contribution(light, position, lighting, point[:3], normal, towards_eye)
+        color, secondary = color + added, secondary + highlight
+    return _clamped(color, material.diffuse[3]), _clamped(secondary, 1.0)
+
+
+def _clamped(color: np.ndarray, alpha: float) -> tuple[float, ...]:
+    return tuple(float(min(max(channel, F32(0)), F32(1))) for channel in (*color, F32(alpha)))
 
 
 def transformed(matrix: np.ndarray, point: np.ndarray) -> np.ndarray:
@@ -53,8 +63,8 @@ def _contribution(
     point: np.ndarray,
     normal: np.ndarray,
     towards_eye: np.ndarray,
-) -> np.ndarray:
-    """Return the colour (3,) that a light adds."""
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the colour (3,) that a light adds, and the highlight (3,) with GL_SEPARATE_SPECULAR_COLOR."""
     material, nothing = lighting.front, np.zeros(3, F32)
     is_positional = position[3] != 0
     attenuation = F32(1)
@@ -72,26 +82,29 @@ def _contribution(
     if light.spot_cutoff != 180:
         spot = _spot_factor(light, direction, is_positional)
         if spot is None:
-            return nothing
+            return nothing, nothing
         attenuation = attenuation * spot
     if attenuation < SMALLEST_ATTENUATION:
-        return nothing
+        return nothing, nothing
     ambient = vector(material.ambient)[:3] * vector(light.ambient)[:3]
     towards_light = _dot(normal, direction)
     if towards_light < 0:
-        return attenuation * ambient
+        return attenuation * ambient, nothing
     sum_of_parts = ambient + towards_light * (vector(material.diffuse)[:3] * vector(light.diffuse)[:3])
     if lighting.local_viewer:
         half = normalize(direction - normalize(point))
     else:
         half = normalize(direction + towards_eye)
-    towards_half = _dot(normal, half)
+    towards_half, separate = _dot(normal, half), nothing
     if towards_half > 0:
         highlight = F32(math.pow(towards_half, F32(material.shininess)))
-        if highlight > SMALLEST_HIGHLIGHT and lighting.color_control != gl.GL_SEPARATE_SPECULAR_COLOR:
-            sum_of_parts = sum_of_parts + highlight * (vector(material.specular)[:3] * vector(light.specular)[:3])
-    total: np.ndarray = attenuation * sum_of_parts
-    return total
+        if highlight > SMALLEST_HIGHLIGHT:
+            specular = highlight * (vector(material.specular)[:3] * vector(light.specular)[:3])
+            if lighting.color_control == gl.GL_SEPARATE_SPECULAR_COLOR:
+                separate = specular
+            else:
+                sum_of_parts = sum_of_parts + specular
+    return attenuation * sum_of_parts, attenuation * separate
 
 
 def _spot_factor(light: LightState, direction: np.ndarray, is_positional: bool) -> np.float32 | None:

@@ -15,7 +15,7 @@ from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import vector
 from softshadow.gl.errors import outside_begin
-from softshadow.gl.raster_lighting import raster_color, transformed
+from softshadow.gl.raster_lighting import raster_colors, transformed
 from softshadow.gl.render_modes import note_raster_position
 from softshadow.pipeline.geometry.geometry import planes_in_clip_space
 
@@ -55,16 +55,17 @@ def _set(context: Context, point: np.ndarray) -> None:
     scale = (F32(0.5) * F32(view.width), F32(0.5) * F32(view.height), F32(0.5) * (far - near))
     shift = (scale[0] + F32(view.x), scale[1] + F32(view.y), F32(0.5) * (near + far))
     window = [float(clip[i] * over_w * scale[i] + shift[i]) for i in range(3)]
-    color = _current_color(context)
+    color, secondary = _current_colors(context)
     if state.lighting.enabled:
-        color = raster_color(context, point, modelview, modelview_kind)
+        color, secondary = raster_colors(context, point, modelview, modelview_kind)
     w = clip[3]
     if state.depth.clamp:  # as in Mesa, which clamps w in place of z
         w = min(max(w, min(near, far)), max(near, far))
     context.current.raster = RasterPosition(
         window=(window[0], window[1], window[2], float(w)),
-        distance=float(np.sqrt((eye[0] * eye[0] + eye[1] * eye[1]) + eye[2] * eye[2])),
+        distance=_distance(context, eye),
         color=color,
+        secondary=secondary,
         texcoords=tuple(
             tuple(transformed(stack.current.astype(F32), np.array(coordinates, F32)).tolist())
             for stack, coordinates in zip(context.texture_stacks, context.current.texcoords, strict=True)
@@ -81,8 +82,17 @@ def _is_inside(clip: np.ndarray, depth_clamp: bool, planes: np.ndarray) -> bool:
     return not outside and not any(distance < 0 for distance in distances)
 
 
-def _current_color(context: Context) -> tuple[float, ...]:
-    return tuple(float(F32(channel)) for channel in context.current.color)
+def _current_colors(context: Context) -> tuple[tuple[float, ...], ...]:
+    """Return the current colour and secondary colour in single precision."""
+    current = context.current
+    return tuple(tuple(float(F32(channel)) for channel in color) for color in (current.color, current.secondary))
+
+
+def _distance(context: Context, eye: np.ndarray) -> float:
+    """Return the distance of the raster position: that of its place in eye space, or the current fog coordinate."""
+    if context.state.fog.source == gl.GL_FOG_COORD:
+        return float(F32(context.current.fog_coordinate))
+    return float(np.sqrt((eye[0] * eye[0] + eye[1] * eye[1]) + eye[2] * eye[2]))
 
 
 @in_lists
@@ -98,9 +108,15 @@ def glWindowPos3f(x: float, y: float, z: float) -> None:
     with np.errstate(all="ignore"):
         depth = min(max(F32(z), F32(0)), F32(1)) * (far - near) + near
         window = (float(F32(x)), float(F32(y)), float(depth), 1.0)
-    color = tuple(min(max(channel, 0.0), 1.0) for channel in _current_color(context))
+    color, secondary = (tuple(min(max(each, 0.0), 1.0) for each in color) for color in _current_colors(context))
     coordinates = tuple(tuple(each) for each in context.current.texcoords)
-    context.current.raster = RasterPosition(window=window, color=color, texcoords=coordinates)
+    context.current.raster = RasterPosition(
+        window=window,
+        distance=_distance(context, np.zeros(3, F32)),
+        color=color,
+        secondary=secondary,
+        texcoords=coordinates,
+    )
     context.touched |= gl.GL_CURRENT_BIT
     note_raster_position(context)
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from ctypes import c_int
 from typing import Any
 
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.compression import FOR_ANY_IMAGE
 from softshadow.context import MATRIX_STACK_DEPTHS, Context, MatrixStack
 from softshadow.context.render_mode import MOST_NAMES
 from softshadow.framebuffer import DEFAULT, DRAW_BUFFERS, LARGEST_SIDE, Framebuffer
@@ -129,7 +131,7 @@ def client_array(name: str, token: int) -> dict[str, Read]:
         f"GL_{name}_ARRAY_STRIDE": lambda c: c.arrays.layout(key(c)).stride,
         f"GL_{name}_ARRAY_BUFFER_BINDING": lambda c: c.arrays.offsets.get(key(c), (0, 0))[0],
     }
-    if name != "NORMAL":
+    if name not in ("NORMAL", "INDEX"):
         readers[f"GL_{name}_ARRAY_SIZE"] = lambda c: c.arrays.layout(key(c)).size
     return readers
 
@@ -192,6 +194,10 @@ QUERIES: dict[str, Read] = {
     "GL_PROVOKING_VERTEX": lambda c: c.state.lighting.provoking_vertex,
     "GL_QUADS_FOLLOW_PROVOKING_VERTEX_CONVENTION": lambda c: False,
     "GL_EDGE_FLAG": lambda c: c.current.edge,
+    "GL_CURRENT_INDEX": lambda c: c.current.index,
+    "GL_INDEX_CLEAR_VALUE": lambda c: c_int(c.color_indices.clear).value,
+    "GL_INDEX_WRITEMASK": lambda c: c_int(c.color_indices.write_mask).value,
+    "GL_INDEX_LOGIC_OP": lambda c: c.color_indices.logic_enabled,
     "GL_SHADE_MODEL": lambda c: c.state.lighting.shade_model,
     "GL_LIGHT_MODEL_AMBIENT": lambda c: c.state.lighting.model_ambient,
     "GL_LIGHT_MODEL_LOCAL_VIEWER": lambda c: c.state.lighting.local_viewer,
@@ -204,6 +210,7 @@ QUERIES: dict[str, Read] = {
     "GL_FOG_START": lambda c: c.state.fog.start,
     "GL_FOG_END": lambda c: c.state.fog.end,
     "GL_FOG_COLOR": clamped_color(lambda c: c.state.fog.color),
+    "GL_FOG_COORD_SRC": lambda c: c.state.fog.source,
     "GL_MATRIX_MODE": lambda c: c.matrix_mode,
     **matrix("MODELVIEW", lambda c: c.modelview_stack),
     **matrix("PROJECTION", lambda c: c.projection_stack),
@@ -211,10 +218,13 @@ QUERIES: dict[str, Read] = {
     "GL_CURRENT_COLOR": lambda c: c.current.color,
     "GL_CURRENT_NORMAL": lambda c: c.current.normal,
     "GL_CURRENT_TEXTURE_COORDS": lambda c: c.current.texcoords[c.active_unit],
+    "GL_CURRENT_SECONDARY_COLOR": lambda c: c.current.secondary,
+    "GL_CURRENT_FOG_COORD": lambda c: c.current.fog_coordinate,
     "GL_CURRENT_RASTER_POSITION": lambda c: c.current.raster.window,
     "GL_CURRENT_RASTER_POSITION_VALID": lambda c: c.current.raster.valid,
     "GL_CURRENT_RASTER_DISTANCE": lambda c: c.current.raster.distance,
     "GL_CURRENT_RASTER_COLOR": lambda c: c.current.raster.color,
+    "GL_CURRENT_RASTER_SECONDARY_COLOR": lambda c: c.current.raster.secondary,
     "GL_CURRENT_RASTER_TEXTURE_COORDS": lambda c: c.current.raster.texcoords[c.active_unit],
     "GL_ZOOM_X": lambda c: c.pixel_zoom[0],
     "GL_ZOOM_Y": lambda c: c.pixel_zoom[1],
@@ -225,6 +235,9 @@ QUERIES: dict[str, Read] = {
     **client_array("COLOR", gl.GL_COLOR_ARRAY),
     **client_array("TEXTURE_COORD", gl.GL_TEXTURE_COORD_ARRAY),
     **client_array("EDGE_FLAG", gl.GL_EDGE_FLAG_ARRAY),
+    **client_array("SECONDARY_COLOR", gl.GL_SECONDARY_COLOR_ARRAY),
+    **client_array("FOG_COORD", gl.GL_FOG_COORD_ARRAY),
+    **client_array("INDEX", gl.GL_INDEX_ARRAY),
     "GL_ARRAY_BUFFER_BINDING": lambda c: c.arrays.array_buffer,
     "GL_ELEMENT_ARRAY_BUFFER_BINDING": lambda c: c.arrays.element_buffer,
     "GL_CLIENT_ATTRIB_STACK_DEPTH": lambda c: len(c.client_stack),
@@ -268,6 +281,9 @@ QUERIES: dict[str, Read] = {
     "GL_FEEDBACK_BUFFER_SIZE": lambda c: c.render_mode.feedback.size,
     "GL_FEEDBACK_BUFFER_TYPE": lambda c: c.render_mode.feedback.kind,
     "GL_RGBA_MODE": lambda c: True,
+    "GL_INDEX_MODE": lambda c: False,
+    "GL_INDEX_BITS": lambda c: 0,
+    "GL_CURRENT_RASTER_INDEX": lambda c: 1,
     "GL_STEREO": lambda c: False,
     "GL_SAMPLE_COVERAGE_VALUE": lambda c: c.state.color.coverage_value,
     "GL_SAMPLE_COVERAGE_INVERT": lambda c: c.state.color.coverage_inverted,
@@ -283,6 +299,8 @@ QUERIES: dict[str, Read] = {
     "GL_MAX_RECTANGLE_TEXTURE_SIZE": lambda c: LARGEST_SIDE,
     "GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT": lambda c: LARGEST_ANISOTROPY,
     "GL_MAX_3D_TEXTURE_SIZE": lambda c: LARGEST_3D,
+    "GL_NUM_COMPRESSED_TEXTURE_FORMATS": lambda c: len(FOR_ANY_IMAGE),
+    "GL_COMPRESSED_TEXTURE_FORMATS": lambda c: FOR_ANY_IMAGE,
     "GL_MAX_DRAW_BUFFERS": lambda c: DRAW_BUFFERS,
     "GL_MAX_COLOR_ATTACHMENTS": lambda c: len(COLOR_ATTACHMENTS),
     "GL_MAX_RENDERBUFFER_SIZE": lambda c: LARGEST_SIDE,
@@ -308,7 +326,7 @@ NORMALIZED = {
     for name in (
         "GL_DEPTH_RANGE", "GL_DEPTH_CLEAR_VALUE", "GL_COLOR_CLEAR_VALUE", "GL_ACCUM_CLEAR_VALUE", "GL_CURRENT_COLOR",
         "GL_CURRENT_NORMAL", "GL_BLEND_COLOR", "GL_FOG_COLOR", "GL_LIGHT_MODEL_AMBIENT", "GL_ALPHA_TEST_REF",
-        "GL_CURRENT_RASTER_COLOR",
+        "GL_CURRENT_RASTER_COLOR", "GL_CURRENT_SECONDARY_COLOR", "GL_CURRENT_RASTER_SECONDARY_COLOR",
         "GL_MODELVIEW_MATRIX", "GL_PROJECTION_MATRIX", "GL_TEXTURE_MATRIX",
         "GL_TRANSPOSE_MODELVIEW_MATRIX", "GL_TRANSPOSE_PROJECTION_MATRIX", "GL_TRANSPOSE_TEXTURE_MATRIX",
     )

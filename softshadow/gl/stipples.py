@@ -9,6 +9,7 @@ import numpy as np
 from softshadow.context import current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import outside_begin
+from softshadow.gl.pixel_memory import source
 from softshadow.pixel_store import bitmap_rows
 
 SIDE = 32  # rows and columns of a polygon stipple
@@ -28,7 +29,8 @@ def glPolygonStipple(mask: Any) -> None:
 
     Parameters
     ----------
-    mask : bytes or array        32 rows of 32 bits from bottom to top, as glPixelStore says; the highest bit is left
+    mask : bytes or array        32 rows of 32 bits from bottom to top, as glPixelStore says; the highest bit is left;
+        with a bound pixel buffer object, an offset into it
 
     Raises
     ------
@@ -36,7 +38,12 @@ def glPolygonStipple(mask: Any) -> None:
         The pattern has too few bytes.
     """
     # read now, also when a display list is compiled
-    bits = bitmap_rows(mask, current().unpack_store, SIDE, SIDE, "glPolygonStipple")
+    context = current()
+    if context.unpack_store.buffer:
+        mask = source(context, mask, SIDE * SIDE // 8, 1, "glPolygonStipple")
+        if mask is None:
+            return
+    bits = bitmap_rows(mask, context.unpack_store, SIDE, SIDE, "glPolygonStipple")
     _polygon_stipple(np.packbits(bits).tobytes())
 
 

@@ -15,6 +15,7 @@ from softshadow.gl.texture_problems import (
     COMPONENT_NUMBERS,
     Shape,
     border_problem,
+    compressed_problem,
     internal_problem,
     level_problem,
     missing_problem,
@@ -79,13 +80,15 @@ def _copy_image(
         image_target_problem(target, dimensions)
         or level_problem(target, level)
         or _source_problem(context)
-        or border_problem(border)
+        or border_problem(target, border)
         or internal_problem(internalformat, gl.GL_INVALID_ENUM, exclude=COMPONENT_NUMBERS)
-        or size_problem(target, level, shape)
+        or size_problem(target, level, shape, border)
         or _copy_problem(context, FORMATS[internalformat], internalformat in WITH_STENCIL)
     )
     if problem:
         return fail(problem[0], operation, problem[1])
+    if border:  # which Mesa drops
+        origin, shape = _without_border(dimensions, origin, shape)
     texture, face, (width, height, _) = bound_texture(context, target), face_of(target), shape
     before, stored = texture.images.get((face, level)), FORMATS[internalformat]
     layout = stored, internalformat, width, height
@@ -117,7 +120,7 @@ def _copy_part(
         return fail(problem[0], operation, problem[1])
     texture, face = bound_texture(context, target), face_of(target)
     image = texture.images[face, level]
-    if problem := _copy_problem(context, image.format, image.stencil is not None):
+    if problem := _copy_problem(context, image.format, image.stencil is not None) or compressed_problem(image):
         return fail(problem[0], operation, problem[1])
     (x, y, z), (width, height, _) = corner, shape
     place = (x, y, *origin, width, height)
@@ -125,6 +128,14 @@ def _copy_part(
     context.execute(CopyToTexture(framebuffer, texture.name, face, level, *place, _transfer(context), z))
     follow_base_level(context, texture, face, level)
     return None
+
+
+def _without_border(dimensions: int, origin: tuple[int, int], shape: Shape) -> tuple[tuple[int, int], Shape]:
+    """Return corner and sides of what is copied of a rectangle whose image would have a border."""
+    (x, y), (width, height, _) = origin, shape
+    if dimensions == 1:
+        return (x + 1, y), (width - 2, height, 1)
+    return (x + 1, y + 1), (width - 2, height - 2, 1)
 
 
 def _whole(numbers: tuple[int, ...]) -> Any:

@@ -7,10 +7,13 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.compression import COMPRESSED, CompressedFormat, chosen_format, decoded, encoded
 from softshadow.context import Context, current
+from softshadow.encoded_pixels import bytes_of
 from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.compression_problems import compression_problem, to_compress_problem, to_update_problem
 from softshadow.gl.errors import fail, outside_begin
-from softshadow.gl.pixel_formats import format_problem, kind_of, upload_problem
+from softshadow.gl.pixel_formats import kind_of, pixels_problem, upload_problem
 from softshadow.gl.pixel_memory import image_for_list, image_source
 from softshadow.gl.proxy_textures import define_proxy
 from softshadow.gl.texture_mipmaps import follow_base_level
@@ -37,6 +40,7 @@ from softshadow.pixels import (
     unpack_packed_stencil,
     unpack_stencil,
 )
+from softshadow.texture import Texture
 
 Parts = tuple[np.ndarray | None, np.ndarray | None]  # cells and stencil values to be stored
 NOTHING: Parts = (None, None)
@@ -178,20 +182,22 @@ def _define(
     if (context := outside_begin(operation)) is None:
         return None
     is_proxy = PROXIES.get(target) == dimensions
+    wanted, internalformat = internalformat, chosen_format(internalformat, dimensions)
+    compressed = COMPRESSED.get(internalformat)
     problem = (
         (None if is_proxy else image_target_problem(target, dimensions))
         or level_problem(target, level)
-        or border_problem(border)
+        or border_problem(target, border)
         or negative_problem(shape)
-        or format_problem(format, type)
-        or internal_problem(internalformat, gl.GL_INVALID_VALUE)
-        or upload_problem(format, FORMATS[internalformat], internalformat in WITH_STENCIL)
-        or base_format_problem(target, internalformat)
+        or pixels_problem(format, type)
+        or (compression_problem if compressed else internal_problem)(internalformat, gl.GL_INVALID_VALUE)
+        or upload_problem(format, _stored(internalformat), internalformat in WITH_STENCIL)
+        or (to_compress_problem(target, border) if compressed else base_format_problem(target, internalformat))
     )
     if problem:
         return fail(problem[0], operation, problem[1])
-    stored = storage_format(internalformat, type, format)
-    problem = size_problem(target, level, shape) or memory_problem(target, shape, stored)
+    stored = compressed.stored if compressed else storage_format(internalformat, type, format)
+    problem = size_problem(target, level, shape, border) or memory_problem(target, shape, stored)
     if is_proxy:
         define_proxy(context, target, level, None if problem else stored, internalformat, shape)
         return None
@@ -199,14 +205,20 @@ def _define(
         return fail(problem[0], operation, problem[1])
     parts: Parts | None = NOTHING
     if shape[2]:
-        parts = _cells(context, pixels, _lengths(dimensions, shape), format, type, stored, operation)
+        cells_format = bytes_of(stored) if compressed else stored
+        parts = _cells(context, pixels, _lengths(dimensions, shape), format, type, cells_format, operation)
     if parts is None:
         return None
     texture, face = bound_texture(context, target), face_of(target)
-    width, height, slices = shape
-    context.execute(
-        DefineImage(texture.name, face, level, stored, internalformat, width, height, *parts, slices=slices)
-    )
+    width, height, slices = inner = _inside(shape) if border else shape
+    parts = _cropped(parts[0], shape, inner), _cropped(parts[1], shape, inner)
+    layout = stored, internalformat if compressed else wanted, width, height
+    if compressed:
+        blocks = _compressed(parts[0], compressed, width, height)
+        cells = decoded(blocks, compressed, width, height)
+        context.execute(DefineImage(texture.name, face, level, *layout, cells, blocks=blocks))
+    else:
+        context.execute(DefineImage(texture.name, face, level, *layout, *parts, slices=slices))
     follow_base_level(context, texture, face, level)
     return None
 
@@ -230,25 +242,72 @@ def _update(
         or level_problem(target, level)
         or negative_problem(shape)
         or missing_problem(context, target, level)
-        or format_problem(format, type)
+        or pixels_problem(format, type)
     )
     if problem:
         return fail(problem[0], operation, problem[1])
     texture, face = bound_texture(context, target), face_of(target)
     image = texture.images[face, level]
-    problem = upload_problem(format, image.format, image.stencil is not None) or region_problem(
-        context, target, level, corner, shape
+    problem = (
+        upload_problem(format, image.format, image.stencil is not None)
+        or region_problem(context, target, level, corner, shape)
+        or (to_update_problem(image, corner, shape) if image.blocks is not None else None)
     )
     if problem:
         return fail(problem[0], operation, problem[1])
     parts: Parts | None = NOTHING
     if shape[2]:
-        parts = _cells(context, pixels, _lengths(dimensions, shape), format, type, image.format, operation)
-    if parts is not None and 0 not in shape and any(part is not None for part in parts):
+        stored = bytes_of(image.format) if image.blocks is not None else image.format
+        parts = _cells(context, pixels, _lengths(dimensions, shape), format, type, stored, operation)
+    if parts is not None and image.blocks is not None:
+        _update_blocks(context, texture, (face, level), corner, parts[0])
+    elif parts is not None and 0 not in shape and any(part is not None for part in parts):
         x, y, z = corner
         context.execute(UpdateImage(texture.name, face, level, x, y, *parts, z=z, slices=shape[2]))
         follow_base_level(context, texture, face, level)
     return None
+
+
+def _stored(internalformat: int) -> Format:
+    compressed = COMPRESSED.get(internalformat)
+    return compressed.stored if compressed else FORMATS[internalformat]
+
+
+def _compressed(cells: np.ndarray | None, compressed: CompressedFormat, width: int, height: int) -> np.ndarray:
+    """Return the blocks of colours (height, width, 4) in bytes; zeros for none."""
+    if cells is None:
+        return np.zeros((*compressed.blocks(width, height), compressed.block_bytes), np.uint8)
+    return encoded(cells, compressed)
+
+
+def _update_blocks(
+    context: Context, texture: Texture, place: tuple[int, int], corner: Shape, cells: np.ndarray | None
+) -> None:
+    """Replace blocks of a compressed level, given as (face, level), by those of colours in bytes."""
+    if cells is None or not cells.size:
+        return
+    compressed = COMPRESSED[texture.images[place].internal_format]
+    blocks = encoded(cells, compressed)
+    decoded_cells = decoded(blocks, compressed, cells.shape[1], cells.shape[0])
+    context.execute(UpdateImage(texture.name, *place, *corner[:2], decoded_cells, blocks=blocks))
+    follow_base_level(context, texture, *place)
+
+
+def _inside(shape: Shape) -> Shape:
+    """Return the sides of an image without its border, which Mesa drops; it keeps heights and depths below 3."""
+    width, height, slices = shape
+    return width - 2, height - 2 if height > 2 else height, slices - 2 if slices > 2 else slices
+
+
+def _cropped(cells: np.ndarray | None, shape: Shape, inner: Shape) -> np.ndarray | None:
+    """Return the middle of an image (slices * height, width[, channels]); None for none."""
+    if cells is None or shape == inner:
+        return cells
+    width, height, slices = shape
+    places = (slice((whole - part) // 2, (whole + part) // 2) for whole, part in zip(shape, inner, strict=True))
+    columns, rows, planes = places
+    images = cells.reshape(slices, height, width, *cells.shape[2:])[planes, rows, columns]
+    return np.ascontiguousarray(images).reshape(inner[2] * inner[1], inner[0], *cells.shape[2:])
 
 
 def _cells(

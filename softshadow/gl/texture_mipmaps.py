@@ -5,6 +5,8 @@ from __future__ import annotations
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.calls import spelled_like_gl
+from softshadow.gl.compressed_mipmaps import generate_compressed
+from softshadow.gl.compression_problems import compression_problem
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.pixel_formats import Problem
 from softshadow.gl.textures import bound_name, bound_texture, target_problem
@@ -38,7 +40,7 @@ def _base_problem(context: Context, target: int) -> Problem | None:
         return gl.GL_INVALID_OPERATION, f"the bound texture needs {missing}: call glTexImage2D first"
     if first.stencil is not None or first.format.kind == "stencil":
         return gl.GL_INVALID_OPERATION, "the bound texture has stencil values, which cannot have mipmaps"
-    return None
+    return None if first.blocks is None else compression_problem(first.internal_format, gl.GL_INVALID_OPERATION)
 
 
 def follow_base_level(context: Context, texture: Texture, face: int, level: int) -> None:
@@ -46,12 +48,20 @@ def follow_base_level(context: Context, texture: Texture, face: int, level: int)
     sampler = texture.sampler
     base = texture.base(face)
     if sampler.generate_mipmap and level == sampler.base_level and base is not None and base.stencil is None:
+        if base.blocks is not None:
+            problem = compression_problem(base.internal_format, gl.GL_INVALID_OPERATION)
+            if problem:
+                fail(problem[0], "GL_GENERATE_MIPMAP", problem[1])
+                return
         _generate(context, texture, (face,))
 
 
 def _generate(context: Context, texture: Texture, faces: tuple[int, ...]) -> None:
     base, last = texture.sampler.base_level, texture.last_level(faces[0])
-    if last > base:
+    if last > base and texture.images[faces[0], base].blocks is not None:
+        for face in faces:
+            generate_compressed(context, texture, face, base, last)
+    elif last > base:
         context.execute(GenerateMipmaps(texture.name, faces, base, last))
 
 

@@ -17,7 +17,7 @@ from softshadow.context import Context
 from softshadow.framebuffer import LARGEST_SIDE
 from softshadow.gl.pixel_formats import Problem
 from softshadow.gl.textures import FACES, image_at
-from softshadow.image import FORMATS, Format
+from softshadow.image import FORMATS, Format, Image
 from softshadow.tokens import token_name
 
 LARGEST_LEVEL = LARGEST_SIDE.bit_length() - 1
@@ -26,6 +26,7 @@ LARGEST_BYTES = 1 << 30  # of a texture, in llvmpipe
 COMPONENT_NUMBERS = (1, 2, 3, 4)  # internal formats of GL 1.0, which glCopyTexImage does not take
 RECTANGLES = (gl.GL_TEXTURE_RECTANGLE, gl.GL_PROXY_TEXTURE_RECTANGLE)
 VOLUMES = (gl.GL_TEXTURE_3D, gl.GL_PROXY_TEXTURE_3D)
+ONE_DIMENSION = (gl.GL_TEXTURE_1D, gl.GL_PROXY_TEXTURE_1D)
 CUBE_MAPS = (*FACES, gl.GL_PROXY_TEXTURE_CUBE_MAP)
 PROXIES = {
     gl.GL_PROXY_TEXTURE_1D: 1,
@@ -50,11 +51,11 @@ def level_problem(target: int, level: int) -> Problem | None:
     return gl.GL_INVALID_VALUE, f"level={level}: expected {f'0 to {largest}' if largest else '0'}"
 
 
-def border_problem(border: int) -> Problem | None:
+def border_problem(target: int, border: int) -> Problem | None:
     """Return what is wrong with the width of a border."""
-    if border == 0:
+    if border == 0 or (border == 1 and target not in RECTANGLES):
         return None
-    return gl.GL_INVALID_VALUE, f"border={border}: expected 0 (texel borders are not part of this subset)"
+    return gl.GL_INVALID_VALUE, f"border={border}: expected {'0' if target in RECTANGLES else '0 or 1'}"
 
 
 def negative_problem(shape: Shape) -> Problem | None:
@@ -70,13 +71,14 @@ def sides(shape: Shape) -> str:
     return f"width={width}, height={height}" + (f", depth={depth}" if depth != 1 else "")
 
 
-def size_problem(target: int, level: int, shape: Shape) -> Problem | None:
-    """Return what is wrong with the sides of an image."""
+def size_problem(target: int, level: int, shape: Shape, border: int = 0) -> Problem | None:
+    """Return what is wrong with the sides of an image, its border included."""
     if problem := negative_problem(shape):
         return problem
-    largest = largest_side(target) >> level
-    if max(shape if target in VOLUMES else shape[:2]) > largest:
-        return gl.GL_INVALID_VALUE, f"{sides(shape)}: expected 0 to {largest} at level {level}"
+    least, largest = 2 * border, (largest_side(target) >> level) + 2 * border
+    lengths = shape[: 3 if target in VOLUMES else 1 if target in ONE_DIMENSION else 2]
+    if not least <= min(lengths) <= max(lengths) <= largest:
+        return gl.GL_INVALID_VALUE, f"{sides(shape)}: expected {least} to {largest} at level {level}"
     if target in CUBE_MAPS and shape[0] != shape[1]:
         return gl.GL_INVALID_VALUE, f"{sides(shape)}: expected a square face of a cube map"
     return None
@@ -94,6 +96,8 @@ def internal_problem(internalformat: int, code: int, exclude: tuple[int, ...] = 
     """Return what is wrong with an internal format; the error code differs from call to call."""
     if internalformat in FORMATS and internalformat not in exclude:
         return None
+    if token_name(internalformat).startswith("GL_COMPRESSED"):
+        return code, f"internalformat={token_name(internalformat)}: this package does not compress to it here"
     known = ", ".join(token_name(f) for f in FORMATS if f not in COMPONENT_NUMBERS)
     return code, f"internalformat={token_name(internalformat)}: expected one of {known}"
 
@@ -110,6 +114,14 @@ def missing_problem(context: Context, target: int, level: int) -> Problem | None
     if image_at(context, target, level) is not None:
         return None
     return gl.GL_INVALID_OPERATION, f"level {level} of the bound texture is not defined: call glTexImage first"
+
+
+def compressed_problem(image: Image | None) -> Problem | None:
+    """Return what is wrong with an image that a framebuffer would be copied to."""
+    if image is None or image.blocks is None:
+        return None
+    reason = f"the image is {token_name(image.internal_format)}: this package does not compress copies"
+    return gl.GL_INVALID_OPERATION, reason
 
 
 def region_problem(context: Context, target: int, level: int, corner: Shape, shape: Shape) -> Problem | None:

@@ -7,8 +7,10 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.compression import COMPRESSED, UNCOMPRESSED
 from softshadow.frozen import evolve
 from softshadow.gl.calls import spelled_like_gl
+from softshadow.gl.compressed_reading import compressed_pixels
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.pixel_formats import format_problem, kind_of, readout_problem
 from softshadow.gl.pixel_memory import image_destination
@@ -30,6 +32,7 @@ SIZES: dict[int, tuple[int, ...]] = {  # the base formats that have the channel
     gl.GL_TEXTURE_DEPTH_SIZE: (gl.GL_DEPTH_COMPONENT,),
     gl.GL_TEXTURE_STENCIL_SIZE: (gl.GL_STENCIL_INDEX,),
 }
+SYNONYMS = {gl.GL_COMPRESSED_LUMINANCE_ALPHA_3DC_ATI: gl.GL_COMPRESSED_LUMINANCE_ALPHA_LATC2_EXT}
 CHANNEL_OF = {gl.GL_TEXTURE_GREEN_SIZE: 1, gl.GL_TEXTURE_BLUE_SIZE: 2, gl.GL_TEXTURE_ALPHA_SIZE: 3}
 MEMORY = {  # largest depth: the type of the texture's own memory
     2**16 - 1: gl.GL_UNSIGNED_SHORT,
@@ -71,6 +74,8 @@ def texture_pixels(image: Image, format: int, type: int, transfer: PixelTransfer
         assert image.stencil is not None
         return pack_depth_stencil(image.view, image.stencil.view, image.format, type)[..., None]
     if kind == "color":
+        if image.blocks is not None:
+            return compressed_pixels(image, format, type)
         return pack_color(image.view, image.format, format, client_kind(type))
     if kind == "depth":
         if MEMORY.get(image.format.largest) == type:  # which Mesa copies as it is
@@ -94,13 +99,17 @@ def glGetTexLevelParameteriv(target: int, level: int, pname: int, params: Any = 
         gl.GL_TEXTURE_HEIGHT: image.height if image else 0,
         gl.GL_TEXTURE_DEPTH: image.slices if image else 0,
         gl.GL_TEXTURE_BORDER: 0,
-        gl.GL_TEXTURE_COMPRESSED: 0,
-        gl.GL_TEXTURE_INTERNAL_FORMAT: image.internal_format if image else gl.GL_RGBA,
+        gl.GL_TEXTURE_COMPRESSED: int(image is not None and image.internal_format in COMPRESSED),
+        gl.GL_TEXTURE_INTERNAL_FORMAT: _internal_format(image) if image else gl.GL_RGBA,
     }
     if pname in simple:
         answer = simple[pname]
     elif pname in SIZES:
         answer = channel_bits(image, pname) if image else 0
+    elif pname == gl.GL_TEXTURE_COMPRESSED_IMAGE_SIZE:
+        if is_proxy or image is None or image.internal_format not in COMPRESSED:
+            return fail(gl.GL_INVALID_OPERATION, operation, f"pname={token_name(pname)}: expected a compressed image")
+        answer = COMPRESSED[image.internal_format].size(image.width, image.height)
     else:
         return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)}: expected a property of a texture level")
     if params is not None:
@@ -114,12 +123,20 @@ def glGetTexLevelParameterfv(target: int, level: int, pname: int, params: Any = 
     return None if answer is None else float(answer)
 
 
+def _internal_format(image: Image) -> int:
+    """Return what queries return as the internal format: the base format of images that were to be compressed."""
+    wanted = image.internal_format
+    return image.format.base if wanted in UNCOMPRESSED else SYNONYMS.get(wanted, wanted)
+
+
 def channel_bits(image: Image, size: int) -> int:
     """Return the number of bits of the channel of a GL_TEXTURE_*_SIZE, 0 if the format does not have it."""
     if size == gl.GL_TEXTURE_STENCIL_SIZE:
         return 8 if image.stencil is not None or image.format.kind == "stencil" else 0
     if image.format.base not in SIZES[size]:
         return 0
+    if image.internal_format in COMPRESSED:
+        return COMPRESSED[image.internal_format].approximate_bits
     if image.format.bits:
         return image.format.bits[CHANNEL_OF.get(size, 0)]
     if image.format.kind == "unorm8":

@@ -11,13 +11,13 @@ from softshadow import tokens as gl
 from softshadow.context import Context, thread
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
-from softshadow.gl.conversions import clamped_int, enum, first, from_int, vector
+from softshadow.gl.conversions import clamped_int, enum, first, from_int, to_int, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, names_argument, reserve
 from softshadow.image import Image
 from softshadow.pipeline.commands import AttachTexture, CreateTexture, DeleteTextures, SetSampler
 from softshadow.state.texturing import BINDINGS
-from softshadow.texture import Sampler, Texture, initial_sampler, stored_name
+from softshadow.texture import INITIAL_SAMPLER, Sampler, Texture, initial_sampler, stored_name
 from softshadow.tokens import token_name
 
 FACES = tuple(range(gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X, gl.GL_TEXTURE_CUBE_MAP_NEGATIVE_Z + 1))
@@ -60,7 +60,10 @@ FIELDS = {name: field for name, (field, _) in CHOICES.items()} | LEVELS | NUMBER
 # -- objects and bindings ----------------------------------------------------------------------------------------------
 def glGenTextures(n: int, textures: Any = None) -> Any:
     """Return unused texture names: an int for n = 1, else an array."""
-    return generate("glGenTextures", "texture", n, textures)
+    names = generate("glGenTextures", "texture", n, textures)
+    if names is not None:
+        thread.context.generated_textures.update(dict.fromkeys(np.ravel(names).tolist(), INITIAL_SAMPLER.priority))
+    return names
 
 
 def glBindTexture(target: int, texture: int) -> None:
@@ -76,6 +79,9 @@ def glBindTexture(target: int, texture: int) -> None:
         if texture_object is None:
             reserve(context, "texture", name)
             context.execute(CreateTexture(name, target))
+            priority = context.generated_textures.get(name, INITIAL_SAMPLER.priority)
+            if priority != INITIAL_SAMPLER.priority:
+                context.execute(SetSampler(name, evolve(initial_sampler(target), priority=priority)))
         elif texture_object.target != target:
             return fail(
                 gl.GL_INVALID_OPERATION,
@@ -100,6 +106,8 @@ def glDeleteTextures(*arguments: Any) -> None:
         unbound = {field: 0 for field in BINDINGS.values() if getattr(unit, field) in names}
         if unbound:
             set_unit(context, index, **unbound)
+    for name in names:
+        context.generated_textures.pop(name, None)
     existing = tuple(name for name in names if name in context.objects.textures)
     if existing:
         context.execute(DeleteTextures(existing))
@@ -238,11 +246,17 @@ def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
                 return fail(gl.GL_INVALID_VALUE, operation, f"{token_name(pname)}={value}: expected 1 or more")
             number = number if number < LARGEST_ANISOTROPY else LARGEST_ANISOTROPY  # also instead of NaN
         elif pname == gl.GL_TEXTURE_PRIORITY:
-            number = min(max(number, 0.0), 1.0)
+            number = clamped_priority(number)
         _set_sampler(context, target, **{NUMBERS[pname]: number})
     else:
         return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)}: expected a texture parameter")
     return None
+
+
+def clamped_priority(value: float) -> float:
+    """Return a priority in [0, 1], single precision; 1 for NaN, as Mesa's comparisons give."""
+    number = float(np.float32(value))
+    return 0.0 if number < 0 else number if number < 1 else 1.0
 
 
 def _set_sampler(context: Context, target: int, **fields: Any) -> None:
@@ -286,8 +300,12 @@ def _parameter(operation: str, target: int, pname: int, params: Any, dtype: type
     if pname == gl.GL_TEXTURE_BORDER_COLOR:
         color = queried_color(context, sampler.border_color)
         answer = color if dtype == np.float32 else (color.astype(np.float64) * 2147483647.0).astype(np.int32)
+    elif pname == gl.GL_TEXTURE_RESIDENT:
+        answer = np.array([1], dtype)
     elif pname in FIELDS:
         value = getattr(sampler, FIELDS[pname])
+        if pname == gl.GL_TEXTURE_PRIORITY and dtype == np.int32:
+            value = to_int(value)
         answer = np.array([value], np.float32) if dtype == np.float32 else np.array([clamped_int(value)], np.int32)
     else:
         return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)}: expected a texture parameter")

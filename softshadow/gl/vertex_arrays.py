@@ -11,7 +11,16 @@ from softshadow import tokens as gl
 from softshadow.context import ArrayLayout, ClientArrays, current
 from softshadow.context.arrays import VertexArray
 from softshadow.frozen import evolve
-from softshadow.gl.array_snapshots import COLOR, EDGE, NORMAL, POSITION, TEXCOORD, vertex_array
+from softshadow.gl.array_snapshots import (
+    COLOR,
+    EDGE,
+    FOG_COORDINATE,
+    NORMAL,
+    POSITION,
+    SECONDARY,
+    TEXCOORD,
+    vertex_array,
+)
 from softshadow.gl.buffers import offset_of
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
@@ -25,18 +34,21 @@ TYPES = {
 DTYPES = {type: np.dtype(dtype) for type, dtype in TYPES.items()}
 SLOTS = {"position": POSITION, "color": COLOR, "normal": NORMAL}
 SLOTS |= {f"texcoord{unit}": TEXCOORD + unit for unit in range(TEXTURE_UNITS)}
-SLOTS["edge"] = EDGE
+SLOTS |= {"edge": EDGE, "secondary": SECONDARY, "fog_coordinate": FOG_COORDINATE, "index": FOG_COORDINATE + 1}
 POSITION_TYPES = (gl.GL_SHORT, gl.GL_INT, gl.GL_FLOAT, gl.GL_DOUBLE)
 NORMAL_TYPES = (gl.GL_BYTE, *POSITION_TYPES)
+COLOR_INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, *POSITION_TYPES)
 LARGEST_STRIDE = 2048  # Mesa's GL_MAX_VERTEX_ATTRIB_STRIDE
 ARRAYS = {
     gl.GL_VERTEX_ARRAY: "position",
     gl.GL_NORMAL_ARRAY: "normal",
     gl.GL_COLOR_ARRAY: "color",
     gl.GL_EDGE_FLAG_ARRAY: "edge",
+    gl.GL_SECONDARY_COLOR_ARRAY: "secondary",
+    gl.GL_FOG_COORD_ARRAY: "fog_coordinate",
+    gl.GL_INDEX_ARRAY: "index",
 }
 CLIENT_STATES = (*ARRAYS, gl.GL_TEXTURE_COORD_ARRAY)
-ABSENT_ARRAYS = (gl.GL_INDEX_ARRAY, gl.GL_SECONDARY_COLOR_ARRAY, gl.GL_FOG_COORD_ARRAY)
 # glInterleavedArrays: components of texture coordinate, colour (key of `COLORS`), normal and position
 INTERLEAVED = {
     gl.GL_V2F: (0, "", 0, 2), gl.GL_V3F: (0, "", 0, 3), gl.GL_C4UB_V2F: (0, "4ub", 0, 2),
@@ -62,16 +74,15 @@ def glDisableClientState(array: int) -> None:
 
 def _client_state(operation: str, array: int, on: bool) -> None:
     context = outside_begin(operation)
-    if context is None or (array in ABSENT_ARRAYS and not on):  # they are always disabled
+    if context is None:
         return
-    expected = "GL_VERTEX_ARRAY, GL_NORMAL_ARRAY, GL_COLOR_ARRAY, GL_TEXTURE_COORD_ARRAY or GL_EDGE_FLAG_ARRAY"
-    if is_one_of(operation, "array", array, CLIENT_STATES, expected):
+    if is_one_of(operation, "array", array, CLIENT_STATES, "GL_VERTEX_ARRAY, GL_NORMAL_ARRAY … GL_FOG_COORD_ARRAY"):
         switch_array(context.arrays, array, on)
 
 
 def switch_array(arrays: ClientArrays, array: int, on: bool) -> None:
     """Enable or disable an array; that of texture coordinates is the array of the active unit."""
-    key = _key_of(arrays, array)
+    key = array_name(arrays, array)
     if (key in arrays.enabled) != on:
         (arrays.enabled.add if on else arrays.enabled.discard)(key)
         arrays.active = None
@@ -79,10 +90,11 @@ def switch_array(arrays: ClientArrays, array: int, on: bool) -> None:
 
 def is_array_enabled(arrays: ClientArrays, array: int) -> bool:
     """Return whether an array is enabled."""
-    return _key_of(arrays, array) in arrays.enabled
+    return array_name(arrays, array) in arrays.enabled
 
 
-def _key_of(arrays: ClientArrays, array: int) -> str:
+def array_name(arrays: ClientArrays, array: int) -> str:
+    """Return the name of an array in `ClientArrays`; of texture coordinates it is that of the active unit."""
     return ARRAYS.get(array) or f"texcoord{arrays.active_unit}"
 
 
@@ -114,9 +126,24 @@ def glTexCoordPointer(size: int, type: int, stride: int, pointer: Any) -> None:
     _pointer("glTexCoordPointer", key, size, (1, 2, 3, 4), type, POSITION_TYPES, stride, pointer)
 
 
+def glSecondaryColorPointer(size: int, type: int, stride: int, pointer: Any) -> None:
+    """Set the array of secondary colours: `size` 3 (or 4, as in Mesa); unsigned integers represent 0 to 1."""
+    _pointer("glSecondaryColorPointer", "secondary", size, (3, 4), type, TYPES, stride, pointer)
+
+
+def glFogCoordPointer(type: int, stride: int, pointer: Any) -> None:
+    """Set the array of fog coordinates: one number per vertex."""
+    _pointer("glFogCoordPointer", "fog_coordinate", 1, (1,), type, (gl.GL_FLOAT, gl.GL_DOUBLE), stride, pointer)
+
+
 def glEdgeFlagPointer(stride: int, pointer: Any) -> None:
     """Set the array of edge flags: one byte per vertex."""
     _pointer("glEdgeFlagPointer", "edge", 1, (1,), gl.GL_UNSIGNED_BYTE, TYPES, stride, pointer)
+
+
+def glIndexPointer(type: int, stride: int, pointer: Any) -> None:
+    """Set the array of colour indices, which only glArrayElement reads: one number per vertex."""
+    _pointer("glIndexPointer", "index", 1, (1,), type, COLOR_INDEX_TYPES, stride, pointer)
 
 
 def _pointer(
@@ -193,6 +220,8 @@ def glInterleavedArrays(format: int, stride: int, pointer: Any) -> None:
         memory = _memory(pointer)
         places = [memory[end:] for end in ends[:4]]
     color_type = gl.GL_UNSIGNED_BYTE if color == "4ub" else gl.GL_FLOAT
+    for array in (gl.GL_EDGE_FLAG_ARRAY, gl.GL_INDEX_ARRAY):
+        glDisableClientState(array)
     for array, size, point in (
         (gl.GL_TEXTURE_COORD_ARRAY, texcoord, lambda: glTexCoordPointer(texcoord, gl.GL_FLOAT, step, places[0])),
         (gl.GL_COLOR_ARRAY, numbers, lambda: glColorPointer(numbers, color_type, step, places[1])),

@@ -18,11 +18,12 @@ from softshadow.frozen import create
 from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
-from softshadow.state import TEXTURE_UNITS
+from softshadow.state import BLACK, TEXTURE_UNITS
 
 REST = (0.0, 0.0, 0.0, 1.0)  # default values of components that a call does not set
 TEXCOORDS = tuple(f"texcoord{unit}" for unit in range(TEXTURE_UNITS))
 ANY_TEXCOORD = frozenset(TEXCOORDS)
+OPTIONAL = {"edge": True, "secondary": BLACK, "fog_coordinate": 0.0}  # the last fields of `Vertices`: initial values
 NO_MATERIALS: frozenset[str] = frozenset()
 FEW_VERTICES = 8  # with more collected vertices, a new attribute outside glBegin makes Mesa reset all others
 
@@ -204,6 +205,7 @@ def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int
     if not ANY_TEXCOORD.isdisjoint(carried):
         places = enumerate(TEXCOORDS)
         texcoords = tuple([rows(name) if name in carried else texcoords[place] for place, name in places])
+    edges, secondary, fog_coordinates = [_optional_rows(context, primitive, name, start, end) for name in OPTIONAL]
     return create(
         Vertices,
         position=context.packed(primitive.positions[4 * start : 4 * end], count, 4),
@@ -211,16 +213,22 @@ def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int
         normal=rows("normal") if "normal" in carried else constants.normal.rows(count),
         texcoords=texcoords,
         materials={name: rows(name) for name in primitive.materials},
-        edges=_edges_of(context, primitive, start, end),
+        edges=edges,
+        secondary=secondary,
+        fog_coordinates=fog_coordinates,
     )
 
 
-def _edges_of(context: Context, primitive: Primitive, start: int, end: int) -> np.ndarray | None:
-    """Return the edge flags of the vertices [start, end); None if all are true."""
-    edge = context.current.edge
-    if "edge" in context.vertex_buffer.sizes:
-        return _read_only(np.array(primitive.values("edge", edge)[start:end], bool))
-    return None if edge else np.broadcast_to(False, end - start)
+def _optional_rows(context: Context, primitive: Primitive, name: str, start: int, end: int) -> np.ndarray | None:
+    """Return an attribute of the vertices [start, end); None if all have its initial value."""
+    current, initial = context.current.__dict__[name], OPTIONAL[name]
+    real = bool if initial is True else context.real
+    if name in context.vertex_buffer.sizes:
+        return _read_only(np.array(primitive.values(name, current)[start:end], real))
+    if current is initial or current == initial:
+        return None
+    value = np.array(current, real)
+    return np.broadcast_to(value, (end - start, *value.shape))
 
 
 def _read_only(rows: np.ndarray) -> np.ndarray:

@@ -227,7 +227,9 @@ class Follower:
         tap = lookup.deciding_tap
         image = texture.base(FACES.index(tap.face) if tap.face else 0)
         stands_for = None if image is None else self.timeline.stand_in(image)
-        if stands_for is None or not tap.inside or stands_for.format.kind != "depth":
+        if stands_for is None or not tap.inside:
+            return lookup
+        if stands_for.format.kind != "depth" and lookup.measure != "distance":  # a mean has no single caster
             return lookup
         row = self._row_left(stands_for, tap.gl_y, tap.x, before)
         return lookup if row is None else replace(lookup, caster=row.caster or row.object, caster_triangle=row.triangle)

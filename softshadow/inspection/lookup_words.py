@@ -42,8 +42,10 @@ def place_words(lookup: MapLookup) -> str:
 
 
 def own_depth(lookup: MapLookup, depth: float, digits: str) -> str:
-    """Return the depth of the point, with the bias that has been subtracted from it."""
-    if not lookup.bias or depth >= 1:  # beyond the far plane as on it
+    """Return the depth of the point, or its distance, with the bias that has been subtracted from it."""
+    if depth >= lookup.farthest:  # beyond the far plane as on it
+        return f"at least {digits}, where the map ends" if lookup.measure == "distance" else digits
+    if not lookup.bias:
         return digits
     return f"{depth + lookup.bias:.{DIGITS}g} - {lookup.bias:g} bias"
 
@@ -59,7 +61,8 @@ def one_tap(lookup: MapLookup) -> str:
     """Return the words for a single comparison."""
     depth = lookup.depth or 0.0
     stored, own = unlike(lookup.stored, depth)
-    found = f"{place_words(lookup)} stores {stored}{drawn_words(lookup)}"
+    kind = "distance " if lookup.measure == "distance" else ""
+    found = f"{place_words(lookup)} stores {kind}{stored}{drawn_words(lookup)}"
     return f"{found}, this point has {own_depth(lookup, depth, own)}: {outcome(lookup, bool(lookup.lit))}"
 
 

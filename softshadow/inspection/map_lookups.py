@@ -66,6 +66,8 @@ class MapLookup:
     x, y, gl_y, face, stored, depth     those of the middle tap
     bias : float or None         what the program has subtracted from the depth; None if the texture unit compares
     compare : str                "LEQUAL" ...; "" if depths are not compared one by one
+    measure : str                "depth", or "distance": what is stored and compared, in world units
+    farthest : float             greater depths or distances count as this one
     lit : float or None          the weighted share of the taps that are lit; of a filtered map what the program finds
     visible : float or None      the visibility that the program returns: another one where the map does not decide
     values : tuple               the channels of the last read
@@ -85,6 +87,8 @@ class MapLookup:
     depth: float | None
     bias: float | None
     compare: str
+    measure: str
+    farthest: float
     lit: float | None
     visible: float | None
     values: tuple[float, ...]
@@ -144,7 +148,9 @@ def _lookup(reads: list[Read], place: int, visible: float | None, light: str) ->
     function = texture.sampler.compare_func if by_unit else gl.GL_LEQUAL
     taps: list[Tap] = []
     values: tuple[float, ...] = ()
-    compares = by_unit or image.format.kind == "depth"
+    first = reads[0].compared
+    measure, farthest = ("depth", 1.0) if first is None else (first.measure, first.farthest)
+    compares = by_unit or image.format.kind == "depth" or measure == "distance"
     for read in reads:
         row = place_in(read, place)
         if row is None:
@@ -164,9 +170,9 @@ def _lookup(reads: list[Read], place: int, visible: float | None, light: str) ->
     lit = share_of(counted) if compares else visible
     return MapLookup(
         texture.name, light, middle.x, middle.y, middle.gl_y, middle.face, middle.stored, middle.depth,
-        None if reads[0].compared is None else reads[0].compared.bias,
+        None if first is None else first.bias,
         token_name(function, FUNCTIONS).removeprefix("GL_") if compares and middle.depth is not None else "",
-        lit, visible, values, None, tuple(taps),
+        measure, farthest, lit, visible, values, None, tuple(taps),
     )  # fmt: skip
 
 

@@ -166,6 +166,10 @@ def _validate_draw(draw: commands.Draw) -> None:
         _validate_array(name, array, np.float32, n, *(() if name.endswith("shininess") else (4,)))
     if vertices.edges is not None:
         _validate_array("edge flags", vertices.edges, bool, n)
+    if vertices.secondary is not None:
+        _validate_array("secondary colors", vertices.secondary, np.float32, n, 4)
+    if vertices.fog_coordinates is not None:
+        _validate_array("fog coordinates", vertices.fog_coordinates, np.float32, n)
     if draw.indices is not None:
         _validate_array("indices", draw.indices, np.int32, None)
         if draw.indices.size and not (draw.indices.min() >= 0 and draw.indices.max() < n):

@@ -25,7 +25,7 @@ from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.memory.threads import threads
 from softshadow.pipeline.mesa.polygon_rules import has_special_fragments, passes_stages
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
-from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2
+from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, few_bands
 from softshadow.pipeline.raster.fill import FillKernel, textbook_kernel
 from softshadow.pipeline.raster.fragment_ops import FragmentOps, fragment_ops
 from softshadow.pipeline.raster.region import depth_range_of
@@ -55,7 +55,6 @@ WORTH_BANDS = 1_000_000  # fragments from which sorting and the hand-over to thr
 SMALL_TRIANGLE = 100  # fragments that take as long as a small triangle
 WORTH_SHARING = 64  # triangles for each thread, from which threads share them in place of bands of rows
 WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volumes are long and thin
-BANDS_PER_THREAD = 2  # more would balance the threads better, but a triangle is set up again in each band that it meets
 FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangle: finding their spans would cost more
 TRIANGLES_OF_QUAD = 2
 SPARSE = 0.3  # fragments for each pixel of their region: from fewer on, most of the search for spans finds nothing
@@ -293,10 +292,7 @@ def _has_layers(region: Region, fragments: int) -> bool:
 
 def _band_rows_log2(region: Region, fragments: int) -> int:
     """Return the binary logarithm of how many rows a band has: few bands where each has little to do."""
-    if _has_layers(region, fragments):
-        return BAND_ROWS_LOG2
-    rows = int(region.end_row - region.first_row) // (BANDS_PER_THREAD * threads())
-    return max(BAND_ROWS_LOG2, rows.bit_length() - 1)
+    return BAND_ROWS_LOG2 if _has_layers(region, fragments) else few_bands(region)
 
 
 def fill_colorless(plan: Plan, command: Draw, target: Framebuffer) -> Iterator[Chunk]:

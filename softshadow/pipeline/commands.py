@@ -30,7 +30,8 @@ class Vertices:
     """The vertices of a draw, read-only: position (V, 4), color (V, 4), normal (V, 3), one texcoord (V, 4) per unit.
 
     `materials` holds what glMaterial changed between vertices: "front.diffuse" (V, 4), "back.shininess" (V,) ...
-    `edges` (V,) bool are the edge flags; None: all true.
+    `edges` (V,) bool are the edge flags; None: all true. `secondary` (V, 4) are the secondary colours, None: all black;
+    `fog_coordinates` (V,), None: all 0.
     """
 
     position: np.ndarray
@@ -39,6 +40,8 @@ class Vertices:
     texcoords: tuple[np.ndarray, ...]
     materials: Mapping[str, np.ndarray] = field(default_factory=dict)
     edges: np.ndarray | None = None
+    secondary: np.ndarray | None = None
+    fog_coordinates: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,7 +148,7 @@ class DefineImage:
     """glTexImage. `cells` and `stencil` are in the storage's own layout, (height, width[, channels]), None for zeros.
 
     A framebuffer object that the level is attached to gets the new image. The slices of a 3-D image lie one above the
-    other: (slices * height, width[, channels]).
+    other: (slices * height, width[, channels]). `blocks` are those of a compressed image, see `Image`.
     """
 
     texture: int
@@ -158,13 +161,15 @@ class DefineImage:
     cells: np.ndarray | None = None
     stencil: np.ndarray | None = None
     slices: int = 1
+    blocks: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class UpdateImage:
     """glTexSubImage. `cells` and `stencil` are in the storage's own layout; None leaves them as they are.
 
-    Of a 3-D image, so many slices change, from `z` on; their cells lie one above the other.
+    Of a 3-D image, so many slices change, from `z` on; their cells lie one above the other. `blocks` replace those of a
+    compressed image from the one at (x, y) on.
     """
 
     texture: int
@@ -176,6 +181,7 @@ class UpdateImage:
     stencil: np.ndarray | None = None
     z: int = 0
     slices: int = 1
+    blocks: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)

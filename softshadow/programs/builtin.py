@@ -3,6 +3,7 @@
 from softshadow.programs.blinn_phong import BLINN_PHONG
 from softshadow.programs.blinn_phong_shadowed import BLINN_PHONG_SHADOWED, BLINN_PHONG_SHADOWED_5X5
 from softshadow.programs.cube_visibility import CUBE_VISIBILITY
+from softshadow.programs.distance_map import DISTANCE_VISIBILITY, LIGHT_DISTANCE
 from softshadow.programs.eight_maps import MAP_VISIBILITY_8
 from softshadow.programs.filterable_depth import BOX_BLUR, DEPTH_EXPONENTIAL, DEPTH_MOMENTS
 from softshadow.programs.filtered_visibility import EXPONENTIAL_VISIBILITY, VARIANCE_VISIBILITY
@@ -22,6 +23,8 @@ BUILTIN = (
     MAP_VISIBILITY_BILINEAR,
     MAP_VISIBILITY_8,
     CUBE_VISIBILITY,
+    LIGHT_DISTANCE,
+    DISTANCE_VISIBILITY,
     SILHOUETTE_VISIBILITY,
     SOFT_VISIBILITY,
     DEPTH_MOMENTS,

@@ -104,7 +104,10 @@ def texels_of(
     cells = image.cells if as_bytes else cells_in_float(image)
     cells = cells if cells.ndim == 3 else cells[:, :, np.newaxis]
     border = np.array(sampler.border_color, real)
-    border = border.clip(ZERO, ONE) if image.format.is_clamped else border
+    if image.format.is_clamped:
+        border = border.clip(ZERO, ONE)
+    elif image.format.encoding == "snorm":
+        border = border.clip(-ONE, ONE)
     return cells, border, unit_of(image.format, real) if as_bytes else real.type(ONE)
 
 

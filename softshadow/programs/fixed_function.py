@@ -1,7 +1,7 @@
 """GL's fixed function as a program: lighting and coordinates per vertex; texturing, specular sum and fog per fragment.
 
-Columns of the varyings: primary RGBA; secondary RGB with GL_SEPARATE_SPECULAR_COLOR; (s, t, r, q) of every texture unit
-in use; the fog distance.
+Columns of the varyings: primary RGBA; secondary RGB with GL_SEPARATE_SPECULAR_COLOR or GL_COLOR_SUM; (s, t, r, q) of
+every texture unit in use; the fog distance or coordinate.
 """
 
 from __future__ import annotations
@@ -73,9 +73,10 @@ def units_in_use(state: State, textures: Mapping[tuple[int, int], Texture]) -> l
     return units
 
 
-def is_separate(state: State) -> bool:
-    """Return whether specular colour is a colour of its own, added after texturing."""
-    return state.lighting.enabled and state.lighting.color_control == gl.GL_SEPARATE_SPECULAR_COLOR
+def has_secondary(state: State) -> bool:
+    """Return whether a secondary colour is added after texturing."""
+    is_separate = state.lighting.enabled and state.lighting.color_control == gl.GL_SEPARATE_SPECULAR_COLOR
+    return is_separate or state.fog.color_sum
 
 
 def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) -> Varyings:
@@ -88,6 +89,8 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
         front, back = light_vertices(lighting, vertices, in_eye_space)
     else:
         front = Colors(clamp_colors(vertices.color), None)
+    if state.fog.color_sum:
+        front, back = (colors and with_secondary(colors, lighting.enabled, vertices) for colors in (front, back))
     settings = [state.units[unit.index] for unit in units]
     normals: Normals | None = None
     if any(needs_normals(setting) for setting in settings):
@@ -99,28 +102,43 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
         for unit in units
     ]
     if state.fog.enabled:
-        rest.append(eye_distance(state, vertices)[:, np.newaxis])
+        rest.append(fog_depth(state, vertices)[:, np.newaxis])
     values = columns(front, rest, vertices.position.dtype)
     flat = np.zeros(values.shape[1], bool)
     one_color = not lighting.enabled and vertices.color.strides[0] == 0  # Mesa does not interpolate a constant
-    column = 7 if is_separate(state) else 4
+    column = 7 if has_secondary(state) else 4
     flat[:column] = lighting.shade_model == gl.GL_FLAT or one_color
+    one_secondary = not lighting.enabled and (vertices.secondary is None or vertices.secondary.strides[0] == 0)
+    flat[4:column] = lighting.shade_model == gl.GL_FLAT or one_secondary
     for unit in units:
         flat[column : column + 4] = has_one_coordinate(state, unit.index, vertices)
         column += 4
-    flat_input = lighting.shade_model == gl.GL_FLAT and not one_color and needs_vertex_color(state, units)
+    varies = (not one_color and needs_vertex_color(state, units)) or (column == 7 and not one_secondary)
+    flat_input = lighting.shade_model == gl.GL_FLAT and varies
     back_values = None if back is None else columns(back, rest, values.dtype)
     return Varyings(values, flat, back_values, flat_input, point_sizes(state, vertices))
 
 
 def needs_vertex_color(state: State, units: list[Unit]) -> bool:
     """Return whether the fragment colours depend on the vertex colours."""
-    if not units or is_separate(state):
+    if not units:
         return True
     from softshadow.programs.sampling import base_format
     from softshadow.programs.vertex_color_use import uses_vertex_color
 
     return uses_vertex_color([(state.units[unit.index], base_format(unit.texture)) for unit in units])
+
+
+def with_secondary(colors: Colors, is_lit: bool, vertices: VertexInputs) -> Colors:
+    """Return colours with the secondary colour that GL_COLOR_SUM adds: that of the vertices, if they are not lit.
+
+    Lighting has one with GL_SEPARATE_SPECULAR_COLOR; else Mesa's vertex program writes none, which reads as 0.
+    """
+    if colors.secondary is not None:
+        return colors
+    if is_lit or vertices.secondary is None:
+        return Colors(colors.primary, np.zeros((len(vertices.position), 3), vertices.position.dtype))
+    return Colors(colors.primary, clamp_colors(vertices.secondary)[:, :3])
 
 
 def is_replaced(state: State, unit: int) -> bool:
@@ -165,10 +183,19 @@ def eye_distance(state: State, vertices: VertexInputs) -> np.ndarray:
     return abs(dot(vertices.position, np.asarray(vertices.modelview[2], vertices.position.dtype)))
 
 
+def fog_depth(state: State, vertices: VertexInputs) -> np.ndarray:
+    """Return what fog depends on (V,): the distance, or the fog coordinate, without its sign in Mesa."""
+    if state.fog.source == gl.GL_FRAGMENT_DEPTH:
+        return eye_distance(state, vertices)
+    if vertices.fog_coordinates is None:
+        return np.zeros(len(vertices.position), vertices.position.dtype)
+    return abs(vertices.fog_coordinates)
+
+
 def shade_fragments(state: State, units: list[Unit], inputs: np.ndarray, out: np.ndarray) -> None:
     """Fill `out` (N, 4) with the fragment colours, from interpolated inputs (N, k)."""
     out[:] = inputs[:, :4]
-    column = 7 if is_separate(state) else 4
+    column = 7 if has_secondary(state) else 4
     if units:
         from softshadow.programs import texture_combine
         from softshadow.programs.sampling import base_format, project, project_with_reference, sample
@@ -187,7 +214,7 @@ def shade_fragments(state: State, units: list[Unit], inputs: np.ndarray, out: np
                 out[:] = texture_combine.combine(setting.combine, sources)
             else:
                 apply_environment(out, texel, setting.env_mode, base_format(unit.texture), setting.env_color)
-    if is_separate(state):
+    if has_secondary(state):
         out[:, :3] += inputs[:, 4:7]
     if state.fog.enabled:
         from softshadow.programs.fog import apply_fog

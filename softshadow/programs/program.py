@@ -20,6 +20,7 @@ class VertexInputs:
     position (V, 4), color (V, 4), normal (V, 3), texcoords one (V, 4) per texture unit; float32 (float64 in "exact").
     `modelview_kind` classifies the matrix by the calls that built it (`softshadow.programs.inverse`); `materials` holds
     the material parameters that change from vertex to vertex: "front.diffuse" (V, 4), "back.shininess" (V,) ...
+    secondary (V, 4) colours and fog_coordinates (V,) are None where all are 0.
     """
 
     position: np.ndarray
@@ -32,6 +33,8 @@ class VertexInputs:
     uniforms: Mapping[str, Any]
     modelview_kind: int = UNKNOWN
     materials: Mapping[str, np.ndarray] = field(default_factory=dict)
+    secondary: np.ndarray | None = None
+    fog_coordinates: np.ndarray | None = None
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,9 @@ class ComparedDepths(NamedTuple):
     """What a program compares with its next reads of a texture.
 
     depths (n,), from which `bias` has been subtracted; weights (n,) of the results, or None for equal ones; rows (n,):
-    which fragments they belong to, or None for all; purpose: what the reads are for, where a program has several.
+    which fragments they belong to, or None for all; purpose: what the reads are for, where a program has several;
+    measure: "depth", or "distance" if the program compares distances with colours one by one; farthest: greater ones
+    count as this one.
     """
 
     depths: np.ndarray
@@ -28,6 +30,8 @@ class ComparedDepths(NamedTuple):
     weights: np.ndarray | None = None
     rows: np.ndarray | None = None
     purpose: str = ""
+    measure: str = "depth"
+    farthest: float = 1.0
 
 
 class Read(NamedTuple):

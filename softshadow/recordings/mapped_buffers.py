@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 from softshadow import gl
 from softshadow.context import Context
+from softshadow.gl.buffers import TARGETS, bound_buffer
 from softshadow.traces import Call
-
-BINDINGS = {gl.GL_ARRAY_BUFFER: "array_buffer", gl.GL_ELEMENT_ARRAY_BUFFER: "element_buffer"}
 
 
 @dataclass
@@ -36,9 +35,9 @@ class MappedBuffers:
         ValueError                   this package has no such buffers, or none is bound
         """
         target, *rest = call.arguments
-        name = getattr(context.arrays, BINDINGS[target], 0) if target in BINDINGS else 0
+        name = bound_buffer(context, target) if target in TARGETS else 0
         if name not in context.buffers:
-            raise ValueError(f"target={gl.token_name(target)}: expected a bound array or element array buffer")
+            raise ValueError(f"target={gl.token_name(target)}: expected a bound buffer of arrays, indices or pixels")
         size = len(context.buffers[name].content)
         is_range = call.name.startswith("glMapBufferRange")
         offset, n_bytes = (rest[0], rest[1]) if is_range else (0, size)
@@ -59,6 +58,8 @@ class MappedBuffers:
         address, content, _ = call.arguments
         for mapping in self._mappings.values():
             start = address - mapping.address
+            if mapping.buffer not in mapping.context.buffers:  # it was deleted while it was mapped
+                continue
             if isinstance(content, bytes) and start >= 0 and start + len(content) <= mapping.n_bytes:
                 _write(mapping, mapping.offset + start, content)
                 return

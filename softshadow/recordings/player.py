@@ -28,7 +28,7 @@ HISTORY_BYTES = 1 << 30  # of the recording of one frame
 MOST_LABELLED = 5000  # draws of a frame that are told apart by the numbers of their calls
 USE_PROGRAM = ("glUseProgram", "glUseProgramObjectARB")
 ASSEMBLY = (0x8620, 0x8804)  # GL_VERTEX_PROGRAM_ARB, GL_FRAGMENT_PROGRAM_ARB
-CURRENT_VALUES = (gl.GL_CURRENT_COLOR, gl.GL_CURRENT_NORMAL, gl.GL_CURRENT_TEXTURE_COORDS)
+CURRENT_VALUES = (gl.GL_CURRENT_COLOR, gl.GL_CURRENT_NORMAL, gl.GL_CURRENT_TEXTURE_COORDS, gl.GL_CURRENT_INDEX)
 # what contexts that share objects see of each other
 OBJECT_COMMANDS = (
     commands.DefineImage, commands.UpdateImage, commands.GenerateMipmaps, commands.CreateTexture, commands.SetSampler,
@@ -160,6 +160,7 @@ class Player:
         if shared is not None:
             other = self._contexts[shared].context
             context.lists, context.buffers, context.names = other.lists, other.buffers, other.names
+            context.generated_textures = other.generated_textures
             context.objects.textures = other.objects.textures
             context.objects.renderbuffers = other.objects.renderbuffers
             make_current(context)

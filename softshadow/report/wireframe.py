@@ -14,7 +14,7 @@ MOST_LINES = 4000  # of one set; of more, evenly spaced ones are shown
 MOST_EDGES = 40  # of the volumes, whose long edges would hide the picture
 SILHOUETTE, VOLUME, FRUSTUM = "#e69f00", "#56b4e9", "#f0e442"
 # techniques whose maps are drawn by one camera per light
-ONE_CAMERA = ("map", "map-pcf", "map-silhouette", "map-variance", "map-exponential", "map-pcss")
+ONE_CAMERA = ("map", "map-distance", "map-pcf", "map-silhouette", "map-variance", "map-exponential", "map-pcss")
 BOX_EDGES = [(a, b) for a in range(8) for b in range(a + 1, 8) if (a ^ b).bit_count() == 1]
 
 

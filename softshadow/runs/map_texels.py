@@ -10,7 +10,7 @@ from softshadow.inspection import Step, Steps
 from softshadow.inspection.timeline import timeline_of
 from softshadow.pixels import depth_as_float
 
-ALPHA = 3
+RED, ALPHA = 0, 3
 
 
 def image_of_map(steps: Steps, name: str) -> tuple[Image, int]:
@@ -44,16 +44,19 @@ def equal_images(step: Step, values: np.ndarray) -> list[tuple[int, int, int]]:
         (name, *place)
         for name, texture in sorted(textures.items())
         for place, image in sorted(texture.images.items())
-        if (texels := texels_like(image, values)) is not None and np.array_equal(texels, values)
+        if any(np.array_equal(texels, values) for texels in texels_like(image, values))
     ]
 
 
-def texels_like(image: Image, values: np.ndarray) -> np.ndarray | None:
-    """Return the texels of an image, row 0 on top, with the channels that a map has; None if the sizes differ."""
+def texels_like(image: Image, values: np.ndarray) -> list[np.ndarray]:
+    """Return the texels of an image, row 0 on top, in each form that a map may have; none if the sizes differ.
+
+    A map without channels is the depth, or else alpha or red.
+    """
     if values.shape[:2] != (image.height, image.width):
-        return None
+        return []
     cells = image.read_cells[::-1, : image.width]
     if image.format.kind == "depth":
-        return depth_as_float(np.ascontiguousarray(cells), image.format)
-    channels = cells[..., : values.shape[2]] if values.ndim > 2 else cells[..., ALPHA]
-    return channels if image.format.kind == "float" else channels.astype(np.float32) / np.float32(255)
+        return [depth_as_float(np.ascontiguousarray(cells), image.format)]
+    forms = [cells[..., : values.shape[2]]] if values.ndim > 2 else [cells[..., ALPHA], cells[..., RED]]
+    return forms if image.format.kind == "float" else [each.astype(np.float32) / np.float32(255) for each in forms]

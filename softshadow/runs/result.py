@@ -13,7 +13,6 @@ import numpy as np
 
 from softshadow import errors
 from softshadow.context import Frame
-from softshadow.errors import StateError
 from softshadow.inspection import (
     Comparison,
     Difference,
@@ -25,26 +24,23 @@ from softshadow.inspection import (
     Steps,
     WedgeContributions,
     buffer_files,
-    compare,
     difference,
     ledger_of,
     pixel_history,
-    soft_truth,
     texel_history,
-    wedge_contributions,
 )
 from softshadow.inspection.causes import Cause
-from softshadow.inspection.comparison import jumps
 from softshadow.inspection.fragment_maps import FragmentMaps, fragment_maps
-from softshadow.inspection.hard_truth import hard_visibility
-from softshadow.inspection.maps import summary
 from softshadow.inspection.pictures import Shown
 from softshadow.inspection.shadow_kinds import shadow_kinds
-from softshadow.inspection.step import step_in_words
 from softshadow.runs.archive import RunRecord, read_npz
+from softshadow.runs.comparing import compared, compared_with_truth
+from softshadow.runs.described import described
 from softshadow.runs.display import mimebundle
+from softshadow.runs.lights import RunLight, lights_of, map_of
 from softshadow.runs.map_texels import image_of_map
 from softshadow.runs.saving import save
+from softshadow.runs.wedges import contributions
 from softshadow.runs.why import causes_at, explained
 from softshadow.scene import Scene
 from softshadow.space import LineOfSight, ShadowGeometry, geometry_of_run, line_of_sight
@@ -52,19 +48,6 @@ from softshadow.space.shadow_parts import scene_of
 
 if TYPE_CHECKING:
     from softshadow.report import CrossSection, View3D
-
-MOST_DESCRIBED = 8  # steps
-
-
-@dataclass(frozen=True, eq=False)
-class RunLight:
-    """The name of a light, and its visibility (H, W) float32, row 0 on top."""
-
-    name: str
-    visibility: np.ndarray
-
-    def __repr__(self) -> str:
-        return f"RunLight({self.name!r}, visibility {summary(self.visibility)})"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -115,12 +98,12 @@ class Run:
     @property
     def visibility(self) -> np.ndarray:
         """(H, W) float32: 1 lit to 0 in shadow, the mean over the lights; 1 where it is not defined."""
-        return self._map("visibility")
+        return map_of(self, "visibility")
 
     @property
     def valid(self) -> np.ndarray:
         """(H, W) bool: where the visibility is defined."""
-        return self._map("valid")
+        return map_of(self, "valid")
 
     @cached_property
     def shadow_mask(self) -> np.ndarray:
@@ -132,22 +115,11 @@ class Run:
     @property
     def lights(self) -> tuple[RunLight, ...]:
         """The visibility of each light, in the order of the scene."""
-        lights = scene_of(self).lights
-        several = len(lights) > 1
-        return tuple(
-            RunLight(light.name, self._map(f"visibility of {light.name}" if several else "visibility"))
-            for light in lights
-        )
+        return lights_of(self)
 
     @property
     def _light_names(self) -> list[str]:
         return [light.name for light in self.scene.lights] if self.scene is not None else []
-
-    def _map(self, name: str) -> np.ndarray:
-        if name not in self.maps:
-            scene_of(self)  # a run without one has no maps at all
-            raise StateError(f"technique {self.technique!r} has no map {name!r} (it has: {', '.join(self.maps)})")
-        return self.maps[name]
 
     # -- steps ---------------------------------------------------------------------------------------------------------
     def __getitem__(self, key: int | str) -> Step:
@@ -253,18 +225,7 @@ class Run:
         StateError                   another technique, or no surface at the pixel
         ValueError                   the pixel is outside the picture, or there is no such light
         """
-        if not (0 <= x < self.size[0] and 0 <= y < self.size[1]):
-            raise ValueError(f"contributions({x}, {y}): outside the picture of {self.size[0]} x {self.size[1]} pixels")
-        scene = scene_of(self)
-        if not 0 <= light < len(scene.lights):
-            raise ValueError(f"light={light}: expected 0 to {len(scene.lights) - 1}")
-        source = scene.lights[light]
-        of_light = "" if len(scene.lights) == 1 else f": {source.name}"
-        positions, counts = self._map(f"positions{of_light}"), self._map(f"count{of_light}")
-        if not self.valid[y, x]:
-            raise StateError(f"contributions({x}, {y}): expected a pixel that shows a surface")
-        point = positions[y, x].astype(np.float64) + source.position[:3] * source.position[3]
-        return wedge_contributions(scene, source, point, float(counts[y, x]))
+        return contributions(self, x, y, light)
 
     def cross_section(self, x: int, y: int, light: str | None = None) -> CrossSection:
         """Return the plane through the eye, a light and the point that a pixel shows, with the counts on the way there.
@@ -346,28 +307,7 @@ class Run:
         """
         if (other is None) == (truth is None) or not isinstance(other, Run | None):
             raise TypeError('compare(): expected another run, or truth="hard" or "soft"')
-        if other is not None:
-            if other.size != self.size:
-                raise ValueError(f"compare(): sizes differ, {self.size} and {other.size}; expected the same")
-            against = f"{other.technique} on {scene_of(other).name}"
-            return compare(self.visibility, self.valid, other.visibility, other.valid, against)
-        if truth == "soft":
-            truth = soft_truth(scene_of(self), self.size)
-        if isinstance(truth, SoftTruth):
-            return self._compare_soft(truth)
-        if truth != "hard":
-            raise ValueError(f'truth={truth!r}: expected "hard" or "soft"')
-        visibilities, seen = hard_visibility(scene_of(self), self.size)
-        mean = np.asarray(np.mean(visibilities, axis=0, dtype=np.float32))
-        return compare(self.visibility, self.valid, mean, seen, "ray casting")
-
-    def _compare_soft(self, truth: SoftTruth) -> Comparison:
-        if truth.size != self.size:
-            raise ValueError(f"compare(): sizes differ, {self.size} and {truth.size}; expected the same")
-        edges = [jumps(np.where(truth.valid, visibility, -1)) for visibility in truth.visibilities]
-        return compare(
-            self.visibility, self.valid, truth.visibility, truth.valid, str(truth), np.logical_or.reduce(edges)
-        )
+        return compared_with_truth(self, truth) if other is None else compared(self, other)
 
     # -- files and display ---------------------------------------------------------------------------------------------
     @property
@@ -436,17 +376,7 @@ class Run:
         volume-zfail on torus, 64 x 48 pixels, steps 0 to 3.
         Step 0, ...
         """
-        width, height = self.size
-        name = self.steps[0].run_name or self.technique
-        lines = [f"{name}, {width} x {height} pixels, steps 0 to {len(self.steps) - 1}."]
-        shown = list(self.steps)
-        if len(shown) > MOST_DESCRIBED:
-            lines[0] = f"{lines[0][:-1]}, of which 0 to {MOST_DESCRIBED - 2} and the last are described."
-            shown = [*shown[: MOST_DESCRIBED - 1], shown[-1]]
-        for step in shown:
-            before = self.steps[step.index - 1] if step.index else None
-            lines.append(f"Step {step.index}, {step.title}: {step_in_words(step, before)}.")
-        return "\n".join(lines)
+        return described(self.steps, self.technique, self.size)
 
 
 def load_run(path: str | os.PathLike[str]) -> Run:

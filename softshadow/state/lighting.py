@@ -111,7 +111,10 @@ class Lighting:
 
 @dataclass(frozen=True, repr=False)
 class Fog:
-    """State of glFog and GL_FOG."""
+    """State of glFog, GL_FOG and GL_COLOR_SUM.
+
+    `source` says whether fog depends on GL_FRAGMENT_DEPTH, the distance, or on the GL_FOG_COORD of the vertices.
+    """
 
     enabled: bool = False
     mode: int = gl.GL_EXP
@@ -119,6 +122,8 @@ class Fog:
     start: float = 0.0
     end: float = 1.0
     color: Color = (0.0, 0.0, 0.0, 0.0)
+    source: int = gl.GL_FRAGMENT_DEPTH
+    color_sum: bool = False
 
     __repr__ = printed_calls
 
@@ -131,4 +136,6 @@ class Fog:
             f"glFogf(GL_FOG_START, {self.start:g})",
             f"glFogf(GL_FOG_END, {self.end:g})",
             f"glFogfv(GL_FOG_COLOR, ({numbers(*self.color)}))",
+            f"glFogi(GL_FOG_COORD_SRC, {token_name(self.source)})",
+            switch("GL_COLOR_SUM", self.color_sum),
         ]

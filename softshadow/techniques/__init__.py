@@ -12,6 +12,7 @@ from softshadow.techniques import (
     blob,
     map,
     map_cube,
+    map_distance,
     map_exponential,
     map_pcf,
     map_pcss,
@@ -121,6 +122,13 @@ REGISTER = {
             map.steps,
         ),
         Technique(
+            "map-distance",
+            "Shadow map of distances",
+            "map",
+            "Brabec, Annen & Seidel 2002, Practical shadow mapping",
+            map_distance.steps,
+        ),
+        Technique(
             "map-pcf",
             "Shadow map, percentage-closer filtering",
             "map",
@@ -183,8 +191,8 @@ def names() -> list[str]:
     --------
     >>> print(*names())
     shadow-polygons planar planar-accumulated planar-nested blob volume-zpass volume-zfail volume-zpass-plus
-    volume-parity volume-sampled volume-wedges map map-pcf map-sampled map-pcss map-variance map-exponential map-cube
-    map-silhouette
+    volume-parity volume-sampled volume-wedges map map-distance map-pcf map-sampled map-pcss map-variance
+    map-exponential map-cube map-silhouette
     """
     return list(REGISTER)
 

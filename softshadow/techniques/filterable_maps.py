@@ -54,7 +54,9 @@ def draw_filterable(
     return texture
 
 
-def color_texture(gl: Any, map_size: int, filtering: int, background: Color, outside: Outside) -> int:
+def color_texture(
+    gl: Any, map_size: int, filtering: int, background: Color, outside: Outside, stored: str = "GL_RGBA32F"
+) -> int:
     """Return a bound float texture; points outside it are lit, in shadow, or as its edge texel says."""
     name: int = gl.glGenTextures(1)
     gl.glBindTexture(gl.GL_TEXTURE_2D, name)
@@ -68,7 +70,8 @@ def color_texture(gl: Any, map_size: int, filtering: int, background: Color, out
         gl.glTexParameteri(gl.GL_TEXTURE_2D, parameter, value)
     border = BLACK if outside == "shadow" else background  # nothing is nearer than black
     gl.glTexParameterfv(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_BORDER_COLOR, border)
-    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA32F, map_size, map_size, 0, gl.GL_RGBA, gl.GL_FLOAT, None)
+    internal = getattr(gl, stored)
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, internal, map_size, map_size, 0, gl.GL_RGBA, gl.GL_FLOAT, None)
     return name
 
 

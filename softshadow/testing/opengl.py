@@ -21,8 +21,10 @@ from typing import Any
 import numpy as np
 import OpenGL
 from OpenGL import GL, GLU, contextdata, images, platform
+from OpenGL.raw.GL._glgets import _glget_size_mapping as sizes_of_answers
 from OpenGL.raw.GL.VERSION import GL_1_0 as raw
 from OpenGL.raw.GL.VERSION import GL_1_1 as arrays
+from OpenGL.raw.GL.VERSION import GL_1_3 as compressed
 from OpenGL.raw.GL.VERSION import GL_1_5 as buffers
 
 from softshadow.mapped_memory import MappedMemory
@@ -36,6 +38,8 @@ for _words in (GL.GL_UNSIGNED_INT_5_9_9_9_REV, GL.GL_UNSIGNED_INT_10F_11F_11F_RE
     images.TYPE_TO_ARRAYTYPE[_words] = GL.GL_UNSIGNED_INT
     images.TIGHT_PACK_FORMATS[_words] = 3
 images.TYPE_TO_ARRAYTYPE[GL.GL_FLOAT_32_UNSIGNED_INT_24_8_REV] = GL.GL_UNSIGNED_BYTE  # passed as bytes
+for _color in (GL.GL_CURRENT_SECONDARY_COLOR, GL.GL_CURRENT_RASTER_SECONDARY_COLOR):
+    sizes_of_answers[_color] = (4,)  # PyOpenGL has room for one number, so that GL would write behind it
 
 
 def _context_key(context: Any = None) -> Any:
@@ -271,6 +275,34 @@ def glGetPolygonStipple(mask: np.ndarray | None = None) -> np.ndarray:
     return out
 
 
+def _compressed_upload(name: str, image_at: int) -> Callable[..., Any]:
+    """Return an upload of compressed images; the image is argument `image_at`, with or without its number of bytes."""
+    raw_function = getattr(compressed, name)
+
+    def upload(*arguments: Any) -> None:
+        image = arguments[-1]
+        n_bytes = arguments[image_at] if len(arguments) > image_at + 1 else np.asarray(image).nbytes
+        kept = np.ascontiguousarray(image) if isinstance(image, np.ndarray) else None
+        address = image if kept is None else ctypes.c_void_p(kept.ctypes.data)
+        raw_function(*arguments[:image_at], n_bytes, address)
+
+    return upload
+
+
+def glGetCompressedTexImage(target: int, level: int, img: Any = None) -> np.ndarray | None:
+    """Return the blocks of a texture's level; PyOpenGL's function fails."""
+    if _bound(GL.GL_PIXEL_PACK_BUFFER_BINDING):
+        compressed.glGetCompressedTexImage(target, level, ctypes.c_void_p(img or 0))
+        return None
+    is_compressed = GL.glGetTexLevelParameteriv(target, level, GL.GL_TEXTURE_COMPRESSED)
+    n_bytes = (
+        int(GL.glGetTexLevelParameteriv(target, level, GL.GL_TEXTURE_COMPRESSED_IMAGE_SIZE)) if is_compressed else 0
+    )
+    out = np.zeros(max(n_bytes, 1), np.uint8)
+    compressed.glGetCompressedTexImage(target, level, ctypes.c_void_p(out.ctypes.data))
+    return out[:n_bytes]
+
+
 def _without_row_padding(function: Callable[..., Any], size_at: int, dimensions: int = 2) -> Callable[..., Any]:
     """Return an upload function that reads images without row padding if they are too small to have it.
 
@@ -426,6 +458,11 @@ OWN: dict[str, Callable[..., Any]] = {
     "glGetBufferSubData": glGetBufferSubData,
     "glGetBufferParameteriv": glGetBufferParameteriv,
     "glGetTexImage": glGetTexImage,
+    "glGetCompressedTexImage": glGetCompressedTexImage,
+    **{f"glCompressedTexImage{n}D": _compressed_upload(f"glCompressedTexImage{n}D", 4 + n) for n in (1, 2, 3)},
+    **{
+        f"glCompressedTexSubImage{n}D": _compressed_upload(f"glCompressedTexSubImage{n}D", 3 + 2 * n) for n in (1, 2, 3)
+    },
     "glTexImage1D": _without_row_padding(GL.glTexImage1D, size_at=3, dimensions=1),
     "glTexImage3D": _without_row_padding(GL.glTexImage3D, size_at=3, dimensions=3),
     "glTexSubImage1D": _without_row_padding(GL.glTexSubImage1D, size_at=3, dimensions=1),

@@ -246,6 +246,8 @@ class MesaPlayer:
         if any(isinstance(value, ctypes.Array) for value in given) and ("Pointer" in name or name in FILLED):
             self._memory.append(given)
         if name in MAPS and isinstance(call.result, int) and result:
+            # a buffer that was deleted while it was mapped may have left another one at this address
+            self._mapped = {target: known for target, known in self._mapped.items() if known[0] != call.result}
             self._mapped[call.arguments[0]] = call.result, result
         elif name in UNMAPS:
             self._mapped.pop(call.arguments[0], None)

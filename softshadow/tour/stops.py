@@ -123,6 +123,11 @@ STOPS = (
         {"surface": "back", "factor": 0.0, "units": 0.0},
     ),
     Stop(
+        "Shadow map of distances",
+        "map-distance",
+        "The map stores distances from the light, and the bias is a distance: the same near the light and far from it.",
+    ),
+    Stop(
         "Shadow map, percentage-closer filtering",
         "map-pcf",
         "The share of 3 x 3 comparisons that are lit: an edge that is equally soft near the caster and far from it.",

@@ -20,7 +20,7 @@ DRAWN = [
 
 
 # each takes a process of Mesa's own; the techniques are compared in tests/techniques/test_techniques_on_mesa.py
-QUICK = ("w1-zpass-d24", "w3-pcf", "w5")
+QUICK = ("w1-zpass-d24",)
 
 
 @pytest.mark.mesa

@@ -26,6 +26,7 @@ def test_table_has_a_row_for_each_number_of_threads() -> None:
     assert "measuring the machine's limits" in answer.stderr
 
 
+@pytest.mark.slow
 def test_calls_are_measured_beside_pyopengl() -> None:
     from softshadow.testing import mesa_available
 
@@ -58,6 +59,7 @@ def test_ratio_to_mesa_stands_beside_equal_buffers() -> None:
     assert [(each["renderer"], each["threads"]) for each in result["ratios"]] == [("llvmpipe", 1)]
 
 
+@pytest.mark.slow
 def test_slower_than_an_earlier_report_is_exit_code_1(tmp_path: Path) -> None:
     measured = from_json(json_of("bench", "planar/boxes", *TINY))
     # the earlier machine was this much faster: a thousandth of the speed at the same time means slower now

@@ -63,6 +63,7 @@ def test_a_file_that_names_its_exercise_is_checked_alone() -> None:
     assert invoke_ok("check", "named.py").stdout.endswith("named.py: 4 of 4 points\n")
 
 
+@pytest.mark.slow
 def test_a_file_with_its_own_solution_is_checked_alone() -> None:
     Path("both.py").write_text(f"{EXERCISE}\n{RIGHT.replace('0.5, 0.5)', '0.5, 0.25)')}")
     answer = invoke("check", "both.py")

@@ -48,6 +48,7 @@ def test_techniques_with_options_are_compared_with_ray_casting() -> None:
     assert [row.split("  ")[0] for row in rows[1:]] == ["map map_size=64 factor=2.0", "map map_size=256"]
 
 
+@pytest.mark.slow
 def test_soft_techniques_are_compared_with_the_soft_truth() -> None:
     answer = json_of("compare", "--all-soft", "--size", "24x18", "--samples", "4")
     assert answer["scene"] == "soft-slab"

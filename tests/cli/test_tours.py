@@ -61,6 +61,7 @@ def test_folder_of_somebody_else_needs_force_and_keeps_its_files() -> None:
     assert Path("thesis/index.html").is_file()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "error",
     [

@@ -6,6 +6,7 @@ import numpy as np
 
 CURVE = np.array([[0, 0, 0], [0.5, 1, 0], [1, 0, 0]], np.float32)
 SURFACE = np.array([[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]], np.float32)
+INDICES, INDEX_KINDS, BLOCK = np.ones((4, 1), np.float32), ("d", "f", "i", "s", "ub"), np.zeros(8, np.uint8)
 
 # calls of GLU that read memory as large as their other arguments say, or make callbacks: see tests/mesa
 OF_GLU = {
@@ -19,6 +20,25 @@ OF_GLU = {
 MORE_CALLS: dict[str, tuple[Any, ...]] = {
     "glEdgeFlag": (False,), "glEdgeFlagv": ([True],), "glProvokingVertex": ("GL_FIRST_VERTEX_CONVENTION",),
     "glEdgeFlagPointer": (0, np.ones(4, np.uint8)),
+    "glSecondaryColorPointer": (3, "GL_FLOAT", 0, np.ones((4, 3), np.float32)),
+    "glFogCoordPointer": ("GL_FLOAT", 0, np.ones(4, np.float32)),
+    **{f"glSecondaryColor3{kind}": (0.25, 0.5, 1.0) for kind in "fd"},
+    **{f"glSecondaryColor3{kind}v": ([0.25, 0.5, 1.0],) for kind in "fd"},
+    **{f"glSecondaryColor3{kind}": (1, 2, 3) for kind in ("b", "s", "i", "ub", "us", "ui")},
+    **{f"glSecondaryColor3{kind}v": ([1, 2, 3],) for kind in ("b", "s", "i", "ub", "us", "ui")},
+    **{f"glFogCoord{kind}": (0.5,) for kind in "fd"}, **{f"glFogCoord{kind}v": ([0.5],) for kind in "fd"},
+    "glIndexMask": (7,), "glClearIndex": (3.0,), "glIndexPointer": ("GL_FLOAT", 0, INDICES),
+    **{f"glIndex{kind}": (2.5 if kind in "df" else 2,) for kind in INDEX_KINDS},
+    **{f"glIndex{kind}v": ([2.5 if kind in "df" else 2],) for kind in INDEX_KINDS},
+    **{f"glIndexPointer{kind}": (INDICES,) for kind in ("b", *INDEX_KINDS)},
+    "glGetPointerv": ("GL_VERTEX_ARRAY_POINTER",), "glAreTexturesResident": (["@texture"],),
+    "glPrioritizeTextures": (1, ["@texture"], [0.5]), "glGetCompressedTexImage": ("GL_TEXTURE_2D", 1),
+    "glCompressedTexImage1D": ("GL_TEXTURE_1D", 0, "GL_COMPRESSED_RGB_S3TC_DXT1_EXT", 4, 0, BLOCK),
+    "glCompressedTexImage2D": ("GL_TEXTURE_2D", 1, "GL_COMPRESSED_RGB_S3TC_DXT1_EXT", 4, 4, 0, BLOCK),
+    "glCompressedTexImage3D": ("GL_TEXTURE_3D", 0, "GL_COMPRESSED_RGB_S3TC_DXT1_EXT", 4, 4, 1, 0, BLOCK),
+    "glCompressedTexSubImage1D": ("GL_TEXTURE_1D", 0, 0, 4, "GL_COMPRESSED_RGB_S3TC_DXT1_EXT", BLOCK),
+    "glCompressedTexSubImage2D": ("GL_TEXTURE_2D", 1, 0, 0, 4, 4, "GL_COMPRESSED_RGB_S3TC_DXT1_EXT", BLOCK),
+    "glCompressedTexSubImage3D": ("GL_TEXTURE_3D", 0, 0, 0, 0, 4, 4, 1, "GL_COMPRESSED_RGB_S3TC_DXT1_EXT", BLOCK),
     "glRenderMode": ("GL_RENDER",), "glSelectBuffer": (16,), "glFeedbackBuffer": (16, "GL_3D"),
     "glPassThrough": (1.5,), "glInitNames": (), "glLoadName": (3,), "glPushName": (3,), "glPopName": (),
     "glBeginConditionalRender": ("@query", "GL_QUERY_WAIT"), "glEndConditionalRender": (),

@@ -13,7 +13,7 @@ from softshadow import gl
 from softshadow.testing import run_on_mesa, stop_workers
 
 SIZE = (16, 12)
-GROUPS = 11  # each a program of its own on Mesa
+GROUPS = 13  # each a program of its own on Mesa
 NAMES = sorted(CALLS)
 
 

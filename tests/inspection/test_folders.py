@@ -69,6 +69,7 @@ def check_after_kills(target: Path, n: int) -> None:
     assert {path.name for path in target.iterdir()} == {"a.txt", "b", "d.txt", "mine.txt"}
 
 
+@pytest.mark.slow
 def test_a_killed_writer_leaves_a_whole_folder_and_the_next_one_tidies_up(tmp_path):
     check_after_kills(tmp_path / "folder", 2)
 

@@ -60,6 +60,7 @@ def test_last_row_equals_the_buffers(seed):
             assert (window.color[y, x].any(), window.depth[y, x], window.stencil[y, x]) == (False, 1, 0)
 
 
+@pytest.mark.slow
 @settings(max_examples=10)
 @given(st.integers(0, 2**32 - 1))
 def test_histories_of_all_pixels_have_the_verdicts_of_the_ledger(seed):

@@ -5,11 +5,14 @@ import pytest
 
 import softshadow as ss
 from softshadow.inspection import pixel_history
+from softshadow.techniques.drawing import world_points
 from softshadow.testing.comparison import run_recorded
 
 SIZE = (96, 72)
 STEP = 1e-5  # shares are sums of float32 weights
-BY_MAP = ("map-pcf", "map-cube", "map-silhouette", "map-variance", "map-exponential", "map-pcss")
+BY_MAP = (
+    "map-distance", "map-pcf", "map-cube", "map-silhouette", "map-variance", "map-exponential", "map-pcss",
+)  # fmt: skip
 
 
 def decided(run, x, y):
@@ -63,14 +66,16 @@ def test_taps_have_the_texels_of_the_map():
             assert tap.lit == (np.float32(tap.depth) <= np.float32(tap.stored))
 
 
-def test_caster_of_a_lookup_is_what_the_texel_s_own_history_tells():
-    run = ss.run("map-cube", "boxes", size=SIZE)
+@pytest.mark.parametrize(("name", "shown"), [("map-cube", "ZS {face}"), ("map-distance", "distances")])
+def test_caster_of_a_lookup_is_what_the_texel_s_own_history_tells(name, shown):
+    run = ss.run(name, "boxes", size=SIZE)
     for x, y in pixels(run.shadow_mask, 8):
         (lookup,) = decided(run, x, y)
-        history = run.map_pixel(f"ZS {lookup.face}", lookup.x, lookup.y)
+        history = run.map_pixel(shown.format(face=lookup.face), lookup.x, lookup.y)
         last = [row for row in history if row.verdict == "passed"][-1]
         assert (lookup.caster, lookup.caster_triangle) == (last.object, last.triangle)
-        assert last.depth_after == pytest.approx(lookup.stored, abs=2e-7)  # rounded in another way when it is read
+        written = last.color_after[0] if name == "map-distance" else last.depth_after
+        assert written == pytest.approx(lookup.stored, abs=2e-7)  # rounded in another way when it is read
 
 
 def test_lookup_words_name_the_numbers():
@@ -80,6 +85,31 @@ def test_lookup_words_name_the_numbers():
     text = str(run.pixel(x, y)).replace("\n      ", " ")
     assert f"texel ({lookup.x}, {lookup.y}) of face {lookup.face} of the map of light stores" in text
     assert "farther, so in shadow" in text
+
+
+def test_lookup_of_a_distance_map_tells_both_distances():
+    bias = 0.03125
+    run = ss.run("map-distance", "boxes", size=SIZE, bias=bias, normal_bias=0.0)
+    points = world_points(run.scene, run.depth[::-1], SIZE)[::-1]
+    away = np.linalg.norm(points - run.scene.lights[0].position[:3], axis=-1) - bias
+    far = run.maps["distances"].max()
+    near, beyond = pixels(run.shadow_mask & (away < far), 8), pixels(run.shadow_mask & (away > 1.001 * far), 2)
+    for x, y in near + beyond:
+        (lookup,) = decided(run, x, y)
+        assert (lookup.measure, lookup.compare, lookup.lit) == ("distance", "LEQUAL", 0)
+        assert lookup.stored == run.maps["distances"][lookup.y, lookup.x] == run.maps["stored distance"][y, x]
+        assert lookup.depth == run.maps["compared distance"][y, x]
+        assert lookup.depth == pytest.approx(min(away[y, x], far), rel=1e-3)  # the depth buffer rounds the point
+        words = " ".join(str(run.pixel(x, y)).split())
+        assert f"of the map of light stores distance {lookup.stored:.5g}"[:-1] in words
+        assert f"(drawn by {lookup.caster}, triangle {lookup.caster_triangle})" in words
+        own = (
+            f"at least {far:.5g}, where the map ends"
+            if (x, y) in beyond
+            else f"{lookup.depth + bias:.5g} - {bias:g} bias"
+        )
+        assert f"this point has {own}: farther, so in shadow" in words
+    assert beyond
 
 
 def own_program(gl_):

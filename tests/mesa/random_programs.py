@@ -14,6 +14,7 @@ import numpy as np
 
 from mesa import (
     random_arrays,
+    random_attributes,
     random_boxes,
     random_buffers,
     random_combining,
@@ -134,6 +135,8 @@ FAMILIES = {
         random_packed.packed_state, random_packed.packed_targets, random_packed.read_packed
     ),
     "pixel rectangles": Family(random_pixels.transferred, wild=False),
+    "secondary colours": Family(random_attributes.summed, random_attributes.textured, batch=random_attributes.colored),
+    "small pairs": Family(random_attributes.followed, batch=random_attributes.small_pairs),
 }
 
 

@@ -104,6 +104,7 @@ def test_names_with_html_are_shown_as_text():
         assert page.errors == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dark", [False, True])
 def test_text_can_be_read_on_light_and_dark_pages(player, dark):
     with widget_page(player, dark) as page:

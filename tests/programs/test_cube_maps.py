@@ -162,6 +162,7 @@ def draw_triangles(on: Any, rng: np.random.Generator) -> None:
     on.glEnd()
 
 
+@pytest.mark.thin(5)
 @pytest.mark.mesa
 @pytest.mark.parametrize("seamless", [False, True])
 @pytest.mark.parametrize("mag_filter", FILTERS)

@@ -179,6 +179,7 @@ VARIANTS: dict[str, Callable[..., Lighting]] = {
 }
 
 
+@pytest.mark.thin(5)
 @pytest.mark.mesa
 @pytest.mark.parametrize("variant", VARIANTS)
 @pytest.mark.parametrize("kind", MODELVIEWS)

@@ -101,6 +101,7 @@ MESA_COLORS = (
 )
 
 
+@pytest.mark.thin(3)
 @pytest.mark.mesa
 @pytest.mark.parametrize("filter_name", FILTERS)
 @pytest.mark.parametrize(("internal", "wrap_s", "wrap_t", "shape"), MESA_COLORS)

@@ -53,6 +53,7 @@ def test_crossings_lie_on_the_line_of_sight_of_the_section(run):
             assert abs(towards[0] * off[1] - towards[1] * off[0]) < 1e-9 * np.linalg.norm(towards) ** 2
 
 
+@pytest.mark.slow
 def test_a_pdf_has_answers_on_every_second_page_and_is_the_same_each_time(run, tmp_path):
     cards = ss.counting_cards(run, n=4)
     data = cards.save(tmp_path / "a.pdf").read_bytes()

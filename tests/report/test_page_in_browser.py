@@ -123,6 +123,7 @@ def test_zoomed_pictures_are_linked_and_a_click_finds_the_pixel(file: Path, brow
         settled(page, "location.hash.endsWith('x=5&y=6')")
 
 
+@pytest.mark.slow
 def test_second_run_beside_the_first_with_marker_and_difference(run: ss.Run, both: Path, browser: Any) -> None:
     other = ss.run("volume-zpass", "torus", SIZE)
     with opened(browser, both, "#x=20&y=30") as page:

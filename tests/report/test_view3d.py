@@ -49,6 +49,7 @@ def drawn(technique, scene, **options):
         return ss.run(technique, scene, SIZE, **options)
 
 
+@pytest.mark.slow
 def test_the_page_shows_the_crossings_of_the_history(browser, tmp_path):
     run = drawn("volume-zfail", "torus")
     y, x = (int(each) for each in np.argwhere(run.stencil == run.stencil.max())[3])

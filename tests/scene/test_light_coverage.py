@@ -53,7 +53,7 @@ def on_the_floor(seed: int, number: int = 30) -> np.ndarray:
 
 
 @each_shape
-@settings(max_examples=25)
+@settings(max_examples=8)
 @given(seed=seeds)
 def test_shares_and_count_of_a_flat_caster_are_the_exact_area(shape: LightShape, seed: int) -> None:
     light, caster, points = Light(CENTER, shape=shape), star(seed), on_the_floor(seed)

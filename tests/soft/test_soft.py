@@ -39,6 +39,7 @@ def test_more_samples_are_nearer_to_the_truth_than_one(slab):
     assert many.seconds > 0
 
 
+@pytest.mark.slow
 def test_all_candidates_are_compared_and_shown(slab):
     scene, truth = slab
     results = compare_techniques(scene, truth, samples=2)
@@ -63,6 +64,7 @@ def test_numbers_must_be_positive(slab, wrong):
         compare_techniques(*slab, ["map"], **wrong)
 
 
+@pytest.mark.slow
 def test_errors_of_random_points_fall_with_the_root_and_of_grids_faster(slab):
     by_pattern = {
         each.pattern: each for each in convergence(*slab, patterns=("grid", "random"), samples=(4, 16, 64), seeds=3)

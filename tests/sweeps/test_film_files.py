@@ -87,6 +87,7 @@ def test_same_pictures_are_the_same_bytes(film: ss.Film, extension: str, tmp_pat
     assert once.read_bytes() == again.read_bytes()
 
 
+@pytest.mark.slow
 def test_bytes_of_an_mp4_do_not_depend_on_what_was_in_memory(tmp_path: Path) -> None:
     pytest.importorskip("av")
     film = ss.animate("map", "torus", (64, 48), light_path="orbit", frames=6)

@@ -12,7 +12,7 @@ FORMATS = ("d16", "d24", "d32", "d32f")
 WITH_FORMAT = ("map", "map-pcf", "map-pcss", "map-sampled", "map-silhouette", "map-cube")
 HEIGHTS = (4.0, 5.0, 5.5, 6.5, 7.0)
 SHAPE = {"map_size": 32, "factor": 0.0}
-FLOAT_STEP = 256.0  # units of 32 bits in one step of a float32 between 0.5 and 1: 2^32 / 2^24
+FLOAT_STEP = 256.0  # units of 32 bits, 2^-31 each, in two steps of a float32 between 0.5 and 1
 
 
 def floor_below(height: float) -> Scene:

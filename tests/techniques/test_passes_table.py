@@ -41,6 +41,7 @@ def counted(technique: str, scene: Scene, **options: Any) -> tuple[dict[str, int
         # the light's depth pass; the camera's pass is two here, as it is for volumes: ambient, and what the light adds
         ("map", {}, 2, 2 + 1, 3),
         # and one that writes the visibility; a cube of six maps is drawn face by face
+        ("map-distance", {}, 3, 3 + 1, 4),
         ("map-pcf", {}, 3, 3 + 1, 4),
         ("map-silhouette", {}, 3, 3 + 1, 4),
         ("map-pcss", {}, 3, 3 + 1, 4),
@@ -82,6 +83,7 @@ def test_wedges_are_one_pass_and_caps_are_drawn_apart_from_sides() -> None:
         ("volume-zfail", {}, 2 + 1),
         ("volume-zfail", {"two_sided": True}, 1 + 1),
         ("map", {}, 1 + 1),
+        ("map-distance", {}, 1 + 2),
         ("map-pcf", {}, 1 + 2),
         ("map-pcss", {}, 1 + 2),
         ("map-variance", {}, 1 + 2 + 2),

@@ -66,7 +66,8 @@ def test_the_picture_is_the_ambient_light_and_each_light_where_it_is_seen(techni
 
 
 @pytest.mark.parametrize(
-    ("technique", "options"), [*ADDING, ("volume-zpass-plus", {}), ("volume-parity", {}), ("map-pcf", {})]
+    ("technique", "options"),
+    [*ADDING, ("volume-zpass-plus", {}), ("volume-parity", {}), ("map-pcf", {}), ("map-distance", {})],
 )
 def test_attenuated_lights_are_added_and_emission_is_drawn_once(technique, options) -> None:  # type: ignore[no-untyped-def]
     lamps = [light if light.is_directional else replace(light, attenuation=(0.5, 0.1, 0.02)) for light in LIGHTS]

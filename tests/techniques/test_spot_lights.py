@@ -18,24 +18,25 @@ def lit_by_rays(scene: Scene, truth: Truth) -> np.ndarray:
     return (truth.counts[0] == 0) & scene.lights[0].shines_on(truth.points)
 
 
-@pytest.mark.parametrize("technique", ["planar", "volume-zpass", "volume-zfail", "map"])
+@pytest.mark.parametrize("technique", ["planar", "volume-zpass", "volume-zfail", "map", "map-distance"])
 def test_visibility_is_that_of_rays_within_the_cone(technique: str) -> None:
     drawn, truth = draw(technique, SCENE), cast_rays(SCENE)
     lit = lit_by_rays(SCENE, truth)
     compared = truth.sure(width=2) & off_the_edges(lit, 2) & drawn.maps["valid"]
-    if technique == "map":
+    if technique.startswith("map"):
         compared &= truth.objects == 0  # on casters, seen at an angle, a texel is wider than a pixel
     assert 100 < (lit & compared).sum() < compared.sum() - 100
     assert ((drawn.maps["visibility"] == 1) == lit)[compared].all()
 
 
+@pytest.mark.parametrize("technique", ["map", "map-distance"])
 @pytest.mark.parametrize(("cutoff", "rise"), [(10.0, -2.0), (35.0, -2.0), (70.0, 0.4), (90.0, 0.9)])
-def test_maps_light_nothing_outside_the_cone(cutoff: float, rise: float) -> None:
+def test_maps_light_nothing_outside_the_cone(cutoff: float, rise: float, technique: str) -> None:
     # the floor is one quad: lit at its vertices alone, it would be dark
     floor = replace(SCENE.objects[0], mesh=Scene.named("boxes").objects[0].mesh)
     light = Light(LIGHT.position, axis=(1, rise, -1), cutoff=cutoff)
     scene = replace(SCENE, objects=(floor, *SCENE.objects[1:]), lights=(light,))
-    drawn, truth = draw("map", scene), cast_rays(scene)
+    drawn, truth = draw(technique, scene), cast_rays(scene)
     inside = light.shines_on(truth.points)
     sure = off_the_edges(inside, 1) & (truth.objects == 0)
     added = (drawn.image != drawn.color["draw the scene without the light"]).any(axis=2)

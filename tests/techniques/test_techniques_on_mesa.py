@@ -48,6 +48,8 @@ VARIANTS: list[tuple[str, dict[str, Any]]] = [
     ("map", {"map_format": "d32f", "surface": "midpoint", "map_size": 64}),
     ("map-pcss", {"map_format": "d32", "map_size": 64, "search": 4, "taps": 5}),
     ("map-cube", {"map_format": "d16", "map_size": 64}),
+    ("map-distance", {}),
+    ("map-distance", {"map_size": 64, "outside": "shadow", "bias": 0.05, "normal_bias": 0.0}),
 ]
 
 

@@ -18,6 +18,7 @@ def quietly(technique: str, scene: ss.Scene, **options: object) -> ss.Run:
     return ss.run(technique, scene, size=SIZE, **options)
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize("name", ss.scene_names())
 @pytest.mark.parametrize("technique", ["planar", "shadow-polygons", "volume-zfail", "volume-zpass-plus"])
 def test_planar_shadows_and_counting_volumes_are_right_off_the_band(technique: str, name: str) -> None:

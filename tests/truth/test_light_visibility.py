@@ -200,6 +200,7 @@ def test_small_light_sees_as_its_centre(mesh: Mesh, shape: LightShape) -> None:
     assert sure.sum() >= 50
 
 
+@pytest.mark.slow
 @given(st.lists(any_mesh(), min_size=2, max_size=3), light_shapes, st.sampled_from(["auto", "rays"]))
 def test_a_further_caster_takes_light_away(bodies: list[Mesh], shape: LightShape, method: str) -> None:
     points = on_the_floor(60)
@@ -221,6 +222,7 @@ def ball_with_a_spike() -> Mesh:
     return Mesh(positions, SOLIDS["ball"].triangles)
 
 
+@pytest.mark.slow
 @given(closed_meshes(), light_shapes)
 @example(ball_with_a_spike(), SHAPES[0])
 def test_point_on_a_caster_is_not_hidden_by_its_own_face(mesh: Mesh, shape: LightShape) -> None:

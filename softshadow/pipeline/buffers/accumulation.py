@@ -16,7 +16,7 @@ from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.jit import kernel
 from softshadow.pipeline.commands import Accumulate
 from softshadow.pipeline.constants import ONE, ZERO
-from softshadow.pipeline.memory.threads import share_chunks
+from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.raster.region import region_of
 from softshadow.pipeline.records import Region
 from softshadow.pipeline.shade.color_writes import LARGEST_BYTE
@@ -25,7 +25,7 @@ from softshadow.programs.wrapping import to_int32
 LARGEST_SUM = np.float32(32767)
 BYTE_STEP = np.float32(1) / np.float32(255)
 CHANNELS = 4
-ROWS_PER_TASK = 64  # that a thread processes in one go
+PIXELS_PER_TASK = 1 << 18  # that a thread processes in one go
 
 
 def accumulate(command: Accumulate, storage: Storage) -> None:
@@ -58,11 +58,14 @@ def by_rows(work: Callable[..., None], region: Region, source: np.ndarray, facto
     first, columns = region.first_row, (CHANNELS * region.left, CHANNELS * region.right)
     from_rows, to_rows = (cells.reshape(len(cells), -1)[first : region.end_row] for cells in (source, out))
 
-    def work_on_rows(begin: int, end: int) -> None:
-        with np.errstate(all="ignore"):  # set per thread
-            work(from_rows[begin:end], factor, *columns, to_rows[begin:end])
+    parts = parts_of(len(from_rows), PIXELS_PER_TASK // max(region.right - region.left, 1))
 
-    share_chunks(work_on_rows, len(from_rows), ROWS_PER_TASK)
+    def work_on_rows(n: int) -> None:
+        rows = slice(*parts[n])
+        with np.errstate(all="ignore"):  # set per thread
+            work(from_rows[rows], factor, *columns, to_rows[rows])
+
+    share(work_on_rows, len(parts))
 
 
 @kernel

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from softshadow.framebuffer import DEFAULT, NOTHING, Attachment, Framebuffer, Storage, attached_image
-from softshadow.image import Image
+from softshadow.image import BLOCK_SIDE, Image
 from softshadow.pipeline.commands import (
     AttachRenderbuffer,
     AttachTexture,
@@ -35,6 +35,7 @@ def define_image(command: DefineImage, storage: Storage) -> None:
         image.view[:] = command.cells
     if command.stencil is not None and image.stencil is not None:
         image.stencil.view[:] = command.stencil
+    image.blocks = None if command.blocks is None else command.blocks.copy()
     storage.textures[command.texture].images[command.face, command.level] = image
     storage.reattach(command.texture, command.face, command.level, image)
 
@@ -49,6 +50,10 @@ def update_image(command: UpdateImage, storage: Storage) -> None:
             for z, cells_of_slice in enumerate(slices, command.z):
                 y = z * image.height + command.y
                 target.view[y : y + height, command.x : command.x + width] = cells_of_slice
+    if command.blocks is not None and image.blocks is not None:
+        rows, columns = command.blocks.shape[:2]
+        x, y = command.x // BLOCK_SIDE, command.y // BLOCK_SIDE
+        image.blocks[y : y + rows, x : x + columns] = command.blocks
 
 
 def set_sampler(command: SetSampler, storage: Storage) -> None:

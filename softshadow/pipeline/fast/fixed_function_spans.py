@@ -28,15 +28,13 @@ from softshadow.pipeline.fast.span_colors import ALPHA_ROW, shade_block
 from softshadow.pipeline.fast.span_state import SpanState, span_state
 from softshadow.pipeline.fast.span_tests import IS_TESTED, NO_OPS, alpha_tests, test_alpha_of_block
 from softshadow.pipeline.fast.span_writes import write_block
-from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.records import Geometry, Spans
 from softshadow.pipeline.shade.interpolate import AttributePlanes
-from softshadow.pipeline.shade.shading import attribute_planes_of
+from softshadow.pipeline.shade.shading import shade_in_parts
 from softshadow.state import State
 
 NO_DEPTH, NO_STENCIL = np.zeros((1, 1), np.float32), np.zeros((1, 1), np.uint8)  # where there is no such buffer
 NO_TESTS = alpha_tests(NO_OPS, NO_OPS)
-PART = 1 << 14  # fragments that one thread shades in one go where several threads draw
 
 # so many fragments, in draws that cover most of a small window, pay for compiling them
 SPAN_KERNELS = KernelGroup("spans", pays_after=250_000)
@@ -56,15 +54,7 @@ def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry)
             NO_STENCIL, *block_memory.arrays,
         )  # fmt: skip
 
-    def shade(spans: Spans) -> None:
-        planes = attribute_planes_of(geometry, spans)
-        if threads() == 1:
-            shade_part(spans, planes)
-        else:
-            parts = spans.chunks(PART)
-            share(lambda n: shade_part(spans.part(parts[n], parts[n + 1]), planes), len(parts) - 1)
-
-    return shade
+    return lambda spans: shade_in_parts(geometry, spans, shade_part)
 
 
 def covered_state(state: State, target: Framebuffer, geometry: Geometry) -> SpanState | None:

@@ -19,7 +19,7 @@ from softshadow.pipeline.fast.span_state import SpanState
 from softshadow.pipeline.fast.span_tests import alpha_tests, collect_passing_spans, span_tests
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import share, threads
-from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, sort_into_bands
+from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, few_bands, sort_into_bands
 from softshadow.pipeline.raster.fragment_ops import FragmentOps
 from softshadow.pipeline.raster.region import depth_range_of
 from softshadow.pipeline.records import Geometry, Region, Setup, Spans
@@ -28,7 +28,7 @@ from softshadow.state import State
 
 TRIANGLES = 1 << 12  # whose planes are computed at a time
 SPANS = 1 << 14  # collected at a time; a row of the widest buffer has at most half as many
-WORTH_BANDS = 100_000  # fragments, about, from which sorting triangles into bands pays for several threads
+WORTH_BANDS = 40_000  # fragments, about, from which sorting triangles into bands pays for several threads
 
 Numbers = tuple[Any, ...]  # arguments of kernels
 
@@ -104,7 +104,7 @@ def _planes_of_all(geometry: Geometry, triangles: Setup) -> np.ndarray:
 
 def _draw_in_bands(triangles: Setup, planes: np.ndarray, region: Region, *numbers: Numbers) -> None:
     """Draw the triangles in bands of rows, which several threads share."""
-    bins = sort_into_bands(triangles.corners, [(0, len(triangles.ids))], region)
+    bins = sort_into_bands(triangles.corners, [(0, len(triangles.ids))], region, few_bands(region))
     bands = np.flatnonzero(np.diff(bins.starts)).tolist()
 
     def draw_band(n: int) -> None:

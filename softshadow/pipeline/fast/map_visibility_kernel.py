@@ -18,12 +18,12 @@ from softshadow.pipeline.fast.shadow_map_kernel import (
     AT_A_TIME,
     look_up,
     plain_map,
-    shade_in_parts,
     take_spans,
     writes_one_buffer,
 )
 from softshadow.pipeline.records import Geometry, Spans
 from softshadow.pipeline.shade.interpolate import AttributePlanes, coordinates_of, interpolate
+from softshadow.pipeline.shade.shading import shade_in_parts
 from softshadow.programs.eight_maps import MAP_VISIBILITY_8, MOST_MAPS, SAMPLERS
 from softshadow.programs.map_visibility import MAP_VISIBILITY
 from softshadow.state import State

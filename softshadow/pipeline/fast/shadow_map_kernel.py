@@ -15,12 +15,11 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
 from softshadow.jit import allocating_kernel, kernel
-from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.records import Geometry, Spans
 from softshadow.pipeline.shade.blend import FOUR_BYTES
 from softshadow.pipeline.shade.color_writes import as_pixels, pack_bytes, writable_bits, write_pixels
 from softshadow.pipeline.shade.interpolate import AttributePlanes, coordinates_of, interpolate
-from softshadow.pipeline.shade.shading import attribute_planes_of
+from softshadow.pipeline.shade.shading import shade_in_parts
 from softshadow.programs.filtering import gather_texels, sources_of, texels_of, wraps_of
 from softshadow.programs.sampling import divide_all, is_complete
 from softshadow.programs.shadow_map import SHADOW_MAP, compare
@@ -28,7 +27,6 @@ from softshadow.programs.wrapping import nearest_texels
 from softshadow.state import State
 from softshadow.texture import Texture
 
-PART = 1 << 14  # fragments that one thread shades in one go where several threads draw
 AT_A_TIME = 384  # fragments; 30 KB from planes to pixels
 VARYINGS = 8  # color and texCoord
 
@@ -88,16 +86,6 @@ def plain_map(geometry: Geometry, name: str = "shadowMap") -> MapTexels | None:
     wraps = wraps_of(sampler, map_.images.get((0, 0)) or image)
     sources = sources_of(image, sampler)[:1]
     return MapTexels(*texels_of(image, sampler, real), sources, image.width, image.height, *wraps)
-
-
-def shade_in_parts(geometry: Geometry, spans: Spans, shade_part: Callable[[Spans, AttributePlanes], None]) -> None:
-    """Shade all spans, in parts where several threads draw."""
-    planes = attribute_planes_of(geometry, spans)
-    if threads() == 1:
-        shade_part(spans, planes)
-    else:
-        parts = spans.chunks(PART)
-        share(lambda n: shade_part(spans.part(parts[n], parts[n + 1]), planes), len(parts) - 1)
 
 
 @allocating_kernel

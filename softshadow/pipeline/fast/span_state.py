@@ -18,7 +18,7 @@ from softshadow.pipeline.fast.fragment_block import COLUMNS
 from softshadow.pipeline.shade.blend import FOUR_BYTES, BlendOps, blend_ops
 from softshadow.pixels import LARGEST_SAMPLED, LARGEST_UINT
 from softshadow.programs.filtering import DEPTH_SOURCES, SOURCES, in_8_bits, unit_of, wraps_of
-from softshadow.programs.fixed_function import Unit, is_separate
+from softshadow.programs.fixed_function import Unit, has_secondary
 from softshadow.programs.fog import linear_terms, scaled_density
 from softshadow.programs.level_of_detail import FILTERS, LARGEST_LEVEL, bias_of
 from softshadow.programs.program import needs_blocks
@@ -90,7 +90,7 @@ def span_state(state: State, units: list[Unit], color: Format | None, columns: i
         return None
     textures = [unit.texture for unit in units]
     key = (
-        state.fog, state.blend, state.color.mask, is_separate(state), color,
+        state.fog, state.blend, state.color.mask, has_secondary(state), color,
         *(_unit_key(state, unit) for unit in units),
     )  # fmt: skip
     if key not in _numbers:
@@ -122,7 +122,7 @@ def _unit_key(state: State, unit: Unit) -> tuple[object, ...]:
 def _state_numbers(state: State, units: list[Unit], color: Format | None) -> StateNumbers | None:
     switches = np.zeros(UNIT_SWITCHES + UNITS * SWITCHES_OF_UNIT, np.int64)
     numbers = np.zeros(UNIT_NUMBERS + UNITS * NUMBERS_OF_UNIT, np.float32)
-    separate = is_separate(state)
+    separate = has_secondary(state)
     column = 7 if separate else 4
     needed = (1 << column) - 1
     for n, unit in enumerate(units):

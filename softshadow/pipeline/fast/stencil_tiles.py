@@ -55,6 +55,7 @@ from softshadow.pipeline.records import DepthRange, FillBuffers, Region, Setup
 
 SHARED_TRIANGLES = 1 << 9  # that a thread takes in one go at most, where threads share the triangles
 CHUNKS_PER_THREAD = 8
+WORTH_SHARING = 1 << 20  # pixels from which several threads complete the bounds of tiles
 
 
 def tiles_kernel(depth_image: Image | None = None) -> FillKernel:
@@ -99,7 +100,8 @@ def shared_tiles_kernel(depth_image: Image | None = None) -> FillKernel:
             for tile_row in tile_rows[n :: threads()]:
                 complete_bounds(buffers.depth, tile_row, region, *bounds, room[n])
 
-        share(complete, threads())
+        n_pixels = (region.end_row - region.first_row) * buffers.depth.shape[1]
+        share(complete, threads(), n_pixels >= WORTH_SHARING)
         size = min(len(numbers) // (CHUNKS_PER_THREAD * threads()) + 1, SHARED_TRIANGLES)
         chunks = iter([numbers[at : at + size] for at in range(0, len(numbers), size)])
         counts = [buffers.stencil, *(scratch(buffers.stencil.shape, np.uint8) for _ in range(1, threads()))]

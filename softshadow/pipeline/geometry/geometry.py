@@ -69,7 +69,8 @@ def vertex_outputs(command: Draw, storage: Storage) -> VertexOutputs:
     vertices, (program, uniforms) = command.vertices, program_of(command, storage)
     arrays = (vertices.position, vertices.color, vertices.normal, vertices.texcoords)
     transforms = (command.modelview, command.projection, command.texture_matrices)
-    inputs = VertexInputs(*arrays, *transforms, uniforms, command.modelview_kind, vertices.materials)
+    optional = vertices.materials, vertices.secondary, vertices.fog_coordinates
+    inputs = VertexInputs(*arrays, *transforms, uniforms, command.modelview_kind, *optional)
     return VertexOutputs(program.vertex(inputs), program, uniforms)
 
 

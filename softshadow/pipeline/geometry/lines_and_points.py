@@ -26,7 +26,7 @@ from softshadow.pipeline.geometry.triangle_setup import MAX_SLOPE, Offset, set_u
 from softshadow.pipeline.geometry.vertex import append_rows
 from softshadow.pipeline.mesa.polygon_rules import is_stippled, points_are_smooth
 from softshadow.pipeline.records import Discards, Geometry, Setup, Sprites
-from softshadow.programs.fixed_function import is_separate
+from softshadow.programs.fixed_function import has_secondary
 from softshadow.state import Cull, State
 
 COLUMNS_OF_UNIT = 4
@@ -89,7 +89,7 @@ def set_up_points_of(
 
 def _replaced_columns(geometry: Geometry, state: State) -> tuple[int, ...]:
     """Return the first column of each texture unit whose coordinates are replaced."""
-    first = 7 if is_separate(state) else 4
+    first = 7 if has_secondary(state) else 4
     units = geometry.program.units or []
     return tuple(
         first + COLUMNS_OF_UNIT * number for number, unit in enumerate(units) if state.points.replaced[unit.index]

@@ -98,6 +98,8 @@ def outline(
     filled = first[visible & (mode == gl.GL_FILL)]
     as_lines, as_points = visible & (mode == gl.GL_LINE), visible & (mode == gl.GL_POINT)
     drawn_lines = edges[as_lines][:, STARTS] != 0
+    # a filled triangle begins the line stipple anew, and so does each point, but not a triangle without drawn points
+    restarting = np.where(as_lines, begins, ~as_points | (edges != 0).any(axis=1))
     return Outlined(
         np.ascontiguousarray(corners.reshape(-1, 4)),
         np.ascontiguousarray(corner_values.reshape(-1, values.shape[1])),
@@ -106,7 +108,7 @@ def outline(
         (first[as_points][:, None] + np.arange(3, dtype=np.int32))[edges[as_points] != 0],
         front,
         offset_mode,
-        *_restarts((begins | ~as_lines) & visible, as_lines, drawn_lines),
+        *_restarts(restarting & visible, as_lines, drawn_lines),
     )
 
 
@@ -130,8 +132,8 @@ def _edge_lines(first: np.ndarray, drawn: np.ndarray) -> np.ndarray:
 def _restarts(begins: np.ndarray, as_lines: np.ndarray, drawn: np.ndarray) -> tuple[np.ndarray, bool]:
     """Return the lines (B,) bool at which the line stipple begins anew, and whether it does so after the last one.
 
-    `begins` (T,) are the triangles that begin it, those that are not drawn as lines among them; `drawn` (n, 3) the
-    edges of the triangles drawn as lines.
+    `begins` (T,) are the triangles that begin it, filled ones and those of points among them; `drawn` (n, 3) the edges
+    of the triangles drawn as lines.
     """
     number = np.cumsum(begins)  # of beginnings up to each triangle
     of_line = np.repeat(number[as_lines], drawn.sum(axis=1))

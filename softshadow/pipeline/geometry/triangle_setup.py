@@ -9,7 +9,7 @@ from softshadow.jit import allocating_kernel, inlined, kernel, read_only
 from softshadow.pipeline.constants import HALF, ONE, ZERO
 from softshadow.pipeline.geometry.facing import culling, facing_and_area, snap_vertices, vertices_of
 from softshadow.pipeline.memory.scratch import scratch
-from softshadow.pipeline.memory.threads import parts_of, share
+from softshadow.pipeline.memory.threads import PART_SIZE, parts_of, share
 from softshadow.pipeline.mesa.polygon_rules import offset_is_on
 from softshadow.pipeline.records import Setup
 from softshadow.state import Cull, Polygon
@@ -108,7 +108,7 @@ def stored_culling(cull: Cull, flipped: bool) -> tuple[int, int]:
 
 def snapped_vertices(window: np.ndarray) -> tuple[np.ndarray, tuple[int, int]]:
     """Return the snapped x and y (V, 2) int32 of all vertices, and the first and end row of samples that they span."""
-    snapped, parts = scratch((len(window), 2), np.int32), parts_of(len(window))
+    snapped, parts = scratch((len(window), 2), np.int32), parts_of(len(window), 2 * PART_SIZE)
     lows, highs = zip(*share(lambda n: snap_vertices(window, *parts[n], snapped), len(parts)), strict=True)
     return snapped, ((min(lows) + 255) >> 8, (max(highs) >> 8) + 1)
 

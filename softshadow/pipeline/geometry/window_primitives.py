@@ -29,7 +29,7 @@ from softshadow.pipeline.geometry.polygon_mode import Outlined, outline
 from softshadow.pipeline.geometry.vertex import to_window
 from softshadow.pipeline.mesa.polygon_rules import effective_modes
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
-from softshadow.programs.fixed_function import is_separate
+from softshadow.programs.fixed_function import has_secondary
 from softshadow.state import State
 
 F32 = np.float32
@@ -105,7 +105,7 @@ def window_primitives(command: Draw, storage: Storage) -> WindowPrimitives:
 def _values(command: Draw, storage: Storage) -> tuple[np.ndarray, np.ndarray | None]:
     """Return colour and texture coordinates of unit 0 (V, 8) of front faces, and of back faces if they differ."""
     varyings, program, _ = vertex_outputs(command, storage)
-    column = 7 if is_separate(command.state) else 4
+    column = 7 if has_secondary(command.state) else 4
     in_use = any(unit.index == 0 for unit in program.units or [])
     texcoords = command.vertices.texcoords[0]
 

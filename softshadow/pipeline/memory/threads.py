@@ -1,16 +1,19 @@
-"""A persistent thread pool; idle threads take the next piece of work.
+"""Persistent threads; idle ones take the next piece of work.
 
 Which thread takes which piece changes no result: a pixel lies in one band of rows, and one thread processes a band in
 drawing order (`raster/bins.py`).
+
+The threads of `concurrent.futures` cost 110 to 140 us for each piece of work that is shared, these 60.
 """
 
 import os
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
-from contextvars import copy_context
+from contextlib import suppress
+from contextvars import Context, copy_context
 from functools import cache
 from itertools import pairwise
-from threading import Lock
+from queue import SimpleQueue
+from threading import Lock, Thread
 from typing import TypeVar, cast
 
 Result = TypeVar("Result")
@@ -20,8 +23,6 @@ PART_SIZE = 1 << 14  # vertices or triangles; they take some tenths of a millise
 VARIABLE = "SOFTSHADOW_THREADS"
 
 _threads = [0]
-_pool: dict[int, ThreadPoolExecutor] = {}
-_pool_lock = Lock()
 
 
 def set_threads(n: int) -> None:
@@ -60,46 +61,97 @@ def _default_threads() -> int:
     return int(text)
 
 
-def share(work: Callable[[int], Result], n_pieces: int) -> list[Result]:
-    """Return ``[work(0), ..., work(n_pieces - 1)]``; the next idle thread takes the next piece."""
-    limit = threads()
-    n_threads = min(limit, n_pieces)
-    if n_threads <= 1:
+class _Helpers:
+    """Threads that wait for jobs, functions without arguments that raise nothing; they end with the process."""
+
+    def __init__(self) -> None:
+        self._jobs: SimpleQueue[Callable[[], None]] = SimpleQueue()
+        self._started, self._lock = 0, Lock()
+
+    def add(self, job: Callable[[], None], n: int) -> None:
+        """Let `n` threads do a job, as soon as they are idle."""
+        if self._started < n:
+            with self._lock:
+                for number in range(self._started, n):
+                    Thread(target=self._work, name=f"softshadow-{number}", daemon=True).start()
+                self._started = max(self._started, n)
+        for _ in range(n):
+            self._jobs.put(job)
+
+    def _work(self) -> None:
+        while True:
+            self._jobs.get()()
+
+
+_helpers = [_Helpers()]
+
+
+def _forget_helpers() -> None:  # a forked process has none of its parent's threads
+    _helpers[0] = _Helpers()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_forget_helpers)
+
+
+def share(work: Callable[[int], Result], n_pieces: int, pays: bool = True) -> list[Result]:
+    """Return ``[work(0), ..., work(n_pieces - 1)]``; the next idle thread takes the next piece.
+
+    Parameters
+    ----------
+    pays : whether all pieces take 300 us together; below this, the caller does them sooner alone
+    """
+    n_helpers = min(threads(), n_pieces) - 1
+    if n_helpers < 1 or not pays:
         return [work(number) for number in range(n_pieces)]
     numbers, results = iter(range(n_pieces)), [cast(Result, None)] * n_pieces
+    # a helper takes a ticket before it begins; the caller takes those that are left when no work is left
+    tickets, ends = [copy_context() for _ in range(n_helpers)], SimpleQueue[BaseException | None]()
 
     def until_none_is_left() -> None:
         for number in numbers:  # the threads share the iterator: each number is handed out once
             results[number] = work(number)
 
-    with _pool_lock:
-        if limit not in _pool:
-            _pool[limit] = ThreadPoolExecutor(limit, thread_name_prefix="softshadow")
-    # the caller is the first thread; the others get its context (NumPy's error state, use_short_cuts)
-    others = [_pool[limit].submit(copy_context().run, until_none_is_left) for _ in range(n_threads - 1)]
+    def help_the_caller() -> None:
+        try:
+            context = tickets.pop()
+        except IndexError:
+            return
+        try:  # in the caller's context: NumPy's error state, use_short_cuts
+            context.run(until_none_is_left)
+        except BaseException as problem:
+            ends.put(problem)
+        else:
+            ends.put(None)
+
+    _helpers[0].add(help_the_caller, n_helpers)
     try:
         until_none_is_left()
     finally:
-        for other in others:
-            if not other.cancel():  # not started yet: no work is left for it
-                other.result()
+        problems = [problem for _ in range(n_helpers - _empty(tickets)) if (problem := ends.get()) is not None]
+    if problems:
+        raise problems[0]
     return results
 
 
-def parts_of(n_items: int, size: int | None = None) -> list[tuple[int, int]]:
-    """Return first and end of parts of ``range(n_items)``: one part for one thread, else parts of `size` (PART_SIZE).
+def _empty(tickets: list[Context]) -> int:
+    """Take all tickets, which helpers may do at the same time, and return how many these were."""
+    n = 0
+    with suppress(IndexError):
+        while True:
+            tickets.pop()
+            n += 1
+    return n
 
-    They are about equal, and as many for each thread. A part should take longer than its hand-over to another thread.
+
+def parts_of(n_items: int, size: int | None = None) -> list[tuple[int, int]]:
+    """Return first and end of parts of ``range(n_items)``: one part for one thread, else parts of at least `size`.
+
+    They are about equal, and as many for each thread. A part should take at least 150 us: see `share`.
     """
-    n_parts, n_threads = -(-n_items // (size or PART_SIZE)), threads()
+    n_threads = threads()
+    n_parts = n_items // (size or PART_SIZE) // n_threads * n_threads
     if n_threads == 1 or n_parts <= 1:
         return [(0, n_items)]
-    n_parts = -(-n_parts // n_threads) * n_threads
     cuts = [n_items * n // n_parts for n in range(n_parts + 1)]
-    return [(first, end) for first, end in pairwise(cuts) if first < end]
-
-
-def share_chunks(work: Callable[[int, int], None], n_items: int, size: int) -> None:
-    """Call ``work(first, end)`` for chunks of ``range(n_items)`` on idle threads; one thread gets a single chunk."""
-    size = size if threads() > 1 else max(n_items, 1)
-    share(lambda n: work(n * size, min(n * size + size, n_items)), -(-n_items // size))
+    return list(pairwise(cuts))

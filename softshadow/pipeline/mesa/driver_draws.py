@@ -117,14 +117,18 @@ def join_vertices(parts: Sequence[Vertices]) -> Vertices:
     """Return the vertices of all parts, which have the same attributes; a constant attribute stays broadcast."""
     if len(parts) == 1:
         return parts[0]
-    units = range(len(parts[0].texcoords))
+    first, units = parts[0], range(len(parts[0].texcoords))
     return Vertices(
         _concatenated([part.position for part in parts]),
         _concatenated([part.color for part in parts]),
         _concatenated([part.normal for part in parts]),
         tuple(_concatenated([part.texcoords[unit] for part in parts]) for unit in units),
         {name: _concatenated([part.materials[name] for part in parts]) for name in parts[0].materials},
-        None if parts[0].edges is None else _concatenated([part.edges for part in parts if part.edges is not None]),
+        None if first.edges is None else _concatenated([part.edges for part in parts if part.edges is not None]),
+        None if first.secondary is None else _concatenated([p.secondary for p in parts if p.secondary is not None]),
+        None
+        if first.fog_coordinates is None
+        else _concatenated([part.fog_coordinates for part in parts if part.fog_coordinates is not None]),
     )
 
 

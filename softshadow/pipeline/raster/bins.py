@@ -10,11 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.jit import inlined, kernel
-from softshadow.pipeline.memory.threads import share
+from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.coverage import bounds
 from softshadow.pipeline.records import Region
 
 BAND_ROWS_LOG2 = 5  # 32 rows: layers drawn over each other in a band stay in the cache
+BANDS_PER_THREAD = 2  # more would balance the threads better, but a triangle is set up again in each band that it meets
 
 
 class Bins(NamedTuple):
@@ -36,6 +37,12 @@ class Bins(NamedTuple):
         """Return first and end row of a band."""
         first = ((region.first_row >> self.rows_log2) + band) << self.rows_log2
         return max(first, region.first_row), min(first + (1 << self.rows_log2), region.end_row)
+
+
+def few_bands(region: Region) -> int:
+    """Return the binary logarithm of the rows of a band, for a few bands for each thread."""
+    rows = int(region.end_row - region.first_row) // (BANDS_PER_THREAD * threads())
+    return max(BAND_ROWS_LOG2, rows.bit_length() - 1)
 
 
 def bands_of(region: Region, rows_log2: int = BAND_ROWS_LOG2) -> int:

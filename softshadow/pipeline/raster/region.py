@@ -3,7 +3,7 @@
 import numpy as np
 
 from softshadow.framebuffer import Framebuffer
-from softshadow.pipeline.memory.threads import parts_of, share
+from softshadow.pipeline.memory.threads import PART_SIZE, parts_of, share
 from softshadow.pipeline.raster.coverage import extent
 from softshadow.pipeline.records import DepthRange, Region, Setup
 from softshadow.state import Points, State
@@ -46,7 +46,7 @@ def depth_range_of(state: State, real: type) -> DepthRange:
 
 def covered(triangles: Setup, region: Region) -> tuple[Region, int]:
     """Return the region cut to the rows and columns that the triangles meet, and about how many fragments they have."""
-    parts = parts_of(len(triangles.corners))
+    parts = parts_of(len(triangles.corners), 2 * PART_SIZE)
     extents = share(lambda n: extent(triangles.corners, *parts[n]), len(parts))
     firsts, ends, lefts, rights, areas = zip(*extents, strict=True)
     left, right = max(region.left, min(lefts)), min(region.right, max(rights))

@@ -4,11 +4,13 @@ The values of a chunk stay in the cache from interpolation to the write. All fra
 take 100 MB of fresh memory for every draw.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
 from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.memory.scratch import scratch
-from softshadow.pipeline.memory.threads import share
+from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.records import NO_VERTEX, Geometry, Spans, Sprites
 from softshadow.pipeline.shade.color_writes import color_writer
 from softshadow.pipeline.shade.interpolate import AttributePlanes, inputs_at, planes_of
@@ -16,6 +18,9 @@ from softshadow.pipeline.shade.pixel_blocks import in_blocks
 from softshadow.pipeline.shade.visible_spans import fragments_of, spans_of
 from softshadow.state import State
 
+PART = 1 << 15  # fragments that one thread shades in one go where several threads draw
+SPAN = 4  # fragments that take as long as the beginning of a span
+WORTH_SHARING = 1 << 16  # fragments from which several threads shade them
 CHUNK = 32 * 2091  # fragments; an odd number of cache lines per column, so that columns do not share cache sets
 
 
@@ -57,6 +62,16 @@ def shade_and_write(state: State, target: Framebuffer, geometry: Geometry, spans
             write(part, colors)
 
     share(chunk, len(cuts) - 1)
+
+
+def shade_in_parts(geometry: Geometry, spans: Spans, shade_part: Callable[[Spans, AttributePlanes], None]) -> None:
+    """Shade spans that do not overlap, in parts where several threads draw and there is enough to do."""
+    planes = attribute_planes_of(geometry, spans)
+    if threads() == 1 or spans.fragments + len(spans.row) * SPAN < WORTH_SHARING:
+        shade_part(spans, planes)
+    else:
+        parts = spans.chunks(PART)
+        share(lambda n: shade_part(spans.part(parts[n], parts[n + 1]), planes), len(parts) - 1)
 
 
 def attribute_planes_of(geometry: Geometry, spans: Spans) -> AttributePlanes:

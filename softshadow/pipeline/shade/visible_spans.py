@@ -12,7 +12,9 @@ from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.records import Fragments, Region, Spans
 
 STRIDE = 16  # pixels of a long span that are compared together
-ROWS_PER_TASK = 128  # that a thread searches in one go
+PIXELS_PER_PART = 1 << 17
+WORTH_SHARING = 1 << 20  # pixels from which several threads count their spans
+WORTH_COLLECTING = 20_000  # spans; one takes as long as 32 pixels
 
 
 def _empty_spans(n: int) -> Spans:
@@ -29,10 +31,11 @@ def visible_spans(ids: np.ndarray, region: Region) -> Spans:
     ----------
     ids : (rows of the region, pitch) int32, the triangle of each pixel or -1; other columns are not read
     """
-    parts, left, right, first_row = parts_of(len(ids), ROWS_PER_TASK), region.left, region.right, region.first_row
-    n_visible = share(lambda n: count_visible(ids[slice(*parts[n])], left, right), len(parts))
+    left, right, first_row = region.left, region.right, region.first_row
+    parts, n_pixels = parts_of(len(ids), PIXELS_PER_PART // ids.shape[1]), len(ids) * (right - left)
+    counted = share(lambda n: count_visible(ids[slice(*parts[n])], left, right), len(parts), n_pixels >= WORTH_SHARING)
     starts = [(0, 0)]  # the first span and the first fragment of each part
-    for n_spans, n_fragments in n_visible:
+    for n_spans, n_fragments in counted:
         starts.append((starts[-1][0] + n_spans, starts[-1][1] + n_fragments))
     spans = _empty_spans(starts[-1][0])
 
@@ -42,7 +45,7 @@ def visible_spans(ids: np.ndarray, region: Region) -> Spans:
         collected = (array[rows] for array in spans)
         collect_visible(ids[first:end], left, right, first_row + first, first_fragment, *collected)
 
-    share(collect, len(parts))
+    share(collect, len(parts), starts[-1][0] + n_pixels // 32 >= WORTH_COLLECTING)
     spans.start[-1] = starts[-1][1]
     return spans
 

@@ -231,6 +231,7 @@ def test_a_lit_mesh_has_the_colours_of_the_textbook(seed):
             np.testing.assert_array_equal(ours.back, expected.back)
 
 
+@pytest.mark.slow
 @given(seeds)
 def test_threads_and_small_runs_make_no_difference(seed):
     expected, before = Program(seed).draw(), threads()

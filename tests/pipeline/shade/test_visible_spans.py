@@ -75,7 +75,9 @@ def on_threads(n, function, *arguments):
 
 @pytest.mark.parametrize("rows", [1, 3, SIZE])
 def test_parts_of_the_rows_have_the_same_spans_as_all_rows(monkeypatch, rows):
-    monkeypatch.setattr(visible_spans_module, "ROWS_PER_TASK", rows)
+    monkeypatch.setattr(visible_spans_module, "PIXELS_PER_PART", rows * SIZE)
+    for name in ("WORTH_SHARING", "WORTH_COLLECTING"):
+        monkeypatch.setattr(visible_spans_module, name, 0)
     for seed in range(20):
         at_once, in_parts = (on_threads(n, spans_in, random_ids(seed), 7) for n in (1, 3))
         assert all(np.array_equal(a, b) for a, b in zip(in_parts, at_once, strict=True))

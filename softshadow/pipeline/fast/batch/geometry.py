@@ -37,7 +37,7 @@ from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.records import Geometry, Setup
 from softshadow.programs import Program
-from softshadow.programs.fixed_function import is_separate
+from softshadow.programs.fixed_function import has_secondary
 
 REAL = np.dtype(np.float32)
 VERTICES_PER_TASK = 1 << 13  # that a thread processes in one go
@@ -178,7 +178,7 @@ def _most_primitives(draws: Sequence[Draw]) -> int:
 
 def _flat_columns(run: Run) -> np.ndarray:
     """Return which columns of the varyings are not interpolated (`programs.fixed_function.process_vertices`)."""
-    lighting, n_color = run.state.lighting, 7 if run.lit and is_separate(run.state) else 4
+    lighting, n_color = run.state.lighting, 7 if run.lit and has_secondary(run.state) else 4
     flat = np.zeros(n_color + 4 * len(run.units) + int(run.writes_color and run.state.fog.enabled), bool)
     one_color = not lighting.enabled and not run.arrays.color
     flat[:n_color] = lighting.shade_model == gl.GL_FLAT or one_color

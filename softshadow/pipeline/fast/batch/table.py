@@ -44,7 +44,7 @@ from softshadow.pipeline.mesa.polygon_rules import passes_stages
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.mesa.rectangles import start_of_last_nine
 from softshadow.programs import reflectances
-from softshadow.programs.fixed_function import Unit, is_separate, needs_vertex_color, units_in_use
+from softshadow.programs.fixed_function import Unit, has_secondary, needs_vertex_color, units_in_use
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE
 from softshadow.state import Lighting, Lines, MaterialState, Points, State
@@ -95,7 +95,10 @@ class Run:
         is_flat = writes_color and self.state.lighting.shade_model == gl.GL_FLAT
         self.generated, self.planes, in_eye_space = _generation(self)
         self.layout = self._layout(in_eye_space)
-        self.across = is_flat and (self.lit or self.arrays.color) and needs_vertex_color(self.state, self.units)
+        self.across = is_flat and (
+            bool(self.layout.separate)
+            or ((self.lit or self.arrays.color) and needs_vertex_color(self.state, self.units))
+        )
 
     def _arrays_of(self, command: Draw) -> Arrays:
         vertices = command.vertices
@@ -111,7 +114,7 @@ class Run:
         state, lit = self.state, self.lit
         return Layout(
             lit=int(lit),
-            separate=int(lit and is_separate(state)),
+            separate=int(lit and has_secondary(state)),
             two_side=int(lit and state.lighting.two_side),
             fog=int(self.writes_color and state.fog.enabled),
             colors=int(self.arrays.color),
@@ -206,6 +209,8 @@ def can_begin_run(command: Draw, target: Framebuffer) -> bool:
     if not can_run(command) or not target.attachments or passes_stages(state) or any(state.clip_planes.enabled):
         return False
     if state.lines != PLAIN_LINES or state.points != PLAIN_POINTS or first_provokes(state):
+        return False
+    if state.fog.color_sum or state.fog.source != gl.GL_FRAGMENT_DEPTH:
         return False
     modes = [gen.mode for unit in state.units for gen in unit.gen if gen.enabled]
     return all(mode in GENERATED for mode in modes)
