@@ -8,6 +8,7 @@ they do not carry yet, or with fewer components, submits the collected vertices,
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -205,7 +206,13 @@ def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int
     if not ANY_TEXCOORD.isdisjoint(carried):
         places = enumerate(TEXCOORDS)
         texcoords = tuple([rows(name) if name in carried else texcoords[place] for place, name in places])
-    edges, secondary, fog_coordinates = [_optional_rows(context, primitive, name, start, end) for name in OPTIONAL]
+    edges = secondary = fog_coordinates = None
+    current = context.current
+    are_initial = current.edge and current.secondary == BLACK and not current.fog_coordinate
+    if not (are_initial and OPTIONAL.keys().isdisjoint(carried)):
+        edges, secondary, fog_coordinates = [
+            _optional_rows(context, primitive, name, rows, start, end) for name in OPTIONAL
+        ]
     return create(
         Vertices,
         position=context.packed(primitive.positions[4 * start : 4 * end], count, 4),
@@ -219,15 +226,17 @@ def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int
     )
 
 
-def _optional_rows(context: Context, primitive: Primitive, name: str, start: int, end: int) -> np.ndarray | None:
-    """Return an attribute of the vertices [start, end); None if all have its initial value."""
-    current, initial = context.current.__dict__[name], OPTIONAL[name]
-    real = bool if initial is True else context.real
+def _optional_rows(
+    context: Context, primitive: Primitive, name: str, rows: Callable[[str], np.ndarray], start: int, end: int
+) -> np.ndarray | None:
+    """Return an attribute of the vertices [start, end); None if all have its initial value. `rows` is for numbers."""
+    current = context.current.__dict__[name]
+    is_flag = OPTIONAL[name] is True
     if name in context.vertex_buffer.sizes:
-        return _read_only(np.array(primitive.values(name, current)[start:end], real))
-    if current is initial or current == initial:
+        return _read_only(np.array(primitive.values(name, current)[start:end], bool)) if is_flag else rows(name)
+    if current == OPTIONAL[name]:
         return None
-    value = np.array(current, real)
+    value = np.array(current) if is_flag else context.frozen(current)
     return np.broadcast_to(value, (end - start, *value.shape))
 
 

@@ -27,6 +27,7 @@ def region_of(state: State, target: Framebuffer) -> Region:
         view = state.viewport
         left, right = max(left, view.x), min(right, view.x + view.width)
         bottom, top = max(bottom, view.y), min(top, view.y + view.height)
+    left, bottom = min(left, width), min(bottom, height)  # kernels rely on columns and rows within the buffers
     right, top = max(left, right), max(bottom, top)
     first, end = (height - top, height - bottom) if target.flipped else (bottom, top)
     return Region(left, right, first, end, int(target.flipped))
@@ -49,9 +50,10 @@ def covered(triangles: Setup, region: Region) -> tuple[Region, int]:
     parts = parts_of(len(triangles.corners), 2 * PART_SIZE)
     extents = share(lambda n: extent(triangles.corners, *parts[n]), len(parts))
     firsts, ends, lefts, rights, areas = zip(*extents, strict=True)
-    left, right = max(region.left, min(lefts)), min(region.right, max(rights))
+    left = min(max(region.left, min(lefts)), region.right)  # kernels rely on columns within the buffer
+    right = max(left, min(region.right, max(rights)))
     rows = max(region.first_row, min(firsts)), min(region.end_row, max(ends))
-    return Region(left, max(left, right), *rows, region.downwards), sum(areas) >> 8
+    return Region(left, right, *rows, region.downwards), sum(areas) >> 8
 
 
 def buffer_cells(target: Framebuffer, real: np.dtype, *, writes_depth: bool = True) -> tuple[np.ndarray, np.ndarray]:
