@@ -51,8 +51,8 @@ lessons.code_beside_slide("map-bias", step=1)
 # ## The theorem
 #
 # On a plane, a point is at most half a texel away from the sample in each direction. So its depth differs from the
-# stored one by at most ½|∂z/∂x| + ½|∂z/∂y| ≤ m. An offset of `factor = 1` is enough, and no constant that ignores the
-# slope is (E49). The scene: a floor alone, so that every dark pixel is the floor's own shadow.
+# stored one by at most ½|∂z/∂x| + ½|∂z/∂y| ≤ m. An offset of `factor = 1` is enough. A constant, which ignores the
+# slope, is too small for some plane (E49). The scene is a floor alone, so every dark pixel is the floor's own shadow.
 
 # %%
 floor = ss.Scene(
@@ -197,15 +197,15 @@ for surface in ("front", "back", "midpoint"):
 # %%
 def pair(name, distance, x):
     height = 12 - distance
-    plate = ss.scene.shapes.floor(0.3 * distance)
-    tile = ss.scene.shapes.floor(0.1 * distance)
+    plate = ss.shapes.floor(0.3 * distance)
+    tile = ss.shapes.floor(0.1 * distance)
     return [
         ss.SceneObject(
-            plate, ss.scene.placement((x, height, 0)), receives=True, name=f"{name} plate"
+            plate, ss.placement((x, height, 0)), receives=True, name=f"{name} plate"
         ),
         ss.SceneObject(
             tile,
-            ss.scene.placement((x, height + 0.4, 0)),
+            ss.placement((x, height + 0.4, 0)),
             material=ss.Material((0.9, 0.6, 0.2)),
             name=f"{name} tile",
         ),
@@ -285,9 +285,9 @@ lessons.compare_prediction(
     "Which shadow is lost first in the depth map?",
     my_first_lost,
     min(first_lost["map"]) if len(first_lost["map"]) == 1 else "all at once",
-    "The same difference of window depth is the largest distance where the map is coarsest, "
-    "far from the lamp. In the distance map all three are lost between 0.38 and 0.45, as the gap "
-    "is 0.4 to 0.43 everywhere.",
+    "The same difference of window depth is the largest distance where the map is "
+    "coarsest, far from the lamp. In the distance map all three are lost between 0.38 "
+    "and 0.45, as the gap is 0.4 to 0.43 everywhere.",
 )
 
 # %% [markdown]

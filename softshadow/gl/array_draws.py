@@ -231,7 +231,7 @@ def _vertices(context: Context, rows: Rows) -> Vertices:
     vertices: Vertices | None = position.drawn.get(key)
     if vertices is None:
         columns = constants.rows(end - first)
-        optional = {}
+        optional: dict[str, Any] = {}
         for snapshot in others:
             if snapshot.slot in OPTIONAL:
                 optional[OPTIONAL[snapshot.slot]] = slice_of(snapshot, first, end)

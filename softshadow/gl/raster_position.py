@@ -60,7 +60,7 @@ def _set(context: Context, point: np.ndarray) -> None:
         color, secondary = raster_colors(context, point, modelview, modelview_kind)
     w = clip[3]
     if state.depth.clamp:  # as in Mesa, which clamps w in place of z
-        w = min(max(w, min(near, far)), max(near, far))
+        w = (far if w > far else w) if w > near else near
     context.current.raster = RasterPosition(
         window=(window[0], window[1], window[2], float(w)),
         distance=_distance(context, eye),

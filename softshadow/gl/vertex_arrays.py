@@ -151,12 +151,14 @@ def _pointer(
     pointer: Any,
 ) -> None:  # fmt: skip
     context = outside_begin(operation)
-    if context is None or not is_one_of(operation, "type", type, types, "GL_FLOAT, GL_DOUBLE or an integer type"):
+    if context is None:
         return
-    if size not in sizes:
-        fail(gl.GL_INVALID_VALUE, operation, f"size={size}: expected one of {', '.join(map(str, sizes))}")
-    elif not 0 <= stride <= LARGEST_STRIDE:
+    if not 0 <= stride <= LARGEST_STRIDE:
         fail(gl.GL_INVALID_VALUE, operation, f"stride={stride}: expected 0 to {LARGEST_STRIDE}")
+    elif not is_one_of(operation, "type", type, types, "GL_FLOAT, GL_DOUBLE or an integer type"):
+        return
+    elif size not in sizes:
+        fail(gl.GL_INVALID_VALUE, operation, f"size={size}: expected one of {', '.join(map(str, sizes))}")
     else:
         arrays = context.arrays
         if not arrays.array_buffer and pointer is not None:

@@ -90,7 +90,7 @@ def draw_of_quads(context: Context, quads: np.ndarray, state: State, textured: b
         array.setflags(write=False)
     identity = context.frozen(np.eye(4))
     return Draw(
-        state=_without_vertex_stages(state, size, in_window),
+        state=_without_vertex_stages(state, size, in_window, clamps=state.depth.clamp and textured),
         mode=gl.GL_TRIANGLES,
         vertices=Vertices(position, rows[0], rows[1], tuple(rows[2:])),
         indices=indices,
@@ -101,8 +101,8 @@ def draw_of_quads(context: Context, quads: np.ndarray, state: State, textured: b
     )
 
 
-def _without_vertex_stages(state: State, size: tuple[int, int], in_window: bool) -> State:
-    """Return the state with all that concerns vertices and triangles as in the initial state."""
+def _without_vertex_stages(state: State, size: tuple[int, int], in_window: bool, clamps: bool) -> State:
+    """Return the state with all that concerns vertices and triangles as in the initial state, except depth clamping."""
     return evolve(
         state,
         viewport=Viewport(0, 0, *size),
@@ -110,7 +110,7 @@ def _without_vertex_stages(state: State, size: tuple[int, int], in_window: bool)
         polygon=Polygon(),
         lighting=evolve(state.lighting, enabled=False),
         clip_planes=ClipPlanes(),
-        depth=evolve(state.depth, clamp=False),
+        depth=evolve(state.depth, clamp=clamps),
         units=tuple(evolve(unit, gen=tuple(evolve(each, enabled=False) for each in unit.gen)) for unit in state.units),
         program=0,
     )

@@ -1,7 +1,8 @@
 """GL's fixed function as a program: lighting and coordinates per vertex; texturing, specular sum and fog per fragment.
 
 Columns of the varyings: primary RGBA; secondary RGB with GL_SEPARATE_SPECULAR_COLOR or GL_COLOR_SUM; (s, t, r, q) of
-every texture unit in use; the fog distance or coordinate.
+every texture unit in use; the fog distance or coordinate; primary RGBA again for GL_PRIMARY_COLOR of GL_COMBINE, which
+Mesa interpolates even if it is a constant.
 """
 
 from __future__ import annotations
@@ -90,7 +91,8 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
     else:
         front = Colors(clamp_colors(vertices.color), None)
     if state.fog.color_sum:
-        front, back = (colors and with_secondary(colors, lighting.enabled, vertices) for colors in (front, back))
+        front = with_secondary(front, lighting.enabled, vertices)
+        back = with_secondary(back, lighting.enabled, vertices) if back is not None else None
     settings = [state.units[unit.index] for unit in units]
     normals: Normals | None = None
     if any(needs_normals(setting) for setting in settings):
@@ -103,6 +105,9 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
     ]
     if state.fog.enabled:
         rest.append(fog_depth(state, vertices)[:, np.newaxis])
+    is_repeated = repeats_primary(state, units)
+    if is_repeated:
+        rest.append(front.primary)
     values = columns(front, rest, vertices.position.dtype)
     flat = np.zeros(values.shape[1], bool)
     one_color = not lighting.enabled and vertices.color.strides[0] == 0  # Mesa does not interpolate a constant
@@ -113,8 +118,10 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
     for unit in units:
         flat[column : column + 4] = has_one_coordinate(state, unit.index, vertices)
         column += 4
-    varies = (not one_color and needs_vertex_color(state, units)) or (column == 7 and not one_secondary)
-    flat_input = lighting.shade_model == gl.GL_FLAT and varies
+    if is_repeated:
+        flat[-4:] = lighting.shade_model == gl.GL_FLAT
+    varies = is_repeated or (not one_color and needs_vertex_color(state, units))
+    flat_input = lighting.shade_model == gl.GL_FLAT and (varies or (has_secondary(state) and not one_secondary))
     back_values = None if back is None else columns(back, rest, values.dtype)
     return Varyings(values, flat, back_values, flat_input, point_sizes(state, vertices))
 
@@ -127,6 +134,15 @@ def needs_vertex_color(state: State, units: list[Unit]) -> bool:
     from softshadow.programs.vertex_color_use import uses_vertex_color
 
     return uses_vertex_color([(state.units[unit.index], base_format(unit.texture)) for unit in units])
+
+
+def repeats_primary(state: State, units: list[Unit]) -> bool:
+    """Return whether the primary colour is among the varyings twice: lit colours are never constants."""
+    if state.lighting.enabled or not any(state.units[unit.index].env_mode == gl.GL_COMBINE for unit in units):
+        return False
+    from softshadow.programs.vertex_color_use import reads_primary_color
+
+    return any(reads_primary_color(state.units[unit.index]) for unit in units)
 
 
 def with_secondary(colors: Colors, is_lit: bool, vertices: VertexInputs) -> Colors:
@@ -178,7 +194,7 @@ def point_sizes(state: State, vertices: VertexInputs) -> np.ndarray | None:
 
 def eye_distance(state: State, vertices: VertexInputs) -> np.ndarray:
     """Return |z| in eye space (V,), computed in the order of Mesa's vertex program."""
-    if state.lighting.enabled and needs_eye_position(state.lighting):
+    if state.lighting.enabled and needs_eye_position(state.lighting, vertices.materials):
         return abs(transform(vertices.modelview, vertices.position)[:, 2])
     return abs(dot(vertices.position, np.asarray(vertices.modelview[2], vertices.position.dtype)))
 
@@ -207,10 +223,12 @@ def shade_fragments(state: State, units: list[Unit], inputs: np.ndarray, out: np
             divide = project_with_reference if unit.texture.target == gl.GL_TEXTURE_CUBE_MAP else project
             sample(unit.texture, divide(inputs[:, column : column + 4]), texels[unit.index])
             column += 4
+        first = column + int(state.fog.enabled) if repeats_primary(state, units) else 0
+        primary = inputs[:, first : first + 4]
         for unit in units:
             setting, texel = state.units[unit.index], texels[unit.index]
             if setting.env_mode == gl.GL_COMBINE:
-                sources = texture_combine.Sources(unit.index, texels, inputs[:, :4], out, setting.env_color)
+                sources = texture_combine.Sources(unit.index, texels, primary, out, setting.env_color)
                 out[:] = texture_combine.combine(setting.combine, sources)
             else:
                 apply_environment(out, texel, setting.env_mode, base_format(unit.texture), setting.env_color)

@@ -9,7 +9,7 @@ References: GL 2.1 sec. 2.14.1; ffvertex_prog.c, light.c of Mesa 22.3.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -70,17 +70,23 @@ def enabled_lights(lighting: Lighting) -> list[LightState]:
     return [light for light in lighting.lights if light.enabled]
 
 
-def needs_eye_position(lighting: Lighting) -> bool:
-    """Return whether lighting needs the eye-space positions of the vertices."""
+def needs_eye_position(lighting: Lighting, materials: Container[str] = ()) -> bool:
+    """Return whether lighting needs the eye-space positions of the vertices; `materials` as for `has_highlights`."""
     lights = enabled_lights(lighting)
     return any(light.position[3] != 0 for light in lights) or (
-        bool(lights) and lighting.local_viewer and has_highlights(lighting)
+        bool(lights) and lighting.local_viewer and has_highlights(lighting, materials)
     )
 
 
-def has_highlights(lighting: Lighting) -> bool:
-    """Return whether a material in use has a shininess other than 0."""
-    return lighting.front.shininess != 0 or (lighting.two_side and lighting.back.shininess != 0)
+def has_highlights(lighting: Lighting, materials: Container[str] = ()) -> bool:
+    """Return whether a material in use has a shininess other than 0, or one that may differ between vertices.
+
+    `materials` are the names of those that the vertices carry ("front.shininess" ...): Mesa does not look at their
+    values.
+    """
+    if lighting.front.shininess != 0 or "front.shininess" in materials:
+        return True
+    return lighting.two_side and (lighting.back.shininess != 0 or "back.shininess" in materials)
 
 
 def in_object_space(lighting: Lighting, length_preserving: bool) -> bool:
@@ -111,17 +117,22 @@ def light_vertices(
         normal = transform_normals(lighting, vertices.normal, to_object, object_space, length_preserving)
         # x, y and z are stored apart, here and in the normals, so that loops run over vertices, not over three numbers
         eye = (
-            np.asfortranarray(transform(modelview, vertices.position)[:, :3]) if needs_eye_position(lighting) else None
+            np.asfortranarray(transform(modelview, vertices.position)[:, :3])
+            if needs_eye_position(lighting, vertices.materials)
+            else None
         )
+        highlights = has_highlights(lighting, vertices.materials)
         lights = [
-            at_vertices(light, lighting, eye, modelview, to_object, object_space) for light in enabled_lights(lighting)
+            at_vertices(light, lighting, eye, modelview, to_object, object_space, highlights)
+            for light in enabled_lights(lighting)
         ]
         front_side, back_side = (Reflectances(lighting, vertices, side) for side in ("front", "back"))
-        front = shade_side(lighting, front_side, vertices, normal, lights)
+        front = shade_side(lighting, front_side, vertices, normal, lights, highlights)
         if not lighting.two_side:
             return front, None
-        stale = stale_products(lighting, front_side, back_side, lights) if vertices.color.dtype == np.float32 else []
-        return front, shade_side(lighting, back_side, vertices, -normal, lights, stale)
+        is_single = vertices.color.dtype == np.float32
+        stale = stale_products(lighting, front_side, back_side, lights, highlights) if is_single else []
+        return front, shade_side(lighting, back_side, vertices, -normal, lights, highlights, stale)
 
 
 def eye_normals(lighting: Lighting, vertices: VertexInputs) -> np.ndarray:
@@ -155,6 +166,7 @@ def at_vertices(
     modelview: np.ndarray,
     to_object: np.ndarray,
     object_space: bool,
+    highlights: bool,
 ) -> LightAtVertices:
     """Return the direction, half vector and attenuation of a light at every vertex."""
     position, towards_eye = vector(light.position), TOWARDS_EYE
@@ -171,7 +183,7 @@ def at_vertices(
         squared_distance = dot(towards, towards)
         direction = towards * reciprocal_root(squared_distance)[:, np.newaxis]
         half = direction + towards_eye
-    if lighting.local_viewer and has_highlights(lighting):
+    if lighting.local_viewer and highlights:
         assert eye is not None
         half = normalize_rows(direction - normalize_rows(eye))
     elif half.ndim == 2:
@@ -211,13 +223,13 @@ def attenuation(
 
 
 def stale_products(
-    lighting: Lighting, front: Reflectances, back: Reflectances, lights: list[LightAtVertices]
+    lighting: Lighting, front: Reflectances, back: Reflectances, lights: list[LightAtVertices], highlights: bool
 ) -> list[dict[str, np.ndarray]]:
     """Return Mesa's stale green and blue of the varying back products, one mapping for each light."""
 
     def registers_of(source: LightAtVertices) -> LightRegisters:
         positional = source.light.position[3] != 0
-        half_per_vertex = has_highlights(lighting) and (positional or lighting.local_viewer)
+        half_per_vertex = highlights and (positional or lighting.local_viewer)
         return LightRegisters(
             direction=source.direction if positional else None,
             distance=source.parts.get("distance"),
@@ -239,6 +251,7 @@ def shade_side(
     vertices: VertexInputs,
     normal: np.ndarray,
     lights: list[LightAtVertices],
+    highlights: bool,
     stale: Sequence[Mapping[str, np.ndarray]] = (),
 ) -> Colors:
     """Return the colours of one side: emission and ambient, then each light's ambient, diffuse and specular part."""
@@ -250,7 +263,7 @@ def shade_side(
     highlight = np.zeros((3, n), np.float32)
     for index, source in enumerate(lights):
         green_blue = stale[index] if stale else {}
-        diffuse, specular = lit_factors(lighting, shininess, normal, source)
+        diffuse, specular = lit_factors(highlights, shininess, normal, source)
         factor = source.attenuation
         ambient_part = reflectance.product("ambient", source.light, green_blue).T
         if factor is not None:
@@ -270,13 +283,13 @@ def shade_side(
 
 
 def lit_factors(
-    lighting: Lighting, shininess: np.ndarray, normal: np.ndarray, source: LightAtVertices
+    highlights: bool, shininess: np.ndarray, normal: np.ndarray, source: LightAtVertices
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the diffuse and the specular factor (V,) before attenuation."""
+    """Return the diffuse and the specular factor (V,) before attenuation; `highlights`: see `has_highlights`."""
     towards_light = dot(normal, source.direction)
     diffuse = np.fmax(towards_light, ZERO)
     shininess = np.asarray(shininess, diffuse.dtype)
-    if has_highlights(lighting):
+    if highlights:
         towards_half = dot(normal, source.half)
     elif source.attenuation is None:
         return diffuse, np.where(towards_light > 0, ONE, ZERO)

@@ -11,6 +11,7 @@ from typing import Any
 from softshadow import gl
 from softshadow.context import Context, make_current
 from softshadow.gl.errors import GLError
+from softshadow.gl.queries import CURRENT_VALUES
 from softshadow.pipeline import commands
 from softshadow.pipeline.commands import Command, Draw
 from softshadow.recordings.arguments import arguments_of
@@ -28,7 +29,6 @@ HISTORY_BYTES = 1 << 30  # of the recording of one frame
 MOST_LABELLED = 5000  # draws of a frame that are told apart by the numbers of their calls
 USE_PROGRAM = ("glUseProgram", "glUseProgramObjectARB")
 ASSEMBLY = (0x8620, 0x8804)  # GL_VERTEX_PROGRAM_ARB, GL_FRAGMENT_PROGRAM_ARB
-CURRENT_VALUES = (gl.GL_CURRENT_COLOR, gl.GL_CURRENT_NORMAL, gl.GL_CURRENT_TEXTURE_COORDS, gl.GL_CURRENT_INDEX)
 # what contexts that share objects see of each other
 OBJECT_COMMANDS = (
     commands.DefineImage, commands.UpdateImage, commands.GenerateMipmaps, commands.CreateTexture, commands.SetSampler,

@@ -85,9 +85,11 @@ EXTENSIONS = (
     "NV.conditional_render", "ARB.texture_rectangle", "NV.texture_rectangle", "EXT.texture3D",
     "EXT.texture_filter_anisotropic", "EXT.abgr", "ARB.point_parameters", "EXT.point_parameters", "ARB.point_sprite",
     "ARB.window_pos", "ARB.pixel_buffer_object", "EXT.pixel_buffer_object", "ARB.half_float_pixel",
-    "ARB.shader_objects", "ARB.vertex_shader",
+    "ARB.shader_objects", "ARB.vertex_shader", "ARB.vertex_program", "EXT.secondary_color", "EXT.fog_coord",
+    "EXT.texture_compression_rgtc",
     "ARB.fragment_shader", "ARB.texture_compression", "EXT.packed_pixels", "EXT.provoking_vertex", "NV.point_sprite",
     "NV.texgen_reflection", "NV.half_float", "NV.packed_depth_stencil", "EXT.texture_sRGB",
+    "ARB.vertex_program", "EXT.secondary_color", "EXT.fog_coord",
     "EXT.texture_compression_s3tc", "EXT.texture_compression_latc", "EXT.texture_shared_exponent", "EXT.packed_float",
 )  # fmt: skip
 
@@ -432,6 +434,21 @@ def glEdgeFlagPointer(stride: int, pointer: Any) -> None:
 
 
 _kept_flags: list[np.ndarray] = []
+_kept_arrays: dict[str, np.ndarray] = {}
+
+
+def _keeping(name: str) -> Callable[..., None]:
+    """Return a pointer call that keeps its array in memory until the next one; PyOpenGL 3.1 forgets it."""
+    point = getattr(GL, name)
+
+    def call(*arguments: Any) -> None:
+        *layout, pointer = arguments
+        if isinstance(pointer, np.ndarray | list | tuple):
+            _kept_arrays[name] = np.ascontiguousarray(pointer, {**DTYPES, GL.GL_DOUBLE: np.float64}.get(layout[-2]))
+            pointer = ctypes.c_void_p(_kept_arrays[name].ctypes.data)
+        point(*layout, pointer)
+
+    return call
 
 
 def glMultiDrawElements(mode: int, count: Any, type: int, indices: Any, drawcount: int) -> None:
@@ -448,6 +465,7 @@ def glMultiDrawElements(mode: int, count: Any, type: int, indices: Any, drawcoun
 
 OWN: dict[str, Callable[..., Any]] = {
     "glEdgeFlagPointer": glEdgeFlagPointer,
+    **{name: _keeping(name) for name in ("glSecondaryColorPointer", "glFogCoordPointer")},
     "glMultiDrawElements": glMultiDrawElements,
     **{name: _under_one_key(getattr(GL, name)) for name in ("glRenderMode", "glSelectBuffer", "glFeedbackBuffer")},
     "glGetPolygonStipple": glGetPolygonStipple,

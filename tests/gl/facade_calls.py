@@ -252,6 +252,7 @@ LEFT_OUT = {
     "glArrayElement": (-1, 40, 99999), "glBufferData": (40, 99999), "glDrawArrays": (-1, 40, 99999),
     "glDrawElements": (40, 99999), "glDrawRangeElements": (40, 99999), "glMultiDrawArrays": (40, 99999),
     "glMultiDrawElements": (40, 99999), "glPrioritizeTextures": (40, 99999),
+    "glIndexPointer": (99999,), "glFogCoordPointer": (99999,), "glSecondaryColorPointer": (99999,),
     "glTexImage1D": (40,), "glTexImage2D": (40,), "glTexImage3D": (40,), "glUniform1i": (40,),
     "glInterleavedArrays": (99999,), "glBitmap": (40, 99999),
     "glDrawPixels": (40, 99999), "glCopyPixels": (99999,), "glPixelMapfv": (40,), "glPixelMapuiv": (40,),

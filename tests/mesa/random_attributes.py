@@ -198,12 +198,16 @@ def small_pairs(writer: Writer, wild: bool) -> None:
         if pushes and writer.chance(0.4):
             writer.call("glPopAttrib")
             pushes -= 1
+        if writer.chance(0.2):
+            writer.call("glGetFloatv", "GL_CURRENT_COLOR")
+        if writer.chance(0.2):
+            writer.call("glGetMaterialfv", writer.pick(FACES[:2]), writer.pick(MATERIALS[:4]))
     for _ in range(pushes):
         writer.call("glPopAttrib")
 
 
 def _attribute(writer: Writer, inside: bool = False) -> None:
-    """Set a colour, normal or material; within pairs only those that `with_materials` sets there."""
+    """Set a colour, normal or material; within pairs no material."""
     kind = writer.integer(0, 3)
     if kind == 0:
         writer.call("glColor4f", *writer.color())

@@ -1,4 +1,4 @@
-"""A texture coordinate that is not given per vertex is constant: Mesa does not interpolate it."""
+"""Attributes that are not given per vertex are constant, and Mesa interpolates only some of these."""
 
 import numpy as np
 import pytest
@@ -66,6 +66,32 @@ def test_a_coordinate_that_vertices_do_not_carry_is_not_interpolated(seed):
             gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, gl.GL_REPLACE)
         for _ in range(6):
             triangles(gl, rng)
+
+    comparison = compare(program, (64, 60))
+    assert comparison, str(comparison)
+
+
+@pytest.mark.parametrize("source", ["GL_PRIMARY_COLOR", "GL_PREVIOUS"])
+def test_a_constant_colour_is_interpolated_only_as_primary_color_of_a_combiner(source):
+    def program(gl):
+        rng = np.random.default_rng(7)
+        gl.glMatrixMode(gl.GL_PROJECTION)
+        gl.glFrustum(-0.1, 0.1, -0.08, 0.08, 0.1, 10)
+        gl.glMatrixMode(gl.GL_MODELVIEW)
+        gl.glTranslatef(0, 0, -2)
+        for mode in ("GL_MODULATE", "GL_DOT3_RGB", "GL_INTERPOLATE"):
+            texture(gl, rng, gl.GL_NEAREST)
+            gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, gl.GL_COMBINE)
+            gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_COMBINE_RGB, getattr(gl, mode))
+            gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_SOURCE0_RGB, gl.GL_TEXTURE)
+            gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_SOURCE1_RGB, getattr(gl, source))
+            gl.glColor4f(*rng.choice(TIES, 4))
+            gl.glShadeModel(rng.choice([gl.GL_FLAT, gl.GL_SMOOTH]))
+            gl.glBegin(gl.GL_QUADS)
+            for position in 2 * rng.random((8, 3)) - 1:
+                gl.glTexCoord2f(*rng.random(2))
+                gl.glVertex3f(*position)
+            gl.glEnd()
 
     comparison = compare(program, (64, 60))
     assert comparison, str(comparison)

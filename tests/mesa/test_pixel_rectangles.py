@@ -182,3 +182,26 @@ def test_fog_is_that_of_the_distance_0(seed):
 @pytest.mark.parametrize("seed", range(3, 60))
 def test_many_rectangles_in_fog_are_those_of_mesa(seed):
     check(lambda gl: fogged(gl, seed), (32, 24))
+
+
+def clamped(gl, seed):
+    """Draw rectangles beyond the near and far planes, with depth clamping; return the last raster position."""
+    rng = np.random.default_rng(seed)
+    for capability in (gl.GL_DEPTH_CLAMP, gl.GL_DEPTH_TEST):
+        gl.glEnable(capability)
+    gl.glDepthFunc(gl.GL_ALWAYS)
+    gl.glDepthRange(*rng.choice([0, 1, 0.3, 0.8], 2))
+    for i in range(6):
+        gl.glRasterPos3f(*(rng.random(2) * 1.8 - 0.9), rng.random() * 6 - 3)
+        if i % 3 == 0:
+            gl.glDrawPixels(4, 4, gl.GL_RGB, gl.GL_FLOAT, rng.random((4, 4, 3)).astype(np.float32))
+        elif i % 3 == 1:
+            gl.glBitmap(8, 4, 0, 0, 0, 0, np.full((4, 4), 255, np.uint8))
+        else:
+            gl.glCopyPixels(0, 0, 4, 4, gl.GL_COLOR)
+    return np.array(gl.glGetFloatv(gl.GL_CURRENT_RASTER_POSITION))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_rectangles_beyond_the_planes_are_drawn_with_depth_clamping(seed):
+    check(lambda gl: clamped(gl, seed), (32, 24))

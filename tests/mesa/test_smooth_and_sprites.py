@@ -1,5 +1,6 @@
 """Smooth lines and points, sizes by distance and point sprites are Mesa's."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -42,6 +43,39 @@ def test_smooth_points_are_those_of_mesa(size: float, attenuation: tuple[float, 
     compared = compare(program, SIZE)
     assert compared, str(compared)
     assert compared.ours.stencil.any()
+
+
+@pytest.mark.slow
+def test_random_smooth_points_of_points_and_polygons_are_those_of_mesa() -> None:
+    for seed in range(100):
+        compared = compare(random_points(seed), SIZE)
+        assert compared, f"seed {seed}: {compared}"
+
+
+def random_points(seed: int) -> Callable[[Any], None]:
+    """Return a program that draws smooth points of any size, by distance or not, with culling and offsets."""
+
+    def program(gl: Any) -> None:
+        rng = np.random.default_rng(seed)
+        scene(gl, rng)
+        gl.glEnable(gl.GL_POINT_SMOOTH)
+        gl.glPolygonMode(gl.GL_FRONT_AND_BACK, gl.GL_POINT)
+        gl.glPolygonOffset(1, 2)
+        if rng.random() < 0.6:
+            blend(gl)
+        for _ in range(3):
+            gl.glPointSize(float(rng.choice([0.4, 1.0, 2.0, 3.5, 7.3, 20.0, rng.uniform(0.1, 12)])))
+            attenuation = ((1, 0, 0), (1, 0, 0), (0.2, 0.1, 0.3), (0, 0, 0.2), (0, 0.4, 0))[int(rng.integers(5))]
+            gl.glPointParameterfv(gl.GL_POINT_DISTANCE_ATTENUATION, attenuation)
+            gl.glPointParameterf(gl.GL_POINT_SIZE_MIN, rng.choice([0.0, 0.0, 2.5]))
+            gl.glPointParameterf(gl.GL_POINT_SIZE_MAX, rng.choice([255.0, 255.0, 5.5]))
+            for capability in (gl.GL_CULL_FACE, gl.GL_POLYGON_OFFSET_POINT):
+                (gl.glEnable if rng.random() < 0.3 else gl.glDisable)(capability)
+            gl.glEdgeFlag(bool(rng.random() < 0.9))
+            mode = rng.choice(["GL_POINTS", "GL_TRIANGLES", "GL_QUADS", "GL_POLYGON", "GL_TRIANGLE_STRIP"])
+            primitives(gl, rng, str(mode), float(rng.choice([0.95, 2.0])))
+
+    return program
 
 
 @pytest.mark.parametrize("limits", [(0.0, 255.0), (3.5, 6.2)])

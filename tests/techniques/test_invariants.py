@@ -16,7 +16,7 @@ from softshadow.testing import run_on_mesa
 from softshadow.testing.strategies import cameras, closed_meshes, coordinates, floor_scenes, lights, meshes, scenes
 from techniques.drawn_frames import SIZE, cast_rays, draw, program
 
-FEW = settings(max_examples=settings().max_examples // 16)  # 6, and 62 in the longer lane
+FEW = settings(max_examples=max(2, settings().max_examples // 16))  # 2, and 62 in the longer lane
 COUNTED = "count front faces"
 
 FLOOR = SceneObject(shapes.floor(12), casts=False, receives=True, name="floor")
@@ -192,7 +192,7 @@ TECHNIQUES: list[tuple[str, dict[str, object]]] = [("volume-zfail", {}), ("plana
 @pytest.mark.mesa
 @pytest.mark.parametrize(("technique", "options"), TECHNIQUES)
 def test_random_scenes_leave_the_same_buffers_on_mesa(technique: str, options: dict[str, object]) -> None:
-    @settings(max_examples=settings().max_examples // 32)
+    @settings(max_examples=max(1, settings().max_examples // 32))
     @given(scenes())
     def same(scene: Scene) -> None:
         def drawing(gl: object) -> object:

@@ -24,11 +24,25 @@ def triangles_of(command: Draw, target: Framebuffer, codes: np.ndarray, planes: 
     `codes` (V,) are the outcodes of the vertices, `planes` (P, 4) the user's clip planes; `across`: see
     `assembled_triangles`.
     """
-    joined_needs = joined_needs_clipping(command, planes)
-    assembled = assembled_triangles(command, codes != 0, joined_needs, across)
-    if not passes_stages(command.state) and not across and last_three_are_left_out(command, target, planes):
+    joined_needs, flags = joined_needs_clipping(command, planes), clipping_flags(command)
+    needs = codes != 0 if flags is None else (codes != 0) | flags
+    assembled = assembled_triangles(command, needs, joined_needs, across)
+    in_setup = flags is None and not passes_stages(command.state)
+    if in_setup and not across and last_three_are_left_out(command, target, planes):
         return without_last_three(command, assembled)
     return assembled
+
+
+def clipping_flags(command: Draw) -> np.ndarray | None:
+    """Return the edge flags (V,) bool where a true one takes the way of clipped vertices; None where flags do not.
+
+    Mesa's vertex program writes flags of vertices where a polygon mode is not GL_FILL, though all faces of that mode be
+    culled, and llvmpipe keeps a flag beside the clip codes: where any of them is set, it takes the stages that clip
+    (draw_llvm.c, generate_clipmask).
+    """
+    flags, polygon = command.vertices.edges, command.state.polygon
+    has_modes = polygon.mode_front != gl.GL_FILL or polygon.mode_back != gl.GL_FILL
+    return flags if has_modes and flags is not None and flags.strides[0] else None
 
 
 def joined_needs_clipping(command: Draw, planes: np.ndarray) -> np.ndarray | None:

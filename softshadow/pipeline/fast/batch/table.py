@@ -47,6 +47,7 @@ from softshadow.programs import reflectances
 from softshadow.programs.fixed_function import Unit, has_secondary, needs_vertex_color, units_in_use
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE
+from softshadow.programs.vertex_color_use import reads_primary_color
 from softshadow.state import Lighting, Lines, MaterialState, Points, State
 
 BATCH_KERNELS = KernelGroup("batch")
@@ -210,7 +211,12 @@ def can_begin_run(command: Draw, target: Framebuffer) -> bool:
         return False
     if state.lines != PLAIN_LINES or state.points != PLAIN_POINTS or first_provokes(state):
         return False
-    if state.fog.color_sum or state.fog.source != gl.GL_FRAGMENT_DEPTH:
+    fog, polygon = state.fog, state.polygon
+    if fog.color_sum or fog.source != gl.GL_FRAGMENT_DEPTH:
+        return False
+    if polygon.mode_front != gl.GL_FILL or polygon.mode_back != gl.GL_FILL:
+        return False  # edge flags may decide how quads are cut (geometry.draw_primitives)
+    if not state.lighting.enabled and any(map(reads_primary_color, state.units)):
         return False
     modes = [gen.mode for unit in state.units for gen in unit.gen if gen.enabled]
     return all(mode in GENERATED for mode in modes)
