@@ -19,8 +19,10 @@ def with_kept_materials(state: State, colors: np.ndarray) -> State:
     lighting = state.lighting
     if len(colors) == 0 or colors.strides[0] != 0:
         return state
+    color = colors[0].tolist()
     for side, material in (("front", lighting.front), ("back", lighting.back)):
         for field in followed(lighting, side):
-            if not np.array_equal(np.array(getattr(material, field), colors.dtype), colors[0]):
+            kept = getattr(material, field)
+            if [*kept] != color and np.array(kept, colors.dtype).tolist() != color:
                 return evolve(state, lighting=evolve(lighting, color_material=False))
     return state

@@ -74,21 +74,25 @@ class MatrixStack:
 
     def __getitem__(self, index: int) -> np.ndarray:
         level = range(len(self))[index]
-        is_current = level == len(self._below)
-        kind, entry, push = (self._kind, self._known, 0) if is_current else self._below[level]
+        if level == len(self._below):
+            return self.current
+        kind, entry, push = self._below[level]
         if entry is None:
             self._compute()
             entry = _read_only(self._levels[level])
-            if is_current:
-                self._known = entry
-            else:
-                self._below[level] = kind, entry, push
+            self._below[level] = kind, entry, push
         return entry
+
+    def _read(self) -> np.ndarray:
+        """Return the current matrix, after the queued operations."""
+        self._compute()
+        self._known = matrix = _read_only(self._levels[len(self._below)])
+        return matrix
 
     @property
     def current(self) -> np.ndarray:
         """The current matrix, read-only."""
-        return self[-1] if self._known is None else self._known
+        return self._read() if self._known is None else self._known
 
     @property
     def kind(self) -> int:
@@ -100,7 +104,7 @@ class MatrixStack:
     def drawn(self) -> tuple[np.ndarray, int]:
         """Return the current matrix and its kind, for a draw."""
         matrix, kind = self._known, self._kind
-        return self[-1] if matrix is None else matrix, self.kind if kind & UNKNOWN else kind
+        return self._read() if matrix is None else matrix, self.kind if kind & UNKNOWN else kind
 
     # -- stack ---------------------------------------------------------------------------------------------------------
     def push(self) -> bool:

@@ -52,14 +52,20 @@ class Contents:
 
     def _add_vertices(self, vertices: Vertices) -> None:
         self._sizes[id(vertices)] = 0
-        for array in (vertices.position, vertices.color, vertices.normal, *vertices.texcoords):
-            if array.strides[0]:  # a constant attribute is one row
-                self._add_array(array)
+        self._add_rows(vertices.position, vertices.color, vertices.normal)
+        if id(vertices.texcoords) not in self._sizes:
+            self._sizes[id(vertices.texcoords)] = 0
+            self._add_rows(*vertices.texcoords)
         for array in vertices.materials.values():
             self._add_array(array)
         for optional in (vertices.edges, vertices.secondary, vertices.fog_coordinates):
             if optional is not None and optional.strides[0]:
                 self._add_array(optional)
+
+    def _add_rows(self, *attributes: np.ndarray) -> None:
+        for array in attributes:
+            if array.strides[0]:  # a constant attribute is one row
+                self._add_array(array)
 
     def _add_array(self, array: np.ndarray) -> None:
         while isinstance(array.base, np.ndarray):

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Mapping
-from ctypes import c_float
 from operator import is_
 from typing import Any
 
-from softshadow.state import Color, State
+from softshadow.frozen import evolve
+from softshadow.state import Color, Lighting, State
 
 # parts of groups that are groups themselves: (group, field)
 PARTS = (
@@ -25,6 +25,7 @@ TUPLES: tuple[tuple[str, str], ...] = (
 # fields that draws do not use: clear values, and the face that glStencilFunc sets
 UNDRAWN = frozenset(("clear", "clear_accum", "active_back"))
 PACK = struct.Struct("4d").pack
+COLOR = struct.Struct("4f")
 PAST = 64  # values of each group that are kept
 
 
@@ -52,29 +53,27 @@ Followed = tuple[tuple[str, ...], tuple[str, ...], Color]
 class Group:
     """A group of the state: its fields, and its last immutable value.
 
-    `past` holds the latest values: a program that goes back and forth between states gets the same objects again, and
-    what was derived from them.
+    The latest values are kept: a program that goes back and forth between states gets the same objects again, and what
+    was derived from them.
     """
 
-    __slots__ = ("field", "fields", "index", "is_kept", "parent", "parts", "past", "value")
+    __slots__ = ("_equal", "field", "fields", "index", "known", "parent", "parts", "value")
 
     def __init__(self, value: Any, parent: Group | None, field: str, index: int = -1) -> None:
         self.value, self.parent, self.field, self.index = value, parent, field, index
         self.fields: dict[str, Any] = dict(vars(value))
-        self.is_kept = False  # `past` holds the value, or has held it
-        self.parts: list[Group] = []  # groups among the fields: equal ones are the same object
-        # values of the fields, and of the group; -0.0 and 0.0 have the same key
-        self.past: dict[tuple[Any, ...], list[tuple[tuple[Any, ...], Any]]] = {}
+        self.parts: dict[str, list[Group]] = {}  # groups among the fields: equal ones are the same object
+        # values by the identity of their fields, each with its `_key`
+        self.known: dict[tuple[int, ...], tuple[Any, tuple[Any, ...]]] = {}
+        self._equal: dict[tuple[Any, ...], list[Any]] = {}  # the same values by their key
 
     def publish(self) -> bool:
-        """Make the immutable value anew, and store it in the parent's fields; return whether a field has changed."""
-        before, fields = self.value, self.fields
-        if all(map(is_, fields.values(), before.__dict__.values())):
+        """Make the immutable value anew, and store it in the parent's fields; return whether it has changed."""
+        known = self.known.get(tuple(map(id, self.fields.values())))
+        value = self._equal_or_new() if known is None else known[0]
+        if value is self.value:
             return False
-        if all(map(is_same, fields.values(), before.__dict__.values())):
-            fields.update(before.__dict__)
-            return False
-        self.value = value = self._past_or_new()
+        self.value = value
         if self.parent is not None:
             siblings = self.parent.fields
             if self.index >= 0:
@@ -85,48 +84,51 @@ class Group:
 
     def replace(self, value: Any) -> None:
         """Replace the immutable value, and those of the parts that differ."""
-        self.value, self.fields, self.is_kept = value, dict(vars(value)), False
-        for part in self.parts:
-            new = self.fields[part.field]
-            if part.index >= 0:
-                new = new[part.index]
-            if new is not part.value:
-                part.replace(new)
+        before, self.value, self.fields = self.value.__dict__, value, dict(vars(value))
+        for field, parts in self.parts.items():
+            new = self.fields[field]
+            if new is not before[field]:
+                for part in parts:
+                    item = new[part.index] if part.index >= 0 else new
+                    if item is not part.value:
+                        part.replace(item)
 
-    def _past_or_new(self) -> Any:
-        """Return an immutable value with the present fields: a past one if it has the same bits."""
-        values = tuple(self.fields.values())
-        key = self._key(values)
-        for past_values, past in self.past.get(key, ()):
-            if self.parts or all(map(is_same, past_values, values)):
-                self.fields.update(past.__dict__)
-                self.is_kept = True
-                return past
-        before = self.value
-        if not self.is_kept:
-            before_values = tuple(before.__dict__.values())
-            self._keep(self._key(before_values), before_values, before)
-        value = object.__new__(type(before))
+    def _equal_or_new(self) -> Any:
+        """Return an immutable value with the present fields: the last one or an earlier one if it has the same bits."""
+        if self._ids(self.value) not in self.known:
+            self._keep(self.value, self._key(self.value.__dict__))
+            if all(map(is_, self.value.__dict__.values(), self.fields.values())):
+                return self.value
+        key = self._key(self.fields)
+        for value in self._equal.get(key, ()):
+            if self.parts or all(map(is_same, value.__dict__.values(), self.fields.values())):
+                self.fields.update(value.__dict__)
+                return value
+        value = object.__new__(type(self.value))
         value.__dict__.update(self.fields)
-        self._keep(key, values, value)
-        self.is_kept = True
+        self._keep(value, key)
         return value
 
-    def _key(self, values: tuple[Any, ...]) -> tuple[Any, ...]:
+    def _keep(self, value: Any, key: tuple[Any, ...]) -> None:
+        if len(self.known) == PAST:
+            oldest, its_key = self.known.pop(next(iter(self.known)))
+            self._equal[its_key] = [each for each in self._equal[its_key] if each is not oldest]
+            if not self._equal[its_key]:
+                del self._equal[its_key]
+        self.known[self._ids(value)] = value, key
+        self._equal.setdefault(key, []).append(value)
+
+    @staticmethod
+    def _ids(value: Any) -> tuple[int, ...]:
+        """Return by what a value is known: no other object gets these ids as long as it is kept."""
+        return tuple(map(id, value.__dict__.values()))
+
+    def _key(self, fields: Mapping[str, Any]) -> tuple[Any, ...]:
         """Return equal keys for equal values; groups are equal if they are the same objects."""
+        values = tuple(fields.values())
         if not self.parts:
             return values
         return tuple([tuple(map(id, value)) if type(value) is tuple else id(value) for value in values])
-
-    def _keep(self, key: tuple[Any, ...], values: tuple[Any, ...], value: Any) -> None:
-        if key not in self.past:
-            if len(self.past) == PAST:
-                del self.past[next(iter(self.past))]
-            self.past[key] = []
-        same_key = self.past[key]
-        if not any(past is value for _, past in same_key):
-            del same_key[PAST - 1 :]
-            same_key.append((values, value))
 
 
 class StateGroups:
@@ -163,7 +165,7 @@ class StateGroups:
     def _add(self, name: str, parent: Group, field: str, index: int = -1) -> None:
         value = parent.fields[field]
         group = self.groups[name] = Group(value[index] if index >= 0 else value, parent, field, index)
-        parent.parts.append(group)
+        parent.parts.setdefault(field, []).append(group)
 
     def snapshot(self) -> State:
         """Return the state; the same object as before if nothing has changed."""
@@ -198,7 +200,7 @@ class StateGroups:
         if self.followed is None:
             return
         (sides, fields, color), self.followed = self.followed, None
-        rounded = tuple(c_float(value).value for value in color) if self._single else color
+        rounded = self._rounded(color)
         for side in sides:
             group = self.groups[f"lighting.{side}"]
             for field in fields:
@@ -206,9 +208,19 @@ class StateGroups:
                     group.fields[field] = rounded
                     self.changed.add(group)
 
+    def settled(self, lighting: Lighting, followed: Followed | None) -> Lighting:
+        """Return an earlier lighting whose materials contain the colour that they followed then."""
+        if followed is None:
+            return lighting
+        sides, fields, color = followed
+        colors: Any = dict.fromkeys(fields, self._rounded(color))
+        return evolve(lighting, **{side: evolve(getattr(lighting, side), **colors) for side in sides})
+
+    def _rounded(self, color: Color) -> Color:
+        return COLOR.unpack(COLOR.pack(*color)) if self._single else color
+
     def restore(self, state: State) -> None:
-        """Replace the state by an immutable one."""
-        self.followed = None
+        """Replace the state by an immutable one; materials that follow a colour still follow it."""
         for group in self.changed:
             group.fields = dict(vars(group.value))
         self.changed.clear()

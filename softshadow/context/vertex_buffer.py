@@ -75,6 +75,19 @@ class Primitive:
         ends = [*(start for start, _ in changes[1:]), len(self.positions)]
         return [value for (start, value), end in zip(changes, ends, strict=True) for _ in range(start, end, 4)]
 
+    def components(self, name: str, current: tuple[float, ...]) -> list[float]:
+        """Return the components of an attribute at each vertex, one after the other."""
+        changes = self.changes.get(name)
+        if changes is None:
+            return [*current] * len(self)
+        components: list[float] = []
+        start, value = changes[0]
+        for end, following in changes[1:]:
+            components += value if end - start == 4 else value * ((end - start) // 4)
+            start, value = end, following
+        components += value * ((len(self.positions) - start) // 4)
+        return components
+
     def select(self, vertices: Sequence[int]) -> None:
         """Keep these vertices, in this order; the attributes of those that follow stay."""
         for name, changes in self.changes.items():

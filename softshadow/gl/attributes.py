@@ -11,12 +11,14 @@ Mesa restores less than GL 2.1, sec. 6.1.14, requires (main/attrib.c):
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any, NamedTuple
 
 from softshadow import tokens as gl
 from softshadow.context import Context, CurrentVertex, thread
 from softshadow.context.color_indices import ColorIndices
 from softshadow.context.evaluators import EvaluatorSettings
+from softshadow.context.state_groups import Followed
 from softshadow.frozen import evolve, evolve_to
 from softshadow.gl.attribute_groups import GROUPS, changed_groups, needs_calls, with_group
 from softshadow.gl.calls import is_allowed, spelled_like_gl
@@ -31,6 +33,8 @@ from softshadow.texture import Sampler, initial_sampler, stored_name
 
 DEEPEST_ATTRIBUTES = 16
 USED_BY_VERTICES = gl.GL_CURRENT_BIT | gl.GL_LIGHTING_BIT
+WITH_MATERIALS = gl.GL_LIGHTING_BIT | gl.GL_ENABLE_BIT  # groups with materials, or with whether they follow colours
+WITH_BUFFERS = gl.GL_COLOR_BUFFER_BIT | gl.GL_PIXEL_MODE_BIT
 NO_HINTS: dict[int, int] = {}
 NO_SAMPLERS: dict[tuple[int, int], Sampler] = {}
 
@@ -38,7 +42,7 @@ NO_SAMPLERS: dict[tuple[int, int], Sampler] = {}
 class SavedAttributes(NamedTuple):
     """An entry of the attribute stack: the whole state; `mask` says which groups the pop restores.
 
-    The stack holds plain tuples, which are made faster.
+    The stack holds plain tuples, which are made faster. The materials of `state` do not contain the colour `followed`.
 
     `touched` are the bits of the groups that had changed between the previous push and this one, and `current` the
     fields of `CurrentVertex`. What may change is a copy, and is saved only if `mask` includes it.
@@ -47,6 +51,7 @@ class SavedAttributes(NamedTuple):
     mask: int
     touched: int
     state: State
+    followed: Followed | None
     current: tuple[Any, ...]
     hints: dict[int, int]
     matrix_mode: int
@@ -69,11 +74,11 @@ def glPushAttrib(mask: int) -> None:
     if len(context.attribute_stack) == DEEPEST_ATTRIBUTES:
         fail(gl.GL_STACK_OVERFLOW, "glPushAttrib", f"this stack holds {DEEPEST_ATTRIBUTES} entries")
         return
-    state = context.state
+    state = context.drawn_state
     touched = context.touched if state is context.state_at_push else _changed_since_push(context, state)
     if mask & USED_BY_VERTICES and context.pending.old_values:
         context.update_current()
-        state = context.state
+        state = context.drawn_state
     framebuffers, current, samplers = context.objects.framebuffers, context.current, NO_SAMPLERS
     if mask & gl.GL_TEXTURE_BIT:
         known = context.bound_samplers
@@ -82,6 +87,7 @@ def glPushAttrib(mask: int) -> None:
         mask,
         touched,
         state,
+        context.followed,
         (
             current.color,
             current.normal,
@@ -142,54 +148,39 @@ def glPopAttrib() -> None:
     mask, touched = entry[:2]
     if mask & gl.GL_CURRENT_BIT and context.pending.old_values:
         context.update_current()
-    state = context.state
+    state = context.drawn_state
     mask &= context.touched if state is context.state_at_push else _changed_since_push(context, state)
     if mask:
         saved = SavedAttributes(*entry)
-        for bit in GROUPS:
-            if mask & bit:
-                _restore(context, bit, saved)
-        _restore_buffers(context, mask, saved)
-        state = context.state
+        for bit in _bits_in(mask):
+            _restore(context, bit, saved)
+        if mask & WITH_BUFFERS:
+            _restore_buffers(context, mask, saved)
+        state = context.drawn_state
     context.touched, context.state_at_push = touched, state
 
 
 def _restore(context: Context, bit: int, saved: SavedAttributes) -> None:
     """Restore one group; if Mesa does it by GL calls, these flush the collected vertices first."""
-    now = context.state
+    now = context.state if bit & WITH_MATERIALS else context.drawn_state
     restored = with_group(bit, now, saved.state)
     if context.has_collected and (needs_calls(bit, now, restored) or _needs_more_calls(context, bit, saved)):
         context.flush()
-        now = context.state
+        now = context.state if bit & WITH_MATERIALS else context.drawn_state
         restored = with_group(bit, now, saved.state)
     if restored is not now:
         context.state = restored
-    if bit == gl.GL_CURRENT_BIT:
-        _restore_current(context, saved)
-    elif bit == gl.GL_LIGHTING_BIT:
-        _restore_materials(context, saved)
-    elif bit == gl.GL_TEXTURE_BIT:
-        context.select_unit(saved.active_unit)
-        _restore_samplers(context, saved)
-    elif bit == gl.GL_HINT_BIT:
-        context.hints = saved.hints.copy()
-    elif bit == gl.GL_LIST_BIT:
-        context.list_base = saved.list_base
-    elif bit == gl.GL_PIXEL_MODE_BIT:
-        context.pixel_zoom = saved.pixel_zoom
-        maps = context.pixel_transfer.maps  # which no attribute group has
-        context.pixel_transfer = evolve(saved.pixel_transfer, maps=maps)
-    elif bit == gl.GL_TRANSFORM_BIT:
-        context.select_matrices(saved.matrix_mode)
-    elif bit == gl.GL_EVAL_BIT:
-        context.evaluators = saved.evaluators
-    elif bit == gl.GL_COLOR_BUFFER_BIT:
-        context.color_indices = saved.color_indices
-    if bit == gl.GL_ENABLE_BIT:
-        context.evaluators = evolve(context.evaluators, enabled=saved.evaluators.enabled)
-        context.color_indices = evolve(context.color_indices, logic_enabled=saved.color_indices.logic_enabled)
+    restore_others = OTHERS.get(bit)
+    if restore_others is not None:
+        restore_others(context, saved)
     if bit == gl.GL_ENABLE_BIT and saved.state.lighting.color_material and not now.lighting.color_material:
         start_to_follow(context)
+
+
+@cache
+def _bits_in(mask: int) -> tuple[int, ...]:
+    """Return the bits of a mask in the order in which Mesa restores their groups."""
+    return tuple(bit for bit in GROUPS if mask & bit)
 
 
 def _needs_more_calls(context: Context, bit: int, saved: SavedAttributes) -> bool:
@@ -214,7 +205,7 @@ def _restore_current(context: Context, saved: SavedAttributes) -> None:
 
 
 def _restore_materials(context: Context, saved: SavedAttributes) -> None:
-    pending, old = context.pending, saved.state.lighting
+    pending, old = context.pending, context.settled(saved.state.lighting, saved.followed)
     for name in pending.names:
         if "." in name and name not in pending.old_values:
             pending.hidden.setdefault(name, context.attribute(name))
@@ -228,13 +219,62 @@ def _restore_materials(context: Context, saved: SavedAttributes) -> None:
         context.set_attribute(name, value)
 
 
-def _restore_samplers(context: Context, saved: SavedAttributes) -> None:
+def _restore_textures(context: Context, saved: SavedAttributes) -> None:
+    context.select_unit(saved.active_unit)
     for (target, name), sampler in saved.samplers.items():
         texture = context.objects.textures.get(name)
         if texture is None and name > 0:  # deleted since the push: binding the name creates it again
             context.execute(CreateTexture(name, target))
         if sampler != (texture.sampler if texture is not None else initial_sampler(target)):
             context.execute(SetSampler(name, sampler))
+
+
+def _restore_hints(context: Context, saved: SavedAttributes) -> None:
+    context.hints = saved.hints.copy()
+
+
+def _restore_list_base(context: Context, saved: SavedAttributes) -> None:
+    context.list_base = saved.list_base
+
+
+def _restore_pixel_mode(context: Context, saved: SavedAttributes) -> None:
+    context.pixel_zoom = saved.pixel_zoom
+    maps = context.pixel_transfer.maps  # which no attribute group has
+    context.pixel_transfer = evolve(saved.pixel_transfer, maps=maps)
+
+
+def _restore_matrix_mode(context: Context, saved: SavedAttributes) -> None:
+    context.select_matrices(saved.matrix_mode)
+
+
+def _restore_evaluators(context: Context, saved: SavedAttributes) -> None:
+    context.evaluators = saved.evaluators
+
+
+def _restore_color_indices(context: Context, saved: SavedAttributes) -> None:
+    context.color_indices = saved.color_indices
+
+
+def _restore_enabled(context: Context, saved: SavedAttributes) -> None:
+    if context.evaluators.enabled != saved.evaluators.enabled:
+        context.evaluators = evolve(context.evaluators, enabled=saved.evaluators.enabled)
+    if context.color_indices.logic_enabled != saved.color_indices.logic_enabled:
+        context.color_indices = evolve(context.color_indices, logic_enabled=saved.color_indices.logic_enabled)
+
+
+# what is restored besides the fields of `State`
+OTHERS = {
+    gl.GL_CURRENT_BIT: _restore_current,
+    gl.GL_LIGHTING_BIT: _restore_materials,
+    gl.GL_TEXTURE_BIT: _restore_textures,
+    gl.GL_HINT_BIT: _restore_hints,
+    gl.GL_LIST_BIT: _restore_list_base,
+    gl.GL_PIXEL_MODE_BIT: _restore_pixel_mode,
+    gl.GL_TRANSFORM_BIT: _restore_matrix_mode,
+    gl.GL_EVAL_BIT: _restore_evaluators,
+    gl.GL_COLOR_BUFFER_BIT: _restore_color_indices,
+    gl.GL_ENABLE_BIT: _restore_enabled,
+}
 
 
 def _sets_draw_buffer(context: Context, saved: SavedAttributes) -> bool:
@@ -244,6 +284,8 @@ def _sets_draw_buffer(context: Context, saved: SavedAttributes) -> bool:
 
 def _in_use(draw_buffers: tuple[int, ...]) -> tuple[int, ...]:
     """Return the draw buffers up to the last that is not GL_NONE."""
+    if len(draw_buffers) == 1:
+        return draw_buffers
     end = len(draw_buffers)
     while end > 1 and draw_buffers[end - 1] == gl.GL_NONE:
         end -= 1

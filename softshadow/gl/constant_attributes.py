@@ -17,7 +17,7 @@ from softshadow.state import TEXTURE_UNITS
 MOST_VIEWS = 1024  # of one value, by the number of vertices
 MOST_VALUES = 4096
 # 0 and -0 are different values, so values are compared by their bits
-PACK_COLOR_AND_NORMAL, PACK_COORDINATES = struct.Struct("7d").pack, struct.Struct("4d").pack
+PACK_3, PACK_4, PACK_COLOR_AND_NORMAL = (struct.Struct(f"{count}d").pack for count in (3, 4, 7))
 
 
 @dataclass(eq=False, slots=True)
@@ -38,20 +38,38 @@ class ConstantAttribute:
 
 
 @dataclass(eq=False, slots=True)
-class ConstantSet:
-    """Values of all attributes, in the order of the slots: colour, normal, texture coordinates."""
+class ConstantTexcoords:
+    """Values of the texture coordinates of all units; `columns` by the number of vertices."""
 
     attributes: tuple[ConstantAttribute, ...]
     columns: dict[int, tuple[np.ndarray, ...]] = field(default_factory=dict)
 
-    def rows(self, count: int) -> list[np.ndarray]:
-        """Return `count` rows of each attribute."""
+    def rows(self, count: int) -> tuple[np.ndarray, ...]:
+        """Return `count` equal rows of each unit; the same object for the same number."""
         columns = self.columns.get(count)
         if columns is None:
             if len(self.columns) >= MOST_VIEWS:
                 self.columns.clear()
             columns = self.columns[count] = tuple([attribute.rows(count) for attribute in self.attributes])
-        return list(columns)
+        return columns
+
+
+@dataclass(eq=False, slots=True)
+class ConstantSet:
+    """Values of all attributes."""
+
+    color: ConstantAttribute
+    normal: ConstantAttribute
+    texcoords: ConstantTexcoords
+
+    @property
+    def attributes(self) -> tuple[ConstantAttribute, ...]:
+        """The attributes in the order of the slots: colour, normal, texture coordinates."""
+        return self.color, self.normal, *self.texcoords.attributes
+
+    def rows(self, count: int) -> list[np.ndarray]:
+        """Return `count` rows of each attribute, in the order of the slots."""
+        return [self.color.rows(count), self.normal.rows(count), *self.texcoords.rows(count)]
 
 
 class ConstantAttributes:
@@ -61,40 +79,45 @@ class ConstantAttributes:
         self.color: tuple[float, ...] = ()
         self.normal: tuple[float, ...] = ()
         self.texcoords: tuple[tuple[float, ...], ...] = ((),) * TEXTURE_UNITS
-        self.texcoord_bits: tuple[bytes, ...] = ()  # the same object for the same bits
-        self.known_bits: dict[tuple[bytes, ...], tuple[bytes, ...]] = {}
-        self.texcoord_attributes: tuple[ConstantAttribute, ...] = ()
+        self.texcoord_attributes = ConstantTexcoords(())
+        self.known_texcoords: dict[tuple[bytes, ...], ConstantTexcoords] = {}
         self.known: dict[bytes, ConstantAttribute] = {}
-        self.sets: dict[tuple[bytes, int], ConstantSet] = {}
+        self.sets: dict[tuple[bytes, ConstantTexcoords], ConstantSet] = {}
         self.last: ConstantSet | None = None
 
     def find(self, context: Context, current: CurrentVertex) -> ConstantSet:
         """Return the set of the current values."""
         if not all(map(is_, current.texcoords, self.texcoords)):
-            bits = tuple([PACK_COORDINATES(*value) for value in current.texcoords])
-            self.texcoords, self.texcoord_bits = tuple(current.texcoords), self.known_bits.setdefault(bits, bits)
-            self.texcoord_attributes = tuple([self._attribute(context, value) for value in current.texcoords])
+            self.texcoords = tuple(current.texcoords)
+            self.texcoord_attributes = self._find_texcoords(context)
         color, normal = current.color, current.normal
-        key = PACK_COLOR_AND_NORMAL(*color, *normal), id(self.texcoord_bits)
+        key = PACK_COLOR_AND_NORMAL(*color, *normal), self.texcoord_attributes
         found = self.sets.get(key)
         if found is None:
-            color_and_normal = self._attribute(context, color), self._attribute(context, normal)
-            found = self.sets[key] = ConstantSet((*color_and_normal, *self.texcoord_attributes))
+            attributes = self._find(context, PACK_4(*color), color), self._find(context, PACK_3(*normal), normal)
+            found = self.sets[key] = ConstantSet(*attributes, self.texcoord_attributes)
         self.color, self.normal, self.last = color, normal, found
         return found
 
-    def _attribute(self, context: Context, value: tuple[float, ...]) -> ConstantAttribute:
-        bits = struct.pack(f"{len(value)}d", *value)
+    def _find_texcoords(self, context: Context) -> ConstantTexcoords:
+        bits = tuple([PACK_4(*value) for value in self.texcoords])
+        found = self.known_texcoords.get(bits)
+        if found is None:
+            attributes = tuple([self._find(context, *each) for each in zip(bits, self.texcoords, strict=True)])
+            found = self.known_texcoords[bits] = ConstantTexcoords(attributes)
+        return found
+
+    def _find(self, context: Context, bits: bytes, value: tuple[float, ...]) -> ConstantAttribute:
         attribute = self.known.get(bits)
         if attribute is None:
-            attribute = self.known[bits] = ConstantAttribute(context.frozen(value))
+            attribute = self.known[bits] = ConstantAttribute(context.packed(value))
         return attribute
 
 
 def constant_attributes(context: Context) -> ConstantSet:
     """Return colour, normal and texture coordinates of the context; the same object for the same bits."""
     current, kept = context.current, context.arrays.constants
-    if kept is None or len(kept.sets) >= MOST_VALUES or len(kept.known_bits) >= MOST_VALUES:
+    if kept is None or len(kept.sets) >= MOST_VALUES or len(kept.known_texcoords) >= MOST_VALUES:
         kept = context.arrays.constants = ConstantAttributes()
     is_last = current.color is kept.color and current.normal is kept.normal
     found: ConstantSet = kept.last

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from softshadow import tokens as gl
 from softshadow.context import Context, current, thread
 from softshadow.gl.calls import in_lists, record, spelled_like_gl
@@ -93,8 +91,6 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
 
     Between glBegin and glEnd they become attributes of the vertices.
     """
-    if all(set(fields) <= set(followed(context, side)) for side in SIDES[face]):
-        return  # nothing changes: the vertices before and after are still drawn together
     follows, primitive = context.groups["lighting"].fields["color_material"], context.primitive
     for side in SIDES[face]:
         free, names = fields, NAMES[side]
@@ -103,11 +99,11 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
             free = {field: value for field, value in fields.items() if field not in fixed}
         for field, value in free.items():
             name = names[field]
-            carry_attribute(context, name, np.size(value))
+            carry_attribute(context, name, len(value) if type(value) is tuple else 1)
             if primitive is not None:
                 primitive.materials |= {name}
                 primitive.change(name, context.material(side)[field], value)
-            context.set_attribute(name, value)
+            context.set_material(side, field, value)
 
 
 # -- colours that follow glColor ---------------------------------------------------------------------------------------

@@ -8,12 +8,14 @@ they do not carry yet, or with fewer components, submits the collected vertices,
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, Primitive
+from softshadow.frozen import create
 from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
@@ -21,7 +23,7 @@ from softshadow.state import BLACK, TEXTURE_UNITS
 
 REST = (0.0, 0.0, 0.0, 1.0)  # default values of components that a call does not set
 TEXCOORDS = tuple(f"texcoord{unit}" for unit in range(TEXTURE_UNITS))
-COLUMNS = ("color", "normal", *TEXCOORDS)  # attributes in the order of `ConstantSet`
+ANY_TEXCOORD = frozenset(TEXCOORDS)
 OPTIONAL = {"edge": True, "secondary": BLACK, "fog_coordinate": 0.0}  # the last fields of `Vertices`: initial values
 NO_MATERIALS: frozenset[str] = frozenset()
 FEW_VERTICES = 8  # with more collected vertices, a new attribute outside glBegin makes Mesa reset all others
@@ -157,7 +159,6 @@ def _wrap(context: Context, primitive: Primitive) -> None:
     """Draw the collected vertices, and keep those that the rest of the primitive needs."""
     if not primitive.positions:
         context.vertex_buffer.submit()
-        primitive.select(())
         return
     _count(context, primitive)
     n = len(primitive)
@@ -192,36 +193,52 @@ def _cut(primitive: Primitive, n: int) -> Cut:
 
 def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int | None = None) -> Vertices:
     """Return the vertices [start, end) of a primitive; attributes that they do not carry are repeats of one row."""
-    real, carried, end = context.real, context.vertex_buffer.sizes, len(primitive) if end is None else end
+    carried, constants = context.vertex_buffer.sizes, constant_attributes(context)
+    end = len(primitive) if end is None else end
+    count = end - start
 
     def rows(name: str) -> np.ndarray:
-        return _read_only(np.array(primitive.values(name, context.attribute(name))[start:end], real))
+        current = context.attribute(name)
+        if not isinstance(current, tuple):
+            return context.packed(primitive.values(name, current)[start:end])
+        width = len(current)
+        return context.packed(primitive.components(name, current)[width * start : width * end], count, width)
 
-    columns = constant_attributes(context).rows(end - start)
-    with np.errstate(over="ignore"):
-        for number, name in enumerate(COLUMNS):
-            if name in carried:
-                columns[number] = rows(name)
-        optional = [_optional_rows(context, primitive, name, start, end) for name in OPTIONAL]
-        return Vertices(
-            _read_only(np.array(primitive.positions[4 * start : 4 * end], real)).reshape(-1, 4),
-            columns[0],
-            columns[1],
-            tuple(columns[2:]),
-            {name: rows(name) for name in primitive.materials},
-            *optional,
-        )
+    texcoords = constants.texcoords.rows(count)
+    if not ANY_TEXCOORD.isdisjoint(carried):
+        places = enumerate(TEXCOORDS)
+        texcoords = tuple([rows(name) if name in carried else texcoords[place] for place, name in places])
+    edges = secondary = fog_coordinates = None
+    current = context.current
+    are_initial = current.edge and current.secondary == BLACK and not current.fog_coordinate
+    if not (are_initial and OPTIONAL.keys().isdisjoint(carried)):
+        edges, secondary, fog_coordinates = [
+            _optional_rows(context, primitive, name, rows, start, end) for name in OPTIONAL
+        ]
+    return create(
+        Vertices,
+        position=context.packed(primitive.positions[4 * start : 4 * end], count, 4),
+        color=rows("color") if "color" in carried else constants.color.rows(count),
+        normal=rows("normal") if "normal" in carried else constants.normal.rows(count),
+        texcoords=texcoords,
+        materials={name: rows(name) for name in primitive.materials},
+        edges=edges,
+        secondary=secondary,
+        fog_coordinates=fog_coordinates,
+    )
 
 
-def _optional_rows(context: Context, primitive: Primitive, name: str, start: int, end: int) -> np.ndarray | None:
-    """Return an attribute of the vertices [start, end); None if all have its initial value."""
-    current, initial = context.current.__dict__[name], OPTIONAL[name]
-    real = bool if initial is True else context.real
+def _optional_rows(
+    context: Context, primitive: Primitive, name: str, rows: Callable[[str], np.ndarray], start: int, end: int
+) -> np.ndarray | None:
+    """Return an attribute of the vertices [start, end); None if all have its initial value. `rows` is for numbers."""
+    current = context.current.__dict__[name]
+    is_flag = OPTIONAL[name] is True
     if name in context.vertex_buffer.sizes:
-        return _read_only(np.array(primitive.values(name, current)[start:end], real))
-    if current is initial or current == initial:
+        return _read_only(np.array(primitive.values(name, current)[start:end], bool)) if is_flag else rows(name)
+    if current == OPTIONAL[name]:
         return None
-    value = np.array(current, real)
+    value = np.array(current) if is_flag else context.frozen(current)
     return np.broadcast_to(value, (end - start, *value.shape))
 
 

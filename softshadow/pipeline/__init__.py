@@ -136,7 +136,7 @@ def _draw_opaque(
     region, fragments = covered(triangles, region_of(state, target))
     if region.first_row >= region.end_row:
         return
-    forward = choose_forward(plan, state, target, geometry, region, fragments)
+    forward = choose_forward(plan, state, target, geometry, region, fragments, storage)
     if forward:
         forward()
         return
@@ -147,7 +147,7 @@ def _draw_opaque(
     def visible() -> Spans:
         ids = no_ids(region, padded_shape(target)[1])
         fill_all(ids)
-        return visible_spans(ids, region.first_row)
+        return visible_spans(ids, region)
 
     if not plan.writes_color:
         fill_all(None)
@@ -234,7 +234,7 @@ def _spans_without_overlaps(
     if ids is None:
         return None
     plan.path.way = "opaque"
-    return visible_spans(ids, region.first_row)
+    return visible_spans(ids, region)
 
 
 def _fill(

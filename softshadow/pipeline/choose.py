@@ -45,7 +45,7 @@ try:
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
     from softshadow.pipeline.fast.stencil_tiles import shared_tiles_kernel, tiles_kernel
     from softshadow.pipeline.fast.unordered_blend import triangles_without_overlaps
-    from softshadow.pipeline.fast.visibility_cache import cached_fill
+    from softshadow.pipeline.fast.visibility_cache import FillInputs, cached_fill, is_repeated
 
     SHORT_CUTS_EXIST = True
 except ModuleNotFoundError:  # the folder can be deleted: the textbook draws everything
@@ -56,6 +56,8 @@ SMALL_TRIANGLE = 100  # fragments that take as long as a small triangle
 WORTH_SHARING = 64  # triangles for each thread, from which threads share them in place of bands of rows
 WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volumes are long and thin
 FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangle: finding their spans would cost more
+TRIANGLES_OF_QUAD = 2
+SPARSE = 0.3  # fragments for each pixel of their region: from fewer on, most of the search for spans finds nothing
 # draws of so many triangles are cheaper to fill, shading each visible pixel once, than to draw triangle by triangle
 MANY_TRIANGLES = 4096
 LARGE_DRAW = 50_000  # fragments of a draw that counts when the kernels of the fixed function are to be compiled
@@ -314,18 +316,35 @@ def fill_colorless(plan: Plan, command: Draw, target: Framebuffer) -> Iterator[C
 
 
 def choose_forward(
-    plan: Plan, state: State, target: Framebuffer, geometry: Geometry, region: Region, fragments: int
+    plan: Plan,
+    state: State,
+    target: Framebuffer,
+    geometry: Geometry,
+    region: Region,
+    fragments: int,
+    storage: Storage | None = None,
 ) -> Callable[[], None] | None:
     """Return the function that draws triangle by triangle from coverage to pixels, or None where another way is taken.
 
-    It is for draws in order, and for opaque ones of few fragments; `fragments` is about how many they are.
+    It is for draws in order, for opaque ones of few fragments, and where finding visible spans would cost more than it
+    saves: for a quad, or few fragments in a large region; but not if such a draw is made again and again. `fragments`
+    is about how many they are; without a `storage`, only their number decides.
     """
     is_small = fragments <= FEW_FRAGMENTS and _short_cuts.get() != "always"  # which wants its fill to be compiled
-    if not plan.forward or not (plan.in_order or is_small):
+    hides_little = storage is not None and (
+        len(geometry.triangles.ids) <= TRIANGLES_OF_QUAD
+        or fragments < SPARSE * (region.right - region.left) * (region.end_row - region.first_row)
+    )
+    if not plan.forward or not (plan.in_order or is_small or (hides_little and _short_cuts.get() is True)):
         return None
     numbers = forward_state(state, target, geometry)
     if numbers is None or not _are_compiled(fragments):
         return None
+    if not (plan.in_order or is_small):
+        assert storage is not None
+        depth_range = depth_range_of(state, geometry.window.dtype.type)
+        if is_repeated(FillInputs(plan.front, plan.back, geometry.triangles, region, depth_range), target, storage):
+            return None
     plan.path.fill, plan.path.shading = "span by span", "fixed-function kernel"
     return lambda: draw_forward(numbers, plan.front, plan.back, state, target, geometry, region, fragments)
 

@@ -9,6 +9,7 @@ References: m_matrix.c of Mesa 22.3 (analyse_from_scratch, analyse_from_flags an
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -22,9 +23,11 @@ LENGTH_PRESERVING = ROTATION | TRANSLATION
 ANGLE_PRESERVING = LENGTH_PRESERVING | UNIFORM_SCALE
 WITHOUT_ROTATION = TRANSLATION | UNIFORM_SCALE | GENERAL_SCALE
 AFFINE = ANGLE_PRESERVING | GENERAL_SCALE | GENERAL_3D
+Row = Sequence[np.float32] | np.ndarray
+Rows = list[list[np.float32]]
 
 
-def dot(a: np.ndarray, b: np.ndarray) -> np.float32:
+def dot(a: Row, b: Row) -> np.float32:
     """Return the dot product, summed from left to right, each step rounded."""
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
@@ -32,9 +35,9 @@ def dot(a: np.ndarray, b: np.ndarray) -> np.float32:
     return np.float32(total)
 
 
-def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+def cross(a: Row, b: Row) -> Row:
     """Return the cross product of two vectors, in float32."""
-    return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]], np.float32)
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 def squared(x: np.float32) -> np.float32:
@@ -42,45 +45,52 @@ def squared(x: np.float32) -> np.float32:
     return x * x
 
 
-def is_affine(m: np.ndarray) -> bool:
+# -- kind of a matrix, whose rows are lists: numbers of arrays take twice as long --------------------------------------
+def is_affine(m: Rows) -> bool:
     """Return whether the last row is (0, 0, 0, 1)."""
-    return bool((m[3] == (0, 0, 0, 1)).all())
+    return m[3] == [0, 0, 0, 1]
 
 
-def scales_only(m: np.ndarray) -> bool:
+def scales_only(m: Rows) -> bool:
     """Return whether the upper left 3x3 is diagonal."""
-    return not (m[:3, :3] * (1 - np.eye(3, dtype=np.float32))).any()
+    return not (m[0][1] or m[0][2] or m[1][0] or m[1][2] or m[2][0] or m[2][1])
 
 
-def is_2d(m: np.ndarray) -> bool:
+def is_2d(m: Rows) -> bool:
     """Return whether an affine matrix leaves z unchanged (Mesa's MATRIX_2D)."""
-    return bool((m[2] == (0, 0, 1, 0)).all() and (m[:2, 2] == 0).all())
+    return m[2] == [0, 0, 1, 0] and not (m[0][2] or m[1][2])
 
 
-def scale_kind(m: np.ndarray) -> str:
+def columns_of(m: Rows) -> tuple[Row, Row, Row]:
+    """Return the columns of the upper left 3x3."""
+    x, y, z, _ = m
+    return [x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]
+
+
+def scale_kind(m: Rows) -> str:
     """Return "none", "uniform" or "general" for an affine matrix."""
-    c1, c2, c3 = (m[:3, i] for i in range(3))
+    c1, c2, c3 = columns_of(m)
     if is_2d(m):
         if scales_only(m):
-            return "none" if m[0, 0] == 1 and m[1, 1] == 1 else "general"
+            return "none" if m[0][0] == 1 and m[1][1] == 1 else "general"
         unit = squared(dot(c1[:2], c1[:2]) - ONE) <= TOLERANCE and squared(dot(c2[:2], c2[:2]) - ONE) <= TOLERANCE
         return "none" if unit else "general"
-    sizes = (m[0, 0], m[1, 1], m[2, 2]) if scales_only(m) else (dot(c1, c1), dot(c2, c2), dot(c3, c3))
+    sizes = (m[0][0], m[1][1], m[2][2]) if scales_only(m) else (dot(c1, c1), dot(c2, c2), dot(c3, c3))
     if squared(sizes[0] - sizes[1]) < TOLERANCE and squared(sizes[0] - sizes[2]) < TOLERANCE:
         return "uniform" if squared(sizes[0] - ONE) > TOLERANCE else "none"
     return "general"
 
 
-def keeps_angles(m: np.ndarray) -> bool:
+def keeps_angles(m: Rows) -> bool:
     """Return whether the columns of an affine matrix are orthogonal, up to one scale per matrix, and right-handed."""
     if scales_only(m):
         return True
-    c1, c2, c3 = (m[:3, i] for i in range(3))
+    c1, c2, c3 = columns_of(m)
     if is_2d(m):
         return bool(squared(dot(c1[:2], c2[:2])) <= TOLERANCE)
     if squared(dot(c1, c2)) >= TOLERANCE:
         return False
-    rest = cross(c1, c2) - c3
+    rest = [x - y for x, y in zip(cross(c1, c2), c3, strict=True)]
     return bool(dot(rest, rest) < TOLERANCE)
 
 
@@ -94,17 +104,18 @@ def known_kind(matrix: np.ndarray, kind: int = UNKNOWN) -> int:
 @lru_cache(maxsize=256)
 def _kind_of(elements: bytes) -> int:
     """Return the kind derived from the elements of a (4, 4) float32 matrix."""
-    m = np.frombuffer(elements, np.float32).reshape(4, 4)
+    m = [list(row) for row in np.frombuffer(elements, np.float32).reshape(4, 4)]
     with np.errstate(all="ignore"):
         if not is_affine(m):
             return GENERAL
         scale = {"none": 0, "uniform": UNIFORM_SCALE, "general": GENERAL_SCALE}[scale_kind(m)]
-        translation = TRANSLATION if m[:3, 3].any() else 0
+        translation = TRANSLATION if m[0][3] or m[1][3] or m[2][3] else 0
         if scales_only(m):
             return scale | translation
         return scale | translation | (ROTATION if keeps_angles(m) else GENERAL_3D)
 
 
+# -- inverses ---------------------------------------------------------------------------------------------------------
 def is_length_preserving(matrix: np.ndarray, kind: int = UNKNOWN) -> bool:
     """Return whether Mesa regards a (4, 4) float32 matrix as composed of rotations and translations."""
     return not known_kind(matrix, kind) & ~LENGTH_PRESERVING

@@ -43,7 +43,7 @@ def test_only_the_latest_states_are_kept(context):
         assert context.state.polygon.line_width == width
     gl.glLineWidth(1)
     assert context.state == first
-    assert len(context.groups["polygon"].past) <= PAST < 98
+    assert len(context.groups["polygon"].known) <= PAST < 98
 
 
 GROUPS = (gl.GL_ENABLE_BIT, gl.GL_LIGHTING_BIT, gl.GL_STENCIL_BUFFER_BIT, gl.GL_ALL_ATTRIB_BITS)

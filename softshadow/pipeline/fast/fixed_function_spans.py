@@ -26,7 +26,7 @@ from softshadow.pipeline.fast.fragment_block import (
 )
 from softshadow.pipeline.fast.span_colors import ALPHA_ROW, shade_block
 from softshadow.pipeline.fast.span_state import SpanState, span_state
-from softshadow.pipeline.fast.span_tests import N_OPS, test_alpha_of_block
+from softshadow.pipeline.fast.span_tests import IS_TESTED, NO_OPS, alpha_tests, test_alpha_of_block
 from softshadow.pipeline.fast.span_writes import write_block
 from softshadow.pipeline.records import Geometry, Spans
 from softshadow.pipeline.shade.interpolate import AttributePlanes
@@ -34,7 +34,7 @@ from softshadow.pipeline.shade.shading import shade_in_parts
 from softshadow.state import State
 
 NO_DEPTH, NO_STENCIL = np.zeros((1, 1), np.float32), np.zeros((1, 1), np.uint8)  # where there is no such buffer
-NO_OPS = np.zeros((2, N_OPS), np.int64)
+NO_TESTS = alpha_tests(NO_OPS, NO_OPS)
 
 # so many fragments, in draws that cover most of a small window, pay for compiling them
 SPAN_KERNELS = KernelGroup("spans", pays_after=250_000)
@@ -50,7 +50,7 @@ def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry)
     def shade_part(spans: Spans, planes: AttributePlanes) -> None:
         shade_spans(
             planes.values, planes.place, *spans, len(spans.row), False, geometry.flat, numbers.switches,
-            numbers.numbers, *numbers.texels, pixels, triangles.depth, triangles.front, NO_OPS, ZERO, ONE, NO_DEPTH,
+            numbers.numbers, *numbers.texels, pixels, triangles.depth, triangles.front, *NO_TESTS, ZERO, ONE, NO_DEPTH,
             NO_STENCIL, *block_memory.arrays,
         )  # fmt: skip
 
@@ -74,7 +74,8 @@ def covered_state(state: State, target: Framebuffer, geometry: Geometry) -> Span
 @kernel
 def shade_spans(
     planes, place, rows, lefts, triangles, starts, n_all, may_overlap, flat, switches, numbers, texels0, texels1,
-    pixels, depth_planes, faces_front, ops, low, high, depth, stencil, room, whole, spans, own_triangles,
+    pixels, depth_planes, faces_front, alpha_test, tests_depth, tests_stencil, test_numbers, test_bytes, largest, low,
+    high, depth, stencil, room, whole, spans, own_triangles,
 ):  # fmt: skip
     """Shade `n_all` spans, as many at a time as fit into a block, and write them to `pixels` (H, pitch) int32.
 
@@ -99,9 +100,9 @@ def shade_spans(
             if done == starts[r + 1] - starts[r]:
                 r, done = r + 1, np.int64(0)
         shade_block(planes, spans, n_spans, n, flat, switches, numbers, texels0, texels1, room, whole)
-        if ops[0, 0]:
+        if alpha_test[IS_TESTED]:
             test_alpha_of_block(
-                ops, spans, n_spans, own_triangles, depth_planes, faces_front, low, high, depth, stencil, ALPHA_ROW,
-                room, whole,
+                alpha_test, tests_depth, tests_stencil, test_numbers, test_bytes, largest, low, high, depth, stencil,
+                spans, n_spans, n, own_triangles, depth_planes, faces_front, ALPHA_ROW, room, whole,
             )  # fmt: skip
-        write_block(spans, n_spans, may_overlap, switches, ops[0, 0] != 0, whole, pixels)
+        write_block(spans, n_spans, may_overlap, switches, alpha_test[IS_TESTED] != 0, whole, pixels)

@@ -16,7 +16,7 @@ from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.fast.fixed_function_spans import NO_DEPTH, NO_STENCIL, covered_state, shade_spans
 from softshadow.pipeline.fast.fragment_block import block_memory
 from softshadow.pipeline.fast.span_state import SpanState
-from softshadow.pipeline.fast.span_tests import N_OPS, collect_passing_spans, span_tests
+from softshadow.pipeline.fast.span_tests import alpha_tests, collect_passing_spans, span_tests
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, few_bands, sort_into_bands
@@ -31,9 +31,6 @@ SPANS = 1 << 14  # collected at a time; a row of the widest buffer has at most h
 WORTH_BANDS = 40_000  # fragments, about, from which sorting triangles into bands pays for several threads
 
 Numbers = tuple[Any, ...]  # arguments of kernels
-
-_ops_numbers: dict[tuple[FragmentOps, FragmentOps], np.ndarray] = {}
-KEPT = 256
 
 
 class _SpanLists(threading.local):
@@ -81,13 +78,13 @@ def draw_forward(
         *depth_range_of(state, np.float32), NO_DEPTH if depth is None else depth.cells,
         NO_STENCIL if stencil is None else stencil.cells,
     )  # fmt: skip
-    tests, alpha_tests = (*span_tests(front, back), *buffers), (ops_numbers(front, back), *buffers)
+    tests, later_tests = (*span_tests(front, back), *buffers), (*alpha_tests(front, back), *buffers)
     colors = (geometry.flat, *numbers[:2], *numbers.texels, target.colors[0].cells.view(np.int32)[..., 0])
     for begin in range(0, len(geometry.triangles.ids), TRIANGLES):
         triangles = geometry.triangles
         if len(triangles.ids) > TRIANGLES:
             triangles = Setup(*(array[begin : begin + TRIANGLES] for array in triangles))
-        shared = triangles, _planes_of_all(geometry, triangles), region, tests, alpha_tests, colors
+        shared = triangles, _planes_of_all(geometry, triangles), region, tests, later_tests, colors
         if threads() > 1 and fragments >= WORTH_BANDS and region.end_row - region.first_row > 1 << BAND_ROWS_LOG2:
             _draw_in_bands(*shared)
         else:
@@ -118,7 +115,7 @@ def _draw_in_bands(triangles: Setup, planes: np.ndarray, region: Region, *number
 
 def _draw_rows(
     order: np.ndarray, first_row: int, end_row: int, triangles: Setup, planes: np.ndarray, region: Region,
-    tests: Numbers, alpha_tests: Numbers, colors: Numbers,
+    tests: Numbers, later_tests: Numbers, colors: Numbers,
 ) -> None:  # fmt: skip
     """Draw the triangles with the numbers `order` (n,) into the rows [first_row, end_row)."""
     corners, depth_planes, faces_front = triangles.corners, triangles.depth, triangles.front
@@ -129,16 +126,5 @@ def _draw_rows(
             faces_front, *tests, *spans, *memory[:2], *columns,
         )  # fmt: skip
         shade_spans(
-            planes, _in_order, *spans, n_spans, True, *colors, depth_planes, faces_front, *alpha_tests, *memory
+            planes, _in_order, *spans, n_spans, True, *colors, depth_planes, faces_front, *later_tests, *memory
         )  # fmt: skip
-
-
-def ops_numbers(front: FragmentOps, back: FragmentOps) -> np.ndarray:
-    """Return the operations of both facings as numbers (2, N_OPS)."""
-    numbers = _ops_numbers.get((front, back))
-    if numbers is None:
-        if len(_ops_numbers) >= KEPT:
-            _ops_numbers.clear()
-        numbers = _ops_numbers[front, back] = np.empty((2, N_OPS), np.int64)
-        numbers[:] = front, back
-    return numbers

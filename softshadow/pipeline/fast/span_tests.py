@@ -1,16 +1,17 @@
 """Depth, stencil and alpha test of spans; equals `raster.ordered.process_fragments`, see fast/test_forward.py.
 
-The tests are numbers (`fragment_numbers`), so that a few loops without branches serve all states. Only with alpha test,
-which needs colours, fragments are processed one by one.
+The tests are numbers (`fragment_numbers`), so that a few loops without branches serve all states. The alpha test needs
+colours: with it, fragments are tested after they have been shaded, but those that fail the depth test for good before.
 """
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
-from softshadow.jit import inlined, kernel
+from softshadow.jit import inlined, kernel, read_only
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import (
     DEPTH,
@@ -40,19 +41,32 @@ from softshadow.pipeline.fast.fragment_numbers import (
     updated,
 )
 from softshadow.pipeline.raster.coverage import bounds, row_spans
-from softshadow.pipeline.raster.depth import depth_at, depth_units
-from softshadow.pipeline.raster.fragment_ops import FragmentOps, process_fragment
-from softshadow.pipeline.records import PASSED, DepthRange
+from softshadow.pipeline.raster.fragment_ops import (
+    ALWAYS,
+    EQUAL,
+    GEQUAL,
+    GREATER,
+    KEEP,
+    LEQUAL,
+    LESS,
+    NEVER,
+    FragmentOps,
+    compare,
+)
+from softshadow.pipeline.records import DepthRange
 
-LARGEST_BYTE = np.float32(255)
-N_OPS = len(FragmentOps._fields)
+LARGEST_BYTE, START = np.float32(255), np.uint64(0)
+NO_OPS = FragmentOps(0, ALWAYS, 0, ALWAYS, KEEP, KEEP, KEEP, 0, 0, ALWAYS, 0, 0, 0, 0, 0, 0)
+# depth tests that a fragment, once it has failed, fails for ever: what passes moves the stored depth away from it
+LASTING = (NEVER, LESS, EQUAL, LEQUAL, GREATER, GEQUAL)
+IS_TESTED, IF_LESS, IF_EQUAL, IF_GREATER, ALPHA_REF = range(5)  # of `AlphaTests.alpha`
 
 
 class SpanTests(NamedTuple):
     """The tests of a draw's fragments as numbers.
 
-    depth, stencil: which tests there are, none of them where the alpha test comes first, which needs colours; numbers,
-    byte_numbers: see `fragment_numbers.numbers_of`; depth_largest: the integer that z = 1 becomes.
+    depth, stencil: which tests there are; numbers, byte_numbers: see `fragment_numbers.numbers_of`; depth_largest: the
+    integer that z = 1 becomes.
     """
 
     depth: int
@@ -62,21 +76,36 @@ class SpanTests(NamedTuple):
     depth_largest: int
 
 
+class AlphaTests(NamedTuple):
+    """The tests of fragments that have been shaded: `alpha` (5,) int32 is the alpha test, the others follow it."""
+
+    alpha: np.ndarray
+    depth: int
+    stencil: int
+    numbers: np.ndarray
+    byte_numbers: np.ndarray
+    depth_largest: int
+
+
 def span_tests(front: FragmentOps, back: FragmentOps) -> SpanTests:
-    """Return the tests of the spans of both facings, which differ in stencil operations only."""
-    tested = not front.alpha_test
-    return SpanTests(
-        front.depth_test * tested, front.stencil_test * tested, *numbers_of(front, back), front.depth_largest
-    )
+    """Return the tests of spans before they are shaded; the facings differ in stencil operations only."""
+    if front.alpha_test:
+        if front.stencil_test or front.depth_func not in LASTING:
+            front = back = NO_OPS
+        else:
+            front, back = front._replace(depth_write=0), back._replace(depth_write=0)
+    return SpanTests(front.depth_test, front.stencil_test, *numbers_of(front, back), front.depth_largest)
 
 
-@inlined
-def ops_of(numbers):
-    """Return the per-fragment operations from their numbers (N_OPS,)."""
-    return FragmentOps(
-        numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5], numbers[6], numbers[7], numbers[8],
-        numbers[9], numbers[10], numbers[11], numbers[12], numbers[13], numbers[14], numbers[15],
-    )  # fmt: skip
+@lru_cache(maxsize=256)
+def alpha_tests(front: FragmentOps, back: FragmentOps) -> AlphaTests:
+    """Return the tests of spans after they have been shaded; without alpha test, there are none."""
+    if not front.alpha_test:
+        front = back = NO_OPS
+    says = getattr(compare, "py_func", compare)
+    results = [-int(says(front.alpha_func, *pair)) for pair in ((0, 1), (1, 1), (1, 0))]
+    alpha = read_only(np.array([front.alpha_test, *results, front.alpha_ref], np.int32))
+    return AlphaTests(alpha, front.depth_test, front.stencil_test, *numbers_of(front, back), front.depth_largest)
 
 
 @kernel
@@ -120,7 +149,7 @@ def collect_passing_spans(
                 length = np.uint64(min(right - left, SIZE))
                 every, some = test_span(
                     tests_depth, tests_stencil, numbers, byte_numbers, largest, f, planes, t, depth_range, j, left,
-                    length, depth, stencil, room, whole,
+                    length, depth, stencil, START, room, whole,
                 )  # fmt: skip
                 n = np.uint64(0)
                 while some and n < length:
@@ -143,39 +172,39 @@ def collect_passing_spans(
 @kernel
 def test_span(
     tests_depth, tests_stencil, numbers, byte_numbers, largest, f, planes, t, depth_range, j, left, length, depth,
-    stencil, room, whole,
+    stencil, at, room, whole,
 ):  # fmt: skip
     """Test up to SIZE fragments of row `j` of triangle `t`; return whether all and whether some of them pass.
 
-    `f` is the facing. MASK receives which fragments pass.
+    `f` is the facing. MASK receives which fragments pass, from place `at` of the block on.
     """
-    first, row_at, shift = np.uint64(left), np.float32(np.int32(j)), np.int32(left)
+    first, row_at, shift, mask, z = np.uint64(left), np.float32(np.int32(j)), np.int32(left), MASK + at, DEPTH + at
     if tests_depth:
         z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
         for n in range(length):
             column = np.int32(np.int32(n) + shift)
-            room[DEPTH + n] = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
+            room[z + n] = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
         depth_test = depth_test_of(numbers, f)
         for n in range(length):
-            whole[MASK + n] = depth_passes(depth_test, room[DEPTH + n], depth[j, first + n])
+            whole[mask + n] = depth_passes(depth_test, room[z + n], depth[j, first + n])
     else:
         for n in range(length):
-            whole[MASK + n] = -1
+            whole[mask + n] = -1
     if tests_stencil:
-        update_stencil(byte_numbers, f, j, first, length, stencil, whole)
+        update_stencil(byte_numbers, f, j, first, length, stencil, mask, whole)
     every, some = np.int32(-1), np.int32(0)
     for n in range(length):
-        every &= whole[MASK + n]
-        some |= whole[MASK + n]
+        every &= whole[mask + n]
+        some |= whole[mask + n]
     if numbers[f, DEPTH_WRITE] and some:
         for n in range(length):
-            depth[j, first + n] = room[DEPTH + n] if whole[MASK + n] else depth[j, first + n]
+            depth[j, first + n] = room[z + n] if whole[mask + n] else depth[j, first + n]
     return every != 0, some != 0
 
 
 @kernel
-def update_stencil(numbers, f, j, first, length, stencil, whole):
-    """Test and update stencil values from column `first` on; MASK, where the depth test passes, becomes where both do.
+def update_stencil(numbers, f, j, first, length, stencil, mask, whole):
+    """Test and update stencil values from column `first` on; row `mask`, where the depth passes, becomes where both do.
 
     `numbers` are the bytes of `fragment_numbers.numbers_of`.
     """
@@ -184,42 +213,47 @@ def update_stencil(numbers, f, j, first, length, stencil, whole):
     sfail, zfail = stencil_update_of(numbers, f, SFAIL), stencil_update_of(numbers, f, ZFAIL)
     zpass = stencil_update_of(numbers, f, ZPASS)
     for n in range(length):
-        hit, s = whole[MASK + n], stencil[j, first + n]
+        hit, s = whole[mask + n], stencil[j, first + n]
         allowed = stencil_passes(test, ref, np.uint8(s & read))
         passing, failing, denied = updated(zpass, s, most), updated(zfail, s, most), updated(sfail, s, most)
         after = passing if hit else failing
         after = after if allowed else denied
         stencil[j, first + n] = np.uint8(s ^ np.uint8(np.uint8(s ^ after) & write))
-        whole[MASK + n] = hit if allowed else 0
+        whole[mask + n] = hit if allowed else 0
 
 
 @kernel
 def test_alpha_of_block(
-    ops, spans, n_spans, triangles, planes, faces_front, low, high, depth, stencil, alpha, room, whole
-):
-    """Test the shaded fragments of a block one by one, with alpha test; MASK receives which ones pass.
+    alpha_test, tests_depth, tests_stencil, numbers, byte_numbers, largest, low, high, depth, stencil, spans, n_spans,
+    n_fragments, triangles, planes, faces_front, alpha, room, whole,
+):  # fmt: skip
+    """Test the shaded fragments of a block; MASK receives which ones pass.
 
-    `ops` (2, N_OPS) of front and back; `triangles` (SIZE,) of the spans; `alpha` is the row of the alphas.
+    `alpha_test`, ..., `largest` are the fields of `AlphaTests`; `triangles` (SIZE,) are those of the spans; `alpha` is
+    the row of the alphas. The other tests are for the runs of fragments that pass the alpha test.
     """
-    front, back, depth_range = ops_of(ops[0]), ops_of(ops[1]), DepthRange(low, high)
+    depth_range, ref = DepthRange(low, high), alpha_test[ALPHA_REF]
+    if_less, if_equal, if_greater = alpha_test[IF_LESS], alpha_test[IF_EQUAL], alpha_test[IF_GREATER]
+    for i in range(np.uint64(n_fragments)):
+        value = compared_byte(room[alpha + i])
+        result = if_less if value < ref else if_equal
+        whole[MASK + i] = if_greater if value > ref else result
     for s in range(np.uint64(n_spans)):
-        row, left = np.uint64(spans[SPAN_ROW, s]), np.uint64(spans[SPAN_LEFT, s])
-        first, end = np.uint64(spans[SPAN_START, s]), np.uint64(spans[SPAN_START, s + NEXT])
-        t, j = np.uint64(triangles[s]), np.float32(spans[SPAN_ROW, s])
-        own = front if faces_front[t] else back
-        for n in range(end - first):
-            i, m = left + n, first + n
-            z = depth_at(planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3], np.float32(np.int32(i)), j)
-            z = depth_units(z, depth_range, own.depth_largest)
-            stored = depth[row, i] if own.depth_test else ZERO
-            before = stencil[row, i] if own.stencil_test else np.uint8(0)
-            compared = np.int64(compared_byte(room[alpha + m]))
-            verdict, after, stored_z = process_fragment(own, True, compared, z, stored, before)
-            if own.stencil_test:
-                stencil[row, i] = after
-            if own.depth_write:
-                depth[row, i] = stored_z
-            whole[MASK + m] = -1 if verdict == PASSED else 0
+        t, j = np.uint64(triangles[s]), np.uint64(spans[SPAN_ROW, s])
+        n, end, f = np.uint64(spans[SPAN_START, s]), np.uint64(spans[SPAN_START, s + NEXT]), np.uint64(faces_front[t])
+        shift = np.int64(spans[SPAN_LEFT, s]) - np.int64(n)
+        while n < end:
+            while n < end and not whole[MASK + n]:
+                n += NEXT
+            begin = n
+            while n < end and whole[MASK + n]:
+                n += NEXT
+            if n > begin:
+                left = int(np.int64(begin) + shift)
+                test_span(
+                    tests_depth, tests_stencil, numbers, byte_numbers, largest, f, planes, t, depth_range, j, left,
+                    n - begin, depth, stencil, begin, room, whole,
+                )  # fmt: skip
 
 
 @inlined

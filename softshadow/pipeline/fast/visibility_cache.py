@@ -156,7 +156,7 @@ def cached_fill(
     inputs = FillInputs(front, back, triangles, region, depth_range)
     cache = storage.visibility_cache = storage.visibility_cache or VisibilityCache()
     tokens = _version(target.depth), _version(target.stencil)
-    before = tokens[0] if inputs.tests_depth else UNREAD, tokens[1] if inputs.tests_stencil else UNREAD
+    before = _tokens_before(inputs, target)
     key = inputs.fingerprint(), *before
     entry = cache.look_up(key, inputs)
     if entry is not None:
@@ -175,6 +175,20 @@ def cached_fill(
         after = _version(target.depth), _version(target.stencil)
         cache.add(key, CacheEntry(inputs, after, depth, stencil, spans))
     return spans, False
+
+
+def is_repeated(inputs: FillInputs, target: Framebuffer, storage: Storage) -> bool:
+    """Return whether `cached_fill` pays, since an equal fill was seen before over known buffers; this one is seen."""
+    cache = storage.visibility_cache = storage.visibility_cache or VisibilityCache()
+    return cache.pays(inputs.fingerprint()) and None not in _tokens_before(inputs, target)
+
+
+def _tokens_before(inputs: FillInputs, target: Framebuffer) -> tuple[object, object]:
+    """Return the version tokens of depth and stencil, where they are read."""
+    return (
+        _version(target.depth) if inputs.tests_depth else UNREAD,
+        _version(target.stencil) if inputs.tests_stencil else UNREAD,
+    )
 
 
 def _version(image: Image | None) -> object:

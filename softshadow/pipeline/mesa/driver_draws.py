@@ -104,8 +104,10 @@ class DriverDraw:
 
         `offset_mode_of` returns the mode that a draw decides (`softshadow.pipeline.geometry.geometry`).
         """
+        if not offset_is_on(command.state.polygon):
+            return command
         front, back = effective_modes(command.state)
-        if front == back or not offset_is_on(command.state.polygon):
+        if front == back:
             return command
         part = evolve(command, offset_mode=self.offset_mode)
         if not self.offset_mode:

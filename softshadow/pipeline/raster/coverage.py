@@ -13,16 +13,21 @@ EXACT = 1 << 52  # whole numbers below twice this are floats, and so are their p
 
 
 @kernel
+def samples_between(a, b, c):
+    """Return first and end of the samples from the least to the largest of three coordinates (end exclusive)."""
+    return (min(a, min(b, c)) + 255) >> 8, (max(a, max(b, c)) >> 8) + 1
+
+
+@kernel
 def bounds(corners, t):
     """Return first and end row of a triangle's samples (end exclusive)."""
-    y0, y1, y2 = int(corners[t, 1]), int(corners[t, 3]), int(corners[t, 5])
-    return (min(y0, min(y1, y2)) + 255) >> 8, (max(y0, max(y1, y2)) >> 8) + 1
+    return samples_between(int(corners[t, 1]), int(corners[t, 3]), int(corners[t, 5]))
 
 
 @kernel
 def extent(corners, begin, end):
-    """Return first and end row of the triangles [begin, end), and the sum of their areas in 1/256 pixel."""
-    first_row, end_row, area = FARTHEST, -FARTHEST, 0
+    """Return first and end row and column of the triangles [begin, end), and the sum of their areas in 1/256 pixel."""
+    first_row, end_row, left, right, area = FARTHEST, -FARTHEST, FARTHEST, -FARTHEST, 0
     for number in range(begin, end):
         t = np.uint64(number)  # unsigned: no wrap-around of negative indices is compiled in
         low, high = bounds(corners, t)
@@ -30,9 +35,11 @@ def extent(corners, begin, end):
         x0, y0 = int(corners[t, 0]), int(corners[t, 1])
         x1, y1 = int(corners[t, 2]), int(corners[t, 3])
         x2, y2 = int(corners[t, 4]), int(corners[t, 5])
+        low, high = samples_between(x0, x1, x2)
+        left, right = min(left, low), max(right, high)
         # in 1/256 pixels, so that the sum of millions of the largest triangles stays within 64 bits
         area += abs((x0 - x1) * (y2 - y0) - (x2 - x0) * (y0 - y1)) >> 9
-    return first_row, end_row, area
+    return first_row, end_row, left, right, area
 
 
 @kernel

@@ -25,9 +25,9 @@ FillKernel = Callable[..., None]
 
 
 def no_ids(region: Region, pitch: int) -> np.ndarray:
-    """Return ids (rows of the region, pitch) int32 of pixels without a triangle."""
+    """Return ids (rows of the region, pitch) int32 of pixels without a triangle; of other columns, any numbers."""
     ids = scratch((region.end_row - region.first_row, pitch), np.int32)
-    ids[:] = NO_TRIANGLE
+    ids[:, region.left : region.right] = NO_TRIANGLE
     return ids
 
 

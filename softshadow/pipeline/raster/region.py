@@ -9,6 +9,7 @@ from softshadow.pipeline.records import DepthRange, Region, Setup
 from softshadow.state import Points, State
 
 NO_ATTENUATION = Points().attenuation
+UNIT_RANGES: dict[type, DepthRange] = {real: DepthRange(real(0), real(1)) for real in (np.float32, np.float64)}
 
 
 def region_of(state: State, target: Framebuffer) -> Region:
@@ -26,6 +27,7 @@ def region_of(state: State, target: Framebuffer) -> Region:
         view = state.viewport
         left, right = max(left, view.x), min(right, view.x + view.width)
         bottom, top = max(bottom, view.y), min(top, view.y + view.height)
+    left, bottom = min(left, width), min(bottom, height)  # kernels rely on columns and rows within the buffers
     right, top = max(left, right), max(bottom, top)
     first, end = (height - top, height - bottom) if target.flipped else (bottom, top)
     return Region(left, right, first, end, int(target.flipped))
@@ -37,19 +39,21 @@ def depth_range_of(state: State, real: type) -> DepthRange:
     It is [0, 1]; with GL_DEPTH_CLAMP, the depth range as the viewport's scale and shift give it.
     """
     if not state.depth.clamp:
-        return DepthRange(real(0), real(1))
+        return UNIT_RANGES[real]
     near, far = real(state.viewport.near), real(state.viewport.far)
     scale, shift = real(0.5) * (far - near), real(0.5) * (far + near)
     return DepthRange(min(shift - scale, shift + scale), max(shift - scale, shift + scale))
 
 
 def covered(triangles: Setup, region: Region) -> tuple[Region, int]:
-    """Return the region cut to the rows that the triangles meet, and about how many fragments they have."""
+    """Return the region cut to the rows and columns that the triangles meet, and about how many fragments they have."""
     parts = parts_of(len(triangles.corners), 2 * PART_SIZE)
     extents = share(lambda n: extent(triangles.corners, *parts[n]), len(parts))
-    firsts, ends, areas = zip(*extents, strict=True)
-    cut = region._replace(first_row=max(region.first_row, min(firsts)), end_row=min(region.end_row, max(ends)))
-    return cut, sum(areas) >> 8
+    firsts, ends, lefts, rights, areas = zip(*extents, strict=True)
+    left = min(max(region.left, min(lefts)), region.right)  # kernels rely on columns within the buffer
+    right = max(left, min(region.right, max(rights)))
+    rows = max(region.first_row, min(firsts)), min(region.end_row, max(ends))
+    return Region(left, right, *rows, region.downwards), sum(areas) >> 8
 
 
 def buffer_cells(target: Framebuffer, real: np.dtype, *, writes_depth: bool = True) -> tuple[np.ndarray, np.ndarray]:

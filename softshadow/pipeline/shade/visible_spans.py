@@ -9,7 +9,7 @@ import numpy as np
 from softshadow.jit import kernel
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
-from softshadow.pipeline.records import Fragments, Spans
+from softshadow.pipeline.records import Fragments, Region, Spans
 
 STRIDE = 16  # pixels of a long span that are compared together
 PIXELS_PER_PART = 1 << 17
@@ -24,26 +24,29 @@ def _empty_spans(n: int) -> Spans:
     return Spans(row, left, triangle, start)
 
 
-def visible_spans(ids: np.ndarray, first_row: int) -> Spans:
+def visible_spans(ids: np.ndarray, region: Region) -> Spans:
     """Return the spans of visible fragments.
 
     Parameters
     ----------
-    ids : (rows, pitch) int32, the triangle of each pixel or -1
-    first_row : the row of the buffers that row 0 of `ids` belongs to
+    ids : (rows of the region, pitch) int32, the triangle of each pixel or -1; other columns are not read
     """
-    parts = parts_of(len(ids), PIXELS_PER_PART // ids.shape[1])
-    n_visible = share(lambda n: count_visible(ids[slice(*parts[n])]), len(parts), ids.size >= WORTH_SHARING)
-    starts = np.cumsum([(0, 0), *n_visible], axis=0)  # the first span and the first fragment of each part
-    spans = _empty_spans(starts[-1, 0])
+    left, right, first_row = region.left, region.right, region.first_row
+    parts, n_pixels = parts_of(len(ids), PIXELS_PER_PART // ids.shape[1]), len(ids) * (right - left)
+    counted = share(lambda n: count_visible(ids[slice(*parts[n])], left, right), len(parts), n_pixels >= WORTH_SHARING)
+    starts = [(0, 0)]  # the first span and the first fragment of each part
+    for n_spans, n_fragments in counted:
+        starts.append((starts[-1][0] + n_spans, starts[-1][1] + n_fragments))
+    spans = _empty_spans(starts[-1][0])
 
     def collect(n: int) -> None:
         (first, end), (first_span, first_fragment) = parts[n], starts[n]
-        rows = slice(first_span, starts[n + 1, 0])
-        collect_visible(ids[first:end], first_row + first, first_fragment, *(array[rows] for array in spans))
+        rows = slice(first_span, starts[n + 1][0])
+        collected = (array[rows] for array in spans)
+        collect_visible(ids[first:end], left, right, first_row + first, first_fragment, *collected)
 
-    share(collect, len(parts), starts[-1, 0] + ids.size // 32 >= WORTH_COLLECTING)
-    spans.start[-1] = starts[-1, 1]
+    share(collect, len(parts), starts[-1][0] + n_pixels // 32 >= WORTH_COLLECTING)
+    spans.start[-1] = starts[-1][1]
     return spans
 
 
@@ -68,12 +71,12 @@ def fragments_of(spans: Spans) -> Fragments:
 
 
 @kernel
-def count_visible(ids):
+def count_visible(ids, left, right):
     """Return the numbers of spans (pixels whose triangle is not that of the left neighbour) and of pixels in them."""
     spans = pixels = np.int64(0)
     for row in range(ids.shape[0]):
-        row_ids = ids[row]
-        row_spans = row_pixels = np.int32(row_ids[0] >= 0)
+        row_ids = ids[row, left:right]
+        row_spans = row_pixels = np.int32(right > left and row_ids[0] >= 0)
         for column in range(1, row_ids.shape[0]):
             row_spans += np.int32((row_ids[column] >= 0) & (row_ids[column] != row_ids[column - 1]))
             row_pixels += np.int32(row_ids[column] >= 0)
@@ -82,11 +85,11 @@ def count_visible(ids):
 
 
 @kernel
-def collect_visible(ids, first_row, fragment, rows, lefts, triangles, starts):
+def collect_visible(ids, first_column, end_column, first_row, fragment, rows, lefts, triangles, starts):
     """Write row, first column, triangle and first fragment of all spans; `fragment` is the number of the first one."""
     n = 0
     for row in range(ids.shape[0]):
-        row_ids, column = ids[row], 0
+        row_ids, column = ids[row, first_column:end_column], 0
         while column < row_ids.shape[0]:
             triangle, left = row_ids[column], column
             differs = np.int32(0)
@@ -97,5 +100,5 @@ def collect_visible(ids, first_row, fragment, rows, lefts, triangles, starts):
             while column < row_ids.shape[0] and row_ids[np.uint64(column)] == triangle:
                 column += 1
             if triangle >= 0:
-                rows[n], lefts[n], triangles[n], starts[n] = row + first_row, left, triangle, fragment
+                rows[n], lefts[n], triangles[n], starts[n] = row + first_row, left + first_column, triangle, fragment
                 n, fragment = n + 1, fragment + column - left

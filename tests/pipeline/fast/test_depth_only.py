@@ -107,6 +107,6 @@ def test_a_chunk_has_the_rows_and_the_area_of_its_triangles(seed):
         for triangles, ranges, region, fragments in chunks_of(window_mesh(command, context.storage.window)):
             extents = [extent(triangles.corners, first, end) for first, end in ranges]
             assert fragments == sum(area for *_, area in extents) >> 8
-            for first_row, end_row, _ in extents:
+            for first_row, end_row, *_ in extents:
                 first_row, end_row = max(first_row, target_region.first_row), min(end_row, target_region.end_row)
                 assert first_row >= end_row or region.first_row <= first_row < end_row <= region.end_row

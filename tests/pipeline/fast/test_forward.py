@@ -83,6 +83,27 @@ def test_what_is_drawn_forward():
     assert "span by span" not in assert_same(1, ordered=True, precision="exact")
 
 
+def three_quads():
+    """Return a window after the same quad in three frames, and the fill of each."""
+    context = gl.create_context(64, 48)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    with explain_paths() as paths:
+        for _ in range(3):
+            gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
+            gl.glRectf(-0.9, -0.8, 0.7, 0.9)
+        gl.glFinish()
+    return context, [path.fill for path in paths]
+
+
+def test_a_large_quad_goes_forward_unless_it_was_drawn_before(monkeypatch):
+    monkeypatch.setattr(choose, "FEW_FRAGMENTS", -1)
+    window, fills = three_quads()
+    assert fills[0] == "span by span"
+    assert "span by span" not in fills[1:]
+    with use_short_cuts(False):
+        assert same_window(window, three_quads()[0])
+
+
 @pytest.mark.interpreted
 def test_the_interpreted_kernels_leave_the_bits_of_the_ordered_path():
     for seed in range(5):

@@ -37,17 +37,20 @@ def test_a_band_has_the_triangles_that_meet_it_in_drawing_order(seed, n, first_r
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 40))
-def test_extent_has_the_rows_and_the_area_of_all_triangles(seed, n):
+def test_extent_has_the_rows_the_columns_and_the_area_of_all_triangles(seed, n):
     corners = random_corners(seed, n)
-    first, end, area = extent(corners, 0, n)
-    spans = [bounds(corners, t) for t in range(n)]
-    assert (first, end) == (min(a for a, _ in spans), max(b for _, b in spans))
+    first, end, left, right, area = extent(corners, 0, n)
+    turned = corners.reshape(-1, 3, 2)[..., ::-1].reshape(-1, 6)
+    for limits, places in (((first, end), corners), ((left, right), turned)):
+        spans = [bounds(places, t) for t in range(n)]
+        assert limits == (min(a for a, _ in spans), max(b for _, b in spans))
     points = corners.reshape(-1, 3, 2) / 256
     exact = np.abs(np.linalg.det(points[:, 1:] - points[:, :1])).sum() / 2
     assert exact - n / 256 <= area / 256 <= exact + 1e-6  # each area is rounded down to 1/256
 
 
 def test_the_extent_of_no_triangles_is_empty():
-    first, end, area = extent(np.empty((0, 6), np.int32), 0, 0)
+    first, end, left, right, area = extent(np.empty((0, 6), np.int32), 0, 0)
     assert first >= end
+    assert left >= right
     assert area == 0

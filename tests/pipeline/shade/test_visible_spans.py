@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from softshadow import tokens as gl
 from softshadow.image import FORMATS, Image
 from softshadow.pipeline import set_threads, threads
-from softshadow.pipeline.records import Setup, Spans
+from softshadow.pipeline.records import Region, Setup, Spans
 from softshadow.pipeline.shade import interpolate as interpolation
 from softshadow.pipeline.shade import visible_spans as visible_spans_module
 from softshadow.pipeline.shade.color_writes import color_writer
@@ -29,6 +29,11 @@ def random_ids(seed):
     return np.repeat(rng.integers(-1, 3, (5, SIZE // 2), dtype=np.int32), rng.integers(1, 4, SIZE // 2), axis=1)
 
 
+def spans_in(ids, first_row=0):
+    """Return the spans in all columns of ids."""
+    return visible_spans(ids, Region(0, ids.shape[1], first_row, first_row + len(ids), 0))
+
+
 def span_or_pixels(long):
     """Return one long span of a triangle, or the same pixels as spans of one pixel each."""
     n = LONG_SPAN + 5
@@ -42,12 +47,21 @@ def span_or_pixels(long):
 @given(st.integers(0, 2**32 - 1))
 def test_spans_are_the_visible_pixels(seed):
     ids = random_ids(seed)
-    spans = visible_spans(ids, 7)
+    spans = spans_in(ids, 7)
     row, column, triangle = fragments_of(spans)
     assert np.array_equal(np.stack([row - 7, column]), np.nonzero(ids >= 0))
     assert np.array_equal(triangle, ids[row - 7, column])
     spans_again = spans_of(fragments_of(spans))
     assert all(np.array_equal(a, b) for a, b in zip(spans, spans_again, strict=True))
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(0, SIZE // 2), st.integers(0, SIZE // 2))
+def test_spans_outside_of_the_columns_of_the_region_are_left_out(seed, left, right):
+    ids = random_ids(seed)
+    cut = ids.copy()
+    cut[:, :left] = cut[:, max(left, right) :] = -1
+    spans = visible_spans(ids, Region(left, max(left, right), 7, 7 + len(ids), 0))
+    assert all(np.array_equal(a, b) for a, b in zip(spans, spans_in(cut, 7), strict=True))
 
 
 def on_threads(n, function, *arguments):
@@ -65,7 +79,7 @@ def test_parts_of_the_rows_have_the_same_spans_as_all_rows(monkeypatch, rows):
     for name in ("WORTH_SHARING", "WORTH_COLLECTING"):
         monkeypatch.setattr(visible_spans_module, name, 0)
     for seed in range(20):
-        at_once, in_parts = (on_threads(n, visible_spans, random_ids(seed), 7) for n in (1, 3))
+        at_once, in_parts = (on_threads(n, spans_in, random_ids(seed), 7) for n in (1, 3))
         assert all(np.array_equal(a, b) for a, b in zip(in_parts, at_once, strict=True))
 
 
@@ -82,7 +96,7 @@ def test_planes_are_the_same_when_computed_in_parts(monkeypatch, at_a_time):
         np.array([1, 0, 1], np.uint8),
         np.array([2, 0, 1], np.int32),
     )
-    provoking, spans = np.array([4, 8, 1], np.int32), visible_spans(random_ids(5), 0)
+    provoking, spans = np.array([4, 8, 1], np.int32), spans_in(random_ids(5))
     arguments = spans, setup, window, values, -values, flat, provoking
     at_once, in_parts = (on_threads(n, planes_of, *arguments) for n in (1, 3))
     assert len(at_once.values) == triangles
@@ -91,7 +105,7 @@ def test_planes_are_the_same_when_computed_in_parts(monkeypatch, at_a_time):
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 30))
 def test_the_parts_of_all_chunks_make_up_the_spans(seed, size):
-    spans = visible_spans(random_ids(seed), 0)
+    spans = spans_in(random_ids(seed))
     parts = [spans.part(first, end) for first, end in pairwise(spans.chunks(size))]
     together = [np.concatenate(fields) for fields in zip(*map(fragments_of, parts), strict=True)] if parts else []
     assert all(np.array_equal(a, b) for a, b in zip(together, fragments_of(spans), strict=bool(parts)))
@@ -100,7 +114,7 @@ def test_the_parts_of_all_chunks_make_up_the_spans(seed, size):
 
 
 def test_no_fragments_have_no_spans():
-    spans = visible_spans(np.full((2, 3), -1, np.int32), 0)
+    spans = spans_in(np.full((2, 3), -1, np.int32))
     assert spans.fragments == 0
     assert len(spans.chunks(10)) == 1
     assert spans_of(fragments_of(spans)).fragments == 0

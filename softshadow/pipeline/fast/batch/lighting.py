@@ -68,11 +68,13 @@ def _fill_light(row: np.ndarray, light: LightState) -> None:
         vector(color)[:3] for color in (light.ambient, light.diffuse, light.specular)
     )
     row[POSITION:SPOT_DIRECTION] = light.position
-    row[SPOT_DIRECTION:SPOT_EXPONENT] = normalize(normalize(vector(light.spot_direction)))
-    row[SPOT_EXPONENT], cutoff = light.spot_exponent, np.float32(light.spot_cutoff)
-    row[COSINE] = max(ZERO, np.float32(math.cos(np.float32(cutoff * math.pi / 180.0))))
+    if light.spot_cutoff != 180:
+        row[HAS_SPOT] = ONE
+        row[SPOT_DIRECTION:SPOT_EXPONENT] = normalize(normalize(vector(light.spot_direction)))
+        row[SPOT_EXPONENT], cutoff = light.spot_exponent, np.float32(light.spot_cutoff)
+        row[COSINE] = max(ZERO, np.float32(math.cos(np.float32(cutoff * math.pi / 180.0))))
     coefficients = (light.constant_attenuation, light.linear_attenuation, light.quadratic_attenuation)
-    row[CONSTANT:HAS_SPOT], row[HAS_SPOT] = coefficients, light.spot_cutoff != 180
+    row[CONSTANT:HAS_SPOT] = coefficients
     row[HAS_POLYNOMIAL] = coefficients != (1.0, 0.0, 0.0) and light.position[3] != 0
 
 

@@ -161,7 +161,10 @@ class Run:
         return one is other or (
             one.color.strides == other.color.strides
             and one.normal.strides == other.normal.strides
-            and [one.texcoords[n].strides for n in numbers] == [other.texcoords[n].strides for n in numbers]
+            and (
+                one.texcoords is other.texcoords
+                or [one.texcoords[n].strides for n in numbers] == [other.texcoords[n].strides for n in numbers]
+            )
             and not one.materials
         )
 
