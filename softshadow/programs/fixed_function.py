@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -27,6 +27,9 @@ from softshadow.programs.texture_coordinates import (
 )
 from softshadow.state import State
 from softshadow.texture import Texture
+
+if TYPE_CHECKING:
+    from softshadow.programs.vertex_color_use import ColorUses
 
 POINT_SIZES = (1.0, 255.0)  # llvmpipe's limits
 NO_COORDINATE = np.zeros((1, 4), np.float32)
@@ -128,21 +131,21 @@ def process_vertices(state: State, units: list[Unit], vertices: VertexInputs) ->
 
 def needs_vertex_color(state: State, units: list[Unit]) -> bool:
     """Return whether the fragment colours depend on the vertex colours."""
-    if not units:
-        return True
-    from softshadow.programs.sampling import base_format
-    from softshadow.programs.vertex_color_use import uses_vertex_color
-
-    return uses_vertex_color([(state.units[unit.index], base_format(unit.texture)) for unit in units])
+    return not units or any(_color_uses(state, units))
 
 
 def repeats_primary(state: State, units: list[Unit]) -> bool:
     """Return whether the primary colour is among the varyings twice: lit colours are never constants."""
     if state.lighting.enabled or not any(state.units[unit.index].env_mode == gl.GL_COMBINE for unit in units):
         return False
-    from softshadow.programs.vertex_color_use import reads_primary_color
+    return _color_uses(state, units).by_name
 
-    return any(reads_primary_color(state.units[unit.index]) for unit in units)
+
+def _color_uses(state: State, units: list[Unit]) -> ColorUses:
+    from softshadow.programs.sampling import base_format
+    from softshadow.programs.vertex_color_use import vertex_color_uses
+
+    return vertex_color_uses([(state.units[unit.index], base_format(unit.texture)) for unit in units])
 
 
 def with_secondary(colors: Colors, is_lit: bool, vertices: VertexInputs) -> Colors:

@@ -7,6 +7,7 @@ if an input is flat (lp_setup_vbuf.c).
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from softshadow import tokens as gl
 from softshadow.programs.texture_combine import ARGUMENTS
@@ -18,24 +19,30 @@ COLOR = frozenset((RGB, ALPHA))
 ALPHAS = (gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
 
 
-def uses_vertex_color(units: Sequence[tuple[TextureUnit, int]]) -> bool:
-    """Return whether the output colour of the texture units depends on the incoming vertex colour.
+class ColorUses(NamedTuple):
+    """Whether the output colour depends on the vertex colour as GL_PREVIOUS, and as GL_PRIMARY_COLOR."""
+
+    carried: bool
+    by_name: bool
+
+
+def vertex_color_uses(units: Sequence[tuple[TextureUnit, int]]) -> ColorUses:
+    """Return how the output colour depends on the vertex colour.
 
     Parameters
     ----------
     units : settings of the units in use, with the base formats of their textures, in the order of texturing
     """
-    needed = COLOR
+    needed, by_name = COLOR, False
     for setting, base in reversed(units):
         if setting.env_mode == gl.GL_COMBINE:
             inputs = [each for part in needed for each in _combine_inputs(setting.combine, part)]
-            if any(source == gl.GL_PRIMARY_COLOR for source, _ in inputs):
-                return True
+            by_name |= any(source == gl.GL_PRIMARY_COLOR for source, _ in inputs)
             needed = frozenset(part for source, part in inputs if source == gl.GL_PREVIOUS)
         elif setting.env_mode == gl.GL_REPLACE:
             replaced = {RGB: base != gl.GL_ALPHA, ALPHA: base not in WITHOUT_ALPHA}
             needed = frozenset(part for part in needed if not replaced[part])
-    return bool(needed)
+    return ColorUses(bool(needed), by_name)
 
 
 def reads_primary_color(setting: TextureUnit) -> bool:
