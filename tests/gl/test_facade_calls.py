@@ -17,9 +17,9 @@ GROUPS = 13  # each a program of its own on Mesa
 NAMES = sorted(CALLS)
 
 
-@pytest.fixture(autouse=True, scope="module")
+@pytest.fixture(autouse=True)
 def own_process() -> None:
-    """Start a process of Mesa for this file: wrong calls can make it crash, depending on what it drew before."""
+    """Start a process of Mesa for each test: wrong calls can make it crash, depending on what it drew before."""
     stop_workers()
 
 
