@@ -26,6 +26,7 @@ class Sampler:
     """The state of glTexParameter; defaults are GL's initial values (see `initial_sampler` for rectangles).
 
     `unit_lod_bias` belongs to the texture unit: it is 0 in the texture object itself, see `Texture.in_unit`.
+    `ignores_depth_mode`: lookups take depths as GL_LUMINANCE, see `looked_up_as`.
     """
 
     min_filter: int = gl.GL_NEAREST_MIPMAP_LINEAR
@@ -37,6 +38,7 @@ class Sampler:
     compare_mode: int = gl.GL_NONE
     compare_func: int = gl.GL_LEQUAL
     depth_mode: int = gl.GL_LUMINANCE
+    ignores_depth_mode: bool = False
     base_level: int = 0
     max_level: int = 1000
     min_lod: float = -1000.0
@@ -47,6 +49,16 @@ class Sampler:
     generate_mipmap: bool = False
     priority: float = 1.0
     max_anisotropy: float = 1.0
+
+    @property
+    def looked_up_as(self) -> int:
+        """The format that a depth is looked up as: `depth_mode`, or what Mesa makes of it.
+
+        Mesa keeps it with the image of the base level. Where glCopyTexImage2D defines the image, Mesa takes
+        GL_LUMINANCE, until GL_DEPTH_TEXTURE_MODE or GL_TEXTURE_BASE_LEVEL changes, or glTexImage2D defines an image.
+        Texture environments follow `depth_mode`.
+        """
+        return gl.GL_LUMINANCE if self.ignores_depth_mode else self.depth_mode
 
 
 RECTANGLE_SAMPLER = Sampler(

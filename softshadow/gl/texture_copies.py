@@ -22,7 +22,7 @@ from softshadow.gl.texture_problems import (
     region_problem,
     size_problem,
 )
-from softshadow.gl.textures import bound_texture, face_of, image_target_problem
+from softshadow.gl.textures import bound_texture, face_of, image_target_problem, note_defined
 from softshadow.image import FORMATS, WITH_STENCIL, Format
 from softshadow.pipeline.commands import CopyToTexture, DefineImage
 from softshadow.pixel_transfer import PixelTransfer
@@ -94,6 +94,8 @@ def _copy_image(
     layout = stored, internalformat, width, height
     if before is None or (before.format, before.internal_format, before.width, before.height) != layout:
         context.execute(DefineImage(texture.name, face, level, stored, internalformat, width, height))
+        if stored.kind == "depth":
+            note_defined(context, texture, level, depths_copied=True)
     place = (0, 0, *origin, width, height)
     context.execute(
         CopyToTexture(context.state.read_framebuffer, texture.name, face, level, *place, _transfer(context))

@@ -30,7 +30,7 @@ from softshadow.gl.texture_problems import (
     region_problem,
     size_problem,
 )
-from softshadow.gl.textures import bound_texture, face_of, image_target_problem
+from softshadow.gl.textures import bound_texture, face_of, image_target_problem, note_defined
 from softshadow.image import FORMATS, WITH_STENCIL, Format, storage_format
 from softshadow.pipeline.commands import DefineImage, UpdateImage
 from softshadow.pixels import (
@@ -219,6 +219,7 @@ def _define(
         context.execute(DefineImage(texture.name, face, level, *layout, cells, blocks=blocks))
     else:
         context.execute(DefineImage(texture.name, face, level, *layout, *parts, slices=slices))
+    note_defined(context, texture, level, depths_copied=False)
     follow_base_level(context, texture, face, level)
     return None
 

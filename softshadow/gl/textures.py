@@ -259,9 +259,19 @@ def clamped_priority(value: float) -> float:
     return 0.0 if number < 0 else number if number < 1 else 1.0
 
 
+def note_defined(context: Context, texture: Texture, level: int, depths_copied: bool) -> None:
+    """Set what depths of a texture are looked up as, after an image was defined; see `Sampler.looked_up_as`."""
+    before = texture.sampler
+    ignores = depths_copied and (before.ignores_depth_mode or level == before.base_level)
+    if ignores != before.ignores_depth_mode:
+        context.execute(SetSampler(texture.name, evolve(before, ignores_depth_mode=ignores)))
+
+
 def _set_sampler(context: Context, target: int, **fields: Any) -> None:
     texture = bound_texture(context, target)
     changed = evolve(texture.sampler, **fields)
+    if (changed.depth_mode, changed.base_level) != (texture.sampler.depth_mode, texture.sampler.base_level):
+        changed = evolve(changed, ignores_depth_mode=False)
     if changed != texture.sampler:
         context.touched |= gl.GL_TEXTURE_BIT
         context.execute(SetSampler(texture.name, changed))

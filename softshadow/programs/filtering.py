@@ -132,7 +132,7 @@ def cells_in_float(image: Image) -> np.ndarray:
 def sources_of(image: Image, sampler: Sampler) -> np.ndarray:
     """Return the sources of R, G, B and A of the result, see `SOURCES`."""
     depth = image.format.kind == "depth"
-    return np.array(DEPTH_SOURCES[sampler.depth_mode] if depth else SOURCES[image.format.base])
+    return np.array(DEPTH_SOURCES[sampler.looked_up_as] if depth else SOURCES[image.format.base])
 
 
 def unit_of(format: Format, real: np.dtype) -> Any:

@@ -17,7 +17,7 @@ from softshadow.image import Format, Image
 from softshadow.pipeline.fast.fragment_block import COLUMNS
 from softshadow.pipeline.shade.blend import FOUR_BYTES, BlendOps, blend_ops
 from softshadow.pixels import LARGEST_SAMPLED, LARGEST_UINT
-from softshadow.programs.filtering import DEPTH_SOURCES, SOURCES, in_8_bits, unit_of, wraps_of
+from softshadow.programs.filtering import in_8_bits, sources_of, unit_of, wraps_of
 from softshadow.programs.fixed_function import Unit, has_secondary
 from softshadow.programs.fog import linear_terms, scaled_density
 from softshadow.programs.level_of_detail import FILTERS, LARGEST_LEVEL, bias_of
@@ -185,7 +185,7 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     switches[BETWEEN], switches[MIN_LINEAR], switches[MAG_LINEAR] = (
         between, within == gl.GL_LINEAR, sampler.mag_filter == gl.GL_LINEAR,
     )  # fmt: skip
-    switches[CHANNELS : CHANNELS + 4] = DEPTH_SOURCES[sampler.depth_mode] if is_depth else SOURCES[image.format.base]
+    switches[CHANNELS : CHANNELS + 4] = sources_of(image, sampler)
     switches[IS_SPREAD] = switches[CHANNELS : CHANNELS + 4].tolist() != [0, 1, 2, 3]
     switches[RGB_OPERATION : ALPHA_OPERATION + 1] = environment_operations(setting.env_mode, base_format(texture))
     switches[COMPARISON] = 16 | COMPARISONS[sampler.compare_func] if compares else 0
