@@ -39,6 +39,7 @@ def glCopyTexImage2D(
     """Define a level of the bound texture from a rectangle of the read framebuffer.
 
     Texels outside the framebuffer become 0; if the level already had this format and size, they keep their values.
+    Depths are looked up as GL_LUMINANCE, as on Mesa, until GL_DEPTH_TEXTURE_MODE changes after this call.
     """
     _copy_image("glCopyTexImage2D", 2, target, level, internalformat, (x, y), (width, height, 1), border)
 
