@@ -10,7 +10,6 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl.errors import fail, outside_begin
 
-
 MOST_NAMES = 1 << 22  # that one call returns: more would fill the memory
 
 
