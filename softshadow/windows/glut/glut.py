@@ -9,7 +9,7 @@ from typing import Any
 
 from softshadow import gl
 from softshadow.context import thread
-from softshadow.windows.desktop import desktop
+from softshadow.windows.desktop import ProgramEnded, desktop
 from softshadow.windows.glut import fonts, queries
 from softshadow.windows.glut.loop import Loop
 from softshadow.windows.glut.program import Program
@@ -68,7 +68,7 @@ class Glut:
             "glutSetOption": self.set_glut_option,
             "glutCreateWindow": self.create_window,
             "glutCreateSubWindow": self.create_subwindow,
-            "glutDestroyWindow": program.destroyed.append,
+            "glutDestroyWindow": self.destroy_window,
             "glutSetWindow": self.set_window,
             "glutGetWindow": lambda: program.window.number if program.window else 0,
             "glutSetWindowData": lambda data: self._set("data", data),
@@ -84,7 +84,7 @@ class Glut:
             "glutIconifyWindow": lambda: self._set("is_visible", False),
             "glutGameModeString": self.set_game_mode,
             "glutEnterGameMode": self.enter_game_mode,
-            "glutLeaveGameMode": lambda: program.destroyed.append(program.game_window),
+            "glutLeaveGameMode": lambda: self.destroy_window(program.game_window),
             "glutGameModeGet": partial(queries.game_mode_get, program),
             "glutAttachMenu": self.attach_menu,
             "glutDetachMenu": self.detach_menu,
@@ -92,7 +92,7 @@ class Glut:
             "glutMenuStatusFunc": lambda function=None: self.set_option("menu_status", function),
             "glutIdleFunc": lambda function=None: self.set_option("idle", function),
             "glutTimerFunc": program.set_timer,
-            "glutPostRedisplay": lambda: self._set("is_posted", True),
+            "glutPostRedisplay": lambda: self.post_redisplay(self._current("glutPostRedisplay").number),
             "glutPostWindowRedisplay": self.post_redisplay,
             "glutSwapBuffers": self.swap_buffers,
             "glutMainLoop": self.loop.run,
@@ -114,6 +114,13 @@ class Glut:
         """Set a value of the current window."""
         if self.program.window is not None:
             setattr(self.program.window, name, value)
+
+    def _current(self, call: str) -> Window:
+        """Return the current window; without one, end the program, as freeglut does."""
+        if self.program.window is None:
+            desktop().tell(f"{call} is called without a current window, which ends the program")
+            raise ProgramEnded
+        return self.program.window
 
     def set_callback(self, name: str, function: Callable[..., Any] | None = None, *_: Any) -> None:
         """Set a callback of the current window."""
@@ -176,8 +183,9 @@ class Glut:
         above = self.program.windows.get(parent)
         if above is None:
             return 0
-        x, width = _placed(x, width, above.size[0])
-        y, height = _placed(y, height, above.size[1])
+        whole = (0, 0) if above.is_new else above.size  # freeglut does not know sizes before the main loop
+        x, width = _placed(x, width, whole[0])
+        y, height = _placed(y, height, whole[1])
         return self._open((width, height), (x, y), parent)
 
     def _open(self, size: tuple[int, int], position: tuple[int, int], parent: int) -> int:
@@ -203,6 +211,14 @@ class Glut:
         else:
             desktop().tell(f"glutSetWindow({number}) does nothing: there is no such window")
 
+    def destroy_window(self, number: int) -> None:
+        """Destroy a window at the end of the turn; from now on it has no callbacks, and there is no current window."""
+        window = self.program.windows.get(number)
+        if window is not None:
+            window.callbacks = {name: each for name, each in window.callbacks.items() if name == "Close"}
+            self.program.destroyed.append(number)
+            self.program.select(None)
+
     def show_window(self) -> None:
         """Let the current window be seen, and be drawn in the next turn."""
         self._set("is_visible", True)
@@ -225,9 +241,7 @@ class Glut:
 
     def swap_buffers(self) -> None:
         """End the frame, if the current window is the one that is shown."""
-        window = self.program.window
-        if window is None:
-            return
+        window = self._current("glutSwapBuffers")
         if window.is_shown:
             window.tell_what_the_mode_lacks()
             desktop().end_frame()

@@ -67,7 +67,7 @@ class Loop:
             _, _, function, value = heapq.heappop(program.timers)
             function(value)
         for window in list(program.windows.values()):
-            if window.is_posted and window.is_visible:
+            if window.is_posted and window.is_visible and window.number not in program.destroyed:
                 self._display(window)
         while program.destroyed:
             number = program.destroyed.pop(0)
@@ -123,6 +123,7 @@ class Loop:
         size, window.due_size = window.due_size, None
         changed = size is not None and window.resize(size)
         if not window.is_new and not changed:
+            window.is_posted |= size is not None and size != window.size  # the user keeps another size
             return
         self.program.select(window)
         window.is_posted = True

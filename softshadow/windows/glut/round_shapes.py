@@ -24,8 +24,8 @@ def _circle(n: int, turn: int = 2) -> np.ndarray:
     The angles are float32, their sines are rounded from float64.
     """
     angle = F32(turn) * F32(math.pi) / F32(n)
-    angles = [float(angle * F32(step)) for step in range(abs(n))]
-    return np.array([(math.cos(each), math.sin(each)) for each in angles], F32)
+    angles = [float(angle * F32(step)) for step in range(1, abs(n))]
+    return np.array([(1.0, 0.0), *((math.cos(each), math.sin(each)) for each in angles)], F32)
 
 
 def _ring(slices: int, circle: np.ndarray, radius: Any, z: Any) -> np.ndarray:

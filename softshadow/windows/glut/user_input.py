@@ -76,6 +76,7 @@ def _point(program: Program, window: Window, event: Click | Drag) -> None:
     button = BUTTONS.index(event.button)
     if button in window.menus:
         desktop().tell(f"a click of the {event.button} button opens a menu; choose from it with --keys Menu:LABEL")
+        window.is_posted = True  # the menu has covered a part of it
         return
     _input(program, window, "Mouse", button, DOWN, event.x, event.y)
     place = event.x, event.y
@@ -89,6 +90,9 @@ def move_pointer(program: Program, window: Window, place: tuple[int, int]) -> No
     """Move the pointer, with no button pressed."""
     if desktop().pointer != place:
         desktop().pointer = place
+        if not window.is_entered:
+            window.is_entered = True
+            window.call("Entry", TOKENS["GLUT_ENTERED"])
         _input(program, window, "PassiveMotion", *place)
 
 

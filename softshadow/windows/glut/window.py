@@ -45,6 +45,7 @@ class Window:
     is_new: bool = True
     is_posted: bool = True
     is_visible: bool = True
+    is_entered: bool = False  # by the pointer
     cursor: int = TOKENS["GLUT_CURSOR_INHERIT"]
     data: Any = None
 
