@@ -74,7 +74,7 @@ def test_gl_calls_are_those_of_freeglut(tmp_path: Path, monkeypatch: pytest.Monk
     assert len(here) > 20_000
 
 
-KEYS = {  # names of X11 for each key
+KEYS: dict[str, str | int] = {  # names of X11 for each key
     "a": "a", "Shift+a": "Shift_L,a", "Ctrl+c": "Control_L,c", "Alt+x": "Alt_L,x", "Up": "Up", "Shift+F5": "Shift_L,F5",
     "WheelUp": 4, "WheelDown": 5, "Delete": "Delete", "Esc": "Escape", "Enter": "Return", "Ctrl+/": "Control_L,slash",
     "Ctrl+3": "Control_L,3", "Shift+1": "Shift_L,1", "Shift+Ctrl+a": "Shift_L,Control_L,a", "Tab": "Tab",
@@ -116,3 +116,4 @@ def test_clicks_and_drags_call_what_they_call_in_freeglut(tmp_path: Path) -> Non
     events = [*(("click", *place) for place in places), ("drag", 10, 20, 40, 60, 1)]
     real, here = callbacks(tmp_path, events, 5, clicks=CLICKS, drags=[(10, 20, 40, 60)])
     assert real == here
+    assert len(real) > 20
