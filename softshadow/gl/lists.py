@@ -18,7 +18,7 @@ from softshadow.gl.calls import in_lists, record, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.list_compiling import with_primitives
 from softshadow.gl.list_primitives import carry_out
-from softshadow.gl.names import reserve
+from softshadow.gl.names import has_memory_for, reserve
 from softshadow.gl.refusals import CONVERTING, refusal
 
 DEEPEST_LIST = 64
@@ -35,6 +35,8 @@ def glGenLists(range: int) -> int | None:
     context.flush()
     if range < 0:
         fail(gl.GL_INVALID_VALUE, "glGenLists", f"range={range}: expected 0 or more")
+        return None
+    if not has_memory_for("glGenLists", "range", range):
         return None
     if range == 0:
         return 0

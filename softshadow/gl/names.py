@@ -11,6 +11,16 @@ from softshadow.context import Context
 from softshadow.gl.errors import fail, outside_begin
 
 
+MOST_NAMES = 1 << 22  # that one call returns: more would fill the memory
+
+
+def has_memory_for(operation: str, argument: str, n: int) -> bool:
+    """Return whether a call may return so many names; record GL_OUT_OF_MEMORY otherwise."""
+    if n > MOST_NAMES:
+        fail(gl.GL_OUT_OF_MEMORY, operation, f"{argument}={n}: a call returns {MOST_NAMES} names at most")
+    return n <= MOST_NAMES
+
+
 def generate(operation: str, kind: str, n: int, names: Any = None) -> Any:
     """Return the names of a glGen* call: never used before, counting up as in Mesa.
 
@@ -20,6 +30,8 @@ def generate(operation: str, kind: str, n: int, names: Any = None) -> Any:
         return None
     if n < 0:
         return fail(gl.GL_INVALID_VALUE, operation, f"n={n}: expected 0 or more")
+    if not has_memory_for(operation, "n", n):
+        return None
     first = context.names[kind] + 1
     context.names[kind] += n
     generated = np.arange(first, first + n, dtype=np.uint32)

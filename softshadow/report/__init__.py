@@ -7,10 +7,11 @@ from softshadow.report.card_choice import CountingCards, counting_cards
 from softshadow.report.commands import options_spelled, scene_spelled
 from softshadow.report.counting_card import CountingCard
 from softshadow.report.cross_section_svg import save_svg, svg_and_words, svg_of
-from softshadow.report.cross_sections import Crossing, CrossSection, cross_section
+from softshadow.report.cross_sections import CrossSection, cross_section
 from softshadow.report.failure_page import FailurePage, write_failure_page
 from softshadow.report.page import Section, folder_writer, named, sections
 from softshadow.report.run_page import RunPage, write_run_page
+from softshadow.report.section_volumes import Crossing
 from softshadow.report.slide_deck import Slide, Slides, slides, step_slides
 from softshadow.report.tour_page import TourPage, Visit, write_tour_page
 from softshadow.report.view3d import View3D, view3d_document, view3d_of

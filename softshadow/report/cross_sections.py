@@ -16,30 +16,13 @@ import numpy as np
 from softshadow.errors import nearest
 from softshadow.inspection.hard_truth import seen_faces
 from softshadow.inspection.words import percent
-from softshadow.report.cut import cut_triangles, join_segments
-from softshadow.scene import Disc, Light, Rectangle, Scene, SceneObject, Segment
-from softshadow.techniques.shadow_volumes import CasterVolume, volumes_of
+from softshadow.report.cut import join_segments
+from softshadow.report.section_plane import NEARLY, SectionPlane, ends_of_light, visible_share
+from softshadow.report.section_volumes import Crossing, crossings_on_line, sides_of_volumes
+from softshadow.scene import Light, Scene, SceneObject
+from softshadow.techniques.shadow_volumes import volumes_of
 
 STRIPS = 160  # of the receivers, each with one shade
-NEARLY = 1e-9  # sine of an angle that counts as 0, and the share of the line of sight next to its end that is left out
-
-
-@dataclass(frozen=True)
-class Crossing:
-    """Where the line of sight crosses the face of a volume: +1 where it enters, -1 where it leaves.
-
-    Attributes
-    ----------
-    place : (2,) float64         in the section
-    step : int                   +1 or -1
-    count : int                  of the volumes that contain the line of sight behind this place
-    caster : str                 name
-    """
-
-    place: np.ndarray
-    step: int
-    count: int
-    caster: str
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -185,7 +168,7 @@ def cross_section(
     normal = normal / np.linalg.norm(normal)
     origin = source.position[:3] if source.position[3] else (middle if point is None else point)
     axes = _axes(normal, scene)
-    flat = _Flat(origin, axes, normal)
+    plane = SectionPlane(origin, axes, normal)
     volumes = volumes_of(scene, source, cap="finite")
     spread = 10 * float(np.ptp(np.concatenate([thing.world_positions for thing in scene.objects]), axis=0).max())
     far_center = axes @ source.position[:3] * spread / np.linalg.norm(source.position[:3])
@@ -196,72 +179,13 @@ def cross_section(
         origin,
         axes,
         center,
-        _ends(source, flat, middle) if source.position[3] else np.stack([center, center]),
-        {thing.name: _outlines(thing, flat) for thing in scene.objects},
-        _sides(volumes, flat, center),
-        None if eye is None else flat.project(eye),
-        None if point is None else flat.project(point),
-        () if eye is None or point is None else _crossings(volumes, eye, point, flat),
+        ends_of_light(source, plane, middle) if source.position[3] else np.stack([center, center]),
+        {thing.name: _outlines(thing, plane) for thing in scene.objects},
+        sides_of_volumes(volumes, plane, center),
+        None if eye is None else plane.project(eye),
+        None if point is None else plane.project(point),
+        () if eye is None or point is None else crossings_on_line(volumes, eye, point, plane),
     )
-
-
-def visible_share(place: np.ndarray, ends: np.ndarray, blockers: np.ndarray) -> float:
-    """Return the share of a line light that a point of the plane sees past blockers, exactly.
-
-    Parameters
-    ----------
-    place : (2,)
-    ends : (2, 2)                of the light; both equal for a point, whose share is 0 or 1
-    blockers : (N, 2, 2)         segments
-    """
-    axis = ends[1] - ends[0]
-    if not axis.any():
-        axis = 1e-9 * np.array([-(ends[0] - place)[1], (ends[0] - place)[0]])  # a point, as a very short line
-        ends = np.stack([ends[0] - axis / 2, ends[0] + axis / 2])
-    across = np.array([-axis[1], axis[0]])
-    height = float((ends[0] - place) @ across)
-    if height == 0 or not len(blockers):
-        return 1.0
-    # heights of the blockers' ends: 0 at the place, 1 at the light's line; what is not in between hides nothing
-    heights = (blockers - place) @ across / height
-    hidden = []
-    for (a, b), (low, high) in zip(blockers, heights, strict=True):
-        if low > high:
-            a, b, low, high = b, a, high, low
-        if high <= NEARLY or low >= 1 or (high == low and not NEARLY < low < 1):
-            continue
-        slope = (b - a) / (high - low) if high > low else np.zeros(2)
-        first, last = max(low, NEARLY), min(high, 1.0)
-        pair = [a + (first - low) * slope, a + (last - low) * slope] if high > low else [a, b]
-        levels = [first, last] if high > low else [low, low]
-        along = [
-            float((place + (end - place) / level - ends[0]) @ axis / (axis @ axis))
-            for end, level in zip(pair, levels, strict=True)
-        ]
-        hidden.append((max(min(along), 0.0), min(max(along), 1.0)))
-    covered, reached = 0.0, 0.0
-    for start, end in sorted(hidden):
-        covered += max(0.0, end - max(start, reached))
-        reached = max(reached, end)
-    return 1.0 - covered
-
-
-@dataclass(frozen=True)
-class _Flat:
-    """The plane of a section."""
-
-    origin: np.ndarray
-    axes: np.ndarray
-    normal: np.ndarray
-
-    def project(self, points: np.ndarray) -> np.ndarray:
-        """Return the coordinates (..., 2) of world points (..., 3)."""
-        projected: np.ndarray = (points - self.origin) @ self.axes.T
-        return projected
-
-    def cut(self, triangles: np.ndarray) -> np.ndarray:
-        """Return the segments (N, 2, 2) in which the plane cuts world triangles (T, 3, 3)."""
-        return self.project(cut_triangles(triangles, self.origin, self.normal))
 
 
 def _light_of(scene: Scene, name: str | None) -> Light:
@@ -299,109 +223,5 @@ def _axes(normal: np.ndarray, scene: Scene) -> np.ndarray:
     return np.stack([x if x @ scene.camera.frame[0] >= 0 else -x, y])
 
 
-def _ends(light: Light, flat: _Flat, middle: np.ndarray) -> np.ndarray:
-    """Return the ends (2, 2) of what the plane cuts out of a light; of a sphere its diameter across the view."""
-    center, shape = np.zeros(2), light.shape
-    if shape is None:
-        return np.stack([center, center])
-    if isinstance(shape, Segment):
-        in_plane = abs(shape.edge @ flat.normal) <= NEARLY * np.linalg.norm(shape.edge)
-        return flat.project(light.position[:3] + shape.corners) if in_plane else np.stack([center, center])
-    if isinstance(shape, Rectangle | Disc):
-        u, v = shape.half_axes
-        direction = np.cross(np.cross(u, v), flat.normal)
-        if np.linalg.norm(direction) > NEARLY * np.linalg.norm(u) * np.linalg.norm(v):
-            direction /= np.linalg.norm(direction)
-            a, b = direction @ u / (u @ u), direction @ v / (v @ v)
-            half = 1 / max(abs(a), abs(b)) if isinstance(shape, Rectangle) else shape.radius
-            return flat.project(light.position[:3] + np.outer([-half, half], direction))
-    across = flat.project(middle) @ np.array([[0.0, 1.0], [-1.0, 0.0]])
-    half = shape.bounding_radius / np.linalg.norm(across) if across.any() else 0.0
-    return np.stack([-half * across, half * across])
-
-
-def _outlines(thing: SceneObject, flat: _Flat) -> list[np.ndarray]:
-    return join_segments(flat.cut(thing.world_positions[thing.mesh.triangles]))
-
-
-def _in_world(volume: CasterVolume, homogeneous: np.ndarray) -> np.ndarray:
-    """Return finite homogeneous points (..., 4) of a caster's own space in world space (..., 3)."""
-    world = homogeneous.astype(np.float64) @ volume.caster.object_to_world.T
-    return np.asarray(world[..., :3] / world[..., 3:])
-
-
-def _sides(volumes: list[CasterVolume], flat: _Flat, center: np.ndarray) -> np.ndarray:
-    """Return the sides of the volumes in the section (S, 2, 2), each with the end nearer to the light first."""
-    found = [np.zeros((0, 2, 2))]
-    for volume in volumes:
-        quads = _in_world(volume, volume.volume.sides)
-        found.append(flat.cut(np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])))
-    segments = np.concatenate(found)
-    distances = np.linalg.norm(segments - center, axis=2)
-    ordered = np.where((distances[:, 0] <= distances[:, 1])[:, None, None], segments, segments[:, ::-1])
-    # each quad was cut as two triangles, so a side comes in two parts: the part behind goes on where the first ends
-    return _joined_sides(ordered)
-
-
-def _joined_sides(parts: np.ndarray) -> np.ndarray:
-    """Return the sides without the cuts along the diagonals of their quads."""
-    sides = [part.copy() for part in parts]
-    joined = True
-    while joined:
-        joined = False
-        for i, a in enumerate(sides):
-            size = max(float(np.abs(a).max()), 1.0)
-            for j, b in enumerate(sides):
-                if i != j and np.abs(a[1] - b[0]).max() <= 1e-7 * size:
-                    sides[i] = np.stack([a[0], b[1]])
-                    del sides[j]
-                    joined = True
-                    break
-            if joined:
-                break
-    return np.array(sides).reshape(-1, 2, 2)
-
-
-def _crossings(volumes: list[CasterVolume], eye: np.ndarray, point: np.ndarray, flat: _Flat) -> tuple[Crossing, ...]:
-    """Return where the line of sight crosses faces of volumes, from the eye on, without the surface itself."""
-    found: list[tuple[float, int, str]] = []
-    for volume in volumes:
-        solid, caster = volume.volume, volume.caster
-        quads = _in_world(volume, solid.sides)
-        positions = np.concatenate(
-            [caster.mesh.positions, np.ones((len(caster.mesh.positions), 1), np.float32)], axis=1
-        )
-        light_cap = np.concatenate([solid.light_cap, solid.light_cap_reversed[:, ::-1]])
-        triangles = np.concatenate(
-            [
-                quads[:, :3],
-                quads[:, [0, 2, 3]],
-                _in_world(volume, positions[light_cap]),
-                _in_world(volume, solid.dark_cap),
-            ]
-        )
-        for t, step in crossings_of(triangles, eye, point):
-            found.append((t, step, caster.name))
-    crossings, count = [], 0
-    for t, step, name in sorted(found):
-        count += step
-        crossings.append(Crossing(flat.project(eye + t * (point - eye)), step, count, name))
-    return tuple(crossings)
-
-
-def crossings_of(triangles: np.ndarray, start: np.ndarray, end: np.ndarray) -> list[tuple[float, int]]:
-    """Return for each triangle (T, 3, 3) that the open segment crosses: where (0 to 1), and +1 from its front, or -1.
-
-    Triangles are counter-clockwise from their front. The last 1e-9 of the segment is left out: there lies the surface
-    that it ends on.
-    """
-    a, b, c = (triangles - start).transpose(1, 0, 2)
-    direction = end - start
-    volumes = [np.cross(u, v) @ direction for u, v in ((a, b), (b, c), (c, a))]
-    normals = np.cross(b - a, c - a)
-    slope = normals @ direction
-    inside = np.all([v >= 0 for v in volumes], axis=0) | np.all([v <= 0 for v in volumes], axis=0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        t = (normals * a).sum(axis=1) / slope
-    crossed = inside & (slope != 0) & (t > 0) & (t < 1 - NEARLY)
-    return [(float(t[n]), 1 if slope[n] < 0 else -1) for n in np.flatnonzero(crossed)]
+def _outlines(thing: SceneObject, plane: SectionPlane) -> list[np.ndarray]:
+    return join_segments(plane.cut(thing.world_positions[thing.mesh.triangles]))

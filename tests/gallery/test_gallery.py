@@ -50,6 +50,7 @@ def test_planar_cure_paints_where_shadow_falls_and_nowhere_else(failure: Failure
         assert wrong_paint(replace(failure.cured, scene=failure.scene)).sum() <= failure.floor
 
 
+@pytest.mark.thin(3)
 def test_wrong_pixels_that_a_measure_leaves_out_are_told(failure: Failure) -> None:
     strict = STRICTER.get(failure.measure, failure.measure)
     wrong = strict(replace(failure.cured, scene=failure.scene)).sum()
@@ -66,6 +67,7 @@ def test_cure_is_better_everywhere_than_its_failure(failure: Failure) -> None:
     assert 2 * cured < wrong or failure.measure is darkened_twice
 
 
+@pytest.mark.thin(3)
 def test_pixel_to_click_has_two_colors(failure: Failure) -> None:
     x, y = failure.pixel
     assert differ(failure.wrong.image, failure.cured.image)[y, x]

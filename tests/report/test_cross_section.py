@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 import softshadow as ss
 from softshadow.report import cross_section, save_svg, svg_of
-from softshadow.report.cross_sections import visible_share
 from softshadow.report.cut import cut_triangles, join_segments
+from softshadow.report.section_plane import visible_share
 from softshadow.scene import Scene
 
 SIZE = (96, 72)

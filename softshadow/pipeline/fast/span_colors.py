@@ -86,7 +86,8 @@ def apply_environment_to_block(switches, numbers, unit, number, count, room):
         elif operation == ADD:
             for n in range(np.uint64(count)):
                 total = room[row + n] + room[texel + n]
-                room[row + n] = ONE if total >= ONE else total  # NaN stays
+                total = ZERO if total < ZERO else total  # NaN stays; lines and points have colours below 0
+                room[row + n] = ONE if total >= ONE else total
         elif operation == BLEND:
             for n in range(np.uint64(count)):
                 weight = room[texel + n]

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from draws import MIXING, draw, random_triangles, same_window
@@ -43,6 +43,7 @@ def test_small_opaque_draws_leave_the_bits_of_the_fill(seed):
     assert_same(seed, size=(40, 30))
 
 
+@example(675991)  # GL_ADD of texels and colours below 0
 @given(st.integers(0, 2**32 - 1))
 def test_bands_of_rows_keep_the_order(seed):
     before, worth = threads(), forward.WORTH_BANDS
