@@ -94,7 +94,7 @@ class DrawsLeftOut(Warning):
 
 
 class CallsLeftOut(Warning):
-    """A replay could not carry out calls of the recorded program: says which, and why."""
+    """A program's calls could not be carried out, or would show something else on a screen: says which, and why."""
 
 
 class HistoryCut(Warning):

@@ -14,21 +14,30 @@ from softshadow.cli.console import print_json, print_warnings_once, say_if_compi
 from softshadow.cli.replay import STEPS, print_steps
 from softshadow.cli.runs import _about
 
+BUTTONS = ("left", "middle", "right")
 
-class Place(click.ParamType):
-    """X,Y in pixels from the upper left."""
 
-    name = "X,Y"
+class Places(click.ParamType):
+    """Numbers of pixels from the upper left, and perhaps a button of the mouse."""
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
-        """Return (x, y) of a text such as "20,30"."""
+    def __init__(self, name: str, example: str) -> None:
+        self.name, self.example = name, example
+        self.n_numbers = example.count(",") + 1
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[Any, ...]:
+        """Return (x, y) of a text such as "20,30", or (x, y, "right")."""
         if isinstance(value, tuple):
             return value
+        parts = value.split(",")
+        numbers, button = parts[: self.n_numbers], parts[self.n_numbers :]
         try:
-            x, y = (int(part) for part in value.split(","))
+            if len(numbers) == self.n_numbers and (not button or button in [[name] for name in BUTTONS]):
+                return *map(int, numbers), *button
         except ValueError:
-            self.fail(f"{value!r}: expected X,Y in pixels, as in 20,30", param, ctx)
-        return x, y
+            pass
+        self.fail(
+            f"{value!r}: expected {self.name} in pixels, as in {self.example} or {self.example},right", param, ctx
+        )
 
 
 @click.command(
@@ -37,10 +46,31 @@ class Place(click.ParamType):
 )
 @click.argument("program", metavar="PROGRAM.py")
 @click.argument("arguments", nargs=-1)
-@click.option("--frames", type=int, metavar="N", help="Draw N frames.  [default: 1, and 1 for each key and click]")
+@click.option(
+    "--frames", type=int, metavar="N", help="Draw N frames.  [default: 1, and 1 for each key, click and drag]"
+)
 @click.option("--size", type=Size(), help="Window size in pixels.  [default: as the program asks]")
-@click.option("--keys", default="", metavar="KEYS", help='Keys like "a,b,Up": one is pressed after each frame.')
-@click.option("--click", "clicks", type=Place(), multiple=True, help="Click there, after the keys; repeatable.")
+@click.option(
+    "--keys",
+    default="",
+    metavar="KEYS",
+    help='Keys like "a,Up,Ctrl+c", WheelUp, or Menu:LABEL of a GLUT menu: one after each frame.',
+)
+@click.option(
+    "--click",
+    "clicks",
+    type=Places("X,Y", "20,30"),
+    multiple=True,
+    help="Click there, after the keys; X,Y,right for another button; repeatable.",
+)
+@click.option(
+    "--drag",
+    "drags",
+    type=Places("X,Y,X,Y", "20,30,40,50"),
+    multiple=True,
+    help="Drag from one place to another, after the clicks; repeatable.",
+)
+@click.option("--window", type=click.IntRange(1), default=1, metavar="N", help="Show the program's Nth GLUT window.")
 @click.option(
     "--steps", type=click.Choice(STEPS), default="auto", show_default=True,
     help="A step is a debug group (or draws under one state), a draw, or what follows a clear.",
@@ -51,8 +81,8 @@ class Place(click.ParamType):
 @as_json
 def run(
     program: str, arguments: tuple[str, ...], frames: int | None, size: tuple[int, int] | None, keys: str,
-    clicks: tuple[tuple[int, int], ...], steps: str, pixel: tuple[int, int] | None, output: str | None, force: bool,
-    as_json: bool,
+    clicks: tuple[Any, ...], drags: tuple[Any, ...], window: int, steps: str, pixel: tuple[int, int] | None,
+    output: str | None, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Run a PyOpenGL program without a screen, and show its last frame.
 
@@ -67,7 +97,7 @@ def run(
         check_path(target, force)
     with print_warnings_once(), redirect_stdout(sys.stderr):  # what the program prints is no part of the result
         say_if_compiling()
-        drawn = run_script(program, arguments, frames, size, keys, clicks, steps)
+        drawn = run_script(program, arguments, frames, size, keys, clicks, steps, drags, window)
     written = None if target is None else drawn.save(target, force=force)
     if as_json:
         explained = {}

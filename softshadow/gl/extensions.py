@@ -5,9 +5,11 @@ A name with the suffix of an extension means the core name if it was promoted un
 
 from __future__ import annotations
 
+import re
 from collections.abc import Container, Iterable
 from difflib import get_close_matches
-from fnmatch import fnmatchcase
+from fnmatch import translate
+from functools import cache
 
 # core names that were promoted unchanged, by suffix of their extension; * and ? as in file names
 PROMOTED = {
@@ -110,8 +112,13 @@ def plain_name(name: str, known: Container[str]) -> str | None:
     return None
 
 
+@cache
+def _promoted(suffix: str) -> re.Pattern[str]:
+    return re.compile("|".join(translate(pattern) for pattern in PROMOTED[suffix].split()))
+
+
 def _is_promoted(plain: str, suffix: str) -> bool:
-    return any(fnmatchcase(plain, pattern) for pattern in PROMOTED[suffix].split())
+    return _promoted(suffix).match(plain) is not None
 
 
 def extension_names(known: Iterable[str]) -> list[str]:

@@ -1,4 +1,4 @@
-"""The desktop that a program sees: one window, a clock, keys and clicks, and an end after some frames."""
+"""The desktop that a program sees: a window, a clock, and an end after some frames."""
 
 from __future__ import annotations
 
@@ -10,61 +10,47 @@ from softshadow.context import Context
 from softshadow.errors import StateError
 from softshadow.gl import create_context
 from softshadow.pipeline.commands import Command
+from softshadow.windows.events import Choice, Event
 
 FRAME_MS = 1000 / 60
-# names of keys for --keys that no single character spells
-SPECIAL_KEYS = ("Up", "Down", "Left", "Right", "PageUp", "PageDown", "Home", "End", "Insert",
-                *(f"F{number}" for number in range(1, 13)))  # fmt: skip
-NAMED_CHARACTERS = {"Space": " ", "Enter": "\r", "Tab": "\t", "Esc": "\x1b", "Comma": ",", "Backspace": "\b"}
 
 
 class ProgramEnded(BaseException):  # not an Exception, so that a program does not catch it
     """All frames have been drawn, or nothing more would happen."""
 
 
-@dataclass(frozen=True)
-class Key:
-    """A key that is pressed: a character, or one of `SPECIAL_KEYS`."""
-
-    name: str
-
-    @property
-    def is_special(self) -> bool:
-        """Whether the key has no character."""
-        return self.name in SPECIAL_KEYS
-
-
-@dataclass(frozen=True)
-class Click:
-    """A click of the left button: x from the left, y from the top."""
-
-    x: int
-    y: int
-
-
 @dataclass
 class Desktop:
-    """The only window of a program, and what happens to it.
+    """The window of a program that is shown, and what happens to it.
 
     Attributes
     ----------
     size : (width, height)       of the window, whatever the program asks for; None until it does
     n_frames : int               after so many the program ends; the last one is recorded
     events : list                one happens after each frame
+    shown : int                  which window of a GLUT program, from 1
     frame : int                  frames that have ended
     left_out : dict              calls that could not be made: how often
+    notes : dict                 what is otherwise than on a screen, in the order in which it was told
     program : str                path of the program
+    has_menus : bool             menus can be chosen from
     """
 
     size: tuple[int, int] | None = None
     n_frames: int = 1
-    events: list[Key | Click] = field(default_factory=list)
+    events: list[Event] = field(default_factory=list)
+    shown: int = 1
     frame: int = 0
     clock_ms: float = 0.0
     context: Context | None = None
     left_out: dict[str, int] = field(default_factory=dict)
+    notes: dict[str, None] = field(default_factory=dict)
     pointer: tuple[int, int] = (0, 0)
     program: str = ""
+    has_menus: bool = False
+
+    def __post_init__(self) -> None:
+        self.keeps_size = self.size is not None
 
     def open_window(self, width: int, height: int) -> Context:
         """Return the context of the window, which is created at the first call and made current.
@@ -97,16 +83,33 @@ class Desktop:
         self.context.frame.begin(self.context.storage)
         return True
 
-    def next_event(self) -> Key | Click | None:
-        """Return what happens next, or None."""
+    def resize(self, width: int, height: int) -> bool:
+        """Give the window another size, unless the user has chosen one; return whether it has changed."""
+        if self.context is None or self.keeps_size or self.size == (width, height):
+            return False
+        self.size = width, height
+        self.context.resize(width, height)
+        return True
+
+    def next_event(self) -> Event | None:
+        """Return what happens next, or None.
+
+        Raises
+        ------
+        StateError                   it is the choice of a menu's entry, and the program has no menus of GLUT
+        """
         event = self.events.pop(0) if self.events else None
-        if isinstance(event, Click):
-            self.pointer = event.x, event.y
+        if isinstance(event, Choice) and not self.has_menus:
+            raise StateError(f"Menu:{event.label}: the program has no menus of GLUT")
         return event
 
     def leave_out(self, name: str) -> None:
         """Count a call that could not be made."""
         self.left_out[name] = self.left_out.get(name, 0) + 1
+
+    def tell(self, note: str) -> None:
+        """Note once what the picture or the program lacks, for the user."""
+        self.notes[note] = None
 
 
 _desktops: list[Desktop] = []
@@ -125,25 +128,3 @@ def running(program: Desktop) -> Iterator[None]:
         yield
     finally:
         _desktops.pop()
-
-
-def keys_of(text: str) -> list[Key | Click]:
-    """Return the keys that a text such as "a,b,Up" names.
-
-    Raises
-    ------
-    ValueError                   a name is neither a character nor that of a key
-
-    Examples
-    --------
-    >>> keys_of("a,Up,Space")
-    [Key(name='a'), Key(name='Up'), Key(name=' ')]
-    """
-    keys: list[Key | Click] = []
-    for name in text.split(",") if text else []:
-        spelled = NAMED_CHARACTERS.get(name, name)
-        if len(spelled) != 1 and spelled not in SPECIAL_KEYS:
-            names = ", ".join((*NAMED_CHARACTERS, *SPECIAL_KEYS))
-            raise ValueError(f"keys={text!r}: {name!r} is no key; expected a character or one of {names}")
-        keys.append(Key(spelled))
-    return keys

@@ -11,6 +11,7 @@ from types import FrameType, ModuleType
 from typing import Any
 
 from softshadow import gl
+from softshadow.context import thread
 from softshadow.gl import GLError
 from softshadow.recordings.draw_calls import is_draw
 from softshadow.recordings.draw_labels import DrawLabels
@@ -20,7 +21,7 @@ from softshadow.windows.glut import Glut
 from softshadow.windows.pygame_window import pygame_modules
 
 CALL = re.compile(r"\bgl(?:u|ut)?[A-Z]\w*")
-DRAWN_BY_GLUT = re.compile("glut(Solid|Wire)")
+DRAWN_BY_GLUT = re.compile("glut(Solid|Wire|(Bitmap|Stroke)(Character|String))")
 LABELS = DrawLabels()
 MOST_FILES = 200  # of the program's folder that are searched for the names of calls
 REPLACED = ("OpenGL", "pygame", "glfw")
@@ -54,13 +55,15 @@ def labelled(name: str, function: Callable[..., Any]) -> Callable[..., Any]:
 
     def draw(*arguments: Any, **named: Any) -> Any:
         context = desktop().context
-        if context is None:
+        if context is None or thread.context is not context:
             return function(*arguments, **named)
         return LABELS.draw(context, _line_of(sys._getframe(1)), lambda: function(*arguments, **named))
 
     def end(*arguments: Any) -> Any:
         context = desktop().context
-        return function(*arguments) if context is None else LABELS.end(context, lambda: function(*arguments))
+        if context is None or thread.context is not context:
+            return function(*arguments)
+        return LABELS.end(context, lambda: function(*arguments))
 
     call = end if name == "glEnd" else draw
     call.__name__ = name

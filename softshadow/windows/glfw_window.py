@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from softshadow.windows.desktop import Click, Key, desktop
+from softshadow.windows.desktop import desktop
+from softshadow.windows.events import SHIFTED, Click, Drag, Key, Wheel
 
 PRESS, RELEASE, REPEAT = 1, 0, 2
 SPECIAL = {
@@ -19,6 +20,9 @@ SPELLED = {  # names of keys in the package
     **{f"F{number}": 289 + number for number in range(1, 13)}, **{chr(code): code for code in range(65, 91)},
     **{chr(code): code for code in range(48, 58)},
 }  # fmt: skip
+BUTTONS = {"left": 0, "right": 1, "middle": 2}
+HELD = {"Shift": 1, "Ctrl": 2, "Alt": 4}
+UNSHIFTED = {shifted: key for key, shifted in SHIFTED.items()}
 CALLBACKS = (
     "key", "char", "mouse_button", "cursor_pos", "scroll", "framebuffer_size", "window_size", "error", "window_close",
     "window_refresh", "cursor_enter", "window_focus",
@@ -47,6 +51,7 @@ class Glfw:
         named: dict[str, Any] = {f"KEY_{name}": code for name, code in SPELLED.items()}
         named |= {hint: 0x20000 + number for number, hint in enumerate(HINTS)}
         named |= {"PRESS": PRESS, "RELEASE": RELEASE, "REPEAT": REPEAT, "TRUE": 1, "FALSE": 0}
+        named |= {"MOD_SHIFT": 1, "MOD_CONTROL": 2, "MOD_ALT": 4}
         named |= {"MOUSE_BUTTON_LEFT": 0, "MOUSE_BUTTON_RIGHT": 1, "MOUSE_BUTTON_MIDDLE": 2}
         named |= {name: lambda *_: None for name in WITHOUT_EFFECT}
         named |= {f"set_{name}_callback": self._setter(name) for name in CALLBACKS}
@@ -90,16 +95,26 @@ class Glfw:
             return
         event = desktop().next_event()
         if isinstance(event, Key):
-            code = SPECIAL.get(event.name) or NAMED.get(event.name) or ord(event.name.upper())
+            plain = UNSHIFTED.get(event.name, event.name.upper())
+            code = SPECIAL.get(event.name) or NAMED.get(event.name) or ord(plain)
             self.pressed.add(code)
+            held = sum(HELD[name] for name in event.modifiers)
             for action in (PRESS, RELEASE):
-                self._call("key", 1, code, 0, action, 0)
-            if not event.is_special:
+                self._call("key", 1, code, 0, action, held)
+            if not event.is_special and not {"Ctrl", "Alt"} & set(event.modifiers):
                 self._call("char", 1, ord(event.name))
-        elif isinstance(event, Click):
-            self._call("cursor_pos", 1, float(event.x), float(event.y))
-            for action in (PRESS, RELEASE):
-                self._call("mouse_button", 1, 0, action, 0)
+        elif isinstance(event, Wheel):
+            self._call("scroll", 1, 0.0, float(event.direction))
+        elif isinstance(event, Click | Drag):
+            self._move((event.x, event.y))
+            self._call("mouse_button", 1, BUTTONS[event.button], PRESS, 0)
+            if isinstance(event, Drag):
+                self._move((event.to_x, event.to_y))
+            self._call("mouse_button", 1, BUTTONS[event.button], RELEASE, 0)
+
+    def _move(self, place: tuple[int, int]) -> None:
+        desktop().pointer = place
+        self._call("cursor_pos", 1, float(place[0]), float(place[1]))
 
     def _call(self, name: str, *arguments: Any) -> None:
         function = self.callbacks.get(name)

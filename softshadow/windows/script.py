@@ -17,7 +17,8 @@ from softshadow.recordings.recorded_run import run_of
 from softshadow.recordings.steps import check_way
 from softshadow.runs import Run
 from softshadow.runs.perform import checked_size
-from softshadow.windows.desktop import Click, Desktop, ProgramEnded, keys_of, running
+from softshadow.windows.desktop import Desktop, ProgramEnded, running
+from softshadow.windows.events import click_of, drag_of, keys_of
 from softshadow.windows.facades import modules_for, replaced_modules
 
 ENDS = (ProgramEnded, SystemExit)
@@ -29,13 +30,15 @@ def run_script(
     frames: int | None = None,
     size: tuple[int, int] | None = None,
     keys: str = "",
-    clicks: Sequence[tuple[int, int]] = (),
+    clicks: Sequence[tuple[int, int] | tuple[int, int, str]] = (),
     steps: str = "auto",
+    drags: Sequence[tuple[int, int, int, int] | tuple[int, int, int, int, str]] = (),
+    window: int = 1,
 ) -> Run:
     """Run a program that draws by PyOpenGL with GLUT, pygame or GLFW, without a screen; return its last frame.
 
     ``OpenGL``, ``pygame`` and ``glfw`` are modules of this package while the program runs. It ends after its last
-    frame. After each frame before it, a key is pressed or a click happens, as long as there are any.
+    frame. After each frame before it, a key is pressed or a click or drag happens, as long as there are any.
 
     Parameters
     ----------
@@ -43,9 +46,12 @@ def run_script(
     arguments : sequence of str  for the program's ``sys.argv``
     frames : int                 how many to draw; by default one more than keys and clicks
     size : (width, height)       of the window; by default, what the program asks for
-    keys : str                   like "a,b,Up"
-    clicks : sequence of (x, y)  of the left button, after the keys; y from the top
+    keys : str                   like "a,b,Up,Ctrl+c"; also "WheelUp", "WheelDown", and "Menu:label" for an entry of a
+                                 GLUT menu
+    clicks : sequence of (x, y)  or (x, y, "right"), after the keys; y from the top
     steps : str                  how to divide the frame: "groups", "draws", "clears" or "auto"
+    drags : sequence of (x, y, to_x, to_y)  or with the button, too; after the clicks
+    window : int                 which window of a GLUT program is shown, in the order in which they are opened
 
     Raises
     ------
@@ -57,11 +63,13 @@ def run_script(
     program = Path(path)
     if not program.is_file():
         raise SoftShadowError(f"{path}: there is no such file")
-    events = [*keys_of(keys), *(Click(int(x), int(y)) for x, y in clicks)]
+    events = [*keys_of(keys), *map(click_of, clicks), *map(drag_of, drags)]
     n_frames = len(events) + 1 if frames is None else frames
     if n_frames < 1:
         raise ValueError(f"frames={frames}: expected 1 or more")
-    desktop = Desktop(None if size is None else checked_size(size), n_frames, events, program=str(program))
+    if window < 1:
+        raise ValueError(f"window={window}: expected 1 or more")
+    desktop = Desktop(None if size is None else checked_size(size), n_frames, events, window, program=str(program))
     before = thread.context
     try:
         modules = modules_for(program)
@@ -99,12 +107,14 @@ def _as_main(program: Path, arguments: Sequence[str]) -> Iterator[None]:
 def _run_of(desktop: Desktop, name: str, steps: str) -> Run:
     context = desktop.context
     if context is None:
-        raise SoftShadowError(f"{name}: the program opened no window")
+        which = f"window {desktop.shown}" if desktop.shown > 1 else "window"
+        raise SoftShadowError(f"{name}: the program opened no {which}")
     context.finish()
     messages = [
         CallsLeftOut(f"{call} ({count} call{'' if count == 1 else 's'}), missing call")
         for call, count in desktop.left_out.items()
     ]
+    messages += [CallsLeftOut(note) for note in desktop.notes]
     if desktop.frame < desktop.n_frames:
         messages.append(CallsLeftOut(f"the program drew {desktop.frame} of {desktop.n_frames} frames and ended"))
     for message in messages:

@@ -13,7 +13,8 @@ import pytest
 from softshadow import gl
 from softshadow.recordings.draw_calls import is_query
 from softshadow.runs import Run
-from softshadow.windows import facades, glut, run_script, shapes
+from softshadow.windows import facades, run_script
+from softshadow.windows.glut import drawing, fonts, loop
 
 
 class LoggedGL:
@@ -41,7 +42,7 @@ def _copied(value: Any) -> Any:
 def run_logged(monkeypatch: pytest.MonkeyPatch, path: Path, **options: Any) -> tuple[Run, Callable[[Any], None]]:
     """Return the last frame of a program, and ``program(gl)`` that makes all its calls."""
     log = LoggedGL()
-    for module in (facades, glut, shapes):
+    for module in (facades, drawing, fonts, loop):
         monkeypatch.setattr(module, "gl", log)
     run = run_script(path, **options)
     return run, partial(_play, log.calls)

@@ -18,16 +18,19 @@ def keyboard(key, x, y):
     global color
     if key == b"g":
         color = (0.0, 1.0, 0.0)
+    glutPostRedisplay()
 
 def special(key, x, y):
     global color
     if key == GLUT_KEY_UP:
         color = (0.0, 0.0, 1.0)
+    glutPostRedisplay()
 
 def mouse(button, state, x, y):
     global color
     if state == GLUT_DOWN:
         color = (x / 16, y / 12, 0.0)
+        glutPostRedisplay()
 
 glutInit(sys.argv)
 glutInitDisplayMode(GLUT_DOUBLE | GLUT_RGB | GLUT_DEPTH)

@@ -1,0 +1,5 @@
+"""GLUT without a screen."""
+
+from softshadow.windows.glut.glut import Glut
+
+__all__ = ["Glut"]

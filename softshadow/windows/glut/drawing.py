@@ -1,0 +1,100 @@
+"""Shapes drawn by the GL calls of freeglut 3.4: from vertex arrays of positions and normals, in float32."""
+
+from __future__ import annotations
+
+import operator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from softshadow import gl
+from softshadow.windows.desktop import desktop
+
+MOST_VERTICES = 1 << 16  # that indices of 16 bits can name
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Positions and normals, float32 (n, 3), and texture coordinates (n, 2) if there are any."""
+
+    positions: np.ndarray
+    normals: np.ndarray
+    texcoords: np.ndarray | None = None
+
+
+def count(call: str, name: str, value: Any) -> int:
+    """Return an argument that is a whole number.
+
+    Raises
+    ------
+    TypeError                    it is not, which ctypes refuses, too
+    """
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise TypeError(f"{call}({name}={value!r}): expected an int") from None
+
+
+def indices(rows: Any) -> np.ndarray:
+    """Return rows of indices as GL_UNSIGNED_SHORT; those from 65536 on begin again at 0."""
+    values = np.asarray(rows, np.int64)
+    if values.size and values.max() >= MOST_VERTICES:
+        desktop().tell("a shape of GLUT has more than 65535 vertices; their numbers begin again at 0, as in freeglut")
+    return values.astype(np.uint16)
+
+
+def _begin(surface: Surface) -> None:
+    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glEnableClientState(gl.GL_NORMAL_ARRAY)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, surface.positions)
+    gl.glNormalPointer(gl.GL_FLOAT, 0, surface.normals)
+    if surface.texcoords is not None:
+        gl.glEnableClientState(gl.GL_TEXTURE_COORD_ARRAY)
+        gl.glTexCoordPointer(2, gl.GL_FLOAT, 0, surface.texcoords)
+
+
+def _end(surface: Surface) -> None:
+    gl.glDisableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glDisableClientState(gl.GL_NORMAL_ARRAY)
+    if surface.texcoords is not None:
+        gl.glDisableClientState(gl.GL_TEXTURE_COORD_ARRAY)
+
+
+def draw_triangles(surface: Surface, corners: np.ndarray | None = None) -> None:
+    """Draw triangles of all vertices in order, or of those that indices name."""
+    _begin(surface)
+    if corners is None:
+        gl.glDrawArrays(gl.GL_TRIANGLES, 0, len(surface.positions))
+    else:
+        gl.glDrawElements(gl.GL_TRIANGLES, corners.size, gl.GL_UNSIGNED_SHORT, corners)
+    _end(surface)
+
+
+def draw_strips(surface: Surface, strips: np.ndarray) -> None:
+    """Draw a triangle strip for each row of indices."""
+    _begin(surface)
+    _draw_rows(gl.GL_TRIANGLE_STRIP, strips)
+    _end(surface)
+
+
+def draw_lines(surface: Surface, mode: int, rows: np.ndarray, loops: np.ndarray | None = None) -> None:
+    """Draw lines of a mode for each row of indices, then a loop for each row of others."""
+    _begin(surface)
+    _draw_rows(mode, rows)
+    if loops is not None:
+        _draw_rows(gl.GL_LINE_LOOP, loops)
+    _end(surface)
+
+
+def draw_faces_as_loops(surface: Surface, size: int) -> None:
+    """Draw a line loop for each `size` vertices."""
+    _begin(surface)
+    for first in range(0, len(surface.positions), size):
+        gl.glDrawArrays(gl.GL_LINE_LOOP, first, size)
+    _end(surface)
+
+
+def _draw_rows(mode: int, rows: np.ndarray) -> None:
+    for row in rows:
+        gl.glDrawElements(mode, len(row), gl.GL_UNSIGNED_SHORT, row)
