@@ -36,7 +36,7 @@ from softshadow.state import State
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS, any_state_kernel
     from softshadow.pipeline.fast.batch.table import Run, can_begin_run
-    from softshadow.pipeline.fast.depth_only import Chunk, chunks_of, fill_in_blocks, window_mesh
+    from softshadow.pipeline.fast.depth_only import Chunk, chunks_of, fill_in_blocks, threads_of_blocks, window_mesh
     from softshadow.pipeline.fast.fixed_function_spans import SPAN_KERNELS, fixed_function_shader
     from softshadow.pipeline.fast.forward import draw_forward, forward_state
     from softshadow.pipeline.fast.geometry_cache import cached_geometry
@@ -298,21 +298,23 @@ def _band_rows_log2(region: Region, fragments: int) -> int:
 def fill_colorless(plan: Plan, command: Draw, target: Framebuffer) -> Iterator[Chunk]:
     """Yield the triangles of a draw without colours in chunks to fill; fill them here where blocks of them pay.
 
-    Blocks are for one thread, and for triangles without many layers: `FillChoice` has bands for those.
+    Blocks are for triangles without many layers: `FillChoice` has bands for those.
     """
     mesh, front, back = window_mesh(command, target), plan.front, plan.back
     if mesh.region.first_row >= mesh.region.end_row:
         return
     tests_stencil, writes_depth = front.stencil_test or back.stencil_test, front.depth_write or back.depth_write
     fragments, depth = mesh.fragments(), target.depth
-    in_blocks = threads() == 1 and writes_depth and not tests_stencil and mesh.units is None
+    n_threads = threads_of_blocks(mesh, front, back)
+    in_blocks = n_threads and writes_depth and not tests_stencil and mesh.units is None
     if depth is None or not in_blocks or _has_layers(mesh.region, fragments):
         yield from chunks_of(mesh)
     elif not _pays(FILL_KERNELS, fragments + SMALL_TRIANGLE * len(mesh.clipped.triangles)):
         yield from chunks_of(mesh)
     else:
         plan.path.fill = "vectors"
-        fill_in_blocks(mesh, front, back, depth_range_of(command.state, mesh.window.dtype.type), depth.cells)
+        depth_range = depth_range_of(command.state, mesh.window.dtype.type)
+        fill_in_blocks(mesh, front, back, depth_range, depth.cells, n_threads)
 
 
 def choose_forward(

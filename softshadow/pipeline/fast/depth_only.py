@@ -2,7 +2,8 @@
 
 No fragment is shaded, so the triangles are not needed after the fill: those of a chunk are set up, filled and dropped
 before the next chunk, which uses the same memory. Fresh pages for the million triangles of a mesh would take the system
-as long as setting the triangles up. One thread alone takes blocks of triangles that stay in the first-level cache.
+as long as setting the triangles up. Each thread takes blocks of triangles that stay in the first-level cache, if each
+can fill a depth buffer of its own: where the smallest depth counts, in whatever order.
 """
 
 from __future__ import annotations
@@ -35,13 +36,18 @@ from softshadow.pipeline.geometry.triangle_setup import (
     stored_culling,
 )
 from softshadow.pipeline.geometry.vertex import append_rows, to_window
-from softshadow.pipeline.memory.threads import parts_of, share
+from softshadow.pipeline.memory.scratch import scratch
+from softshadow.pipeline.memory.threads import parts_of, share, threads
 from softshadow.pipeline.raster.fragment_ops import FragmentOps
 from softshadow.pipeline.raster.region import region_of
 from softshadow.pipeline.records import DepthRange, Region, Setup
+from softshadow.tokens import GL_LEQUAL, GL_LESS
 
 FILL = KERNELS[False, False]  # without stencil test, without ids
 BLOCK = 256  # triangles; 15 KB
+WORTH_BLOCKS = 4_000  # triangles from which threads fill depth buffers of their own,
+PIXELS_PER_TRIANGLE = 32  # and one more for so many pixels, which are cleared and compared in the end
+FAR = np.inf  # any depth is smaller
 EVERY = 64  # triangles, of which one is measured
 CHUNK_TRIANGLES = 1 << 19  # 30 MB; measured: smaller chunks cost more in calls than they save in cache misses
 
@@ -121,17 +127,61 @@ def window_mesh(command: Draw, target: Framebuffer) -> WindowMesh:
     )  # fmt: skip
 
 
+def threads_of_blocks(mesh: WindowMesh, front: FragmentOps, back: FragmentOps) -> int:
+    """Return how many threads fill blocks of triangles, 0 where chunks are the faster."""
+    if threads() == 1:
+        return 1
+    region, n_triangles = mesh.region, len(mesh.clipped.triangles)
+    pixels = (region.right - region.left) * (region.end_row - region.first_row)
+    pays = n_triangles >= WORTH_BLOCKS + pixels / PIXELS_PER_TRIANGLE
+    return threads() if pays and _keeps_nearest(front, back) else 0
+
+
+def _keeps_nearest(front: FragmentOps, back: FragmentOps) -> bool:
+    """Return whether a pixel keeps the smallest depth of all its fragments, of equal ones the first or the last."""
+    nearest = all(ops.depth_test and ops.depth_write and not ops.stencil_test for ops in (front, back))
+    return nearest and front.depth_func == back.depth_func and front.depth_func in (GL_LESS, GL_LEQUAL)
+
+
 def fill_in_blocks(
-    mesh: WindowMesh, front: FragmentOps, back: FragmentOps, depth_range: DepthRange, depth: np.ndarray
+    mesh: WindowMesh,
+    front: FragmentOps,
+    back: FragmentOps,
+    depth_range: DepthRange,
+    depth: np.ndarray,
+    n_threads: int = 1,
 ) -> None:
-    """Set up and fill triangles without stencil test, a block of them at a time."""
+    """Set up and fill triangles without stencil test, a block of them at a time.
+
+    Several threads share them if `threads_of_blocks` says so: the first part goes to `depth`, any other one to a buffer of its own.
+    """
     visible = read_only(mesh.clipped.visible(0, len(mesh.clipped.triangles)))
-    block = empty_setup(BLOCK, mesh.window.dtype)
-    fill_blocks(
-        mesh.window, mesh.snapped, visible, *mesh.facing, mesh.offset, *numbers_of(front, back), front.depth_largest,
-        mesh.region, depth_range, depth, np.empty((1, 1), np.uint8), np.empty((1, 1), np.int32),
-        np.arange(BLOCK, dtype=np.int32), *block, fill_scratch(depth.shape[1], mesh.region),
-    )  # fmt: skip
+    numbers, rows = numbers_of(front, back), slice(mesh.region.first_row, mesh.region.end_row)
+    ends = [len(visible) * n // n_threads for n in range(n_threads + 1)]
+
+    def fill_part(n: int) -> np.ndarray:
+        buffer = scratch(depth.shape, depth.dtype) if n else depth
+        if n:
+            buffer[rows] = FAR
+        fill_blocks(
+            mesh.window, mesh.snapped, visible[ends[n] : ends[n + 1]], *mesh.facing, mesh.offset, *numbers,
+            front.depth_largest, mesh.region, depth_range, buffer, np.empty((1, 1), np.uint8),
+            np.empty((1, 1), np.int32), np.arange(BLOCK, dtype=np.int32), *empty_setup(BLOCK, mesh.window.dtype),
+            fill_scratch(depth.shape[1], mesh.region),
+        )  # fmt: skip
+        return buffer
+
+    for later in share(fill_part, n_threads)[1:]:
+        keep_nearest(later[rows], front.depth_func == GL_LEQUAL, depth[rows])
+
+
+@kernel
+def keep_nearest(later, or_equal, depth):
+    """Write the smaller depths to `depth`, as if the fragments of `later` came after those in it."""
+    for j in range(depth.shape[0]):
+        for i in range(depth.shape[1]):
+            z, stored = later[j, i], depth[j, i]
+            depth[j, i] = z if z < stored or (or_equal and z == stored) else stored
 
 
 @allocating_kernel

@@ -13,7 +13,7 @@ from softshadow.context import Context
 from softshadow.pipeline import choose, set_threads, threads, use_short_cuts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast import depth_only
-from softshadow.pipeline.fast.depth_only import chunks_of, window_mesh
+from softshadow.pipeline.fast.depth_only import chunks_of, fill_in_blocks, window_mesh
 from softshadow.pipeline.memory import threads as pool
 from softshadow.pipeline.raster.coverage import extent
 from softshadow.pipeline.raster.region import region_of
@@ -64,17 +64,53 @@ def test_chunks_leave_the_bits_of_all_triangles_at_once(seed, depth_format, n_th
             set_threads(before)
 
 
-@given(seeds)
-def test_blocks_leave_the_bits_of_all_triangles_at_once(seed):
-    expected, before = all_at_once(seed, "d24"), threads()
+@given(seeds, st.sampled_from(["d24", "d32f"]), st.sampled_from([1, 2, 3]))
+def test_blocks_leave_the_bits_of_all_triangles_at_once(seed, depth_format, n_threads):
+    expected, before = all_at_once(seed, depth_format), threads()
     with pytest.MonkeyPatch.context() as patch, use_short_cuts("always"):
         patch.setattr(depth_only, "EVERY", 1)
+        patch.setattr(depth_only, "WORTH_BLOCKS", 0)
+        patch.setattr(depth_only, "PIXELS_PER_TRIANGLE", 1 << 20)
         patch.setattr(choose, "LAYERS", 1 << 20)  # so that layers do not need bands
-        set_threads(1)
+        set_threads(n_threads)
         try:
-            assert same_window(draw_without_colors(seed, "d24"), expected)
+            assert same_window(draw_without_colors(seed, depth_format), expected)
         finally:
             set_threads(before)
+
+
+@pytest.mark.parametrize("func", [gl.GL_LESS, gl.GL_LEQUAL])
+@pytest.mark.parametrize("seed", range(4))
+def test_threads_share_blocks_where_the_nearest_depth_counts(monkeypatch, seed, func):
+    shared: list[int] = []
+
+    def spy(*arguments):
+        shared.append(arguments[-1])
+        fill_in_blocks(*arguments)
+
+    def drawn() -> Context:
+        rng, context = np.random.default_rng(seed), Context(70, 60, "d24")
+        depth = replace(context.state.depth, enabled=True, func=func)
+        state = replace(context.state, depth=depth, color=replace(context.state.color, mask=(False,) * 4))
+        for _ in range(2):
+            draw(context, state, random_triangles(rng, 80))
+        return context
+
+    monkeypatch.setattr(choose, "fill_in_blocks", spy)
+    monkeypatch.setattr(depth_only, "EVERY", 1)
+    monkeypatch.setattr(depth_only, "WORTH_BLOCKS", 0)
+    monkeypatch.setattr(depth_only, "PIXELS_PER_TRIANGLE", 1 << 20)
+    monkeypatch.setattr(choose, "LAYERS", 1 << 40)
+    before = threads()
+    set_threads(2)
+    try:
+        with use_short_cuts("always"):
+            result = drawn()
+        with use_short_cuts(False):
+            assert same_window(result, drawn())
+    finally:
+        set_threads(before)
+    assert shared == [2, 2]
 
 
 def test_draws_that_change_depths_alone_are_filled_in_blocks(monkeypatch):
