@@ -153,7 +153,8 @@ def fill_in_blocks(
 ) -> None:
     """Set up and fill triangles without stencil test, a block of them at a time.
 
-    Several threads share them if `threads_of_blocks` says so: the first part goes to `depth`, any other one to a buffer of its own.
+    Several threads (see `threads_of_blocks`) share them: the first part goes to `depth`, any other one to a buffer of
+    its own.
     """
     visible = read_only(mesh.clipped.visible(0, len(mesh.clipped.triangles)))
     numbers, rows = numbers_of(front, back), slice(mesh.region.first_row, mesh.region.end_row)
