@@ -74,6 +74,7 @@ from softshadow.gl.texture_residence import *
 from softshadow.gl.texture_units import *
 from softshadow.gl.textures import *
 from softshadow.gl.transforms import *
+from softshadow.gl.typed_images import *
 from softshadow.gl.vertex_arrays import *
 from softshadow.gl.vertex_attributes import *
 from softshadow.programs import fixed_function  # of most draws: loaded here, not within the first frame

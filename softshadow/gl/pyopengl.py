@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Callable
 from typing import Any
 
@@ -13,6 +14,7 @@ from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.immediate import glVertex2f, glVertex3f, glVertex4f
 from softshadow.gl.lighting import glLightfv
 from softshadow.gl.materials import glMaterialf, glMaterialfv
+from softshadow.gl.raster_position import glRasterPos2d, glRasterPos3d, glRasterPos4d
 from softshadow.gl.texture_coordinates import glTexCoord2d
 from softshadow.gl.textures import glTexParameterf, glTexParameterfv, glTexParameteri
 from softshadow.gl.transforms import glRotated, glScaled, glTranslated
@@ -47,6 +49,13 @@ def glColor(*arguments: Any) -> None:
         calls[len(arguments)](*arguments)
 
 
+def glRasterPos(*arguments: Any) -> None:
+    """Set the raster position from two to four numbers, or from a vector."""
+    numbers = arguments[0] if len(arguments) == 1 else arguments
+    calls: dict[int, Callable[..., None]] = {2: glRasterPos2d, 3: glRasterPos3d, 4: glRasterPos4d}
+    calls[len(numbers)](*numbers)
+
+
 def glMaterial(face: int, pname: int, *arguments: Any) -> None:
     """Set a material parameter from a vector or a number."""
     if len(arguments) == 1:
@@ -64,10 +73,13 @@ def glTexParameter(target: int, pname: int, parameter: Any) -> None:
 # -- type and size of an array -----------------------------------------------------------------------------------------
 def _sized(
     name: str, call: Callable[..., None], type: int, largest: int, otherwise: int | None
-) -> Callable[[Any], np.ndarray]:
+) -> Callable[[Any], Any]:
     """Return a pointer call that takes type and size from an array (n, size), or the size `otherwise`."""
 
-    def point(array: Any) -> np.ndarray:
+    def point(array: Any) -> Any:
+        if array is None or isinstance(array, ctypes.c_void_p):  # an offset into the buffer object that is bound
+            call(*(() if otherwise is None else (otherwise,)), type, 0, array)
+            return array
         values = np.ascontiguousarray(array, TYPES[type])
         size = values.shape[-1] if values.ndim > 1 and values.shape[-1] <= largest else otherwise
         call(*(() if otherwise is None else (size,)), type, 0, values)

@@ -1,5 +1,8 @@
 """GLU's quadrics: spheres, cylinders and disks, drawn in immediate mode.
 
+A function returns the calls of each shape; those of small shapes are kept, because programs draw the same shapes again
+and again.
+
 Coordinates are computed in the precision and order of libGLU's quad.c: tables of sines and cosines in float32, products
 with doubles in double precision.
 """
@@ -9,7 +12,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -35,7 +39,44 @@ from softshadow.gl.vertex_attributes import glNormal3f
 
 F32 = np.float32
 MOST = 239  # slices and stacks
+KEPT_SHAPES, KEPT_PLACES = 32, 2500  # shapes whose calls are kept, and their largest slices * stacks: below 70 MB
 Table = list[float]  # float32 numbers
+
+
+class Calls:
+    """The calls that draw a shape."""
+
+    def __init__(self) -> None:
+        self.calls: list[tuple[Callable[..., None], tuple[Any, ...]]] = []
+
+    def begin(self, mode: int) -> None:
+        """Add glBegin."""
+        self.calls.append((glBegin, (mode,)))
+
+    def end(self) -> None:
+        """Add glEnd."""
+        self.calls.append((glEnd, ()))
+
+    def vertex(self, x: float, y: float, z: float) -> None:
+        """Add glVertex3f."""
+        self.calls.append((glVertex3f, (x, y, z)))
+
+    def normal(self, x: float, y: float, z: float) -> None:
+        """Add glNormal3f."""
+        self.calls.append((glNormal3f, (x, y, z)))
+
+    def coordinates(self, s: float, t: float) -> None:
+        """Add glTexCoord2f."""
+        self.calls.append((glTexCoord2f, (s, t)))
+
+
+class Manner(NamedTuple):
+    """How a quadric is drawn."""
+
+    normals: int
+    has_texture: bool
+    orientation: int
+    style: int
 
 
 @dataclass(eq=False)
@@ -47,6 +88,10 @@ class GLUquadric:
     orientation: int = GLU_OUTSIDE
     style: int = GLU_FILL
     on_error: Callable[[int], Any] | None = None
+
+    def manner(self) -> Manner:
+        """Return how shapes are drawn now."""
+        return Manner(self.normals, self.has_texture, self.orientation, self.style)
 
     def fail(self, code: int) -> None:
         """Tell the error callback, if there is one."""
@@ -99,6 +144,20 @@ def gluQuadricDrawStyle(quad: GLUquadric, draw: int) -> None:
         quad.fail(GLU_INVALID_ENUM)
 
 
+def _draw(shape: Callable[..., Calls], quad: GLUquadric, places: int, *numbers: float) -> None:
+    """Carry out the calls of a shape."""
+    make = _kept if places <= KEPT_PLACES else _made
+    for call, arguments in make(shape, quad.manner(), *numbers).calls:
+        call(*arguments)
+
+
+def _made(shape: Callable[..., Calls], manner: Manner, *numbers: float) -> Calls:
+    return shape(manner, *numbers)
+
+
+_kept = lru_cache(KEPT_SHAPES)(_made)
+
+
 # -- drawing -----------------------------------------------------------------------------------------------------------
 def _tables(angles: Iterable[float], scale: float = 1.0) -> tuple[Table, Table]:
     """Return sines and cosines, times a scale, of angles rounded to float32."""
@@ -125,7 +184,7 @@ def _ratio(a: int, b: int) -> float:
     return float(F32(a) / F32(b))
 
 
-def _both_ways(quad: GLUquadric, n: int) -> Iterator[int]:
+def _both_ways(quad: Manner, n: int) -> Iterator[int]:
     """Return 0 ... n, backwards for GLU_OUTSIDE: so a fan is seen from the right side."""
     return iter(range(n, -1, -1) if quad.orientation == GLU_OUTSIDE else range(n + 1))
 
@@ -137,6 +196,11 @@ def gluSphere(quad: GLUquadric, radius: float, slices: int, stacks: int) -> None
     if slices < 2 or stacks < 1 or radius < 0:
         quad.fail(GLU_INVALID_VALUE)
         return
+    _draw(_sphere, quad, slices * stacks, float(radius), slices, stacks)
+
+
+def _sphere(quad: Manner, radius: float, slices: int, stacks: int) -> Calls:
+    calls = Calls()
     sign = 1.0 if quad.orientation == GLU_OUTSIDE else -1.0
     sine, cosine = _around(slices)
     flat_sine, flat_cosine = _around(slices, 0.5)
@@ -149,25 +213,25 @@ def gluSphere(quad: GLUquadric, radius: float, slices: int, stacks: int) -> None
 
     def vertex(i: int, j: int) -> None:
         if quad.has_texture:
-            glTexCoord2f(1 - _ratio(i, slices), 1 - _ratio(j, stacks))
-        glVertex3f(_product(ring[j], sine[i]), _product(ring[j], cosine[i]), height[j])
+            calls.coordinates(1 - _ratio(i, slices), 1 - _ratio(j, stacks))
+        calls.vertex(_product(ring[j], sine[i]), _product(ring[j], cosine[i]), height[j])
 
     def normal(s: Table, c: Table, i: int, around: float, z: float) -> None:
-        glNormal3f(_product(s[i], around), _product(c[i], around), z)
+        calls.normal(_product(s[i], around), _product(c[i], around), z)
 
     def cap(j: int, pole: int, flat_j: int, order: Iterable[int], skips: bool) -> None:
         if smooth:
             # libGLU takes this entry for the lower pole, behind its table if there are more stacks than slices
             normal(sine, cosine, pole if pole <= slices else 0, normal_ring[pole], normal_height[pole])
-        glBegin(gl.GL_TRIANGLE_FAN)
-        glVertex3f(0.0, 0.0, float(radius) if pole == 0 else -float(radius))
+        calls.begin(gl.GL_TRIANGLE_FAN)
+        calls.vertex(0.0, 0.0, float(radius) if pole == 0 else -float(radius))
         for i in order:
             if smooth:
                 normal(sine, cosine, i, normal_ring[j], normal_height[j])
             elif flat and not (skips and i == slices):
                 normal(flat_sine, flat_cosine, i + skips, flat_ring[flat_j], flat_height[flat_j])
             vertex(i, j)
-        glEnd()
+        calls.end()
 
     if quad.style == GLU_FILL:
         first, end = 0, stacks
@@ -179,7 +243,7 @@ def gluSphere(quad: GLUquadric, radius: float, slices: int, stacks: int) -> None
             cap(stacks - 1, stacks, stacks, forwards if outside else backwards, not outside)
         for j in range(first, end):
             one, other = (j + 1, j) if quad.orientation == GLU_OUTSIDE else (j, j + 1)
-            glBegin(gl.GL_QUAD_STRIP)
+            calls.begin(gl.GL_QUAD_STRIP)
             for i in range(slices + 1):
                 if smooth:
                     normal(sine, cosine, i, normal_ring[one], normal_height[one])
@@ -189,35 +253,36 @@ def gluSphere(quad: GLUquadric, radius: float, slices: int, stacks: int) -> None
                 elif flat:
                     normal(flat_sine, flat_cosine, i, flat_ring[j + 1], flat_height[j + 1])
                 vertex(i, other)
-            glEnd()
-        return
+            calls.end()
+        return calls
     if quad.style == GLU_POINT:
-        glBegin(gl.GL_POINTS)
+        calls.begin(gl.GL_POINTS)
         for j in range(stacks + 1):
             for i in range(slices):
                 if smooth:
                     normal(sine, cosine, i, normal_ring[j], normal_height[j])
                 vertex(i, j)
-        glEnd()
-        return
+        calls.end()
+        return calls
     for j in range(1, stacks):
-        glBegin(gl.GL_LINE_STRIP)
+        calls.begin(gl.GL_LINE_STRIP)
         for i in range(slices + 1):
             if smooth:
                 normal(sine, cosine, i, normal_ring[j], normal_height[j])
             elif flat:
                 normal(flat_sine, flat_cosine, i, normal_ring[j], normal_height[j])
             vertex(i, j)
-        glEnd()
+        calls.end()
     for i in range(slices):
-        glBegin(gl.GL_LINE_STRIP)
+        calls.begin(gl.GL_LINE_STRIP)
         for j in range(stacks + 1):
             if smooth:
                 normal(sine, cosine, i, normal_ring[j], normal_height[j])
             elif flat:
                 normal(sine, cosine, i, flat_ring[j], flat_height[j])
             vertex(i, j)
-        glEnd()
+        calls.end()
+    return calls
 
 
 @in_lists
@@ -227,11 +292,20 @@ def gluCylinder(quad: GLUquadric, base: float, top: float, height: float, slices
     if slices < 2 or stacks < 1 or base < 0 or top < 0 or height < 0:
         quad.fail(GLU_INVALID_VALUE)
         return
-    delta = F32(base - top)
-    length = F32(math.sqrt(float(F32(delta * delta)) + height * height))
-    if length == 0:
+    if _slant(base, top, height) == 0:
         quad.fail(GLU_INVALID_VALUE)
         return
+    _draw(_cylinder, quad, slices * stacks, float(base), float(top), float(height), slices, stacks)
+
+
+def _slant(base: float, top: float, height: float) -> np.float32:
+    delta = F32(base - top)
+    return F32(math.sqrt(float(F32(delta * delta)) + height * height))
+
+
+def _cylinder(quad: Manner, base: float, top: float, height: float, slices: int, stacks: int) -> Calls:
+    calls = Calls()
+    delta, length = F32(base - top), _slant(base, top, height)
     sign = 1.0 if quad.orientation == GLU_OUTSIDE else -1.0
     normal_z, ratio = float(delta / length), _f(height / float(length))
     sine, cosine = _around(slices)
@@ -240,45 +314,46 @@ def gluCylinder(quad: GLUquadric, base: float, top: float, height: float, slices
 
     def normal(i: int, tables: tuple[Table, Table], z: float) -> None:
         if quad.normals != GLU_NONE:
-            glNormal3f(tables[0][i], tables[1][i], z)
+            calls.normal(tables[0][i], tables[1][i], z)
 
     def vertex(i: int, j: int) -> None:
         radius = _f(base - float(delta * F32(_ratio(j, stacks))))
         if quad.has_texture:
-            glTexCoord2f(1 - _ratio(i, slices), _ratio(j, stacks))
-        glVertex3f(_product(radius, sine[i]), _product(radius, cosine[i]), _f(j * height / stacks))
+            calls.coordinates(1 - _ratio(i, slices), _ratio(j, stacks))
+        calls.vertex(_product(radius, sine[i]), _product(radius, cosine[i]), _f(j * height / stacks))
 
     if quad.style == GLU_FILL:
         for j in range(stacks):
             pair = (j, j + 1) if quad.orientation == GLU_OUTSIDE else (j + 1, j)
-            glBegin(gl.GL_QUAD_STRIP)
+            calls.begin(gl.GL_QUAD_STRIP)
             for i in range(slices + 1):
                 normal(i, tables, normal_z)
                 for each in pair:
                     vertex(i, each)
-            glEnd()
-        return
+            calls.end()
+        return calls
     if quad.style == GLU_POINT:
-        glBegin(gl.GL_POINTS)
+        calls.begin(gl.GL_POINTS)
         for i in range(slices):
             normal(i, smooth_tables, normal_z)
             for j in range(stacks + 1):
                 vertex(i, j)
-        glEnd()
-        return
+        calls.end()
+        return calls
     rings = [*(range(1, stacks) if quad.style == GLU_LINE else ()), 0, stacks]
     for j in rings:
-        glBegin(gl.GL_LINE_STRIP)
+        calls.begin(gl.GL_LINE_STRIP)
         for i in range(slices + 1):
             normal(i, tables, normal_z)
             vertex(i, j)
-        glEnd()
+        calls.end()
     for i in range(slices):
         normal(i, smooth_tables, 0.0)
-        glBegin(gl.GL_LINE_STRIP)
+        calls.begin(gl.GL_LINE_STRIP)
         for j in range(stacks + 1):
             vertex(i, j)
-        glEnd()
+        calls.end()
+    return calls
 
 
 @in_lists
@@ -299,52 +374,57 @@ def gluPartialDisk(
     sweep = 360.0 if abs(sweep) > 360 else sweep
     if sweep < 0:
         start, sweep = start + sweep, -sweep
+    _draw(_disk, quad, slices * loops, float(inner), float(outer), slices, loops, float(start), float(sweep))
+
+
+def _disk(quad: Manner, inner: float, outer: float, slices: int, loops: int, start: float, sweep: float) -> Calls:
+    calls = Calls()
     is_whole = sweep == 360
     delta, offset = F32(outer - inner), _f(start / 180.0 * math.pi)
     sine, cosine = _tables(offset + (math.pi * sweep / 180.0) * i / slices for i in range(slices + 1))
     if is_whole:
         sine[slices], cosine[slices] = sine[0], cosine[0]
     if quad.normals != GLU_NONE:
-        glNormal3f(0.0, 0.0, 1.0 if quad.orientation == GLU_OUTSIDE else -1.0)
+        calls.normal(0.0, 0.0, 1.0 if quad.orientation == GLU_OUTSIDE else -1.0)
 
     def vertex(i: int, j: int) -> None:
         radius = _f(outer - float(delta * F32(_ratio(j, loops))))
         if quad.has_texture:
             scale = _f(radius / outer / 2)
-            glTexCoord2f(_f(_product(scale, sine[i]) + 0.5), _f(_product(scale, cosine[i]) + 0.5))
-        glVertex3f(_product(radius, sine[i]), _product(radius, cosine[i]), 0.0)
+            calls.coordinates(_f(_product(scale, sine[i]) + 0.5), _f(_product(scale, cosine[i]) + 0.5))
+        calls.vertex(_product(radius, sine[i]), _product(radius, cosine[i]), 0.0)
 
     def strip(places: Iterable[tuple[int, int]]) -> None:
-        glBegin(gl.GL_LINE_STRIP)
+        calls.begin(gl.GL_LINE_STRIP)
         for i, j in places:
             vertex(i, j)
-        glEnd()
+        calls.end()
 
     if quad.style == GLU_FILL:
         rings = loops
         if inner == 0:
             rings = loops - 1
-            glBegin(gl.GL_TRIANGLE_FAN)
+            calls.begin(gl.GL_TRIANGLE_FAN)
             if quad.has_texture:
-                glTexCoord2f(0.5, 0.5)
-            glVertex3f(0.0, 0.0, 0.0)
+                calls.coordinates(0.5, 0.5)
+            calls.vertex(0.0, 0.0, 0.0)
             for i in _both_ways(quad, slices):
                 vertex(i, loops - 1)
-            glEnd()
+            calls.end()
         for j in range(rings):
-            glBegin(gl.GL_QUAD_STRIP)
+            calls.begin(gl.GL_QUAD_STRIP)
             for i in range(slices + 1):
                 for each in (j, j + 1) if quad.orientation == GLU_OUTSIDE else (j + 1, j):
                     vertex(i, each)
-            glEnd()
-        return
+            calls.end()
+        return calls
     spokes = range(slices if is_whole else slices + 1)
     if quad.style == GLU_POINT:
-        glBegin(gl.GL_POINTS)
+        calls.begin(gl.GL_POINTS)
         for i in spokes:
             for j in range(loops + 1):
                 vertex(i, j)
-        glEnd()
+        calls.end()
     elif quad.style == GLU_LINE:
         for j in range(1 if inner == outer else loops + 1):
             strip((i, j) for i in range(slices + 1))
@@ -355,6 +435,7 @@ def gluPartialDisk(
             strip((i, j) for j in range(loops + 1))
         for j in (0,) if inner == outer else (0, loops):
             strip((i, j) for i in range(slices + 1))
+    return calls
 
 
 __all__ = [*spelled_like_gl(globals()), "GLUquadric"]

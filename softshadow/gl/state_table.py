@@ -309,6 +309,9 @@ QUERIES: dict[str, Read] = {
     "GL_MAX_CLIP_PLANES": lambda c: len(CLIP_PLANES),
     "GL_MAX_ATTRIB_STACK_DEPTH": lambda c: DEEPEST_ATTRIBUTES,
     "GL_MAX_LIST_NESTING": lambda c: DEEPEST_LIST,
+    "GL_MAX_ELEMENTS_VERTICES": lambda c: 3000,  # Mesa's answer; more are drawn as fast
+    "GL_MAX_ELEMENTS_INDICES": lambda c: 3000,
+    "GL_AUX_BUFFERS": lambda c: 0,
     "GL_LINE_WIDTH_RANGE": lambda c: SIZES,
     "GL_POINT_SIZE_RANGE": lambda c: SIZES,
     "GL_LINE_WIDTH_GRANULARITY": lambda c: 0.1,

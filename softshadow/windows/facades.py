@@ -12,9 +12,11 @@ from typing import Any
 
 from softshadow import gl
 from softshadow.context import thread
+from softshadow.errors import SoftShadowError
 from softshadow.gl import GLError
 from softshadow.recordings.draw_calls import is_draw
 from softshadow.recordings.draw_labels import DrawLabels
+from softshadow.windows import buffer_objects
 from softshadow.windows.desktop import desktop
 from softshadow.windows.glfw_window import Glfw
 from softshadow.windows.glut import Glut
@@ -109,6 +111,11 @@ def _of(names: Mapping[str, Any], module: str) -> Callable[[str], Any]:
     return find
 
 
+def _no_shaders(name: str) -> Any:
+    """Refuse OpenGL.GL.shaders: GLSL is not part of this package."""
+    raise SoftShadowError(f"OpenGL.GL.shaders.{name}: shaders in GLSL cannot be run here, only OpenGL's fixed function")
+
+
 def calls_in(folder: Path) -> set[str]:
     """Return the names of GL, GLU and GLUT calls in the Python files of a folder."""
     found: set[str] = set()
@@ -133,7 +140,11 @@ def modules_for(program: Path) -> dict[str, ModuleType]:
         "OpenGL.GLUT": Facade("OpenGL.GLUT", _of(glut, "OpenGL.GLUT"), glut_names),
         "OpenGL.error": Facade("OpenGL.error", _of(errors, "OpenGL.error"), list(errors)),
     }
-    for name in ("GL", "GLU", "GLUT", "error"):
+    modules["OpenGL.arrays"] = Facade("OpenGL.arrays", _of({}, "OpenGL.arrays"), ["vbo"])
+    vbo = Facade("OpenGL.arrays.vbo", _of(buffer_objects.NAMES, "OpenGL.arrays.vbo"), list(buffer_objects.NAMES))
+    modules["OpenGL.arrays.vbo"] = modules["OpenGL.arrays"].vbo = vbo  # type: ignore[attr-defined]
+    modules["OpenGL.GL.shaders"] = Facade("OpenGL.GL.shaders", _no_shaders, [])
+    for name in ("GL", "GLU", "GLUT", "error", "arrays"):
         setattr(modules["OpenGL"], name, modules[f"OpenGL.{name}"])
     glfw = Glfw().names()
     modules["glfw"] = Facade("glfw", _of(glfw, "glfw"), list(glfw))

@@ -86,8 +86,7 @@ def line_coverage(places: np.ndarray) -> np.ndarray:
     """Return the coverage (n,) of fragments of smooth lines, from their places (n, 4)."""
     real = places.dtype.type
     across, along = (np.clip(places[:, c + 1] - np.abs(places[:, c]), real(0), real(1)) for c in (0, 2))
-    longest = places[:, 3] * real(2) - real(1)  # of lines shorter than a pixel
-    return across * np.minimum(along, longest)
+    return across * along
 
 
 def point_coverage(places: np.ndarray) -> np.ndarray:
