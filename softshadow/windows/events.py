@@ -11,6 +11,7 @@ SPECIAL_KEYS = ("Up", "Down", "Left", "Right", "PageUp", "PageDown", "Home", "En
 NAMED_CHARACTERS = {
     "Space": " ", "Enter": "\r", "Tab": "\t", "Esc": "\x1b", "Comma": ",", "Backspace": "\b", "Delete": "\x7f",
 }  # fmt: skip
+SYNONYMS = {"Escape": "Esc", "Return": "Enter"}
 MODIFIERS = ("Shift", "Ctrl", "Alt")
 WHEELS = {"WheelUp": 1, "WheelDown": -1}
 BUTTONS = ("left", "middle", "right")
@@ -80,6 +81,8 @@ def keys_of(text: str) -> list[Event]:
     --------
     >>> keys_of("a,Shift+Up,Space")
     [Key(name='a', modifiers=()), Key(name='Up', modifiers=('Shift',)), Key(name=' ', modifiers=())]
+    >>> keys_of("Escape") == keys_of("Esc")
+    True
     """
     return [_named(text, name) for name in text.split(",")] if text else []
 
@@ -91,6 +94,7 @@ def _named(text: str, name: str) -> Event:
         return Choice(name.removeprefix("Menu:"))
     found = WITH_MODIFIERS.fullmatch(name)
     held, key = found.groups() if found else ("", name)
+    key = SYNONYMS.get(key, key)
     spelled = NAMED_CHARACTERS.get(key, key)
     if len(spelled) != 1 and spelled not in SPECIAL_KEYS:
         names = ", ".join((*NAMED_CHARACTERS, *SPECIAL_KEYS, *WHEELS))

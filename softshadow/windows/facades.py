@@ -17,6 +17,7 @@ from softshadow.gl import GLError
 from softshadow.recordings.draw_calls import is_draw
 from softshadow.recordings.draw_labels import DrawLabels
 from softshadow.windows import buffer_objects
+from softshadow.windows.c_types import C_TYPES
 from softshadow.windows.desktop import desktop
 from softshadow.windows.glfw_window import Glfw
 from softshadow.windows.glut import Glut
@@ -91,6 +92,8 @@ def left_out(name: str) -> Callable[..., None]:
 
 def _gl_name(name: str) -> Any:
     """Return a name of GL or GLU; a call that this package does not have is left out, and counted."""
+    if name in C_TYPES:
+        return C_TYPES[name]
     try:
         value = getattr(gl, name)
     except AttributeError:
@@ -128,7 +131,7 @@ def modules_for(program: Path) -> dict[str, ModuleType]:
     """Return the modules that a program gets, by name."""
     used, glut = calls_in(program.parent), Glut().names()
     calls = [name for name in used if not name.startswith(("glu", "glut"))]
-    gl_names = sorted({*gl.__all__, *calls} - {"record", "step", "program", "create_context", "Context"})
+    gl_names = sorted({*gl.__all__, *calls, *C_TYPES} - {"record", "step", "program", "create_context", "Context"})
     glu_names = [name for name in gl.__all__ if name.startswith("glu")]
     glu_names += [name for name in used if name.startswith("glu") and not name.startswith("glut")]
     glut_names = sorted({*glut, *(name for name in used if name.startswith("glut"))})

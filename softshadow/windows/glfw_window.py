@@ -63,6 +63,8 @@ class Glfw:
             "swap_buffers": lambda _: desktop().end_frame(),
             "poll_events": self.poll_events,
             "wait_events": self.poll_events,
+            "wait_events_timeout": lambda _: self.poll_events(),
+            "post_empty_event": lambda: None,
             "get_framebuffer_size": lambda _: desktop().size,
             "get_window_size": lambda _: desktop().size,
             "get_cursor_pos": lambda _: tuple(map(float, desktop().pointer)),
