@@ -47,11 +47,11 @@ def _writes(suffix: str, type: int, numbers: Any) -> dict[str, Callable[..., Non
         array = np.ascontiguousarray(pixels, numbers)
         glDrawPixels(array.shape[0], array.shape[1], format, type, array)
 
-    pairs = {
-        glTexImage1D: tex_image_1d, glTexImage2D: tex_image_2d, glTexSubImage1D: tex_sub_image_1d,
-        glTexSubImage2D: tex_sub_image_2d, glDrawPixels: draw_pixels,
+    calls: dict[str, Callable[..., None]] = {
+        "glTexImage1D": tex_image_1d, "glTexImage2D": tex_image_2d, "glTexSubImage1D": tex_sub_image_1d,
+        "glTexSubImage2D": tex_sub_image_2d, "glDrawPixels": draw_pixels,
     }  # fmt: skip
-    return {f"{call.__name__}{suffix}": function for call, function in pairs.items()}
+    return {f"{name}{suffix}": call for name, call in calls.items()}
 
 
 def _reads(suffix: str, type: int) -> dict[str, Callable[..., Any]]:
