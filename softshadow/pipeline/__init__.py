@@ -93,8 +93,11 @@ def draw(command: Draw, storage: Storage, counts: FragmentCounts | None = None) 
     plan = plan_draw(command, target, counts is not None)
     with np.errstate(all="ignore"):  # infinities of vertices that clipping removes; interpreted kernels would warn
         if plan.in_chunks:
-            for triangles, ranges, region, fragments in fill_colorless(plan, command, target):
+            watch = plan.watch(target, storage) if plan.watch else None
+            for triangles, ranges, region, fragments in fill_colorless(plan, command, target, storage):
                 _fill(plan, command.state, target, triangles, region, fragments, ranges=ranges)
+            if watch:
+                watch.note_drawn()
             return
         draw_geometry(plan, command, target, storage, choose_geometry(plan, command, target, storage), counts)
 
@@ -111,6 +114,21 @@ def draw_geometry(
     """Draw triangles in the window, under the state of a command; about so many `fragments`, -1 if not known."""
     if not len(geometry.triangles.ids):
         return
+    watch = plan.watch(target, storage) if plan.watch else None
+    _draw_triangles(plan, command, target, storage, geometry, counts, fragments)
+    if watch:
+        watch.note_drawn()
+
+
+def _draw_triangles(
+    plan: Plan,
+    command: Draw,
+    target: Framebuffer,
+    storage: Storage,
+    geometry: Geometry,
+    counts: FragmentCounts | None,
+    fragments: int,
+) -> None:
     if fragments >= 0 and plan.forward and not plan.without_overlaps:  # a small draw: no time to look for its rows
         region = region_of(command.state, target)
         forward = choose_forward(plan, command.state, target, geometry, region, fragments)
@@ -118,7 +136,7 @@ def draw_geometry(
             forward()
             return
     if plan.in_order:
-        _draw_in_order(plan, command, target, geometry, counts)
+        _draw_in_order(plan, command, target, storage, geometry, counts)
     else:
         _draw_opaque(plan, command, target, storage, geometry, counts)
 
@@ -141,8 +159,10 @@ def _draw_opaque(
         forward()
         return
 
+    ties: list[int] = []
+
     def fill_all(ids: np.ndarray | None) -> None:
-        _fill(plan, state, target, triangles, region, fragments, ids=ids, counts=counts)
+        _fill(plan, state, target, triangles, region, fragments, ids=ids, counts=counts, ties=ties)
 
     def visible() -> Spans:
         ids = no_ids(region, padded_shape(target)[1])
@@ -153,22 +173,32 @@ def _draw_opaque(
         fill_all(None)
         return
     if plan.cached_fill:
+        depth_range = depth_range_of(state, real)
         spans, was_cached = plan.cached_fill(
-            plan.front, plan.back, triangles, region, depth_range_of(state, real), target, storage, visible
+            plan.front, plan.back, triangles, region, depth_range, target, storage, visible
         )
         if was_cached:
             plan.path.note("an equal draw over the same depths was filled before: only shaded")
+        elif plan.remember_surface and not ties:
+            plan.remember_surface(triangles, region_of(state, target), depth_range, target, storage, spans)
     else:
         spans = visible()
     choose_shading(plan, state, target, geometry)(spans)
 
 
 def _draw_in_order(
-    plan: Plan, command: Draw, target: Framebuffer, geometry: Geometry, counts: FragmentCounts | None
+    plan: Plan,
+    command: Draw,
+    target: Framebuffer,
+    storage: Storage,
+    geometry: Geometry,
+    counts: FragmentCounts | None,
 ) -> None:
     """Test and write the fragments one by one, in drawing order."""
     state, triangles = command.state, geometry.triangles
     region, real = region_of(state, target), geometry.window.dtype
+    if _shade_known_surface(plan, command, target, storage, geometry):
+        return
     is_mesh = len(triangles.ids) >= MANY_TRIANGLES
     if is_mesh and _shade_without_overlaps(plan, command, target, geometry):
         return
@@ -204,6 +234,21 @@ def _draw_in_order(
         else:
             for image in target.colors:
                 color_writer(state, image)(spans, colors[passed])
+
+
+def _shade_known_surface(plan: Plan, command: Draw, target: Framebuffer, storage: Storage, geometry: Geometry) -> bool:
+    """Shade a blended draw over the surfaces that an earlier draw of the same triangles left; return whether it is."""
+    state, triangles = command.state, geometry.triangles
+    if not plan.passing_spans:
+        return False
+    depth_range = depth_range_of(state, triangles.depth.dtype.type)
+    spans = plan.passing_spans(plan.front, plan.back, triangles, region_of(state, target), depth_range, target, storage)
+    if spans is None:
+        return False
+    plan.path.way = "opaque"
+    plan.path.note("an earlier draw left these surfaces in the depth buffer: only their fragments are tested")
+    choose_shading(plan, state, target, geometry)(spans)
+    return True
 
 
 def _shade_without_overlaps(plan: Plan, command: Draw, target: Framebuffer, geometry: Geometry) -> bool:
@@ -249,11 +294,14 @@ def _fill(
     writes_ids: int = LAST,
     counts: FragmentCounts | None = None,
     ranges: Sequence[tuple[int, int]] | None = None,
+    ties: list[int] | None = None,
 ) -> None:
     """Fill the triangles; `fragments` is about how many they have, the other arguments are those of `fill`."""
     writes_ids = writes_ids if ids is not None else 0
     n_triangles = len(triangles.ids) if ranges is None else sum(end - first for first, end in ranges)
-    choice = choose_fill(plan, n_triangles, fragments, region, writes_ids=writes_ids, counts=counts, depth=target.depth)
+    choice = choose_fill(
+        plan, n_triangles, fragments, region, writes_ids=writes_ids, counts=counts, depth=target.depth, ties=ties
+    )
     real, writes_depth = triangles.depth.dtype, bool(plan.front.depth_write or plan.back.depth_write)
     buffers = fill_buffers(*buffer_cells(target, real, writes_depth=writes_depth), real, region, ids)
     fill(

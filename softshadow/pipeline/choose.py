@@ -37,6 +37,13 @@ try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS, any_state_kernel
     from softshadow.pipeline.fast.batch.table import Run, can_begin_run
     from softshadow.pipeline.fast.depth_only import Chunk, chunks_of, fill_in_blocks, threads_of_blocks, window_mesh
+    from softshadow.pipeline.fast.drawn_surfaces import (
+        Watch,
+        leaves_nearest,
+        only_lessens_depths,
+        passing_spans,
+        remember_surface,
+    )
     from softshadow.pipeline.fast.fixed_function_spans import SPAN_KERNELS, fixed_function_shader
     from softshadow.pipeline.fast.forward import draw_forward, forward_state
     from softshadow.pipeline.fast.geometry_cache import cached_geometry
@@ -112,9 +119,10 @@ class Plan(NamedTuple):
 
     in_order: fragments are tested and written one by one; writes_color: colours may change; front, back: the
     per-fragment operations of each facing; counting: whether fragments are counted. The short cuts to take, or None:
-    cached_fill looks for an equal fill, without_overlaps finds out whether blended fragments overlap; in_chunks:
-    whether some triangles are set up and filled at a time; forward: whether the draw may go triangle by triangle from
-    coverage to pixels.
+    cached_fill looks for an equal fill, remember_surface keeps the visible spans, passing_spans looks for those of an
+    earlier draw, without_overlaps finds out whether blended fragments overlap; watch: begun before a draw that makes no
+    depth larger; in_chunks: whether some triangles are set up and filled at a time; forward: whether the draw may go
+    triangle by triangle from coverage to pixels.
     """
 
     in_order: bool
@@ -124,7 +132,10 @@ class Plan(NamedTuple):
     path: DrawPath
     in_chunks: bool = False
     cached_fill: Callable[..., tuple[Spans, bool]] | None = None
+    remember_surface: Callable[..., None] | None = None
+    passing_spans: Callable[..., Spans | None] | None = None
     without_overlaps: WithoutOverlaps | None = None
+    watch: Callable[[Framebuffer, Storage], Watch] | None = None
     forward: bool = False
     counting: bool = False
 
@@ -145,19 +156,20 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
         path.note("neither blending nor alpha test: fragments are tested before any is shaded")
     else:
         path.note("the alpha test reads colours" if tests_alpha(state) else "blending depends on the drawing order")
-    if counting:
-        path.note("fragments are counted: no short cut")
-    elif not _short_cuts.get():
-        path.note("short cuts are off")
-    elif in_order:
+    if counting or not _short_cuts.get():
+        path.note("fragments are counted: no short cut" if counting else "short cuts are off")
+        return plan
+    plan = plan._replace(watch=Watch if only_lessens_depths(front, back) else None)
+    if in_order:
         if writes_color and not tests_alpha(state) and keeps_depth_and_stencil(front, back):
-            plan = plan._replace(without_overlaps=triangles_without_overlaps)
+            plan = plan._replace(without_overlaps=triangles_without_overlaps, passing_spans=passing_spans)
         return plan._replace(forward=True)
-    elif writes_no_colors(command, target):
+    if writes_no_colors(command, target):
         path.way, path.reasons = "depth and stencil only, in chunks", ["no colour is written or tested"]
         return plan._replace(in_chunks=True)
-    elif writes_color:
-        return plan._replace(cached_fill=cached_fill, forward=True)
+    if writes_color:
+        remembers = remember_surface if leaves_nearest(front, back) else None
+        return plan._replace(cached_fill=cached_fill, remember_surface=remembers, forward=True)
     return plan
 
 
@@ -234,6 +246,7 @@ def choose_fill(
     writes_ids: int = 0,
     counts: FragmentCounts | None = None,
     depth: Image | None = None,
+    ties: list[int] | None = None,
 ) -> FillChoice:
     """Return how to fill triangles with about so many fragments.
 
@@ -242,6 +255,7 @@ def choose_fill(
     writes_ids : 0, LAST or ONLY
     counts : receives the number of fragments by verdict, where they are counted
     depth : the depth buffer, which keeps its tile bounds
+    ties : receives numbers, if a fragment has the depth that is stored, or could have it
     """
     front, back, path = plan.front, plan.back, plan.path
     in_tiles, work = False, n_fragments + SMALL_TRIANGLE * n_triangles
@@ -254,7 +268,9 @@ def choose_fill(
         path.fill, kernel, in_tiles = "stencil tiles", tiles_kernel(depth), True
         path.note("only the stencil buffer changes, in an order that does not matter")
     else:
-        path.fill, kernel = "vectors", any_state_kernel(writes_ids)
+        path.fill, kernel = "vectors", any_state_kernel(writes_ids, ties)
+    if ties is not None and path.fill != "vectors":
+        ties.append(1)
     if in_tiles:
         bands_pay = n_fragments >= WORTH_BANDS_IN_TILES
         if bands_pay and threads() > 1 and _shares_triangles(front, back, n_triangles, n_fragments):
@@ -295,15 +311,17 @@ def _band_rows_log2(region: Region, fragments: int) -> int:
     return BAND_ROWS_LOG2 if _has_layers(region, fragments) else few_bands(region)
 
 
-def fill_colorless(plan: Plan, command: Draw, target: Framebuffer) -> Iterator[Chunk]:
+def fill_colorless(plan: Plan, command: Draw, target: Framebuffer, storage: Storage) -> Iterator[Chunk]:
     """Yield the triangles of a draw without colours in chunks to fill; fill them here where blocks of them pay.
 
     Blocks are for triangles without many layers: `FillChoice` has bands for those.
     """
-    mesh, front, back = window_mesh(command, target), plan.front, plan.back
+    front, back = plan.front, plan.back
+    tests_stencil, writes_depth = front.stencil_test or back.stencil_test, front.depth_write or back.depth_write
+    # those that count front faces, and then back faces, in the stencil buffer are drawn twice
+    mesh = window_mesh(command, target, storage if tests_stencil else None)
     if mesh.region.first_row >= mesh.region.end_row:
         return
-    tests_stencil, writes_depth = front.stencil_test or back.stencil_test, front.depth_write or back.depth_write
     fragments, depth = mesh.fragments(), target.depth
     n_threads = threads_of_blocks(mesh, front, back)
     in_blocks = n_threads and writes_depth and not tests_stencil and mesh.units is None

@@ -93,6 +93,6 @@ class DrawQueue:
         storage = self._storage
         target = storage.framebuffers[run.state.draw_framebuffer]
         with np.errstate(all="ignore"):  # as in pipeline.draw
-            geometry, fragments = geometry_of(run, setting, draws, target)
+            geometry, fragments = geometry_of(run, setting, draws, target, storage)
             BATCH_KERNELS.note_compiled()
             pipeline.draw_geometry(plan, run.command, target, storage, geometry, fragments=fragments)

@@ -21,6 +21,15 @@ def distances_to_planes(light, first_corners, face_normals, distances):
 
 
 @kernel
+def write_directions(positions, light, directions):
+    """Write (V, 4) the directions from a point light (3,) to positions (V, 3), as far points of homogeneous w = 0."""
+    for v in range(positions.shape[0]):
+        for k in range(3):
+            directions[v, k] = np.float64(positions[v, k]) - light[k]
+        directions[v, 3] = 0
+
+
+@kernel
 def add_chain(face_edges, face_signs, faces, sign, sums):
     """Add `sign` times the edge signs of the listed faces to the sums (E,) of their edges."""
     for n in range(faces.shape[0]):

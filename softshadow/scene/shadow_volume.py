@@ -113,7 +113,7 @@ def shadow_volume(
         no_cap = np.zeros((0, 3), dtype=np.int32)
         return ShadowVolume(no_cap, no_cap, sides, far[:0], *of, faces.facing[:0], faces.reversed[:0])
     far_vertices = far[:0] if one_far_point else far
-    caps_of = mesh.triangles[faces.facing], mesh.triangles[faces.reversed]
+    caps_of = mesh.triangles.take(faces.facing, axis=0), mesh.triangles.take(faces.reversed, axis=0)
     return ShadowVolume(*caps_of, sides, far_vertices, *of, faces.facing, faces.reversed)
 
 
@@ -134,14 +134,19 @@ def _far_vertices(
     mesh: Mesh, light: np.ndarray, faces: CastingFaces, extrusion: Literal["infinite"] | float
 ) -> np.ndarray:
     """Return (V, 4) float32: the far vertices, each a function of its position only, so that sides and cap meet."""
-    positions = mesh.positions.astype(np.float64)
-    from_light = positions - light[:3] if light[3] else np.broadcast_to(-light[:3], positions.shape)
-    far = np.zeros((len(positions), 4), dtype=np.float32)
+    far = np.empty((len(mesh.positions), 4), dtype=np.float32)
     if isinstance(extrusion, str):
         if extrusion != "infinite":
             raise ValueError(f"extrusion: expected 'infinite' or a reach (a positive number), got {extrusion!r}")
-        far[:, :3] = from_light  # (u - L, 0), or (-D, 0)
+        if light[3]:
+            from softshadow.scene.face_kernels import write_directions
+
+            write_directions(mesh.positions, light[:3], far)  # (u - L, 0)
+        else:
+            far[:] = *-light[:3], 0  # (-D, 0)
         return far
+    positions = mesh.positions.astype(np.float64)
+    from_light = positions - light[:3] if light[3] else np.broadcast_to(-light[:3], positions.shape)
     reach = float(extrusion)
     if not 0 < reach < FARTHEST:
         raise ValueError(f"extrusion: expected 'infinite' or a reach between 0 and {FARTHEST:g}, got {extrusion!r}")

@@ -102,11 +102,12 @@ def in_c(value: Any, type: Any) -> Any:
     --------
     >>> in_c(1, ctypes.c_float), in_c(True, ctypes.c_ubyte), in_c(None, ctypes.c_void_p)
     (1.0, 1, None)
-    >>> list(in_c([1, 2.5], ctypes.POINTER(ctypes.c_float)))
-    [1.0, 2.5]
+    >>> list(in_c([1, -0.0], ctypes.POINTER(ctypes.c_float)))
+    [1.0, -0.0]
     """
     if is_number(type):
-        return float(value or 0) if type in (ctypes.c_float, ctypes.c_double) else int(value or 0)
+        value = 0 if value is None else value  # not `value or 0`, which would make 0 of -0
+        return float(value) if type in (ctypes.c_float, ctypes.c_double) else int(value)
     if value is None or isinstance(value, int):
         return value
     if isinstance(value, str):

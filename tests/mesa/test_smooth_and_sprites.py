@@ -116,18 +116,12 @@ def test_point_sprites_and_other_primitives_beside_them_are_those_of_mesa(mode: 
     assert compared.ours.stencil.any()
 
 
-LAST_PLACES = 3  # levels of a colour; corners that differ by a last place change the coverage of short pieces most
-
-
 @pytest.mark.parametrize("stippled", [False, True])
 @pytest.mark.parametrize("width", [0.5, 2.0, 3.3])
 def test_smooth_lines_cover_the_pixels_that_they_cover_on_mesa(width: float, stippled: bool) -> None:
-    """Mesa's corners differ by a last place for some lines, see docs/exactness.md."""
-
     def program(gl: Any) -> None:
         rng = np.random.default_rng(8)
         scene(gl, rng)
-        gl.glDisable(gl.GL_DEPTH_TEST)
         gl.glEnable(gl.GL_LINE_SMOOTH)
         gl.glLineWidth(width)
         if stippled:
@@ -139,8 +133,5 @@ def test_smooth_lines_cover_the_pixels_that_they_cover_on_mesa(width: float, sti
         primitives(gl, rng, "GL_QUADS", 0.95)
 
     compared = compare(program, SIZE)
-    assert np.array_equal(compared.ours.stencil, compared.theirs.stencil)
+    assert compared, str(compared)
     assert compared.ours.stencil.any()
-    ours, theirs = (np.asarray(result.color, np.int64) for result in (compared.ours, compared.theirs))
-    assert abs(ours - theirs).max() <= LAST_PLACES
-    assert np.count_nonzero((ours != theirs).any(axis=-1)) <= 8

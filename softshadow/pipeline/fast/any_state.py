@@ -45,8 +45,14 @@ CHUNK = 1 << CHUNK_LOG2
 FILL_KERNELS = KernelGroup("fills", pays_after=100_000_000)
 
 
-def any_state_kernel(writes_ids: int) -> FillKernel:
-    """Return the kernel that fills under any state without alpha test; `writes_ids` is 0, LAST or ONLY."""
+def any_state_kernel(writes_ids: int, ties: list[int] | None = None) -> FillKernel:
+    """Return the kernel that fills under any state without alpha test.
+
+    Parameters
+    ----------
+    writes_ids : 0, LAST or ONLY
+    ties : receives numbers, if a fragment has the depth that is stored, or could have it
+    """
 
     def fill_kernel(
         front: FragmentOps,
@@ -62,18 +68,25 @@ def any_state_kernel(writes_ids: int) -> FillKernel:
             return
         depth, stencil, ids = buffers.depth, buffers.stencil, buffers.ids
         pitch = min(depth.shape[1], stencil.shape[1], *([ids.shape[1]] if writes_ids else []))
+        room = fill_scratch(pitch, region)
         KERNELS[bool(tests_stencil), bool(writes_ids)](
             writes_ids, *numbers_of(front, back), front.depth_largest, triangles.corners, triangles.depth,
-            triangles.front, numbers, region, depth_range, pitch, depth, stencil, ids, *fill_scratch(pitch, region),
+            triangles.front, numbers, region, depth_range, pitch, depth, stencil, ids, *room,
         )  # fmt: skip
+        if ties is not None and (tests_stencil or room[-1].any()):
+            ties.append(1)
 
     return fill_kernel
 
 
 def fill_scratch(pitch: int, region: Region) -> tuple[np.ndarray, ...]:
-    """Return the scratch arrays of a fill, its last four arguments."""
+    """Return the scratch arrays of a fill, its last five arguments.
+
+    The last one is not 0 after the fill where a fragment has the stored depth; with ids and without stencil test only.
+    """
     lefts, rights = np.empty((2, region.end_row), np.int32)
-    return lefts, rights, np.empty(max(pitch, CHUNK), np.uint8), np.empty(CHUNK, np.uint8)
+    bytes_of_row, bytes_of_box = np.empty(max(pitch, CHUNK), np.uint8), np.empty(CHUNK, np.uint8)
+    return lefts, rights, bytes_of_row, bytes_of_box, np.zeros(CHUNK, np.int32)
 
 
 def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
@@ -82,15 +95,15 @@ def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
     @kernel
     def fill(
         which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, region, depth_range, pitch, depth, stencil,
-        ids, lefts, rights, passed, covered,
+        ids, lefts, rights, passed, covered, ties,
     ):  # fmt: skip
-        # `ops` are the numbers of both facings, `pitch` the columns that all buffers have; the last four are scratch
+        # `ops` are the numbers of both facings, `pitch` the columns that all buffers have; the last five are scratch
         last_start = pitch - CHUNK
         n = 0
         while n < numbers.shape[0]:
             n = fill_small(
                 tests_stencil, writes_ids, which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, n,
-                region, depth_range, pitch, depth, stencil, ids, passed, covered,
+                region, depth_range, pitch, depth, stencil, ids, passed, covered, ties,
             )  # fmt: skip
             if n == numbers.shape[0]:
                 break
@@ -146,7 +159,10 @@ def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
                             if tests_stencil:
                                 hit = passed[i] != 0
                             else:
-                                hit = (depth_passes(depth_test, z, stored) != 0) & (column >= left) & (column < right)
+                                inside = (column >= left) & (column < right)
+                                hit = (depth_passes(depth_test, z, stored) != 0) & inside
+                                tied = ties[np.uint64(k)]
+                                ties[np.uint64(k)] = np.int32(tied | np.int32(inside & (z == stored)))
                             number = triangle if before == NO_TRIANGLE else repeated
                             depth[j, i] = z if hit & writes_depth else stored
                             ids[id_j, i] = number if hit else before

@@ -13,11 +13,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from softshadow.framebuffer import Framebuffer
+from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.jit import allocating_kernel, kernel, read_only
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.any_state import KERNELS, fill_scratch
 from softshadow.pipeline.fast.fragment_numbers import numbers_of
+from softshadow.pipeline.fast.geometry_cache import is_covered, recent_of
+from softshadow.pipeline.fast.recent_triangles import triangles_key, window_key
 from softshadow.pipeline.geometry.clip import CUT, INSIDE, OUTSIDE, clip_triangles, write_sides
 from softshadow.pipeline.geometry.draw_primitives import triangles_of
 from softshadow.pipeline.geometry.geometry import (
@@ -114,14 +116,27 @@ class WindowMesh(NamedTuple):
         return int(np.abs(doubled >> 17).sum()) * EVERY
 
 
-def window_mesh(command: Draw, target: Framebuffer) -> WindowMesh:
-    """Return the triangles of a draw without colours (`choose.writes_no_colors`)."""
-    window, clipped = _clipped(command, target, positions_of(command, target))
-    (snapped, (first_row, end_row)), offset = snapped_vertices(window), filled_offset(command, target)
+def window_mesh(command: Draw, target: Framebuffer, storage: Storage | None = None) -> WindowMesh:
+    """Return the triangles of a draw without colours (`choose.writes_no_colors`).
+
+    With a `storage`, those of an equal draw before it, but for its culling and its scissor box, if they are recent.
+    """
+    recent, key = recent_of(storage), None
+    vertices = command.vertices
+    if is_covered(command) and vertices.edges is None:
+        key = "mesh", *triangles_key(command), *window_key(command, target)
+    found = recent.look_up(key) if recent and key else None
+    if found is None:
+        window, clipped = _clipped(command, target, positions_of(command, target))
+        found = window, clipped, *snapped_vertices(window)
+        if recent and key:
+            arrays = window, clipped.triangles, clipped.sides, clipped.pieces, found[2]
+            recent.add(key, found, arrays, (vertices.position, command.indices))
+    window, clipped, snapped, (first_row, end_row) = found
     region = region_of(command.state, target)
     first_row, end_row = max(region.first_row, first_row), min(region.end_row, end_row)
     return WindowMesh(
-        window, snapped, clipped, stored_culling(command.state.cull, target.flipped), offset,
+        window, snapped, clipped, stored_culling(command.state.cull, target.flipped), filled_offset(command, target),
         command.state.polygon.units if has_float_units(command, target) else None,
         region._replace(first_row=first_row, end_row=max(first_row, end_row)),
     )  # fmt: skip

@@ -73,9 +73,9 @@ def draw_forward(
     """
     if region.first_row >= region.end_row:
         return
-    depth, stencil = target.depth, target.stencil
+    depth, stencil, writes = target.depth, target.stencil, front.depth_write or back.depth_write
     buffers = (
-        *depth_range_of(state, np.float32), NO_DEPTH if depth is None else depth.cells,
+        *depth_range_of(state, np.float32), NO_DEPTH if depth is None else depth.cells if writes else depth.read_cells,
         NO_STENCIL if stencil is None else stencil.cells,
     )  # fmt: skip
     tests, later_tests = (*span_tests(front, back), *buffers), (*alpha_tests(front, back), *buffers)

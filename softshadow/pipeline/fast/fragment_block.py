@@ -40,6 +40,8 @@ WHOLE_ROWS = 25
 # a list of spans is an array (4, SIZE + 1) int32: row, first column, place of the triangle's planes, first fragment
 SPAN_ROW, SPAN_LEFT, SPAN_PLACE, SPAN_START = range(4)
 NEXT = np.uint64(1)
+RED, GREEN, BLUE, ALPHA = _rows(0, 4)
+FOUR_COLUMNS, ONE_COLOR = 15, np.uint64(4)
 
 
 class BlockMemory(threading.local):
@@ -78,6 +80,12 @@ def interpolate_block(planes, spans, n_spans, flat, needed, room):
         if end - first < LONG_RUN:
             for n in range(first, end):
                 i, j, w = room[COLUMN + n], room[LINE + n], room[W + n]
+                if needed == FOUR_COLUMNS and k == ONE_COLOR and not (flat[0] | flat[1] | flat[2] | flat[3]):
+                    room[RED + n] = ((planes[p, 1, 0] * i + planes[p, 0, 0]) + planes[p, 2, 0] * j) * w
+                    room[GREEN + n] = ((planes[p, 1, 1] * i + planes[p, 0, 1]) + planes[p, 2, 1] * j) * w
+                    room[BLUE + n] = ((planes[p, 1, 2] * i + planes[p, 0, 2]) + planes[p, 2, 2] * j) * w
+                    room[ALPHA + n] = ((planes[p, 1, 3] * i + planes[p, 0, 3]) + planes[p, 2, 3] * j) * w
+                    continue
                 for c in range(k):
                     value = planes[p, 0, c]
                     room[c * ROW + n] = value if flat[c] else ((planes[p, 1, c] * i + value) + planes[p, 2, c] * j) * w

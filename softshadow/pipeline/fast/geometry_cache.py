@@ -19,6 +19,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.fast.recent_triangles import RecentTriangles
 from softshadow.pipeline.geometry.geometry import process_geometry, triangles_with_outputs, vertex_outputs
 from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.mesa.polygon_rules import passes_stages
@@ -47,10 +48,14 @@ class CachedTriangles(NamedTuple):
 
 @dataclass(eq=False)
 class GeometryCache:
-    """The cached triangles of one storage, the least recently used first, and how often draws were seen, by hash."""
+    """The cached triangles of one storage, the least recently used first, and how often draws were seen, by hash.
+
+    `recent` are those of `recent_triangles`.
+    """
 
     entries: dict[Hashable, CachedTriangles] = field(default_factory=dict)
     seen: dict[int, int] = field(default_factory=dict)
+    recent: RecentTriangles = field(default_factory=RecentTriangles)
 
     def look_up(self, key: Hashable) -> Geometry | None:
         """Return the cached triangles of an equal draw, or None."""
@@ -72,6 +77,15 @@ class GeometryCache:
         if len(self.seen) > SEEN:
             del self.seen[next(iter(self.seen))]
         return count >= CACHED_FROM
+
+
+def recent_of(storage: Storage | None) -> RecentTriangles | None:
+    """Return the triangles of the latest draws of a storage."""
+    if storage is None:
+        return None
+    cache: GeometryCache = storage.geometry_cache or GeometryCache()
+    storage.geometry_cache = cache
+    return cache.recent
 
 
 def cached_geometry(command: Draw, target: Framebuffer, storage: Storage) -> tuple[Geometry, bool]:

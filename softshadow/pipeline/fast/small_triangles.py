@@ -60,7 +60,7 @@ def is_small(corners, t, region, pitch):
 @inlined
 def fill_small(
     tests_stencil, writes_ids, which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, n, region,
-    depth_range, pitch, depth, stencil, ids, passed, covered,
+    depth_range, pitch, depth, stencil, ids, passed, covered, ties,
 ):  # fmt: skip
     """Fill small triangles by bounding box, from ``numbers[n]`` on; the arguments: see `any_state.compiled_for`.
 
@@ -128,6 +128,8 @@ def fill_small(
                         else:
                             outside = outside_edges(at0, at1, at2, across0, across1, across2, np.int32(k))
                             hit = np.int32(depth_passes(depth_test, z, stored) & ~outside) != 0
+                            tied = ties[np.uint64(k)]
+                            ties[np.uint64(k)] = np.int32(tied | np.int32((-1 if z == stored else 0) & ~outside))
                         number = triangle if before == NO_TRIANGLE else repeated
                         depth[j, i] = z if hit & writes_depth else stored
                         ids[id_j, i] = number if hit else before

@@ -38,6 +38,7 @@ from softshadow.tokens import GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_MAX, GL_MIN
 REPLICATED = np.int32(0x01010101)  # an alpha times this is in all four bytes
 COLORS, ALL_BITS = np.int32(0x00FFFFFF), np.int32(-1)
 BYTES = np.uint64(4)  # per pixel
+LARGEST_BYTE = np.uint8(255)
 BYTE, HALF_BYTE, LARGEST = np.int32(255), np.uint16(128), np.uint16(255)
 
 
@@ -103,18 +104,40 @@ def blend_pixels(switches, first, end, whole):
             s, d = whole[PACKED + n], whole[TARGET + n]
             whole[OTHER + n] = (s & d & both) | (s & ~d & only_source) | (~s & d & only_target) | (~s & ~d & neither)
         return
+    equation = switches[EQUATION_RGB]
+    if equation == GL_FUNC_ADD == switches[EQUATION_ALPHA] and is_one(switches, SOURCE_TERMS, 0):
+        if is_one(switches, TARGET_TERMS, 2):
+            add_pixels(begin, stop, whole)
+            return
     write_factors(switches, SOURCE_TERMS, SOURCE_FACTOR, begin, stop, whole)
     write_factors(switches, TARGET_TERMS, TARGET_FACTOR, begin, stop, whole)
     if switches[SATURATES]:
         saturate(switches[SATURATES], SOURCE_FACTOR, begin, stop, whole)
         saturate(switches[SATURATES] >> 2, TARGET_FACTOR, begin, stop, whole)
-    blend_channels(switches[EQUATION_RGB], begin, stop, whole)
+    blend_channels(equation, begin, stop, whole)
     if switches[EQUATION_ALPHA] != switches[EQUATION_RGB]:
         for n in range(begin, stop):
             whole[LOWER + n] = whole[OTHER + n]
         blend_channels(switches[EQUATION_ALPHA], begin, stop, whole)
         for n in range(begin, stop):
             whole[OTHER + n] = (whole[OTHER + n] & ~COLORS) | (whole[LOWER + n] & COLORS)
+
+
+@kernel
+def is_one(switches, terms, shift):
+    """Return whether a factor is 1 for all channels; `shift` says which bits of SATURATES are its own."""
+    varying = switches[terms] | switches[terms + 1] | switches[terms + 2] | switches[terms + 3] | switches[terms + 4]
+    return varying == 0 and switches[terms + 5] == ALL_BITS and not switches[SATURATES] >> shift & 3
+
+
+@kernel
+def add_pixels(begin, stop, whole):
+    """Write PACKED plus TARGET to OTHER, as `blend_channels` with factors of 1: a product of a byte and 255 is it."""
+    channels = whole.view(np.uint8)
+    source, target, out = BYTES * PACKED, BYTES * TARGET, BYTES * OTHER
+    for n in range(BYTES * begin, BYTES * stop):
+        a = channels[source + n]
+        channels[out + n] = np.uint8(a + min(channels[target + n], np.uint8(LARGEST_BYTE - a)))
 
 
 @kernel

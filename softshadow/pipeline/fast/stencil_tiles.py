@@ -45,6 +45,7 @@ from softshadow.pipeline.fast.hierarchical_z import (
     tile_bounds,
     write_tile_bounds,
 )  # fmt: skip
+from softshadow.pipeline.fast.narrow_rows import WIDEST, extent_of_rows, fill_narrow
 from softshadow.pipeline.fast.small_triangles import columns_of, fill_small
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import share, threads
@@ -162,7 +163,7 @@ def fill_in_tiles(
     while n < numbers.shape[0]:
         n = fill_small(
             1, 0, 0, ops, byte_ops, largest, corners, planes, faces, numbers, n, region, depth_range, pitch, depth,
-            stencil, depth, passed, covered,
+            stencil, depth, passed, covered, covered,
         )  # fmt: skip
         if n == numbers.shape[0]:
             break
@@ -182,14 +183,9 @@ def fill_in_tiles(
         for tile_row in range(first >> ROWS_LOG2, ((end - 1) >> ROWS_LOG2) + 1):
             top, bottom = rows_of(tile_row, region)
             first_here, end_here = max(first, top), min(end, bottom)
-            # outer: from the first to the last column; inner: the columns that all rows cover
-            outer_left, outer_right = np.int32(box_right), np.int32(box_left)
-            inner_left, inner_right = outer_right, outer_left
-            for row in range(first_here, end_here):
-                row_left, row_right = lefts[np.uint64(row)], rights[np.uint64(row)]
-                inner_left, inner_right = max(inner_left, row_left), min(inner_right, row_right)
-                if row_left < row_right:
-                    outer_left, outer_right = min(outer_left, row_left), max(outer_right, row_right)
+            outer_left, outer_right, inner_left, inner_right, widest = extent_of_rows(
+                first_here, end_here, box_left, box_right, lefts, rights
+            )
             if outer_left >= outer_right:
                 continue
             has_all_rows = first_here == top and end_here == bottom
@@ -209,6 +205,12 @@ def fill_in_tiles(
                     pending[tile_row - first_tile_row, tile] += (
                         -1 if (zpass if what == PASS else zfail) == DECR_WRAP else 1
                     )
+                    continue
+                if widest <= WIDEST and tile_left <= outer_left and outer_right <= tile_right:
+                    fill_narrow(
+                        what, op, widest, first_here, end_here, lefts, rights, pitch - 1, passing, failing, most,
+                        depth_test, z0, dz, dz_row, offset, depth_range, largest, depth, stencil,
+                    )  # fmt: skip
                     continue
                 # the chunks of a row: one from `left` on if that covers the tile's part of every row, else all of them
                 first_chunk, end_chunk = left >> CHUNK_LOG2 << CHUNK_LOG2, right

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -55,7 +55,7 @@ class FillInputs(NamedTuple):
     def same_as(self, other: FillInputs) -> bool:
         """Return whether all inputs are equal, bit for bit."""
         states = [(each.front, each.back, each.region, repr(each.depth_range)) for each in (self, other)]  # 0 is not -0
-        return states[0] == states[1] and all(map(_same_bits, self.triangles, other.triangles))
+        return states[0] == states[1] and all(map(same_bits, self.triangles, other.triangles))
 
     def fingerprint(self) -> int:
         """Return a hash of the inputs, from a few of the triangles."""
@@ -64,7 +64,8 @@ class FillInputs(NamedTuple):
         return hash((self.front, self.back, self.region, self.depth_range, len(corners), *ends))
 
 
-def _same_bits(a: np.ndarray, b: np.ndarray) -> bool:
+def same_bits(a: np.ndarray, b: np.ndarray) -> bool:
+    """Return whether two arrays of a dtype have the same bits."""
     as_bits = f"u{a.dtype.itemsize}"
     return a is b or (a.dtype == b.dtype and np.array_equal(a.view(as_bits), b.view(as_bits)))
 
@@ -92,10 +93,14 @@ Key = tuple[int, object, object]  # fingerprint of a draw, and the tokens of dep
 
 @dataclass(eq=False)
 class VisibilityCache:
-    """The cached fills of one storage, and the fingerprints of draws that were seen: True where caching may pay."""
+    """The cached fills of one storage, and the fingerprints of draws that were seen: True where caching may pay.
+
+    `surfaces` are those of `drawn_surfaces`.
+    """
 
     entries: dict[Key, CacheEntry] = field(default_factory=dict)  # in the order of their last use
     seen: dict[int, bool] = field(default_factory=dict)
+    surfaces: list[Any] = field(default_factory=list)
 
     def look_up(self, key: Key, inputs: FillInputs) -> CacheEntry | None:
         """Return the cached fill of equal inputs over equal buffers, or None."""
@@ -133,6 +138,7 @@ def clear_visibility_cache(storage: Storage) -> None:
     """Remove all entries of a storage's cache."""
     cache = storage.visibility_cache
     if cache is not None:
+        cache.surfaces.clear()
         for key in list(cache.entries):
             cache.evict(key)
 

@@ -7,12 +7,14 @@ draw_pipe_aapoint.c, nir_draw_helpers.c).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from softshadow.jit import kernel
 from softshadow.programs import Program
 
 ALPHA = 3
@@ -37,7 +39,8 @@ def smooth_lines(window: np.ndarray, values: np.ndarray, width: float) -> Rectan
     half_width = real(1) if width <= 1 else real(0.5) * real(min(width, LARGEST_SIZE)) + real(0.5)
     along = window[:, 1, :2] - window[:, 0, :2]
     length = np.sqrt(along[:, 0] * along[:, 0] + along[:, 1] * along[:, 1])
-    cos, sin = along[:, 0] / length, along[:, 1] / length
+    cos, sin = np.empty_like(length), np.empty_like(length)
+    write_directions(along, cos, sin)
     half_length = real(0.5) * length
     half_length = np.where(half_length < real(0.5), real(2) * half_length, half_length + real(0.5))
     corners, places = np.repeat(window, 2, axis=1), np.empty((len(window), 4, PLACE_COLUMNS), real)
@@ -48,6 +51,17 @@ def smooth_lines(window: np.ndarray, values: np.ndarray, width: float) -> Rectan
         places[:, corner, 0], places[:, corner, 1] = -v, half_width
         places[:, corner, 2], places[:, corner, 3] = half_length if corner >= 2 else -half_length, half_length
     return _rectangles(corners, np.repeat(values, 2, axis=1), places, ((2, 1, 0), (3, 1, 2)))
+
+
+@kernel
+def write_directions(along, cos, sin):
+    """Write the cosines and sines (L,) of the angles of lines (L, 2), by the functions of the C library, as Mesa does.
+
+    Interpreted, they are those of double precision.
+    """
+    for n in range(along.shape[0]):
+        angle = math.atan2(along[n, 1], along[n, 0])
+        cos[n], sin[n] = math.cos(angle), math.sin(angle)
 
 
 def smooth_points(window: np.ndarray, values: np.ndarray, sizes: np.ndarray, per_vertex: bool) -> Rectangles:

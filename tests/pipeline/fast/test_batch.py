@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from softshadow import gl
 from softshadow.context import Context
-from softshadow.framebuffer import Framebuffer
+from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline import choose, queue, set_threads, threads, use_short_cuts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch import geometry
@@ -204,8 +204,10 @@ def test_a_lit_mesh_has_the_colours_of_the_textbook(seed):
     geometries = []
     program, rng = Program(seed), np.random.default_rng(seed)
 
-    def compared(run: Run, setting: Setting, draws: list[Draw], target: Framebuffer) -> tuple[Geometry, int]:
-        result = geometry_of(run, setting, draws, target)
+    def compared(
+        run: Run, setting: Setting, draws: list[Draw], target: Framebuffer, storage: Storage
+    ) -> tuple[Geometry, int]:
+        result = geometry_of(run, setting, draws, target, storage)
         geometries.append((result[0], process_geometry(draws[0], target, context.storage)))
         return result
 

@@ -5,7 +5,7 @@ Vertices, lighting and assembly of all draws take three calls of kernels; clippi
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,8 +17,10 @@ from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.assembly import assemble_draws, assemble_lines_and_points, primitive_count
 from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
 from softshadow.pipeline.fast.batch.table import Run, Table, table_of, width_of
-from softshadow.pipeline.fast.batch.vertices import END, prepare_draws, process_vertices
-from softshadow.pipeline.geometry.clip import clip_triangles
+from softshadow.pipeline.fast.batch.vertices import prepare_draws, process_vertices
+from softshadow.pipeline.fast.geometry_cache import recent_of
+from softshadow.pipeline.fast.recent_triangles import triangles_key, window_key
+from softshadow.pipeline.geometry.clip import CUT, Clipped, clip_triangles, write_sides
 from softshadow.pipeline.geometry.facing import snap_vertices
 from softshadow.pipeline.geometry.geometry import (
     filled_geometry,
@@ -42,6 +44,8 @@ from softshadow.programs.fixed_function import has_secondary
 REAL = np.dtype(np.float32)
 VERTICES_PER_TASK = 1 << 13  # that a thread processes in one go
 SMALL = 1 << 12  # vertices, and triangles, of a run that one kernel sets up
+MOST_COMPARED, WORTH_COMPARING = 32, 256  # draws of a run that is compared with recent ones, and the vertices of each
+PLACED = 6  # of the inputs of the vertex stage: the array that `prepare_draws` fills
 
 
 class Setting(NamedTuple):
@@ -70,63 +74,176 @@ def setting_of(run: Run, target: Framebuffer, storage: Storage) -> Setting:
     )
 
 
-def geometry_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Framebuffer) -> tuple[Geometry, int]:
+class Outputs(NamedTuple):
+    """What the vertex stage makes of the vertices of a run; back is None without two-sided lighting."""
+
+    clip: np.ndarray
+    codes: np.ndarray
+    window: np.ndarray
+    values: np.ndarray
+    back: np.ndarray | None
+
+    @property
+    def for_kernels(self) -> tuple[np.ndarray, ...]:
+        """The arrays, with one that is not written in the place of a missing one."""
+        return *self[:4], self.values if self.back is None else self.back
+
+    @property
+    def columns(self) -> np.ndarray:
+        """All values that clipping interpolates."""
+        return self.values if self.back is None else np.hstack([self.values, self.back])
+
+
+class RunTriangles(NamedTuple):
+    """The triangles of a run, to be used again: `setups` by culling.
+
+    cut (3 C,): the vertices of the triangles that are cut; None for a run without colours.
+    """
+
+    geometry: Geometry
+    clipped: Clipped
+    cut: np.ndarray | None
+    setups: dict[tuple[int, int], Setup]
+
+
+def geometry_of(
+    run: Run, setting: Setting, draws: Sequence[Draw], target: Framebuffer, storage: Storage | None = None
+) -> tuple[Geometry, int]:
     """Return the triangles of all draws of a run, in drawing order, in the window of `target`.
 
-    And about how many fragments they have, -1 where that is not known.
+    And about how many fragments they have, -1 where that is not known. With a `storage`, the triangles of a recent run
+    are used again if they are the same.
     """
-    command, table = run.command, table_of(run, draws)
-    n, most, width = int(table.numbers[-1, END]), _most_primitives(draws), width_of(command.mode)
-    k, is_small = len(setting.flat), width == 3 and max(n, most) <= SMALL and not has_float_units(command, target)
-    clip, codes, values = scratch((n, 4), REAL), scratch(n, np.int32), scratch((n, k), REAL)
-    window = scratch((n, 4), REAL)
-    back = scratch((n, k), REAL) if table.layout.two_side else None
-    placed = np.zeros((len(table.rows), table.lights.shape[1], PLACED_COLUMNS), REAL)
-    outputs = (clip, codes, window, values, values if back is None else back)
-    inputs = (
-        table.layout, table.numbers, table.rows, table.lights, table.materials, table.flags, placed, table.generated,
-        table.planes, table.unit_rows, table.positions, table.colors, table.normals, table.texcoords, setting.scale,
-        setting.shift,
-    )  # fmt: skip
+    recent = recent_of(storage) if _may_be_repeated(draws) else None
+    key = _key_of(run, setting, draws, target) if recent else ()
+    known: RunTriangles | None = recent.look_up(key) if recent else None
+    if known and (known.cut is not None or not run.writes_color):
+        return _repeated_geometry(run, setting, draws, target, known), -1
+    table, n, most = table_of(run, draws), sum([len(draw.vertices.position) for draw in draws]), _most_primitives(draws)
+    command, width, outputs = run.command, width_of(run.command.mode), _empty_outputs(n, table, setting)
+    inputs = _inputs(table, setting)
     triangles, provoking = scratch((most, 3), np.int32), scratch(most, np.int32)
     unset = Geometry(
-        NO_TRIANGLES, window, values, back, setting.flat, provoking, provoking, setting.program, setting.uniforms
-    )
-    if is_small:
+        NO_TRIANGLES, *outputs[2:], setting.flat, provoking, provoking, setting.program, setting.uniforms
+    )  # fmt: skip
+    if width == 3 and max(n, most) <= SMALL and not has_float_units(command, target):
         setup = Setup(
             np.empty((most, 6), np.int32), np.empty((most, 3), np.int32), np.empty((most, 4), REAL),
             np.empty(most, np.uint8), np.empty(most, np.int32),
         )  # fmt: skip
         n_triangles, n_drawn, area = set_up_run(
-            *inputs, *outputs, table.indices, triangles, read_only(triangles), provoking, np.empty((n, 2), np.int32),
-            setting.culled, setting.positive_is_front, setting.offset, *setup,
+            *inputs, *outputs.for_kernels, table.indices, triangles, read_only(triangles), provoking,
+            np.empty((n, 2), np.int32), setting.culled, setting.positive_is_front, setting.offset, *setup,
         )  # fmt: skip
         if n_drawn >= 0:
             return unset._replace(triangles=Setup(*[array[:n_drawn] for array in setup])), area >> 8
     else:
-        prepare_draws(*inputs[:3], table.lights, table.flags, placed)
-        parts = parts_of(n, VERTICES_PER_TASK)
-        share(lambda part: process_vertices(*parts[part], *inputs, *outputs), len(parts))
+        _write_outputs(table, inputs, outputs)
         if width == 3:
-            n_triangles = assemble_draws(table.numbers, table.indices, codes, triangles, provoking)
-    columns = values if back is None else np.hstack([values, back])
+            n_triangles = assemble_draws(table.numbers, table.indices, outputs.codes, triangles, provoking)
+    clip, codes, columns = outputs.clip, outputs.codes, outputs.columns
     if width == 3:
         clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, user_planes(command))
     else:
         primitives, clip_primitives = _lines_or_points(table, most, width), clip_points if width == 1 else clip_lines
         provoking, clipped = primitives[:, -1], clip_primitives(clip, columns, primitives, codes, user_planes(command))
+    window = outputs.window
     if len(clipped.clip) > n:  # the new vertices of clipping come last
         window = append_rows(window, to_window(clipped.clip[n:], *window_transform(command, target)))
-    geometry = unset._replace(
-        window=window,
-        values=np.ascontiguousarray(clipped.values[:, :k]),
-        back=None if back is None else np.ascontiguousarray(clipped.values[:, k:]),
-        source=clipped.source,
-        provoking=provoking[clipped.source],
-    )
-    if width == 3:
-        return filled_geometry(geometry, clipped, command, target, command.state.cull), -1
-    return points_and_lines_geometry(geometry, clipped, command, target), -1
+    geometry = unset._replace(window=window, source=clipped.source, provoking=provoking[clipped.source])
+    geometry = _with_values(geometry, clipped.values, setting)
+    if width != 3:
+        return points_and_lines_geometry(geometry, clipped, command, target), -1
+    geometry = filled_geometry(geometry, clipped, command, target, command.state.cull)
+    if recent:
+        bare = clipped._replace(clip=clip[:0], values=columns[:0])
+        cut = _cut_vertices(triangles[:n_triangles], codes) if run.writes_color else None
+        known = RunTriangles(geometry, bare, cut, {})
+        known.setups[setting.culled, setting.positive_is_front] = geometry.triangles
+        arrays = geometry.window, geometry.values, geometry.source, geometry.provoking, *geometry.triangles
+        alive = [(draw.vertices.position, draw.indices) for draw in draws]
+        recent.add(key, known, (*arrays, clipped.triangles), alive)
+    return geometry, -1
+
+
+def _may_be_repeated(draws: Sequence[Draw]) -> bool:
+    """Return whether a run is large enough to be compared with recent ones: of large draws of triangles."""
+    if width_of(draws[0].mode) != 3 or len(draws) > MOST_COMPARED:
+        return False
+    return sum([len(draw.vertices.position) for draw in draws]) >= WORTH_COMPARING * len(draws)
+
+
+def _key_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Framebuffer) -> Hashable:
+    """Return what the triangles of a run depend on, but for its culling."""
+    image = target.depth
+    return (
+        *map(triangles_key, draws), window_key(run.command, target), setting.scale.tobytes(), setting.shift.tobytes(),
+        repr(setting.offset), run.across, None if image is None else image.format,
+    )  # fmt: skip
+
+
+def _repeated_geometry(
+    run: Run, setting: Setting, draws: Sequence[Draw], target: Framebuffer, known: RunTriangles
+) -> Geometry:
+    """Return the triangles of a run that has those of a recent one; vertices are lit anew, and triangles culled."""
+    geometry, facing = known.geometry, (setting.culled, setting.positive_is_front)
+    if facing not in known.setups:
+        command = run.command
+        filled = filled_geometry(geometry, known.clipped, command, target, command.state.cull)
+        known.setups[facing] = filled.triangles
+    geometry = geometry._replace(triangles=known.setups[facing])
+    if not run.writes_color:
+        return geometry
+    table, n = table_of(run, draws), sum([len(draw.vertices.position) for draw in draws])
+    outputs = _empty_outputs(n, table, setting)
+    _write_outputs(table, _inputs(table, setting), outputs)
+    columns = outputs.columns
+    if len(geometry.window) > n and known.cut is not None:
+        cut, clip, codes = known.cut, outputs.clip, outputs.codes
+        own = np.arange(len(cut), dtype=np.int32).reshape(-1, 3)
+        pieces = clip_triangles(clip[cut], columns[cut], own, codes[cut], user_planes(run.command))
+        columns = np.concatenate([columns, pieces.values[len(cut) :]])
+    geometry = geometry._replace(flat=setting.flat, program=setting.program, uniforms=setting.uniforms)
+    return _with_values(geometry, columns, setting)
+
+
+def _with_values(geometry: Geometry, columns: np.ndarray, setting: Setting) -> Geometry:
+    """Return the geometry with the values of all vertices, those of front faces in the first columns."""
+    k = len(setting.flat)
+    back = np.ascontiguousarray(columns[:, k:]) if columns.shape[1] > k else None
+    return geometry._replace(values=np.ascontiguousarray(columns[:, :k]), back=back)
+
+
+def _cut_vertices(triangles: np.ndarray, codes: np.ndarray) -> np.ndarray:
+    """Return the vertices (3 C,) of the triangles that clipping cuts."""
+    if not codes.any():
+        return np.empty(0, np.int32)
+    sides = np.empty(len(triangles), np.uint8)
+    write_sides(read_only(triangles), codes, 0, len(triangles), sides)
+    return triangles.take(np.flatnonzero(sides == CUT), axis=0).reshape(-1)
+
+
+def _empty_outputs(n: int, table: Table, setting: Setting) -> Outputs:
+    k = len(setting.flat)
+    back = scratch((n, k), REAL) if table.layout.two_side else None
+    return Outputs(scratch((n, 4), REAL), scratch(n, np.int32), scratch((n, 4), REAL), scratch((n, k), REAL), back)
+
+
+def _inputs(table: Table, setting: Setting) -> tuple[Any, ...]:
+    """Return the inputs of the vertex stage, as kernels take them."""
+    placed = np.zeros((len(table.rows), table.lights.shape[1], PLACED_COLUMNS), REAL)
+    return (
+        table.layout, table.numbers, table.rows, table.lights, table.materials, table.flags, placed, table.generated,
+        table.planes, table.unit_rows, table.positions, table.colors, table.normals, table.texcoords, setting.scale,
+        setting.shift,
+    )  # fmt: skip
+
+
+def _write_outputs(table: Table, inputs: tuple[Any, ...], outputs: Outputs) -> None:
+    """Process the vertices of all draws, in parts that threads share."""
+    prepare_draws(*inputs[:3], table.lights, table.flags, inputs[PLACED])
+    parts = parts_of(len(outputs.clip), VERTICES_PER_TASK)
+    share(lambda part: process_vertices(*parts[part], *inputs, *outputs.for_kernels), len(parts))
 
 
 @kernel

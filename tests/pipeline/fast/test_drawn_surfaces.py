@@ -1,0 +1,156 @@
+"""Light added to surfaces that were drawn before has the bits of draws that test every fragment."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from draws import ADDING, draw, random_state, random_triangles, same_window, small_triangles, vertices
+from softshadow import tokens as gl
+from softshadow.context import Context
+from softshadow.pipeline import explain_paths, set_threads, threads, use_short_cuts
+from softshadow.pipeline.commands import Clear, Vertices
+from softshadow.pipeline.fast import drawn_surfaces
+from softshadow.pipeline.memory import threads as pool
+from softshadow.state import Blend, State
+
+HIT = "an earlier draw left these surfaces in the depth buffer: only their fragments are tested"
+SQUARE = [[-1, -1, 0, 1], [1, -1, 0, 1], [1, 1, 0, 1], [-1, -1, 0, 1], [1, 1, 0, 1], [-1, 1, 0, 1]]
+seeds = st.integers(0, 2**32 - 1)
+
+
+class Frame:
+    """Random passes over two meshes: surfaces, light added to them, counts in the stencil buffer, other draws."""
+
+    def __init__(self, seed: int, depth_format: str) -> None:
+        self.rng = np.random.default_rng(seed)
+        self.context = Context(48, 40, depth_format, precision="exact" if seed % 7 == 0 else "mesa")
+        self.meshes = [self.mesh() for _ in range(2)]
+        plain = self.context.state
+        state = random_state(self.rng, plain)
+        if self.rng.random() < 0.7:
+            state = replace(state, polygon=plain.polygon, depth=plain.depth)
+        self.state = replace(state, stencil=plain.stencil, alpha=plain.alpha, cull=plain.cull, color=plain.color)
+        self.hits = 0
+
+    def mesh(self) -> Vertices:
+        triangles = random_triangles(self.rng, 6) if self.rng.random() < 0.3 else small_triangles(self.rng, 20)
+        if self.rng.random() < 0.8:  # nothing at the far plane, where the cleared buffer has the same depth
+            triangles.position[:, 2] *= np.float32(0.5)
+            triangles.position[:, 3] = 1
+        if self.rng.random() < 0.2:  # equal depths where they overlap
+            triangles.position[:, 2] = np.float32(0.25)
+        return triangles
+
+    def pass_of(self, kind: int) -> State:
+        rng, state = self.rng, self.state
+        depth = replace(state.depth, enabled=True)
+        counted = random_state(rng, state)
+        if kind == 0:
+            return replace(state, depth=replace(depth, func=int(rng.choice([gl.GL_LESS, gl.GL_LEQUAL])), write=True))
+        if kind == 1:
+            faces = replace(counted.stencil.front, sfail=gl.GL_KEEP, zfail=gl.GL_KEEP, zpass=gl.GL_KEEP)
+            stencil = replace(counted.stencil, front=faces, back=faces)
+            depth = replace(depth, func=int(rng.choice([gl.GL_EQUAL, gl.GL_LEQUAL])), write=False)
+            return replace(state, depth=depth, stencil=stencil, blend=ADDING)
+        if kind == 2:
+            depth, color = replace(depth, write=False), replace(state.color, mask=(False,) * 4)
+            return replace(state, depth=depth, stencil=replace(counted.stencil, enabled=True), color=color)
+        if kind == 3:
+            color = replace(state.color, mask=(False,) * 4)
+            return replace(state, depth=replace(depth, func=gl.GL_LESS, write=True), color=color)
+        return replace(counted, blend=ADDING if rng.random() < 0.3 else Blend())  # any state, which may enlarge depths
+
+    def clear_depth(self) -> None:
+        state = self.state
+        depth = replace(state.depth, write=True, clear=1.0)
+        self.context.execute(Clear(replace(state, depth=depth), gl.GL_DEPTH_BUFFER_BIT))
+
+    def drawn(self, passes: int = 14) -> Context:
+        self.clear_depth()
+        with explain_paths() as paths:
+            draw(self.context, self.pass_of(0), self.meshes[0])
+            for _ in range(passes):
+                kind = int(self.rng.choice(5, p=[0.3, 0.4, 0.15, 0.1, 0.05]))
+                draw(self.context, self.pass_of(kind), self.meshes[int(self.rng.random() < 0.3)])
+                if self.rng.random() < 0.05:
+                    self.clear_depth()
+        self.hits = sum(HIT in path.reasons for path in paths)
+        return self.context
+
+
+def textbook(seed: int, depth_format: str) -> Context:
+    with use_short_cuts(False):
+        return Frame(seed, depth_format).drawn()
+
+
+@given(seeds, st.sampled_from(["d24", "d32f"]))
+def test_passes_over_known_surfaces_leave_the_bits_of_the_textbook(seed, depth_format):
+    with use_short_cuts("always"):
+        assert same_window(Frame(seed, depth_format).drawn(), textbook(seed, depth_format))
+
+
+@given(seeds)
+def test_parts_of_several_threads_leave_the_same_bits(seed):
+    before = threads()
+    with pytest.MonkeyPatch.context() as patch, use_short_cuts("always"):
+        patch.setattr(pool, "PART_SIZE", 5)
+        set_threads(3)
+        try:
+            assert same_window(Frame(seed, "d24").drawn(), textbook(seed, "d24"))
+        finally:
+            set_threads(before)
+
+
+def test_many_passes_find_a_known_surface():
+    with use_short_cuts("always"):
+        frames = [Frame(seed, "d24") for seed in range(12)]
+        for frame in frames:
+            frame.drawn()
+    assert sum(frame.hits for frame in frames) > 12
+
+
+def lit_after(*between: Vertices, func: int = gl.GL_LESS, surface: Vertices | None = None) -> bool:
+    """Return whether the surface is known that is lit after draws under `func`, and compare it with the textbook."""
+    surface, contexts, hits = surface or vertices(SQUARE), [], 0
+    for policy in ("always", False):
+        context = Context(40, 32, "d24")
+        depth = replace(context.state.depth, enabled=True)
+        opaque = replace(context.state, depth=depth)
+        light = replace(context.state, depth=replace(depth, func=gl.GL_LEQUAL, write=False), blend=ADDING)
+        with use_short_cuts(policy), explain_paths() as paths:
+            draw(context, opaque, surface)
+            for triangles in between:
+                draw(context, replace(opaque, depth=replace(depth, func=func)), triangles)
+            draw(context, light, surface)
+        contexts.append(context)
+        hits += HIT in paths[-1].reasons
+    assert same_window(*contexts)
+    return hits == 1
+
+
+def test_nearer_surfaces_between_keep_what_is_known():
+    nearer = np.float32(SQUARE) * [0.5, 0.5, 1, 1] - [0, 0, 0.5, 0]
+    assert lit_after(vertices(nearer))
+
+
+def test_a_draw_that_may_enlarge_depths_ends_what_is_known():
+    farther = np.add(np.float32(SQUARE), [0, 0, 0.5, 0])
+    assert not lit_after(vertices(farther), func=gl.GL_GREATER)
+
+
+def test_a_surface_with_two_equal_depths_is_not_remembered():
+    twice = vertices([*SQUARE, *SQUARE])
+    assert not lit_after(surface=twice)
+
+
+def test_few_surfaces_are_remembered():
+    context = Context(16, 16, "d24")
+    state = replace(context.state, depth=replace(context.state.depth, enabled=True, func=gl.GL_LESS))
+    rng = np.random.default_rng(0)
+    with use_short_cuts("always"):
+        for _ in range(3 * drawn_surfaces.MOST_SURFACES):
+            draw(context, state, random_triangles(rng, 3))
+    assert len(context.storage.visibility_cache.surfaces) <= drawn_surfaces.MOST_SURFACES
