@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.pixel_rectangles import glDrawPixels
 from softshadow.gl.pixels import glReadPixels
 from softshadow.gl.texture_images import glTexImage1D, glTexImage2D, glTexSubImage1D, glTexSubImage2D
@@ -77,6 +76,7 @@ def _calls() -> dict[str, Callable[..., Any]]:
     return found
 
 
-globals().update(_calls())
+TYPED_CALLS = _calls()
+globals().update(TYPED_CALLS)
 
-__all__ = spelled_like_gl(globals())
+__all__ = list(TYPED_CALLS)
