@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from softshadow.color_values import color_as_float, to_base
+from softshadow.color_values import F32, color_as_float, to_base
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.image import Image
+from softshadow.jit import kernel
 from softshadow.pipeline.commands import CopyToTexture
 from softshadow.pixel_transfer import PixelTransfer
 from softshadow.pixels import (
@@ -45,18 +46,41 @@ def copy_to_texture(command: CopyToTexture, storage: Storage) -> None:
     rows, columns, moved_x, moved_y = clipped(source, command.x, command.y, command.width, command.height)
     left, bottom = command.x_offset + moved_x, command.z * image.height + command.y_offset + moved_y
     for buffer, source_buffer in _buffer_pairs(source, image):
-        cells = bottom_up(source, source_buffer)[rows, columns]
+        stored = source_buffer.read_cells
+        cells = (stored[::-1] if source.flipped else stored)[rows, columns]  # views: nothing is copied yet
         height, width = cells.shape[:2]
+        place = np.s_[bottom : bottom + height, left : left + width]
         transfer, is_depth = command.transfer, buffer.format.kind == "depth"
         if transfer is not None and is_depth and transfer.changes_depth:
             copied = _transferred_depth(cells, source_buffer, buffer, transfer)
         elif transfer is not None and buffer.format.kind in ("unorm8", "float") and transfer.through_floats:
             copied = _transferred_color(cells, source_buffer, buffer, transfer)
+        elif is_depth and source.flipped and _is_float32(source_buffer) and _is_float32(buffer):
+            last_row = len(stored) - 1 - rows.start  # the lowest row of the rectangle
+            write_depth_upwards(
+                stored, last_row, columns.start, F32(1) / F32(source_buffer.format.largest),
+                F32(buffer.format.largest), buffer.view[place],
+            )  # fmt: skip
+            continue
         elif is_depth:
-            copied = _convert_depth(cells.copy(), source_buffer, buffer, source.flipped)
+            copied = _convert_depth(cells, source_buffer, buffer, source.flipped)
         else:
-            copied = convert_color(cells.copy(), source_buffer, buffer)
-        buffer.view[bottom : bottom + height, left : left + width] = copied
+            copied = convert_color(cells, source_buffer, buffer)
+        buffer.view[place] = copied
+
+
+def _is_float32(image: Image) -> bool:
+    """Return whether an image has fixed-point depth that is stored in float32: 16 or 24 bits."""
+    return image.format.largest > 0 and image.format.dtype is F32
+
+
+@kernel
+def write_depth_upwards(cells, last_row, first_column, step, largest, copied):
+    """Write `_convert_depth` of the rows from `last_row` on upwards, for formats of 16 and 24 bits."""
+    for j in range(copied.shape[0]):
+        row = np.uint64(last_row - j)
+        for i in range(copied.shape[1]):
+            copied[j, i] = np.rint(cells[row, np.uint64(first_column + i)] * step * largest)
 
 
 def _buffer_pairs(source: Framebuffer, image: Image) -> list[tuple[Image, Image]]:

@@ -10,10 +10,14 @@ from softshadow.framebuffer import Attachment, Framebuffer, Storage, default_fra
 from softshadow.image import FORMATS, Image, storage_format
 from softshadow.pipeline.buffers.copy import bottom_up, clipped, copy_to_texture
 from softshadow.pipeline.commands import CopyToTexture
+from softshadow.pixels import quantized_depth, sampled_depth
 from softshadow.texture import Texture
 
 POINTS = {"depth": gl.GL_DEPTH_ATTACHMENT, "unorm8": gl.GL_COLOR_ATTACHMENT0, "float": gl.GL_COLOR_ATTACHMENT0}
 DEPTH_STEP = np.float32(1) / np.float32(16777215)
+DEPTH_FORMATS = (
+    gl.GL_DEPTH_COMPONENT16, gl.GL_DEPTH_COMPONENT24, gl.GL_DEPTH_COMPONENT32, gl.GL_DEPTH_COMPONENT32F,
+)  # fmt: skip
 size = st.integers(1, 9)
 coordinate = st.integers(-12, 12)
 
@@ -78,6 +82,19 @@ def test_depth_of_the_window_goes_through_float():
     texels = copied_texels(window, image, 0, 0, 0, 0, 60, 50)
     assert (texels == expected).all()
     assert (texels != window.depth.view[::-1]).any()
+
+
+@pytest.mark.parametrize("internal", DEPTH_FORMATS)
+@pytest.mark.parametrize("of_window", DEPTH_FORMATS)
+def test_a_rectangle_of_the_window_is_sampled_and_quantized(of_window, internal):
+    depth = random_image(of_window, 60, 50)
+    window = default_framebuffer(60, 50)
+    window.attachments[gl.GL_DEPTH_ATTACHMENT] = Attachment(depth)
+    image = random_image(internal, 40, 30, seed=1)
+    expected = image.view.copy()
+    lower_left = depth.view[::-1][7:27, 11:46]
+    expected[4:24, 3:38] = quantized_depth(sampled_depth(lower_left, depth.format), image.format)
+    assert (copied_texels(window, image, 3, 4, 11, 7, 35, 20) == expected).all()
 
 
 def test_pixels_outside_the_framebuffer_leave_their_texels_unchanged():
