@@ -19,6 +19,7 @@ from softshadow import tokens as gl
 _writing = Lock()
 BLOCK_SIDE = 4  # texels of a block of a compressed image, in both directions
 PITCH = 32  # rows are padded to whole chunks of 32 pixels: kernels may write past the width, but not into the next row
+CROWDED = 1024  # pixels: of rows that are multiples of it, the same columns lie in the same few lines of a cache
 
 
 @dataclass(frozen=True)
@@ -245,8 +246,9 @@ def storage_format(internal_format: int, type: int = gl.GL_FLOAT, pixel_format: 
 
 
 def zeroed_cells(height: int, width: int, format: Format) -> np.ndarray:
-    """Return zeroed cells: `height` rows, each padded to a multiple of `PITCH` pixels."""
+    """Return zeroed cells: `height` rows, each padded to a multiple of `PITCH` pixels, but not of `CROWDED`."""
     pitch = -(-width // PITCH) * PITCH
+    pitch += 0 if pitch % CROWDED else PITCH
     shape: tuple[int, ...] = (height, pitch) if format.channels == 1 else (height, pitch, format.channels)
     return np.zeros(shape, format.dtype)
 
