@@ -33,6 +33,7 @@ from softshadow.pipeline.raster.spans import ONLY
 from softshadow.pipeline.records import NO_TRIANGLE, SEVERAL_TRIANGLES
 
 WIDEST = 16  # columns; measured, boxes are the faster up to some 12 to 24
+HALF = WIDEST // 2
 WIDEST_OF_STRIPS = 3 * WIDEST  # columns of boxes that are filled strip by strip: in half the time that rows take
 TALLEST = 64  # rows; up to these, edge functions over a row of a box stay below 2^30 in 1/256 pixel squared
 
@@ -69,7 +70,7 @@ def fill_small(
     `covered` (16,) uint8 are scratch. Columns and rows as floats are those of `FillBuffers.columns`: reading that array
     would make the compiler test for every triangle whether it overlaps the buffers.
     """
-    flip, last_start = 0 if region.downwards else -1, pitch - WIDEST
+    flip = 0 if region.downwards else -1
     while n < numbers.shape[0]:
         t = np.uint64(numbers[n])  # unsigned: no wrap-around of negative indices is compiled in
         if not is_small(corners, t, region, pitch):
@@ -93,8 +94,12 @@ def fill_small(
         if writes_ids:
             triangle = np.int32(t)
             repeated = SEVERAL_TRIANGLES if which_ids == ONLY else triangle
+        # of depths alone, rows of half the columns take less time; a number that varies would slow bytes down
+        n_columns = np.int32(WIDEST)
+        if not (tests_stencil or writes_ids) and right - left <= HALF:
+            n_columns = np.int32(HALF)
         while left < right:
-            start = np.int32(min(left, last_start))
+            start = np.int32(min(left, pitch - n_columns))
             x, y = np.int32(start << 8), np.int32(first << 8)
             at0, across0, along0 = edge_from(x0, y0, x1, y1, x, y, flip)
             at1, across1, along1 = edge_from(x1, y1, x2, y2, x, y, flip)
@@ -134,7 +139,7 @@ def fill_small(
                         depth[j, i] = z if hit & writes_depth else stored
                         ids[id_j, i] = number if hit else before
                 elif writes_depth:
-                    for k in range(WIDEST):
+                    for k in range(n_columns):
                         i, column = np.uint64(start) + np.uint64(k), np.int32(start + np.int32(k))
                         z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                         stored = depth[j, i]

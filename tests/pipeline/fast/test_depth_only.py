@@ -68,7 +68,7 @@ def test_chunks_leave_the_bits_of_all_triangles_at_once(seed, depth_format, n_th
 def test_blocks_leave_the_bits_of_all_triangles_at_once(seed, depth_format, n_threads):
     expected, before = all_at_once(seed, depth_format), threads()
     with pytest.MonkeyPatch.context() as patch, use_short_cuts("always"):
-        patch.setattr(depth_only, "EVERY", 1)
+        patch.setattr(depth_only, "MEASURED", 1 << 20)
         patch.setattr(depth_only, "WORTH_BLOCKS", 0)
         patch.setattr(depth_only, "PIXELS_PER_TRIANGLE", 1 << 20)
         patch.setattr(choose, "LAYERS", 1 << 20)  # so that layers do not need bands
@@ -97,7 +97,7 @@ def test_threads_share_blocks_where_the_nearest_depth_counts(monkeypatch, seed, 
         return context
 
     monkeypatch.setattr(choose, "fill_in_blocks", spy)
-    monkeypatch.setattr(depth_only, "EVERY", 1)
+    monkeypatch.setattr(depth_only, "MEASURED", 1 << 20)
     monkeypatch.setattr(depth_only, "WORTH_BLOCKS", 0)
     monkeypatch.setattr(depth_only, "PIXELS_PER_TRIANGLE", 1 << 20)
     monkeypatch.setattr(choose, "LAYERS", 1 << 40)
