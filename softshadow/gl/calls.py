@@ -11,6 +11,7 @@ import numpy as np
 from softshadow.context import Context, thread
 from softshadow.gl.errors import outside_begin
 from softshadow.gl.refusals import CONVERTING, refusal, refuse_text
+from softshadow.gl.wrapping import Wrapping
 
 Call = TypeVar("Call", bound=Callable[..., Any])
 
@@ -21,20 +22,7 @@ def in_lists(call: Call) -> Call:
     With GL_COMPILE_AND_EXECUTE the call is carried out, too. Calls without this decorator are never recorded: in GL
     these are queries, client state and the creation of objects (GL 2.1, sec. 5.4).
     """
-
-    @functools.wraps(call)
-    def recorded(*arguments: Any, **named: Any) -> Any:
-        context = thread.context
-        try:
-            if str in map(type, arguments):
-                refuse_text(recorded, *arguments, **named)
-            if context.compiled_list is None:
-                return call(*arguments, **named)
-            return record(context, call, *arguments, **named)
-        except CONVERTING as error:
-            raise refusal(recorded, error, *arguments, **named) from error
-
-    return recorded  # type: ignore[return-value]
+    return LISTED.around(call)  # type: ignore[return-value]
 
 
 def record(context: Context, call: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
@@ -49,6 +37,26 @@ def record(context: Context, call: Callable[..., Any], *arguments: Any, **named:
         return call(*arguments, **named)
     finally:
         context.compiled_list, context.executes_list, context.ready = compiled, False, False
+
+
+LISTED = Wrapping(
+    """
+context = thread.context
+try:
+    if {has_text}:
+        refuse_text(function, {parameters})
+    if context.compiled_list is None:
+        return call({parameters})
+    return record(context, call, {parameters})
+except CONVERTING as error:
+    raise refusal(function, error, {parameters}) from error
+""",
+    CONVERTING=CONVERTING,
+    record=record,
+    refusal=refusal,
+    refuse_text=refuse_text,
+    thread=thread,
+)
 
 
 # Calls that programs make most have neither `in_lists` nor `outside_begin` nor `names_arguments`. They begin with

@@ -20,6 +20,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from softshadow.errors import SoftShadowError
+from softshadow.gl.wrapping import Wrapping
 
 Call = TypeVar("Call", bound=Callable[..., Any])
 CONVERTING = (
@@ -41,17 +42,7 @@ LONGEST_VALUE = 60  # characters of a value in a message
 
 def names_arguments(call: Call) -> Call:
     """Let the errors of a call name it and its argument (decorator). `in_lists` does this, too."""
-
-    @functools.wraps(call)
-    def named(*arguments: Any, **by_name: Any) -> Any:
-        try:
-            if str in map(type, arguments):
-                refuse_text(named, *arguments, **by_name)
-            return call(*arguments, **by_name)
-        except CONVERTING as error:
-            raise refusal(named, error, *arguments, **by_name) from error
-
-    return named  # type: ignore[return-value]
+    return NAMING.around(call)  # type: ignore[return-value]
 
 
 def all_naming_arguments(namespace: Mapping[str, Any], but: Container[str]) -> dict[str, Any]:
@@ -158,3 +149,18 @@ def _of_facade(error: Exception) -> bool:
         last = file if file.is_relative_to(PACKAGE) else last
         trace = trace.tb_next
     return any(last.is_relative_to(place) for place in FACADE)
+
+
+NAMING = Wrapping(
+    """
+try:
+    if {has_text}:
+        refuse_text(function, {parameters})
+    return call({parameters})
+except CONVERTING as error:
+    raise refusal(function, error, {parameters}) from error
+""",
+    CONVERTING=CONVERTING,
+    refusal=refusal,
+    refuse_text=refuse_text,
+)
