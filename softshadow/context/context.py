@@ -243,10 +243,11 @@ class Context:
         """Set the same fields in several groups of the state, as `change_field` does."""
         if not self.ready and self._would_redraw(groups, fields):
             self.flush()
+        by_name, mark = self.groups, self._changed.add
         for name in groups:
-            group = self.groups[name]
+            group = by_name[name]
             group.fields.update(fields)
-            self._changed.add(group)
+            mark(group)
 
     def _would_redraw(self, groups: Sequence[str], fields: Mapping[str, Any]) -> bool:
         """Return whether new values of fields would change how the collected vertices are drawn."""

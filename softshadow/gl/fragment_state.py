@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Mapping
 from ctypes import c_float, c_int
+from functools import lru_cache
 from itertools import product
 from typing import Any
 
@@ -35,6 +37,7 @@ A_FACTOR = "a blend factor (GL 2.1, table 4.2)"
 UNSIGNED = 0xFFFFFFFF  # masks are unsigned: -1 sets all bits
 MASKS = {mask: mask for mask in product((False, True), repeat=4)}  # so that equal masks are the same object
 LOGIC_OPS = range(gl.GL_CLEAR, gl.GL_SET + 1)
+F32 = np.float32
 SINGLES = tuple(struct.Struct(f"{count}f") for count in range(5))  # by the number of values
 SINGLE = SINGLES[1]
 
@@ -45,7 +48,7 @@ def clamp01(value: float) -> float:
 
 def rounded_number(context: Context, value: float) -> float:
     """Return a number rounded to the context's precision."""
-    if context.real is not np.float32:
+    if context.real is not F32:
         return float(value)
     try:
         number: float = SINGLE.unpack(SINGLE.pack(value))[0]
@@ -56,7 +59,7 @@ def rounded_number(context: Context, value: float) -> float:
 
 def rounded(context: Context, *values: float) -> Any:
     """Return numbers rounded to the context's precision."""
-    if context.real is not np.float32:
+    if context.real is not F32:
         return tuple(map(float, values))
     single = SINGLES[len(values)]
     try:
@@ -95,76 +98,83 @@ def glStencilFunc(func: int, ref: int, mask: int) -> None:
     """Set the stencil comparison of both facings: (ref & mask) func (stencil & mask)."""
     context = thread.context
     if context.ready or is_allowed(context, glStencilFunc, func, ref, mask):
-        _stencil_func(context, "glStencilFunc", None, func, ref, mask)
+        _stencil_func(context, "glStencilFunc", _active_faces(context), func, ref, mask)
 
 
 def glStencilFuncSeparate(face: int, func: int, ref: int, mask: int) -> None:
     """Set the stencil comparison of one facing; the test clamps the reference to the range of the buffer."""
     context = thread.context
     if context.ready or is_allowed(context, glStencilFuncSeparate, face, func, ref, mask):
-        _stencil_func(context, "glStencilFuncSeparate", face, func, ref, mask)
+        faces = _faces(context, "glStencilFuncSeparate", face)
+        _stencil_func(context, "glStencilFuncSeparate", faces, func, ref, mask)
 
 
-def _stencil_func(context: Context, operation: str, face: int | None, func: int, ref: int, mask: int) -> None:
+def _stencil_func(context: Context, operation: str, faces: tuple[str, ...], func: int, ref: int, mask: int) -> None:
     if func in FUNCTIONS or is_one_of(operation, "func", func, FUNCTIONS, A_FUNCTION):
-        ref = int(ref)
-        if not SMALLEST_INT <= ref <= LARGEST_INT:
-            ref = c_int(ref).value
-        fields = {"func": FUNCTIONS[func], "ref": ref, "read_mask": int(mask) & UNSIGNED}
-        context.change_groups(_faces(context, operation, face), fields)
+        try:
+            fields = _fields_of_func(func, ref, mask)
+        except TypeError:  # an array of one number, which cannot be remembered
+            fields = _fields_of_func(func, int(ref), int(mask))
+        context.change_groups(faces, fields)
+
+
+@lru_cache(maxsize=256)
+def _fields_of_func(func: int, ref: int, mask: int) -> Mapping[str, int]:
+    ref = int(ref)
+    if not SMALLEST_INT <= ref <= LARGEST_INT:
+        ref = c_int(ref).value
+    return {"func": FUNCTIONS[func], "ref": ref, "read_mask": int(mask) & UNSIGNED}
 
 
 def glStencilOp(fail: int, zfail: int, zpass: int) -> None:
     """Set the stencil operations of both facings: stencil test fails, depth test fails, both pass."""
     context = thread.context
     if context.ready or is_allowed(context, glStencilOp, fail, zfail, zpass):
-        _stencil_op(context, "glStencilOp", None, fail, zfail, zpass)
+        _stencil_op(context, "glStencilOp", _active_faces(context), fail, zfail, zpass)
 
 
 def glStencilOpSeparate(face: int, sfail: int, dpfail: int, dppass: int) -> None:
     """Set the stencil operations of one facing."""
     context = thread.context
     if context.ready or is_allowed(context, glStencilOpSeparate, face, sfail, dpfail, dppass):
-        _stencil_op(context, "glStencilOpSeparate", face, sfail, dpfail, dppass)
+        faces = _faces(context, "glStencilOpSeparate", face)
+        _stencil_op(context, "glStencilOpSeparate", faces, sfail, dpfail, dppass)
 
 
-def _stencil_op(context: Context, operation: str, face: int | None, sfail: int, zfail: int, zpass: int) -> None:
+def _stencil_op(context: Context, operation: str, faces: tuple[str, ...], sfail: int, zfail: int, zpass: int) -> None:
     if not (sfail in STENCIL_OP_VALUES and zfail in STENCIL_OP_VALUES and zpass in STENCIL_OP_VALUES):
         for argument, op in (("sfail", sfail), ("zfail", zfail), ("zpass", zpass)):
             if not is_one_of(operation, argument, op, STENCIL_OP_VALUES, ", ".join(STENCIL_OPS)):
                 return
     values = STENCIL_OP_VALUES
-    fields = {"sfail": values[sfail], "zfail": values[zfail], "zpass": values[zpass]}
-    context.change_groups(_faces(context, operation, face), fields)
+    context.change_groups(faces, {"sfail": values[sfail], "zfail": values[zfail], "zpass": values[zpass]})
 
 
 def glStencilMask(mask: int) -> None:
     """Set the stencil write mask of both facings."""
     context = thread.context
     if context.ready or is_allowed(context, glStencilMask, mask):
-        _stencil_mask(context, "glStencilMask", None, mask)
+        context.change_groups(_active_faces(context), {"write_mask": int(mask) & UNSIGNED})
 
 
 def glStencilMaskSeparate(face: int, mask: int) -> None:
     """Set the stencil write mask of one facing."""
     context = thread.context
     if context.ready or is_allowed(context, glStencilMaskSeparate, face, mask):
-        _stencil_mask(context, "glStencilMaskSeparate", face, mask)
+        faces = _faces(context, "glStencilMaskSeparate", face)
+        context.change_groups(faces, {"write_mask": int(mask) & UNSIGNED})
 
 
-def _stencil_mask(context: Context, operation: str, face: int | None, mask: int) -> None:
-    context.change_groups(_faces(context, operation, face), {"write_mask": int(mask) & UNSIGNED})
-
-
-def _faces(context: Context, operation: str, face: int | None) -> tuple[str, ...]:
-    """Return the groups of the state that a call sets; none after an error.
-
-    Without a `face`, they are those chosen by glActiveStencilFaceEXT.
-    """
+def _active_faces(context: Context) -> tuple[str, ...]:
+    """Return the groups of the state that a call without a face sets, see glActiveStencilFaceEXT."""
     stencil = context.groups["stencil"].fields
     two_side = stencil["two_side"]
-    if face is None:
-        return (BACKS[not two_side],) if stencil["active_back"] else BOTH_FACES[two_side]
+    return (BACKS[not two_side],) if stencil["active_back"] else BOTH_FACES[two_side]
+
+
+def _faces(context: Context, operation: str, face: int) -> tuple[str, ...]:
+    """Return the groups of the state that a call with a face sets; none after an error."""
+    two_side = context.groups["stencil"].fields["two_side"]
     if not is_one_of(operation, "face", face, FACES, A_FACE):
         return ()
     return (
@@ -201,8 +211,8 @@ def glStencilFuncSeparateATI(frontfunc: int, backfunc: int, ref: int, mask: int)
     if context is None or not is_one_of(operation, "frontfunc", frontfunc, FUNCTIONS, A_FUNCTION):
         return
     if is_one_of(operation, "backfunc", backfunc, FUNCTIONS, A_FUNCTION):
-        _stencil_func(context, operation, gl.GL_FRONT, frontfunc, ref, mask)
-        _stencil_func(context, operation, gl.GL_BACK, backfunc, ref, mask)
+        _stencil_func(context, operation, _faces(context, operation, gl.GL_FRONT), frontfunc, ref, mask)
+        _stencil_func(context, operation, _faces(context, operation, gl.GL_BACK), backfunc, ref, mask)
 
 
 glStencilOpSeparateATI = glStencilOpSeparate
