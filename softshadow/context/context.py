@@ -8,7 +8,6 @@ from __future__ import annotations
 import struct
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -16,14 +15,15 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context.arrays import BufferObject, ClientArrays
 from softshadow.context.color_indices import ColorIndices
+from softshadow.context.current_values import CurrentValues, CurrentVertex
+from softshadow.context.display_list import DisplayList
 from softshadow.context.evaluators import EvaluatorSettings, initial_maps
 from softshadow.context.kept_materials import with_kept_materials
 from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.pending_attributes import PendingAttributes
-from softshadow.context.raster_position import INITIAL_RASTER_POSITION, RasterPosition
 from softshadow.context.recording import Frame
 from softshadow.context.render_mode import RenderMode
-from softshadow.context.state_groups import Followed, StateGroups, affects_draws
+from softshadow.context.state_groups import StateGroups
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
@@ -36,43 +36,13 @@ from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
 from softshadow.pixel_transfer import PixelTransfer
 from softshadow.programs import Program
-from softshadow.state import BLACK, TEXTURE_UNITS, Lighting, State
+from softshadow.state import BLACK, TEXTURE_UNITS, State
 
 NO_UNIFORMS: Mapping[str, Any] = {}
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
 
 
-@dataclass
-class CurrentVertex:
-    """The current attributes of new vertices, and the raster position."""
-
-    color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
-    normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
-    texcoords: list[tuple[float, float, float, float]] = field(
-        default_factory=lambda: [(0.0, 0.0, 0.0, 1.0)] * TEXTURE_UNITS
-    )
-    raster: RasterPosition = INITIAL_RASTER_POSITION
-    edge: bool = True  # whether vertices begin an edge that glPolygonMode draws
-    secondary: tuple[float, float, float, float] = BLACK
-    fog_coordinate: float = 0.0
-    index: float = 1.0  # of a colour, which nothing is drawn with
-
-
-@dataclass
-class DisplayList:
-    """The calls between glNewList and glEndList, in order; `mode` is GL_COMPILE or GL_COMPILE_AND_EXECUTE."""
-
-    name: int
-    mode: int
-    calls: list[Callable[[], Any]] = field(default_factory=list)
-
-    @property
-    def executes(self) -> bool:
-        """Whether the calls are also carried out while the list is compiled."""
-        return self.mode == gl.GL_COMPILE_AND_EXECUTE
-
-
-class Context:
+class Context(CurrentValues):
     """A GL context in its initial state, with a window of the given size.
 
     Parameters
@@ -188,117 +158,7 @@ class Context:
         self.flush()
         return self._frame
 
-    # -- state ---------------------------------------------------------------------------------------------------------
-    @property
-    def state(self) -> State:
-        """The state, immutable; the same object until something changes."""
-        groups = self._state
-        if self._changed or groups.followed is not None:
-            self._settle()
-            return groups.snapshot()
-        state: State = groups.root.value
-        return state
-
-    @state.setter
-    def state(self, state: State) -> None:
-        self._state.restore(state)
-
-    @property
-    def drawn_state(self) -> State:
-        """The state as draws have it: materials may not contain yet the colour that they follow (`followed`)."""
-        return self._state.drawn()
-
-    @property
-    def followed(self) -> Followed | None:
-        """The colour that materials follow, but do not contain yet in `drawn_state`."""
-        return self._state.followed
-
-    def settled(self, lighting: Lighting, followed: Followed | None) -> Lighting:
-        """Return an earlier lighting whose materials contain the colour that they followed then."""
-        return self._state.settled(lighting, followed)
-
-    def change_field(self, group: str, name: str, value: Any) -> None:
-        """Set a field of a group of the state; if the change affects draws, draw the collected vertices first."""
-        changed = self.groups[group]
-        fields = changed.fields
-        if fields[name] is not value:
-            if not self.ready and self._would_redraw((group,), {name: value}):
-                self.flush()
-            fields[name] = value
-            self._changed.add(changed)
-
-    def change(self, group: str, **fields: Any) -> None:
-        """Set fields of a group of the state, as `change_field` does."""
-        self.change_fields(group, fields)
-
-    def change_fields(self, group: str, fields: Mapping[str, Any]) -> None:
-        """Set fields of a group of the state, as `change_field` does."""
-        if not self.ready and self._would_redraw((group,), fields):
-            self.flush()
-        changed = self.groups[group]
-        changed.fields.update(fields)
-        self._changed.add(changed)
-
-    def change_groups(self, groups: Sequence[str], fields: Mapping[str, Any]) -> None:
-        """Set the same fields in several groups of the state, as `change_field` does."""
-        if not self.ready and self._would_redraw(groups, fields):
-            self.flush()
-        by_name, mark = self.groups, self._changed.add
-        for name in groups:
-            group = by_name[name]
-            group.fields.update(fields)
-            mark(group)
-
-    def _would_redraw(self, groups: Sequence[str], fields: Mapping[str, Any]) -> bool:
-        """Return whether new values of fields would change how the collected vertices are drawn."""
-        return self.has_collected and any(affects_draws(self.groups[name].fields, fields) for name in groups)
-
-    def follow(self, sides: tuple[str, ...], fields: tuple[str, ...]) -> None:
-        """Copy the current colour to fields of the materials that follow it, without drawing the collected vertices."""
-        state = self._state
-        if state.followed is not None and state.followed[:2] != (sides, fields):
-            state.settle()
-        if self.pending.before_following is None:
-            self.pending.before_following = state.followed or {
-                f"{side}.{field}": self.material(side)[field] for side in sides for field in fields
-            }
-        state.followed = sides, fields, self.current.color
-
-    def stop_following(self) -> None:
-        """Give the materials the values that they had when the present colour was Mesa's current one."""
-        before, self.pending.before_following, self.pending.settled = self.pending.before_following, None, None
-        if isinstance(before, tuple):
-            self._state.followed = before
-        elif before is not None:
-            self._state.followed = None
-            for name, value in before.items():
-                self.set_attribute(name, value)
-
-    def material(self, side: str) -> dict[str, Any]:
-        """Return the fields of the "front" or "back" material."""
-        self._settle()
-        return self.groups[f"lighting.{side}"].fields
-
-    def _settle(self) -> None:
-        """Store the colour in the materials that follow it. Hidden materials still return before it."""
-        if self._state.followed is not None:
-            self.pending.settled = self._state.followed
-            self._state.settle()
-
-    def set(self, **groups: Any) -> None:
-        """Replace groups of the state, each by its name."""
-        self.change_state(evolve(self.state, **groups))
-
-    def change_state(self, state: State) -> None:
-        """Replace the state; if the change affects draws, draw the collected vertices first."""
-        if self.has_collected and self.primitive is None and _draw_state(state) != _draw_state(self.state):
-            before = self.state
-            self.flush()
-            if self.state is not before:  # the flush has made pending materials current
-                materials: Any = {"front": self.state.lighting.front, "back": self.state.lighting.back}
-                state = evolve(state, lighting=evolve(state.lighting, **materials))
-        self.state = state
-
+    # -- arrays --------------------------------------------------------------------------------------------------------
     def frozen(self, values: Any) -> np.ndarray:
         """Return the values as a read-only array in the context's precision; too large ones become infinite."""
         with np.errstate(over="ignore"):
@@ -311,6 +171,7 @@ class Context:
         kind = "f" if self.real is np.float32 else "d"
         return np.ndarray(shape or len(numbers), self.real, struct.pack(f"{len(numbers)}{kind}", *numbers))
 
+    # -- matrices and units --------------------------------------------------------------------------------------------
     def select_matrices(self, mode: int) -> None:
         """Select the stack that matrix calls work on."""
         self.matrix_mode = mode
@@ -331,11 +192,6 @@ class Context:
         if self.matrix_mode != gl.GL_TEXTURE:
             self._texture_matrices = matrices
         return matrices
-
-    @property
-    def has_collected(self) -> bool:
-        """Whether vertices are collected, or attributes wait for the next change of the state."""
-        return bool(self.vertex_buffer.sizes or self.pending.reset_due)
 
     # -- commands ------------------------------------------------------------------------------------------------------
     def execute(self, command: Command) -> None:
@@ -432,78 +288,6 @@ class Context:
             self.vertex_buffer.begin_joined_pairs(self._draw_command(mode, vertices))
         self.vertex_buffer.join("/".join(self.labels) if self.labels else "", self.origin, vertices)
 
-    # -- current values ------------------------------------------------------------------------------------------------
-    def attribute(self, name: str) -> Any:
-        """Return a current value by its name: "color", "normal", "texcoord0", "front.diffuse" ..."""
-        current = self.current.__dict__
-        if name in current:
-            return current[name]
-        if name.startswith("texcoord"):
-            return self.current.texcoords[int(name.removeprefix("texcoord"))]
-        side, _, material = name.partition(".")
-        return self.material(side)[material]
-
-    def set_attribute(self, name: str, value: Any) -> None:
-        """Set a current value by its name, without drawing the collected vertices first."""
-        current = self.current.__dict__
-        if name in current:
-            current[name] = value
-        elif name.startswith("texcoord"):
-            self.current.texcoords[int(name.removeprefix("texcoord"))] = value
-        else:
-            side, _, material = name.partition(".")
-            self.set_material(side, material, value)
-
-    def set_material(self, side: str, field: str, value: Any) -> None:
-        """Set a field of the "front" or "back" material, without drawing the collected vertices first."""
-        self._settle()
-        material = self.groups[f"lighting.{side}"]
-        material.fields[field] = value
-        self._changed.add(material)
-
-    def remember_attribute(self, name: str) -> None:
-        """Remember the current value of an attribute that is about to be set."""
-        pending = self.pending
-        if name not in pending.old_values:
-            pending.names.add(name)
-            pending.old_values[name] = self.attribute(name)
-            pending.hidden.pop(name, None)
-
-    def update_current(self) -> None:
-        """Make pending attributes current, as queries of current values do (Mesa's FLUSH_CURRENT)."""
-        if self.pending.old_values:
-            hidden = dict(self.pending.hidden)
-            self._make_pending_current()
-            self.pending.reset_due, self.ready = True, False
-            self.pending.hidden = hidden  # vertices carry it still, so it returns
-
-    def reset_attributes(self) -> None:
-        """Make pending attributes current; the vertices that follow do not carry them (Mesa's vbo_reset_all_attr)."""
-        self._make_pending_current()
-        self.pending.names.clear()
-        self.pending.reset_due = self.pending.has_vertices = False
-
-    def _make_pending_current(self) -> None:
-        pending, color = self.pending, self.current.color
-        pending.before_following = None
-        if not pending.old_values and not pending.hidden:
-            return
-        follows = self.groups["lighting"].fields["color_material"]
-        followed = (self._state.followed or pending.settled) if follows else None
-        if pending.hidden:
-            self._settle()
-        for name, value in pending.hidden.items():
-            pending.old_values.setdefault(name, self.attribute(name))
-            self.set_attribute(name, value)
-        if pending.hidden and followed is not None and pending.old_values.get("color", color) != color:
-            self._state.followed = followed  # a new colour comes after the materials
-        for name, old_value in pending.old_values.items():
-            if old_value != self.attribute(name):
-                self.touched |= gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT
-        pending.hidden.clear()
-        pending.old_values.clear()
-        pending.settled = None
-
     # -- recording -----------------------------------------------------------------------------------------------------
     def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
         state = self._state.drawn()
@@ -556,16 +340,6 @@ class Context:
         if self.open_step is not None:
             self.end_step(self.open_step)
             self.open_step = None
-
-
-def _draw_state(state: State) -> State:
-    """Return the state without the fields that draws do not use: clear values and the active stencil face."""
-    return evolve(
-        state,
-        color=evolve(state.color, clear=State().color.clear, clear_accum=State().color.clear_accum),
-        depth=evolve(state.depth, clear=State().depth.clear),
-        stencil=evolve(state.stencil, clear=State().stencil.clear, active_back=False),
-    )
 
 
 class _NoContext:

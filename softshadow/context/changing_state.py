@@ -1,0 +1,143 @@
+"""The part of a context that reads and changes the state.
+
+Vertices of immediate mode are collected, to be drawn together. A change of the state that would change how they are
+drawn draws them first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from softshadow.context.pending_attributes import PendingAttributes
+from softshadow.context.state_groups import Followed, Group, StateGroups, affects_draws
+from softshadow.context.vertex_buffer import Primitive, VertexBuffer
+from softshadow.frozen import evolve
+from softshadow.state import Lighting, State
+
+
+class ChangingState:
+    """The state of a context, and the changes of it.
+
+    Attributes
+    ----------
+    groups : dict of Group       the groups of the state by name, see `StateGroups`
+    ready : bool                 no list is compiled, no primitive is open, nothing is collected: a call may change the
+        state at once; not always True then, but always False otherwise
+    """
+
+    _state: StateGroups
+    groups: dict[str, Group]
+    _changed: set[Group]  # those of `_state`
+    ready: bool
+    pending: PendingAttributes
+    primitive: Primitive | None  # between glBegin and glEnd
+    vertex_buffer: VertexBuffer  # immediate mode
+
+    def flush(self) -> None:
+        """Draw the collected vertices."""
+        raise NotImplementedError
+
+    @property
+    def has_collected(self) -> bool:
+        """Whether vertices are collected, or attributes wait for the next change of the state."""
+        return bool(self.vertex_buffer.sizes or self.pending.reset_due)
+
+    @property
+    def state(self) -> State:
+        """The state, immutable; the same object until something changes."""
+        groups = self._state
+        if self._changed or groups.followed is not None:
+            self._settle()
+            return groups.snapshot()
+        state: State = groups.root.value
+        return state
+
+    @state.setter
+    def state(self, state: State) -> None:
+        self._state.restore(state)
+
+    @property
+    def drawn_state(self) -> State:
+        """The state as draws have it: materials may not contain yet the colour that they follow (`followed`)."""
+        return self._state.drawn()
+
+    @property
+    def followed(self) -> Followed | None:
+        """The colour that materials follow, but do not contain yet in `drawn_state`."""
+        return self._state.followed
+
+    def settled(self, lighting: Lighting, followed: Followed | None) -> Lighting:
+        """Return an earlier lighting whose materials contain the colour that they followed then."""
+        return self._state.settled(lighting, followed)
+
+    def change_field(self, group: str, name: str, value: Any) -> None:
+        """Set a field of a group of the state; if the change affects draws, draw the collected vertices first."""
+        changed = self.groups[group]
+        fields = changed.fields
+        if fields[name] is not value:
+            if not self.ready and self._would_redraw((group,), {name: value}):
+                self.flush()
+            fields[name] = value
+            self._changed.add(changed)
+
+    def change(self, group: str, **fields: Any) -> None:
+        """Set fields of a group of the state, as `change_field` does."""
+        self.change_fields(group, fields)
+
+    def change_fields(self, group: str, fields: Mapping[str, Any]) -> None:
+        """Set fields of a group of the state, as `change_field` does."""
+        if not self.ready and self._would_redraw((group,), fields):
+            self.flush()
+        changed = self.groups[group]
+        changed.fields.update(fields)
+        self._changed.add(changed)
+
+    def change_groups(self, groups: Sequence[str], fields: Mapping[str, Any]) -> None:
+        """Set the same fields in several groups of the state, as `change_field` does."""
+        if not self.ready and self._would_redraw(groups, fields):
+            self.flush()
+        by_name, mark = self.groups, self._changed.add
+        for name in groups:
+            group = by_name[name]
+            group.fields.update(fields)
+            mark(group)
+
+    def _would_redraw(self, groups: Sequence[str], fields: Mapping[str, Any]) -> bool:
+        """Return whether new values of fields would change how the collected vertices are drawn."""
+        return self.has_collected and any(affects_draws(self.groups[name].fields, fields) for name in groups)
+
+    def material(self, side: str) -> dict[str, Any]:
+        """Return the fields of the "front" or "back" material."""
+        self._settle()
+        return self.groups[f"lighting.{side}"].fields
+
+    def _settle(self) -> None:
+        """Store the colour in the materials that follow it. Hidden materials still return before it."""
+        if self._state.followed is not None:
+            self.pending.settled = self._state.followed
+            self._state.settle()
+
+    def set(self, **groups: Any) -> None:
+        """Replace groups of the state, each by its name."""
+        self.change_state(evolve(self.state, **groups))
+
+    def change_state(self, state: State) -> None:
+        """Replace the state; if the change affects draws, draw the collected vertices first."""
+        if self.has_collected and self.primitive is None and _draw_state(state) != _draw_state(self.state):
+            before = self.state
+            self.flush()
+            if self.state is not before:  # the flush has made pending materials current
+                materials: Any = {"front": self.state.lighting.front, "back": self.state.lighting.back}
+                state = evolve(state, lighting=evolve(state.lighting, **materials))
+        self.state = state
+
+
+def _draw_state(state: State) -> State:
+    """Return the state without the fields that draws do not use: clear values and the active stencil face."""
+    return evolve(
+        state,
+        color=evolve(state.color, clear=State().color.clear, clear_accum=State().color.clear_accum),
+        depth=evolve(state.depth, clear=State().depth.clear),
+        stencil=evolve(state.stencil, clear=State().stencil.clear, active_back=False),
+    )

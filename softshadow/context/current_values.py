@@ -1,0 +1,131 @@
+"""The part of a context that holds the current values of vertex attributes, and those that wait to become current."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from softshadow import tokens as gl
+from softshadow.context.changing_state import ChangingState
+from softshadow.context.raster_position import INITIAL_RASTER_POSITION, RasterPosition
+from softshadow.state import BLACK, TEXTURE_UNITS
+
+
+@dataclass
+class CurrentVertex:
+    """The current attributes of new vertices, and the raster position."""
+
+    color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
+    normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    texcoords: list[tuple[float, float, float, float]] = field(
+        default_factory=lambda: [(0.0, 0.0, 0.0, 1.0)] * TEXTURE_UNITS
+    )
+    raster: RasterPosition = INITIAL_RASTER_POSITION
+    edge: bool = True  # whether vertices begin an edge that glPolygonMode draws
+    secondary: tuple[float, float, float, float] = BLACK
+    fog_coordinate: float = 0.0
+    index: float = 1.0  # of a colour, which nothing is drawn with
+
+
+class CurrentValues(ChangingState):
+    """The current values of a context, by name: those of `CurrentVertex`, "texcoord0", "front.diffuse" ...
+
+    Attributes
+    ----------
+    touched : int                bits of the attribute groups that calls have marked as changed since the last push
+    """
+
+    current: CurrentVertex
+    touched: int
+
+    def attribute(self, name: str) -> Any:
+        """Return a current value by its name: "color", "normal", "texcoord0", "front.diffuse" ..."""
+        current = self.current.__dict__
+        if name in current:
+            return current[name]
+        if name.startswith("texcoord"):
+            return self.current.texcoords[int(name.removeprefix("texcoord"))]
+        side, _, material = name.partition(".")
+        return self.material(side)[material]
+
+    def set_attribute(self, name: str, value: Any) -> None:
+        """Set a current value by its name, without drawing the collected vertices first."""
+        current = self.current.__dict__
+        if name in current:
+            current[name] = value
+        elif name.startswith("texcoord"):
+            self.current.texcoords[int(name.removeprefix("texcoord"))] = value
+        else:
+            side, _, material = name.partition(".")
+            self.set_material(side, material, value)
+
+    def set_material(self, side: str, field: str, value: Any) -> None:
+        """Set a field of the "front" or "back" material, without drawing the collected vertices first."""
+        self._settle()
+        material = self.groups[f"lighting.{side}"]
+        material.fields[field] = value
+        self._changed.add(material)
+
+    def follow(self, sides: tuple[str, ...], fields: tuple[str, ...]) -> None:
+        """Copy the current colour to fields of the materials that follow it, without drawing the collected vertices."""
+        state = self._state
+        if state.followed is not None and state.followed[:2] != (sides, fields):
+            state.settle()
+        if self.pending.before_following is None:
+            self.pending.before_following = state.followed or {
+                f"{side}.{field}": self.material(side)[field] for side in sides for field in fields
+            }
+        state.followed = sides, fields, self.current.color
+
+    def stop_following(self) -> None:
+        """Give the materials the values that they had when the present colour was Mesa's current one."""
+        before, self.pending.before_following, self.pending.settled = self.pending.before_following, None, None
+        if isinstance(before, tuple):
+            self._state.followed = before
+        elif before is not None:
+            self._state.followed = None
+            for name, value in before.items():
+                self.set_attribute(name, value)
+
+    def remember_attribute(self, name: str) -> None:
+        """Remember the current value of an attribute that is about to be set."""
+        pending = self.pending
+        if name not in pending.old_values:
+            pending.names.add(name)
+            pending.old_values[name] = self.attribute(name)
+            pending.hidden.pop(name, None)
+
+    def update_current(self) -> None:
+        """Make pending attributes current, as queries of current values do (Mesa's FLUSH_CURRENT)."""
+        if self.pending.old_values:
+            hidden = dict(self.pending.hidden)
+            self._make_pending_current()
+            self.pending.reset_due, self.ready = True, False
+            self.pending.hidden = hidden  # vertices carry it still, so it returns
+
+    def reset_attributes(self) -> None:
+        """Make pending attributes current; the vertices that follow do not carry them (Mesa's vbo_reset_all_attr)."""
+        self._make_pending_current()
+        self.pending.names.clear()
+        self.pending.reset_due = self.pending.has_vertices = False
+
+    def _make_pending_current(self) -> None:
+        pending, color = self.pending, self.current.color
+        pending.before_following = None
+        if not pending.old_values and not pending.hidden:
+            return
+        follows = self.groups["lighting"].fields["color_material"]
+        followed = (self._state.followed or pending.settled) if follows else None
+        if pending.hidden:
+            self._settle()
+        for name, value in pending.hidden.items():
+            pending.old_values.setdefault(name, self.attribute(name))
+            self.set_attribute(name, value)
+        if pending.hidden and followed is not None and pending.old_values.get("color", color) != color:
+            self._state.followed = followed  # a new colour comes after the materials
+        for name, old_value in pending.old_values.items():
+            if old_value != self.attribute(name):
+                self.touched |= gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT
+        pending.hidden.clear()
+        pending.old_values.clear()
+        pending.settled = None
