@@ -59,6 +59,7 @@ LONG = (
 )  # fmt: skip
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(
     "line",
     [
@@ -88,6 +89,7 @@ def test_printed_tables_and_sentences_are_what_is_printed() -> None:
     assert invoke_ok("pixel", "volume-zfail", 160, 170).stdout.endswith(sentence)
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("command", ASKED)
 def test_keys_of_the_json_are_those_of_the_page(command: str) -> None:
     row = re.search(rf"\| `softshadow/{command}/1` \| (.*) \|", PAGE)[1]

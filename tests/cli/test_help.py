@@ -42,6 +42,7 @@ def test_every_command_shows_examples_one_in_a_line() -> None:
     assert all(line.startswith("softshadow ") for command in ["", *COMMANDS] for line in examples(command))
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(
     "line",
     [

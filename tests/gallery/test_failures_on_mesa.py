@@ -24,6 +24,7 @@ def draw(gl: Any, failure: Failure) -> None:
         pass
 
 
+@pytest.mark.thin(2)
 @pytest.mark.mesa
 @pytest.mark.filterwarnings("ignore::softshadow.errors.Warning")
 @pytest.mark.parametrize("name", list(ss.failures))

@@ -34,6 +34,7 @@ def failure(request: pytest.FixtureRequest) -> Failure:
     return ss.failures[request.param]
 
 
+@pytest.mark.thin(2)
 def test_pixels_are_wrong_with_the_failure_and_right_with_the_cure(failure: Failure) -> None:
     assert failure.number_wrong > max(0, failure.floor)
     assert failure.number_cured <= failure.floor
@@ -60,6 +61,7 @@ def test_wrong_pixels_that_a_measure_leaves_out_are_told(failure: Failure) -> No
     assert failure.remark in failure.explain()
 
 
+@pytest.mark.thin(2)
 def test_cure_is_better_everywhere_than_its_failure(failure: Failure) -> None:
     """Also by the measure that leaves nothing out."""
     strict = STRICTER.get(failure.measure, failure.measure)

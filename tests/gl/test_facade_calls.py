@@ -81,6 +81,7 @@ def test_every_function_is_called() -> None:
     assert all(getattr(gl, name) is getattr(gl, first) for name, first in NAMED_AGAIN.items())
 
 
+@pytest.mark.thin(2)
 @pytest.mark.mesa
 @pytest.mark.parametrize("group", range(GROUPS))
 def test_error_codes_and_state_of_all_attempts_are_those_of_mesa(group: int) -> None:

@@ -48,6 +48,7 @@ def check_frames(trace: Path, frames: list[int]) -> None:
     assert all(compared), "\n".join(map(str, compared))
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("name", LISTED)
 def test_the_first_and_last_frame_equal_those_of_mesa(name: str, traces: Path) -> None:
     check_frames(traces / f"{name}.trace", sorted({0, LISTED[name] - 1}))

@@ -181,6 +181,7 @@ def test_view_in_space_follows_the_pixel(run: ss.Run, file: Path, browser: Any) 
             page.wait_for_function(f"({text}).includes('Stencil value {run.stencil[y, x]}')", timeout=15_000)
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_page_is_accessible(scheme: str, both: Path, browser: Any) -> None:
     axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="needs axe-playwright-python")

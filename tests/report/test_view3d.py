@@ -68,6 +68,7 @@ def test_the_page_shows_the_crossings_of_the_history(browser, tmp_path):
     page.close()
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(
     ("technique", "scene", "options"),
     [

@@ -59,6 +59,7 @@ CASES = [(name, *variant) for name in scene_names() for variant in VARIANTS]
 QUICK = {i * len(VARIANTS) + j for i in range(len(scene_names())) for j in range(len(VARIANTS)) if (i + j) % STEP == 0}
 
 
+@pytest.mark.thin(2)
 @pytest.mark.mesa
 @pytest.mark.parametrize(("name", "technique", "options"), with_quick(CASES, QUICK))
 def test_a_technique_leaves_the_same_buffers_on_mesa(name: str, technique: str, options: dict[str, Any]) -> None:

@@ -50,6 +50,7 @@ def test_tour_stops_at_every_technique_once_by_name() -> None:
         assert any(stop.options.get("method") == option for stop in STOPS)
 
 
+@pytest.mark.thin(2)
 def test_page_tells_of_every_stop_and_step(stop: Stop, fresh: ss.Run, page: Page) -> None:
     assert stop.name in page.ids
     assert stop.title in page.text
