@@ -29,6 +29,7 @@ from softshadow.state import State
 TRIANGLES = 1 << 12  # whose planes are computed at a time
 SPANS = 1 << 14  # collected at a time; a row of the widest buffer has at most half as many
 WORTH_BANDS = 40_000  # fragments, about, from which sorting triangles into bands pays for several threads
+STENCIL_TESTED = 8  # times as many, if the stencil test can fail: a fragment that fails takes an eighth of the time
 
 Numbers = tuple[Any, ...]  # arguments of kernels
 
@@ -80,12 +81,13 @@ def draw_forward(
     )  # fmt: skip
     tests, later_tests = (*span_tests(front, back), *buffers), (*alpha_tests(front, back), *buffers)
     colors = (geometry.flat, *numbers[:2], *numbers.texels, target.colors[0].cells.view(np.int32)[..., 0])
+    worth_bands = WORTH_BANDS * (STENCIL_TESTED if front.stencil_test or back.stencil_test else 1)
     for begin in range(0, len(geometry.triangles.ids), TRIANGLES):
         triangles = geometry.triangles
         if len(triangles.ids) > TRIANGLES:
             triangles = Setup(*(array[begin : begin + TRIANGLES] for array in triangles))
         shared = triangles, _planes_of_all(geometry, triangles), region, tests, later_tests, colors
-        if threads() > 1 and fragments >= WORTH_BANDS and region.end_row - region.first_row > 1 << BAND_ROWS_LOG2:
+        if threads() > 1 and fragments >= worth_bands and region.end_row - region.first_row > 1 << BAND_ROWS_LOG2:
             _draw_in_bands(*shared)
         else:
             _draw_rows(_in_order[: len(triangles.ids)], region.first_row, region.end_row, *shared)
