@@ -22,8 +22,9 @@ from softshadow.texel_codes import drawn_cells
 
 
 def bottom_up(target: Framebuffer, image: Image) -> np.ndarray:
-    """Return the cells of a framebuffer's image as a view with row 0 at the bottom: the one place that flips."""
-    return image.view[::-1] if target.flipped else image.view
+    """Return the cells of a framebuffer's image, for reading, with row 0 at the bottom: the one place that flips."""
+    cells = image.read_cells[:, : image.width]
+    return cells[::-1] if target.flipped else cells
 
 
 def clipped(target: Framebuffer, x: int, y: int, width: int, height: int) -> tuple[slice, slice, int, int]:
@@ -46,8 +47,7 @@ def copy_to_texture(command: CopyToTexture, storage: Storage) -> None:
     rows, columns, moved_x, moved_y = clipped(source, command.x, command.y, command.width, command.height)
     left, bottom = command.x_offset + moved_x, command.z * image.height + command.y_offset + moved_y
     for buffer, source_buffer in _buffer_pairs(source, image):
-        stored = source_buffer.read_cells
-        cells = (stored[::-1] if source.flipped else stored)[rows, columns]  # views: nothing is copied yet
+        cells = bottom_up(source, source_buffer)[rows, columns]
         height, width = cells.shape[:2]
         place = np.s_[bottom : bottom + height, left : left + width]
         transfer, is_depth = command.transfer, buffer.format.kind == "depth"
@@ -56,9 +56,9 @@ def copy_to_texture(command: CopyToTexture, storage: Storage) -> None:
         elif transfer is not None and buffer.format.kind in ("unorm8", "float") and transfer.through_floats:
             copied = _transferred_color(cells, source_buffer, buffer, transfer)
         elif is_depth and source.flipped and _is_float32(source_buffer) and _is_float32(buffer):
-            last_row = len(stored) - 1 - rows.start  # the lowest row of the rectangle
+            last_row = source_buffer.height - 1 - rows.start  # the lowest row of the rectangle
             write_depth_upwards(
-                stored, last_row, columns.start, F32(1) / F32(source_buffer.format.largest),
+                source_buffer.read_cells, last_row, columns.start, F32(1) / F32(source_buffer.format.largest),
                 F32(buffer.format.largest), buffer.view[place],
             )  # fmt: skip
             continue
