@@ -40,6 +40,7 @@ def record(context: Context, call: Callable[..., Any], *arguments: Any, **named:
 
 
 LISTED = Wrapping(
+    "calls in display lists",
     """
 context = thread.context
 try:

@@ -152,6 +152,7 @@ def _of_facade(error: Exception) -> bool:
 
 
 NAMING = Wrapping(
+    "naming of wrong arguments",
     """
 try:
     if {has_text}:

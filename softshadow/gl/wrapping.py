@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import functools
 import inspect
+import linecache
 from collections.abc import Callable
+from pathlib import Path
 from textwrap import indent
 from typing import Any
 
@@ -26,13 +28,14 @@ class Wrapping:
 
     Parameters
     ----------
+    name : what tracebacks call the source
     body : source of the functions, in which ``call`` is the call, ``function`` the function itself, ``{parameters}``
         what it was called with, and ``{has_text}`` whether one of them is a str
     names : what else the source uses
     """
 
-    def __init__(self, body: str, **names: Any) -> None:
-        self._body, self._names = body.strip("\n"), names
+    def __init__(self, name: str, body: str, **names: Any) -> None:
+        self._name, self._body, self._names = name, body.strip("\n"), names
         self._makers: dict[int | None, Callable[..., Any]] = {}
 
     def around(self, call: Callable[..., Any]) -> Callable[..., Any]:
@@ -63,8 +66,10 @@ class Wrapping:
             has_text = " or ".join(f"type({name}) is str" for name in numbered) or "False"
         body = self._body.format(parameters=parameters, has_text=has_text)
         source = SOURCE.format(parameters=parameters, body=indent(body, " " * 8))
+        file = str(Path(__file__).with_name(f"<{self._name}, parameters: {'any' if count is None else count}>"))
+        linecache.cache[file] = len(source), None, source.splitlines(keepends=True), file  # tracebacks show the lines
         namespace = dict(self._names)
-        exec(compile(source, __file__, "exec"), namespace)
+        exec(compile(source, file, "exec"), namespace)
         maker: Callable[..., Any] = namespace["make"]
         return maker
 
