@@ -20,3 +20,8 @@ def numbers(*values: float) -> str:
 def printed_calls(group: Any) -> str:
     """Return the calls of a state or group, one per line: its `__repr__`, with names in place of tokens."""
     return "\n".join(group.calls()) or "# GL's initial state"
+
+
+def in_full(*groups: Any) -> str:
+    """Return all fields of groups as text: equal for numbers with the same bits only, unlike their `__repr__`."""
+    return repr([vars(group) for group in groups])

@@ -25,6 +25,7 @@ from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.mesa.polygon_rules import passes_stages
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.records import Geometry
+from softshadow.state.common import in_full
 
 FEW_VERTICES = 512  # draws of fewer take less time than the comparison
 CACHE_BYTES = 64 << 20  # of one storage: a million triangles
@@ -119,13 +120,12 @@ def is_covered(command: Draw) -> bool:
 
 
 def key_of(command: Draw, target: Framebuffer, flat_input: bool) -> Hashable:
-    """Return what the triangles of a draw depend on; of the state in words, where 0 is not -0."""
-    state = command.state
-    numbers = (state.viewport, state.cull, state.polygon, state.clip_planes, state.depth.clamp, state.alpha.enabled)
-    image = target.depth
+    """Return what the triangles of a draw depend on; of the state as text, where 0 is not -0."""
+    state, image = command.state, target.depth
+    groups = in_full(state.viewport, state.cull, state.polygon, state.clip_planes)
     return (
         id(command.vertices.position), id(command.indices), command.mode, command.modelview.tobytes(),
-        command.projection.tobytes(), command.projection_kind, repr(numbers), command.offset_slope, command.offset_unit,
-        flat_input, first_provokes(state), target.size, target.flipped, bool(target.colors),
-        None if image is None else image.format,
+        command.projection.tobytes(), command.projection_kind, groups, state.depth.clamp, state.alpha.enabled,
+        command.offset_slope, command.offset_unit, flat_input, first_provokes(state), target.size, target.flipped,
+        bool(target.colors), None if image is None else image.format,
     )  # fmt: skip

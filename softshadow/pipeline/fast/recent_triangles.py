@@ -18,6 +18,7 @@ import numpy as np
 from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
+from softshadow.state.common import in_full
 
 MOST_RECENT = 6  # draws
 MOST_BYTES = 32 << 20  # of one of them
@@ -61,10 +62,10 @@ def triangles_key(command: Draw) -> tuple[Hashable, ...]:
 
 
 def window_key(command: Draw, target: Framebuffer) -> tuple[Hashable, ...]:
-    """Return what the clipped triangles in a window depend on besides vertices and matrices; words, as 0 is not -0.
+    """Return what the clipped triangles in a window depend on besides vertices and matrices; text, as 0 is not -0.
 
     For draws that do not pass the stages of `polygon_rules.passes_stages`.
     """
     state = command.state
-    words = repr((state.viewport, state.clip_planes, state.depth.clamp, state.polygon))
-    return words, first_provokes(state), target.size, target.flipped
+    text = in_full(state.viewport, state.clip_planes, state.polygon)
+    return text, state.depth.clamp, first_provokes(state), target.size, target.flipped

@@ -1,5 +1,7 @@
 """Draws that take the triangles of recent draws leave the bits of draws that set up their own."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -128,6 +130,47 @@ def test_many_draws_take_recent_triangles(hits):
     kinds = {type(content) for content in hits}
     assert len(hits) > 12
     assert kinds == {tuple, geometry.RunTriangles}  # of single draws without colours, and of runs
+
+
+CLOSE: dict[str, list[tuple[Any, ...]]] = {  # calls with numbers that are equal in their first six digits
+    "depth range": [("glDepthRange", near, 0.9) for near in (0.1, 0.1000004)],
+    "polygon offset": [("glPolygonOffset", 0.0, units) for units in (100000.0, 100000.4)],
+    "clip plane": [("glClipPlane", gl.GL_CLIP_PLANE0, (1.0, 0.0, 0.0, d)) for d in (0.1015625, 0.10156252)],
+}
+
+
+def counted(mesh: np.ndarray, call: tuple, colors: bool) -> np.ndarray:
+    """Draw a mesh where the stencil test passes, after a call, and return the buffers."""
+    getattr(gl, call[0])(*call[1:])
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
+    gl.glColorMask(*[colors] * 4)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, mesh)
+    gl.glDrawArrays(gl.GL_TRIANGLES, 0, len(mesh))
+    depth = gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_DEPTH_COMPONENT, gl.GL_UNSIGNED_INT)
+    return np.stack([depth, gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_STENCIL_INDEX, gl.GL_UNSIGNED_INT)])
+
+
+@pytest.mark.parametrize("colors", [False, True])
+@pytest.mark.parametrize("close", CLOSE)
+def test_numbers_that_are_printed_alike_are_told_apart(close, colors):
+    rng = np.random.default_rng(3)
+    mesh = rng.uniform(-1, 1, (90, 3)).astype(np.float32)
+    mesh[::2, 0] = -CLOSE["clip plane"][1][2][3]  # on one clip plane, and outside of the other
+
+    def drawn() -> list[np.ndarray]:
+        with gl.create_context(SIZE, SIZE):
+            for capability in (gl.GL_DEPTH_TEST, gl.GL_STENCIL_TEST, gl.GL_POLYGON_OFFSET_FILL, gl.GL_CLIP_PLANE0):
+                gl.glEnable(capability)
+            gl.glStencilFunc(gl.GL_ALWAYS, 0, 255)
+            gl.glStencilOp(gl.GL_KEEP, gl.GL_INCR, gl.GL_INCR)
+            gl.glClipPlane(gl.GL_CLIP_PLANE0, (1.0, 0.0, 0.0, 2.0))
+            gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+            return [counted(mesh, call, colors) for call in CLOSE[close] for _ in range(3)]
+
+    with use_short_cuts(False):
+        expected = drawn()
+    assert not np.array_equal(expected[0], expected[-1])
+    np.testing.assert_array_equal(drawn(), expected)
 
 
 def test_only_the_latest_draws_are_remembered():
