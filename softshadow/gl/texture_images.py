@@ -157,6 +157,8 @@ def _tex_sub_image(
     dimensions: int, target: int, level: int, corner: Shape, shape: Shape, format: int, type: int, pixels: Any
 ) -> None:
     operation = f"glTexSubImage{dimensions}D"
+    (x, y, z), (width, height, slices) = map(int, corner), map(int, shape)  # C cuts fractions off
+    corner, shape = (x, y, z), (width, height, slices)
     pixels = image_for_list(current(), pixels, *_lengths(dimensions, shape), format, type, operation)
     _update(operation, dimensions, target, level, corner, shape, format, type, pixels)
 

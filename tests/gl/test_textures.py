@@ -181,3 +181,12 @@ def test_depth_of_the_window_is_copied_bottom_row_first(context):
     image = context.storage.textures[0].images[0, 0]
     rows = sampled_depth(image.view, image.format)[:, 0]
     assert np.abs(rows - [0.25, 1, 1, 1, 1, 1]).max() < 2**-23  # one depth unit
+
+
+def test_fractions_of_places_and_sizes_are_cut_off_as_in_c():
+    with gl.create_context(4, 3):
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 4, 4, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, bytes(64))
+        pixels = np.full((2, 2, 4), 7, np.uint8)
+        gl.glTexSubImage2D(gl.GL_TEXTURE_2D, 0, 1.5, 0.9, 2.0, 2.7, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, pixels)
+        texels = gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_RED, gl.GL_UNSIGNED_BYTE)
+    assert np.argwhere(np.asarray(texels).reshape(4, 4)).tolist() == [[0, 1], [0, 2], [1, 1], [1, 2]]
