@@ -222,13 +222,14 @@ def test_equal_draws_over_cleared_depths_are_only_shaded():
     assert frame(3, SAMPLES, meshes=1)[1] == 10
 
 
-@pytest.mark.parametrize("between", ["clear_box", "blit_depths", "draw_depth_only", "draw_counting_in_stencil", "read"])
+@pytest.mark.parametrize("between", ["clear_box", "blit_depths", "draw_depth_only", "draw_counting_in_stencil"])
 @pytest.mark.parametrize("other", [False, True])
-def test_a_draw_over_depths_that_another_call_changed_or_read_is_filled(between, other):
+def test_a_draw_over_depths_that_another_call_changed_is_filled(between, other):
     kinds = ["other_framebuffer"] * other + ["clear", "draw"] * 3
     hits = frame(3, [*kinds, "clear"], meshes=1)[1]
     assert hits == 1
-    assert frame(3, [*kinds, "clear", "draw"], meshes=1)[1] == hits + 1
+    for harmless in ([], ["read"]):
+        assert frame(3, [*kinds, "clear", *harmless, "draw"], meshes=1)[1] == hits + 1
     assert frame(3, [*kinds, "clear", between, "draw"], meshes=1)[1] == hits
 
 
