@@ -15,7 +15,6 @@ from softshadow.gl.materials import start_to_follow
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_arrays import CLIENT_STATES, is_array_enabled, switch_array
 from softshadow.state import TEXTURE_UNITS, State
-from softshadow.state.rasterization import N_CLIP_PLANES
 from softshadow.state.texturing import SWITCHES
 
 # capability: (group of the state, field)
@@ -54,7 +53,7 @@ CAPABILITIES: dict[int, tuple[str, str]] = {
 UNIT_CAPABILITIES = SWITCHES
 TEXTURE_GENERATION = (gl.GL_TEXTURE_GEN_S, gl.GL_TEXTURE_GEN_T, gl.GL_TEXTURE_GEN_R, gl.GL_TEXTURE_GEN_Q)
 LIGHTS = range(gl.GL_LIGHT0, gl.GL_LIGHT7 + 1)
-CLIP_PLANES = range(gl.GL_CLIP_PLANE0, gl.GL_CLIP_PLANE0 + N_CLIP_PLANES)
+CLIP_PLANES = range(gl.GL_CLIP_PLANE0, gl.GL_CLIP_PLANE5 + 1)
 MAPS = {*COMPONENTS, gl.GL_AUTO_NORMAL}
 KNOWN = {
     gl.GL_INDEX_LOGIC_OP,

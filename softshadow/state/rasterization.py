@@ -167,24 +167,20 @@ class Points:
         ]
 
 
-N_CLIP_PLANES, N_NAMED_PLANES = 8, 6  # GL requires six, and has names for them; Mesa has eight
-
-
 @dataclass(frozen=True, repr=False)
 class ClipPlanes:
     """User clip planes in eye space, as GL stores them."""
 
-    enabled: tuple[bool, ...] = (False,) * N_CLIP_PLANES
-    equations: tuple[Color, ...] = ((0.0, 0.0, 0.0, 0.0),) * N_CLIP_PLANES
+    enabled: tuple[bool, ...] = (False,) * 6
+    equations: tuple[Color, ...] = ((0.0, 0.0, 0.0, 0.0),) * 6
 
     __repr__ = printed_calls
 
     def calls(self) -> list[str]:
         """Return the GL calls that make this state."""
-        names = [f"GL_CLIP_PLANE{i}" if i < N_NAMED_PLANES else f"GL_CLIP_PLANE0 + {i}" for i in range(N_CLIP_PLANES)]
         return [
             call
-            for name, on, plane in zip(names, self.enabled, self.equations, strict=True)
+            for i, (on, plane) in enumerate(zip(self.enabled, self.equations, strict=True))
             if on
-            for call in (f"glClipPlane({name}, ({numbers(*plane)}))", switch(name, True))
+            for call in (f"glClipPlane(GL_CLIP_PLANE{i}, ({numbers(*plane)}))", switch(f"GL_CLIP_PLANE{i}", True))
         ]

@@ -26,7 +26,7 @@ def draw_without_colors(seed: int, depth_format: str) -> Context:
     """Return a window after draws of triangles, in and around the frustum, that change only depth and stencil."""
     rng = np.random.default_rng(seed)
     context = Context(48, 40, depth_format)
-    plane = ClipPlanes((True,) + (False,) * 7, ((1.0, 0.3, 0.1, 0.2),) + ((0.0,) * 4,) * 7)
+    plane = ClipPlanes((True,) + (False,) * 5, ((1.0, 0.3, 0.1, 0.2),) + ((0.0,) * 4,) * 5)
     plain = replace(context.state, depth=replace(context.state.depth, enabled=True, func=gl.GL_ALWAYS))
     for _ in range(2):
         state = plain if rng.random() < 0.5 else random_state(rng, plain)

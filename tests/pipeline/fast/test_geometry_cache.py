@@ -38,7 +38,7 @@ def frame(seed: int, draws: int = 24) -> tuple[Context, int]:
     context = gl.create_context(40, 32)
     gl.glEnable(gl.GL_DEPTH_TEST)
     meshes = [positions(context, rng) for _ in range(2)]
-    plane = ClipPlanes((True,) + (False,) * 7, ((1.0, 0.3, 0.1, 0.6),) + ((0.0,) * 4,) * 7)
+    plane = ClipPlanes((True,) + (False,) * 5, ((1.0, 0.3, 0.1, 0.6),) + ((0.0,) * 4,) * 5)
     states = [random_state(rng, context.state) for _ in range(2)]
     states[1] = replace(states[1], clip_planes=plane if rng.random() < 0.3 else states[1].clip_planes)
     modes = [int(mode) for mode in rng.choice(MODES, 2)]
