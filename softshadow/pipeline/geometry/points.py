@@ -6,14 +6,15 @@ around the nearest pixel corner for an even one. As for lines, the square is two
 
 import numpy as np
 
-from softshadow.pipeline.constants import HALF, SUBPIXEL_BITS, SUBPIXELS
+from softshadow.jit import inlined, kernel
+from softshadow.pipeline.constants import HALF, ONE, SUBPIXEL_BITS, SUBPIXELS, ZERO
 from softshadow.pipeline.geometry.clip import Clipped
 from softshadow.pipeline.geometry.facing import REACH
-from softshadow.pipeline.geometry.triangle_setup import half_away
+from softshadow.pipeline.geometry.triangle_setup import empty_setup, half_away
 from softshadow.pipeline.records import NO_VERTEX, Setup
 
 PIXEL = 1 << SUBPIXEL_BITS
-LARGEST_SIZE = 255.0
+LARGEST_SIZE = np.float32(255)
 
 
 def clip_points(
@@ -34,17 +35,7 @@ def set_up_points(window: np.ndarray, points: np.ndarray, ids: np.ndarray, sizes
     ids : (P,) int32, copied to the triangles
     sizes : (P,) in pixels, rounded to whole numbers, a half down; NaN counts as 1, as in Mesa
     """
-    positions = window[points]
-    finite = np.isfinite(positions[:, 2]) & (np.abs(positions[:, :2]) < REACH).all(axis=1)
-    points, ids, positions, sizes = points[finite], ids[finite], positions[finite], sizes[finite]
-    width = np.maximum(1, _fixed_widths(sizes) + PIXEL // 2 - 1 >> SUBPIXEL_BITS)[:, None]
-    # on the border of two rows the upper one (in GL's sense) is covered, as along the edges of triangles
-    snapped = half_away(positions[:, :2] * SUBPIXELS).astype(np.int64) - (0, int(flipped))
-    center = np.where(width % 2 == 1, snapped, snapped + PIXEL // 2)
-    first = (center >> SUBPIXEL_BITS) - width // 2
-    # corners half a pixel outside the first and last samples, which lie on multiples of 256
-    low = first * PIXEL - PIXEL // 2
-    return _squares(points, ids, positions[:, 2], low, low + width * PIXEL)
+    return _squares(window, points, ids, sizes, int(flipped), np.empty(0, sizes.dtype))
 
 
 def set_up_sprites(
@@ -55,29 +46,68 @@ def set_up_sprites(
     A sprite is a square of that size around its point: it covers the pixels whose centres lie in it (GL 2.1, sec.
     3.3.1).
     """
-    fixed = np.maximum(PIXEL, _fixed_widths(sizes))
-    positions = window[points]
-    finite = np.isfinite(positions[:, 2]) & (np.abs(positions[:, :2]) < REACH).all(axis=1)
-    points, ids, positions = points[finite], ids[finite], positions[finite]
-    low = half_away((positions[:, :2] - HALF) * SUBPIXELS).astype(np.int64) - fixed[finite, None] // 2
-    return _squares(points, ids, positions[:, 2], low, low + fixed[finite, None]), fixed / PIXEL
+    widths = np.empty(len(points), sizes.dtype)
+    return _squares(window, points, ids, sizes, 0, widths), widths
 
 
-def _fixed_widths(sizes: np.ndarray) -> np.ndarray:
-    """Return sizes (P,) in 1/256 pixel; NaN and what is not positive count as 1 pixel."""
-    limited = np.where(sizes > 0, np.minimum(sizes, sizes.dtype.type(LARGEST_SIZE)), sizes.dtype.type(1))
-    return half_away(limited * SUBPIXELS).astype(np.int64)
+def _squares(
+    window: np.ndarray, points: np.ndarray, ids: np.ndarray, sizes: np.ndarray, flipped: int, widths: np.ndarray
+) -> Setup:
+    """Return the two triangles of each point; sprites have `widths` (P,), which are written."""
+    setup = empty_setup(2 * len(points), window.dtype)
+    points, ids = np.ascontiguousarray(points), np.ascontiguousarray(ids)
+    n_triangles = write_squares(window, points, ids, sizes, flipped, widths, *setup)
+    return Setup(*(array[:n_triangles] for array in setup))
 
 
-def _squares(points: np.ndarray, ids: np.ndarray, z: np.ndarray, low: np.ndarray, high: np.ndarray) -> Setup:
-    """Return two triangles for each point with depth `z` (P,), from corner `low` (P, 2) to corner `high` (P, 2)."""
-    x0, y0, x1, y1 = low[:, 0], low[:, 1], high[:, 0], high[:, 1]
-    n_points = len(points)
-    corners = (
-        np.stack([x1, y0, x0, y0, x0, y1, x1, y0, x0, y1, x1, y1], axis=1).reshape(2 * n_points, 6).astype(np.int32)
-    )
-    vertices = np.full((2 * n_points, 3), NO_VERTEX, np.int32)
-    vertices[:, 0] = np.repeat(points, 2)
-    depth = np.zeros((2 * n_points, 4), z.dtype)
-    depth[:, 0] = np.repeat(z, 2)
-    return Setup(corners, vertices, depth, np.ones(2 * n_points, np.uint8), np.repeat(ids, 2))
+@kernel
+def write_squares(window, points, ids, sizes, flipped, widths, corners, vertices, depth, front, triangle_ids):
+    """Write the two triangles of each point; return how many they are. The arguments: see `_squares` and `Setup`."""
+    t, are_sprites = 0, len(widths) > 0
+    for n in range(points.shape[0]):
+        v = points[n]
+        x, y, z = window[v, 0], window[v, 1], window[v, 2]
+        width = fixed_width(sizes[n])
+        if are_sprites:
+            width = max(PIXEL, width)
+            widths[n] = width / PIXEL
+        if not (np.isfinite(z) and abs(x) < REACH and abs(y) < REACH):
+            continue
+        if are_sprites:
+            left, low = snap_away(x - HALF) - width // 2, snap_away(y - HALF) - width // 2
+        else:
+            # on the border of two rows the upper one (in GL's sense) is covered, as along the edges of triangles
+            n_pixels = max(1, (width + PIXEL // 2 - 1) >> SUBPIXEL_BITS)
+            left, low = low_side(snap_away(x), n_pixels), low_side(snap_away(y) - flipped, n_pixels)
+            width = n_pixels << SUBPIXEL_BITS
+        right, high = left + width, low + width
+        corners[t, 0], corners[t, 1], corners[t, 2], corners[t, 3] = right, low, left, low
+        corners[t, 4], corners[t, 5] = left, high
+        corners[t + 1, 0], corners[t + 1, 1], corners[t + 1, 2], corners[t + 1, 3] = right, low, left, high
+        corners[t + 1, 4], corners[t + 1, 5] = right, high
+        for half in range(t, t + 2):
+            vertices[half, 0], vertices[half, 1], vertices[half, 2] = v, NO_VERTEX, NO_VERTEX
+            depth[half, 0], depth[half, 1], depth[half, 2], depth[half, 3] = z, ZERO, ZERO, ZERO
+            front[half], triangle_ids[half] = 1, ids[n]
+        t += 2
+    return t
+
+
+@inlined
+def snap_away(coordinate):
+    """Return a coordinate in 1/256 pixel, a half rounded away from zero."""
+    return int(half_away(coordinate * SUBPIXELS))
+
+
+@inlined
+def low_side(snapped, n_pixels):
+    """Return the lower side of a square of whole pixels: half a pixel below its first samples, multiples of 256."""
+    center = snapped if n_pixels % 2 == 1 else snapped + PIXEL // 2
+    return (((center >> SUBPIXEL_BITS) - n_pixels // 2) << SUBPIXEL_BITS) - PIXEL // 2
+
+
+@inlined
+def fixed_width(size):
+    """Return a size in 1/256 pixel; NaN and what is not positive count as 1 pixel."""
+    limited = min(size, LARGEST_SIZE) if size > ZERO else ONE
+    return int(half_away(limited * SUBPIXELS))

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.image import Image
-from softshadow.jit import allocating_kernel, inlined, kernel, read_only
+from softshadow.jit import inlined, kernel, read_only
 from softshadow.pipeline.constants import HALF, ONE, ZERO
 from softshadow.pipeline.geometry.facing import culling, facing_and_area, snap_vertices, vertices_of
 from softshadow.pipeline.memory.scratch import scratch
@@ -124,14 +124,14 @@ def empty_setup(n_triangles: int, real: np.dtype) -> Setup:
     )
 
 
-@allocating_kernel
-def half_away(values):
-    """Return numbers rounded to whole ones, a half away from zero.
+@inlined
+def half_away(value):
+    """Return a number rounded to a whole one, a half away from zero.
 
     Mesa 22.3 rounds coordinates of lines and points in this way (util_iround: add a half, then truncate); for triangles
     it uses an instruction that rounds a half to even.
     """
-    return np.trunc(values + np.copysign(HALF, values))
+    return np.trunc(value + np.copysign(HALF, value))
 
 
 @kernel

@@ -41,7 +41,7 @@ def attribute_planes(window, values, back, vertices, front, needed, flat, provok
         first, second, third, is_front = vertices[t, 0], vertices[t, 1], vertices[t, 2], front[t] != 0
         v0, v1, v2 = np.uint64(first), np.uint64(second), np.uint64(third)
         if third < 0:
-            line_or_point_planes(window, values if is_front else back, first, second, planes[n])
+            line_or_point_planes(window, values if is_front else back, first, second, planes, n)
         else:
             x, y, w0, w1, w2 = window[v0, 0], window[v0, 1], window[v0, 3], window[v1, 3], window[v2, 3]
             dx01, dy01, dx20, dy20, over_area = edge_differences(window, v0, v1, v2)
@@ -61,22 +61,22 @@ def attribute_planes(window, values, back, vertices, front, needed, flat, provok
 
 
 @inlined
-def line_or_point_planes(window, values, a, b, planes):
-    """Fill the planes (3, k + 1) of a line from vertex `a` to `b`, or of a point (`b` is -1), constant ones."""
+def line_or_point_planes(window, values, a, b, planes, n):
+    """Fill row `n` of the planes: those of a line from vertex `a` to `b`, or of a point (`b` is -1), constant ones."""
     k = values.shape[1]
-    is_point = b < 0
-    b = a if is_point else b
+    if b < 0:
+        w = window[a, 3]
+        for c in range(k + 1):
+            planes[n, 0, c], planes[n, 1, c], planes[n, 2, c] = (values[a, c] * w if c < k else w), ZERO, ZERO
+        return
     w0, w1 = window[a, 3], window[b, 3]
     dx, dy, over_area = line_gradient(window, a, b)
     for c in range(k + 1):
         value0 = values[a, c] * w0 if c < k else w0
         value1 = values[b, c] * w1 if c < k else w1
-        if is_point:
-            planes[0, c], planes[1, c], planes[2, c] = value0, ZERO, ZERO
-        else:
-            planes[0, c], planes[1, c], planes[2, c] = line_plane(
-                window[a, 0], window[a, 1], dx, dy, over_area, value0, value1
-            )
+        planes[n, 0, c], planes[n, 1, c], planes[n, 2, c] = line_plane(
+            window[a, 0], window[a, 1], dx, dy, over_area, value0, value1
+        )
 
 
 @kernel
