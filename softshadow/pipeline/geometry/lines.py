@@ -9,10 +9,10 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.jit import kernel
-from softshadow.pipeline.constants import HALF, ONE, SUBPIXEL_BITS, SUBPIXELS, ZERO
+from softshadow.pipeline.constants import HALF, ONE, SUBPIXEL_BITS, ZERO
 from softshadow.pipeline.geometry.clip import Clipped, all_clip_planes, distance
 from softshadow.pipeline.geometry.facing import REACH
-from softshadow.pipeline.geometry.triangle_setup import half_away, line_gradient, line_plane
+from softshadow.pipeline.geometry.triangle_setup import line_gradient, line_plane, snap_away
 from softshadow.pipeline.records import NO_VERTEX, Setup
 
 LINES = (gl.GL_LINES, gl.GL_LINE_STRIP, gl.GL_LINE_LOOP)
@@ -196,7 +196,7 @@ def line_corners(window, a, b, across, quad):
 @kernel
 def snap_end(coordinate):
     """Return a window coordinate in 1/256 pixel, like `snap`, but with a half rounded away from zero."""
-    return int(half_away((coordinate - HALF) * SUBPIXELS))
+    return snap_away(coordinate - HALF)
 
 
 @kernel

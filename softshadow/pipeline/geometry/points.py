@@ -7,10 +7,10 @@ around the nearest pixel corner for an even one. As for lines, the square is two
 import numpy as np
 
 from softshadow.jit import inlined, kernel
-from softshadow.pipeline.constants import HALF, ONE, SUBPIXEL_BITS, SUBPIXELS, ZERO
+from softshadow.pipeline.constants import HALF, ONE, SUBPIXEL_BITS, ZERO
 from softshadow.pipeline.geometry.clip import Clipped
 from softshadow.pipeline.geometry.facing import REACH
-from softshadow.pipeline.geometry.triangle_setup import empty_setup, half_away
+from softshadow.pipeline.geometry.triangle_setup import empty_setup, snap_away
 from softshadow.pipeline.records import NO_VERTEX, Setup
 
 PIXEL = 1 << SUBPIXEL_BITS
@@ -94,12 +94,6 @@ def write_squares(window, points, ids, sizes, flipped, widths, corners, vertices
 
 
 @inlined
-def snap_away(coordinate):
-    """Return a coordinate in 1/256 pixel, a half rounded away from zero."""
-    return int(half_away(coordinate * SUBPIXELS))
-
-
-@inlined
 def low_side(snapped, n_pixels):
     """Return the lower side of a square of whole pixels: half a pixel below its first samples, multiples of 256."""
     center = snapped if n_pixels % 2 == 1 else snapped + PIXEL // 2
@@ -109,5 +103,4 @@ def low_side(snapped, n_pixels):
 @inlined
 def fixed_width(size):
     """Return a size in 1/256 pixel; NaN and what is not positive count as 1 pixel."""
-    limited = min(size, LARGEST_SIZE) if size > ZERO else ONE
-    return int(half_away(limited * SUBPIXELS))
+    return snap_away(min(size, LARGEST_SIZE) if size > ZERO else ONE)

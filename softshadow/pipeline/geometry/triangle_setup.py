@@ -6,7 +6,7 @@ import numpy as np
 
 from softshadow.image import Image
 from softshadow.jit import inlined, kernel, read_only
-from softshadow.pipeline.constants import HALF, ONE, ZERO
+from softshadow.pipeline.constants import HALF, ONE, SUBPIXELS, ZERO
 from softshadow.pipeline.geometry.facing import culling, facing_and_area, snap_vertices, vertices_of
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import PART_SIZE, parts_of, share
@@ -125,13 +125,14 @@ def empty_setup(n_triangles: int, real: np.dtype) -> Setup:
 
 
 @inlined
-def half_away(value):
-    """Return a number rounded to a whole one, a half away from zero.
+def snap_away(coordinate):
+    """Return a coordinate in 1/256 pixel, a half rounded away from zero.
 
     Mesa 22.3 rounds coordinates of lines and points in this way (util_iround: add a half, then truncate); for triangles
     it uses an instruction that rounds a half to even.
     """
-    return np.trunc(value + np.copysign(HALF, value))
+    fixed = coordinate * SUBPIXELS
+    return int(np.trunc(fixed + np.copysign(HALF, fixed)))
 
 
 @kernel
