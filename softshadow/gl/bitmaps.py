@@ -8,6 +8,8 @@ References: GL 2.1, sec. 3.7; drawpix.c and st_cb_bitmap.c of Mesa 22.3.
 
 from __future__ import annotations
 
+import math
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -52,7 +54,9 @@ def glBitmap(
         bitmap = source(context, bitmap, (store.skip_rows + int(height)) * bytes_of_row, 1, "glBitmap")
         if bitmap is None:
             return
-        bits = bitmap_rows(bitmap, context.unpack_store, int(width), int(height), "glBitmap")
+        content = bitmap.tobytes() if isinstance(bitmap, np.ndarray) else bitmap
+        rows = _kept_rows if isinstance(content, bytes) else bitmap_rows
+        bits = rows(content, context.unpack_store, int(width), int(height), "glBitmap")
     _bitmap(width, height, xorig, yorig, xmove, ymove, bits)
 
 
@@ -72,14 +76,15 @@ def _bitmap(
     if framebuffer_status(context, name) != gl.GL_FRAMEBUFFER_COMPLETE:
         fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, "glBitmap", f"framebuffer {name} is not complete")
         return
-    position = np.array(context.current.raster.window, np.float32)
-    if is_rendered(context, gl.GL_BITMAP_TOKEN) and bits is not None and bits.any():
-        left = int(np.floor(position[0] + ROUNDING - np.float32(xorig)))
-        bottom = int(np.floor(position[1] + ROUNDING - np.float32(yorig)))
-        quads = runs(bits) + np.array([left, bottom, left, bottom])
-        context.execute(draw_of_quads(context, quads, context.state))
-    position[:2] += np.array([xmove, ymove], np.float32)
-    window = tuple(position.tolist())
+    x, y, *rest = context.current.raster.window
+    x, y = np.float32(x), np.float32(y)
+    if is_rendered(context, gl.GL_BITMAP_TOKEN) and bits is not None:
+        quads = _kept_runs(bits.tobytes(), bits.shape)
+        if len(quads):
+            left = math.floor(x + ROUNDING - np.float32(xorig))
+            bottom = math.floor(y + ROUNDING - np.float32(yorig))
+            context.execute(draw_of_quads(context, quads + np.array([left, bottom, left, bottom]), context.state))
+    window = float(x + np.float32(xmove)), float(y + np.float32(ymove)), *rest
     context.current.raster = evolve(context.current.raster, window=window)
 
 
@@ -97,6 +102,15 @@ def runs(bits: np.ndarray) -> np.ndarray:
     row, begin = np.nonzero(steps == 1)
     end = np.nonzero(steps == -1)[1]
     return np.stack([begin, row, end, row + 1], axis=1)
+
+
+# those of the characters of a text
+_kept_rows = lru_cache(256)(bitmap_rows)
+
+
+@lru_cache(256)
+def _kept_runs(bits: bytes, shape: tuple[int, int]) -> np.ndarray:
+    return runs(np.frombuffer(bits, bool).reshape(shape))
 
 
 __all__ = spelled_like_gl(globals())

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import struct
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import Any, NamedTuple
+
 import numpy as np
 
 from softshadow import tokens as gl
@@ -18,7 +23,8 @@ from softshadow.texture import DEFAULTS, Sampler
 CORNERS = np.array([[0, 1], [1, 1], [1, 0], [0, 0]])
 CORNERS_FROM_TOP = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
 TRIANGLES = np.array([0, 1, 2, 0, 2, 3])  # a fan, as in Mesa
-
+# of left, bottom, right, top: x and y of each corner
+EDGES, EDGES_FROM_TOP = (2 * corners + [0, 1] for corners in (CORNERS, CORNERS_FROM_TOP))
 
 TEXTURE = min(DEFAULTS.values()) - 1  # key in the storage of the texture that holds the rectangle
 SAMPLER = Sampler(
@@ -75,30 +81,103 @@ def draw_of_quads(context: Context, quads: np.ndarray, state: State, textured: b
     size = context.objects.framebuffers[context.state.draw_framebuffer].size
     in_window = state.draw_framebuffer == DEFAULT
     corners = CORNERS_FROM_TOP if textured and not in_window else CORNERS
-    position = np.ones((4 * len(quads), 4), real)
-    position[:, 0] = quads[:, 2 * corners[:, 0]].reshape(-1).astype(real) / real(size[0]) * real(2) - real(1)
-    position[:, 1] = quads[:, 1 + 2 * corners[:, 1]].reshape(-1).astype(real) / real(size[1]) * real(2) - real(1)
-    position[:, 2] = 0  # the projection adds the depth: in Mesa, fog is that of the distance 0
-    projection = np.eye(4)
-    projection[2, 3] = real(raster.window[2]) * real(2) - real(1)
-    values = (raster.color, (0, 0, 1), *raster.texcoords)
-    rows = [np.tile(np.array(value, real), (len(position), 1)) for value in values]
+    n, edges = 4 * len(quads), quads.astype(real)
+    edges /= np.array(size * 2, real)
+    edges *= real(2)
+    edges -= real(1)
+    position = np.ones((len(quads), 4, 4), real)
+    position[:, :, :2] = edges[:, EDGES_FROM_TOP if corners is CORNERS_FROM_TOP else EDGES]
+    position[:, :, 2] = 0  # the projection adds the depth: in Mesa, fog is that of the distance 0
+    color, texcoords = _attributes(_packed(raster.color, *raster.texcoords), n, real)
     if textured:
-        rows[2][:, :2] = np.tile(corners, (len(quads), 1))
-    indices = (np.arange(0, len(position), 4)[:, np.newaxis] + TRIANGLES).reshape(-1).astype(np.int32)
-    for array in (position, indices, *rows):
+        of_quads = texcoords[0].copy()
+        of_quads[:, :2] = np.tile(corners, (len(quads), 1))
+        texcoords = of_quads, *texcoords[1:]
+    position = position.reshape(n, 4)
+    for array in (position, texcoords[0]):
         array.setflags(write=False)
-    identity = context.frozen(np.eye(4))
-    return Draw(
-        state=_without_vertex_stages(state, size, in_window, clamps=state.depth.clamp and textured),
-        mode=gl.GL_TRIANGLES,
-        vertices=Vertices(position, rows[0], rows[1], tuple(rows[2:])),
-        indices=indices,
-        modelview=identity,
-        projection=context.frozen(projection),
-        texture_matrices=(identity,) * len(raster.texcoords),
+    return evolve(
+        _blank_draw(real, len(texcoords)),
+        state=_prepared(state, size, in_window, state.depth.clamp and textured),
+        vertices=Vertices(position, color, _normals(n, real), texcoords),
+        indices=_indices(len(quads)),
+        projection=_projection(raster.window[2], real),
         label="/".join(context.labels),
     )
+
+
+# what draws have in common, kept: text is made of many small ones
+def _packed(*values: Sequence[float]) -> bytes:
+    """Return numbers as a key that tells -0 from 0."""
+    return b"".join([struct.pack(f"{len(value)}d", *value) for value in values])
+
+
+@lru_cache(256)
+def _attributes(packed: bytes, n: int, real: Any) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
+    """Return n equal colours and n equal texture coordinates of each unit; arrays, since Mesa interpolates them."""
+    values = np.frombuffer(packed).reshape(-1, 4)
+    arrays = {row.tobytes(): _repeated(row, n, real) for row in values}
+    color, *texcoords = (arrays[row.tobytes()] for row in values)
+    return color, tuple(texcoords)
+
+
+@lru_cache(256)
+def _normals(n: int, real: Any) -> np.ndarray:
+    return _repeated((0, 0, 1), n, real)
+
+
+def _repeated(value: Any, n: int, real: Any) -> np.ndarray:
+    rows = np.empty((n, len(value)), real)
+    rows[:] = value
+    rows.setflags(write=False)
+    return rows
+
+
+@lru_cache(256)
+def _indices(n_quads: int) -> np.ndarray:
+    indices = (np.arange(0, 4 * n_quads, 4)[:, np.newaxis] + TRIANGLES).reshape(-1).astype(np.int32)
+    indices.setflags(write=False)
+    return indices
+
+
+@lru_cache(16)
+def _blank_draw(real: Any, n_units: int) -> Draw:
+    """Return a draw of triangles under identity matrices, with one texture matrix per unit."""
+    nothing, identity = np.empty((0, 4), real), np.eye(4, dtype=real)
+    identity.setflags(write=False)
+    vertices = Vertices(nothing, nothing, nothing[:, :3], (nothing,) * n_units)
+    return Draw(State(), gl.GL_TRIANGLES, vertices, None, identity, identity, (identity,) * n_units, modelview_kind=0)
+
+
+@lru_cache(256)
+def _projection(depth: float, real: Any) -> np.ndarray:
+    """Return the matrix that moves z = 0 to a depth of the window."""
+    projection = np.eye(4)
+    projection[2, 3] = real(depth) * real(2) - real(1)
+    projection = projection.astype(real)
+    projection.setflags(write=False)
+    return projection
+
+
+class _Prepared(NamedTuple):
+    """A state without its vertex stages, and what it was made from."""
+
+    made_from: tuple[State, tuple[int, int], bool, bool]
+    state: State
+
+
+_latest: list[_Prepared] = []  # at most one
+
+
+def _prepared(state: State, size: tuple[int, int], in_window: bool, clamps: bool) -> State:
+    """Return what `_without_vertex_stages` returns, the same object while its arguments are the same."""
+    made_from = state, size, in_window, clamps
+    latest = _latest[:]
+    if latest and latest[0].made_from[0] is state and latest[0].made_from[1:] == made_from[1:]:
+        return latest[0].state
+    prepared = _without_vertex_stages(*made_from)
+    _latest[:] = [_Prepared(made_from, prepared)]
+    return prepared
 
 
 def _without_vertex_stages(state: State, size: tuple[int, int], in_window: bool, clamps: bool) -> State:
