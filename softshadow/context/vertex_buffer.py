@@ -6,8 +6,10 @@ driver (`softshadow.pipeline.mesa.driver_draws`), and so some bits of the image.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
+
+import numpy as np
 
 from softshadow.framebuffer import Storage
 from softshadow.pipeline.commands import Draw, Origin, Vertices
@@ -35,9 +37,11 @@ class Primitive:
     steady : dict            attribute: components of a call that needs no change of the vertex format
     position_size : int      the same for positions: such calls append to `positions`, up to `limit` numbers
     counted : int            vertices that `VertexBuffer.n_vertices` includes
+    arrays : mapping         "position", "normal" ...: arrays of all vertices, where they exist already
     """
 
     __slots__ = (
+        "arrays",
         "changes",
         "continued",
         "counted",
@@ -55,6 +59,7 @@ class Primitive:
         self.positions: list[float] = []
         self.changes: dict[str, list[tuple[int, Any]]] = {}
         self.steady: dict[str, int] = {}
+        self.arrays: Mapping[str, np.ndarray] = {}
         self.continued, self.position_size, self.limit, self.counted = False, 0, 0, 0
 
     def __len__(self) -> int:
@@ -95,6 +100,7 @@ class Primitive:
             kept = [(4 * number, values[vertex]) for number, vertex in enumerate(vertices)]
             self.changes[name] = [*kept, (4 * len(kept), changes[-1][1])]
         self.positions = [x for vertex in vertices for x in self.positions[4 * vertex : 4 * vertex + 4]]
+        self.arrays = {}
 
 
 class VertexBuffer:

@@ -31,6 +31,7 @@ from softshadow.gl.compressed_images import *
 from softshadow.gl.conditional_rendering import *
 from softshadow.gl.debug_groups import *
 from softshadow.gl.errors import *
+from softshadow.gl.evaluator_maps import *
 from softshadow.gl.evaluators import *
 from softshadow.gl.extensions import extension_names, missing_message, plain_name
 from softshadow.gl.fog import *

@@ -76,8 +76,7 @@ def _bitmap(
     if framebuffer_status(context, name) != gl.GL_FRAMEBUFFER_COMPLETE:
         fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, "glBitmap", f"framebuffer {name} is not complete")
         return
-    x, y, *rest = context.current.raster.window
-    x, y = np.float32(x), np.float32(y)
+    x, y, *rest = context.current.raster.window  # the sums below are in float32
     if is_rendered(context, gl.GL_BITMAP_TOKEN) and bits is not None:
         quads = _kept_runs(bits.tobytes(), bits.shape)
         if len(quads):

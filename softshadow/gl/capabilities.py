@@ -10,7 +10,7 @@ from softshadow.context.evaluators import COMPONENTS
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.errors import is_one_of, outside_begin
-from softshadow.gl.evaluators import switch_map
+from softshadow.gl.evaluator_maps import switch_map
 from softshadow.gl.materials import start_to_follow
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_arrays import CLIENT_STATES, is_array_enabled, switch_array

@@ -33,41 +33,12 @@ from softshadow.gl.glu_tokens import (
     GLU_SILHOUETTE,
     GLU_SMOOTH,
 )
-from softshadow.gl.immediate import glBegin, glEnd, glVertex3f
-from softshadow.gl.texture_coordinates import glTexCoord2f
-from softshadow.gl.vertex_attributes import glNormal3f
+from softshadow.gl.shape_calls import Calls
 
 F32 = np.float32
 MOST = 239  # slices and stacks
 KEPT_SHAPES, KEPT_PLACES = 32, 2500  # shapes whose calls are kept, and their largest slices * stacks: below 70 MB
 Table = list[float]  # float32 numbers
-
-
-class Calls:
-    """The calls that draw a shape."""
-
-    def __init__(self) -> None:
-        self.calls: list[tuple[Callable[..., None], tuple[Any, ...]]] = []
-
-    def begin(self, mode: int) -> None:
-        """Add glBegin."""
-        self.calls.append((glBegin, (mode,)))
-
-    def end(self) -> None:
-        """Add glEnd."""
-        self.calls.append((glEnd, ()))
-
-    def vertex(self, x: float, y: float, z: float) -> None:
-        """Add glVertex3f."""
-        self.calls.append((glVertex3f, (x, y, z)))
-
-    def normal(self, x: float, y: float, z: float) -> None:
-        """Add glNormal3f."""
-        self.calls.append((glNormal3f, (x, y, z)))
-
-    def coordinates(self, s: float, t: float) -> None:
-        """Add glTexCoord2f."""
-        self.calls.append((glTexCoord2f, (s, t)))
 
 
 class Manner(NamedTuple):
@@ -147,8 +118,7 @@ def gluQuadricDrawStyle(quad: GLUquadric, draw: int) -> None:
 def _draw(shape: Callable[..., Calls], quad: GLUquadric, places: int, *numbers: float) -> None:
     """Carry out the calls of a shape."""
     make = _kept if places <= KEPT_PLACES else _made
-    for call, arguments in make(shape, quad.manner(), *numbers).calls:
-        call(*arguments)
+    make(shape, quad.manner(), *numbers).make()
 
 
 def _made(shape: Callable[..., Calls], manner: Manner, *numbers: float) -> Calls:

@@ -194,10 +194,13 @@ def _cut(primitive: Primitive, n: int) -> Cut:
 def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int | None = None) -> Vertices:
     """Return the vertices [start, end) of a primitive; attributes that they do not carry are repeats of one row."""
     carried, constants = context.vertex_buffer.sizes, constant_attributes(context)
+    arrays = primitive.arrays if end is None else {}
     end = len(primitive) if end is None else end
     count = end - start
 
     def rows(name: str) -> np.ndarray:
+        if name in arrays:
+            return arrays[name]
         current = context.attribute(name)
         if not isinstance(current, tuple):
             return context.packed(primitive.values(name, current)[start:end])
@@ -217,7 +220,7 @@ def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int
         ]
     return create(
         Vertices,
-        position=context.packed(primitive.positions[4 * start : 4 * end], count, 4),
+        position=arrays["position"] if arrays else context.packed(primitive.positions[4 * start : 4 * end], count, 4),
         color=rows("color") if "color" in carried else constants.color.rows(count),
         normal=rows("normal") if "normal" in carried else constants.normal.rows(count),
         texcoords=texcoords,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -77,7 +77,7 @@ def draw_of_quads(context: Context, quads: np.ndarray, state: State, textured: b
     textured : bool              whether each quad shows the whole texture of unit 0; else all vertices have the texture
         coordinates of the raster position
     """
-    raster, real = context.current.raster, context.real
+    raster, real = context.current.raster, cast(Any, context.real)
     size = context.objects.framebuffers[context.state.draw_framebuffer].size
     in_window = state.draw_framebuffer == DEFAULT
     corners = CORNERS_FROM_TOP if textured and not in_window else CORNERS

@@ -1,0 +1,133 @@
+"""Strips of shapes and of evaluators, whose vertices are added at once, give the draws of their single calls."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+import pytest
+
+from softshadow import gl
+from softshadow.context import vertex_buffer
+from softshadow.gl import evaluators
+from softshadow.gl.shape_calls import Calls, Strip
+from softshadow.pipeline.commands import Draw
+
+ROUNDS = 60
+
+
+def draws_of(program: Callable[[], None]) -> list[tuple[Any, ...]]:
+    """Return modes, vertices and indices of all draws of a program, and its attributes after it."""
+    with gl.create_context(16, 12) as context:
+        program()
+        commands = [command for command in context.frame.commands if isinstance(command, Draw)]
+        current = tuple(
+            gl.glGetFloatv(getattr(gl, f"GL_CURRENT_{name}")) for name in ("COLOR", "NORMAL", "TEXTURE_COORDS")
+        )
+    drawn: list[tuple[Any, ...]] = [tuple(np.asarray(value).tobytes() for value in current)]
+    for command in commands:
+        vertices = command.vertices
+        arrays = vertices.position, vertices.color, vertices.normal, vertices.texcoords[0], command.indices
+        drawn.append((command.mode, *(None if array is None else (array.shape, array.tobytes()) for array in arrays)))
+    return drawn
+
+
+class RandomStrips:
+    """Strips of a shape between other calls, in a random order that depends on a seed."""
+
+    def __init__(self, seed: int) -> None:
+        rng = np.random.default_rng(seed)
+        self.parts: list[Callable[[Any], None]] = [self._part(rng) for _ in range(30)]
+
+    def _part(self, rng: np.random.Generator) -> Callable[[Any], None]:
+        numbers = [float(np.float32(x)) for x in rng.uniform(-1, 1, 4)]
+        kind = int(rng.integers(10))
+        if kind == 0:
+            return lambda draw: gl.glColor3f(*numbers[:3])
+        if kind == 1:
+            return lambda draw: gl.glColor4f(*numbers)
+        if kind == 2:
+            return lambda draw: gl.glTexCoord3f(*numbers[:3])
+        if kind == 3:
+            return lambda draw: gl.glNormal3f(*numbers[:3])
+        if kind == 4:
+            return lambda draw: gl.glTranslatef(*numbers[:3])
+        strip = self._strip(rng)
+        return lambda draw: draw(strip)
+
+    def _strip(self, rng: np.random.Generator) -> Strip:
+        calls, has_normals, has_coordinates = Calls(), rng.random() < 0.7, rng.random() < 0.4
+        modes = gl.GL_QUAD_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_TRIANGLE_STRIP, gl.GL_LINE_STRIP, gl.GL_POINTS, gl.GL_QUADS
+        calls.begin(int(rng.choice(modes)))
+        late = int(rng.random() < 0.2)  # attributes begin after the first vertex
+        for vertex in range(int(rng.integers(1, 40))):
+            if has_normals and vertex >= late and rng.random() < 0.9:
+                calls.normal(*rng.normal(size=3).tolist())
+            if has_coordinates and vertex >= late:
+                calls.coordinates(*rng.normal(size=2).tolist())
+            calls.vertex(*rng.normal(size=3).tolist())
+        calls.end()
+        (strip,) = calls._parts
+        assert isinstance(strip, Strip)
+        return strip
+
+    def draw(self, draw: Callable[[Strip], None]) -> None:
+        for part in self.parts:
+            part(draw)
+
+
+def call_by_call(strip: Strip) -> None:
+    gl.glBegin(strip.mode)
+    for call, arguments in strip.calls:
+        call(*arguments)
+    gl.glEnd()
+
+
+@pytest.mark.parametrize("n_bytes", [vertex_buffer.BYTES, 4096])
+def test_strips_give_the_draws_of_their_calls(n_bytes: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(vertex_buffer, "BYTES", n_bytes)
+    for seed in range(ROUNDS):
+        program = RandomStrips(seed)
+        assert draws_of(partial(program.draw, Strip.draw)) == draws_of(partial(program.draw, call_by_call)), seed
+
+
+def test_strips_use_their_arrays() -> None:
+    calls = Calls()
+    calls.begin(gl.GL_TRIANGLE_STRIP)
+    for n in range(5):
+        calls.normal(0.0, 0.0, float(n))
+        calls.vertex(float(n), 0.0, 0.0)
+    calls.end()
+    with gl.create_context(8, 8) as context:
+        calls.make()
+        calls.make()
+        first, second = (command for command in context.frame.commands if isinstance(command, Draw))
+    assert first.vertices.position is second.vertices.position
+    assert first.vertices.normal[:, 2].tolist() == [0, 1, 2, 3, 4]
+
+
+def evaluate_meshes(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    for target, size in (("VERTEX_3", 3), ("COLOR_4", 4), ("TEXTURE_COORD_2", 2), ("NORMAL", 3)):
+        if target == "VERTEX_3" or rng.random() < 0.4:
+            gl.glMap2f(getattr(gl, f"GL_MAP2_{target}"), 0, 1, 0, 1, rng.normal(size=(3, 4, size)).astype(np.float32))
+            gl.glEnable(getattr(gl, f"GL_MAP2_{target}"))
+    if rng.random() < 0.5:
+        gl.glEnable(gl.GL_AUTO_NORMAL)
+    for _ in range(4):
+        gl.glMapGrid2f(int(rng.integers(1, 12)), 0, 1, int(rng.integers(1, 5)), 0, 1)
+        mode = int(rng.choice([gl.GL_POINT, gl.GL_LINE, gl.GL_FILL]))
+        gl.glColor4f(*rng.random(4).tolist())
+        gl.glEvalMesh2(mode, 0, int(rng.integers(0, 12)), 0, int(rng.integers(0, 5)))
+        if rng.random() < 0.5:
+            gl.glTexCoord4f(*rng.random(4).tolist())
+
+
+@pytest.mark.parametrize("n_bytes", [vertex_buffer.BYTES, 4096])
+def test_meshes_of_evaluators_give_the_draws_of_single_vertices(n_bytes: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(vertex_buffer, "BYTES", n_bytes)
+    for seed in range(ROUNDS):
+        at_once = draws_of(partial(evaluate_meshes, seed))
+        with monkeypatch.context() as patch:
+            patch.setattr(evaluators, "_takes_all", lambda *_: False)
+            assert draws_of(partial(evaluate_meshes, seed)) == at_once, seed
