@@ -1,28 +1,56 @@
-"""Draws that wait: a run of draws under one state is carried out at once, when someone looks at the buffers.
+"""Draws that wait until someone looks at the buffers, and then are carried out together.
 
-A thousand draws of twelve triangles cost a thousand times what Python needs for one; in a run, it is needed once. Draws
-wait only if they cannot fail (`choose.begin_run`), so errors appear at the calls that make them.
+A thousand draws of twelve triangles cost a thousand times what Python needs for one. The triangles of all draws whose
+geometry depends on the same state are set up at once, as a batch; consecutive draws under one state, a segment, are
+filled and shaded at once. Draws wait only if they cannot fail (`choose.begin_run`), so errors appear at the calls that
+make them.
 """
 
 from __future__ import annotations
 
+from collections.abc import Hashable
+from dataclasses import dataclass
+from typing import NamedTuple
+
 import numpy as np
 
 from softshadow import pipeline
-from softshadow.framebuffer import Storage
+from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.choose import MOST_DRAWS, MOST_VERTICES, SHORT_CUTS_EXIST, Plan, begin_run, may_wait, plan_draw
 from softshadow.pipeline.commands import Draw
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
-    from softshadow.pipeline.fast.batch.geometry import Setting, geometry_of, setting_of
+    from softshadow.pipeline.fast.batch.geometry import WORTH_COMPARING, Setting, geometry_of, setting_of
+    from softshadow.pipeline.fast.batch.segments import Part, cut, geometry_key
     from softshadow.pipeline.fast.batch.table import BATCH_KERNELS, Run, key_of
     from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL
 except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
     pass
 
 
-KNOWN_KINDS = 64
+KNOWN_KINDS = 256
+
+
+class Kind(NamedTuple):
+    """A state of draws that wait, with all that depends on it: run and setting for their geometry, plan for the rest.
+
+    Kinds with equal `geometry_key` share batches.
+    """
+
+    run: Run
+    setting: Setting
+    plan: Plan
+    geometry_key: Hashable
+
+
+@dataclass(eq=False, slots=True)
+class Segment:
+    """Consecutive draws of one kind: the places of the first one, and of the one after the last, in their batch."""
+
+    kind: Kind
+    first: int
+    end: int
 
 
 class DrawQueue:
@@ -39,60 +67,111 @@ class DrawQueue:
         if compiles and SHORT_CUTS_EXIST:
             FILL_KERNELS.want()
             VISIBILITY_KERNEL.want()
-        self._run: Run | None = None
-        self._draws: list[Draw] = []
-        self._n_vertices = 0
-        # kinds of runs by the identity of what they depend on, each with that of their geometry and their fragments
-        self._known: dict[tuple[int, ...], list[tuple[Run, Setting, Plan]]] = {}
-        self._setting: Setting | None = None
-        self._plan: Plan | None = None
+        # by the identity of what they depend on; the latest by all but their tests and blending
+        self._known: dict[tuple[int, ...], list[Kind]] = {}
+        self._latest: dict[tuple[int, ...], Kind] = {}
+        self._kind: Kind | None = None  # of the last draw
+        self._batches: dict[Hashable, list[Draw]] = {}  # by geometry key
+        self._segments: list[Segment] = []  # in drawing order
+        self._n_draws, self._n_vertices, self._are_small = 0, 0, True
 
     def add(self, command: Draw) -> bool:
         """Let a draw wait; return False if it must be carried out at once (all draws before it have been, then)."""
         n_vertices = len(command.vertices.position)
-        run = self._run
-        if run is None or self._n_vertices + n_vertices > MOST_VERTICES or not run.takes(command):
+        if self._n_vertices + n_vertices > MOST_VERTICES:
             self.carry_out()
-            if not self._begin_run(command):
+        kind = self._kind
+        if kind is None or not kind.run.takes(command):
+            # large meshes are drawn again under other states: alone, they are found to be equal
+            if not (self._are_small and n_vertices < WORTH_COMPARING):
+                self.carry_out()
+            kind = self._kind_of(command)
+            if kind is None:
+                self.carry_out()
                 return False
-        self._draws.append(command)
+            self._kind = kind
+        batch = self._batches.setdefault(kind.geometry_key, [])
+        batch.append(command)
+        if self._segments and self._segments[-1].kind is kind:
+            self._segments[-1].end += 1
+        else:
+            self._segments.append(Segment(kind, len(batch) - 1, len(batch)))
+        self._n_draws += 1
         self._n_vertices += n_vertices
-        if len(self._draws) == MOST_DRAWS:
+        self._are_small = self._are_small and n_vertices < WORTH_COMPARING
+        if self._n_draws == MOST_DRAWS:
             self.carry_out()
         return True
 
-    def _begin_run(self, command: Draw) -> bool:
+    def _kind_of(self, command: Draw) -> Kind | None:
+        """Return the kind of a draw, or None if it cannot wait."""
         if not may_wait(command, self._storage) or not (self._compiles or BATCH_KERNELS.are_compiled()):
-            return False
+            return None
         key = key_of(command.state)
         for kind in self._known.get(key, ()):
-            if kind[0].takes(command):
-                self._run, self._setting, self._plan = kind
-                return True
+            if kind.run.takes(command):
+                return kind
         target = self._storage.framebuffers[command.state.draw_framebuffer]
+        made = self._with_other_tests(command, target) or self._new_kind(command, target)
+        if made is not None:
+            if len(self._known) >= KNOWN_KINDS:
+                self._known.clear()
+            self._known.setdefault(key, []).append(made)
+        return made
+
+    def _with_other_tests(self, command: Draw, target: Framebuffer) -> Kind | None:
+        """Return the kind of a draw by one that differs in tests and blending only."""
+        similar = self._latest.get(key_of(command.state, with_tests=False))
+        run = None if similar is None else similar.run.under(command)
+        if similar is None or run is None:
+            return None
+        return similar._replace(run=run, plan=plan_draw(command, target, False))
+
+    def _new_kind(self, command: Draw, target: Framebuffer) -> Kind | None:
         run = begin_run(command, target, self._storage)
         if run is None:
-            return False
-        kind = run, setting_of(run, target, self._storage), plan_draw(command, target, False)
-        if len(self._known) >= KNOWN_KINDS:
-            self._known.clear()
-        self._known.setdefault(key, []).append(kind)
-        self._run, self._setting, self._plan = kind
-        return True
+            return None
+        setting = setting_of(run, target, self._storage)
+        kind = Kind(run, setting, plan_draw(command, target, False), geometry_key(run, setting))
+        if len(self._latest) >= KNOWN_KINDS:
+            self._latest.clear()
+        self._latest[key_of(command.state, with_tests=False)] = kind
+        return kind
 
     def forget(self) -> None:
         """Forget the kinds of runs, when a texture or a framebuffer object changes."""
         self._known.clear()
+        self._latest.clear()
 
     def carry_out(self) -> None:
         """Carry out the draws that wait."""
-        run, setting, plan, draws = self._run, self._setting, self._plan, self._draws
-        if run is None or setting is None or plan is None:
+        batches, segments = self._batches, self._segments
+        if not segments:
             return
-        self._run, self._draws, self._n_vertices = None, [], 0
+        self._kind, self._batches, self._segments = None, {}, []
+        self._n_draws, self._n_vertices, self._are_small = 0, 0, True
         storage = self._storage
-        target = storage.framebuffers[run.state.draw_framebuffer]
         with np.errstate(all="ignore"):  # as in pipeline.draw
-            geometry, fragments = geometry_of(run, setting, draws, target, storage)
+            parts = self._parts(batches, segments)
             BATCH_KERNELS.note_compiled()
-            pipeline.draw_geometry(plan, run.command, target, storage, geometry, fragments=fragments)
+            for segment, (geometry, fragments) in zip(segments, parts, strict=True):
+                command = segment.kind.run.command
+                target = storage.framebuffers[command.state.draw_framebuffer]
+                pipeline.draw_geometry(segment.kind.plan, command, target, storage, geometry, fragments=fragments)
+
+    def _parts(self, batches: dict[Hashable, list[Draw]], segments: list[Segment]) -> list[Part]:
+        """Return the triangles of each segment."""
+        parts: dict[int, Part] = {}  # by segment
+        of_batch: dict[Hashable, list[Segment]] = {key: [] for key in batches}
+        for segment in segments:
+            of_batch[segment.kind.geometry_key].append(segment)
+        for key, own in of_batch.items():
+            draws, kind = batches[key], own[0].kind
+            target = self._storage.framebuffers[kind.run.state.draw_framebuffer]
+            geometry, fragments = geometry_of(kind.run, kind.setting, draws, target, self._storage)
+            if len(own) == 1:
+                parts[id(own[0])] = Part(geometry, fragments)
+                continue
+            firsts, settings = [segment.first for segment in own], [segment.kind.setting for segment in own]
+            parts.update(zip(map(id, own), cut(geometry, draws, firsts, settings), strict=True))
+        return [parts[id(segment)] for segment in segments]

@@ -103,6 +103,8 @@ class TextureUnit:
     @property
     def targets(self) -> tuple[int, ...]:
         """The enabled targets; the unit samples the first whose texture is complete."""
+        if not (self.enabled_2d or self.enabled_cube or self.enabled_1d or self.enabled_rectangle or self.enabled_3d):
+            return ()  # as in most units: draws ask all of them
         return tuple(target for target, field in SWITCHES.items() if getattr(self, field))
 
     @property

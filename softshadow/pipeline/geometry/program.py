@@ -11,13 +11,12 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import Storage
 from softshadow.pipeline.commands import Draw
 from softshadow.programs import Program
-from softshadow.state import State
 from softshadow.texture import Texture, stored_name
 
 
 def program_of(command: Draw, storage: Storage) -> tuple[Program, Mapping[str, Any]]:
     """Return the program of a draw and its uniforms, samplers resolved to textures."""
-    bound = bound_textures(command.state, storage)
+    bound = bound_textures(command, storage)
     if not command.program_name:
         from softshadow.programs import fixed_function
 
@@ -35,12 +34,12 @@ def program_of(command: Draw, storage: Storage) -> tuple[Program, Mapping[str, A
     return program, {**command.uniforms, **textures}
 
 
-def bound_textures(state: State, storage: Storage) -> dict[tuple[int, int], Texture]:
+def bound_textures(command: Draw, storage: Storage) -> dict[tuple[int, int], Texture]:
     """Return the textures that a draw may sample by (unit, target), with the LOD bias and seamless filter of units."""
-    bound = {}
-    for index, unit in enumerate(state.units):
-        for target in unit.sampled_targets:
+    bound, is_fixed = {}, not command.program_name
+    for index, unit in enumerate(command.state.units):
+        for target in unit.targets if is_fixed else unit.sampled_targets:
             texture = storage.textures.get(stored_name(target, unit.bound(target)))
             if texture is not None:
-                bound[index, target] = texture.in_unit(unit.lod_bias, state.cube_maps.seamless)
+                bound[index, target] = texture.in_unit(unit.lod_bias, command.state.cube_maps.seamless)
     return bound

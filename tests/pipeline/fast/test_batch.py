@@ -37,16 +37,18 @@ class Program:
         self.rng = np.random.default_rng(seed)
         self.mode = self.one_of(*MODES)
 
-    def draw(self, states: int = 3, draws: int = 5) -> Context:
-        """Carry the program out in a new context."""
+    def draw(self, states: int = 3, draws: int = 5, *, changes_tests: bool = False) -> Context:
+        """Carry the program out in a new context; `changes_tests`: before each draw, what concerns fragments only."""
         context = gl.create_context(SIZE, SIZE, depth_format=str(self.rng.choice(["d24", "d32f"])))
-        self.make_texture()
+        self.make_textures()
         gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT)
         for _ in range(states):
             self.set_state()
             self.set_lighting()
             self.set_textures()
             for _ in range(draws):
+                if changes_tests:
+                    self.set_tests()
                 self.set_matrices()
                 self.draw_something()
         gl.glFinish()
@@ -64,11 +66,12 @@ class Program:
     def numbers(self, n: int, low: float = -1, high: float = 1) -> list[float]:
         return self.rng.uniform(low, high, n).tolist()
 
-    def make_texture(self) -> None:
-        gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
-        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_LINEAR)
-        image = self.rng.integers(0, 256, (8, 8, 4), np.uint8)
-        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 8, 8, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, image)
+    def make_textures(self) -> None:
+        for texture, size in enumerate((8, 4, 8), 1):
+            gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
+            gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_LINEAR)
+            image = self.rng.integers(0, 256, (size, size, 4), np.uint8)
+            gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, size, size, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, image)
 
     def set_state(self) -> None:
         for cap, p in (
@@ -86,6 +89,31 @@ class Program:
         gl.glPolygonOffset(*self.numbers(2, -2, 2))
         gl.glFogi(gl.GL_FOG_MODE, self.one_of(gl.GL_LINEAR, gl.GL_EXP))
         gl.glColorMask(*[self.chance(0.9)] * 4)
+
+    def set_tests(self) -> None:
+        """Change a few of the settings that many small draws of ordinary programs change in between."""
+        kind = int(self.rng.integers(8))
+        if kind == 0:
+            self.switch(gl.GL_SCISSOR_TEST)
+            gl.glScissor(*self.rng.integers(0, SIZE, 4).tolist())
+        elif kind == 1:
+            self.switch(gl.GL_BLEND)
+            gl.glBlendFunc(self.one_of(gl.GL_ONE, gl.GL_SRC_ALPHA), self.one_of(gl.GL_ONE, gl.GL_ZERO))
+        elif kind == 2:
+            self.switch(gl.GL_STENCIL_TEST)
+            gl.glStencilFunc(gl.GL_NOTEQUAL, self.one_of(0, 1, 2), 255)
+        elif kind == 3:
+            gl.glDepthMask(self.chance())
+        elif kind == 4:
+            gl.glColorMask(*[self.chance(0.7)] * 4)
+        elif kind == 5:
+            self.switch(gl.GL_ALPHA_TEST, 0.3)
+            self.switch(gl.GL_DEPTH_CLAMP, 0.3)
+        elif kind == 6:
+            gl.glBindTexture(gl.GL_TEXTURE_2D, self.one_of(0, *range(1, 4)))
+            self.switch(gl.GL_TEXTURE_2D)
+        else:
+            self.switch(gl.GL_LIGHTING)
 
     def set_lighting(self) -> None:
         self.switch(gl.GL_LIGHTING, 0.7)
@@ -188,6 +216,13 @@ def test_runs_of_draws_leave_the_bits_of_single_draws(seed):
     with use_short_cuts(False):
         expected = Program(seed).draw()
     assert same_buffers(Program(seed).draw(), expected)
+
+
+@given(seeds)
+def test_segments_of_a_batch_leave_the_bits_of_single_draws(seed):
+    with use_short_cuts(False):
+        expected = Program(seed).draw(2, 16, changes_tests=True)
+    assert same_buffers(Program(seed).draw(2, 16, changes_tests=True), expected)
 
 
 @pytest.mark.interpreted
@@ -293,6 +328,32 @@ def test_many_small_draws_are_one_run(monkeypatch):
     assert not runs
     gl.glReadPixels(0, 0, 1, 1, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
     assert runs == [50]
+
+
+def test_small_draws_between_changes_of_tests_are_one_batch(monkeypatch):
+    batches, segments, drawn = [], [], queue.pipeline.draw_geometry
+    geometry_of = queue.geometry_of
+
+    def note_batch(run: Run, setting: Setting, draws: list[Draw], *rest: Any) -> tuple[Geometry, int]:
+        batches.append(len(draws))
+        return geometry_of(run, setting, draws, *rest)
+
+    def note_segment(plan: Any, command: Draw, target: Any, storage: Any, geometry: Geometry, **more: Any) -> None:
+        segments.append(len(geometry.triangles.ids))
+        drawn(plan, command, target, storage, geometry, **more)
+
+    monkeypatch.setattr(queue, "geometry_of", note_batch)
+    monkeypatch.setattr(queue.pipeline, "draw_geometry", note_segment)
+    gl.create_context(SIZE, SIZE)
+    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.eye(3, dtype=np.float32))
+    for n in range(12):
+        if n % 3 == 0:
+            gl.glScissor(n, 0, SIZE, SIZE)
+        gl.glDrawArrays(gl.GL_LINES if n % 3 == 2 else gl.GL_TRIANGLES, 0, 2 if n % 3 == 2 else 3)
+    gl.glFinish()
+    assert batches == [8, 4]  # of triangles and of lines
+    assert segments == [2, 2] * 4  # two triangles; two of a line
 
 
 def test_a_long_run_is_cut(monkeypatch):

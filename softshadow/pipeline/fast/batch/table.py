@@ -6,7 +6,8 @@ and all that happens to fragments. Their matrices, vertices, current attributes 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
+from copy import copy
 from dataclasses import fields
 from operator import attrgetter
 from typing import NamedTuple
@@ -54,6 +55,9 @@ BATCH_KERNELS = KernelGroup("batch")
 GENERATED = {gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR}
 GROUPS = tuple(group.name for group in fields(State) if group.name not in ("lighting", "read_framebuffer"))
 groups_of = attrgetter(*GROUPS)
+# groups that concern fragments only, but for whether depths are clamped; alpha test and colour mask decide more
+OF_TESTS = ("scissor", "stencil", "depth", "blend")
+other_groups_of = attrgetter(*(group for group in GROUPS if group not in OF_TESTS))
 LIGHT_MODEL = tuple(field.name for field in fields(Lighting) if field.name not in ("front", "back"))
 MATERIAL = tuple(field.name for field in fields(MaterialState))
 PLAIN_LINES, PLAIN_POINTS = Lines(), Points()
@@ -88,7 +92,7 @@ class Run:
 
     def __init__(self, command: Draw, storage: Storage, writes_color: bool) -> None:
         self.command, self.state, self.writes_color = command, command.state, writes_color
-        bound = bound_textures(self.state, storage) if writes_color else {}
+        bound = bound_textures(command, storage) if writes_color else {}
         self.units: list[Unit] = units_in_use(self.state, bound) if bound else []
         self._unit_numbers = [unit.index for unit in self.units]
         self.arrays = self._arrays_of(command)
@@ -138,15 +142,31 @@ class Run:
         """Return whether a draw of the same kind as the others continues the run."""
         if self._is_like_last(command):
             return True
-        state, first = command.state, self.state
-        if state is not first and not _differ_in_lights_only(state, first):
+        if command.state is not self.state and groups_of(command.state) != groups_of(self.state):
             return False
-        if width_of(command.mode) != width_of(self.command.mode):
-            return False
-        if self._arrays_of(command) != self.arrays or not can_run(command):
+        if not self._is_alike(command):
             return False
         self._last = command
         return True
+
+    def under(self, command: Draw) -> Run | None:
+        """Return the run that begins with a draw whose state has other tests or blending; None if more differs."""
+        state, first = command.state, self.state
+        if other_groups_of(state) != other_groups_of(first) or state.depth.clamp != first.depth.clamp:
+            return None
+        if not self._is_alike(command):
+            return None
+        run = copy(self)
+        run.command, run.state, run._last = command, state, command
+        return run
+
+    def _is_alike(self, command: Draw) -> bool:
+        """Return whether a draw continues the run as far as the groups of its state do not decide it."""
+        if width_of(command.mode) != width_of(self.command.mode):
+            return False
+        if _structure(command.state.lighting) != _structure(self.state.lighting):
+            return False
+        return self._arrays_of(command) == self.arrays and can_run(command)
 
     def _is_like_last(self, command: Draw) -> bool:
         """Return whether a draw differs from the last one only in what every run allows, as far as is seen at once."""
@@ -174,21 +194,25 @@ def width_of(mode: int) -> int:
     return 3 if mode in POLYGONS else 1 if mode == gl.GL_POINTS else 2
 
 
-def key_of(state: State) -> tuple[int, ...]:
+def key_of(state: State, *, with_tests: bool = True) -> tuple[int, ...]:
     """Return by what to look for a run that may take draws of a state: the identities of its groups."""
-    return tuple(map(id, groups_of(state)))
-
-
-def _differ_in_lights_only(a: State, b: State) -> bool:
-    if a.lighting is not b.lighting and _structure(a.lighting) != _structure(b.lighting):
-        return False
-    return groups_of(a) == groups_of(b)
+    return tuple(map(id, groups_of(state) if with_tests else other_groups_of(state)))
 
 
 def _structure(lights: Lighting) -> tuple[object, ...]:
     """Return what decides which columns the varyings have."""
     shading = lights.shade_model, lights.provoking_vertex
     return lights.enabled, lights.two_side, lights.color_control, lights.color_material, *shading
+
+
+def geometry_structure(run: Run) -> tuple[Hashable, ...]:
+    """Return what the geometry of a run's draws depends on in their state and in which arrays they have."""
+    state = run.state
+    return (
+        state.draw_framebuffer, state.viewport, state.polygon, state.depth.clamp, *_structure(state.lighting),
+        run.layout, run.arrays, run.generated.tobytes(), run.planes.tobytes(), run.across, run.writes_color,
+        tuple([unit.index for unit in run.units]), width_of(run.command.mode),
+    )  # fmt: skip
 
 
 def can_run(command: Draw) -> bool:
