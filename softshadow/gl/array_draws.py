@@ -29,12 +29,12 @@ from softshadow.gl.conversions import (
 )
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
 from softshadow.gl.fog import set_fog_coordinate
-from softshadow.gl.immediate import A_MODE, MODES, add_vertex, can_draw, consecutive_indices
+from softshadow.gl.immediate import A_MODE, MODES, add_vertex, can_draw, consecutive_indices, glVertex2f, glVertex3f
 from softshadow.gl.index_snapshots import snapshot_indices
 from softshadow.gl.secondary_colors import set_secondary
-from softshadow.gl.texture_coordinates import set_coordinate
+from softshadow.gl.texture_coordinates import glTexCoord2f, set_coordinate
 from softshadow.gl.vertex_arrays import DTYPES, SLOTS, rows_of
-from softshadow.gl.vertex_attributes import glEdgeFlag, set_color, set_normal
+from softshadow.gl.vertex_attributes import glColor3f, glEdgeFlag, glNormal3f, set_color, set_normal
 from softshadow.pipeline.commands import Vertices
 
 INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
@@ -43,11 +43,16 @@ Rows = tuple[list[RowSnapshot], int, int]  # of each array, positions first, and
 KEYS = tuple(SLOTS)  # names of the arrays by slot
 OPTIONAL = {EDGE: "edges", SECONDARY: "secondary", FOG_COORDINATE: "fog_coordinates"}  # fields of `Vertices`
 MOST_DRAWN = 4096  # ranges of one array with the vertices that were drawn
-NOT_DRAWN = ("index",)  # arrays that only glArrayElement reads
+NOT_DRAWN = "index"  # the array that only glArrayElement reads
 NORMALIZED = ("color", "normal", "secondary")  # integers represent 0 to 1 or -1 to 1
 CONVERSIONS: dict[type[np.generic], Callable[[Any], float]] = {  # by glArrayElement, as in glColor and glNormal
     np.int8: from_byte, np.uint8: from_unsigned_byte, np.int16: from_short, np.uint16: from_unsigned_short,
     np.int32: from_int, np.uint32: from_unsigned_int,
+}  # fmt: skip
+# attributes, with their numbers of components, that have calls for floats which are quick between glBegin and glEnd
+CALLS: dict[tuple[str, int], Callable[..., None]] = {
+    ("position", 2): glVertex2f, ("position", 3): glVertex3f, ("normal", 3): glNormal3f, ("color", 3): glColor3f,
+    ("texcoord0", 2): glTexCoord2f,
 }  # fmt: skip
 
 
@@ -146,18 +151,25 @@ def _refused(operation: str, mode: int, count: int) -> bool:
 def glArrayElement(i: int) -> None:
     """Set the current attributes from one vertex of the enabled arrays; its position adds a vertex, as glVertex."""
     context = current()
-    for key in sorted(context.arrays.enabled, key=lambda key: key == "position"):
-        array = _array(context, key)
-        if array is None:
-            continue
-        rows = array.rows
+    arrays = _arrays_in_use(context)
+    if NOT_DRAWN in context.arrays.enabled:
+        indices = _array(context, NOT_DRAWN)
+        arrays += () if indices is None else (indices,)
+    for array in reversed(arrays):  # the position comes last
+        key, rows = KEYS[array.slot], array.rows
         if not 0 <= i < len(rows):
             raise ValueError(f"glArrayElement(i={i}): the array of {key}s has {len(rows)}")
         convert = CONVERSIONS.get(rows.dtype.type, float) if key in NORMALIZED else float
-        _set_attribute(key, [convert(number) for number in rows[i].tolist()])
+        values = [convert(number) for number in rows[i].tolist()]
+        call = CALLS.get((key, len(values)))
+        if call is not None:
+            call(*values)
+        elif context.compiled_list is None:
+            _set_attribute(key, values)
+        else:
+            _record_attribute(key, values)
 
 
-@in_lists
 def _set_attribute(key: str, values: list[float]) -> None:
     if key == "position":
         add_vertex(current(), *values)
@@ -175,6 +187,9 @@ def _set_attribute(key: str, values: list[float]) -> None:
         set_index(values[0])
     else:
         set_coordinate(int(key.removeprefix("texcoord")), *values)
+
+
+_record_attribute = in_lists(_set_attribute)
 
 
 def _draw(context: Context, mode: int, rows: Rows | None, indices: np.ndarray | None) -> None:
@@ -209,9 +224,7 @@ def _rows(context: Context, operation: str, first: int, end: int) -> Rows | None
     """
     if first < 0:
         raise ValueError(f"{operation}: first={first}: expected 0 or more")
-    active = context.arrays.active
-    if active is None:
-        active = context.arrays.active = _active_arrays(context)
+    active = _arrays_in_use(context)
     if not active or active[0].slot != POSITION:
         return None
     for array in active:
@@ -244,10 +257,13 @@ def _vertices(context: Context, rows: Rows) -> Vertices:
     return vertices
 
 
-def _active_arrays(context: Context) -> tuple[VertexArray, ...]:
+def _arrays_in_use(context: Context) -> tuple[VertexArray, ...]:
     """Return the enabled arrays that a draw reads, positions first."""
-    arrays = (_array(context, key) for key in KEYS if key in context.arrays.enabled and key not in NOT_DRAWN)
-    return tuple(array for array in arrays if array is not None)
+    active = context.arrays.active
+    if active is None:
+        arrays = (_array(context, key) for key in KEYS if key in context.arrays.enabled and key != NOT_DRAWN)
+        active = context.arrays.active = tuple(array for array in arrays if array is not None)
+    return active
 
 
 def _array(context: Context, key: str) -> VertexArray | None:
