@@ -26,7 +26,7 @@ TUPLES: tuple[tuple[str, str], ...] = (
 UNDRAWN = frozenset(("clear", "clear_accum", "active_back"))
 PACK = struct.Struct("4d").pack
 COLOR = struct.Struct("4f")
-PAST = 64  # values of each group that are kept
+PAST = 256  # values of each group that are kept
 
 
 def affects_draws(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:
@@ -57,12 +57,13 @@ class Group:
     was derived from them.
     """
 
-    __slots__ = ("_equal", "field", "fields", "index", "known", "parent", "parts", "value")
+    __slots__ = ("_equal", "field", "fields", "index", "known", "parent", "parts", "tuples", "value")
 
     def __init__(self, value: Any, parent: Group | None, field: str, index: int = -1) -> None:
         self.value, self.parent, self.field, self.index = value, parent, field, index
         self.fields: dict[str, Any] = dict(vars(value))
         self.parts: dict[str, list[Group]] = {}  # groups among the fields: equal ones are the same object
+        self.tuples: dict[tuple[int, ...], tuple[Any, ...]] = {}  # of groups, by their identity
         # values by the identity of their fields, each with its `_key`
         self.known: dict[tuple[int, ...], tuple[Any, tuple[Any, ...]]] = {}
         self._equal: dict[tuple[Any, ...], list[Any]] = {}  # the same values by their key
@@ -78,9 +79,15 @@ class Group:
             siblings = self.parent.fields
             if self.index >= 0:
                 items = siblings[self.field]
-                value = (*items[: self.index], value, *items[self.index + 1 :])
+                value = self.parent.same_tuple((*items[: self.index], value, *items[self.index + 1 :]))
             siblings[self.field] = value
         return True
+
+    def same_tuple(self, items: tuple[Any, ...]) -> tuple[Any, ...]:
+        """Return the tuple that had the same groups before: then the value that contains it is found again."""
+        if len(self.tuples) >= PAST:
+            self.tuples.clear()
+        return self.tuples.setdefault(tuple(map(id, items)), items)
 
     def replace(self, value: Any) -> None:
         """Replace the immutable value, and those of the parts that differ."""

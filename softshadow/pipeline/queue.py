@@ -82,13 +82,13 @@ class DrawQueue:
             self.carry_out()
         kind = self._kind
         if kind is None or not kind.run.takes(command):
-            # large meshes are drawn again under other states: alone, they are found to be equal
-            if not (self._are_small and n_vertices < WORTH_COMPARING):
-                self.carry_out()
             kind = self._kind_of(command)
             if kind is None:
                 self.carry_out()
                 return False
+            # large meshes are drawn again under other states: alone, they are found to be equal
+            if not (self._are_small and n_vertices < WORTH_COMPARING):
+                self.carry_out()
             self._kind = kind
         batch = self._batches.setdefault(kind.geometry_key, [])
         batch.append(command)

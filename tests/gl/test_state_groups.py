@@ -38,12 +38,25 @@ def test_a_state_with_other_bits_is_another_one(context):
 
 def test_only_the_latest_states_are_kept(context):
     first = context.state
-    for width in range(2, 100):
+    for width in range(2, PAST + 50):
         gl.glLineWidth(width)
+        gl.glBindTexture(gl.GL_TEXTURE_2D, width)
         assert context.state.polygon.line_width == width
     gl.glLineWidth(1)
+    gl.glBindTexture(gl.GL_TEXTURE_2D, 0)
     assert context.state == first
-    assert len(context.groups["polygon"].known) <= PAST < 98
+    for group in ("polygon", "units.0", ""):
+        assert len(context.groups[group].known) <= PAST
+    assert len(context.groups[""].tuples) <= PAST
+
+
+def test_a_texture_that_returns_gives_the_same_state(context):
+    states = []
+    for number in range(6):
+        gl.glBindTexture(gl.GL_TEXTURE_2D, 1 + number % 3)
+        states.append(context.state)
+    assert states[:3] == states[3:]
+    assert all(a is b and a.units is b.units for a, b in zip(states[:3], states[3:], strict=True))
 
 
 GROUPS = (gl.GL_ENABLE_BIT, gl.GL_LIGHTING_BIT, gl.GL_STENCIL_BUFFER_BIT, gl.GL_ALL_ATTRIB_BITS)

@@ -1,8 +1,8 @@
-"""Segments of a batch: draws whose triangles are set up together, but whose fragments have different states.
+"""Draws of several states, set up together; equals `geometry.geometry.process_geometry`, see fast/test_batch.py.
 
 A program that binds a texture or moves the scissor box between small draws changes nothing in their geometry. So the
-draws of all states with the same geometry stage are one batch, and its triangles are cut into the segments that each
-state draws; equals drawing them one by one, see fast/test_batch.py.
+draws of all states with the same geometry stage are one batch, and its triangles are cut into segments: those that are
+filled and shaded under one state, one after the other.
 """
 
 from __future__ import annotations
