@@ -66,8 +66,11 @@ def add_float_units(offsets: np.ndarray, window_z: np.ndarray, units: float) -> 
 
 
 def merge_by_id(setups: list[Setup]) -> Setup:
-    """Return triangles, lines and points in one `Setup`, in the order of their ids."""
-    joined = Setup(*(np.concatenate(arrays) for arrays in zip(*setups, strict=True)))
+    """Return triangles, lines and points in one `Setup`, in the order of their ids, which each of them has, too."""
+    drawn = [setup for setup in setups if len(setup.ids)]
+    if len(drawn) < 2:
+        return drawn[0] if drawn else setups[0]
+    joined = Setup(*(np.concatenate(arrays) for arrays in zip(*drawn, strict=True)))
     order = np.argsort(joined.ids, kind="stable")
     return Setup(*(array[order] for array in joined))
 
