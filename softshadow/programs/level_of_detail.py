@@ -91,10 +91,10 @@ def select_levels(squared: np.ndarray, sampler: Sampler, last: int, lengths: np.
             lengths = lengths.astype(np.float32)
             exponents = ((lengths * ROOT_OF_2).view(np.int32) >> MANTISSA_BITS & 0xFF) - EXPONENT_BIAS
             nearest = exponents.clip(0, last)
-            return Levels(lengths > ONE, nearest, nearest, nothing)
+            return Levels(~(lengths <= ONE), nearest, nearest, nothing)
         exponents = (squared.view(np.int32) >> MANTISSA_BITS & 0xFF) - (EXPONENT_BIAS - 1)
         nearest = (exponents >> 1).clip(0, last)
-        return Levels(squared > ONE, nearest, nearest, nothing)
+        return Levels(~(squared <= ONE), nearest, nearest, nothing)
     level = _level_of_detail(squared, least, most, bias)
     minified = level > 0
     if between != gl.GL_LINEAR:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import softshadow as ss
+from softshadow.pipeline import use_short_cuts
 from softshadow.testing import compare
 
 pytestmark = pytest.mark.mesa
@@ -57,6 +58,37 @@ def test_coordinates_that_are_no_numbers_find_the_same_texels(size, filtering):
         return answers
 
     comparison = compare(program, (4, 4))
+    assert comparison, str(comparison)
+
+
+@pytest.mark.parametrize("policy", [False, "always"])
+@pytest.mark.parametrize("limits", [(-1000, 1000), (0.5, 3)])
+@pytest.mark.parametrize("between", ["NEAREST", "LINEAR"])
+@pytest.mark.parametrize("target", ["GL_TEXTURE_1D", "GL_TEXTURE_2D"])
+def test_coordinates_that_are_no_numbers_find_the_same_levels(target, between, limits, policy):
+    n_sides = 1 if target == "GL_TEXTURE_1D" else 2
+
+    def program(gl):
+        rng = np.random.default_rng(2)
+        define = gl.glTexImage1D if n_sides == 1 else gl.glTexImage2D
+        for level in range(5):
+            sides = [16 >> level] * n_sides
+            image = rng.integers(0, 256, (*sides, 4), dtype=np.uint8)
+            define(getattr(gl, target), level, gl.GL_RGBA8, *sides, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, image)
+        parameters = {"MIN_FILTER": getattr(gl, f"GL_LINEAR_MIPMAP_{between}"), "MAG_FILTER": gl.GL_NEAREST}
+        parameters |= dict(zip(("MIN_LOD", "MAX_LOD"), limits, strict=True))
+        for name, value in parameters.items():
+            gl.glTexParameterf(getattr(gl, target), getattr(gl, f"GL_TEXTURE_{name}"), value)
+        gl.glEnable(getattr(gl, target))
+        gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, gl.GL_REPLACE)
+        gl.glBegin(gl.GL_QUADS)
+        for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+            gl.glTexCoord4f(0, 0, 0, 0)
+            gl.glVertex2f(x, y)
+        gl.glEnd()
+
+    with use_short_cuts(policy):
+        comparison = compare(program, (4, 4))
     assert comparison, str(comparison)
 
 

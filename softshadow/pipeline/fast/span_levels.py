@@ -38,6 +38,7 @@ from softshadow.tokens import GL_LINEAR, GL_NONE
 
 ODD = np.uint64(1)
 NO_LEVEL = np.int32(0)
+NOT_A_NUMBER = np.float32(np.nan)  # positive, as that of NumPy's maximum
 
 
 @kernel
@@ -78,7 +79,8 @@ def write_squared_steps(planes, spans, n_spans, column, is_flat, width, height, 
                 down_t = ((dt * i + t0) + t_lower) * w * over_q - t
             step_s, step_t, down_s, down_t = step_s * wide, step_t * high, down_s * wide, down_t * high
             a, b_squared = step_s * step_s + step_t * step_t, down_s * down_s + down_t * down_t
-            room[QUADS + b] = a if a > b_squared or a != a else b_squared  # NaN, as NumPy's maximum
+            larger = a if a > b_squared else b_squared
+            room[QUADS + b] = larger if a == a else NOT_A_NUMBER  # whose sign decides about the level
         odd = np.uint64(left & 1)
         for n in range(np.uint64(end - first)):
             room[SQUARED + np.uint64(first) + n] = room[QUADS + ((n + odd) >> ODD)]
@@ -104,7 +106,7 @@ def select_levels_of_block(switches, numbers, unit, number, count, room, whole):
             level = np.int32(exponent >> 1)
             level = level if level > NO_LEVEL else NO_LEVEL
             whole[LEVEL + n] = level if level < top else top
-            whole[LINEAR + n] = small if squared > ONE else large
+            whole[LINEAR + n] = large if squared <= ONE else small  # which NaN takes
             room[WEIGHT + n] = ZERO
     else:
         least, most, bias = numbers[number + LEAST], numbers[number + MOST], numbers[number + BIAS]
