@@ -99,8 +99,34 @@ def random_blending(rng, state):
     return replace(state, blend=blend)
 
 
-def random_picture(seed, *, size=(70, 50), n_triangles=12, ordered=False, tested=False, units=None, **options):
-    """Return a window after a draw in a random state of the fixed function, over a random background."""
+def random_special_fragments(rng):
+    """Turn on some of polygon stipple, smoothing and point sprites; their sizes are random."""
+    for capability in (gl.GL_POLYGON_STIPPLE, gl.GL_LINE_SMOOTH, gl.GL_POINT_SMOOTH, gl.GL_LINE_STIPPLE):
+        if rng.random() < 0.5:
+            gl.glEnable(capability)
+    gl.glPolygonStipple(rng.integers(0, 256, 128, dtype=np.uint8))
+    gl.glLineStipple(int(rng.integers(1, 4)), int(rng.integers(0, 1 << 16)))
+    gl.glLineWidth(float(rng.uniform(0.5, 9)))
+    gl.glPointSize(float(rng.uniform(0.5, 30)))
+    if rng.random() < 0.3:
+        gl.glPointParameterfv(gl.GL_POINT_DISTANCE_ATTENUATION, (0.2, 0.1, 0.3))
+    if rng.random() < 0.5:
+        gl.glEnable(gl.GL_POINT_SPRITE)
+        gl.glPointParameteri(gl.GL_POINT_SPRITE_COORD_ORIGIN, pick(rng, (gl.GL_LOWER_LEFT, gl.GL_UPPER_LEFT)))
+    for unit in range(2):
+        gl.glActiveTexture(gl.GL_TEXTURE0 + unit)
+        gl.glTexEnvi(gl.GL_POINT_SPRITE, gl.GL_COORD_REPLACE, bool(rng.random() < 0.7))
+    for face in (gl.GL_FRONT, gl.GL_BACK):
+        gl.glPolygonMode(face, pick(rng, (gl.GL_FILL, gl.GL_LINE, gl.GL_POINT)))
+
+
+def random_picture(
+    seed, *, size=(70, 50), n_triangles=12, ordered=False, tested=False, special=False, units=None, **options
+):
+    """Return a window after a draw in a random state of the fixed function, over a random background.
+
+    `ordered`: with blending or a logic operation; `tested`: with alpha test; `special`: see `random_special_fragments`.
+    """
     rng = np.random.default_rng(seed)
     context = gl.create_context(*size, **options)
     gl.glClearColor(*rng.random(4).tolist())
@@ -119,6 +145,8 @@ def random_picture(seed, *, size=(70, 50), n_triangles=12, ordered=False, tested
     gl.glShadeModel(gl.GL_SMOOTH if rng.random() < 0.8 else gl.GL_FLAT)
     gl.glMatrixMode(gl.GL_TEXTURE)
     gl.glLoadMatrixf(np.eye(4, dtype=np.float32) + rng.normal(0, 0.1, (4, 4)).astype(np.float32))
+    if special:
+        random_special_fragments(rng)
     tests = random_state(rng, context.state)
     if rng.random() < 0.6:
         tests = replace(tests, stencil=context.state.stencil)

@@ -150,15 +150,16 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
     plan = Plan(in_order, writes_color, front, back, path, counting=counting)
     path.way = "in order" if in_order else "opaque"
     if is_special:
-        path.note("stipple, smoothing or point sprites decide about each fragment: no short cut")
-        return plan
-    if not in_order:
+        path.note("stipple, smoothing or point sprites decide about each fragment")
+    elif not in_order:
         path.note("neither blending nor alpha test: fragments are tested before any is shaded")
     else:
         path.note("the alpha test reads colours" if tests_alpha(state) else "blending depends on the drawing order")
     if counting or not _short_cuts.get():
         path.note("fragments are counted: no short cut" if counting else "short cuts are off")
         return plan
+    if is_special:  # its fragments are not those of its triangles, which surfaces drawn before are compared by
+        return plan._replace(forward=True)
     plan = plan._replace(watch=Watch if only_lessens_depths(front, back) else None)
     if in_order:
         if writes_color and not tests_alpha(state) and keeps_depth_and_stencil(front, back):

@@ -69,8 +69,9 @@ class Geometry(NamedTuple):
     (k,): outputs of the vertex stage; source (T',): which assembled primitive each clipped one is a piece of;
     provoking (T',): the vertex that flat columns take; faces (T',) bool: for the lines and points of glPolygonMode,
     whether they outline front faces, else None; offset_mode: the mode of unfilled polygons whose offset applies, or 0;
-    discards: which fragments stipple and smoothing leave out; sprites: the coordinates of point sprites; faceless:
-    lines and points have triangles like those of polygons; stipple_place: the place in the line stipple after the draw.
+    discards: which fragments stipple and smoothing leave out; line_places: the first column of values that says where
+    fragments lie in smooth lines, or -1; sprites: the coordinates of point sprites; faceless: lines and points have
+    triangles like those of polygons; stipple_place: the place in the line stipple after the draw.
     """
 
     triangles: Setup
@@ -85,6 +86,7 @@ class Geometry(NamedTuple):
     faces: np.ndarray | None = None
     offset_mode: int = 0
     discards: Discards | None = None
+    line_places: int = -1
     sprites: Sprites | None = None
     faceless: bool = False
     stipple_place: int = 0

@@ -26,8 +26,15 @@ from softshadow.pipeline.fast.fragment_block import (
 )
 from softshadow.pipeline.fast.span_colors import ALPHA_ROW, shade_block
 from softshadow.pipeline.fast.span_state import SpanState, span_state
-from softshadow.pipeline.fast.span_tests import IS_TESTED, NO_OPS, alpha_tests, test_alpha_of_block
+from softshadow.pipeline.fast.span_tests import (
+    IS_TESTED,
+    NO_OPS,
+    alpha_tests,
+    test_alpha_of_block,
+    test_runs_of_block,
+)
 from softshadow.pipeline.fast.span_writes import write_block
+from softshadow.pipeline.fast.special_fragments import NO_SPECIAL, discard_from_block
 from softshadow.pipeline.records import Geometry, Spans
 from softshadow.pipeline.shade.interpolate import AttributePlanes
 from softshadow.pipeline.shade.shading import shade_in_parts
@@ -50,8 +57,8 @@ def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry)
     def shade_part(spans: Spans, planes: AttributePlanes) -> None:
         shade_spans(
             planes.values, planes.place, *spans, len(spans.row), False, geometry.flat, numbers.switches,
-            numbers.numbers, *numbers.texels, pixels, triangles.depth, triangles.front, *NO_TESTS, ZERO, ONE, NO_DEPTH,
-            NO_STENCIL, *block_memory.arrays,
+            numbers.numbers, *numbers.texels, NO_SPECIAL, pixels, triangles.depth, triangles.front, *NO_TESTS, ZERO,
+            ONE, NO_DEPTH, NO_STENCIL, *block_memory.arrays,
         )  # fmt: skip
 
     return lambda spans: shade_in_parts(geometry, spans, shade_part)
@@ -74,14 +81,14 @@ def covered_state(state: State, target: Framebuffer, geometry: Geometry) -> Span
 @kernel
 def shade_spans(
     planes, place, rows, lefts, triangles, starts, n_all, may_overlap, flat, switches, numbers, texels0, texels1,
-    pixels, depth_planes, faces_front, alpha_test, tests_depth, tests_stencil, test_numbers, test_bytes, largest, low,
-    high, depth, stencil, room, whole, spans, own_triangles,
+    special, pixels, depth_planes, faces_front, alpha_test, tests_depth, tests_stencil, test_numbers, test_bytes,
+    largest, low, high, depth, stencil, room, whole, spans, own_triangles,
 ):  # fmt: skip
     """Shade `n_all` spans, as many at a time as fit into a block, and write them to `pixels` (H, pitch) int32.
 
-    Spans that may overlap are blended in their order. With alpha test, their fragments are tested before they are
-    written; the arguments from `depth_planes` to `stencil` are read for that only. The last ones are those of
-    `fragment_block.block_memory`.
+    Spans that may overlap are blended in their order. With alpha test, or where `special` (`special_numbers`) leaves
+    fragments out, they are tested before they are written; the arguments from `depth_planes` to `stencil` are read for
+    that only. The last ones are those of `fragment_block.block_memory`.
     """
     whole[MASK : MASK + np.uint64(SIZE)] = -1
     r, done = 0, np.int64(0)  # the next span, and how many of its fragments are done
@@ -99,10 +106,13 @@ def shade_spans(
             spans[SPAN_START, s + NEXT] = n
             if done == starts[r + 1] - starts[r]:
                 r, done = r + 1, np.int64(0)
-        shade_block(planes, spans, n_spans, n, flat, switches, numbers, texels0, texels1, room, whole)
+        shade_block(planes, spans, n_spans, n, flat, switches, numbers, texels0, texels1, special, room, whole)
         if alpha_test[IS_TESTED]:
-            test_alpha_of_block(
-                alpha_test, tests_depth, tests_stencil, test_numbers, test_bytes, largest, low, high, depth, stencil,
-                spans, n_spans, n, own_triangles, depth_planes, faces_front, ALPHA_ROW, room, whole,
-            )  # fmt: skip
+            test_alpha_of_block(alpha_test, n, ALPHA_ROW, room, whole)
+            discard_from_block(special, spans, n_spans, n, room, whole)
+            if tests_depth or tests_stencil:
+                test_runs_of_block(
+                    tests_depth, tests_stencil, test_numbers, test_bytes, largest, low, high, depth, stencil, spans,
+                    n_spans, own_triangles, depth_planes, faces_front, room, whole,
+                )  # fmt: skip
         write_block(spans, n_spans, may_overlap, switches, alpha_test[IS_TESTED] != 0, whole, pixels)

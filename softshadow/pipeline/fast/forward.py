@@ -15,15 +15,17 @@ import numpy as np
 from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.fast.fixed_function_spans import NO_DEPTH, NO_STENCIL, covered_state, shade_spans
 from softshadow.pipeline.fast.fragment_block import block_memory
-from softshadow.pipeline.fast.span_state import SpanState
+from softshadow.pipeline.fast.span_state import NEEDED, SpanState
 from softshadow.pipeline.fast.span_tests import alpha_tests, collect_passing_spans, span_tests
+from softshadow.pipeline.fast.special_fragments import NO_SPECIAL, discards_some, needed_places, special_numbers
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, few_bands, sort_into_bands
-from softshadow.pipeline.raster.fragment_ops import FragmentOps
+from softshadow.pipeline.raster.fragment_ops import ALWAYS, FragmentOps
 from softshadow.pipeline.raster.region import depth_range_of
 from softshadow.pipeline.records import Geometry, Region, Setup, Spans
-from softshadow.pipeline.shade.interpolate import attribute_planes
+from softshadow.pipeline.shade.interpolate import AttributePlanes, attribute_planes
+from softshadow.pipeline.shade.shading import write_sprite_planes
 from softshadow.state import State
 
 TRIANGLES = 1 << 12  # whose planes are computed at a time
@@ -79,8 +81,15 @@ def draw_forward(
         *depth_range_of(state, np.float32), NO_DEPTH if depth is None else depth.cells if writes else depth.read_cells,
         NO_STENCIL if stencil is None else stencil.cells,
     )  # fmt: skip
+    special, switches = special_numbers(geometry), numbers.switches
+    if discards_some(special) and not front.alpha_test:  # they are left out with those that fail the alpha test
+        front, back = (ops._replace(alpha_test=1, alpha_func=ALWAYS) for ops in (front, back))
+    if special is not NO_SPECIAL:
+        switches = switches.copy()
+        switches[NEEDED] |= needed_places(special)
     tests, later_tests = (*span_tests(front, back), *buffers), (*alpha_tests(front, back), *buffers)
-    colors = (geometry.flat, *numbers[:2], *numbers.texels, target.colors[0].cells.view(np.int32)[..., 0])
+    pixels = target.colors[0].cells.view(np.int32)[..., 0]
+    colors = (geometry.flat, switches, numbers.numbers, *numbers.texels, special, pixels)
     worth_bands = WORTH_BANDS * (STENCIL_TESTED if front.stencil_test or back.stencil_test else 1)
     for begin in range(0, len(geometry.triangles.ids), TRIANGLES):
         triangles = geometry.triangles
@@ -101,6 +110,9 @@ def _planes_of_all(geometry: Geometry, triangles: Setup) -> np.ndarray:
         geometry.window, values, values if back is None else back, triangles.vertices, triangles.front,
         _in_order[:count], geometry.flat, geometry.provoking, triangles.ids, planes,
     )  # fmt: skip
+    if geometry.sprites is not None:
+        part = geometry._replace(triangles=triangles)
+        write_sprite_planes(part, geometry.sprites, AttributePlanes(planes, _in_order[:count]))
     return planes
 
 

@@ -18,7 +18,7 @@ from softshadow.pipeline.constants import ONE
 
 SIZE = 192  # fragments; with 12 to 20 rows in use by one step, they fit into 32 KB
 LONG_RUN = 8  # fragments of one triangle; from this number on, a loop per column pays
-COLUMNS = 16  # interpolated at most: two colours, coordinates of two units, fog
+COLUMNS = 20  # interpolated at most: two colours, coordinates of two units, fog, place in a smooth line or point
 
 
 def _rows(first: int, count: int) -> list[np.uint64]:

@@ -30,6 +30,7 @@ from softshadow.pipeline.fast.span_state import (
     UNIT_SWITCHES,
 )
 from softshadow.pipeline.fast.span_textures import sample_block
+from softshadow.pipeline.fast.special_fragments import cover_block
 from softshadow.pipeline.shade.color_writes import BLUE, GREEN, UPPERMOST, byte_of
 from softshadow.programs.llvmpipe_math import exp2_of_all
 
@@ -38,7 +39,7 @@ SECONDARY = np.uint64(4) * ROW
 
 
 @inlined
-def shade_block(planes, spans, n_spans, count, flat, switches, numbers, texels0, texels1, room, whole):
+def shade_block(planes, spans, n_spans, count, flat, switches, numbers, texels0, texels1, special, room, whole):
     """Write PACKED, the colours of all fragments of a block as bytes; the colours stay in the first rows of `room`.
 
     planes (P, 3, k + 1) are those of `shade.interpolate.attribute_planes`, `spans` and `count` say which fragments.
@@ -56,6 +57,7 @@ def shade_block(planes, spans, n_spans, count, flat, switches, numbers, texels0,
                 room[row + n] += room[SECONDARY + row + n]
     if switches[FOG]:
         apply_fog_to_block(switches, numbers, count, room)
+    cover_block(special, count, room)
     pack_block(count, room, whole)
 
 

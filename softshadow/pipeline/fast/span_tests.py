@@ -2,6 +2,7 @@
 
 The tests are numbers (`fragment_numbers`), so that a few loops without branches serve all states. The alpha test needs
 colours: with it, fragments are tested after they have been shaded, but those that fail the depth test for good before.
+So are those of draws in which stipple or smooth points leave out fragments.
 """
 
 from __future__ import annotations
@@ -77,7 +78,10 @@ class SpanTests(NamedTuple):
 
 
 class AlphaTests(NamedTuple):
-    """The tests of fragments that have been shaded: `alpha` (5,) int32 is the alpha test, the others follow it."""
+    """The tests of fragments that have been shaded: `alpha` (5,) int32 is the alpha test, the others follow it.
+
+    Fragments that stipple and smoothing leave out (`special_fragments`) fail with those of the alpha test.
+    """
 
     alpha: np.ndarray
     depth: int
@@ -223,21 +227,26 @@ def update_stencil(numbers, f, j, first, length, stencil, mask, whole):
 
 
 @kernel
-def test_alpha_of_block(
-    alpha_test, tests_depth, tests_stencil, numbers, byte_numbers, largest, low, high, depth, stencil, spans, n_spans,
-    n_fragments, triangles, planes, faces_front, alpha, room, whole,
-):  # fmt: skip
-    """Test the shaded fragments of a block; MASK receives which ones pass.
-
-    `alpha_test`, ..., `largest` are the fields of `AlphaTests`; `triangles` (SIZE,) are those of the spans; `alpha` is
-    the row of the alphas. The other tests are for the runs of fragments that pass the alpha test.
-    """
-    depth_range, ref = DepthRange(low, high), alpha_test[ALPHA_REF]
+def test_alpha_of_block(alpha_test, n_fragments, alpha, room, whole):
+    """Test the alphas of a block, which are in the row `alpha`; MASK receives which fragments pass."""
+    ref = alpha_test[ALPHA_REF]
     if_less, if_equal, if_greater = alpha_test[IF_LESS], alpha_test[IF_EQUAL], alpha_test[IF_GREATER]
     for i in range(np.uint64(n_fragments)):
         value = compared_byte(room[alpha + i])
         result = if_less if value < ref else if_equal
         whole[MASK + i] = if_greater if value > ref else result
+
+
+@kernel
+def test_runs_of_block(
+    tests_depth, tests_stencil, numbers, byte_numbers, largest, low, high, depth, stencil, spans, n_spans, triangles,
+    planes, faces_front, room, whole,
+):  # fmt: skip
+    """Test the fragments of a block where MASK is set, which receives the ones that pass.
+
+    `tests_depth`, ..., `largest` are fields of `AlphaTests`; `triangles` (SIZE,) are those of the spans.
+    """
+    depth_range = DepthRange(low, high)
     for s in range(np.uint64(n_spans)):
         t, j = np.uint64(triangles[s]), np.uint64(spans[SPAN_ROW, s])
         n, end, f = np.uint64(spans[SPAN_START, s]), np.uint64(spans[SPAN_START, s + NEXT]), np.uint64(faces_front[t])

@@ -53,6 +53,7 @@ def set_up_lines_of(
     first = len(geometry.window)
     if smooth:
         rectangles = smooth_lines(window, values, width)
+        geometry = geometry._replace(line_places=values.shape[2])
         return _with_rectangles(geometry, rectangles, ids, "line", INSIDE_LINE, flipped)
     geometry = _with_vertices(geometry, window.reshape(-1, 4), values.reshape(-1, values.shape[2]))
     ends = first + np.arange(2 * len(ids), dtype=np.int32).reshape(-1, 2)

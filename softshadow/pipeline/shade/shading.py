@@ -9,6 +9,8 @@ from collections.abc import Callable
 import numpy as np
 
 from softshadow.framebuffer import Framebuffer
+from softshadow.jit import kernel
+from softshadow.pipeline.constants import HALF, ONE, ZERO
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.records import NO_VERTEX, Geometry, Spans, Sprites
@@ -85,20 +87,28 @@ def attribute_planes_of(geometry: Geometry, spans: Spans) -> AttributePlanes:
 
 def write_sprite_planes(geometry: Geometry, sprites: Sprites, planes: AttributePlanes) -> None:
     """Write the planes of the coordinates of point sprites (GL 2.1, sec. 3.3.1), in llvmpipe's order of operations."""
-    triangles, real = geometry.triangles, geometry.window.dtype.type
-    rows = np.flatnonzero((planes.place >= 0) & (triangles.vertices[:, 1] == NO_VERTEX))
-    points, places = triangles.vertices[rows, 0], planes.place[rows]
-    x, y, over_w = (geometry.window[points, column] for column in (0, 1, 3))
-    step = real(1) / sprites.widths[points]
-    down = step if sprites.upwards else -step
-    zero = np.zeros_like(step)
-    for first in sprites.columns:
-        s = real(0.5) - (step * (x - real(0.5)) + zero * (y - real(0.5)))
-        t = real(0.5) - (zero * (x - real(0.5)) + down * (y - real(0.5)))
-        planes.values[places, :, first] = np.stack([s * over_w, step * over_w, zero], axis=1)
-        planes.values[places, :, first + 1] = np.stack([t * over_w, zero, down * over_w], axis=1)
-        planes.values[places, :, first + 2] = 0
-        planes.values[places, :, first + 3] = np.stack([over_w, zero, zero], axis=1)
+    columns = np.array(sprites.columns, np.int64)
+    arrays = geometry.window, geometry.triangles.vertices, sprites.widths
+    replace_planes(*arrays, columns, sprites.upwards, planes.place, planes.values)
+
+
+@kernel
+def replace_planes(window, vertices, widths, columns, upwards, place, planes):
+    """Write the planes (P, 3, k + 1) of the columns s, t, r, q that begin at `columns` (n,), of all points."""
+    for t in range(vertices.shape[0]):
+        if place[t] < 0 or vertices[t, 1] != NO_VERTEX:
+            continue
+        point, p = vertices[t, 0], place[t]
+        x, y, over_w, step = window[point, 0] - HALF, window[point, 1] - HALF, window[point, 3], ONE / widths[point]
+        down = step if upwards else -step
+        for n in range(columns.shape[0]):
+            s, r = columns[n], columns[n] + 2
+            planes[p, 0, s] = (HALF - (step * x + ZERO * y)) * over_w
+            planes[p, 1, s], planes[p, 2, s] = step * over_w, ZERO
+            planes[p, 0, s + 1] = (HALF - (ZERO * x + down * y)) * over_w
+            planes[p, 1, s + 1], planes[p, 2, s + 1] = ZERO, down * over_w
+            planes[p, 0, r], planes[p, 1, r], planes[p, 2, r] = ZERO, ZERO, ZERO
+            planes[p, 0, r + 1], planes[p, 1, r + 1], planes[p, 2, r + 1] = over_w, ZERO, ZERO
 
 
 def _shade_chunk(geometry: Geometry, planes: AttributePlanes, spans: Spans) -> np.ndarray:
