@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from softshadow.jit import inlined, kernel
+from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.state import Lines
 
 PATTERN_BITS = 16
@@ -29,14 +31,23 @@ class LinePieces(NamedTuple):
 
 
 def cut_into_pieces(
-    window: np.ndarray, values: np.ndarray, restarts: np.ndarray, stipple: Lines, counter: int
+    window: np.ndarray,
+    values: np.ndarray,
+    lines: np.ndarray,
+    provoking: np.ndarray,
+    flat: np.ndarray,
+    restarts: np.ndarray,
+    stipple: Lines,
+    counter: int,
 ) -> LinePieces:
     """Return the pieces of lines.
 
     Parameters
     ----------
-    window : (L, 2, 4) window x, y, z and 1/w of both ends
-    values : (L, 2, k) outputs of the vertex stage; flat ones are equal at both ends
+    window : (V, 4) window x, y, z and 1/w
+    values : (V, k) outputs of the vertex stage
+    lines : (L, 2) int32, vertices
+    provoking : (L,) int32, the vertices whose values the columns take that are `flat` (k,)
     restarts : (L,) bool, whether the pattern begins anew
     counter : the place in the pattern before the first line
 
@@ -44,23 +55,78 @@ def cut_into_pieces(
     ----------
     GL 2.1, sec. 3.4.2.
     """
-    real = window.dtype.type
-    both, weights, rows = np.concatenate([window, values], axis=2), [], []
-    for row, ((x0, y0), (x1, y1)) in enumerate(window[:, :, :2]):
+    inputs = (
+        window, values, lines, provoking, flat, restarts, stipple.smooth, stipple.factor, stipple.pattern, counter,
+        np.empty(2, window.dtype),
+    )  # fmt: skip
+    n, counter_after = write_pieces(*inputs, *_room(0, window, values))
+    pieces = _room(n, window, values)
+    write_pieces(*inputs, *pieces)
+    return LinePieces(*pieces, counter_after)
+
+
+def _room(n: int, window: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    return np.empty((2 * n, 4), window.dtype), np.empty((2 * n, values.shape[1]), values.dtype), np.empty(n, np.int32)
+
+
+@kernel
+def write_pieces(
+    window, values, lines, provoking, flat, restarts, is_smooth, factor, pattern, counter, t, piece_window,
+    piece_values, piece_lines,
+):  # fmt: skip
+    """Write the pieces if the arrays have room; return how many they are, and the place in the pattern after them.
+
+    `t` (2,) is scratch. A line has as many pixels as its longer side, a smooth one as its length.
+    """
+    n_pieces, room = 0, len(piece_lines)
+    for row in range(lines.shape[0]):
+        a, b = lines[row, 0], lines[row, 1]
         if restarts[row]:
             counter = 0
-        dx, dy = abs(x1 - x0), abs(y1 - y0)
-        length = np.sqrt(dx * dx + dy * dy) if stipple.smooth else max(dx, dy)
+        dx, dy = abs(window[b, 0] - window[a, 0]), abs(window[b, 1] - window[a, 1])
+        length = dy if dy > dx else dx
+        if is_smooth:
+            length = np.sqrt(dx * dx + dy * dy)
         pixels = int(np.ceil(length)) if np.isfinite(length) else 0
-        places = (counter + np.arange(pixels)) // stipple.factor % PATTERN_BITS
-        lit = np.concatenate([[0], stipple.pattern >> places & 1, [0]])
-        begins, ends = np.flatnonzero(np.diff(lit) > 0), np.flatnonzero(np.diff(lit) < 0)
-        for begin, end in zip(begins, ends, strict=True):
-            weights.append((real(begin) / length, real(1) if end == pixels else real(end) / length))
-            rows.append(row)
+        begin, pixel = -1, 0
+        while pixel < pixels:
+            place = (counter + pixel) // factor
+            is_lit = pattern >> place % PATTERN_BITS & 1
+            if is_lit and begin < 0:
+                begin = pixel
+            if begin >= 0 and not is_lit:
+                if room:
+                    t[0], t[1] = begin, pixel
+                    t[0], t[1] = t[0] / length, t[1] / length
+                    write_piece(window, values, a, b, provoking[row], flat, t, n_pieces, piece_window, piece_values)
+                    piece_lines[n_pieces] = row
+                begin, n_pieces = -1, n_pieces + 1
+            pixel = (place + 1) * factor - counter
+        if begin >= 0:
+            if room:
+                t[0], t[1] = begin, ONE
+                t[0] = t[0] / length
+                write_piece(window, values, a, b, provoking[row], flat, t, n_pieces, piece_window, piece_values)
+                piece_lines[n_pieces] = row
+            n_pieces += 1
         counter += pixels
-    line, t = np.array(rows, np.int64), np.array(weights, real).reshape(-1, 2, 1)
-    first, last = both[line][:, :1], both[line][:, 1:]
-    corners = np.where(t <= 0, first, np.where(t >= 1, last, first + t * (last - first)))
-    corners = corners.astype(real).reshape(-1, both.shape[2])
-    return LinePieces(np.ascontiguousarray(corners[:, :4]), np.ascontiguousarray(corners[:, 4:]), line, counter)
+    return n_pieces, counter
+
+
+@kernel
+def write_piece(window, values, a, b, source, flat, t, n, piece_window, piece_values):
+    """Write the ends of piece `n`, which lie at `t` (2,) between the vertices `a` and `b`."""
+    for end in range(2):
+        v = 2 * n + end
+        for c in range(4):
+            piece_window[v, c] = between(window[a, c], window[b, c], t[end])
+        for c in range(values.shape[1]):
+            first, last = (source, source) if flat[c] else (a, b)
+            piece_values[v, c] = between(values[first, c], values[last, c], t[end])
+
+
+@inlined
+def between(first, last, t):
+    """Return the value at `t` between two ends, exactly theirs beyond."""
+    inner = first + t * (last - first)
+    return first if t <= ZERO else last if t >= ONE else inner

@@ -15,8 +15,9 @@ from softshadow.pipeline.geometry.points import set_up_points, set_up_sprites
 from softshadow.pipeline.geometry.smooth import (
     INSIDE_LINE,
     INSIDE_POINT,
+    LINE_TRIANGLES,
     PLACE_COLUMNS,
-    Rectangles,
+    POINT_TRIANGLES,
     is_outside_point,
     smooth_lines,
     smooth_points,
@@ -24,6 +25,7 @@ from softshadow.pipeline.geometry.smooth import (
 )
 from softshadow.pipeline.geometry.triangle_setup import MAX_SLOPE, Offset, set_up
 from softshadow.pipeline.geometry.vertex import append_rows
+from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.mesa.polygon_rules import is_stippled, points_are_smooth
 from softshadow.pipeline.records import Discards, Geometry, Setup, Sprites
 from softshadow.programs.fixed_function import has_secondary
@@ -43,21 +45,24 @@ def set_up_lines_of(
     stippled, smooth = is_stippled(state.lines), state.lines.smooth
     if not stippled and not smooth:
         return geometry, set_up_lines(geometry.window, lines, ids, width)
-    window, values = geometry.window[lines], geometry.values[lines]
-    values[:, :, geometry.flat] = geometry.values[geometry.provoking[ids]][:, None, geometry.flat]
+    window, values, provoking = geometry.window, geometry.values, geometry.provoking[ids]
     if stippled:
-        pieces = cut_into_pieces(window, values, restarts, state.lines, geometry.stipple_place)
-        geometry = geometry._replace(stipple_place=pieces.counter)
-        window, values = pieces.window.reshape(-1, 2, 4), pieces.values.reshape(-1, 2, values.shape[2])
-        ids = ids[pieces.line]
-    first = len(geometry.window)
+        place = geometry.stipple_place
+        pieces = cut_into_pieces(window, values, lines, provoking, geometry.flat, restarts, state.lines, place)
+        geometry, ids = geometry._replace(stipple_place=pieces.counter), ids[pieces.line]
+        lines = np.arange(2 * len(ids), dtype=np.int32).reshape(-1, 2)
+        window, values, provoking = pieces.window, pieces.values, np.ascontiguousarray(lines[:, 0])
     if smooth:
-        rectangles = smooth_lines(window, values, width)
-        geometry = geometry._replace(line_places=values.shape[2])
-        return _with_rectangles(geometry, rectangles, ids, "line", INSIDE_LINE, flipped)
-    geometry = _with_vertices(geometry, window.reshape(-1, 4), values.reshape(-1, values.shape[2]))
-    ends = first + np.arange(2 * len(ids), dtype=np.int32).reshape(-1, 2)
-    return geometry, set_up_lines(geometry.window, ends, ids, width)
+        geometry = geometry._replace(line_places=values.shape[1])
+        flat, corners = geometry.flat, _room_for_corners(geometry, len(lines), INSIDE_LINE)
+        first = len(geometry.window)
+        smooth_lines(window, values, lines, provoking, flat, width, *(rows[first:] for rows in corners))
+        return _with_rectangles(geometry, *corners, LINE_TRIANGLES, ids, "line", flipped)
+    lines += np.int32(len(geometry.window))
+    geometry = geometry._replace(
+        window=append_rows(geometry.window, window), values=np.concatenate([geometry.values, values])
+    )
+    return geometry, set_up_lines(geometry.window, lines, ids, width)
 
 
 def set_up_points_of(
@@ -72,11 +77,11 @@ def set_up_points_of(
     limited = min(size, state.points.largest) if size > state.points.smallest else state.points.smallest
     own_sizes = np.full(len(points), limited, real) if sizes is None else sizes[points]
     if points_are_smooth(state):
-        squares = smooth_points(
-            geometry.window[points], geometry.values[points], own_sizes, per_vertex=sizes is not None
-        )
-        places = geometry.values.shape[1]
-        geometry, triangles = _with_rectangles(geometry, squares, ids, "point", INSIDE_POINT, flipped)
+        places, corners = geometry.values.shape[1], _room_for_corners(geometry, len(points), INSIDE_POINT)
+        room = (rows[len(geometry.window) :] for rows in corners)
+        points = np.ascontiguousarray(points)
+        smooth_points(geometry.window, geometry.values, points, own_sizes, sizes is not None, *room)
+        geometry, triangles = _with_rectangles(geometry, *corners, POINT_TRIANGLES, ids, "point", flipped)
         discards = (geometry.discards or Discards())._replace(places=places, outside=is_outside_point)
         return geometry._replace(discards=discards), triangles
     if not state.points.sprites:
@@ -97,25 +102,37 @@ def _replaced_columns(geometry: Geometry, state: State) -> tuple[int, ...]:
     )
 
 
-def _with_vertices(geometry: Geometry, window: np.ndarray, values: np.ndarray) -> Geometry:
-    return geometry._replace(
-        window=append_rows(geometry.window, np.ascontiguousarray(window)),
-        values=np.concatenate([geometry.values, values]),
-    )
+def _room_for_corners(geometry: Geometry, n: int, inside: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Return window and values for the vertices of a geometry and `n` rectangles, with four more columns of values.
+
+    Those of the geometry are written, with the places `inside`.
+    """
+    first, columns, real = len(geometry.window), geometry.values.shape[1], geometry.window.dtype
+    window = scratch((first + 4 * n, 4), real)
+    values = np.empty((first + 4 * n, columns + PLACE_COLUMNS), real)
+    window[:first], values[:first, :columns], values[:first, columns:] = geometry.window, geometry.values, inside
+    return window, values
 
 
 def _with_rectangles(
-    geometry: Geometry, rectangles: Rectangles, ids: np.ndarray, kind: str, inside: tuple[float, ...], flipped: bool
+    geometry: Geometry,
+    window: np.ndarray,
+    values: np.ndarray,
+    triangles: tuple[tuple[int, int, int], ...],
+    ids: np.ndarray,
+    kind: str,
+    flipped: bool,
 ) -> tuple[Geometry, Setup]:
-    """Return the geometry with rectangles and four more columns for their places, and the triangles."""
-    columns, first, real = geometry.values.shape[1], len(geometry.window), geometry.window.dtype
-    others = np.broadcast_to(np.array(inside, real), (first, PLACE_COLUMNS))
+    """Return the geometry with the vertices of rectangles, and their triangles by the corners of each."""
+    columns, real = geometry.values.shape[1], geometry.window.dtype
+    first = np.arange(len(geometry.window), len(window), 4, dtype=np.int32)
     geometry = geometry._replace(
-        values=np.hstack([geometry.values, others]),
+        window=window,
+        values=values,
         flat=np.append(geometry.flat, np.zeros(PLACE_COLUMNS, bool)),
         program=with_coverage(geometry.program, columns, kind),
     )
-    geometry = _with_vertices(geometry, rectangles.window, np.hstack([rectangles.values, rectangles.places]))
+    corners = (first[:, None, None] + np.array(triangles, np.int32)).reshape(-1, 3)
     no_offset = Offset(MAX_SLOPE, real.type(0), real.type(0), int(flipped))
-    setup = set_up(geometry.window, rectangles.triangles + np.int32(first), Cull(), no_offset, flipped)
+    setup = set_up(geometry.window, corners, Cull(), no_offset, flipped)
     return geometry, setup._replace(ids=np.ascontiguousarray(ids[setup.ids // 2]))

@@ -10,11 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from softshadow.jit import kernel
+from softshadow.pipeline.constants import HALF, ONE, TWO
 from softshadow.programs import Program
 
 ALPHA = 3
@@ -22,78 +23,96 @@ PLACE_COLUMNS = 4  # values that tell where a fragment lies
 LARGEST_SIZE = 255.0
 # the same for fragments that are covered as a whole
 INSIDE_LINE, INSIDE_POINT = (0.0, 1.0, 0.0, 1.0), (0.0, 0.0, 0.0, 1.0)
+LINE_TRIANGLES, POINT_TRIANGLES = ((2, 1, 0), (3, 1, 2)), ((0, 1, 2), (0, 2, 3))  # by the corners of a rectangle
 
 
-class Rectangles(NamedTuple):
-    """Rectangles with four vertices each: window (4N, 4), values (4N, k), places (4N, 4), triangles (2N, 3) int32."""
+def smooth_lines(
+    window: np.ndarray,
+    values: np.ndarray,
+    lines: np.ndarray,
+    provoking: np.ndarray,
+    flat: np.ndarray,
+    width: float,
+    corners: np.ndarray,
+    corner_values: np.ndarray,
+) -> None:
+    """Write the rectangles of lines, four vertices each; their triangles are `LINE_TRIANGLES`.
 
-    window: np.ndarray
-    values: np.ndarray
-    places: np.ndarray
-    triangles: np.ndarray
-
-
-def smooth_lines(window: np.ndarray, values: np.ndarray, width: float) -> Rectangles:
-    """Return the rectangles of lines; `window` (L, 2, 4) and `values` (L, 2, k) are those of both ends."""
+    Parameters
+    ----------
+    window, values : (V, 4) and (V, k) of vertices
+    lines : (L, 2) int32, vertices
+    provoking : (L,) int32, the vertices whose values the columns take that are `flat` (at least k)
+    corners, corner_values : receive window (4L, 4) and values (4L, k + 4), of which the last are the places
+    """
     real = window.dtype.type
     half_width = real(1) if width <= 1 else real(0.5) * real(min(width, LARGEST_SIZE)) + real(0.5)
-    along = window[:, 1, :2] - window[:, 0, :2]
-    length = np.sqrt(along[:, 0] * along[:, 0] + along[:, 1] * along[:, 1])
-    cos, sin = np.empty_like(length), np.empty_like(length)
-    write_directions(along, cos, sin)
-    half_length = real(0.5) * length
-    half_length = np.where(half_length < real(0.5), real(2) * half_length, half_length + real(0.5))
-    corners, places = np.repeat(window, 2, axis=1), np.empty((len(window), 4, PLACE_COLUMNS), real)
-    for corner in range(4):
-        u, v = real(-0.5 if corner < 2 else 0.5), half_width if corner % 2 == 0 else -half_width
-        corners[:, corner, 0] += u * cos - v * sin
-        corners[:, corner, 1] += u * sin + v * cos
-        places[:, corner, 0], places[:, corner, 1] = -v, half_width
-        places[:, corner, 2], places[:, corner, 3] = half_length if corner >= 2 else -half_length, half_length
-    return _rectangles(corners, np.repeat(values, 2, axis=1), places, ((2, 1, 0), (3, 1, 2)))
+    write_line_corners(window, values, lines, provoking, flat, half_width, corners, corner_values)
 
 
 @kernel
-def write_directions(along, cos, sin):
-    """Write the cosines and sines (L,) of the angles of lines (L, 2), by the functions of the C library, as Mesa does.
+def write_line_corners(window, values, lines, provoking, flat, half_width, corners, corner_values):
+    """Write what `smooth_lines` does.
 
-    Interpreted, they are those of double precision.
+    The angles of lines are computed by the functions of the C library, as Mesa does; interpreted, they are those of
+    double precision.
     """
-    for n in range(along.shape[0]):
-        angle = math.atan2(along[n, 1], along[n, 0])
-        cos[n], sin[n] = math.cos(angle), math.sin(angle)
+    k = values.shape[1]
+    for n in range(lines.shape[0]):
+        a, b, source = lines[n, 0], lines[n, 1], provoking[n]
+        x, y = window[b, 0] - window[a, 0], window[b, 1] - window[a, 1]
+        angle = math.atan2(y, x)
+        corners[4 * n, 0], corners[4 * n, 1] = math.cos(angle), math.sin(angle)
+        cos, sin = corners[4 * n, 0], corners[4 * n, 1]  # rounded to the type of the window
+        half_length = HALF * np.sqrt(x * x + y * y)
+        half_length = TWO * half_length if half_length < HALF else half_length + HALF
+        for corner in range(4):
+            m, end = 4 * n + corner, a if corner < 2 else b
+            u, v = -HALF if corner < 2 else HALF, half_width if corner % 2 == 0 else -half_width
+            corners[m, 0] = window[end, 0] + (u * cos - v * sin)
+            corners[m, 1] = window[end, 1] + (u * sin + v * cos)
+            corners[m, 2], corners[m, 3] = window[end, 2], window[end, 3]
+            for c in range(k):
+                corner_values[m, c] = values[source if flat[c] else end, c]
+            corner_values[m, k], corner_values[m, k + 1] = -v, half_width
+            corner_values[m, k + 2] = half_length if corner >= 2 else -half_length
+            corner_values[m, k + 3] = half_length
 
 
-def smooth_points(window: np.ndarray, values: np.ndarray, sizes: np.ndarray, per_vertex: bool) -> Rectangles:
-    """Return the squares of points; `window` (P, 4), `values` (P, k), `sizes` (P,).
+def smooth_points(
+    window: np.ndarray,
+    values: np.ndarray,
+    points: np.ndarray,
+    sizes: np.ndarray,
+    per_vertex: bool,
+    corners: np.ndarray,
+    corner_values: np.ndarray,
+) -> None:
+    """Write the squares of points (P,) int32 with `sizes` (P,), as `smooth_lines`; triangles are `POINT_TRIANGLES`.
 
     A size that all points share is at least 2, one of the vertex stage is not (`per_vertex`).
     """
     real = window.dtype.type
     radius = real(0.5) * (sizes if per_vertex else np.maximum(sizes, real(2)))
-    k = real(1) / radius
-    k = real(1) - real(2) * k + k * k
-    corners, places = np.repeat(window[:, None], 4, axis=1), np.ones((len(window), 4, PLACE_COLUMNS), real)
-    for corner, (u, v) in enumerate(((-1, -1), (1, -1), (1, 1), (-1, 1))):
-        corners[:, corner, 0] += u * radius
-        corners[:, corner, 1] += v * radius
-        places[:, corner, 0], places[:, corner, 1], places[:, corner, 2] = u, v, k
-    return _rectangles(corners, np.repeat(values[:, None], 4, axis=1), places, ((0, 1, 2), (0, 2, 3)))
+    write_point_corners(window, values, points, radius, corners, corner_values)
 
 
-def _rectangles(
-    corners: np.ndarray, values: np.ndarray, places: np.ndarray, triangles: tuple[tuple[int, int, int], ...]
-) -> Rectangles:
-    first = 4 * np.arange(len(corners), dtype=np.int32)
-    window, values, places = (
-        np.ascontiguousarray(rows.reshape(-1, rows.shape[2])) for rows in (corners, values, places)
-    )
-    return Rectangles(
-        window,
-        values,
-        places,
-        np.ascontiguousarray((first[:, None, None] + np.array(triangles, np.int32)).reshape(-1, 3)),
-    )
+@kernel
+def write_point_corners(window, values, points, radius, corners, corner_values):
+    """Write what `smooth_points` does."""
+    k = values.shape[1]
+    for n in range(points.shape[0]):
+        point, over_radius = points[n], ONE / radius[n]
+        inner = ONE - TWO * over_radius + over_radius * over_radius
+        for corner in range(4):
+            m = 4 * n + corner
+            u, v = ONE if corner == 1 or corner == 2 else -ONE, ONE if corner >= 2 else -ONE
+            corners[m, 0], corners[m, 1] = window[point, 0] + u * radius[n], window[point, 1] + v * radius[n]
+            corners[m, 2], corners[m, 3] = window[point, 2], window[point, 3]
+            for c in range(k):
+                corner_values[m, c] = values[point, c]
+            corner_values[m, k], corner_values[m, k + 1] = u, v
+            corner_values[m, k + 2], corner_values[m, k + 3] = inner, ONE
 
 
 def line_coverage(places: np.ndarray) -> np.ndarray:
