@@ -14,6 +14,7 @@ from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.assembly import begins_stipple
 from softshadow.pipeline.geometry.clip import NO_EDGES, Clipped, clip_triangles
 from softshadow.pipeline.geometry.draw_primitives import drawn_edges, has_no_edges, lines_or_points_of, triangles_of
+from softshadow.pipeline.geometry.line_stipple import place_after
 from softshadow.pipeline.geometry.lines import LINES, clip_lines
 from softshadow.pipeline.geometry.lines_and_points import set_up_lines_of, set_up_points_of
 from softshadow.pipeline.geometry.points import clip_points
@@ -99,8 +100,7 @@ def triangles_with_outputs(
         clipped = clip_triangles(clip, columns, assembled.corners, codes, planes, edges, command.linear)
         if first_provokes(state):
             clipped = _in_provoking_order(clipped, codes, assembled.corners)
-    if len(clipped.clip) > len(clip):  # the new vertices of clipping come last
-        window = append_rows(window, to_window(clipped.clip[len(clip) :], *window_transform(command, target)))
+    window = _with_new_vertices(window, clipped, command, target)
     k = varyings.values.shape[1]
     geometry = Geometry(
         NO_TRIANGLES,
@@ -122,6 +122,19 @@ def triangles_with_outputs(
     cut = (codes[assembled.corners] != 0).any(axis=1)[clipped.source]
     begins = np.where(cut, np.diff(clipped.source, prepend=-1) != 0, begins)
     return _outlined(geometry, clipped, command, target, cull, begins, vertex_sizes)
+
+
+def _with_new_vertices(window: np.ndarray, clipped: Clipped, command: Draw, target: Framebuffer) -> np.ndarray:
+    """Return the window positions of a draw's vertices and of those that clipping has made, which come last."""
+    n_vertices = len(window)
+    if len(clipped.clip) == n_vertices:
+        return window
+    return append_rows(window, to_window(clipped.clip[n_vertices:], *window_transform(command, target)))
+
+
+def _restarts(clipped: Clipped, command: Draw) -> np.ndarray:
+    """Return at which of the clipped lines (L,) the line stipple begins anew."""
+    return clipped.source == 0 if command.mode != gl.GL_LINES else np.ones(len(clipped.source), bool)
 
 
 def _in_provoking_order(clipped: Clipped, codes: np.ndarray, corners: np.ndarray) -> Clipped:
@@ -185,7 +198,7 @@ def points_and_lines_geometry(
     if command.mode == gl.GL_POINTS:
         geometry, triangles = set_up_points_of(geometry, primitives[:, 0], ids, sizes, state, target.flipped)
     else:
-        restarts = clipped.source == 0 if command.mode != gl.GL_LINES else np.ones(len(ids), bool)
+        restarts = _restarts(clipped, command)
         geometry, triangles = set_up_lines_of(geometry, primitives, ids, restarts, state, target.flipped)
     return geometry._replace(triangles=triangles)
 
@@ -263,7 +276,12 @@ def stipple_place_after(command: Draw, storage: Storage) -> int:
         return command.stipple_place
     target = storage.framebuffers[state.draw_framebuffer]
     with np.errstate(all="ignore"):  # as in pipeline.draw
-        return process_geometry(command, target, storage).stipple_place
+        if command.mode not in LINES:
+            return process_geometry(command, target, storage).stipple_place
+        clip, codes, window, planes = positions_of(command, target)
+        clipped = clip_lines(clip, np.empty((len(clip), 0), clip.dtype), lines_or_points_of(command), codes, planes)
+        window = _with_new_vertices(window, clipped, command, target)
+        return place_after(window, clipped.triangles, _restarts(clipped, command), state.lines, command.stipple_place)
 
 
 def offset_mode_of(command: Draw, storage: Storage) -> int:

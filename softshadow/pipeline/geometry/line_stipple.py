@@ -65,6 +65,16 @@ def cut_into_pieces(
     return LinePieces(*pieces, counter_after)
 
 
+def place_after(window: np.ndarray, lines: np.ndarray, restarts: np.ndarray, stipple: Lines, counter: int) -> int:
+    """Return the place in the pattern after lines, `LinePieces.counter`; the arguments are those of their pieces."""
+    no_values, no_vertices, no_columns = np.empty((0, 0), window.dtype), np.empty(0, np.int32), np.empty(0, bool)
+    _, counter_after = write_pieces(
+        window, no_values, lines, no_vertices, no_columns, restarts, stipple.smooth, stipple.factor, stipple.pattern,
+        counter, np.empty(2, window.dtype), *_room(0, window, no_values),
+    )  # fmt: skip
+    return int(counter_after)
+
+
 def _room(n: int, window: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return np.empty((2 * n, 4), window.dtype), np.empty((2 * n, values.shape[1]), values.dtype), np.empty(n, np.int32)
 
@@ -89,8 +99,9 @@ def write_pieces(
             length = np.sqrt(dx * dx + dy * dy)
         pixels = int(np.ceil(length)) if np.isfinite(length) else 0
         begin, pixel = -1, 0
+        place = counter // factor
+        next_place = (place + 1) * factor - counter  # its first pixel
         while pixel < pixels:
-            place = (counter + pixel) // factor
             is_lit = pattern >> place % PATTERN_BITS & 1
             if is_lit and begin < 0:
                 begin = pixel
@@ -101,7 +112,7 @@ def write_pieces(
                     write_piece(window, values, a, b, provoking[row], flat, t, n_pieces, piece_window, piece_values)
                     piece_lines[n_pieces] = row
                 begin, n_pieces = -1, n_pieces + 1
-            pixel = (place + 1) * factor - counter
+            pixel, place, next_place = next_place, place + 1, next_place + factor
         if begin >= 0:
             if room:
                 t[0], t[1] = begin, ONE

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from softshadow.pipeline.geometry.line_stipple import cut_into_pieces
+from softshadow.pipeline.geometry.line_stipple import cut_into_pieces, place_after
 from softshadow.state import Lines
 
 
@@ -43,7 +43,7 @@ def test_pieces_are_the_runs_of_lit_pixels(seed):
     lines, restarts = rng.permutation(2 * count).astype(np.int32).reshape(-1, 2), rng.random(count) < 0.5
     cut = cut_into_pieces(window, values, lines, np.ascontiguousarray(lines[:, 1]), flat, restarts, stipple, 5)
     expected, counter = pieces_by_pixels(window[lines][:, :, :2], restarts, stipple, 5)
-    assert cut.counter == counter
+    assert cut.counter == counter == place_after(window, lines, restarts, stipple, 5)
     assert cut.line.tolist() == [line for line, *_ in expected]
     for n, (line, *weights) in enumerate(expected):
         a, b = lines[line]
