@@ -31,6 +31,7 @@ from softshadow.pipeline.fast.span_tests import (
     NO_OPS,
     alpha_tests,
     test_alpha_of_block,
+    test_depths_of_block,
     test_runs_of_block,
 )
 from softshadow.pipeline.fast.span_writes import write_block
@@ -110,7 +111,12 @@ def shade_spans(
         if alpha_test[IS_TESTED]:
             test_alpha_of_block(alpha_test, n, ALPHA_ROW, room, whole)
             discard_from_block(special, spans, n_spans, n, room, whole)
-            if tests_depth or tests_stencil:
+            if tests_depth and not tests_stencil:
+                test_depths_of_block(
+                    test_numbers, largest, low, high, depth, spans, n_spans, own_triangles, depth_planes, faces_front,
+                    room, whole,
+                )  # fmt: skip
+            elif tests_stencil:
                 test_runs_of_block(
                     tests_depth, tests_stencil, test_numbers, test_bytes, largest, low, high, depth, stencil, spans,
                     n_spans, own_triangles, depth_planes, faces_front, room, whole,

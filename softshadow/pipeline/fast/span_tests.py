@@ -182,12 +182,9 @@ def test_span(
 
     `f` is the facing. MASK receives which fragments pass, from place `at` of the block on.
     """
-    first, row_at, shift, mask, z = np.uint64(left), np.float32(np.int32(j)), np.int32(left), MASK + at, DEPTH + at
+    first, mask, z = np.uint64(left), MASK + at, DEPTH + at
     if tests_depth:
-        z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
-        for n in range(length):
-            column = np.int32(np.int32(n) + shift)
-            room[z + n] = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
+        write_depths(planes, t, depth_range, largest, j, left, length, z, room)
         depth_test = depth_test_of(numbers, f)
         for n in range(length):
             whole[mask + n] = depth_passes(depth_test, room[z + n], depth[j, first + n])
@@ -204,6 +201,16 @@ def test_span(
         for n in range(length):
             depth[j, first + n] = room[z + n] if whole[mask + n] else depth[j, first + n]
     return every != 0, some != 0
+
+
+@kernel
+def write_depths(planes, t, depth_range, largest, j, left, length, row, room):
+    """Write the depths of fragments in row `j` of triangle `t`, in buffer units, from place `row` of the block on."""
+    z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
+    row_at, shift = np.float32(np.int32(j)), np.int32(left)
+    for n in range(length):
+        column = np.int32(np.int32(n) + shift)
+        room[row + n] = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
 
 
 @kernel
@@ -235,6 +242,26 @@ def test_alpha_of_block(alpha_test, n_fragments, alpha, room, whole):
         value = compared_byte(room[alpha + i])
         result = if_less if value < ref else if_equal
         whole[MASK + i] = if_greater if value > ref else result
+
+
+@kernel
+def test_depths_of_block(
+    numbers, largest, low, high, depth, spans, n_spans, triangles, planes, faces_front, room, whole
+):
+    """Do what `test_runs_of_block` does where there is no stencil test: then spans need not be cut into runs."""
+    depth_range = DepthRange(low, high)
+    for s in range(np.uint64(n_spans)):
+        t, j, left = np.uint64(triangles[s]), np.uint64(spans[SPAN_ROW, s]), int(spans[SPAN_LEFT, s])
+        start, f = np.uint64(spans[SPAN_START, s]), np.uint64(faces_front[t])
+        length, first = np.uint64(spans[SPAN_START, s + NEXT]) - start, np.uint64(left)
+        mask, z = MASK + start, DEPTH + start
+        write_depths(planes, t, depth_range, largest, j, left, length, z, room)
+        depth_test = depth_test_of(numbers, f)
+        for n in range(length):
+            whole[mask + n] &= depth_passes(depth_test, room[z + n], depth[j, first + n])
+        if numbers[f, DEPTH_WRITE]:
+            for n in range(length):
+                depth[j, first + n] = room[z + n] if whole[mask + n] else depth[j, first + n]
 
 
 @kernel
