@@ -11,6 +11,9 @@ from softshadow.pixel_store import COMPONENTS
 from softshadow.texel_codes import clamped
 
 F32 = np.float32
+ZERO, ONE, LARGEST_BYTE = F32(0), F32(1), F32(255)
+GREEN, BLUE, UPPERMOST = np.uint32(8), np.uint32(16), np.uint32(24)  # bits below the byte of a channel
+OPAQUE = np.uint32(255 << 24)
 LARGE = 1 << 18  # bytes of an image from which calling a kernel pays
 CHANNEL = {"R": 0, "G": 1, "B": 2, "A": 3}
 
@@ -42,8 +45,8 @@ def swizzled(rgba: np.ndarray, sources: str, one: int) -> np.ndarray:
     if sources == "RGBA":
         return rgba
     out = np.empty((*rgba.shape[:-1], len(sources)), rgba.dtype)
-    if sources == "RGB" and rgba.dtype == np.uint8 and rgba.ndim == 3 and rgba.size >= LARGE:
-        copy_rgb(read_only(rgba), out)
+    if sources in ("RGB", "BGRA") and rgba.dtype == np.uint8 and rgba.ndim == 3 and rgba.size >= LARGE:
+        (copy_rgb if sources == "RGB" else copy_bgra)(read_only(rgba), out)
         return out
     for channel, source in enumerate(sources):
         out[..., channel] = rgba[..., CHANNEL[source]] if source in CHANNEL else one * int(source)
@@ -59,14 +62,52 @@ def copy_rgb(rgba: np.ndarray, rgb: np.ndarray) -> None:
             rgb[j, i, 0], rgb[j, i, 1], rgb[j, i, 2] = rgba[j, i, 0], rgba[j, i, 1], rgba[j, i, 2]
 
 
+@kernel
+def copy_bgra(rgba: np.ndarray, bgra: np.ndarray) -> None:
+    """Write pixels (h, w, 4) with red and blue exchanged."""
+    for y in range(rgba.shape[0]):
+        for x in range(rgba.shape[1]):
+            j, i = np.uint64(y), np.uint64(x)
+            bgra[j, i, 0], bgra[j, i, 1], bgra[j, i, 2] = rgba[j, i, 2], rgba[j, i, 1], rgba[j, i, 0]
+            bgra[j, i, 3] = rgba[j, i, 3]
+
+
 def as_rgba(values: np.ndarray, pixel_format: int, one: int) -> np.ndarray:
-    """Return the components of client pixels (h, w, n) as RGBA (h, w, 4)."""
+    """Return the components of client pixels (h, w, n) as RGBA (h, w, 4): the same array if they are RGBA."""
+    names = COMPONENTS[pixel_format]
+    if names == "RGBA":
+        return values
+    places = [names.find("L" if "L" in names and channel != "A" else channel) for channel in CHANNEL]
+    if values.dtype == np.uint8 and values.flags.c_contiguous and 4 * values.size >= LARGE * len(names):
+        rgba = np.empty((*values.shape[:2], 4), np.uint8)
+        write_rgba(read_only(values.reshape(-1)), len(names), *places, rgba.reshape(-1).view(np.uint32))
+        return rgba
     rgba = np.zeros((*values.shape[:2], 4), values.dtype)
     rgba[..., 3] = one
-    for component, name in enumerate(COMPONENTS[pixel_format]):
-        for channel in "RGB" if name == "L" else name:
-            rgba[..., CHANNEL[channel]] = values[..., component]
+    for channel, place in enumerate(places):
+        if place >= 0:
+            rgba[..., channel] = values[..., place]
     return rgba
+
+
+@kernel
+def write_rgba(values: np.ndarray, step: int, red: int, green: int, blue: int, alpha: int, pixels: np.ndarray) -> None:
+    """Write bytes (step * n,) as RGBA pixels (n,) of 32 bits.
+
+    The other numbers are the places of the channels in a pixel. One that is negative has none: then colours are 0 and
+    alpha is 255.
+    """
+    for i in range(pixels.shape[0]):
+        first, pixel = i * step, OPAQUE
+        if alpha >= 0:
+            pixel = np.uint32(values[np.uint64(first + alpha)]) << UPPERMOST
+        if red >= 0:
+            pixel |= np.uint32(values[np.uint64(first + red)])
+        if green >= 0:
+            pixel |= np.uint32(values[np.uint64(first + green)]) << GREEN
+        if blue >= 0:
+            pixel |= np.uint32(values[np.uint64(first + blue)]) << BLUE
+        pixels[np.uint64(i)] = pixel
 
 
 def packed_to_unorm8(words: np.ndarray, packed: PackedColor) -> np.ndarray:
@@ -90,19 +131,38 @@ def packed_to_float(words: np.ndarray, packed: PackedColor) -> np.ndarray:
 
 
 def to_unorm8(values: np.ndarray) -> np.ndarray:
-    """Return numbers of any client type as bytes: 255 for 1."""
+    """Return numbers of any client type as bytes: 255 for 1; bytes are returned as they are."""
     if values.dtype.kind == "f":
+        if values.dtype == F32 and values.nbytes >= LARGE and values.flags.c_contiguous:
+            nearest = np.empty(values.shape, np.uint8)
+            write_bytes(read_only(values.reshape(-1)), nearest.reshape(-1))
+            return nearest
         return np.rint(clamped(values.astype(F32)) * F32(255)).astype(np.uint8)
-    largest = largest_of(values.dtype.type)
-    positive = np.maximum(values, 0).astype(np.uint64)
-    return ((positive * np.uint64(255) + np.uint64(largest // 2)) // np.uint64(largest)).astype(np.uint8)
+    if values.dtype == np.uint8:
+        return values
+    largest, wide = largest_of(values.dtype.type), np.uint32 if values.dtype.itemsize < 4 else np.uint64
+    positive = np.maximum(values, 0).astype(wide)
+    return ((positive * wide(255) + wide(largest // 2)) // wide(largest)).astype(np.uint8)
 
 
-def to_float(values: np.ndarray) -> np.ndarray:
-    """Return numbers of any client type as float32: integers in [-1, 1]."""
+@kernel
+def write_bytes(floats: np.ndarray, nearest: np.ndarray) -> None:
+    """Write floats (n,) as bytes, clamped to [0, 1]; NaN becomes 0."""
+    for i in range(floats.shape[0]):
+        value = floats[i] if floats[i] > ZERO else ZERO
+        nearest[i] = np.int32(np.rint((value if value < ONE else ONE) * LARGEST_BYTE))
+
+
+def to_float(values: np.ndarray, out: np.ndarray | None = None) -> np.ndarray:
+    """Return numbers of any client type as float32: integers in [-1, 1]; float32 is returned as it is.
+
+    Integers are written to `out` if it is given.
+    """
     if values.dtype.kind == "f":
-        return values.astype(F32)
-    return np.maximum(values.astype(F32) * (F32(1) / F32(largest_of(values.dtype.type))), F32(-1))
+        return values.astype(F32, copy=False)
+    step = F32(1) / F32(largest_of(values.dtype.type))
+    floats: np.ndarray = np.multiply(values, step, out=out, dtype=F32, casting="unsafe")
+    return floats if values.dtype.kind == "u" else np.maximum(floats, F32(-1), out=floats)
 
 
 def color_as_float(cells: np.ndarray) -> np.ndarray:
@@ -110,19 +170,43 @@ def color_as_float(cells: np.ndarray) -> np.ndarray:
     return to_float(cells)
 
 
+def sum_of_colors(rgba: np.ndarray) -> np.ndarray:
+    """Return red + green + blue of pixels (h, w, 4) as float32 (h, w)."""
+    if rgba.dtype == np.uint8 and rgba.ndim == 3 and rgba.size >= LARGE:
+        total = np.empty(rgba.shape[:2], F32)
+        write_sums(read_only(rgba), F32(1) / F32(255), total)
+        return total
+    red, green, blue = (color_as_float(rgba[..., channel]) for channel in range(3))
+    total = red + green
+    total += blue
+    return total
+
+
+@kernel
+def write_sums(rgba: np.ndarray, step: np.float32, total: np.ndarray) -> None:
+    """Write the sum of the first three channels (h, w, 4), each times a step, to (h, w)."""
+    for y in range(rgba.shape[0]):
+        for x in range(rgba.shape[1]):
+            j, i = np.uint64(y), np.uint64(x)
+            red, green, blue = F32(rgba[j, i, 0]) * step, F32(rgba[j, i, 1]) * step, F32(rgba[j, i, 2]) * step
+            total[j, i] = red + green + blue
+
+
 def from_unorm8(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
     """Return bytes as numbers of a client type."""
     if dtype == np.uint8:
         return values
     if np.dtype(dtype).kind == "f":
-        return to_float(values).astype(dtype)
+        return to_float(values).astype(dtype, copy=False)
     return ((values.astype(np.int64) * largest_of(dtype) + 127) // 255).astype(dtype)
 
 
 def from_float(values: np.ndarray, dtype: type[np.generic]) -> np.ndarray:
     """Return floats as numbers of a client type; integers are clamped to what the type can hold, and 0 for NaN."""
     if np.dtype(dtype).kind == "f":
-        return values.astype(dtype)
+        return values.astype(dtype, copy=False)
+    if dtype == np.uint8:
+        return to_unorm8(values)
     values = np.where(np.isnan(values), F32(0), values)
     largest = largest_of(dtype)
     low = F32(-1) if np.dtype(dtype).kind == "i" else F32(0)

@@ -11,6 +11,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.color_values import (
+    CHANNEL,
     F32,
     as_rgba,
     color_as_float,
@@ -19,6 +20,7 @@ from softshadow.color_values import (
     largest_of,
     packed_to_float,
     packed_to_unorm8,
+    sum_of_colors,
     swizzled,
     to_base,
     to_float,
@@ -125,21 +127,21 @@ def pack_depth(
     For GL_UNSIGNED_INT, the upper bits of fixed-point depth are repeated below it. glGetTexImage converts 16 and 24
     bits to floats instead (`through_float`).
     """
-    z = depth_as_float(cells, format)
-    if transfer.changes_depth:
-        z, through_float = transfer.scaled_depth(z), True
-    if dtype == F32:
-        return z
     exact = not transfer.changes_depth
     if dtype == np.uint32 and format.largest and exact and not (through_float and format.largest < LARGEST_UINT):
-        units = np.minimum(cells.astype(np.float64), format.largest).astype(np.int64)
+        units: np.ndarray = np.minimum(cells, cells.dtype.type(format.largest)).astype(np.uint32)
         if format.largest == (1 << 16) - 1:
-            units = units << 16 | units
+            units |= units << np.uint32(16)
         elif format.largest == LARGEST_24:
-            units = units << 8 | units >> 16
-        return units.astype(np.uint32)
+            highest = units >> np.uint32(16)
+            units <<= np.uint32(8)
+            units |= highest
+        return units
+    z = depth_as_float(cells, format)
+    if transfer.changes_depth:
+        z = transfer.scaled_depth(z)
     if np.dtype(dtype).kind == "f":
-        return z.astype(dtype)
+        return z.astype(dtype, copy=False)
     largest = largest_of(dtype)
     if dtype == np.uint16:
         return np.rint(z * F32(largest)).astype(dtype)
@@ -279,14 +281,13 @@ def pack_color(
     if is_clamped:
         rgba = np.clip(rgba, F32(0), F32(1))
     if sums:
-        rgba = color_as_float(rgba)
-        total = rgba[..., 0] + rgba[..., 1] + rgba[..., 2]
+        total = sum_of_colors(rgba)
         if is_clamped or format.kind == "unorm8":
-            total = np.clip(total, F32(0), F32(1))
-        rgba = np.stack([total, total, total, rgba[..., 3]], axis=-1)
+            np.clip(total, F32(0), F32(1), out=total)
+        rgba = np.stack([total, color_as_float(rgba[..., 3])] if "A" in names else [total], axis=-1)
     elif "L" in names and sign == "u" and not from_framebuffer:
         rgba, one = color_as_float(rgba), 1
-    chosen = swizzled(rgba, names.replace("L", "R"), one)
+    chosen = rgba if sums else swizzled(rgba, names.replace("L", "R"), one)
     if isinstance(kind, PackedColor):
         return _packed(chosen, kind, format)
     if chosen.dtype == np.uint8:
@@ -295,6 +296,27 @@ def pack_color(
     if sign == "i" and not from_framebuffer and (base[3] == "1" or not format.written[3]):
         pixels[..., [name == "A" for name in names]] = largest_of(kind)
     return pixels
+
+
+def pack_color_into(
+    pixels: np.ndarray,
+    cells: np.ndarray,
+    format: Format,
+    pixel_format: int,
+    kind: type[np.generic] | PackedColor,
+    from_framebuffer: bool = False,
+    transfer: PixelTransfer = UNCHANGED,
+) -> None:
+    """Write what `pack_color` returns to client memory; bytes become floats there, without an array between."""
+    names = COMPONENTS[pixel_format]
+    of_bytes = format.kind == "unorm8" and format.base == gl.GL_RGBA and not format.encoding
+    if kind is not F32 or not of_bytes or "L" in names or transfer.through_floats or pixels.dtype != F32:
+        pixels[...] = pack_color(cells, format, pixel_format, kind, from_framebuffer, transfer)
+    elif names == "RGBA":
+        to_float(cells, pixels)
+    else:
+        for part, name in enumerate(names):
+            to_float(cells[..., CHANNEL[name]], pixels[..., part])
 
 
 def _packed(values: np.ndarray, packed: PackedColor, format: Format) -> np.ndarray:

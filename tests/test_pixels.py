@@ -9,8 +9,11 @@ from hypothesis.extra.numpy import arrays
 from softshadow import color_values
 from softshadow import tokens as gl
 from softshadow.image import D24, D32F, FORMATS
+from softshadow.pipeline.shade.color_writes import rounded_floats
+from softshadow.pixel_store import COMPONENTS
 from softshadow.pixels import (
     pack_color,
+    pack_color_into,
     pack_depth,
     quantized_depth,
     sampled_depth,
@@ -117,3 +120,68 @@ def test_the_rgb_of_a_large_image_is_that_of_its_rgba(flipped):
     assert rgba.size >= color_values.LARGE
     read = pack_color(rgba, FORMATS[gl.GL_RGBA8], gl.GL_RGB, np.uint8, from_framebuffer=True)
     np.testing.assert_array_equal(read, rgba[..., :3])
+
+
+def both_ways(monkeypatch, convert):
+    """Return what a conversion returns with the kernels for large images, and without them."""
+    answers = []
+    for large in (0, 1 << 60):
+        monkeypatch.setattr(color_values, "LARGE", large)
+        answers.append(convert())
+    return answers
+
+
+CLIENTS = (
+    gl.GL_RED,
+    gl.GL_ALPHA,
+    gl.GL_RGB,
+    gl.GL_BGR,
+    gl.GL_BGRA,
+    gl.GL_ABGR_EXT,
+    gl.GL_LUMINANCE,
+    gl.GL_LUMINANCE_ALPHA,
+)
+
+
+@pytest.mark.interpreted
+@pytest.mark.parametrize("pixel_format", CLIENTS)
+def test_large_images_of_bytes_are_stored_as_small_ones(monkeypatch, pixel_format):
+    components = len(COMPONENTS[pixel_format])
+    pixels = np.random.default_rng(components).integers(0, 256, (5, 7, components), dtype=np.uint8)
+    one_pass, by_channels = both_ways(monkeypatch, lambda: unpack_color(pixels, pixel_format, FORMATS[gl.GL_RGBA8]))
+    assert (one_pass == by_channels).all()
+
+
+@pytest.mark.interpreted
+@pytest.mark.parametrize("pixel_format", CLIENTS)
+@pytest.mark.parametrize("kind", [np.uint8, np.float32])
+@pytest.mark.parametrize("internal", [gl.GL_RGBA8, gl.GL_RGB8, gl.GL_RGBA32F])
+def test_large_images_are_read_as_small_ones(monkeypatch, pixel_format, kind, internal):
+    rng, stored = np.random.default_rng(4), FORMATS[internal]
+    cells = rng.integers(0, 256, (9, 7, 4), dtype=np.uint8)[::-1, :5]
+    if stored.kind == "float":
+        cells = rng.choice([*rng.uniform(-1, 2, 50), np.nan, np.inf], (9, 7, 4)).astype(np.float32)[::-1, :5]
+    for from_framebuffer in (False, True):
+        options = (cells, stored, pixel_format, kind, from_framebuffer)
+        one_pass, by_channels = both_ways(monkeypatch, lambda options=options: pack_color(*options))
+        assert one_pass.tobytes() == by_channels.tobytes()
+        pixels = np.zeros_like(by_channels)
+        pack_color_into(pixels, *options)
+        assert pixels.tobytes() == by_channels.tobytes()
+
+
+@pytest.mark.interpreted
+def test_large_images_of_floats_become_the_bytes_of_small_ones(monkeypatch):
+    between = np.nextafter(np.float32(np.arange(512) / 510), np.float32([[-1], [2]]))
+    values = np.append(between.astype(np.float32), np.float32([np.nan, np.inf, -np.inf, -0.0, 1e30]))
+    one_pass, by_steps = both_ways(monkeypatch, lambda: color_values.to_unorm8(values))
+    assert (one_pass == by_steps).all()
+    assert (rounded_floats(values[:-1][values[:-1] != np.inf]) == by_steps[:-1][values[:-1] != np.inf]).all()
+
+
+@given(arrays(np.uint8, 8), arrays(np.int16, 8), arrays(np.uint32, 8))
+def test_integers_become_bytes_by_the_nearest_quotient(small, signed, large):
+    for values in (small, signed, large):
+        largest = color_values.largest_of(values.dtype.type)
+        expected = [(max(value, 0) * 255 + largest // 2) // largest for value in values.tolist()]
+        assert color_values.to_unorm8(values).tolist() == expected

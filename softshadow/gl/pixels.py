@@ -19,7 +19,7 @@ from softshadow.image import Image
 from softshadow.pipeline.buffers.copy import bottom_up, clipped
 from softshadow.pixel_store import TYPES
 from softshadow.pixel_transfer import PixelTransfer
-from softshadow.pixels import client_kind, pack_color, pack_depth, pack_depth_stencil, pack_stencil
+from softshadow.pixels import client_kind, pack_color_into, pack_depth, pack_depth_stencil, pack_stencil
 from softshadow.tokens import token_name
 
 PARAMETERS = {
@@ -98,8 +98,8 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
     context.finish()
     rows, columns, left, bottom = clipped(source, int(x), int(y), int(width), int(height))
     cells = [bottom_up(source, buffer)[rows, columns] for buffer in buffers]
-    inside = _packed(cells, buffers, format, type, context.pixel_transfer)
-    view[bottom : bottom + inside.shape[0], left : left + inside.shape[1]] = inside
+    height, width = cells[0].shape[:2]
+    _pack(view[bottom : bottom + height, left : left + width], cells, buffers, format, type, context.pixel_transfer)
     return answer
 
 
@@ -114,18 +114,19 @@ def _buffers(source: Framebuffer, kind: str) -> list[Image] | None:
     return buffers if len(buffers) == len(wanted) else None
 
 
-def _packed(
-    cells: list[np.ndarray], buffers: list[Image], format: int, type: int, transfer: PixelTransfer
-) -> np.ndarray:
-    """Return framebuffer cells as client pixels (h, w, components)."""
+def _pack(
+    pixels: np.ndarray, cells: list[np.ndarray], buffers: list[Image], format: int, type: int, transfer: PixelTransfer
+) -> None:
+    """Write framebuffer cells to client pixels (h, w, components)."""
     kind, stored = kind_of(format), buffers[0].format
     if kind == "depth-stencil":
-        return pack_depth_stencil(cells[0], cells[1], stored, type, transfer)[..., None]
-    if kind == "color":
-        return pack_color(cells[0], stored, format, client_kind(type), from_framebuffer=True, transfer=transfer)
-    if kind == "depth":
-        return pack_depth(cells[0], stored, TYPES[type], transfer=transfer)[..., None]
-    return pack_stencil(cells[0], TYPES[type], transfer)[..., None]
+        pixels[..., 0] = pack_depth_stencil(cells[0], cells[1], stored, type, transfer)
+    elif kind == "color":
+        pack_color_into(pixels, cells[0], stored, format, client_kind(type), from_framebuffer=True, transfer=transfer)
+    elif kind == "depth":
+        pixels[..., 0] = pack_depth(cells[0], stored, TYPES[type], transfer=transfer)
+    else:
+        pixels[..., 0] = pack_stencil(cells[0], TYPES[type], transfer)
 
 
 __all__ = spelled_like_gl(globals())

@@ -333,7 +333,8 @@ def _cells(
         return None
     kind, transfer = kind_of(format), context.pixel_transfer
     if kind == "color":
-        return unpack_color(image, format, stored, type, transfer).copy(), None
+        cells = unpack_color(image, format, stored, type, transfer)
+        return (cells.copy() if np.may_share_memory(cells, image) else cells), None
     elements = image[..., 0]
     if kind == "depth-stencil":
         return unpack_packed_depth(elements, stored, transfer), unpack_packed_stencil(elements, transfer)

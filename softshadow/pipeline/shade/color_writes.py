@@ -107,6 +107,20 @@ def pack_bytes(columns, packed):
         packed[n] = low | byte_of(blue) << BLUE | byte_of(alpha) << UPPERMOST
 
 
+def rounded_floats(values: np.ndarray) -> np.ndarray:
+    """Return float32 numbers as bytes, one by one, as `colors_to_bytes` does."""
+    rounded = np.empty(values.shape, np.uint8)
+    round_floats(np.ascontiguousarray(values).reshape(-1), rounded.reshape(-1))
+    return rounded
+
+
+@kernel
+def round_floats(values, rounded):
+    """Write numbers (n,) as bytes."""
+    for n in range(values.shape[0]):
+        rounded[n] = byte_of(values[n])
+
+
 @kernel
 def write_pixels(rows, lefts, starts, colors, writable, pixels):
     """Write colours (n,) of 32 bits into `pixels` (H, pitch), where the bits of `writable` are set."""
