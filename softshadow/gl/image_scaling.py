@@ -115,6 +115,11 @@ def _mean(parts: list[np.ndarray]) -> np.ndarray:
         return total / F32(count)
     if dtype == np.int32:
         return _mean_of_ints(parts)
+    if dtype == np.uint8:
+        total = parts[0].astype(np.uint16)
+        for part in parts[1:]:
+            total += part
+        return ((total + np.uint16(2)) >> 2 if count == 4 else total >> 1).astype(np.uint8)
     whole = sum(part.astype(np.int64) for part in parts) + (2 if count == 4 else 0)
     return np.trunc(np.asarray(whole) / count).astype(dtype)
 
