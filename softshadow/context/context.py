@@ -320,6 +320,7 @@ class Context(CurrentValues):
             offset_mode=0,
             stipple_place=0,
             origin=self.origin,
+            shown_at=None,
         )
 
     def end_step(self, title: str) -> None:

@@ -14,7 +14,7 @@ from softshadow.frozen import evolve
 from softshadow.gl.errors import fail
 from softshadow.gl.render_modes import is_rendered
 from softshadow.gl.window_quads import textured_rectangle
-from softshadow.image import D24, D32F, FORMATS, Image, storage_format
+from softshadow.image import D24, D32F, FORMATS, storage_format
 from softshadow.pipeline.buffers.copy import bottom_up, clipped
 from softshadow.pipeline.commands import DrawDepths
 from softshadow.pixel_transfer import PixelTransfer
@@ -38,7 +38,9 @@ STORED = {  # type of depths: format of Mesa's texture, else 24 bits
 
 
 def texture_of_depths(context: Context, image: np.ndarray, format: int, type: int) -> np.ndarray:
-    """Return client pixels (h, w, 1) as a texture (h, w, 4) float32: depth in red, stencil values in green.
+    """Return client pixels (h, w, 1) as a texture float32: (h, w, 4), depth in red and stencil values in green.
+
+    Either alone is (h, w), a depth texture, which a lookup reads as red and green.
 
     Shift and offset of indices do not apply, as in Mesa.
     """
@@ -58,6 +60,9 @@ def texture_of_depths(context: Context, image: np.ndarray, format: int, type: in
 
 
 def _cells(shape: tuple[int, ...], depth: np.ndarray | None, stencil: np.ndarray | None) -> np.ndarray:
+    values = stencil if depth is None else depth
+    if values is not None and (depth is None or stencil is None):
+        return values.astype(np.float32, copy=False)
     cells = np.zeros((*shape, 4), np.float32)
     if depth is not None:
         cells[..., 0] = depth
@@ -69,10 +74,11 @@ def _cells(shape: tuple[int, ...], depth: np.ndarray | None, stencil: np.ndarray
 def draw_rectangle_of_depths(
     context: Context, cells: np.ndarray, has_depth: bool, has_stencil: bool, left: int = 0, bottom: int = 0
 ) -> None:
-    """Draw depths, stencil values or both of a texture (h, w, 4) so many pixels from the raster position."""
+    """Draw a texture of `texture_of_depths` so many pixels from the raster position."""
     raster = context.current.raster
     if raster.valid:
-        draw = textured_rectangle(context, cells, FLOATS, gl.GL_RGBA32F, left, bottom)
+        stored = (D32F, gl.GL_DEPTH_COMPONENT32F) if cells.ndim == 2 else (FLOATS, gl.GL_RGBA32F)
+        draw = textured_rectangle(context, cells, *stored, left, bottom)
         red, green, blue, alpha = raster.color
         context.execute(DrawDepths(draw, (red, green, blue, alpha), has_depth, has_stencil))
 
@@ -91,23 +97,17 @@ def copy_depths(context: Context, source: Framebuffer, rectangle: Rectangle, typ
         return
     context.finish()
     rows, columns, left, bottom = clipped(source, *rectangle)
-    depth, stencil = _read(source, source.depth, rows, columns), _read(source, source.stencil, rows, columns)
-    assert source.depth is not None or not has_depth
-    z = None
-    if has_depth and depth is not None and source.depth is not None:
-        stored = source.depth.format
+    z = stencil = None
+    if has_depth and source.depth is not None:
+        stored, depth = source.depth.format, bottom_up(source, source.depth)[rows, columns]
         if not has_stencil:  # Mesa's copy into the texture goes through float32
             depth = quantized_depth(sampled_depth(depth, stored), stored)
         z = sampled_depth(depth, stored)
+    if has_stencil and source.stencil is not None:
+        stencil = bottom_up(source, source.stencil)[rows, columns]
     shape = (rows.stop - rows.start, columns.stop - columns.start)
     if 0 not in shape:
-        draw_rectangle_of_depths(
-            context, _cells(shape, z, stencil if has_stencil else None), has_depth, has_stencil, left, bottom
-        )
-
-
-def _read(source: Framebuffer, image: Image | None, rows: slice, columns: slice) -> np.ndarray | None:
-    return None if image is None else bottom_up(source, image)[rows, columns].copy()
+        draw_rectangle_of_depths(context, _cells(shape, z, stencil), has_depth, has_stencil, left, bottom)
 
 
 __all__ = ["copy_depths", "draw_rectangle_of_depths", "texture_of_depths"]

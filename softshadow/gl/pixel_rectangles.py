@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.color_values import color_as_float, to_unorm8
+from softshadow.color_values import color_as_float, to_float, to_unorm8
 from softshadow.context import Context, current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.depth_rectangles import copy_depths, draw_rectangle_of_depths, texture_of_depths
@@ -26,6 +26,8 @@ from softshadow.gl.window_quads import textured_rectangle
 from softshadow.image import Format, storage_format
 from softshadow.packed_colors import PACKED_COLORS
 from softshadow.pipeline.buffers.copy import bottom_up, clipped
+from softshadow.pipeline.choose import needs_order
+from softshadow.pipeline.shade.color_writes import rounded_floats
 from softshadow.pixels import pack_color, unpack_color
 from softshadow.texel_codes import as_floats, resized
 from softshadow.tokens import token_name
@@ -74,7 +76,6 @@ def glDrawPixels(width: int, height: int, format: int, type: int, pixels: Any) -
         image = image_source(context, pixels, int(width), int(height), 0, format, type, operation)
         if image is None:
             return
-        image = image.copy()
     _draw_pixels(width, height, format, type, image)
 
 
@@ -110,7 +111,7 @@ def _missing_buffer(context: Context, format: int) -> str:
 
 
 def _colors(context: Context, image: np.ndarray, format: int, type: int) -> np.ndarray:
-    """Return client colours as the texture of the rectangle has them, after pixel transfer."""
+    """Return client colours as the texture of the rectangle has them, after pixel transfer, in an array of its own."""
     transfer = context.pixel_transfer
     if format == gl.GL_COLOR_INDEX:
         colors = to_unorm8(transfer.indexed_color(image[..., 0].astype(np.int64)))
@@ -118,12 +119,25 @@ def _colors(context: Context, image: np.ndarray, format: int, type: int) -> np.n
         return as_floats(resized(colors, 8, n_bits), n_bits)
     if image.dtype == np.int32:  # Mesa's texture has the upper 16 bits of it
         image = (image >> 16).astype(np.float32) * (np.float32(1) / np.float32(LARGEST_SHORT))
-    if image.dtype == np.int8 and transfer.changes_color:  # whose signs Mesa's texture keeps
-        image = image.astype(np.float32) * (np.float32(1) / np.float32(127))
-        image = np.maximum(image, np.float32(-1))
+    if transfer.changes_color:
+        image = to_float(image) if image.dtype == np.int8 else image  # whose signs Mesa's texture keeps
+    elif type not in PACKED_COLORS and image.dtype.itemsize > 1 and _writes_bytes(context):
+        image = rounded_floats(to_float(image))
     stored = _stored(np.dtype(np.uint8) if type in IN_BYTES else image.dtype)[0]
     cells = unpack_color(image, format, stored, type)
-    return np.ascontiguousarray(transfer.drawn_color(color_as_float(cells)) if transfer.changes_color else cells)
+    if transfer.changes_color:
+        return transfer.drawn_color(color_as_float(cells))
+    return cells.copy() if np.may_share_memory(cells, image) else cells
+
+
+def _writes_bytes(context: Context) -> bool:
+    """Return whether colours of rectangles are written as bytes, and nothing else is done with them."""
+    state = context.state
+    changes = needs_order(state) or state.fog.enabled or state.fog.color_sum
+    return not changes and all(
+        image.format.kind == "unorm8" and not image.format.encoding
+        for image in context.objects.framebuffers[state.draw_framebuffer].colors
+    )
 
 
 @in_lists
@@ -174,7 +188,7 @@ def glCopyPixels(x: int, y: int, width: int, height: int, type: int) -> None:
         if transfer.changes_color:
             order = -1 if source.flipped else 1  # rows of Mesa's texture
             colors = transfer.drawn_color(color_as_float(colors[::order]))[::order]
-        _draw(context, np.ascontiguousarray(colors), left, bottom)
+        _draw(context, colors if transfer.changes_color else colors.copy(), left, bottom)
 
 
 def _is_complete(context: Context, operation: str) -> bool:

@@ -11,10 +11,10 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.framebuffer import DEFAULT
+from softshadow.framebuffer import DEFAULT, LARGEST_SIDE
 from softshadow.frozen import evolve
 from softshadow.image import Format
-from softshadow.pipeline.commands import CreateTexture, DefineImage, Draw, SetSampler, Vertices
+from softshadow.pipeline.commands import CreateTexture, DefineImage, Draw, SetSampler, UpdateImage, Vertices
 from softshadow.state import ClipPlanes, Cull, Polygon, State, TextureUnit, Viewport
 from softshadow.state.texturing import SWITCHES
 from softshadow.texture import DEFAULTS, Sampler
@@ -40,10 +40,7 @@ def textured_rectangle(
     `left` and `bottom` are counted before the zoom.
     """
     height, width = cells.shape[:2]
-    if TEXTURE not in context.objects.textures:
-        context.execute(CreateTexture(TEXTURE, gl.GL_TEXTURE_2D))
-        context.execute(SetSampler(TEXTURE, SAMPLER))
-    context.execute(DefineImage(TEXTURE, 0, 0, stored, internal_format, width, height, cells))
+    _define_texture(context, cells, stored, internal_format)
     zoom_x, zoom_y = np.array(context.pixel_zoom, np.float32)
     x, y, *_ = context.current.raster.window
     x0, y0 = rounded(x) + np.float32(left) * zoom_x, rounded(y) + np.float32(bottom) * zoom_y
@@ -52,7 +49,26 @@ def textured_rectangle(
         y1 = np.trunc(y1)
         y0 = y1 - np.float32(height) * zoom_y
     quad = np.array([[x0, y0, x1, y1]], np.float32)
-    return draw_of_quads(context, quad, _textured(context.state), textured=True)
+    draw = draw_of_quads(context, quad, _textured(context.state), textured=True)
+    # in these bounds, rounding errors cannot reach the next texel
+    is_near = abs(x0) <= LARGEST_SIDE and abs(y0) <= LARGEST_SIDE and max(width, height) <= LARGEST_SIDE
+    if zoom_x == zoom_y == 1 and is_near and 0 <= context.current.raster.window[2] <= 1:
+        return evolve(draw, shown_at=(int(x0), int(y0)))
+    return draw
+
+
+def _define_texture(context: Context, cells: np.ndarray, stored: Format, internal_format: int) -> None:
+    """Define the texture of the rectangle, or write over that of the last one if it has the same size."""
+    height, width = cells.shape[:2]
+    texture = context.objects.textures.get(TEXTURE)
+    if texture is None:
+        context.execute(CreateTexture(TEXTURE, gl.GL_TEXTURE_2D))
+        context.execute(SetSampler(TEXTURE, SAMPLER))
+    before = None if texture is None else texture.images.get((0, 0))
+    if before is not None and (before.format, before.width, before.height) == (stored, width, height):
+        context.execute(UpdateImage(TEXTURE, 0, 0, 0, 0, cells))
+    else:
+        context.execute(DefineImage(TEXTURE, 0, 0, stored, internal_format, width, height, cells))
 
 
 def rounded(coordinate: float) -> np.float32:

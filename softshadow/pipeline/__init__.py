@@ -91,6 +91,9 @@ def draw(command: Draw, storage: Storage, counts: FragmentCounts | None = None) 
     if not target.attachments:
         raise StateError(f"framebuffer {target.name} has nothing attached to draw to")
     plan = plan_draw(command, target, counts is not None)
+    if plan.show_rectangle:
+        plan.show_rectangle(command, target, storage)
+        return
     with np.errstate(all="ignore"):  # infinities of vertices that clipping removes; interpreted kernels would warn
         if plan.in_chunks:
             watch = plan.watch(target, storage) if plan.watch else None

@@ -18,7 +18,7 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.image import Image
 from softshadow.kernel_cache import KernelGroup
-from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.commands import Draw, DrawDepths
 from softshadow.pipeline.draw_path import DrawPath, begin_path, is_explained
 from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.geometry.lines import LINES
@@ -50,6 +50,8 @@ try:
     from softshadow.pipeline.fast.hierarchical_z import only_counts, order_independent
     from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL, map_visibility_shader
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
+    from softshadow.pipeline.fast.shown_depths import draw_shown_depths, shows_depths
+    from softshadow.pipeline.fast.shown_rectangles import is_shown, show_rectangle
     from softshadow.pipeline.fast.stencil_tiles import shared_tiles_kernel, tiles_kernel
     from softshadow.pipeline.fast.unordered_blend import triangles_without_overlaps
     from softshadow.pipeline.fast.visibility_cache import FillInputs, cached_fill, is_repeated
@@ -121,8 +123,8 @@ class Plan(NamedTuple):
     per-fragment operations of each facing; counting: whether fragments are counted. The short cuts to take, or None:
     cached_fill looks for an equal fill, remember_surface keeps the visible spans, passing_spans looks for those of an
     earlier draw, without_overlaps finds out whether blended fragments overlap; watch: begun before a draw that makes no
-    depth larger; in_chunks: whether some triangles are set up and filled at a time; forward: whether the draw may go
-    triangle by triangle from coverage to pixels.
+    depth larger; show_rectangle copies texels to pixels; in_chunks: whether some triangles are set up and filled at a
+    time; forward: whether the draw may go triangle by triangle from coverage to pixels.
     """
 
     in_order: bool
@@ -136,6 +138,7 @@ class Plan(NamedTuple):
     passing_spans: Callable[..., Spans | None] | None = None
     without_overlaps: WithoutOverlaps | None = None
     watch: Callable[[Framebuffer, Storage], Watch] | None = None
+    show_rectangle: Callable[[Draw, Framebuffer, Storage], None] | None = None
     forward: bool = False
     counting: bool = False
 
@@ -160,6 +163,10 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
         return plan
     if is_special:  # its fragments are not those of its triangles, which surfaces drawn before are compared by
         return plan._replace(forward=True)
+    if not in_order and writes_color and is_shown(command, target, front):
+        path.fill, path.shading = "rectangle", "copy of the texels"
+        path.note("each pixel shows its texel, and only the scissor box tests it")
+        return plan._replace(show_rectangle=show_rectangle)
     plan = plan._replace(watch=Watch if only_lessens_depths(front, back) else None)
     if in_order:
         if writes_color and not tests_alpha(state) and keeps_depth_and_stencil(front, back):
@@ -174,6 +181,15 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
     return plan
 
 
+def choose_depths(command: DrawDepths, target: Framebuffer) -> Callable[..., None] | None:
+    """Return the function that draws a rectangle of depths without triangles, or None."""
+    if not _short_cuts.get() or not shows_depths(command.draw, target):
+        return None
+    path = begin_path(command.draw.label, command.draw.mode)
+    path.way, path.fill = "rectangle of depths", "texel by texel"
+    return draw_shown_depths
+
+
 def may_wait(command: Draw, storage: Storage) -> bool:
     """Return whether draws may wait: short cuts are on, and nobody asks how a draw went or counts its fragments."""
     return _short_cuts.get() is True and not storage.active_query and not is_explained()
@@ -184,7 +200,7 @@ def begin_run(command: Draw, target: Framebuffer, storage: Storage) -> Run | Non
 
     Only draws that cannot fail wait, and of those without colours only short ones (`fast.depth_only`).
     """
-    if not can_begin_run(command, target):
+    if command.shown_at is not None or not can_begin_run(command, target):
         return None
     colorless = writes_no_colors(command, target) and not tests_alpha(command.state)
     if colorless and len(command.vertices.position) >= LONG_DRAW:

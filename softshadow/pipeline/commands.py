@@ -73,7 +73,8 @@ class Draw:
     clipping interpolates values without perspective. `offset_mode` is the polygon mode whose offset unfilled
     polygons get if an earlier draw has decided it, else 0. `stipple_place` is the place in the line stipple before the
     draw: Mesa does not begin it anew where the first line of a strip is clipped away. `origin` tells what the
-    primitives were made from.
+    primitives were made from. `shown_at` is the lower left pixel of a rectangle whose pixels are the texels of the only
+    texture, one by one; None where that is not known, as in recordings read from files.
     """
 
     state: State
@@ -96,6 +97,7 @@ class Draw:
     offset_mode: int = 0
     stipple_place: int = 0
     origin: Origin | None = None
+    shown_at: tuple[int, int] | None = field(default_factory=lambda: None, init=False)  # a factory: `evolve` knows it
 
     def __repr__(self) -> str:
         number = len(self.vertices.position) if self.indices is None else len(self.indices)

@@ -14,7 +14,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.frozen import evolve
-from softshadow.pipeline.choose import choose_geometry, plan_draw
+from softshadow.pipeline.choose import choose_depths, choose_geometry, plan_draw
 from softshadow.pipeline.commands import DrawDepths
 from softshadow.pipeline.raster.fragment_ops import fragment_ops
 from softshadow.pipeline.raster.ordered import list_fragments, process_fragments
@@ -31,6 +31,10 @@ def draw_depths(command: DrawDepths, storage: Storage, counts: FragmentCounts | 
     """Draw a rectangle of depths, stencil values or both into the draw framebuffer."""
     draw = command.draw
     target = storage.framebuffers[draw.state.draw_framebuffer]
+    short_cut = choose_depths(command, target)
+    if short_cut:
+        short_cut(command, target, storage, counts)
+        return
     plan = plan_draw(draw, target, True)
     with np.errstate(all="ignore"):
         geometry = choose_geometry(plan, draw, target, storage)

@@ -31,10 +31,12 @@ def _draw(command: Draw, storage: Storage) -> None:
 
 def _draw_depths(command: DrawDepths, storage: Storage) -> None:
     """Draw a rectangle of depths; an active occlusion query counts its fragments."""
+    if not storage.active_query:
+        draw_depths(command, storage)
+        return
     counts = FragmentCounts.zero()
     draw_depths(command, storage, counts)
-    if storage.active_query:
-        storage.queries[storage.active_query] += int(counts.verdicts[PASSED])
+    storage.queries[storage.active_query] += int(counts.verdicts[PASSED])
 
 
 def _begin_query(command: BeginQuery, storage: Storage) -> None:
