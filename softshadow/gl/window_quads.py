@@ -26,6 +26,7 @@ TRIANGLES = np.array([0, 1, 2, 0, 2, 3])  # a fan, as in Mesa
 # of left, bottom, right, top: x and y of each corner
 EDGES, EDGES_FROM_TOP = (2 * corners + [0, 1] for corners in (CORNERS, CORNERS_FROM_TOP))
 
+LARGEST_ZOOM = 16
 TEXTURE = min(DEFAULTS.values()) - 1  # key in the storage of the texture that holds the rectangle
 SAMPLER = Sampler(
     min_filter=gl.GL_NEAREST, mag_filter=gl.GL_NEAREST, wrap_s=gl.GL_CLAMP_TO_EDGE, wrap_t=gl.GL_CLAMP_TO_EDGE
@@ -50,11 +51,20 @@ def textured_rectangle(
         y0 = y1 - np.float32(height) * zoom_y
     quad = np.array([[x0, y0, x1, y1]], np.float32)
     draw = draw_of_quads(context, quad, _textured(context.state), textured=True)
-    # in these bounds, rounding errors cannot reach the next texel
-    is_near = abs(x0) <= LARGEST_SIDE and abs(y0) <= LARGEST_SIDE and max(width, height) <= LARGEST_SIDE
-    if zoom_x == zoom_y == 1 and is_near and 0 <= context.current.raster.window[2] <= 1:
-        return evolve(draw, shown_at=(int(x0), int(y0)))
-    return draw
+    return evolve(draw, shown_at=_shown_at(context, float(x0), float(y0), width, height))
+
+
+def _shown_at(context: Context, x: float, y: float, width: int, height: int) -> tuple[int, int, int, int] | None:
+    """Return corner and zoom of a rectangle where each texel is a whole number of pixels, else None.
+
+    In these bounds, rounding errors of texture coordinates cannot reach the next texel.
+    """
+    are_near = all(abs(number) <= LARGEST_SIDE for number in (x, y, width, height))
+    are_whole = all(zoom.is_integer() and 1 <= abs(zoom) <= LARGEST_ZOOM for zoom in context.pixel_zoom)
+    if not are_near or not are_whole or not 0 <= context.current.raster.window[2] <= 1:
+        return None
+    zoom_x, zoom_y = context.pixel_zoom
+    return int(x), int(y), int(zoom_x), int(zoom_y)
 
 
 def _define_texture(context: Context, cells: np.ndarray, stored: Format, internal_format: int) -> None:

@@ -73,8 +73,9 @@ class Draw:
     clipping interpolates values without perspective. `offset_mode` is the polygon mode whose offset unfilled
     polygons get if an earlier draw has decided it, else 0. `stipple_place` is the place in the line stipple before the
     draw: Mesa does not begin it anew where the first line of a strip is clipped away. `origin` tells what the
-    primitives were made from. `shown_at` is the lower left pixel of a rectangle whose pixels are the texels of the only
-    texture, one by one; None where that is not known, as in recordings read from files.
+    primitives were made from. `shown_at` is (x, y, zoom x, zoom y) of a rectangle that shows each texel of the only
+    texture as so many whole pixels, from the corner (x, y) on, to the left or downwards for a negative zoom; None where
+    that is not known, as in recordings read from files.
     """
 
     state: State
@@ -97,7 +98,9 @@ class Draw:
     offset_mode: int = 0
     stipple_place: int = 0
     origin: Origin | None = None
-    shown_at: tuple[int, int] | None = field(default_factory=lambda: None, init=False)  # a factory: `evolve` knows it
+    shown_at: tuple[int, int, int, int] | None = field(
+        default_factory=lambda: None, init=False
+    )  # a factory: `evolve` knows it
 
     def __repr__(self) -> str:
         number = len(self.vertices.position) if self.indices is None else len(self.indices)

@@ -1,6 +1,6 @@
-"""Rectangles of depths and stencil values without zoom; equals `depth_rectangles.draw_depths`.
+"""Rectangles that show depths and stencil values as whole pixels; equals `depth_rectangles.draw_depths`.
 
-See fast/test_shown_rectangles.py. No fragment is listed: each texel is one, and is tested where it is shown.
+See fast/test_shown_rectangles.py. No fragment is listed: each has the depth of a texel, and is tested where it shows.
 """
 
 from __future__ import annotations

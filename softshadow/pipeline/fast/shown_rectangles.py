@@ -1,4 +1,4 @@
-"""Rectangles whose pixels are the texels of a texture, one by one: what glDrawPixels and glCopyPixels draw unzoomed.
+"""Rectangles that show texels as whole pixels: what glDrawPixels and glCopyPixels draw without zoom, or mirrored.
 
 Their fragments need no triangles, and their colours are copied where neither tests, blending nor fog concern them.
 Equals `pipeline.draw`, see fast/test_shown_rectangles.py.
@@ -22,7 +22,7 @@ Place = tuple[slice, slice]
 
 
 class Shown(NamedTuple):
-    """What is shown: cells of buffers, and the texels in the order of the buffers' rows."""
+    """What is shown: the place in the buffers, and its texels (h, w[, 4]), those of bytes as numbers of 32 bits."""
 
     place: Place
     texels: np.ndarray
@@ -36,7 +36,7 @@ def is_shown(command: Draw, target: Framebuffer, ops: FragmentOps) -> bool:
 
 
 def shows_texels(command: Draw) -> bool:
-    """Return whether the fragments of a draw have the colours of texels, one by one."""
+    """Return whether the fragments of a draw have the colours of texels."""
     fog = command.state.fog
     return command.shown_at is not None and not fog.enabled and not fog.color_sum
 
@@ -45,28 +45,42 @@ def shown_part(command: Draw, target: Framebuffer, storage: Storage) -> Shown | 
     """Return what a rectangle shows inside the scissor box, None for nothing."""
     assert command.shown_at is not None
     texture = storage.textures[command.state.units[0].bound_2d].images[0, 0]
-    (x, y), (_, height), region = command.shown_at, target.size, region_of(command.state, target)
-    first, end = region.first_row, region.end_row
-    low, high = (height - end, height - first) if target.flipped else (first, end)
-    left, right = max(region.left, x), min(region.right, x + texture.width)
-    bottom, top = max(low, y), min(high, y + texture.height)
-    if left >= right or bottom >= top:
+    (x, y, zoom_x, zoom_y), region = command.shown_at, region_of(command.state, target)
+    rows, texel_rows = _shown_side(y, zoom_y, texture.height, *_upwards(region.first_row, region.end_row, target))
+    columns, texel_columns = _shown_side(x, zoom_x, texture.width, region.left, region.right)
+    if rows.start >= rows.stop or columns.start >= columns.stop:
         return None
-    texels = texture.read_cells[bottom - y : top - y, left - x : right - x]
+    cells = texture.read_cells
+    texels = (as_pixels(cells) if cells.dtype == np.uint8 else cells)[texel_rows][:, texel_columns]
     if target.flipped:
-        return Shown(np.s_[height - top : height - bottom, left:right], texels[::-1])
-    return Shown(np.s_[bottom:top, left:right], texels)
+        return Shown((slice(*_upwards(rows.start, rows.stop, target)), columns), texels[::-1])
+    return Shown((rows, columns), texels)
+
+
+def _upwards(first: int, end: int, target: Framebuffer) -> tuple[int, int]:
+    """Return rows of the buffers counted from the bottom, or such rows as those of the buffers."""
+    height = target.size[1]
+    return (height - end, height - first) if target.flipped else (first, end)
+
+
+def _shown_side(corner: int, zoom: int, n_texels: int, low: int, high: int) -> tuple[slice, slice | np.ndarray]:
+    """Return the pixels from `low` to `high` where a side of a rectangle shows texels, and which these are."""
+    first, end = sorted((corner, corner + zoom * n_texels))
+    low, high = max(low, first), min(high, end)
+    if zoom == 1:
+        return slice(low, high), slice(low - corner, high - corner)
+    pixels = np.arange(low, high)
+    return slice(low, high), (pixels - corner if zoom > 0 else corner - 1 - pixels) // abs(zoom)
 
 
 def show_rectangle(command: Draw, target: Framebuffer, storage: Storage) -> None:
     """Draw a rectangle that `is_shown`."""
     shown = shown_part(command, target, storage)
     if shown is not None:
-        texels = shown.texels
         for image in target.colors:
-            if texels.dtype != np.uint8:
-                texels = colors_to_bytes(texels.reshape(-1, 4), image.format).reshape(texels.shape)
-            source = as_pixels(texels)
+            source = shown.texels
+            if source.dtype != np.uint32:
+                source = as_pixels(colors_to_bytes(source.reshape(-1, 4), image.format)).reshape(source.shape[:2])
             pixels, writable = as_pixels(image.cells)[shown.place], writable_bits(command.state, image)
             pixels[:] = source if writable == ALL_BITS else (pixels & ~writable) | (source & writable)
 

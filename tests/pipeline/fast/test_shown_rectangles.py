@@ -1,4 +1,4 @@
-"""Rectangles without zoom, copied and tested without triangles, leave the bits of the textbook."""
+"""Rectangles that show texels as whole pixels, copied and tested without triangles, leave the bits of the textbook."""
 
 import numpy as np
 import pytest
@@ -27,8 +27,8 @@ def picture(seed, plain=False, precision="mesa"):
     answers = []
     for _ in range(6):
         (_scissor_and_mask if plain else _state)(rng)
-        if not plain and rng.random() < 0.3:
-            gl.glPixelZoom(*rng.choice([1, 1, 2, -1, 0.7], 2))
+        if rng.random() < 0.4:
+            gl.glPixelZoom(*rng.choice([1, 1, -1, 2, -3, 16] if plain else [1, -1, 2, 0.7, -1.5, 17], 2))
         gl.glWindowPos3f(*rng.uniform(-0.4, 1, 2) * SIZE * (rng.random(2) < 0.9), rng.choice([0, 0.3, 1]))
         counts = not plain and rng.random() < 0.2
         if counts:
