@@ -22,8 +22,8 @@ from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import kind_of, pixels_problem
 from softshadow.gl.pixel_memory import image_source
 from softshadow.gl.render_modes import is_rendered
-from softshadow.gl.window_quads import textured_rectangle
-from softshadow.image import Format, storage_format
+from softshadow.gl.window_quads import copied_rectangle, textured_rectangle
+from softshadow.image import Format, Image, storage_format
 from softshadow.packed_colors import PACKED_COLORS
 from softshadow.pipeline.buffers.copy import bottom_up, clipped
 from softshadow.pipeline.choose import needs_order
@@ -134,10 +134,12 @@ def _writes_bytes(context: Context) -> bool:
     """Return whether colours of rectangles are written as bytes, and nothing else is done with them."""
     state = context.state
     changes = needs_order(state) or state.fog.enabled or state.fog.color_sum
-    return not changes and all(
-        image.format.kind == "unorm8" and not image.format.encoding
-        for image in context.objects.framebuffers[state.draw_framebuffer].colors
-    )
+    return not changes and all(map(_is_plain, context.objects.framebuffers[state.draw_framebuffer].colors))
+
+
+def _is_plain(image: Image) -> bool:
+    """Return whether an image has bytes that stand for themselves."""
+    return image.format.kind == "unorm8" and not image.format.encoding
 
 
 @in_lists
@@ -179,16 +181,21 @@ def glCopyPixels(x: int, y: int, width: int, height: int, type: int) -> None:
         return
     if width == 0 or height == 0:
         return
-    context.finish()
     rows, columns, left, bottom = clipped(source, int(x), int(y), int(width), int(height))
+    if rows.start == rows.stop or columns.start == columns.stop:
+        return
+    transfer, base = context.pixel_transfer, image.format.base
+    if not transfer.changes_color and _is_plain(image) and base in (gl.GL_RGBA, gl.GL_RGB):
+        rectangle = columns.start, rows.start, columns.stop - columns.start, rows.stop - rows.start
+        context.execute(copied_rectangle(context, source.name, rectangle, left, bottom))
+        return
+    context.finish()
     kind = np.float32 if image.format.kind == "float" else np.uint8
     colors = pack_color(bottom_up(source, image)[rows, columns], image.format, gl.GL_RGBA, kind, True)
-    if colors.size:
-        transfer = context.pixel_transfer
-        if transfer.changes_color:
-            order = -1 if source.flipped else 1  # rows of Mesa's texture
-            colors = transfer.drawn_color(color_as_float(colors[::order]))[::order]
-        _draw(context, colors if transfer.changes_color else colors.copy(), left, bottom)
+    if transfer.changes_color:
+        order = -1 if source.flipped else 1  # rows of Mesa's texture
+        colors = transfer.drawn_color(color_as_float(colors[::order]))[::order]
+    _draw(context, colors if transfer.changes_color else colors.copy(), left, bottom)
 
 
 def _is_complete(context: Context, operation: str) -> bool:

@@ -13,8 +13,16 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.framebuffer import DEFAULT, LARGEST_SIDE
 from softshadow.frozen import evolve
-from softshadow.image import Format
-from softshadow.pipeline.commands import CreateTexture, DefineImage, Draw, SetSampler, UpdateImage, Vertices
+from softshadow.image import FORMATS, Format
+from softshadow.pipeline.commands import (
+    CopyToTexture,
+    CreateTexture,
+    DefineImage,
+    Draw,
+    SetSampler,
+    UpdateImage,
+    Vertices,
+)
 from softshadow.state import ClipPlanes, Cull, Polygon, State, TextureUnit, Viewport
 from softshadow.state.texturing import SWITCHES
 from softshadow.texture import DEFAULTS, Sampler
@@ -41,7 +49,37 @@ def textured_rectangle(
     `left` and `bottom` are counted before the zoom.
     """
     height, width = cells.shape[:2]
-    _define_texture(context, cells, stored, internal_format)
+    if _has_texture(context, stored, width, height):
+        context.execute(UpdateImage(TEXTURE, 0, 0, 0, 0, cells))
+    else:
+        context.execute(DefineImage(TEXTURE, 0, 0, stored, internal_format, width, height, cells))
+    return _draw_of_texture(context, width, height, left, bottom)
+
+
+def copied_rectangle(
+    context: Context, framebuffer: int, rectangle: tuple[int, int, int, int], left: int, bottom: int
+) -> Draw:
+    """Return the draw of `textured_rectangle` for bytes of a framebuffer: its rectangle (x, y, width, height)."""
+    width, height = rectangle[2:]
+    if not _has_texture(context, FORMATS[gl.GL_RGBA8], width, height):
+        context.execute(DefineImage(TEXTURE, 0, 0, FORMATS[gl.GL_RGBA8], gl.GL_RGBA8, width, height))
+    context.execute(CopyToTexture(framebuffer, TEXTURE, 0, 0, 0, 0, *rectangle))
+    return _draw_of_texture(context, width, height, left, bottom)
+
+
+def _has_texture(context: Context, stored: Format, width: int, height: int) -> bool:
+    """Return whether the texture of the last rectangle has this format and size; create one if there was none."""
+    texture = context.objects.textures.get(TEXTURE)
+    if texture is None:
+        context.execute(CreateTexture(TEXTURE, gl.GL_TEXTURE_2D))
+        context.execute(SetSampler(TEXTURE, SAMPLER))
+        return False
+    before = texture.images.get((0, 0))
+    return before is not None and (before.format, before.width, before.height) == (stored, width, height)
+
+
+def _draw_of_texture(context: Context, width: int, height: int, left: int, bottom: int) -> Draw:
+    """Return the draw that shows the texture of the rectangle so many pixels from the raster position."""
     zoom_x, zoom_y = np.array(context.pixel_zoom, np.float32)
     x, y, *_ = context.current.raster.window
     x0, y0 = rounded(x) + np.float32(left) * zoom_x, rounded(y) + np.float32(bottom) * zoom_y
@@ -65,20 +103,6 @@ def _shown_at(context: Context, x: float, y: float, width: int, height: int) -> 
         return None
     zoom_x, zoom_y = context.pixel_zoom
     return int(x), int(y), int(zoom_x), int(zoom_y)
-
-
-def _define_texture(context: Context, cells: np.ndarray, stored: Format, internal_format: int) -> None:
-    """Define the texture of the rectangle, or write over that of the last one if it has the same size."""
-    height, width = cells.shape[:2]
-    texture = context.objects.textures.get(TEXTURE)
-    if texture is None:
-        context.execute(CreateTexture(TEXTURE, gl.GL_TEXTURE_2D))
-        context.execute(SetSampler(TEXTURE, SAMPLER))
-    before = None if texture is None else texture.images.get((0, 0))
-    if before is not None and (before.format, before.width, before.height) == (stored, width, height):
-        context.execute(UpdateImage(TEXTURE, 0, 0, 0, 0, cells))
-    else:
-        context.execute(DefineImage(TEXTURE, 0, 0, stored, internal_format, width, height, cells))
 
 
 def rounded(coordinate: float) -> np.float32:
