@@ -1,6 +1,7 @@
-"""Rectangles that show depths and stencil values as whole pixels; equals `depth_rectangles.draw_depths`.
+"""Depths in whole pixels; equals `depth_rectangles.draw_depths`, see fast/test_shown_rectangles.py.
 
-See fast/test_shown_rectangles.py. No fragment is listed: each has the depth of a texel, and is tested where it shows.
+The rectangles are those of `shown_rectangles`. No fragment is listed: each has the depth of a texel, and is tested
+where it is shown. Stencil values are written in the same places.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Rectangles that show texels as whole pixels: what glDrawPixels and glCopyPixels draw without zoom, or mirrored.
+"""Rectangles that show texels as whole pixels; equals `draw`, see fast/test_shown_rectangles.py.
 
-Their fragments need no triangles, and their colours are copied where neither tests, blending nor fog concern them.
-Equals `pipeline.draw`, see fast/test_shown_rectangles.py.
+That is what glDrawPixels and glCopyPixels draw without zoom, mirrored, or enlarged by whole numbers. Their fragments
+need no triangles, and their colours are copied where neither tests, blending nor fog concern them.
 """
 
 from __future__ import annotations
