@@ -45,8 +45,8 @@ def swizzled(rgba: np.ndarray, sources: str, one: int) -> np.ndarray:
     if sources == "RGBA":
         return rgba
     out = np.empty((*rgba.shape[:-1], len(sources)), rgba.dtype)
-    if sources in ("RGB", "BGRA") and rgba.dtype == np.uint8 and rgba.ndim == 3 and rgba.size >= LARGE:
-        (copy_rgb if sources == "RGB" else copy_bgra)(read_only(rgba), out)
+    if sources == "RGB" and rgba.dtype == np.uint8 and rgba.ndim == 3 and rgba.size >= LARGE:
+        copy_rgb(read_only(rgba), out)
         return out
     for channel, source in enumerate(sources):
         out[..., channel] = rgba[..., CHANNEL[source]] if source in CHANNEL else one * int(source)
@@ -60,16 +60,6 @@ def copy_rgb(rgba: np.ndarray, rgb: np.ndarray) -> None:
         for x in range(rgba.shape[1]):
             j, i = np.uint64(y), np.uint64(x)
             rgb[j, i, 0], rgb[j, i, 1], rgb[j, i, 2] = rgba[j, i, 0], rgba[j, i, 1], rgba[j, i, 2]
-
-
-@kernel
-def copy_bgra(rgba: np.ndarray, bgra: np.ndarray) -> None:
-    """Write pixels (h, w, 4) with red and blue exchanged."""
-    for y in range(rgba.shape[0]):
-        for x in range(rgba.shape[1]):
-            j, i = np.uint64(y), np.uint64(x)
-            bgra[j, i, 0], bgra[j, i, 1], bgra[j, i, 2] = rgba[j, i, 2], rgba[j, i, 1], rgba[j, i, 0]
-            bgra[j, i, 3] = rgba[j, i, 3]
 
 
 def as_rgba(values: np.ndarray, pixel_format: int, one: int) -> np.ndarray:
