@@ -191,8 +191,11 @@ def choose_depths(command: DrawDepths, target: Framebuffer) -> Callable[..., Non
 
 
 def may_wait(command: Draw, storage: Storage) -> bool:
-    """Return whether draws may wait: short cuts are on, and nobody asks how a draw went or counts its fragments."""
-    return _short_cuts.get() is True and not storage.active_query and not is_explained()
+    """Return whether a draw may wait: short cuts are on, and nobody asks how draws went or counts their fragments.
+
+    Rectangles that are copied do not wait: what follows is most often another one, which needs their texture.
+    """
+    return _short_cuts.get() is True and not storage.active_query and not is_explained() and command.shown_at is None
 
 
 def begin_run(command: Draw, target: Framebuffer, storage: Storage) -> Run | None:
@@ -200,7 +203,7 @@ def begin_run(command: Draw, target: Framebuffer, storage: Storage) -> Run | Non
 
     Only draws that cannot fail wait, and of those without colours only short ones (`fast.depth_only`).
     """
-    if command.shown_at is not None or not can_begin_run(command, target):
+    if not can_begin_run(command, target):
         return None
     colorless = writes_no_colors(command, target) and not tests_alpha(command.state)
     if colorless and len(command.vertices.position) >= LONG_DRAW:
