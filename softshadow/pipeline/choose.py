@@ -52,6 +52,7 @@ try:
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
     from softshadow.pipeline.fast.shown_depths import draw_shown_depths, shows_depths
     from softshadow.pipeline.fast.shown_rectangles import is_shown, show_rectangle
+    from softshadow.pipeline.fast.span_state import SpanState
     from softshadow.pipeline.fast.stencil_tiles import shared_tiles_kernel, tiles_kernel
     from softshadow.pipeline.fast.unordered_blend import triangles_without_overlaps
     from softshadow.pipeline.fast.visibility_cache import FillInputs, cached_fill, is_repeated
@@ -69,7 +70,8 @@ TRIANGLES_OF_QUAD = 2
 SPARSE = 0.3  # fragments for each pixel of their region: from fewer on, most of the search for spans finds nothing
 # draws of so many triangles are cheaper to fill, shading each visible pixel once, than to draw triangle by triangle
 MANY_TRIANGLES = 4096
-LARGE_DRAW = 50_000  # fragments of a draw that counts when the kernels of the fixed function are to be compiled
+LARGE_DRAW = 50_000  # fragments of a draw that counts as such when the kernels of the fixed function are to be compiled
+SMALL_DRAW = 25  # what any other draw counts: ten thousand of them are some seconds, which compiling takes, too
 LAYERS = 4  # of fragments over each other, from which bands pay on one thread, too
 
 MOST_DRAWS = 4096  # of a run
@@ -124,7 +126,8 @@ class Plan(NamedTuple):
     cached_fill looks for an equal fill, remember_surface keeps the visible spans, passing_spans looks for those of an
     earlier draw, without_overlaps finds out whether blended fragments overlap; watch: begun before a draw that makes no
     depth larger; show_rectangle copies texels to pixels; in_chunks: whether some triangles are set up and filled at a
-    time; forward: whether the draw may go triangle by triangle from coverage to pixels.
+    time; forward: whether the draw may go triangle by triangle from coverage to pixels, for which `numbers` keeps what
+    is computed from its state.
     """
 
     in_order: bool
@@ -132,6 +135,7 @@ class Plan(NamedTuple):
     front: FragmentOps
     back: FragmentOps
     path: DrawPath
+    numbers: list[SpanState]
     in_chunks: bool = False
     cached_fill: Callable[..., tuple[Spans, bool]] | None = None
     remember_surface: Callable[..., None] | None = None
@@ -150,7 +154,7 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
     back = fragment_ops(state, target.depth, target.stencil, False)
     is_special = has_special_fragments(state, command.mode)
     in_order, writes_color = needs_order(state) or is_special, bool(target.colors) and any(state.color.mask)
-    plan = Plan(in_order, writes_color, front, back, path, counting=counting)
+    plan = Plan(in_order, writes_color, front, back, path, [], counting=counting)
     path.way = "in order" if in_order else "opaque"
     if is_special:
         path.note("stipple, smoothing or point sprites decide about each fragment")
@@ -377,7 +381,7 @@ def choose_forward(
     )
     if not plan.forward or not (plan.in_order or is_small or (hides_little and _short_cuts.get() is True)):
         return None
-    numbers = forward_state(state, target, geometry)
+    numbers = forward_state(state, target, geometry, plan.numbers)
     if numbers is None or not _are_compiled(fragments):
         return None
     if not (plan.in_order or is_small):
@@ -437,7 +441,7 @@ def _shade_fixed_function(
 
 def _are_compiled(fragments: int) -> bool:
     """Return whether to shade with the kernels of the fixed function: they are compiled, or compiling them pays now."""
-    return _pays(SPAN_KERNELS, fragments if fragments >= LARGE_DRAW else 0)
+    return _pays(SPAN_KERNELS, fragments if fragments >= LARGE_DRAW else SMALL_DRAW)
 
 
 def _pays(kernels: KernelGroup, work: int) -> bool:

@@ -15,7 +15,7 @@ import numpy as np
 from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.fast.fixed_function_spans import NO_DEPTH, NO_STENCIL, covered_state, shade_spans
 from softshadow.pipeline.fast.fragment_block import block_memory
-from softshadow.pipeline.fast.span_state import NEEDED, SpanState
+from softshadow.pipeline.fast.span_state import NEEDED, SpanState, with_texels
 from softshadow.pipeline.fast.span_tests import alpha_tests, collect_passing_spans, span_tests
 from softshadow.pipeline.fast.special_fragments import NO_SPECIAL, discards_some, needed_places, special_numbers
 from softshadow.pipeline.memory.scratch import scratch
@@ -48,12 +48,20 @@ _lists = _SpanLists()
 _in_order = np.arange(TRIANGLES, dtype=np.int32)
 
 
-def forward_state(state: State, target: Framebuffer, geometry: Geometry) -> SpanState | None:
-    """Return the numbers of the fragment state for `draw_forward`, or None where it cannot draw."""
+def forward_state(state: State, target: Framebuffer, geometry: Geometry, known: list[SpanState]) -> SpanState | None:
+    """Return the numbers of the fragment state for `draw_forward`, or None where it cannot draw.
+
+    `known` keeps the numbers of a plan, of which only the contents of textures can change.
+    """
+    if known:
+        return with_texels(known[0], geometry.program.units or [])
     depth = target.depth
     if depth is not None and depth.format.dtype != np.float32:
         return None
-    return covered_state(state, target, geometry)
+    numbers = covered_state(state, target, geometry)
+    if numbers is not None:
+        known.append(numbers)
+    return numbers
 
 
 def draw_forward(

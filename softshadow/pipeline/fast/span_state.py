@@ -54,7 +54,7 @@ COMPARISONS = {
     gl.GL_NEVER: 0, gl.GL_LESS: 1, gl.GL_EQUAL: 2, gl.GL_LEQUAL: 3, gl.GL_GREATER: 4, gl.GL_NOTEQUAL: 13,
     gl.GL_GEQUAL: 6, gl.GL_ALWAYS: 15,
 }  # fmt: skip
-NO_TEXELS = np.zeros(1, np.int32)
+NO_TEXTURES = (np.zeros(1, np.int32),) * UNITS
 ROWS_AT_ONCE = 16  # of an image; they stay in the processor's cache
 RGB, ALPHA = 0x00FFFFFF, 0xFF000000
 
@@ -64,7 +64,7 @@ class SpanState(NamedTuple):
 
     switches: np.ndarray
     numbers: np.ndarray
-    texels: tuple[np.ndarray, np.ndarray]
+    texels: tuple[np.ndarray, ...]
 
 
 class StateNumbers(NamedTuple):
@@ -88,7 +88,6 @@ def span_state(state: State, units: list[Unit], color: Format | None, columns: i
     """
     if len(units) > UNITS or columns > COLUMNS or (color is not None and not is_covered(color)):
         return None
-    textures = [unit.texture for unit in units]
     key = (
         state.fog, state.blend, state.color.mask, has_secondary(state), color,
         *(_unit_key(state, unit) for unit in units),
@@ -98,10 +97,13 @@ def span_state(state: State, units: list[Unit], color: Format | None, columns: i
             _numbers.clear()
         _numbers[key] = _state_numbers(state, units, color)
     known = _numbers[key]
-    if known is None:
-        return None
-    texels = [texels_of(texture) for texture in textures]
-    return SpanState(*known, (texels[0] if texels else NO_TEXELS, texels[1] if len(texels) > 1 else NO_TEXELS))
+    return None if known is None else with_texels(SpanState(*known, NO_TEXTURES), units)
+
+
+def with_texels(numbers: SpanState, units: list[Unit]) -> SpanState:
+    """Return the numbers with the present texels of the units."""
+    texels = [texels_of(unit.texture) for unit in units]
+    return numbers._replace(texels=(*texels, *NO_TEXTURES[len(texels) :])) if texels else numbers
 
 
 def is_covered(color: Format) -> bool:

@@ -68,6 +68,20 @@ def test_the_kernels_are_compiled_when_it_pays(monkeypatch):
     assert [path.shading for path in paths] == ["program", *["fixed-function kernel"] * 3]
 
 
+def test_many_small_draws_pay_for_the_kernels_too(monkeypatch):
+    compiled = []
+    monkeypatch.setattr(choose.SPAN_KERNELS, "are_compiled", lambda: bool(compiled))
+    monkeypatch.setattr(choose.SPAN_KERNELS, "note_compiled", lambda: compiled.append(True))
+    monkeypatch.setattr(choose.SPAN_KERNELS, "pays_after", 20 * choose.SMALL_DRAW)
+    monkeypatch.setattr(choose.SPAN_KERNELS, "_done", 0)
+    with explain_paths() as paths, gl.create_context(10, 10):
+        for _ in range(21):
+            gl.glRectf(-0.5, -0.5, 0, 0)
+            gl.glFinish()
+    assert paths[0].shading == "program"
+    assert paths[-1].shading == "fixed-function kernel"
+
+
 @pytest.mark.interpreted
 def test_the_interpreted_kernels_leave_the_bits_of_the_shading_stage():
     for seed in range(6):
