@@ -8,15 +8,15 @@ passing two arrays takes a fraction of a microsecond, and no state has to be com
 from __future__ import annotations
 
 from typing import NamedTuple
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.image import Format, Image
+from softshadow.image import Format
 from softshadow.pipeline.fast.fragment_block import COLUMNS
+from softshadow.pipeline.fast.span_texels import LEVELS, level_offsets, texels_of
 from softshadow.pipeline.shade.blend import FOUR_BYTES, BlendOps, blend_ops
-from softshadow.pixels import LARGEST_SAMPLED, LARGEST_UINT
+from softshadow.pixels import LARGEST_UINT
 from softshadow.programs.filtering import in_8_bits, sources_of, unit_of, wraps_of
 from softshadow.programs.fixed_function import Unit, has_secondary
 from softshadow.programs.fog import linear_terms, scaled_density
@@ -25,10 +25,9 @@ from softshadow.programs.program import needs_blocks
 from softshadow.programs.sampling import base_format
 from softshadow.programs.texture_environment import MODES, WITHOUT_ALPHA
 from softshadow.state import State
-from softshadow.texture import Sampler, Texture
+from softshadow.texture import Sampler
 
 UNITS = 2  # texture units at most
-LEVELS = 16
 # in `switches`
 NEEDED, SEPARATE, FOG, FOG_COLUMN, N_UNITS, WRITABLE, BLENDS = range(7)
 LOGIC_OP, EQUATION_RGB, EQUATION_ALPHA, SATURATES, SOURCE_TERMS, TARGET_TERMS = 7, 8, 9, 10, 11, 17
@@ -55,7 +54,6 @@ COMPARISONS = {
     gl.GL_GEQUAL: 6, gl.GL_ALWAYS: 15,
 }  # fmt: skip
 NO_TEXTURES = (np.zeros(1, np.int32),) * UNITS
-ROWS_AT_ONCE = 16  # of an image; they stay in the processor's cache
 RGB, ALPHA = 0x00FFFFFF, 0xFF000000
 
 
@@ -232,55 +230,6 @@ def environment_operations(mode: int, base: int) -> tuple[int, int]:
     operation = {gl.GL_MODULATE: MULTIPLY, gl.GL_ADD: ADD, gl.GL_BLEND: BLEND}[mode]
     alpha = operation if base == gl.GL_INTENSITY else MULTIPLY
     return operation if has_color else KEEP, alpha if has_alpha else KEEP
-
-
-def level_offsets(image: Image, last: int) -> list[int]:
-    """Return where each level begins in the packed texels of a texture, for `LEVELS` levels."""
-    offsets, width, height = [0], image.width, image.height
-    for _ in range(LEVELS - 1):
-        offsets.append(offsets[-1] + (width * height if len(offsets) <= last else 0))
-        width, height = max(width // 2, 1), max(height // 2, 1)
-    return offsets
-
-
-# images that texels were made from with their versions, and these texels, by the base image
-_made: WeakKeyDictionary[Image, tuple[list[tuple[Image, object]], np.ndarray]] = WeakKeyDictionary()
-
-
-def texels_of(texture: Texture) -> np.ndarray:
-    """Return all texels (n,) int32 of a texture: its only level with the padding, or its levels one after the other."""
-    base, sampler = texture.base(), texture.sampler
-    assert base is not None
-    is_single = FILTERS[sampler.min_filter][1] == gl.GL_NONE or texture.last_level() == sampler.base_level
-    if is_single and base.format.largest != LARGEST_UINT:
-        return _in_32_bits(base.read_cells)
-    images = [base]
-    if not is_single:
-        images = [texture.images[0, level] for level in range(sampler.base_level, texture.last_level() + 1)]
-    known = _made.get(base)
-    if known is not None and len(known[0]) == len(images):
-        for image, (same, version) in zip(images, known[0], strict=True):
-            if image is not same or image.version is not version:
-                break
-        else:
-            return known[1]
-    parts = [_in_32_bits(image.read_cells if is_single else image.read_cells[:, : image.width]) for image in images]
-    texels = parts[0] if is_single else np.concatenate(parts, dtype=np.int32)
-    for image in images:
-        image.version = image.version if image.version is not None else object()
-    _made[base] = [(image, image.version) for image in images], texels
-    return texels
-
-
-def _in_32_bits(cells: np.ndarray) -> np.ndarray:
-    """Return cells (n,) int32: four bytes, or the bits of a depth in float32; of 32-bit depths the upper 23 bits."""
-    if cells.dtype != np.float64:
-        return cells.reshape(-1).view(np.int32)
-    upper = np.empty(cells.shape, np.float32)
-    for first in range(0, len(cells), ROWS_AT_ONCE):
-        rows = slice(first, first + ROWS_AT_ONCE)
-        upper[rows] = np.minimum(np.floor(cells[rows] * (1 / 512)), LARGEST_SAMPLED)
-    return upper.reshape(-1).view(np.int32)
 
 
 def _write_blending(state: State, ops: BlendOps, switches: np.ndarray) -> None:

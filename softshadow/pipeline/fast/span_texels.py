@@ -1,0 +1,65 @@
+"""The texels of a texture as one array for the kernels that shade spans; see fast/test_span_shading.py."""
+
+from __future__ import annotations
+
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.image import Image
+from softshadow.pixels import LARGEST_SAMPLED, LARGEST_UINT
+from softshadow.programs.level_of_detail import FILTERS
+from softshadow.texture import Texture
+
+LEVELS = 16
+ROWS_AT_ONCE = 16  # of an image; they stay in the processor's cache
+
+
+def level_offsets(image: Image, last: int) -> list[int]:
+    """Return where each level begins in the packed texels of a texture, for `LEVELS` levels."""
+    offsets, width, height = [0], image.width, image.height
+    for _ in range(LEVELS - 1):
+        offsets.append(offsets[-1] + (width * height if len(offsets) <= last else 0))
+        width, height = max(width // 2, 1), max(height // 2, 1)
+    return offsets
+
+
+# images that texels were made from with their versions, and these texels, by the base image
+_made: WeakKeyDictionary[Image, tuple[list[tuple[Image, object]], np.ndarray]] = WeakKeyDictionary()
+
+
+def texels_of(texture: Texture) -> np.ndarray:
+    """Return all texels (n,) int32 of a texture: its only level with the padding, or its levels one after the other."""
+    base, sampler = texture.base(), texture.sampler
+    assert base is not None
+    is_single = FILTERS[sampler.min_filter][1] == gl.GL_NONE or texture.last_level() == sampler.base_level
+    if is_single and base.format.largest != LARGEST_UINT:
+        return _in_32_bits(base.read_cells)
+    images = [base]
+    if not is_single:
+        images = [texture.images[0, level] for level in range(sampler.base_level, texture.last_level() + 1)]
+    known = _made.get(base)
+    if known is not None and len(known[0]) == len(images):
+        for image, (same, version) in zip(images, known[0], strict=True):
+            if image is not same or image.version is not version:
+                break
+        else:
+            return known[1]
+    parts = [_in_32_bits(image.read_cells if is_single else image.read_cells[:, : image.width]) for image in images]
+    texels = parts[0] if is_single else np.concatenate(parts, dtype=np.int32)
+    for image in images:
+        image.version = image.version if image.version is not None else object()
+    _made[base] = [(image, image.version) for image in images], texels
+    return texels
+
+
+def _in_32_bits(cells: np.ndarray) -> np.ndarray:
+    """Return cells (n,) int32: four bytes, or the bits of a depth in float32; of 32-bit depths the upper 23 bits."""
+    if cells.dtype != np.float64:
+        return cells.reshape(-1).view(np.int32)
+    upper = np.empty(cells.shape, np.float32)
+    for first in range(0, len(cells), ROWS_AT_ONCE):
+        rows = slice(first, first + ROWS_AT_ONCE)
+        upper[rows] = np.minimum(np.floor(cells[rows] * (1 / 512)), LARGEST_SAMPLED)
+    return upper.reshape(-1).view(np.int32)
