@@ -19,7 +19,16 @@ FORMATS = (
 )  # fmt: skip
 DEPTH_FORMATS = (gl.GL_DEPTH_COMPONENT16, gl.GL_DEPTH_COMPONENT24, gl.GL_DEPTH_COMPONENT32, gl.GL_DEPTH_COMPONENT32F)
 FUNCS = tuple(range(gl.GL_NEVER, gl.GL_ALWAYS + 1))
-MODES = (gl.GL_MODULATE, gl.GL_REPLACE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_ADD)
+MODES = (gl.GL_MODULATE, gl.GL_REPLACE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_ADD, gl.GL_COMBINE)
+COMBINE_ALPHA = (
+    gl.GL_REPLACE, gl.GL_MODULATE, gl.GL_ADD, gl.GL_ADD_SIGNED, gl.GL_INTERPOLATE, gl.GL_SUBTRACT,
+)  # fmt: skip
+COMBINE_RGB = (*COMBINE_ALPHA, gl.GL_DOT3_RGB, gl.GL_DOT3_RGBA)
+SOURCES = (
+    gl.GL_TEXTURE, gl.GL_CONSTANT, gl.GL_PRIMARY_COLOR, gl.GL_PREVIOUS, gl.GL_TEXTURE0, gl.GL_TEXTURE1, gl.GL_TEXTURE2,
+)  # fmt: skip
+ALPHA_OPERANDS = (gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
+RGB_OPERANDS = (gl.GL_SRC_COLOR, gl.GL_ONE_MINUS_SRC_COLOR, *ALPHA_OPERANDS)
 FACTORS = (
     gl.GL_ZERO, gl.GL_ONE, gl.GL_SRC_COLOR, gl.GL_ONE_MINUS_SRC_COLOR, gl.GL_DST_COLOR, gl.GL_ONE_MINUS_DST_COLOR,
     gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA, gl.GL_DST_ALPHA, gl.GL_ONE_MINUS_DST_ALPHA, gl.GL_CONSTANT_COLOR,
@@ -71,7 +80,25 @@ def random_texture(rng, unit):
             break
         level, width, height = level + 1, max(width // 2, 1), max(height // 2, 1)
     gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, pick(rng, MODES))
+    random_combining(rng)
     gl.glTexEnvfv(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_COLOR, rng.random(4).astype(np.float32))
+
+
+def random_combining(rng):
+    """Let the active unit combine random sources, if its mode is GL_COMBINE."""
+
+    def environment(name, value):
+        gl.glTexEnvi(gl.GL_TEXTURE_ENV, getattr(gl, f"GL_{name}"), int(value))
+
+    environment("COMBINE_RGB", pick(rng, COMBINE_RGB))
+    environment("COMBINE_ALPHA", pick(rng, COMBINE_ALPHA))
+    for n in range(3):
+        environment(f"SOURCE{n}_RGB", pick(rng, SOURCES))
+        environment(f"SOURCE{n}_ALPHA", pick(rng, SOURCES))
+        environment(f"OPERAND{n}_RGB", pick(rng, RGB_OPERANDS))
+        environment(f"OPERAND{n}_ALPHA", pick(rng, ALPHA_OPERANDS))
+    environment("RGB_SCALE", pick(rng, (1, 1, 2, 4)))
+    environment("ALPHA_SCALE", pick(rng, (1, 1, 2, 4)))
 
 
 def random_fog(rng):
@@ -131,7 +158,9 @@ def random_picture(
     context = gl.create_context(*size, **options)
     gl.glClearColor(*rng.random(4).tolist())
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
-    for unit in range(rng.integers(0, 3) if units is None else units):
+    count = rng.integers(0, 3) if units is None else units
+    first = rng.integers(0, 2) if count == 1 else 0
+    for unit in range(first, first + count):
         random_texture(rng, unit)
     if rng.random() < 0.4:
         random_fog(rng)

@@ -18,7 +18,8 @@ from softshadow.pipeline.constants import ONE
 
 SIZE = 192  # fragments; with 12 to 20 rows in use by one step, they fit into 32 KB
 LONG_RUN = 8  # fragments of one triangle; from this number on, a loop per column pays
-COLUMNS = 20  # interpolated at most: two colours, coordinates of two units, fog, place in a smooth line or point
+# interpolated at most: two colours, coordinates of two units, fog, the primary colour again, place in a smooth line
+COLUMNS = 24
 
 
 def _rows(first: int, count: int) -> list[np.uint64]:
@@ -29,7 +30,8 @@ def _rows(first: int, count: int) -> list[np.uint64]:
 W, COLUMN, LINE, S, T, R, SQUARED, QUADS, WEIGHT, DEPTH = _rows(COLUMNS, 10)
 TEXEL, TEXEL_GREEN, TEXEL_BLUE, TEXEL_ALPHA = _rows(COLUMNS + 10, 4)  # red, green, blue, alpha
 ROW = np.uint64(SIZE)
-FLOAT_ROWS = COLUMNS + 14
+OTHER_TEXEL, PRIMARY = _rows(COLUMNS + 14, 8)[::4]  # for GL_COMBINE: the other unit's texel, and the primary colour
+FLOAT_ROWS = COLUMNS + 22
 # rows of `whole`; those of the s axis, and then of the t axis
 LENGTH, FIRST, SECOND, FRACTION = _rows(0, 4)
 T_AXIS = np.uint64(4 * SIZE)

@@ -5,10 +5,13 @@ import numpy as np
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import PACKED, ROW, TEXEL, TEXEL_ALPHA, WEIGHT, interpolate_block
+from softshadow.pipeline.fast.span_combine import combine_block, keep_primary, swap_texels
 from softshadow.pipeline.fast.span_state import (
     ADD,
     ALPHA_OPERATION,
     BLEND,
+    COMBINE,
+    COMBINES,
     CONSTANT,
     DECAL,
     EXP_FOG,
@@ -45,11 +48,18 @@ def shade_block(planes, spans, n_spans, count, flat, switches, numbers, texels0,
     planes (P, 3, k + 1) are those of `shade.interpolate.attribute_planes`, `spans` and `count` say which fragments.
     """
     interpolate_block(planes, spans, n_spans, flat, switches[NEEDED], room)
-    for u in range(switches[N_UNITS]):
+    combines, n_units = switches[COMBINES] != 0, switches[N_UNITS]
+    for m in range(n_units):
+        u = n_units - 1 - m if combines else m
         unit, number = UNIT_SWITCHES + u * SWITCHES_OF_UNIT, UNIT_NUMBERS + u * NUMBERS_OF_UNIT
         texels = texels0 if u == 0 else texels1
         sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, number, texels, room, whole)
-        apply_environment_to_block(switches, numbers, unit, number, count, room)
+        if not combines:
+            apply_environment_to_block(switches, numbers, unit, number, count, room)
+        elif u:
+            swap_texels(count, room)
+    if combines:
+        combine_units(switches, numbers, n_units, count, room)
     if switches[SEPARATE]:
         for c in range(3):
             row = np.uint64(c) * ROW
@@ -67,6 +77,20 @@ def pack_block(count, room, whole):
     for n in range(np.uint64(count)):
         low = byte_of(room[RED_ROW + n]) | byte_of(room[GREEN_ROW + n]) << GREEN
         whole[PACKED + n] = low | byte_of(room[BLUE_ROW + n]) << BLUE | byte_of(room[ALPHA_ROW + n]) << UPPERMOST
+
+
+@kernel
+def combine_units(switches, numbers, n_units, count, room):
+    """Apply the texture functions of all units, of which one at least combines; the first one's texels are in TEXEL."""
+    keep_primary(count, room)
+    for u in range(n_units):
+        unit, number = UNIT_SWITCHES + u * SWITCHES_OF_UNIT, UNIT_NUMBERS + u * NUMBERS_OF_UNIT
+        if u:
+            swap_texels(count, room)
+        if switches[unit + RGB_OPERATION] == COMBINE:
+            combine_block(switches, numbers, unit, number, count, room)
+        else:
+            apply_environment_to_block(switches, numbers, unit, number, count, room)
 
 
 @kernel

@@ -2,7 +2,7 @@
 
 The kernels that shade spans take the state as an array of integers, `switches`, and an array of float32, `numbers`:
 passing two arrays takes a fraction of a microsecond, and no state has to be compiled. What is not covered here
-(GL_COMBINE, cube maps, float textures, more than two units ...) is shaded by the textbook.
+(cube maps, 3-D textures, float textures, more than two units ...) is shaded by the textbook.
 """
 
 from __future__ import annotations
@@ -13,12 +13,13 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.image import Format
-from softshadow.pipeline.fast.fragment_block import COLUMNS
+from softshadow.pipeline.fast.combine_numbers import CONSTANT_COLOR, write_combine
+from softshadow.pipeline.fast.fragment_block import COLUMNS, OTHER_TEXEL, PRIMARY, SIZE, TEXEL
 from softshadow.pipeline.fast.span_texels import LEVELS, level_offsets, texels_of
 from softshadow.pipeline.shade.blend import FOUR_BYTES, BlendOps, blend_ops
 from softshadow.pixels import LARGEST_UINT
 from softshadow.programs.filtering import in_8_bits, sources_of, unit_of, wraps_of
-from softshadow.programs.fixed_function import Unit, has_secondary
+from softshadow.programs.fixed_function import Unit, has_secondary, repeats_primary
 from softshadow.programs.fog import linear_terms, scaled_density
 from softshadow.programs.level_of_detail import FILTERS, LARGEST_LEVEL, bias_of
 from softshadow.programs.program import needs_blocks
@@ -30,21 +31,22 @@ from softshadow.texture import Sampler
 UNITS = 2  # texture units at most
 # in `switches`
 NEEDED, SEPARATE, FOG, FOG_COLUMN, N_UNITS, WRITABLE, BLENDS = range(7)
-LOGIC_OP, EQUATION_RGB, EQUATION_ALPHA, SATURATES, SOURCE_TERMS, TARGET_TERMS = 7, 8, 9, 10, 11, 17
-UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 40
+LOGIC_OP, EQUATION_RGB, EQUATION_ALPHA, SATURATES, SOURCE_TERMS, TARGET_TERMS, COMBINES = 7, 8, 9, 10, 11, 17, 23
+UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 64
 (
     PATH, S_COLUMN, WRAP_S, WRAP_T, WIDTH, HEIGHT, ROW_LENGTH, LAST_LEVEL, LOD_MODE, BETWEEN, MIN_LINEAR, MAG_LINEAR,
     CHANNELS, _, _, _, RGB_OPERATION, ALPHA_OPERATION, COMPARISON, CLAMPED, PACKED_LEVELS, IS_DEPTH, IS_SPREAD, _,
     LEVEL_OFFSETS,
 ) = range(25)  # fmt: skip
+COMBINED = 40  # where the two functions of GL_COMBINE begin
 # in `numbers`
 FOG_COLOR, FOG_SLOPE, FOG_SHIFT, UNIT_NUMBERS, NUMBERS_OF_UNIT = 0, 3, 4, 8, 16
-BORDER, CONSTANT, STEP, LEAST, MOST, BIAS = 0, 4, 8, 9, 10, 11
+BORDER, CONSTANT, STEP, LEAST, MOST, BIAS, SCALES = 0, 4, 8, 9, 10, 11, 12
 # how a unit is sampled: bytes as integers; one by one in float; the nearest depth compared
 IN_BYTES, IN_FLOAT, NEAREST_DEPTH = range(3)
 NO_LEVELS, BY_EXPONENT, CONSTANT_LEVEL, BY_LOGARITHM = range(4)
 # what a texture environment does to a channel
-KEEP, REPLACE, MULTIPLY, DECAL, ADD, BLEND = range(6)
+KEEP, REPLACE, MULTIPLY, DECAL, ADD, BLEND, COMBINE = range(7)
 NO_FOG, LINEAR_FOG, EXP_FOG, EXP2_FOG = range(4)
 FOGS = {gl.GL_LINEAR: LINEAR_FOG, gl.GL_EXP: EXP_FOG, gl.GL_EXP2: EXP2_FOG}
 NO_BLENDING, BLENDING, LOGIC = range(3)
@@ -116,7 +118,8 @@ def _unit_key(state: State, unit: Unit) -> tuple[object, ...]:
     assert image is not None
     size = (image.width, image.height, image.shape[1], image.format, texture.last_level())
     first_size = None if first is None else (first.width, first.height)
-    return setting.env_mode, setting.env_color, texture.target, texture.sampler, *size, first_size
+    combine = setting.env_mode == gl.GL_COMBINE and (setting.combine, state.lighting.enabled)
+    return unit.index, setting.env_mode, setting.env_color, combine, texture.target, texture.sampler, *size, first_size
 
 
 def _state_numbers(state: State, units: list[Unit], color: Format | None) -> StateNumbers | None:
@@ -143,12 +146,31 @@ def _state_numbers(state: State, units: list[Unit], color: Format | None) -> Sta
             numbers[FOG_SLOPE : FOG_SHIFT + 1] = linear_terms(state.fog)
         else:
             numbers[FOG_SLOPE] = scaled_density(state.fog)
+        column += 1
+    if any(state.units[unit.index].env_mode == gl.GL_COMBINE for unit in units):
+        switches[COMBINES] = True
+        is_repeated = repeats_primary(state, units)
+        needed |= 0b1111 << column if is_repeated else 0
+        _write_combining(state, units, column * SIZE if is_repeated else int(PRIMARY), switches, numbers)
     switches[NEEDED] = needed
     if color is not None:
         mask = np.array(state.color.mask) & np.array(color.written)
         switches[WRITABLE] = np.where(mask, np.uint8(255), np.uint8(0)).view(np.int32)[0]
         _write_blending(state, blend_ops(state.blend, color), switches)
     return StateNumbers(switches, numbers)
+
+
+def _write_combining(state: State, units: list[Unit], primary: int, switches: np.ndarray, numbers: np.ndarray) -> None:
+    """Write the functions of units with GL_COMBINE; `primary` is the first row of the primary colour."""
+    for n, unit in enumerate(units):
+        setting = state.units[unit.index]
+        if setting.env_mode != gl.GL_COMBINE:
+            continue
+        sources = {gl.GL_TEXTURE0 + other.index: int(OTHER_TEXEL) for other in units}
+        sources[gl.GL_TEXTURE] = sources[gl.GL_TEXTURE0 + unit.index] = int(TEXEL)
+        sources |= {gl.GL_PRIMARY_COLOR: primary, gl.GL_PREVIOUS: 0, gl.GL_CONSTANT: CONSTANT_COLOR}
+        at, number = UNIT_SWITCHES + n * SWITCHES_OF_UNIT, UNIT_NUMBERS + n * NUMBERS_OF_UNIT
+        write_combine(setting.combine, sources, switches[at + COMBINED :], numbers[number + SCALES :])
 
 
 def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndarray) -> bool:
@@ -160,7 +182,7 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     if (
         texture.target != gl.GL_TEXTURE_2D
         or texture.is_anisotropic
-        or setting.env_mode not in MODES
+        or setting.env_mode not in (*MODES, gl.GL_COMBINE)
         or not _holds_texels(image.format)
     ):
         return False
@@ -223,6 +245,8 @@ def level_mode(sampler: Sampler, needs_levels: bool) -> tuple[int, tuple[float, 
 def environment_operations(mode: int, base: int) -> tuple[int, int]:
     """Return what a texture environment does to the colours and to alpha, see `texture_environment`."""
     has_color, has_alpha = base != gl.GL_ALPHA, base not in WITHOUT_ALPHA
+    if mode == gl.GL_COMBINE:
+        return COMBINE, COMBINE
     if mode == gl.GL_REPLACE:
         return REPLACE if has_color else KEEP, REPLACE if has_alpha else KEEP
     if mode == gl.GL_DECAL:

@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import fixed_function_pictures
 from draws import same_window
 from fixed_function_pictures import random_picture
 from softshadow import gl
@@ -45,6 +46,13 @@ def test_only_float32_is_shaded_in_blocks(option, is_used):
     for seed in range(8):
         shadings |= assert_same(seed, **option)
     assert ("fixed-function kernel" in shadings) == is_used
+
+
+def test_combined_textures_are_shaded_in_blocks(monkeypatch):
+    monkeypatch.setattr(fixed_function_pictures, "MODES", (gl.GL_COMBINE,))
+    for seed in range(20):
+        shadings = assert_same(seed, units=1 + seed % 2, size=(40, 30), ordered=seed % 3 == 0)
+        assert shadings <= {"fixed-function kernel", ""}  # the latter where nothing is visible
 
 
 def test_uncovered_states_are_shaded_by_the_textbook():
