@@ -19,6 +19,7 @@ FORMATS = (
 )  # fmt: skip
 DEPTH_FORMATS = (gl.GL_DEPTH_COMPONENT16, gl.GL_DEPTH_COMPONENT24, gl.GL_DEPTH_COMPONENT32, gl.GL_DEPTH_COMPONENT32F)
 FUNCS = tuple(range(gl.GL_NEVER, gl.GL_ALWAYS + 1))
+TARGETS = (gl.GL_TEXTURE_2D, gl.GL_TEXTURE_2D, gl.GL_TEXTURE_3D)
 MODES = (gl.GL_MODULATE, gl.GL_REPLACE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_ADD, gl.GL_COMBINE)
 COMBINE_ALPHA = (
     gl.GL_REPLACE, gl.GL_MODULATE, gl.GL_ADD, gl.GL_ADD_SIGNED, gl.GL_INTERPOLATE, gl.GL_SUBTRACT,
@@ -44,26 +45,32 @@ def pick(rng, values):
 def random_texture(rng, unit):
     """Bind a random texture to a unit, with random environment, filters and wrap modes."""
     gl.glActiveTexture(gl.GL_TEXTURE0 + unit)
-    gl.glEnable(gl.GL_TEXTURE_2D)
-    gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
+    target = pick(rng, TARGETS)
+    gl.glEnable(target)
+    gl.glBindTexture(target, gl.glGenTextures(1))
 
     def parameter(name, value):
-        gl.glTexParameteri(gl.GL_TEXTURE_2D, getattr(gl, f"GL_TEXTURE_{name}"), int(value))
+        gl.glTexParameteri(target, getattr(gl, f"GL_TEXTURE_{name}"), int(value))
 
     min_filter = pick(rng, MIN_FILTERS)
+    mag_filter = pick(rng, MIN_FILTERS[:2])
+    if target != gl.GL_TEXTURE_2D and rng.random() < 0.8:  # what the kernels cover
+        min_filter = mag_filter
     parameter("MIN_FILTER", min_filter)
-    parameter("MAG_FILTER", pick(rng, (gl.GL_NEAREST, gl.GL_LINEAR)))
+    parameter("MAG_FILTER", mag_filter)
     edges = WRAPS[:2] if rng.random() < 0.5 else WRAPS
     parameter("WRAP_S", pick(rng, edges))
     parameter("WRAP_T", pick(rng, edges))
-    gl.glTexParameterfv(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_BORDER_COLOR, rng.uniform(-0.2, 1.2, 4).astype(np.float32))
+    parameter("WRAP_R", pick(rng, edges))
+    gl.glTexParameterfv(target, gl.GL_TEXTURE_BORDER_COLOR, rng.uniform(-0.2, 1.2, 4).astype(np.float32))
     if rng.random() < 0.3:
-        gl.glTexParameterf(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_LOD, float(rng.choice([-1, 0.5, 2, 20])))
-        gl.glTexParameterf(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MAX_LOD, float(rng.choice([1.5, 3, 15, 20])))
+        gl.glTexParameterf(target, gl.GL_TEXTURE_MIN_LOD, float(rng.choice([-1, 0.5, 2, 20])))
+        gl.glTexParameterf(target, gl.GL_TEXTURE_MAX_LOD, float(rng.choice([1.5, 3, 15, 20])))
     if rng.random() < 0.3:
         gl.glTexEnvf(gl.GL_TEXTURE_FILTER_CONTROL, gl.GL_TEXTURE_LOD_BIAS, float(rng.uniform(-2, 2)))
     width, height = (2 ** rng.integers(0, 7, 2) if rng.random() < 0.5 else rng.integers(1, 65, 2)).tolist()
-    is_depth = rng.random() < 0.3
+    slices = int(rng.integers(1, 9)) if target == gl.GL_TEXTURE_3D else 1
+    is_depth = rng.random() < 0.3 and target == gl.GL_TEXTURE_2D
     internal = int(pick(rng, DEPTH_FORMATS if is_depth else FORMATS))
     format, channels = (gl.GL_DEPTH_COMPONENT, 1) if is_depth else (gl.GL_RGBA, 4)
     if is_depth:
@@ -74,11 +81,14 @@ def random_texture(rng, unit):
         )
     level = 0
     while True:
-        texels = rng.random((height, width, channels)).astype(np.float32)
-        gl.glTexImage2D(gl.GL_TEXTURE_2D, level, internal, width, height, 0, format, gl.GL_FLOAT, texels)
-        if width == height == 1 or min_filter in (gl.GL_NEAREST, gl.GL_LINEAR):
+        texels = rng.random((slices, height, width, channels)).astype(np.float32)
+        if target == gl.GL_TEXTURE_3D:
+            gl.glTexImage3D(target, level, internal, width, height, slices, 0, format, gl.GL_FLOAT, texels)
+        else:
+            gl.glTexImage2D(target, level, internal, width, height, 0, format, gl.GL_FLOAT, texels[0])
+        if width == height == slices == 1 or min_filter in (gl.GL_NEAREST, gl.GL_LINEAR):
             break
-        level, width, height = level + 1, max(width // 2, 1), max(height // 2, 1)
+        level, width, height, slices = level + 1, max(width // 2, 1), max(height // 2, 1), max(slices // 2, 1)
     gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, pick(rng, MODES))
     random_combining(rng)
     gl.glTexEnvfv(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_COLOR, rng.random(4).astype(np.float32))

@@ -32,13 +32,14 @@ TEXEL, TEXEL_GREEN, TEXEL_BLUE, TEXEL_ALPHA = _rows(COLUMNS + 10, 4)  # red, gre
 ROW = np.uint64(SIZE)
 OTHER_TEXEL, PRIMARY = _rows(COLUMNS + 14, 8)[::4]  # for GL_COMBINE: the other unit's texel, and the primary colour
 FLOAT_ROWS = COLUMNS + 22
-# rows of `whole`; those of the s axis, and then of the t axis
+# rows of `whole`; those of the s axis, then of the t axis, and after all others those of the r axis
 LENGTH, FIRST, SECOND, FRACTION = _rows(0, 4)
 T_AXIS = np.uint64(4 * SIZE)
 LEVEL, LINEAR, STEPS, PITCH, OFFSET = _rows(8, 5)
 CORNER_00, CORNER_10, CORNER_01, CORNER_11, FILTERED, LOWER = _rows(13, 6)
 PACKED, MASK, TARGET, SOURCE_FACTOR, TARGET_FACTOR, OTHER = _rows(19, 6)
-WHOLE_ROWS = 25
+R_AXIS, SLICE = _rows(25, 8)[::4]
+WHOLE_ROWS = 30
 # a list of spans is an array (4, SIZE + 1) int32: row, first column, place of the triangle's planes, first fragment
 SPAN_ROW, SPAN_LEFT, SPAN_PLACE, SPAN_START = range(4)
 NEXT = np.uint64(1)

@@ -19,7 +19,9 @@ from softshadow.pipeline.fast.fragment_block import (
     LOWER,
     OFFSET,
     PITCH,
+    R_AXIS,
     SECOND,
+    SLICE,
     STEPS,
     T_AXIS,
     TEXEL,
@@ -27,11 +29,28 @@ from softshadow.pipeline.fast.fragment_block import (
     TEXEL_BLUE,
     TEXEL_GREEN,
     WEIGHT,
+    R,
     S,
     T,
 )
-from softshadow.pipeline.fast.span_places import NOTHING, ONE_TEXEL, linear_places, nearest_places, write_places
-from softshadow.pipeline.fast.span_state import LOD_MODE, MAG_LINEAR, MIN_LINEAR, NO_LEVELS, WRAP_S, WRAP_T
+from softshadow.pipeline.fast.span_places import (
+    NOTHING,
+    ONE_TEXEL,
+    linear_places,
+    move_by_slices,
+    nearest_places,
+    write_places,
+)
+from softshadow.pipeline.fast.span_state import (
+    LOD_MODE,
+    MAG_LINEAR,
+    MIN_LINEAR,
+    NO_LEVELS,
+    SLICES,
+    WRAP_R,
+    WRAP_S,
+    WRAP_T,
+)
 from softshadow.programs.filtering import UNORM8_STEP
 
 BYTE = np.int32(255)
@@ -50,6 +69,9 @@ def filter_level(switches, unit, count, texels, room, whole):
     if not small and not large:
         nearest_places(S, np.uint64(0), wrap_s, FIRST, count, room, whole)
         nearest_places(T, T_AXIS, wrap_t, FIRST, count, room, whole)
+        if switches[unit + SLICES]:
+            nearest_places(R, R_AXIS, switches[unit + WRAP_R], FIRST, count, room, whole)
+            move_by_slices(R_AXIS + FIRST, count, whole)
         for n in range(np.uint64(count)):
             j = np.int32(whole[T_AXIS + FIRST + n] * whole[PITCH + n])
             whole[FILTERED + n] = np.int32(whole[OFFSET + n] + j) + whole[FIRST + n]
@@ -57,6 +79,8 @@ def filter_level(switches, unit, count, texels, room, whole):
         return
     linear_places(S, np.uint64(0), wrap_s, count, room, whole)
     linear_places(T, T_AXIS, wrap_t, count, room, whole)
+    if switches[unit + SLICES]:
+        linear_places(R, R_AXIS, switches[unit + WRAP_R], count, room, whole)
     if small != large:  # the nearest texel is the mixture of this texel with itself
         nearest_places(S, np.uint64(0), wrap_s, CORNER_00, count, room, whole)
         nearest_places(T, T_AXIS, wrap_t, CORNER_00, count, room, whole)
@@ -66,6 +90,24 @@ def filter_level(switches, unit, count, texels, room, whole):
                 whole[axis + FIRST + n] = whole[axis + FIRST + n] if is_linear else texel
                 whole[axis + SECOND + n] = whole[axis + SECOND + n] if is_linear else texel
                 whole[axis + FRACTION + n] = whole[axis + FRACTION + n] if is_linear else NOTHING
+    if not switches[unit + SLICES]:
+        mix_corners(count, texels, whole)
+        return
+    for n in range(np.uint64(count)):
+        whole[R_AXIS + SECOND + n] -= whole[R_AXIS + FIRST + n]
+    move_by_slices(R_AXIS + FIRST, count, whole)
+    mix_corners(count, texels, whole)
+    for n in range(np.uint64(count)):
+        whole[SLICE + n] = whole[FILTERED + n]
+    move_by_slices(R_AXIS + SECOND, count, whole)
+    mix_corners(count, texels, whole)
+    for n in range(np.uint64(count)):
+        whole[FILTERED + n] = mix_bytes_of(whole[R_AXIS + FRACTION + n], whole[SLICE + n], whole[FILTERED + n])
+
+
+@kernel
+def mix_corners(count, texels, whole):
+    """Write FILTERED: the mixture of the texels at FIRST and SECOND of s and t."""
     for n in range(np.uint64(count)):
         upper = np.int32(whole[OFFSET + n] + np.int32(whole[T_AXIS + FIRST + n] * whole[PITCH + n]))
         lower = np.int32(whole[OFFSET + n] + np.int32(whole[T_AXIS + SECOND + n] * whole[PITCH + n]))

@@ -6,8 +6,18 @@ From texture coordinates to the numbers of texels on each axis, with the operati
 import numpy as np
 
 from softshadow.jit import kernel
-from softshadow.pipeline.fast.fragment_block import FIRST, FRACTION, LENGTH, LEVEL, OFFSET, PITCH, SECOND, T_AXIS
-from softshadow.pipeline.fast.span_state import HEIGHT, LEVEL_OFFSETS, PACKED_LEVELS, ROW_LENGTH, WIDTH
+from softshadow.pipeline.fast.fragment_block import (
+    FIRST,
+    FRACTION,
+    LENGTH,
+    LEVEL,
+    OFFSET,
+    PITCH,
+    R_AXIS,
+    SECOND,
+    T_AXIS,
+)
+from softshadow.pipeline.fast.span_state import HEIGHT, LEVEL_OFFSETS, PACKED_LEVELS, ROW_LENGTH, SLICES, WIDTH
 from softshadow.programs.wrapping import BELOW_ONE, FIXED_ONE, REPEAT_BY_MASK, mirror, to_int32
 from softshadow.tokens import GL_CLAMP_TO_BORDER, GL_MIRRORED_REPEAT, GL_REPEAT
 
@@ -17,7 +27,10 @@ NOTHING, ONE_TEXEL = np.int32(0), np.int32(1)
 
 @kernel
 def write_places(switches, unit, count, whole):
-    """Write LENGTH of both axes, OFFSET and PITCH: the sizes of each fragment's LEVEL and where it begins."""
+    """Write LENGTH of all axes, OFFSET and PITCH: the sizes of each fragment's LEVEL and where it begins."""
+    if switches[unit + SLICES]:
+        for n in range(np.uint64(count)):
+            whole[R_AXIS + LENGTH + n] = np.int32(switches[unit + SLICES])
     width, height = np.int32(switches[unit + WIDTH]), np.int32(switches[unit + HEIGHT])
     pitch, offset, is_packed = np.int32(switches[unit + ROW_LENGTH]), NOTHING, switches[unit + PACKED_LEVELS] != 0
     low = high = whole[LEVEL]
@@ -38,6 +51,14 @@ def write_places(switches, unit, count, whole):
         whole[LENGTH + n], whole[T_AXIS + LENGTH + n], whole[PITCH + n] = across, along, across
     for n in range(np.uint64(count)):
         whole[OFFSET + n] = switches[unit + LEVEL_OFFSETS + whole[LEVEL + n]]
+
+
+@kernel
+def move_by_slices(row, count, whole):
+    """Move OFFSET by as many slices of a 3-D image as `row` says."""
+    for n in range(np.uint64(count)):
+        rows = np.int32(whole[row + n] * whole[T_AXIS + LENGTH + n])
+        whole[OFFSET + n] += np.int32(rows * whole[PITCH + n])
 
 
 @kernel

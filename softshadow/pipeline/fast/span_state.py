@@ -2,7 +2,7 @@
 
 The kernels that shade spans take the state as an array of integers, `switches`, and an array of float32, `numbers`:
 passing two arrays takes a fraction of a microsecond, and no state has to be compiled. What is not covered here
-(cube maps, 3-D textures, float textures, more than two units ...) is shaded by the textbook.
+(cube maps, 3-D textures with mipmaps, float textures, more than two units ...) is shaded by the textbook.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from softshadow.pipeline.fast.fragment_block import COLUMNS, OTHER_TEXEL, PRIMAR
 from softshadow.pipeline.fast.span_texels import LEVELS, level_offsets, texels_of
 from softshadow.pipeline.shade.blend import FOUR_BYTES, BlendOps, blend_ops
 from softshadow.pixels import LARGEST_UINT
+from softshadow.programs.box_filtering import box_wraps
 from softshadow.programs.filtering import in_8_bits, sources_of, unit_of, wraps_of
 from softshadow.programs.fixed_function import Unit, has_secondary, repeats_primary
 from softshadow.programs.fog import linear_terms, scaled_density
@@ -35,10 +36,11 @@ LOGIC_OP, EQUATION_RGB, EQUATION_ALPHA, SATURATES, SOURCE_TERMS, TARGET_TERMS, C
 UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 64
 (
     PATH, S_COLUMN, WRAP_S, WRAP_T, WIDTH, HEIGHT, ROW_LENGTH, LAST_LEVEL, LOD_MODE, BETWEEN, MIN_LINEAR, MAG_LINEAR,
-    CHANNELS, _, _, _, RGB_OPERATION, ALPHA_OPERATION, COMPARISON, CLAMPED, PACKED_LEVELS, IS_DEPTH, IS_SPREAD, _,
+    CHANNELS, _, _, _, RGB_OPERATION, ALPHA_OPERATION, COMPARISON, CLAMPED, PACKED_LEVELS, IS_DEPTH, IS_SPREAD, READS_R,
     LEVEL_OFFSETS,
 ) = range(25)  # fmt: skip
 COMBINED = 40  # where the two functions of GL_COMBINE begin
+SLICES, WRAP_R = 62, 63  # of a 3-D texture
 # in `numbers`
 FOG_COLOR, FOG_SLOPE, FOG_SHIFT, UNIT_NUMBERS, NUMBERS_OF_UNIT = 0, 3, 4, 8, 16
 BORDER, CONSTANT, STEP, LEAST, MOST, BIAS, SCALES = 0, 4, 8, 9, 10, 11, 12
@@ -116,8 +118,8 @@ def _unit_key(state: State, unit: Unit) -> tuple[object, ...]:
     setting, texture = state.units[unit.index], unit.texture
     image, first = texture.base(), texture.images.get((0, 0))
     assert image is not None
-    size = (image.width, image.height, image.shape[1], image.format, texture.last_level())
-    first_size = None if first is None else (first.width, first.height)
+    size = (image.width, image.height, image.slices, image.shape[1], image.format, texture.last_level())
+    first_size = None if first is None else (first.width, first.height, first.slices)
     combine = setting.env_mode == gl.GL_COMBINE and (setting.combine, state.lighting.enabled)
     return unit.index, setting.env_mode, setting.env_color, combine, texture.target, texture.sampler, *size, first_size
 
@@ -133,7 +135,7 @@ def _state_numbers(state: State, units: list[Unit], color: Format | None) -> Sta
         if not _write_unit(state, unit, switches[at:], numbers[number:]):
             return None
         switches[at + S_COLUMN] = column
-        needed |= (0b1111 if switches[at + COMPARISON] else 0b1011) << column
+        needed |= (0b1111 if switches[at + READS_R] else 0b1011) << column
         column += 4
     switches[SEPARATE], switches[N_UNITS] = separate, len(units)
     if state.fog.enabled:
@@ -178,15 +180,17 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     texture, setting = unit.texture, state.units[unit.index]
     image, sampler = texture.base(), texture.sampler
     assert image is not None
-    is_depth = image.format.kind == "depth"
+    is_depth, is_box = image.format.kind == "depth", texture.target == gl.GL_TEXTURE_3D
     if (
-        texture.target != gl.GL_TEXTURE_2D
+        texture.target not in (gl.GL_TEXTURE_2D, gl.GL_TEXTURE_3D)
+        or (is_box and needs_blocks(texture))
         or texture.is_anisotropic
         or setting.env_mode not in (*MODES, gl.GL_COMBINE)
         or not _holds_texels(image.format)
     ):
         return False
-    wraps = wraps_of(sampler, texture.images.get((0, 0)) or image)
+    first = texture.images.get((0, 0)) or image
+    wraps = box_wraps(texture, first) if is_box else wraps_of(sampler, first)
     if image.format.has_few_bits and not in_8_bits(image, wraps):
         return False
     within, between = FILTERS[sampler.min_filter]
@@ -198,10 +202,14 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     elif is_depth or not (
         mixes_bytes or (not linear and between != gl.GL_LINEAR and gl.GL_CLAMP_TO_BORDER not in wraps)
     ):
+        if is_box:
+            return False
         switches[PATH] = IN_FLOAT
     else:
         switches[PATH] = IN_BYTES
-    switches[WRAP_S : WRAP_T + 1] = wraps
+    switches[WRAP_S : WRAP_T + 1] = wraps[:2]
+    if is_box:
+        switches[SLICES], switches[WRAP_R] = image.slices, wraps[2]
     last = texture.last_level() - sampler.base_level if between != gl.GL_NONE else 0
     switches[WIDTH : LAST_LEVEL + 1] = image.width, image.height, image.shape[1], last
     switches[BETWEEN], switches[MIN_LINEAR], switches[MAG_LINEAR] = (
@@ -211,6 +219,7 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     switches[IS_SPREAD] = switches[CHANNELS : CHANNELS + 4].tolist() != [0, 1, 2, 3]
     switches[RGB_OPERATION : ALPHA_OPERATION + 1] = environment_operations(setting.env_mode, base_format(texture))
     switches[COMPARISON] = 16 | COMPARISONS[sampler.compare_func] if compares else 0
+    switches[READS_R] = compares or is_box
     switches[CLAMPED], switches[IS_DEPTH] = image.format.largest > 0, is_depth
     switches[PACKED_LEVELS] = last > 0
     switches[LEVEL_OFFSETS : LEVEL_OFFSETS + LEVELS] = level_offsets(image, last)

@@ -14,7 +14,6 @@ from softshadow.pipeline.fast.span_floats import compare_nearest_depths, sample_
 from softshadow.pipeline.fast.span_levels import select_levels_of_block, write_squared_steps
 from softshadow.pipeline.fast.span_state import (
     CHANNELS,
-    COMPARISON,
     HEIGHT,
     IN_BYTES,
     IN_FLOAT,
@@ -24,6 +23,7 @@ from softshadow.pipeline.fast.span_state import (
     NO_LEVELS,
     PACKED_LEVELS,
     PATH,
+    READS_R,
     S_COLUMN,
     WIDTH,
 )
@@ -43,7 +43,7 @@ def sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, n
         )
     if has_levels or path == IN_FLOAT:
         select_levels_of_block(switches, numbers, unit, number, count, room, whole)
-    project_block(column, count, switches[unit + COMPARISON] != 0, room)
+    project_block(column, count, switches[unit + READS_R] != 0, room)
     if path == IN_BYTES:
         filter_level(switches, unit, count, texels, room, whole)
         mixed = False
@@ -61,14 +61,14 @@ def sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, n
 
 
 @kernel
-def project_block(column, count, with_reference, room):
-    """Write S, T and, for a comparison, R: the coordinates from `column` on, divided by q; W is overwritten."""
+def project_block(column, count, reads_r, room):
+    """Write S, T and, where it is read, R: the coordinates from `column` on, divided by q; W is overwritten."""
     s = np.uint64(column) * ROW
     for n in range(np.uint64(count)):
         over_q = ONE / room[s + ROW + ROW + ROW + n]
         room[S + n] = room[s + n] * over_q
         room[T + n] = room[s + ROW + n] * over_q
-    if with_reference:
+    if reads_r:
         for n in range(np.uint64(count)):
             room[R + n] = room[s + ROW + ROW + n] * (ONE / room[s + ROW + ROW + ROW + n])
 

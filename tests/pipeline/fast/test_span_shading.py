@@ -50,9 +50,17 @@ def test_only_float32_is_shaded_in_blocks(option, is_used):
 
 def test_combined_textures_are_shaded_in_blocks(monkeypatch):
     monkeypatch.setattr(fixed_function_pictures, "MODES", (gl.GL_COMBINE,))
+    monkeypatch.setattr(fixed_function_pictures, "TARGETS", (gl.GL_TEXTURE_2D,))
     for seed in range(20):
         shadings = assert_same(seed, units=1 + seed % 2, size=(40, 30), ordered=seed % 3 == 0)
         assert shadings <= {"fixed-function kernel", ""}  # the latter where nothing is visible
+
+
+@pytest.mark.parametrize("target", [gl.GL_TEXTURE_3D])
+def test_textures_of_other_targets_are_sampled_in_blocks(target, monkeypatch):
+    monkeypatch.setattr(fixed_function_pictures, "TARGETS", (target,))
+    shadings = [assert_same(seed, units=1 + seed % 2, size=(40, 30), ordered=seed % 3 == 0) for seed in range(30)]
+    assert shadings.count({"fixed-function kernel"}) > len(shadings) / 3
 
 
 def test_uncovered_states_are_shaded_by_the_textbook():
