@@ -25,8 +25,8 @@ def level_offsets(image: Image, last: int) -> list[int]:
     return offsets
 
 
-# images that texels were made from with their versions, and these texels, by the base image
-_made: WeakKeyDictionary[Image, tuple[list[tuple[Image, object]], np.ndarray]] = WeakKeyDictionary()
+# texels made from images, with the version tokens of these images, by the base image
+_made: WeakKeyDictionary[Image, tuple[list[object], np.ndarray]] = WeakKeyDictionary()
 
 
 def texels_of(texture: Texture) -> np.ndarray:
@@ -41,16 +41,13 @@ def texels_of(texture: Texture) -> np.ndarray:
         images = [texture.images[0, level] for level in range(sampler.base_level, texture.last_level() + 1)]
     known = _made.get(base)
     if known is not None and len(known[0]) == len(images):
-        for image, (same, version) in zip(images, known[0], strict=True):
-            if image is not same or image.version is not version:
-                break
-        else:
+        if all(image.version is version for image, version in zip(images, known[0], strict=True)):
             return known[1]
     parts = [_in_32_bits(image.read_cells if is_single else image.read_cells[:, : image.width]) for image in images]
     texels = parts[0] if is_single else np.concatenate(parts, dtype=np.int32)
     for image in images:
         image.version = image.version if image.version is not None else object()
-    _made[base] = [(image, image.version) for image in images], texels
+    _made[base] = [image.version for image in images], texels
     return texels
 
 
