@@ -19,7 +19,7 @@ FORMATS = (
 )  # fmt: skip
 DEPTH_FORMATS = (gl.GL_DEPTH_COMPONENT16, gl.GL_DEPTH_COMPONENT24, gl.GL_DEPTH_COMPONENT32, gl.GL_DEPTH_COMPONENT32F)
 FUNCS = tuple(range(gl.GL_NEVER, gl.GL_ALWAYS + 1))
-TARGETS = (gl.GL_TEXTURE_2D, gl.GL_TEXTURE_2D, gl.GL_TEXTURE_3D)
+TARGETS = (gl.GL_TEXTURE_2D, gl.GL_TEXTURE_2D, gl.GL_TEXTURE_2D, gl.GL_TEXTURE_3D, gl.GL_TEXTURE_CUBE_MAP)
 MODES = (gl.GL_MODULATE, gl.GL_REPLACE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_ADD, gl.GL_COMBINE)
 COMBINE_ALPHA = (
     gl.GL_REPLACE, gl.GL_MODULATE, gl.GL_ADD, gl.GL_ADD_SIGNED, gl.GL_INTERPOLATE, gl.GL_SUBTRACT,
@@ -69,6 +69,7 @@ def random_texture(rng, unit):
     if rng.random() < 0.3:
         gl.glTexEnvf(gl.GL_TEXTURE_FILTER_CONTROL, gl.GL_TEXTURE_LOD_BIAS, float(rng.uniform(-2, 2)))
     width, height = (2 ** rng.integers(0, 7, 2) if rng.random() < 0.5 else rng.integers(1, 65, 2)).tolist()
+    height = width if target == gl.GL_TEXTURE_CUBE_MAP else height
     slices = int(rng.integers(1, 9)) if target == gl.GL_TEXTURE_3D else 1
     is_depth = rng.random() < 0.3 and target == gl.GL_TEXTURE_2D
     internal = int(pick(rng, DEPTH_FORMATS if is_depth else FORMATS))
@@ -81,9 +82,14 @@ def random_texture(rng, unit):
         )
     level = 0
     while True:
-        texels = rng.random((slices, height, width, channels)).astype(np.float32)
+        n_images = 6 if target == gl.GL_TEXTURE_CUBE_MAP else slices
+        texels = rng.random((n_images, height, width, channels)).astype(np.float32)
         if target == gl.GL_TEXTURE_3D:
             gl.glTexImage3D(target, level, internal, width, height, slices, 0, format, gl.GL_FLOAT, texels)
+        elif target == gl.GL_TEXTURE_CUBE_MAP:
+            for face in range(6):
+                to = gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X + face
+                gl.glTexImage2D(to, level, internal, width, height, 0, format, gl.GL_FLOAT, texels[face])
         else:
             gl.glTexImage2D(target, level, internal, width, height, 0, format, gl.GL_FLOAT, texels[0])
         if width == height == slices == 1 or min_filter in (gl.GL_NEAREST, gl.GL_LINEAR):

@@ -33,6 +33,7 @@ from softshadow.pipeline.fast.fragment_block import (
     S,
     T,
 )
+from softshadow.pipeline.fast.span_cubes import FACE
 from softshadow.pipeline.fast.span_places import (
     NOTHING,
     ONE_TEXEL,
@@ -42,6 +43,7 @@ from softshadow.pipeline.fast.span_places import (
     write_places,
 )
 from softshadow.pipeline.fast.span_state import (
+    IS_CUBE,
     LOD_MODE,
     MAG_LINEAR,
     MIN_LINEAR,
@@ -62,6 +64,8 @@ WEIGHT_STEPS = np.float32(256.0)
 def filter_level(switches, unit, count, texels, room, whole):
     """Write FILTERED: the four bytes of each fragment's LEVEL, linear where LINEAR is 1, else nearest."""
     write_places(switches, unit, count, whole)
+    if switches[unit + IS_CUBE]:
+        move_by_slices(FACE, count, whole)
     wrap_s, wrap_t = switches[unit + WRAP_S], switches[unit + WRAP_T]
     small, large = switches[unit + MIN_LINEAR], switches[unit + MAG_LINEAR]
     if switches[unit + LOD_MODE] == NO_LEVELS:

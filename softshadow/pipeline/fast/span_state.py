@@ -2,7 +2,7 @@
 
 The kernels that shade spans take the state as an array of integers, `switches`, and an array of float32, `numbers`:
 passing two arrays takes a fraction of a microsecond, and no state has to be compiled. What is not covered here
-(cube maps, 3-D textures with mipmaps, float textures, more than two units ...) is shaded by the textbook.
+(3-D textures and cube maps with mipmaps, float textures, more than two units ...) is shaded by the textbook.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ UNITS = 2  # texture units at most
 # in `switches`
 NEEDED, SEPARATE, FOG, FOG_COLUMN, N_UNITS, WRITABLE, BLENDS = range(7)
 LOGIC_OP, EQUATION_RGB, EQUATION_ALPHA, SATURATES, SOURCE_TERMS, TARGET_TERMS, COMBINES = 7, 8, 9, 10, 11, 17, 23
-UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 64
+UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 65
 (
     PATH, S_COLUMN, WRAP_S, WRAP_T, WIDTH, HEIGHT, ROW_LENGTH, LAST_LEVEL, LOD_MODE, BETWEEN, MIN_LINEAR, MAG_LINEAR,
     CHANNELS, _, _, _, RGB_OPERATION, ALPHA_OPERATION, COMPARISON, CLAMPED, PACKED_LEVELS, IS_DEPTH, IS_SPREAD, READS_R,
     LEVEL_OFFSETS,
 ) = range(25)  # fmt: skip
 COMBINED = 40  # where the two functions of GL_COMBINE begin
-SLICES, WRAP_R = 62, 63  # of a 3-D texture
+SLICES, WRAP_R, IS_CUBE = 62, 63, 64  # the first two of a 3-D texture
 # in `numbers`
 FOG_COLOR, FOG_SLOPE, FOG_SHIFT, UNIT_NUMBERS, NUMBERS_OF_UNIT = 0, 3, 4, 8, 16
 BORDER, CONSTANT, STEP, LEAST, MOST, BIAS, SCALES = 0, 4, 8, 9, 10, 11, 12
@@ -58,6 +58,7 @@ COMPARISONS = {
     gl.GL_GEQUAL: 6, gl.GL_ALWAYS: 15,
 }  # fmt: skip
 NO_TEXTURES = (np.zeros(1, np.int32),) * UNITS
+ON_FACES = (gl.GL_CLAMP_TO_EDGE, gl.GL_CLAMP_TO_EDGE)  # the wrap codes of all cube maps
 RGB, ALPHA = 0x00FFFFFF, 0xFF000000
 
 
@@ -180,17 +181,18 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     texture, setting = unit.texture, state.units[unit.index]
     image, sampler = texture.base(), texture.sampler
     assert image is not None
-    is_depth, is_box = image.format.kind == "depth", texture.target == gl.GL_TEXTURE_3D
+    is_depth, is_flat = image.format.kind == "depth", texture.target == gl.GL_TEXTURE_2D
+    is_box, is_cube = texture.target == gl.GL_TEXTURE_3D, texture.target == gl.GL_TEXTURE_CUBE_MAP
     if (
-        texture.target not in (gl.GL_TEXTURE_2D, gl.GL_TEXTURE_3D)
-        or (is_box and needs_blocks(texture))
+        not (is_flat or is_box or is_cube)
+        or (not is_flat and needs_blocks(texture))
         or texture.is_anisotropic
         or setting.env_mode not in (*MODES, gl.GL_COMBINE)
         or not _holds_texels(image.format)
     ):
         return False
     first = texture.images.get((0, 0)) or image
-    wraps = box_wraps(texture, first) if is_box else wraps_of(sampler, first)
+    wraps = box_wraps(texture, first) if is_box else ON_FACES if is_cube else wraps_of(sampler, first)
     if image.format.has_few_bits and not in_8_bits(image, wraps):
         return False
     within, between = FILTERS[sampler.min_filter]
@@ -202,16 +204,17 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     elif is_depth or not (
         mixes_bytes or (not linear and between != gl.GL_LINEAR and gl.GL_CLAMP_TO_BORDER not in wraps)
     ):
-        if is_box:
+        if not is_flat:
             return False
         switches[PATH] = IN_FLOAT
     else:
         switches[PATH] = IN_BYTES
     switches[WRAP_S : WRAP_T + 1] = wraps[:2]
+    switches[IS_CUBE] = is_cube
     if is_box:
         switches[SLICES], switches[WRAP_R] = image.slices, wraps[2]
     last = texture.last_level() - sampler.base_level if between != gl.GL_NONE else 0
-    switches[WIDTH : LAST_LEVEL + 1] = image.width, image.height, image.shape[1], last
+    switches[WIDTH : LAST_LEVEL + 1] = image.width, image.height, image.width if is_cube else image.shape[1], last
     switches[BETWEEN], switches[MIN_LINEAR], switches[MAG_LINEAR] = (
         between, within == gl.GL_LINEAR, sampler.mag_filter == gl.GL_LINEAR,
     )  # fmt: skip
@@ -219,10 +222,10 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     switches[IS_SPREAD] = switches[CHANNELS : CHANNELS + 4].tolist() != [0, 1, 2, 3]
     switches[RGB_OPERATION : ALPHA_OPERATION + 1] = environment_operations(setting.env_mode, base_format(texture))
     switches[COMPARISON] = 16 | COMPARISONS[sampler.compare_func] if compares else 0
-    switches[READS_R] = compares or is_box
+    switches[READS_R] = compares or not is_flat
     switches[CLAMPED], switches[IS_DEPTH] = image.format.largest > 0, is_depth
     switches[PACKED_LEVELS] = last > 0
-    switches[LEVEL_OFFSETS : LEVEL_OFFSETS + LEVELS] = level_offsets(image, last)
+    switches[LEVEL_OFFSETS : LEVEL_OFFSETS + LEVELS] = level_offsets(image, last, len(texture.faces))
     border = np.array(sampler.border_color, np.float32)
     numbers[BORDER : BORDER + 4] = border.clip(0, 1) if image.format.largest else border
     numbers[CONSTANT : CONSTANT + 4] = np.array(setting.env_color, np.float32).clip(0, 1)

@@ -16,11 +16,11 @@ LEVELS = 16
 ROWS_AT_ONCE = 16  # of an image; they stay in the processor's cache
 
 
-def level_offsets(image: Image, last: int) -> list[int]:
+def level_offsets(image: Image, last: int, n_faces: int) -> list[int]:
     """Return where each level begins in the packed texels of a texture, for `LEVELS` levels."""
     offsets, width, height = [0], image.width, image.height
     for _ in range(LEVELS - 1):
-        offsets.append(offsets[-1] + (width * height if len(offsets) <= last else 0))
+        offsets.append(offsets[-1] + (width * height * n_faces if len(offsets) <= last else 0))
         width, height = max(width // 2, 1), max(height // 2, 1)
     return offsets
 
@@ -30,15 +30,18 @@ _made: WeakKeyDictionary[Image, tuple[list[object], np.ndarray]] = WeakKeyDictio
 
 
 def texels_of(texture: Texture) -> np.ndarray:
-    """Return all texels (n,) int32 of a texture: its only level with the padding, or its levels one after the other."""
+    """Return all texels (n,) int32 of a texture: its only image with the padding, or all images without it.
+
+    They follow each other level by level, and each level of a cube map face by face.
+    """
     base, sampler = texture.base(), texture.sampler
     assert base is not None
-    is_single = FILTERS[sampler.min_filter][1] == gl.GL_NONE or texture.last_level() == sampler.base_level
+    last = sampler.base_level if FILTERS[sampler.min_filter][1] == gl.GL_NONE else texture.last_level()
+    levels = range(sampler.base_level, last + 1)
+    images = [texture.images[face, level] for level in levels for face in texture.faces]
+    is_single = len(images) == 1
     if is_single and base.format.largest != LARGEST_UINT:
         return _in_32_bits(base.read_cells)
-    images = [base]
-    if not is_single:
-        images = [texture.images[0, level] for level in range(sampler.base_level, texture.last_level() + 1)]
     known = _made.get(base)
     if known is not None and len(known[0]) == len(images):
         if all(image.version is version for image, version in zip(images, known[0], strict=True)):

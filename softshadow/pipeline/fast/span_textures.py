@@ -10,6 +10,7 @@ from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import ROW, TEXEL, R, S, T
 from softshadow.pipeline.fast.span_bytes import begin_upper_level, filter_level, unpack_texels
+from softshadow.pipeline.fast.span_cubes import project_onto_faces_of_block
 from softshadow.pipeline.fast.span_floats import compare_nearest_depths, sample_in_float
 from softshadow.pipeline.fast.span_levels import select_levels_of_block, write_squared_steps
 from softshadow.pipeline.fast.span_state import (
@@ -17,6 +18,7 @@ from softshadow.pipeline.fast.span_state import (
     HEIGHT,
     IN_BYTES,
     IN_FLOAT,
+    IS_CUBE,
     IS_SPREAD,
     LOD_MODE,
     NEAREST_DEPTH,
@@ -44,6 +46,8 @@ def sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, n
     if has_levels or path == IN_FLOAT:
         select_levels_of_block(switches, numbers, unit, number, count, room, whole)
     project_block(column, count, switches[unit + READS_R] != 0, room)
+    if switches[unit + IS_CUBE]:
+        project_onto_faces_of_block(has_levels, count, room, whole)
     if path == IN_BYTES:
         filter_level(switches, unit, count, texels, room, whole)
         mixed = False

@@ -56,7 +56,7 @@ def test_combined_textures_are_shaded_in_blocks(monkeypatch):
         assert shadings <= {"fixed-function kernel", ""}  # the latter where nothing is visible
 
 
-@pytest.mark.parametrize("target", [gl.GL_TEXTURE_3D])
+@pytest.mark.parametrize("target", [gl.GL_TEXTURE_3D, gl.GL_TEXTURE_CUBE_MAP])
 def test_textures_of_other_targets_are_sampled_in_blocks(target, monkeypatch):
     monkeypatch.setattr(fixed_function_pictures, "TARGETS", (target,))
     shadings = [assert_same(seed, units=1 + seed % 2, size=(40, 30), ordered=seed % 3 == 0) for seed in range(30)]
