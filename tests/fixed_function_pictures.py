@@ -53,11 +53,10 @@ def random_texture(rng, unit):
         gl.glTexParameteri(target, getattr(gl, f"GL_TEXTURE_{name}"), int(value))
 
     min_filter = pick(rng, MIN_FILTERS)
-    mag_filter = pick(rng, MIN_FILTERS[:2])
-    if target != gl.GL_TEXTURE_2D and rng.random() < 0.8:  # what the kernels cover
-        min_filter = mag_filter
     parameter("MIN_FILTER", min_filter)
-    parameter("MAG_FILTER", mag_filter)
+    parameter("MAG_FILTER", pick(rng, (gl.GL_NEAREST, gl.GL_LINEAR)))
+    if target == gl.GL_TEXTURE_CUBE_MAP and rng.random() < 0.2:
+        gl.glEnable(gl.GL_TEXTURE_CUBE_MAP_SEAMLESS)
     edges = WRAPS[:2] if rng.random() < 0.5 else WRAPS
     parameter("WRAP_S", pick(rng, edges))
     parameter("WRAP_T", pick(rng, edges))

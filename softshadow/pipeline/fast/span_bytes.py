@@ -88,12 +88,11 @@ def filter_level(switches, unit, count, texels, room, whole):
     if small != large:  # the nearest texel is the mixture of this texel with itself
         nearest_places(S, np.uint64(0), wrap_s, CORNER_00, count, room, whole)
         nearest_places(T, T_AXIS, wrap_t, CORNER_00, count, room, whole)
-        for axis in (np.uint64(0), T_AXIS):
-            for n in range(np.uint64(count)):
-                is_linear, texel = whole[LINEAR + n] != NOTHING, whole[axis + CORNER_00 + n]
-                whole[axis + FIRST + n] = whole[axis + FIRST + n] if is_linear else texel
-                whole[axis + SECOND + n] = whole[axis + SECOND + n] if is_linear else texel
-                whole[axis + FRACTION + n] = whole[axis + FRACTION + n] if is_linear else NOTHING
+        take_nearest(np.uint64(0), CORNER_00, count, whole)
+        take_nearest(T_AXIS, T_AXIS + CORNER_00, count, whole)
+        if switches[unit + SLICES]:
+            nearest_places(R, R_AXIS, switches[unit + WRAP_R], SLICE - R_AXIS, count, room, whole)
+            take_nearest(R_AXIS, SLICE, count, whole)
     if not switches[unit + SLICES]:
         mix_corners(count, texels, whole)
         return
@@ -107,6 +106,16 @@ def filter_level(switches, unit, count, texels, room, whole):
     mix_corners(count, texels, whole)
     for n in range(np.uint64(count)):
         whole[FILTERED + n] = mix_bytes_of(whole[R_AXIS + FRACTION + n], whole[SLICE + n], whole[FILTERED + n])
+
+
+@kernel
+def take_nearest(axis, nearest, count, whole):
+    """Replace FIRST and SECOND of an axis by the row `nearest`, where LINEAR is 0."""
+    for n in range(np.uint64(count)):
+        is_linear, texel = whole[LINEAR + n] != NOTHING, whole[nearest + n]
+        whole[axis + FIRST + n] = whole[axis + FIRST + n] if is_linear else texel
+        whole[axis + SECOND + n] = whole[axis + SECOND + n] if is_linear else texel
+        whole[axis + FRACTION + n] = whole[axis + FRACTION + n] if is_linear else NOTHING
 
 
 @kernel

@@ -29,8 +29,9 @@ NOTHING, ONE_TEXEL = np.int32(0), np.int32(1)
 def write_places(switches, unit, count, whole):
     """Write LENGTH of all axes, OFFSET and PITCH: the sizes of each fragment's LEVEL and where it begins."""
     if switches[unit + SLICES]:
+        slices, is_packed = np.int32(switches[unit + SLICES]), switches[unit + PACKED_LEVELS] != 0
         for n in range(np.uint64(count)):
-            whole[R_AXIS + LENGTH + n] = np.int32(switches[unit + SLICES])
+            whole[R_AXIS + LENGTH + n] = max(np.int32(slices >> whole[LEVEL + n]), ONE_TEXEL) if is_packed else slices
     width, height = np.int32(switches[unit + WIDTH]), np.int32(switches[unit + HEIGHT])
     pitch, offset, is_packed = np.int32(switches[unit + ROW_LENGTH]), NOTHING, switches[unit + PACKED_LEVELS] != 0
     low = high = whole[LEVEL]

@@ -2,7 +2,8 @@
 
 The kernels that shade spans take the state as an array of integers, `switches`, and an array of float32, `numbers`:
 passing two arrays takes a fraction of a microsecond, and no state has to be compiled. What is not covered here
-(3-D textures and cube maps with mipmaps, float textures, more than two units ...) is shaded by the textbook.
+(1-D and rectangular textures, textures of floats, seamless cube maps, borders of 3-D textures, more than two units ...)
+is shaded by the textbook.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from softshadow.programs.fixed_function import Unit, has_secondary, repeats_prim
 from softshadow.programs.fog import linear_terms, scaled_density
 from softshadow.programs.level_of_detail import FILTERS, LARGEST_LEVEL, bias_of
 from softshadow.programs.program import needs_blocks
-from softshadow.programs.sampling import base_format
+from softshadow.programs.sampling import base_format, filters_cube_in_float, is_mipmapped, needs_level_of_detail
 from softshadow.programs.texture_environment import MODES, WITHOUT_ALPHA
 from softshadow.state import State
 from softshadow.texture import Sampler
@@ -33,14 +34,15 @@ UNITS = 2  # texture units at most
 # in `switches`
 NEEDED, SEPARATE, FOG, FOG_COLUMN, N_UNITS, WRITABLE, BLENDS = range(7)
 LOGIC_OP, EQUATION_RGB, EQUATION_ALPHA, SATURATES, SOURCE_TERMS, TARGET_TERMS, COMBINES = 7, 8, 9, 10, 11, 17, 23
-UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 65
+UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 67
 (
     PATH, S_COLUMN, WRAP_S, WRAP_T, WIDTH, HEIGHT, ROW_LENGTH, LAST_LEVEL, LOD_MODE, BETWEEN, MIN_LINEAR, MAG_LINEAR,
     CHANNELS, _, _, _, RGB_OPERATION, ALPHA_OPERATION, COMPARISON, CLAMPED, PACKED_LEVELS, IS_DEPTH, IS_SPREAD, READS_R,
     LEVEL_OFFSETS,
 ) = range(25)  # fmt: skip
 COMBINED = 40  # where the two functions of GL_COMBINE begin
-SLICES, WRAP_R, IS_CUBE = 62, 63, 64  # the first two of a 3-D texture
+SLICES, WRAP_R = 62, 63  # of a 3-D texture
+IS_CUBE, BY_RECIPROCAL, BY_PIXEL = 64, 65, 66  # how directions are projected, and what has a level of its own
 # in `numbers`
 FOG_COLOR, FOG_SLOPE, FOG_SHIFT, UNIT_NUMBERS, NUMBERS_OF_UNIT = 0, 3, 4, 8, 16
 BORDER, CONSTANT, STEP, LEAST, MOST, BIAS, SCALES = 0, 4, 8, 9, 10, 11, 12
@@ -185,7 +187,7 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     is_box, is_cube = texture.target == gl.GL_TEXTURE_3D, texture.target == gl.GL_TEXTURE_CUBE_MAP
     if (
         not (is_flat or is_box or is_cube)
-        or (not is_flat and needs_blocks(texture))
+        or filters_cube_in_float(texture)
         or texture.is_anisotropic
         or setting.env_mode not in (*MODES, gl.GL_COMBINE)
         or not _holds_texels(image.format)
@@ -210,7 +212,8 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     else:
         switches[PATH] = IN_BYTES
     switches[WRAP_S : WRAP_T + 1] = wraps[:2]
-    switches[IS_CUBE] = is_cube
+    if is_cube:
+        switches[IS_CUBE : BY_PIXEL + 1] = True, needs_level_of_detail(texture), is_mipmapped(texture)
     if is_box:
         switches[SLICES], switches[WRAP_R] = image.slices, wraps[2]
     last = texture.last_level() - sampler.base_level if between != gl.GL_NONE else 0

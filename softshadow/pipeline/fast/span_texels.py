@@ -18,10 +18,10 @@ ROWS_AT_ONCE = 16  # of an image; they stay in the processor's cache
 
 def level_offsets(image: Image, last: int, n_faces: int) -> list[int]:
     """Return where each level begins in the packed texels of a texture, for `LEVELS` levels."""
-    offsets, width, height = [0], image.width, image.height
+    offsets, width, height, slices = [0], image.width, image.height, image.slices
     for _ in range(LEVELS - 1):
-        offsets.append(offsets[-1] + (width * height * n_faces if len(offsets) <= last else 0))
-        width, height = max(width // 2, 1), max(height // 2, 1)
+        offsets.append(offsets[-1] + (width * height * slices * n_faces if len(offsets) <= last else 0))
+        width, height, slices = max(width // 2, 1), max(height // 2, 1), max(slices // 2, 1)
     return offsets
 
 

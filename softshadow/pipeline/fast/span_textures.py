@@ -14,6 +14,7 @@ from softshadow.pipeline.fast.span_cubes import project_onto_faces_of_block
 from softshadow.pipeline.fast.span_floats import compare_nearest_depths, sample_in_float
 from softshadow.pipeline.fast.span_levels import select_levels_of_block, write_squared_steps
 from softshadow.pipeline.fast.span_state import (
+    BY_RECIPROCAL,
     CHANNELS,
     HEIGHT,
     IN_BYTES,
@@ -27,8 +28,10 @@ from softshadow.pipeline.fast.span_state import (
     PATH,
     READS_R,
     S_COLUMN,
+    SLICES,
     WIDTH,
 )
+from softshadow.pipeline.fast.span_steps import write_squared_steps_in_space
 from softshadow.programs.filtering import CONSTANT_ZERO
 
 
@@ -39,7 +42,10 @@ def sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, n
     `unit` and `number` are where the unit's switches and numbers begin.
     """
     column, path, has_levels = switches[unit + S_COLUMN], switches[unit + PATH], switches[unit + LOD_MODE] != NO_LEVELS
-    if has_levels:
+    in_space = switches[unit + SLICES] | switches[unit + IS_CUBE]
+    if has_levels and in_space:
+        write_squared_steps_in_space(planes, spans, n_spans, flat[column], switches, unit, room)
+    elif has_levels:
         write_squared_steps(
             planes, spans, n_spans, column, flat[column], switches[unit + WIDTH], switches[unit + HEIGHT], room
         )
@@ -47,7 +53,7 @@ def sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, n
         select_levels_of_block(switches, numbers, unit, number, count, room, whole)
     project_block(column, count, switches[unit + READS_R] != 0, room)
     if switches[unit + IS_CUBE]:
-        project_onto_faces_of_block(has_levels, count, room, whole)
+        project_onto_faces_of_block(switches[unit + BY_RECIPROCAL] != 0, count, room, whole)
     if path == IN_BYTES:
         filter_level(switches, unit, count, texels, room, whole)
         mixed = False
