@@ -18,6 +18,7 @@ FORMATS = (
     gl.GL_RGBA, gl.GL_RGB, gl.GL_LUMINANCE, gl.GL_LUMINANCE_ALPHA, gl.GL_ALPHA, gl.GL_INTENSITY, gl.GL_RED, gl.GL_RG,
 )  # fmt: skip
 DEPTH_FORMATS = (gl.GL_DEPTH_COMPONENT16, gl.GL_DEPTH_COMPONENT24, gl.GL_DEPTH_COMPONENT32, gl.GL_DEPTH_COMPONENT32F)
+DEPTH_SHARE = 0.3  # of the textures
 FUNCS = tuple(range(gl.GL_NEVER, gl.GL_ALWAYS + 1))
 TARGETS = (gl.GL_TEXTURE_2D, gl.GL_TEXTURE_2D, gl.GL_TEXTURE_2D, gl.GL_TEXTURE_3D, gl.GL_TEXTURE_CUBE_MAP)
 MODES = (gl.GL_MODULATE, gl.GL_REPLACE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_ADD, gl.GL_COMBINE)
@@ -70,15 +71,13 @@ def random_texture(rng, unit):
     width, height = (2 ** rng.integers(0, 7, 2) if rng.random() < 0.5 else rng.integers(1, 65, 2)).tolist()
     height = width if target == gl.GL_TEXTURE_CUBE_MAP else height
     slices = int(rng.integers(1, 9)) if target == gl.GL_TEXTURE_3D else 1
-    is_depth = rng.random() < 0.3 and target == gl.GL_TEXTURE_2D
+    is_depth = rng.random() < DEPTH_SHARE and target != gl.GL_TEXTURE_3D
     internal = int(pick(rng, DEPTH_FORMATS if is_depth else FORMATS))
     format, channels = (gl.GL_DEPTH_COMPONENT, 1) if is_depth else (gl.GL_RGBA, 4)
     if is_depth:
         parameter("COMPARE_MODE", pick(rng, (gl.GL_NONE, gl.GL_COMPARE_R_TO_TEXTURE, gl.GL_COMPARE_R_TO_TEXTURE)))
         parameter("COMPARE_FUNC", pick(rng, FUNCS))
-        gl.glTexParameteri(
-            gl.GL_TEXTURE_2D, gl.GL_DEPTH_TEXTURE_MODE, pick(rng, (gl.GL_LUMINANCE, gl.GL_INTENSITY, gl.GL_ALPHA))
-        )
+        gl.glTexParameteri(target, gl.GL_DEPTH_TEXTURE_MODE, pick(rng, (gl.GL_LUMINANCE, gl.GL_INTENSITY, gl.GL_ALPHA)))
     level = 0
     while True:
         n_images = 6 if target == gl.GL_TEXTURE_CUBE_MAP else slices

@@ -2,8 +2,8 @@
 
 The kernels that shade spans take the state as an array of integers, `switches`, and an array of float32, `numbers`:
 passing two arrays takes a fraction of a microsecond, and no state has to be compiled. What is not covered here
-(1-D and rectangular textures, textures of floats, seamless cube maps, borders of 3-D textures, more than two units ...)
-is shaded by the textbook.
+(1-D and rectangular textures, textures of floats, cube maps that are seamless or of depths, borders of 3-D textures,
+more than two units ...) is shaded by the textbook.
 """
 
 from __future__ import annotations
@@ -187,6 +187,7 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     is_box, is_cube = texture.target == gl.GL_TEXTURE_3D, texture.target == gl.GL_TEXTURE_CUBE_MAP
     if (
         not (is_flat or is_box or is_cube)
+        or (is_depth and not is_flat)
         or filters_cube_in_float(texture)
         or texture.is_anisotropic
         or setting.env_mode not in (*MODES, gl.GL_COMBINE)

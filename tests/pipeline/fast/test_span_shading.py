@@ -63,6 +63,14 @@ def test_textures_of_other_targets_are_sampled_in_blocks(target, monkeypatch):
     assert shadings.count({"fixed-function kernel"}) > len(shadings) / 4
 
 
+def test_depths_of_cube_maps_are_compared_by_the_textbook(monkeypatch):
+    monkeypatch.setattr(fixed_function_pictures, "TARGETS", (gl.GL_TEXTURE_CUBE_MAP,))
+    monkeypatch.setattr(fixed_function_pictures, "MIN_FILTERS", (gl.GL_NEAREST,))
+    monkeypatch.setattr(fixed_function_pictures, "DEPTH_SHARE", 1.0)
+    for seed in range(12):
+        assert assert_same(seed, units=1, size=(40, 30)) <= {"program", ""}
+
+
 def test_uncovered_states_are_shaded_by_the_textbook():
     with explain_paths() as paths:
         for seed in range(12):
