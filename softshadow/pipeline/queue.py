@@ -30,6 +30,7 @@ except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
 
 
 KNOWN_KINDS = 256
+KNOWN_VERTICES = 64 * MOST_VERTICES  # about, of the draws that kinds keep
 
 
 class Kind(NamedTuple):
@@ -70,6 +71,7 @@ class DrawQueue:
         # by the identity of what they depend on; the latest by all but their tests and blending
         self._known: dict[tuple[int, ...], list[Kind]] = {}
         self._latest: dict[tuple[int, ...], Kind] = {}
+        self._known_vertices = 0
         self._kind: Kind | None = None  # of the last draw
         self._batches: dict[Hashable, list[Draw]] = {}  # by geometry key
         self._segments: list[Segment] = []  # in drawing order
@@ -114,9 +116,10 @@ class DrawQueue:
         target = self._storage.framebuffers[command.state.draw_framebuffer]
         made = self._with_other_tests(command, target) or self._new_kind(command, target)
         if made is not None:
-            if len(self._known) >= KNOWN_KINDS:
-                self._known.clear()
+            if len(self._known) >= KNOWN_KINDS or self._known_vertices > KNOWN_VERTICES:
+                self.forget()
             self._known.setdefault(key, []).append(made)
+            self._known_vertices += len(command.vertices.position)
         return made
 
     def _with_other_tests(self, command: Draw, target: Framebuffer) -> Kind | None:
@@ -133,8 +136,6 @@ class DrawQueue:
             return None
         setting = setting_of(run, target, self._storage)
         kind = Kind(run, setting, plan_draw(command, target, False), geometry_key(run, setting))
-        if len(self._latest) >= KNOWN_KINDS:
-            self._latest.clear()
         self._latest[key_of(command.state, with_tests=False)] = kind
         return kind
 
@@ -142,6 +143,7 @@ class DrawQueue:
         """Forget the kinds of runs, when a texture or a framebuffer object changes."""
         self._known.clear()
         self._latest.clear()
+        self._known_vertices = 0
 
     def carry_out(self) -> None:
         """Carry out the draws that wait."""

@@ -5,8 +5,10 @@ from __future__ import annotations
 from softshadow.bench.corpus import (
     blended,
     first_programs,
+    flat,
     large_meshes,
     lines_and_points,
+    more_calls,
     several_passes,
     shadow_maps,
     stencil_shadows,
@@ -17,6 +19,7 @@ from softshadow.errors import nearest
 
 FAMILIES = (
     first_programs, large_meshes, textured, blended, stencil_shadows, shadow_maps, several_passes, lines_and_points,
+    flat, more_calls,
 )  # fmt: skip
 PROGRAMS = {program.name: program for family in FAMILIES for program in family.PROGRAMS}
 
