@@ -1,7 +1,7 @@
-"""GL_COMBINE as numbers for the kernel `span_combine.combine_block`; see `softshadow.programs.texture_combine`.
+"""GL_COMBINE as numbers for a kernel; equals `shade.shading.shade`, see fast/test_span_shading.py.
 
-A combine function is some switches: what is computed, whether the result is clamped, and three arguments. An argument
-is a source, whether its alpha is taken, and whether it is subtracted from 1.
+The kernel is `span_combine.combine_block`. A combine function is some switches: what is computed, whether the result is
+clamped, and three arguments. An argument is a source, whether its alpha is taken, and whether it is subtracted from 1.
 """
 
 from __future__ import annotations

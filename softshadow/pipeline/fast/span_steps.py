@@ -9,6 +9,7 @@ import numpy as np
 from softshadow.jit import kernel
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import NEXT, SPAN_LEFT, SPAN_PLACE, SPAN_ROW, SPAN_START, SQUARED
+from softshadow.pipeline.fast.span_levels import NOT_A_NUMBER
 from softshadow.pipeline.fast.span_state import BY_PIXEL, HEIGHT, IS_CUBE, S_COLUMN, SLICES, WIDTH
 from softshadow.programs.cube_maps import component, major_axis, squared_step
 
@@ -42,7 +43,8 @@ def write_squared_steps_in_space(planes, spans, n_spans, is_flat, switches, unit
             if not is_cube:
                 across = squared_length(first_up, second_up, wide, high, deep)
                 down = squared_length(first_up, first_down, wide, high, deep)
-                larger = across if across > down or across != across else down  # NaN, as NumPy's maximum
+                larger = across if across > down else down
+                larger = larger if across == across else NOT_A_NUMBER
             elif not by_pixel:
                 larger = larger_step(first_up, first_up, second_up, first_up, first_down, wide)
             else:

@@ -1,4 +1,4 @@
-"""The texels of a texture as one array for the kernels that shade spans; see fast/test_span_shading.py."""
+"""The texels of a texture as one array for kernels; equals `shade.shading.shade`, see fast/test_span_shading.py."""
 
 from __future__ import annotations
 

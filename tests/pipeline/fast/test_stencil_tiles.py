@@ -101,7 +101,7 @@ def buffers_after(seed: int, depth_format: str) -> tuple[np.ndarray, np.ndarray]
     left, right = sorted(int(x) for x in rng.choice([0, 7, 64, 100, 128, WIDTH], 2, replace=False))
     first, end = sorted(int(y) for y in rng.choice([0, 5, 16, 40, HEIGHT], 2, replace=False))
     region = Region(left, right, first, end, downwards)
-    plan = Plan(False, False, front, back, DrawPath("", gl.GL_TRIANGLES))
+    plan = Plan(False, False, front, back, DrawPath("", gl.GL_TRIANGLES), [])
     choice = choose_fill(plan, len(triangles.ids), 10**6, region)
     depth_range, cells = DepthRange(real(0), real(1)), fill_buffers(depth, stencil, triangles.depth.dtype, region)
     with np.errstate(all="ignore"):  # as in pipeline.draw: interpreted bytes wrap with a warning
@@ -161,7 +161,7 @@ def test_many_small_triangles_are_shared_where_updates_are_sums():
             (facing(), 100, False),
             (facing(zfail=gl.GL_INCR), 10_000, False),
         ):
-            plan = Plan(False, False, front, front, DrawPath("", gl.GL_TRIANGLES))
+            plan = Plan(False, False, front, front, DrawPath("", gl.GL_TRIANGLES), [])
             choose_fill(plan, n_triangles, 10**6, region)
             assert ("shared" in plan.path.fill) == shares
     finally:
