@@ -169,6 +169,7 @@ class ClientArrays:
     layouts: dict[str, ArrayLayout] = field(default_factory=dict)
     active_unit: int = 0
     active: tuple[VertexArray, ...] | None = None
+    readers: tuple[tuple[VertexArray, ...], Any] | None = None  # of glArrayElement, for these active arrays
     constants: Any = None
     sources: Cache = field(default_factory=Cache)  # vertex arrays by the pointer argument
     indices: Cache = field(default_factory=Cache)  # index arrays by the argument

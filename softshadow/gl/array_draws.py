@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from ctypes import c_uint
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -151,23 +151,44 @@ def _refused(operation: str, mode: int, count: int) -> bool:
 def glArrayElement(i: int) -> None:
     """Set the current attributes from one vertex of the enabled arrays; its position adds a vertex, as glVertex."""
     context = current()
-    arrays = _arrays_in_use(context)
-    if NOT_DRAWN in context.arrays.enabled:
-        indices = _array(context, NOT_DRAWN)
-        arrays += () if indices is None else (indices,)
-    for array in reversed(arrays):  # the position comes last
-        key, rows = KEYS[array.slot], array.rows
+    for key, rows, call, convert in _readers(context):
         if not 0 <= i < len(rows):
             raise ValueError(f"glArrayElement(i={i}): the array of {key}s has {len(rows)}")
-        convert = CONVERSIONS.get(rows.dtype.type, float) if key in NORMALIZED else float
-        values = [convert(number) for number in rows[i].tolist()]
-        call = CALLS.get((key, len(values)))
+        values = rows[i].tolist()
+        if convert is not None:
+            values = [convert(number) for number in values]
         if call is not None:
             call(*values)
         elif context.compiled_list is None:
             _set_attribute(key, values)
         else:
             _record_attribute(key, values)
+
+
+class _Reader(NamedTuple):
+    """How glArrayElement takes an attribute from an array: its rows, a quick call, and what makes numbers floats."""
+
+    key: str
+    rows: np.ndarray
+    call: Callable[..., None] | None
+    convert: Callable[[Any], float] | None
+
+
+def _readers(context: Context) -> tuple[_Reader, ...]:
+    """Return the readers of the enabled arrays, that of the positions last."""
+    active, known = _arrays_in_use(context), context.arrays.readers
+    if known is None or known[0] is not active:
+        index = _array(context, NOT_DRAWN) if NOT_DRAWN in context.arrays.enabled else None
+        arrays = active if index is None else (*active, index)
+        known = context.arrays.readers = active, tuple([_reader(array) for array in reversed(arrays)])
+    readers: tuple[_Reader, ...] = known[1]
+    return readers
+
+
+def _reader(array: VertexArray) -> _Reader:
+    key, rows = KEYS[array.slot], array.rows
+    convert = CONVERSIONS.get(rows.dtype.type, float) if key in NORMALIZED else float
+    return _Reader(key, rows, CALLS.get((key, rows.shape[1])), None if rows.dtype.kind == "f" else convert)
 
 
 def _set_attribute(key: str, values: list[float]) -> None:

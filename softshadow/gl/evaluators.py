@@ -108,11 +108,15 @@ def _add_vertices(context: Context, evaluated: Evaluated, count: int) -> None:
         add_vertex(context, *points[number].tolist())
         last = number + 1
         if last < count and _takes_all(context, primitive, evaluated.sizes, count - last):
+            first, positions = len(primitive.positions), _columns(points, 4)
             for name, values in rows.items():
-                first = len(primitive.positions)
                 primitive.changes[name] += zip(range(first, first + 4 * (count - last), 4), values[last:], strict=True)
-            for point in _padded(points[last:], 4):
-                primitive.positions += point
+            primitive.positions += positions[last:].reshape(-1).tolist()
+            if number == 0 and first == 4:
+                arrays = {name: _columns(evaluated.rows[name], len(rows[name][0])) for name in rows}
+                primitive.arrays = {
+                    key: context.frozen(each) for key, each in (arrays | {"position": positions}).items()
+                }
             store_vertices(context, primitive)
             last = count
         for name, value in before.items():
@@ -133,8 +137,15 @@ def _takes_all(context: Context, primitive: Primitive, sizes: dict[str, int], co
 
 def _padded(values: np.ndarray, length: int) -> list[tuple[float, ...]]:
     """Return rows of a vector's components, so many of them: the missing ones are 0 and 1."""
-    rest = REST[values.shape[1] :]
-    return [(*row, *rest)[:length] for row in values.tolist()]
+    return list(map(tuple, _columns(values, length).tolist()))
+
+
+def _columns(values: np.ndarray, length: int) -> np.ndarray:
+    """Return the same rows as an array."""
+    rest = np.broadcast_to(
+        np.array(REST[values.shape[1] : length], F32), (len(values), max(length - values.shape[1], 0))
+    )
+    return np.concatenate([values[:, :length], rest], axis=1, dtype=F32)
 
 
 def _make_room(context: Context, name: str, size: int) -> None:

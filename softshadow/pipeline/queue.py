@@ -23,7 +23,7 @@ try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
     from softshadow.pipeline.fast.batch.geometry import WORTH_COMPARING, Setting, geometry_of, setting_of
     from softshadow.pipeline.fast.batch.segments import Part, cut, geometry_key
-    from softshadow.pipeline.fast.batch.table import BATCH_KERNELS, Run, key_of
+    from softshadow.pipeline.fast.batch.table import BATCH_KERNELS, Run, key_of, width_of
     from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL
 except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
     pass
@@ -52,6 +52,11 @@ class Segment:
     kind: Kind
     first: int
     end: int
+
+
+def _key_without_tests(command: Draw) -> tuple[int, ...]:
+    """Return by what to look for a kind that may differ in tests and blending only."""
+    return *key_of(command.state, with_tests=False), width_of(command.mode)
 
 
 class DrawQueue:
@@ -124,7 +129,7 @@ class DrawQueue:
 
     def _with_other_tests(self, command: Draw, target: Framebuffer) -> Kind | None:
         """Return the kind of a draw by one that differs in tests and blending only."""
-        similar = self._latest.get(key_of(command.state, with_tests=False))
+        similar = self._latest.get(_key_without_tests(command))
         run = None if similar is None else similar.run.under(command)
         if similar is None or run is None:
             return None
@@ -136,7 +141,7 @@ class DrawQueue:
             return None
         setting = setting_of(run, target, self._storage)
         kind = Kind(run, setting, plan_draw(command, target, False), geometry_key(run, setting))
-        self._latest[key_of(command.state, with_tests=False)] = kind
+        self._latest[_key_without_tests(command)] = kind
         return kind
 
     def forget(self) -> None:
