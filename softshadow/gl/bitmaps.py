@@ -25,6 +25,7 @@ from softshadow.gl.render_modes import is_rendered
 from softshadow.gl.window_quads import draw_of_quads
 from softshadow.pixel_store import bitmap_rows
 
+KEPT_BYTES = 512  # of a bitmap up to which it may be a character, which is drawn again
 ROUNDING = np.float32(0.0001)  # of Mesa: so much below a whole number is still that number
 
 
@@ -55,7 +56,7 @@ def glBitmap(
         if bitmap is None:
             return
         content = bitmap.tobytes() if isinstance(bitmap, np.ndarray) else bitmap
-        rows = _kept_rows if isinstance(content, bytes) else bitmap_rows
+        rows = _kept_rows if isinstance(content, bytes) and len(content) <= KEPT_BYTES else bitmap_rows
         bits = rows(content, context.unpack_store, int(width), int(height), "glBitmap")
     _bitmap(width, height, xorig, yorig, xmove, ymove, bits)
 
@@ -78,7 +79,7 @@ def _bitmap(
         return
     x, y, *rest = context.current.raster.window  # the sums below are in float32
     if is_rendered(context, gl.GL_BITMAP_TOKEN) and bits is not None:
-        quads = _kept_runs(bits.tobytes(), bits.shape)
+        quads = _kept_runs(bits.tobytes(), bits.shape) if bits.size <= 8 * KEPT_BYTES else runs(bits)
         if len(quads):
             left = math.floor(x + ROUNDING - np.float32(xorig))
             bottom = math.floor(y + ROUNDING - np.float32(yorig))

@@ -37,7 +37,7 @@ from softshadow.gl.shape_calls import Calls
 
 F32 = np.float32
 MOST = 239  # slices and stacks
-KEPT_SHAPES, KEPT_PLACES = 32, 2500  # shapes whose calls are kept, and their largest slices * stacks: below 70 MB
+KEPT_SHAPES, KEPT_PLACES = 32, 2500  # shapes whose calls are kept, and their largest slices * stacks: below 150 MB
 Table = list[float]  # float32 numbers
 
 

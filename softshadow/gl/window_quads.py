@@ -35,6 +35,7 @@ TRIANGLES = np.array([0, 1, 2, 0, 2, 3])  # a fan, as in Mesa
 EDGES, EDGES_FROM_TOP = (2 * corners + [0, 1] for corners in (CORNERS, CORNERS_FROM_TOP))
 
 LARGEST_ZOOM = 16
+KEPT_VERTICES = 1024  # of a draw; a character has some hundred
 TEXTURE = min(DEFAULTS.values()) - 1  # key in the storage of the texture that holds the rectangle
 SAMPLER = Sampler(
     min_filter=gl.GL_NEAREST, mag_filter=gl.GL_NEAREST, wrap_s=gl.GL_CLAMP_TO_EDGE, wrap_t=gl.GL_CLAMP_TO_EDGE
@@ -138,7 +139,7 @@ def draw_of_quads(context: Context, quads: np.ndarray, state: State, textured: b
     position = np.ones((len(quads), 4, 4), real)
     position[:, :, :2] = edges[:, EDGES_FROM_TOP if corners is CORNERS_FROM_TOP else EDGES]
     position[:, :, 2] = 0  # the projection adds the depth: in Mesa, fog is that of the distance 0
-    color, texcoords = _attributes(_packed(raster.color, *raster.texcoords), n, real)
+    color, texcoords = _for(n, _attributes)(_packed(raster.color, *raster.texcoords), n, real)
     if textured:
         of_quads = texcoords[0].copy()
         of_quads[:, :2] = np.tile(corners, (len(quads), 1))
@@ -149,14 +150,19 @@ def draw_of_quads(context: Context, quads: np.ndarray, state: State, textured: b
     return evolve(
         _blank_draw(real, len(texcoords)),
         state=_prepared(state, size, in_window, state.depth.clamp and textured),
-        vertices=Vertices(position, color, _normals(n, real), texcoords),
-        indices=_indices(len(quads)),
+        vertices=Vertices(position, color, _for(n, _normals)(n, real), texcoords),
+        indices=_for(n, _indices)(len(quads)),
         projection=_projection(raster.window[2], real),
         label="/".join(context.labels),
     )
 
 
 # what draws have in common, kept: text is made of many small ones
+def _for(n: int, kept: Any) -> Any:
+    """Return a function that keeps its results; for more than so many vertices, one that does not."""
+    return kept if n <= KEPT_VERTICES else kept.__wrapped__
+
+
 def _packed(*values: Sequence[float]) -> bytes:
     """Return numbers as a key that tells -0 from 0."""
     return b"".join([struct.pack(f"{len(value)}d", *value) for value in values])
