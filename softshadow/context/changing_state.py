@@ -60,7 +60,11 @@ class ChangingState:
     @property
     def drawn_state(self) -> State:
         """The state as draws have it: materials may not contain yet the colour that they follow (`followed`)."""
-        return self._state.drawn()
+        groups = self._state
+        if self._changed:
+            return groups.drawn()
+        state: State = groups.root.value
+        return state
 
     @property
     def followed(self) -> Followed | None:

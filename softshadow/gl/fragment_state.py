@@ -38,8 +38,9 @@ UNSIGNED = 0xFFFFFFFF  # masks are unsigned: -1 sets all bits
 MASKS = {mask: mask for mask in product((False, True), repeat=4)}  # so that equal masks are the same object
 LOGIC_OPS = range(gl.GL_CLEAR, gl.GL_SET + 1)
 F32 = np.float32
-SINGLES = tuple(struct.Struct(f"{count}f") for count in range(5))  # by the number of values
-SINGLE = SINGLES[1]
+# functions that pack and unpack so many numbers in single precision
+SINGLES = tuple((single.pack, single.unpack) for single in (struct.Struct(f"{count}f") for count in range(5)))
+PACK_SINGLE, UNPACK_SINGLE = SINGLES[1]
 
 
 def clamp01(value: float) -> float:
@@ -51,7 +52,7 @@ def rounded_number(context: Context, value: float) -> float:
     if context.real is not F32:
         return float(value)
     try:
-        number: float = SINGLE.unpack(SINGLE.pack(value))[0]
+        number: float = UNPACK_SINGLE(PACK_SINGLE(value))[0]
     except struct.error:  # not a number, which ctypes says better
         return c_float(value).value
     return number
@@ -61,9 +62,9 @@ def rounded(context: Context, *values: float) -> Any:
     """Return numbers rounded to the context's precision."""
     if context.real is not F32:
         return tuple(map(float, values))
-    single = SINGLES[len(values)]
+    pack, unpack = SINGLES[len(values)]
     try:
-        return single.unpack(single.pack(*values))
+        return unpack(pack(*values))
     except struct.error:  # not a number, which ctypes says better
         return tuple(c_float(value).value for value in values)
 
