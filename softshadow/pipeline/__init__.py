@@ -40,7 +40,7 @@ from softshadow.pipeline.choose import (
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.draw_path import DrawPath, explain_paths
 from softshadow.pipeline.memory.threads import set_threads, threads
-from softshadow.pipeline.raster.fill import fill, fill_buffers, no_ids
+from softshadow.pipeline.raster.fill import fill, fill_buffers
 from softshadow.pipeline.raster.ordered import process_fragments
 from softshadow.pipeline.raster.region import buffer_cells, covered, depth_range_of, padded_shape, region_of
 from softshadow.pipeline.raster.spans import LAST, ONLY
@@ -58,7 +58,7 @@ from softshadow.pipeline.shade.blend import compared_alpha
 from softshadow.pipeline.shade.color_writes import color_writer
 from softshadow.pipeline.shade.discards import fragments_in
 from softshadow.pipeline.shade.shading import shade, shade_and_write
-from softshadow.pipeline.shade.visible_spans import spans_of, visible_spans
+from softshadow.pipeline.shade.visible_spans import BandsOfIds, spans_of, visible_spans
 from softshadow.state import State
 
 __all__ = [
@@ -164,16 +164,16 @@ def _draw_opaque(
 
     ties: list[int] = []
 
-    def fill_all(ids: np.ndarray | None) -> None:
-        _fill(plan, state, target, triangles, region, fragments, ids=ids, counts=counts, ties=ties)
+    def fill_all(bands: BandsOfIds | None = None) -> None:
+        _fill(plan, state, target, triangles, region, fragments, bands=bands, counts=counts, ties=ties)
 
     def visible() -> Spans:
-        ids = no_ids(region, padded_shape(target)[1])
-        fill_all(ids)
-        return visible_spans(ids, region)
+        bands = BandsOfIds(region, padded_shape(target)[1])
+        fill_all(bands)
+        return bands.spans()
 
     if not plan.writes_color:
-        fill_all(None)
+        fill_all()
         return
     if plan.cached_fill:
         depth_range = depth_range_of(state, real)
@@ -275,7 +275,7 @@ def _spans_without_overlaps(
         return None
 
     def dry_run(ids: np.ndarray) -> None:
-        _fill(plan, command.state, target, triangles, region, fragments, ids=ids, writes_ids=ONLY)
+        _fill(plan, command.state, target, triangles, region, fragments, ids=ids)
 
     ids = without_overlaps(dry_run, region, padded_shape(target)[1])
     plan.path.note("a dry run found overlapping fragments" if ids is None else "a dry run found no overlaps")
@@ -294,13 +294,17 @@ def _fill(
     fragments: int,
     *,
     ids: np.ndarray | None = None,
-    writes_ids: int = LAST,
+    bands: BandsOfIds | None = None,
     counts: FragmentCounts | None = None,
     ranges: Sequence[tuple[int, int]] | None = None,
     ties: list[int] | None = None,
 ) -> None:
-    """Fill the triangles; `fragments` is about how many they have, the other arguments are those of `fill`."""
-    writes_ids = writes_ids if ids is not None else 0
+    """Fill the triangles; `fragments` is about how many they have, the other arguments are those of `fill`.
+
+    `bands` receive the last triangle of each pixel; `ids` the only one, or that there are several.
+    """
+    writes_ids = LAST if bands else ONLY if ids is not None else 0
+    ids, around = (bands.ids, {"before": bands.clear, "after": bands.count}) if bands else (ids, {})
     n_triangles = len(triangles.ids) if ranges is None else sum(end - first for first, end in ranges)
     choice = choose_fill(
         plan, n_triangles, fragments, region, writes_ids=writes_ids, counts=counts, depth=target.depth, ties=ties
@@ -309,5 +313,5 @@ def _fill(
     buffers = fill_buffers(*buffer_cells(target, real, writes_depth=writes_depth), real, region, ids)
     fill(
         choice.kernel, plan.front, plan.back, triangles, region, depth_range_of(state, real.type), buffers,
-        writes_ids=bool(writes_ids), band_rows_log2=choice.band_rows_log2, ranges=ranges,
+        writes_ids=bool(writes_ids), band_rows_log2=choice.band_rows_log2, ranges=ranges, **around,
     )  # fmt: skip

@@ -61,8 +61,9 @@ try:
 except ModuleNotFoundError:  # the folder can be deleted: the textbook draws everything
     SHORT_CUTS_EXIST = False
 
-WORTH_BANDS = 1_000_000  # fragments from which sorting and the hand-over to threads are small against the work
-SMALL_TRIANGLE = 100  # fragments that take as long as a small triangle
+WORTH_BANDS = 1_000_000  # fragments from which one thread draws layers in bands: sorting is small against the work
+WORTH_THREADS = 300_000  # fragments from which several threads share bands: these take some 600 us, a hand-over 60
+SMALL_TRIANGLE = 100  # fragments that are filled in the time that a small triangle takes
 WORTH_SHARING = 64  # triangles for each thread, from which threads share them in place of bands of rows
 WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volumes are long and thin
 FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangle: finding their spans would cost more
@@ -301,7 +302,7 @@ def choose_fill(
             path.fill += ", triangles shared"
             return FillChoice(shared_tiles_kernel(depth), 0)
     else:
-        bands_pay = work >= WORTH_BANDS
+        bands_pay = work >= (WORTH_BANDS if threads() == 1 else WORTH_THREADS)
     if counts is not None or not bands_pay or not _bands_pay(region, n_fragments):
         return FillChoice(kernel, 0)
     path.fill += " in bands"

@@ -7,6 +7,7 @@ In the order of the pipeline: triangles in the window (`Setup`, `Geometry`), whe
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -176,6 +177,15 @@ class Spans(NamedTuple):
         """Return the spans from `first` to `end`, their fragments numbered from 0."""
         start = self.start[first : end + 1] - self.start[first]
         return Spans(self.row[first:end], self.left[first:end], self.triangle[first:end], start)
+
+    def equal_parts(self, n_parts: int, beginning: int) -> list[tuple[int, int]]:
+        """Return the first and end spans of parts of about equal work, at most so many, none of them empty.
+
+        A span begins in the time that so many fragments take.
+        """
+        work = self.start + beginning * np.arange(len(self.start))
+        cuts = np.searchsorted(work, work[-1] * np.arange(1, n_parts) // n_parts).tolist()
+        return [(first, end) for first, end in pairwise([0, *cuts, len(self.row)]) if first < end]
 
     def chunks(self, size: int) -> np.ndarray:
         """Return where to cut (C + 1,), so that each part has about `size` fragments."""

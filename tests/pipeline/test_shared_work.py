@@ -13,13 +13,15 @@ from softshadow.pipeline.memory import threads as pool
 # what is shared from how much work on; here, anything is, in small pieces
 SMALL = {
     "buffers.accumulation": {"PIXELS_PER_TASK": 100},
-    "choose": {"WORTH_BANDS": 0, "WORTH_BANDS_IN_TILES": 0, "WORTH_SHARING": 1},
+    "choose": {"WORTH_BANDS": 0, "WORTH_THREADS": 0, "WORTH_BANDS_IN_TILES": 0, "WORTH_SHARING": 1},
     "fast.batch.geometry": {"VERTICES_PER_TASK": 8},
-    "fast.forward": {"WORTH_BANDS": 0},
+    "fast.forward": {"WORTH_BANDS": 0, "PLANES": 2},
     "fast.stencil_tiles": {"WORTH_SHARING": 0, "SHARED_TRIANGLES": 8},
+    "geometry.triangle_setup": {"TRIANGLES_PER_TASK": 8},
     "memory.threads": {"PART_SIZE": 8},
+    "raster.bins": {"FEW_VISITS": 300},
     "shade.interpolate": {"TRIANGLES_PER_TASK": 2},
-    "shade.shading": {"PART": 100, "WORTH_SHARING": 0, "CHUNK": 300},
+    "shade.shading": {"PARTS_PER_THREAD": 5, "WORTH_SHARING": 0, "CHUNK": 300},
     "shade.visible_spans": {"PIXELS_PER_PART": 500, "WORTH_SHARING": 0, "WORTH_COLLECTING": 0},
 }
 

@@ -19,8 +19,8 @@ from softshadow.pipeline.fast.span_state import NEEDED, SpanState, with_texels
 from softshadow.pipeline.fast.span_tests import alpha_tests, collect_passing_spans, span_tests
 from softshadow.pipeline.fast.special_fragments import NO_SPECIAL, discards_some, needed_places, special_numbers
 from softshadow.pipeline.memory.scratch import scratch
-from softshadow.pipeline.memory.threads import share, threads
-from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, few_bands, sort_into_bands
+from softshadow.pipeline.memory.threads import parts_of, share, threads
+from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, few_bands, triangles_in_bands
 from softshadow.pipeline.raster.fragment_ops import ALWAYS, FragmentOps
 from softshadow.pipeline.raster.region import depth_range_of
 from softshadow.pipeline.records import Geometry, Region, Setup, Spans
@@ -29,9 +29,11 @@ from softshadow.pipeline.shade.shading import write_sprite_planes
 from softshadow.state import State
 
 TRIANGLES = 1 << 12  # whose planes are computed at a time
+PLANES = 1 << 11  # of triangles, computed by one thread in one go
 SPANS = 1 << 14  # collected at a time; a row of the widest buffer has at most half as many
-WORTH_BANDS = 40_000  # fragments, about, from which sorting triangles into bands pays for several threads
-STENCIL_TESTED = 8  # times as many, if the stencil test can fail: a fragment that fails takes an eighth of the time
+WORTH_BANDS = 30_000  # fragments from which bands of rows pay for several threads: they take some 250 us
+SMALL_TRIANGLE = 40  # fragments that take as long as a small triangle
+STENCIL_TESTED = 8  # if the stencil test can fail: fragments that fail take an eighth of the time
 
 Numbers = tuple[Any, ...]  # arguments of kernels
 
@@ -98,13 +100,14 @@ def draw_forward(
     tests, later_tests = (*span_tests(front, back), *buffers), (*alpha_tests(front, back), *buffers)
     pixels = target.colors[0].cells.view(np.int32)[..., 0]
     colors = (geometry.flat, switches, numbers.numbers, *numbers.texels, special, pixels)
-    worth_bands = WORTH_BANDS * (STENCIL_TESTED if front.stencil_test or back.stencil_test else 1)
+    tests_stencil = front.stencil_test or back.stencil_test
+    work = fragments // (STENCIL_TESTED if tests_stencil else 1) + SMALL_TRIANGLE * len(geometry.triangles.ids)
     for begin in range(0, len(geometry.triangles.ids), TRIANGLES):
         triangles = geometry.triangles
         if len(triangles.ids) > TRIANGLES:
             triangles = Setup(*(array[begin : begin + TRIANGLES] for array in triangles))
         shared = triangles, _planes_of_all(geometry, triangles), region, tests, later_tests, colors
-        if threads() > 1 and fragments >= worth_bands and region.end_row - region.first_row > 1 << BAND_ROWS_LOG2:
+        if threads() > 1 and work >= WORTH_BANDS and region.end_row - region.first_row > 1 << BAND_ROWS_LOG2:
             _draw_in_bands(*shared)
         else:
             _draw_rows(_in_order[: len(triangles.ids)], region.first_row, region.end_row, *shared)
@@ -112,25 +115,29 @@ def draw_forward(
 
 def _planes_of_all(geometry: Geometry, triangles: Setup) -> np.ndarray:
     """Return the `interpolate.attribute_planes` of all triangles of a part of the geometry."""
-    count, values, back = len(triangles.ids), geometry.values, geometry.back
-    planes = scratch((count, 3, values.shape[1] + 1), np.float32)
-    attribute_planes(
-        geometry.window, values, values if back is None else back, triangles.vertices, triangles.front,
-        _in_order[:count], geometry.flat, geometry.provoking, triangles.ids, planes,
-    )  # fmt: skip
+    values, back, parts = geometry.values, geometry.back, parts_of(len(triangles.ids), PLANES)
+    planes = scratch((len(triangles.ids), 3, values.shape[1] + 1), np.float32)
+
+    def write_part(n: int) -> None:
+        rows = slice(*parts[n])
+        attribute_planes(
+            geometry.window, values, values if back is None else back, triangles.vertices, triangles.front,
+            _in_order[rows], geometry.flat, geometry.provoking, triangles.ids, planes[rows],
+        )  # fmt: skip
+
+    share(write_part, len(parts))
     if geometry.sprites is not None:
         part = geometry._replace(triangles=triangles)
-        write_sprite_planes(part, geometry.sprites, AttributePlanes(planes, _in_order[:count]))
+        write_sprite_planes(part, geometry.sprites, AttributePlanes(planes, _in_order[: len(planes)]))
     return planes
 
 
 def _draw_in_bands(triangles: Setup, planes: np.ndarray, region: Region, *numbers: Numbers) -> None:
     """Draw the triangles in bands of rows, which several threads share."""
-    bins = sort_into_bands(triangles.corners, [(0, len(triangles.ids))], region, few_bands(region))
-    bands = np.flatnonzero(np.diff(bins.starts)).tolist()
+    bands = triangles_in_bands(triangles.corners, [(0, len(triangles.ids))], region, few_bands(region))
 
     def draw_band(n: int) -> None:
-        _draw_rows(bins.of(bands[n]), *bins.rows_of(bands[n], region), triangles, planes, region, *numbers)
+        _draw_rows(*bands[n], triangles, planes, region, *numbers)
 
     share(draw_band, len(bands))
 

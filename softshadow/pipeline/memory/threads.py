@@ -7,6 +7,7 @@ The threads of `concurrent.futures` cost 110 to 140 us for each piece of work th
 """
 
 import os
+from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from contextvars import Context, copy_context
@@ -95,7 +96,10 @@ if hasattr(os, "register_at_fork"):
 
 
 def share(work: Callable[[int], Result], n_pieces: int, pays: bool = True) -> list[Result]:
-    """Return ``[work(0), ..., work(n_pieces - 1)]``; the next idle thread takes the next piece.
+    """Return ``[work(0), ..., work(n_pieces - 1)]``; an idle thread takes one of the pieces that are left.
+
+    The caller takes the first one, the others the last one: so in the next call with such pieces, each thread finds
+    most of what it wrote in the cache of its core.
 
     Parameters
     ----------
@@ -104,12 +108,16 @@ def share(work: Callable[[int], Result], n_pieces: int, pays: bool = True) -> li
     n_helpers = min(threads(), n_pieces) - 1
     if n_helpers < 1 or not pays:
         return [work(number) for number in range(n_pieces)]
-    numbers, results = iter(range(n_pieces)), [cast(Result, None)] * n_pieces
+    numbers, results = deque(range(n_pieces)), [cast(Result, None)] * n_pieces
     # a helper takes a ticket before it begins; the caller takes those that are left when no work is left
     tickets, ends = [copy_context() for _ in range(n_helpers)], SimpleQueue[BaseException | None]()
 
-    def until_none_is_left() -> None:
-        for number in numbers:  # the threads share the iterator: each number is handed out once
+    def until_none_is_left(take: Callable[[], int]) -> None:
+        while True:
+            try:
+                number = take()
+            except IndexError:
+                return
             results[number] = work(number)
 
     def help_the_caller() -> None:
@@ -118,7 +126,7 @@ def share(work: Callable[[int], Result], n_pieces: int, pays: bool = True) -> li
         except IndexError:
             return
         try:  # in the caller's context: NumPy's error state, use_short_cuts
-            context.run(until_none_is_left)
+            context.run(until_none_is_left, numbers.pop)
         except BaseException as problem:
             ends.put(problem)
         else:
@@ -126,7 +134,7 @@ def share(work: Callable[[int], Result], n_pieces: int, pays: bool = True) -> li
 
     _helpers[0].add(help_the_caller, n_helpers)
     try:
-        until_none_is_left()
+        until_none_is_left(numbers.popleft)
     finally:
         problems = [problem for _ in range(n_helpers - _empty(tickets)) if (problem := ends.get()) is not None]
     if problems:

@@ -16,38 +16,67 @@ from softshadow.pipeline.records import Region
 
 BAND_ROWS_LOG2 = 5  # 32 rows: layers drawn over each other in a band stay in the cache
 BANDS_PER_THREAD = 2  # more would balance the threads better, but a triangle is set up again in each band that it meets
+FEW_VISITS = 1 << 14  # of triangles in bands: up to these, a look at each triangle takes less time than sorting
+
+
+class Band(NamedTuple):
+    """The rows [first_row, end_row) of a band, and the numbers of the triangles to draw in them, in drawing order."""
+
+    numbers: np.ndarray
+    first_row: int
+    end_row: int
 
 
 class Bins(NamedTuple):
-    """The numbers of the triangles in band b: ``numbers[starts[b] : starts[b + 1]]``.
-
-    A band has 2**rows_log2 rows, the first one begins with a multiple of that: bands do not cut the tiles of
-    `fast/hierarchical_z.py`.
-    """
+    """The numbers of the triangles in band b: ``numbers[starts[b] : starts[b + 1]]``."""
 
     starts: np.ndarray
     numbers: np.ndarray
-    rows_log2: int
 
     def of(self, band: int) -> np.ndarray:
         """Return the numbers of the triangles of one band, in drawing order."""
         return self.numbers[self.starts[band] : self.starts[band + 1]]
 
-    def rows_of(self, band: int, region: Region) -> tuple[int, int]:
-        """Return first and end row of a band."""
-        first = ((region.first_row >> self.rows_log2) + band) << self.rows_log2
-        return max(first, region.first_row), min(first + (1 << self.rows_log2), region.end_row)
-
 
 def few_bands(region: Region) -> int:
     """Return the binary logarithm of the rows of a band, for a few bands for each thread."""
     rows = int(region.end_row - region.first_row) // (BANDS_PER_THREAD * threads())
-    return max(BAND_ROWS_LOG2, rows.bit_length() - 1)
+    return max(BAND_ROWS_LOG2, (rows + rows // 2).bit_length() - 1)
 
 
 def bands_of(region: Region, rows_log2: int = BAND_ROWS_LOG2) -> int:
     """Return the number of bands of a region."""
     return ((region.end_row - 1) >> rows_log2) - (region.first_row >> rows_log2) + 1
+
+
+def rows_of_band(band: int, region: Region, rows_log2: int) -> tuple[int, int]:
+    """Return first and end row of a band.
+
+    A band has 2**rows_log2 rows, the first one begins with a multiple of that: bands do not cut the tiles of
+    `fast/hierarchical_z.py`.
+    """
+    first = ((region.first_row >> rows_log2) + band) << rows_log2
+    return max(first, region.first_row), min(first + (1 << rows_log2), region.end_row)
+
+
+def triangles_in_bands(
+    corners: np.ndarray, parts: Sequence[tuple[int, int]], region: Region, rows_log2: int
+) -> list[Band]:
+    """Return the bands of a region, each with the triangles in `parts` that meet it.
+
+    Few triangles are not sorted: each band gets all of them, and kernels skip those without rows in it.
+
+    Parameters
+    ----------
+    corners : (T, 6) int32, of `Setup`
+    parts : first and end numbers of triangles, in order
+    """
+    n_bands = bands_of(region, rows_log2)
+    if sum(end - first for first, end in parts) * n_bands <= FEW_VISITS:
+        numbers = np.concatenate([np.arange(first, end, dtype=np.int32) for first, end in parts])
+        return [Band(numbers, *rows_of_band(band, region, rows_log2)) for band in range(n_bands)]
+    bins = sort_into_bands(corners, parts, region, rows_log2)
+    return [Band(bins.of(band), *rows_of_band(band, region, rows_log2)) for band in range(n_bands)]
 
 
 def sort_into_bands(
@@ -64,7 +93,7 @@ def sort_into_bands(
     starts = np.append(first_places[0], end_places[-1, -1])
     numbers = np.empty(starts[-1], np.int32)
     share(lambda n: write_numbers(*parts[n], base, band_ranges, first_places[n], numbers), len(parts))
-    return Bins(starts, numbers, rows_log2)
+    return Bins(starts, numbers)
 
 
 @inlined

@@ -4,7 +4,7 @@
 the same, for all triangles at once or for one band of rows after the other.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
-from softshadow.pipeline.raster.bins import Bins, sort_into_bands
+from softshadow.pipeline.raster.bins import Band, triangles_in_bands
 from softshadow.pipeline.raster.coverage import bounds, row_span
 from softshadow.pipeline.raster.fragment_ops import FragmentOps
 from softshadow.pipeline.raster.spans import count_span, fill_span
@@ -22,6 +22,11 @@ AT_A_TIME = 1 << 19  # triangles sorted into bands in one go; bounds the memory 
 
 # fill(front, back, triangles, numbers, region, depth_range, buffers) for the triangles with these numbers, in order
 FillKernel = Callable[..., None]
+OfRows = Callable[[int, int], None]
+
+
+def nothing(first_row: int, end_row: int) -> None:
+    """Do nothing before or after a band."""
 
 
 def no_ids(region: Region, pitch: int) -> np.ndarray:
@@ -51,6 +56,8 @@ def fill(
     writes_ids: bool = False,
     band_rows_log2: int = 0,
     ranges: Sequence[tuple[int, int]] | None = None,
+    before: OfRows = nothing,
+    after: OfRows = nothing,
 ) -> None:
     """Process all fragments of the triangles inside the region.
 
@@ -60,6 +67,7 @@ def fill(
     writes_ids : whether the ids of `buffers` are written
     band_rows_log2 : the binary logarithm of how many rows a band has, 0 for no bands
     ranges : the rows [first, end) of `triangles` to draw, all by default
+    before, after : called with first and end row of each band before and after it is filled, by the same thread
     """
 
     def fill_part(numbers: np.ndarray, first_row: int, end_row: int) -> None:
@@ -68,23 +76,34 @@ def fill(
         fill_kernel(front, back, triangles, numbers, part, depth_range, rows)
 
     if not band_rows_log2:
+        before(region.first_row, region.end_row)
         for first, end in [(0, len(triangles.ids))] if ranges is None else ranges:
             fill_part(np.arange(first, end, dtype=np.int32), region.first_row, region.end_row)
+        after(region.first_row, region.end_row)
         return
-    for parts in _chunks(len(triangles.ids)) if ranges is None else [ranges]:
-        bins = sort_into_bands(triangles.corners, parts, region, band_rows_log2)
-        bands = np.flatnonzero(np.diff(bins.starts)).tolist()
+    chunks = _chunks(len(triangles.ids)) if ranges is None else [ranges]
+    for number, parts in enumerate(chunks):
+        bands = triangles_in_bands(triangles.corners, parts, region, band_rows_log2)
+        is_first, is_last = number == 0, number == len(chunks) - 1
 
-        def fill_band(n: int, bins: Bins = bins, bands: list[int] = bands) -> None:
-            fill_part(bins.of(bands[n]), *bins.rows_of(bands[n], region))
+        def fill_band(n: int, bands: list[Band] = bands, is_first: bool = is_first, is_last: bool = is_last) -> None:
+            numbers, first_row, end_row = bands[n]
+            if is_first:
+                before(first_row, end_row)
+            if len(numbers):
+                fill_part(numbers, first_row, end_row)
+            if is_last:
+                after(first_row, end_row)
 
         share(fill_band, len(bands))
 
 
-def _chunks(count: int) -> Iterator[list[tuple[int, int]]]:
-    """Yield the parts of so many triangles that are sorted into bands in one go."""
-    for begin in range(0, count, AT_A_TIME):
-        yield [(begin + first, begin + end) for first, end in parts_of(min(AT_A_TIME, count - begin))]
+def _chunks(count: int) -> list[list[tuple[int, int]]]:
+    """Return the parts of so many triangles that are sorted into bands in one go, for each go."""
+    return [
+        [(begin + first, begin + end) for first, end in parts_of(min(AT_A_TIME, count - begin))]
+        for begin in range(0, count, AT_A_TIME)
+    ]
 
 
 def textbook_kernel(two_sided: int, writes_ids: int, counts: FragmentCounts | None) -> FillKernel:

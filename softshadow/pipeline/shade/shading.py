@@ -20,9 +20,9 @@ from softshadow.pipeline.shade.pixel_blocks import in_blocks
 from softshadow.pipeline.shade.visible_spans import fragments_of, spans_of
 from softshadow.state import State
 
-PART = 1 << 15  # fragments that one thread shades in one go where several threads draw
-SPAN = 4  # fragments that take as long as the beginning of a span
-WORTH_SHARING = 1 << 16  # fragments from which several threads shade them
+SPAN = 16  # fragments that take as long as the beginning of a span
+WORTH_SHARING = 40_000  # fragments from which several threads shade them
+PARTS_PER_THREAD = 2  # more would balance the threads better, but a triangle is interpolated anew in each part
 CHUNK = 32 * 2091  # fragments; an odd number of cache lines per column, so that columns do not share cache sets
 
 
@@ -68,12 +68,17 @@ def shade_and_write(state: State, target: Framebuffer, geometry: Geometry, spans
 
 def shade_in_parts(geometry: Geometry, spans: Spans, shade_part: Callable[[Spans, AttributePlanes], None]) -> None:
     """Shade spans that do not overlap, in parts where several threads draw and there is enough to do."""
-    planes = attribute_planes_of(geometry, spans)
-    if threads() == 1 or spans.fragments + len(spans.row) * SPAN < WORTH_SHARING:
-        shade_part(spans, planes)
-    else:
-        parts = spans.chunks(PART)
-        share(lambda n: shade_part(spans.part(parts[n], parts[n + 1]), planes), len(parts) - 1)
+    n_threads = threads()
+    if n_threads == 1 or spans.fragments + len(spans.row) * SPAN < WORTH_SHARING:
+        shade_part(spans, attribute_planes_of(geometry, spans))
+        return
+    parts = spans.equal_parts(PARTS_PER_THREAD * n_threads, SPAN)
+
+    def shade_one(n: int) -> None:
+        part = spans.part(*parts[n])
+        shade_part(part, attribute_planes_of(geometry, part))
+
+    share(shade_one, len(parts))
 
 
 def attribute_planes_of(geometry: Geometry, spans: Spans) -> AttributePlanes:

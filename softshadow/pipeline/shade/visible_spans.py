@@ -4,15 +4,18 @@ Shading and writing go span by span: values of the triangle and of the row are l
 a long span are vectorised.
 """
 
+from collections.abc import Sequence
+from typing import NamedTuple
+
 import numpy as np
 
 from softshadow.jit import kernel
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
-from softshadow.pipeline.records import Fragments, Region, Spans
+from softshadow.pipeline.records import NO_TRIANGLE, Fragments, Region, Spans
 
 STRIDE = 16  # pixels of a long span that are compared together
-PIXELS_PER_PART = 1 << 17
+PIXELS_PER_PART = 1 << 16
 WORTH_SHARING = 1 << 20  # pixels from which several threads count their spans
 WORTH_COLLECTING = 20_000  # spans; one takes as long as 32 pixels
 
@@ -24,6 +27,43 @@ def _empty_spans(n: int) -> Spans:
     return Spans(row, left, triangle, start)
 
 
+class CountedRows(NamedTuple):
+    """The rows [first, end) of ids, and how many spans and fragments they have."""
+
+    first: int
+    end: int
+    spans: int
+    fragments: int
+
+
+class BandsOfIds:
+    """The ids of a fill in bands of rows: `clear` is called before a band is filled, and `count` after it.
+
+    Attributes
+    ----------
+    ids : (rows of the region, pitch) int32, the triangle of each pixel or -1, in the columns of the region
+    """
+
+    def __init__(self, region: Region, pitch: int) -> None:
+        self._region, self._counted = region, list[CountedRows]()
+        self.ids = scratch((region.end_row - region.first_row, pitch), np.int32)
+
+    def clear(self, first_row: int, end_row: int) -> None:
+        """Set the ids of a band to those of pixels without a triangle."""
+        region = self._region
+        rows = slice(first_row - region.first_row, end_row - region.first_row)
+        self.ids[rows, region.left : region.right] = NO_TRIANGLE
+
+    def count(self, first_row: int, end_row: int) -> None:
+        """Count the spans and the fragments of a band."""
+        first, end = first_row - self._region.first_row, end_row - self._region.first_row
+        self._counted.append(_counted(self.ids, self._region, first, end))
+
+    def spans(self) -> Spans:
+        """Return the spans of visible fragments of all bands."""
+        return _collected(self.ids, self._region, sorted(self._counted))
+
+
 def visible_spans(ids: np.ndarray, region: Region) -> Spans:
     """Return the spans of visible fragments.
 
@@ -31,21 +71,30 @@ def visible_spans(ids: np.ndarray, region: Region) -> Spans:
     ----------
     ids : (rows of the region, pitch) int32, the triangle of each pixel or -1; other columns are not read
     """
+    parts = parts_of(len(ids), PIXELS_PER_PART // ids.shape[1])
+    pays = len(ids) * (region.right - region.left) >= WORTH_SHARING
+    return _collected(ids, region, share(lambda n: _counted(ids, region, *parts[n]), len(parts), pays))
+
+
+def _counted(ids: np.ndarray, region: Region, first: int, end: int) -> CountedRows:
+    return CountedRows(first, end, *count_visible(ids[first:end], region.left, region.right))
+
+
+def _collected(ids: np.ndarray, region: Region, parts: Sequence[CountedRows]) -> Spans:
+    """Return the spans of all rows, in parts without gaps."""
     left, right, first_row = region.left, region.right, region.first_row
-    parts, n_pixels = parts_of(len(ids), PIXELS_PER_PART // ids.shape[1]), len(ids) * (right - left)
-    counted = share(lambda n: count_visible(ids[slice(*parts[n])], left, right), len(parts), n_pixels >= WORTH_SHARING)
     starts = [(0, 0)]  # the first span and the first fragment of each part
-    for n_spans, n_fragments in counted:
-        starts.append((starts[-1][0] + n_spans, starts[-1][1] + n_fragments))
+    for part in parts:
+        starts.append((starts[-1][0] + part.spans, starts[-1][1] + part.fragments))
     spans = _empty_spans(starts[-1][0])
 
     def collect(n: int) -> None:
-        (first, end), (first_span, first_fragment) = parts[n], starts[n]
+        (first, end, *_), (first_span, first_fragment) = parts[n], starts[n]
         rows = slice(first_span, starts[n + 1][0])
         collected = (array[rows] for array in spans)
         collect_visible(ids[first:end], left, right, first_row + first, first_fragment, *collected)
 
-    share(collect, len(parts), starts[-1][0] + n_pixels // 32 >= WORTH_COLLECTING)
+    share(collect, len(parts), starts[-1][0] + len(ids) * (right - left) // 32 >= WORTH_COLLECTING)
     spans.start[-1] = starts[-1][1]
     return spans
 

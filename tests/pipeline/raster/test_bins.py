@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softshadow.pipeline.raster.bins import bands_of, sort_into_bands
+from softshadow.pipeline.raster.bins import FEW_VISITS, bands_of, rows_of_band, sort_into_bands, triangles_in_bands
 from softshadow.pipeline.raster.coverage import bounds, extent
 from softshadow.pipeline.records import Region
 
@@ -29,11 +29,28 @@ def test_a_band_has_the_triangles_that_meet_it_in_drawing_order(seed, n, first_r
     bins = sort_into_bands(corners, parts, region, rows_log2)
     assert bands_of(region, rows_log2) == len(bins.starts) - 1
     for band in range(bands_of(region, rows_log2)):
-        low, high = bins.rows_of(band, region)
+        low, high = rows_of_band(band, region, rows_log2)
         begin = ((first_row >> rows_log2) + band) << rows_log2  # a multiple, whatever the first row of the region
         assert (low, high) == (max(begin, first_row), min(begin + (1 << rows_log2), region.end_row))
         spans = [(t, *bounds(corners, t)) for part in parts for t in range(*part)]
         assert bins.of(band).tolist() == [t for t, first, last in spans if max(first, low) < min(last, high)]
+
+
+@pytest.mark.parametrize("n", [300, FEW_VISITS])  # times several bands: not sorted, and sorted
+def test_every_triangle_is_among_those_of_each_band_that_it_meets(n):
+    corners = random_corners(7, n)
+    region = Region(0, 100, 5, 96, 1)
+    parts = [(0, n // 3), (n // 2, n)]
+    bands = triangles_in_bands(corners, parts, region, 4)
+    assert [row for band in bands for row in range(band.first_row, band.end_row)] == list(range(5, 96))
+    own = [t for part in parts for t in range(*part)]
+    rows = np.array([bounds(corners, t) for t in own])
+    for numbers, low, high in bands:
+        meets = np.maximum(rows[:, 0], low) < np.minimum(rows[:, 1], high)
+        assert (np.diff(numbers) > 0).all()
+        assert set(numbers.tolist()) <= set(own)
+        assert set(np.array(own)[meets].tolist()) <= set(numbers.tolist())
+        assert len(numbers) == (len(own) if n == 300 else meets.sum())
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 40))

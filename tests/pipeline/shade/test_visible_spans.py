@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 from softshadow import tokens as gl
 from softshadow.image import FORMATS, Image
 from softshadow.pipeline import set_threads, threads
-from softshadow.pipeline.records import Region, Setup, Spans
+from softshadow.pipeline.records import NO_TRIANGLE, Region, Setup, Spans
 from softshadow.pipeline.shade import interpolate as interpolation
 from softshadow.pipeline.shade import visible_spans as visible_spans_module
 from softshadow.pipeline.shade.color_writes import color_writer
 from softshadow.pipeline.shade.interpolate import LONG_SPAN, interpolate, planes_of
-from softshadow.pipeline.shade.visible_spans import fragments_of, spans_of, visible_spans
+from softshadow.pipeline.shade.visible_spans import BandsOfIds, fragments_of, spans_of, visible_spans
 from softshadow.state import Blend, State
 
 pytestmark = pytest.mark.interpreted
@@ -113,10 +113,39 @@ def test_the_parts_of_all_chunks_make_up_the_spans(seed, size):
     assert all(part.fragments <= size + 3 * SIZE for part in parts)
 
 
+@given(st.integers(0, 2**32 - 1), st.randoms())
+def test_ids_that_are_counted_in_bands_have_the_spans_of_all_rows(seed, random):
+    ids, first_row = random_ids(seed), 11
+    bands = BandsOfIds(Region(0, ids.shape[1], first_row, first_row + len(ids), 0), ids.shape[1])
+    cuts = sorted({0, len(ids), *(random.randint(0, len(ids)) for _ in range(3))})
+    rows = [(first + first_row, end + first_row) for first, end in pairwise(cuts)]
+    random.shuffle(rows)  # threads take bands in any order
+    for first, end in rows:
+        bands.clear(first, end)
+        within = slice(first - first_row, end - first_row)
+        assert (bands.ids[within] == NO_TRIANGLE).all()
+        bands.ids[within] = ids[within]
+        bands.count(first, end)
+    expected = spans_in(ids, first_row)
+    assert all(np.array_equal(a, b) for a, b in zip(bands.spans(), expected, strict=True))
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 9), st.integers(0, 20))
+def test_equal_parts_make_up_the_spans_and_differ_by_a_span_at_most(seed, n_parts, beginning):
+    spans = spans_in(random_ids(seed))
+    parts = spans.equal_parts(n_parts, beginning)
+    assert [span for first, end in parts for span in range(first, end)] == list(range(len(spans.row)))
+    assert len(parts) <= n_parts
+    work = np.diff(spans.start) + beginning
+    most = work.sum() / n_parts + 2 * work.max(initial=0)  # a span lies in one part, whose ends are cut between spans
+    assert all(first < end and work[first:end].sum() <= most + 1 for first, end in parts)
+
+
 def test_no_fragments_have_no_spans():
     spans = spans_in(np.full((2, 3), -1, np.int32))
     assert spans.fragments == 0
     assert len(spans.chunks(10)) == 1
+    assert spans.equal_parts(3, 16) == []
     assert spans_of(fragments_of(spans)).fragments == 0
 
 
