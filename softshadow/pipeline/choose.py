@@ -152,7 +152,8 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
     """Return what the state decides about a draw; `counting`: its fragments are counted, so each is processed once."""
     state, path = command.state, begin_path(command.label, command.mode)
     front = fragment_ops(state, target.depth, target.stencil, True)
-    back = fragment_ops(state, target.depth, target.stencil, False)
+    is_one_sided = state.stencil.front == state.stencil.back
+    back = front if is_one_sided else fragment_ops(state, target.depth, target.stencil, False)
     is_special = has_special_fragments(state, command.mode)
     in_order, writes_color = needs_order(state) or is_special, bool(target.colors) and any(state.color.mask)
     plan = Plan(in_order, writes_color, front, back, path, [], counting=counting)

@@ -133,7 +133,8 @@ class DrawQueue:
         run = None if similar is None else similar.run.under(command)
         if similar is None or run is None:
             return None
-        return similar._replace(run=run, plan=plan_draw(command, target, False))
+        same_tests = similar.run.has_tests_of(command.state)
+        return similar._replace(run=run, plan=similar.plan if same_tests else plan_draw(command, target, False))
 
     def _new_kind(self, command: Draw, target: Framebuffer) -> Kind | None:
         run = begin_run(command, target, self._storage)

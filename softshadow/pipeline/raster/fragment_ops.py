@@ -60,16 +60,20 @@ def fragment_ops(state: State, depth: Image | None, stencil: Image | None, front
     largest = stencil.format.largest if stencil is not None else 0
     stencil_ops = (face.func, face.sfail, face.zfail, face.zpass, largest)
     numbers = (max(0, min(face.ref, largest)), face.read_mask & largest, face.write_mask & largest)
-    alpha_ref = int(np.rint(np.float32(max(0.0, min(1.0, alpha.ref))) * np.float32(255)))  # of NaN 255, as in Mesa
     depth_largest = depth.format.largest if depth is not None else 0
     return FragmentOps(
         *((1, alpha.func) if alpha_test else (0, ALWAYS)),
         *((1, *stencil_ops) if stencil_test else (0, ALWAYS, KEEP, KEEP, KEEP, 0)),
         *((1, state.depth.func, int(state.depth.write)) if depth_test else (0, ALWAYS, 0)),
         depth_largest,
-        alpha_ref if alpha_test else 0,
+        compared_ref(alpha.ref) if alpha_test else 0,
         *(numbers if stencil_test else (0, 0, 0)),
     )
+
+
+def compared_ref(ref: float) -> int:
+    """Return the byte that the alpha test compares with; NaN becomes 255, as in Mesa."""
+    return int(np.rint(np.float32(max(0.0, min(1.0, ref))) * np.float32(255)))
 
 
 @kernel

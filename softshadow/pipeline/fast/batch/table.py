@@ -160,6 +160,12 @@ class Run:
         run.command, run.state, run._last = command, state, command
         return run
 
+    def has_tests_of(self, state: State) -> bool:
+        """Return whether a state that differs in tests or blending only has other scissor boxes at most."""
+        return (
+            state.depth is self.state.depth and state.stencil is self.state.stencil and state.blend is self.state.blend
+        )
+
     def _is_alike(self, command: Draw) -> bool:
         """Return whether a draw continues the run as far as the groups of its state do not decide it."""
         if width_of(command.mode) != width_of(self.command.mode):
