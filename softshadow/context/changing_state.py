@@ -21,14 +21,16 @@ class ChangingState:
 
     Attributes
     ----------
-    groups : dict of Group       the groups of the state by name, see `StateGroups`
+    state_groups : StateGroups   the state as calls change it
+    groups : dict of Group       its groups by name
+    changed : set of Group       those whose fields may differ from their values: without any, the state is that of ""
     ready : bool                 no list is compiled, no primitive is open, nothing is collected: a call may change the
         state at once; not always True then, but always False otherwise
     """
 
-    _state: StateGroups
+    state_groups: StateGroups
     groups: dict[str, Group]
-    _changed: set[Group]  # those of `_state`
+    changed: set[Group]
     ready: bool
     pending: PendingAttributes
     primitive: Primitive | None  # between glBegin and glEnd
@@ -46,8 +48,8 @@ class ChangingState:
     @property
     def state(self) -> State:
         """The state, immutable; the same object until something changes."""
-        groups = self._state
-        if self._changed or groups.followed is not None:
+        groups = self.state_groups
+        if self.changed or groups.followed is not None:
             self._settle()
             return groups.snapshot()
         state: State = groups.root.value
@@ -55,25 +57,20 @@ class ChangingState:
 
     @state.setter
     def state(self, state: State) -> None:
-        self._state.restore(state)
+        self.state_groups.restore(state)
 
     @property
     def drawn_state(self) -> State:
         """The state as draws have it: materials may not contain yet the colour that they follow (`followed`)."""
-        groups = self._state
-        if self._changed:
+        groups = self.state_groups
+        if self.changed:
             return groups.drawn()
         state: State = groups.root.value
         return state
 
-    @property
-    def followed(self) -> Followed | None:
-        """The colour that materials follow, but do not contain yet in `drawn_state`."""
-        return self._state.followed
-
     def settled(self, lighting: Lighting, followed: Followed | None) -> Lighting:
         """Return an earlier lighting whose materials contain the colour that they followed then."""
-        return self._state.settled(lighting, followed)
+        return self.state_groups.settled(lighting, followed)
 
     def change_field(self, group: str, name: str, value: Any) -> None:
         """Set a field of a group of the state; if the change affects draws, draw the collected vertices first."""
@@ -83,7 +80,7 @@ class ChangingState:
             if not self.ready and self._would_redraw((group,), {name: value}):
                 self.flush()
             fields[name] = value
-            self._changed.add(changed)
+            self.changed.add(changed)
 
     def change(self, group: str, **fields: Any) -> None:
         """Set fields of a group of the state, as `change_field` does."""
@@ -95,13 +92,13 @@ class ChangingState:
             self.flush()
         changed = self.groups[group]
         changed.fields.update(fields)
-        self._changed.add(changed)
+        self.changed.add(changed)
 
     def change_groups(self, groups: Sequence[str], fields: Mapping[str, Any]) -> None:
         """Set the same fields in several groups of the state, as `change_field` does."""
         if not self.ready and self._would_redraw(groups, fields):
             self.flush()
-        by_name, mark = self.groups, self._changed.add
+        by_name, mark = self.groups, self.changed.add
         for name in groups:
             group = by_name[name]
             group.fields.update(fields)
@@ -118,9 +115,9 @@ class ChangingState:
 
     def _settle(self) -> None:
         """Store the colour in the materials that follow it. Hidden materials still return before it."""
-        if self._state.followed is not None:
-            self.pending.settled = self._state.followed
-            self._state.settle()
+        if self.state_groups.followed is not None:
+            self.pending.settled = self.state_groups.followed
+            self.state_groups.settle()
 
     def set(self, **groups: Any) -> None:
         """Replace groups of the state, each by its name."""

@@ -89,8 +89,8 @@ class Context(CurrentValues):
         viewport = evolve(State().viewport, width=width, height=height)
         scissor = evolve(State().scissor, width=width, height=height)
         self.real: type[np.floating] = np.float64 if precision == "exact" else np.float32
-        self._state = StateGroups(evolve(State(), viewport=viewport, scissor=scissor), self.real is np.float32)
-        self.groups, self._changed = self._state.groups, self._state.changed  # see `change`
+        self.state_groups = StateGroups(evolve(State(), viewport=viewport, scissor=scissor), self.real is np.float32)
+        self.groups, self.changed = self.state_groups.groups, self.state_groups.changed  # see `change`
         self.current = CurrentVertex()
         self.identity = self.frozen(np.eye(4))
         self.modelview_stack, self.projection_stack = (
@@ -290,9 +290,9 @@ class Context(CurrentValues):
 
     # -- recording -----------------------------------------------------------------------------------------------------
     def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
-        state = self._state.drawn()
+        state = self.state_groups.drawn()
         if state.lighting.color_material:
-            followed = self._state.followed
+            followed = self.state_groups.followed
             if followed is None or followed[2] is not self.current.color:
                 state = with_kept_materials(self.state, vertices.color)
         program = state.program

@@ -10,6 +10,8 @@ from softshadow.context.changing_state import ChangingState
 from softshadow.context.raster_position import INITIAL_RASTER_POSITION, RasterPosition
 from softshadow.state import BLACK, TEXTURE_UNITS
 
+MATERIALS = {side: f"lighting.{side}" for side in ("front", "back")}  # groups of the state
+
 
 @dataclass
 class CurrentVertex:
@@ -61,14 +63,15 @@ class CurrentValues(ChangingState):
 
     def set_material(self, side: str, field: str, value: Any) -> None:
         """Set a field of the "front" or "back" material, without drawing the collected vertices first."""
-        self._settle()
-        material = self.groups[f"lighting.{side}"]
+        if self.state_groups.followed is not None:
+            self._settle()
+        material = self.groups[MATERIALS[side]]
         material.fields[field] = value
-        self._changed.add(material)
+        self.changed.add(material)
 
     def follow(self, sides: tuple[str, ...], fields: tuple[str, ...]) -> None:
         """Copy the current colour to fields of the materials that follow it, without drawing the collected vertices."""
-        state = self._state
+        state = self.state_groups
         if state.followed is not None and state.followed[:2] != (sides, fields):
             state.settle()
         if self.pending.before_following is None:
@@ -81,9 +84,9 @@ class CurrentValues(ChangingState):
         """Give the materials the values that they had when the present colour was Mesa's current one."""
         before, self.pending.before_following, self.pending.settled = self.pending.before_following, None, None
         if isinstance(before, tuple):
-            self._state.followed = before
+            self.state_groups.followed = before
         elif before is not None:
-            self._state.followed = None
+            self.state_groups.followed = None
             for name, value in before.items():
                 self.set_attribute(name, value)
 
@@ -115,14 +118,14 @@ class CurrentValues(ChangingState):
         if not pending.old_values and not pending.hidden:
             return
         follows = self.groups["lighting"].fields["color_material"]
-        followed = (self._state.followed or pending.settled) if follows else None
+        followed = (self.state_groups.followed or pending.settled) if follows else None
         if pending.hidden:
             self._settle()
         for name, value in pending.hidden.items():
             pending.old_values.setdefault(name, self.attribute(name))
             self.set_attribute(name, value)
         if pending.hidden and followed is not None and pending.old_values.get("color", color) != color:
-            self._state.followed = followed  # a new colour comes after the materials
+            self.state_groups.followed = followed  # a new colour comes after the materials
         for name, old_value in pending.old_values.items():
             if old_value != self.attribute(name):
                 self.touched |= gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT

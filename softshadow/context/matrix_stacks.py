@@ -7,6 +7,7 @@ queued since its push: a program that draws nothing between them pays for neithe
 
 from __future__ import annotations
 
+import math
 import struct
 from collections.abc import Callable
 from functools import lru_cache
@@ -45,6 +46,15 @@ class MatrixStack:
     changes them. `kind` says which transformations the current matrix may contain: Mesa inverts by kind
     (`softshadow.programs.inverse`).
 
+    Attributes
+    ----------
+    known : (4, 4) or None   the current matrix; None if operations on it are still queued
+    unresolved_kind : int    the kind as the calls have left it
+    below : list             kinds and matrices of the entries below, and the byte of the push onto each
+    most_below : int         how many entries there can be
+    end : int                bytes of the queue that are in use
+    level : int              that the first queued operation applies to: pushes onto lower ones have been carried out
+
     Parameters
     ----------
     limit : int              the number of matrices that it holds
@@ -59,188 +69,191 @@ class MatrixStack:
         self._levels = np.zeros((limit, 4, 4), real)
         self._levels[0] = np.eye(4)
         self._identity = _read_only(self._levels[0])
-        self._kind = 0
-        self._known: np.ndarray | None = self._identity  # None if operations on it are still queued
-        # kinds and matrices of the entries below, and the byte of the push onto each
-        self._below: list[tuple[int, np.ndarray | None, int]] = []
-        self._most_below = limit - 1
+        self.unresolved_kind = 0
+        self.known: np.ndarray | None = self._identity
+        self.below: list[tuple[int, np.ndarray | None, int]] = []
+        self.most_below = limit - 1
         self._memory = bytearray(CAPACITY)
         self._queue = np.frombuffer(self._memory, np.float64)
-        self._end = 0  # bytes in use
-        self._level = 0  # that the first queued operation applies to: pushes onto lower ones have been carried out
+        self.end, self.level = 0, 0
 
     def __len__(self) -> int:
-        return len(self._below) + 1
+        return len(self.below) + 1
 
     def __getitem__(self, index: int) -> np.ndarray:
         level = range(len(self))[index]
-        if level == len(self._below):
+        if level == len(self.below):
             return self.current
-        kind, entry, push = self._below[level]
+        kind, entry, push = self.below[level]
         if entry is None:
             self._compute()
             entry = _read_only(self._levels[level])
-            self._below[level] = kind, entry, push
+            self.below[level] = kind, entry, push
         return entry
 
     def _read(self) -> np.ndarray:
         """Return the current matrix, after the queued operations."""
         self._compute()
-        self._known = matrix = _read_only(self._levels[len(self._below)])
+        self.known = matrix = _read_only(self._levels[len(self.below)])
         return matrix
 
     @property
     def current(self) -> np.ndarray:
         """The current matrix, read-only."""
-        return self._read() if self._known is None else self._known
+        return self._read() if self.known is None else self.known
 
     @property
     def kind(self) -> int:
         """The kind of the current matrix; an unknown one is derived from its elements, as Mesa does at each draw."""
-        if self._kind & UNKNOWN:
-            self._kind = known_kind(self.current, self._kind)
-        return self._kind
+        if self.unresolved_kind & UNKNOWN:
+            self.unresolved_kind = known_kind(self.current, self.unresolved_kind)
+        return self.unresolved_kind
 
     def drawn(self) -> tuple[np.ndarray, int]:
         """Return the current matrix and its kind, for a draw."""
-        matrix, kind = self._known, self._kind
+        matrix, kind = self.known, self.unresolved_kind
         return self._read() if matrix is None else matrix, self.kind if kind & UNKNOWN else kind
 
     # -- stack ---------------------------------------------------------------------------------------------------------
     def push(self) -> bool:
         """Push a copy of the current matrix; return False if the stack is full."""
-        below, kind, end = self._below, self._kind, self._end
-        if len(below) == self._most_below:
+        below, kind, end = self.below, self.unresolved_kind, self.end
+        if len(below) == self.most_below:
             return False
         if kind & UNKNOWN or end > LAST:
             kind, end = self.kind, self._compute()
-        below.append((kind, self._known, end))
-        self._end = end + NUMBER
+        below.append((kind, self.known, end))
+        self.end = end + NUMBER
         return True
 
     def pop(self) -> bool:
         """Return to the matrix before the last push; return False if there is none."""
-        below = self._below
+        below = self.below
         try:
-            self._kind, self._known, push = below.pop()
+            self.unresolved_kind, self.known, push = below.pop()
         except IndexError:
             return False
-        if len(below) >= self._level:
-            self._end = push
+        if len(below) >= self.level:
+            self.end = push
         else:  # the push has been carried out, so all that is queued applies to its level
-            self._end, self._level = 0, len(below)
+            self.end, self.level = 0, len(below)
         return True
 
     @property
     def equals_pushed(self) -> bool:
         """Whether the current matrix has the same bytes as the one below it."""
         self._compute()
-        level = len(self._below)
+        level = len(self.below)
         return self._levels[level].tobytes() == self._levels[level - 1].tobytes()
 
     # -- operations ----------------------------------------------------------------------------------------------------
     def translate(self, x: float, y: float, z: float) -> None:
         """Multiply by a translation."""
         try:
-            PACK_4(self._memory, self._end, TRANSLATE, x, y, z)
+            PACK_4(self._memory, self.end, TRANSLATE, x, y, z)
         except struct.error:
             self._make_room(x, y, z)
-            PACK_4(self._memory, self._end, TRANSLATE, x, y, z)
-        self._end += 4 * NUMBER
-        self._known = None
-        self._kind |= TRANSLATED
+            PACK_4(self._memory, self.end, TRANSLATE, x, y, z)
+        self.end += 4 * NUMBER
+        self.known = None
+        self.unresolved_kind |= TRANSLATED
 
     def scale(self, x: float, y: float, z: float) -> None:
         """Multiply by a scale."""
         try:
-            PACK_4(self._memory, self._end, SCALE, x, y, z)
+            PACK_4(self._memory, self.end, SCALE, x, y, z)
         except struct.error:
             self._make_room(x, y, z)
-            PACK_4(self._memory, self._end, SCALE, x, y, z)
-        self._end += 4 * NUMBER
-        self._known = None
-        self._kind |= UNIFORM_SCALE if max(abs(x - y), abs(x - z)) < SAME_SCALE else GENERAL_SCALE
+            PACK_4(self._memory, self.end, SCALE, x, y, z)
+        self.end += 4 * NUMBER
+        self.known = None
+        self.unresolved_kind |= UNIFORM_SCALE if max(abs(x - y), abs(x - z)) < SAME_SCALE else GENERAL_SCALE
 
     def rotate(self, angle: float, x: float, y: float, z: float) -> None:
         """Multiply by a rotation: degrees about an axis."""
         sine, cosine = sine_and_cosine(float(angle), self._is_single)
         try:
-            PACK_6(self._memory, self._end, ROTATE, sine, cosine, x, y, z)
+            PACK_6(self._memory, self.end, ROTATE, sine, cosine, x, y, z)
         except struct.error:
             self._make_room(sine, cosine, x, y, z)
-            PACK_6(self._memory, self._end, ROTATE, sine, cosine, x, y, z)
-        self._end += 6 * NUMBER
-        self._known = None
-        self._kind |= ROTATION
+            PACK_6(self._memory, self.end, ROTATE, sine, cosine, x, y, z)
+        self.end += 6 * NUMBER
+        self.known = None
+        self.unresolved_kind |= ROTATION
 
     def load_identity(self) -> None:
         """Replace the current matrix by the identity."""
-        if self._known is not self._identity:
+        if self.known is not self._identity:
             self._forget()
             self._enqueue(PACK_1, IDENTITY)
-            self._known = self._identity
+            self.known = self._identity
         # Mesa keeps the kind of the old matrix, and so inverts products with the identity more generally
-        self._kind &= KNOWN
+        self.unresolved_kind &= KNOWN
 
     def load(self, matrix: np.ndarray) -> None:
         """Replace the current matrix by a read-only (4, 4) array."""
         self._forget()
         self._enqueue_matrix(LOAD, matrix)
-        self._known = matrix
-        self._kind = GENERAL | UNKNOWN
+        self.known = matrix
+        self.unresolved_kind = GENERAL | UNKNOWN
 
     def multiply(self, matrix: np.ndarray) -> None:
         """Multiply by a (4, 4) array."""
         self._enqueue_matrix(MULTIPLY, matrix)
-        self._known = None
-        self._kind |= GENERAL | UNKNOWN
+        self.known = None
+        self.unresolved_kind |= GENERAL | UNKNOWN
 
     def perspective(self, fov_y: float, aspect: float, near: float, far: float) -> None:
-        """Multiply by gluPerspective's matrix."""
-        packed = _packed_perspective(fov_y, aspect, near, far)
-        end = self._end
+        """Multiply by gluPerspective's matrix; do nothing for arguments that GLU ignores."""
+        packed = packed_perspective(fov_y, aspect, near, far)
+        if packed:
+            self.multiply_packed(packed)
+
+    def multiply_packed(self, packed: bytes) -> None:
+        """Multiply by a matrix of `packed_perspective`."""
+        end = self.end
         if end + len(packed) > CAPACITY:
             end = self._compute()
         self._memory[end : end + len(packed)] = packed
-        self._end = end + len(packed)
-        self._known = None
-        self._kind |= GENERAL | UNKNOWN
+        self.end = end + len(packed)
+        self.known = None
+        self.unresolved_kind |= GENERAL | UNKNOWN
 
     def frustum(self, *planes: float) -> None:
         """Multiply by glFrustum's matrix: left, right, bottom, top, near, far."""
         self._enqueue(PACK_17, MULTIPLY, *_elements(frustum, tuple(map(float, planes)), self._is_single))
-        self._known = None
-        self._kind |= GENERAL
+        self.known = None
+        self.unresolved_kind |= GENERAL
 
     def ortho(self, *planes: float) -> None:
         """Multiply by glOrtho's matrix: left, right, bottom, top, near, far."""
         self._enqueue(PACK_17, MULTIPLY, *_elements(ortho, tuple(map(float, planes)), self._is_single))
-        self._known = None
-        self._kind |= GENERAL_SCALE | TRANSLATED
+        self.known = None
+        self.unresolved_kind |= GENERAL_SCALE | TRANSLATED
 
     def look_at(self, *places: float) -> None:
         """Multiply by gluLookAt's matrix: eye, centre and up, nine numbers."""
         self._enqueue(PACK_10, LOOK_AT, *places)
-        self._known = None
-        self._kind |= GENERAL | TRANSLATED | UNKNOWN
+        self.known = None
+        self.unresolved_kind |= GENERAL | TRANSLATED | UNKNOWN
 
     # -- queue ---------------------------------------------------------------------------------------------------------
     def _enqueue(self, pack: Any, *numbers: float) -> None:
         """Append an operation."""
         try:
-            pack(self._memory, self._end, *numbers)
+            pack(self._memory, self.end, *numbers)
         except struct.error:
             self._make_room(*numbers)
-            pack(self._memory, self._end, *numbers)
-        self._end += len(numbers) * NUMBER
+            pack(self._memory, self.end, *numbers)
+        self.end += len(numbers) * NUMBER
 
     def _enqueue_matrix(self, code: int, matrix: np.ndarray) -> None:
-        if self._end + SIZES[code] * NUMBER > CAPACITY:
+        if self.end + SIZES[code] * NUMBER > CAPACITY:
             self._compute()
-        start = self._end // NUMBER
+        start = self.end // NUMBER
         self._queue[start] = code
         self._queue[start + 1 : start + 17].reshape(4, 4)[...] = matrix.T
-        self._end += SIZES[code] * NUMBER
+        self.end += SIZES[code] * NUMBER
 
     def _make_room(self, *numbers: float) -> None:
         """Empty the full queue, after an operation with these numbers could not be appended.
@@ -256,23 +269,26 @@ class MatrixStack:
 
     def _forget(self) -> None:
         """Drop the queued operations on the current matrix, which is about to be replaced."""
-        self._end = self._below[-1][2] + NUMBER if len(self._below) > self._level else 0
+        self.end = self.below[-1][2] + NUMBER if len(self.below) > self.level else 0
 
     def _compute(self) -> int:
         """Carry out the queued operations; return 0, the bytes in use."""
-        if self._end:
-            for _, _, push in self._below[self._level :]:
+        if self.end:
+            for _, _, push in self.below[self.level :]:
                 self._queue[push // NUMBER] = PUSH
-            self._level = self._carry_out(self._queue, self._end // NUMBER, self._levels, self._level)
-            self._computed, self._end = self._computed + self._end, 0
+            self.level = self._carry_out(self._queue, self.end // NUMBER, self._levels, self.level)
+            self._computed, self.end = self._computed + self.end, 0
             if self._computed >= FEW and self._is_single and hasattr(products.carry_out, "py_func"):
                 self._carry_out = products.carry_out
         return 0
 
 
 @lru_cache(maxsize=64)
-def _packed_perspective(fov_y: float, aspect: float, near: float, far: float) -> bytes:
-    """Return the product with gluPerspective's matrix as an operation of the queue."""
+def packed_perspective(fov_y: float, aspect: float, near: float, far: float) -> bytes:
+    """Return the product with gluPerspective's matrix as an operation of the queue; none for what GLU ignores."""
+    sine = math.sin(math.radians(fov_y / 2)) if math.isfinite(fov_y) else math.nan
+    if far == near or sine == 0 or aspect == 0:
+        return b""
     x, y, z, shift = perspective_elements(float(fov_y), float(aspect), float(near), float(far))
     return struct.pack("=17d", MULTIPLY, x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, -1, 0, 0, shift, 0)
 

@@ -74,7 +74,7 @@ def glPushAttrib(mask: int) -> None:
     if len(context.attribute_stack) == DEEPEST_ATTRIBUTES:
         fail(gl.GL_STACK_OVERFLOW, "glPushAttrib", f"this stack holds {DEEPEST_ATTRIBUTES} entries")
         return
-    state = context.drawn_state
+    state = context.drawn_state if context.changed else context.groups[""].value
     touched = context.touched if state is context.state_at_push else _changed_since_push(context, state)
     if mask & USED_BY_VERTICES and context.pending.old_values:
         context.update_current()
@@ -87,7 +87,7 @@ def glPushAttrib(mask: int) -> None:
         mask,
         touched,
         state,
-        context.followed,
+        context.state_groups.followed,
         (
             current.color,
             current.normal,
@@ -145,10 +145,10 @@ def glPopAttrib() -> None:
     if not context.ready:
         context.flush()
     entry = context.attribute_stack.pop()
-    mask, touched = entry[:2]
+    mask, touched = entry[0], entry[1]
     if mask & gl.GL_CURRENT_BIT and context.pending.old_values:
         context.update_current()
-    state = context.drawn_state
+    state = context.drawn_state if context.changed else context.groups[""].value
     mask &= context.touched if state is context.state_at_push else _changed_since_push(context, state)
     if mask:
         saved = SavedAttributes(*entry)

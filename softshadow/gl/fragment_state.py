@@ -41,6 +41,7 @@ F32 = np.float32
 # functions that pack and unpack so many numbers in single precision
 SINGLES = tuple((single.pack, single.unpack) for single in (struct.Struct(f"{count}f") for count in range(5)))
 PACK_SINGLE, UNPACK_SINGLE = SINGLES[1]
+PACK_PAIR, UNPACK_PAIR = SINGLES[2]
 
 
 def clamp01(value: float) -> float:
@@ -56,6 +57,17 @@ def rounded_number(context: Context, value: float) -> float:
     except struct.error:  # not a number, which ctypes says better
         return c_float(value).value
     return number
+
+
+def rounded_pair(context: Context, one: float, other: float) -> tuple[float, float]:
+    """Return two numbers rounded to the context's precision."""
+    if context.real is not F32:
+        return float(one), float(other)
+    try:
+        pair: tuple[float, float] = UNPACK_PAIR(PACK_PAIR(one, other))
+    except struct.error:  # not a number, which ctypes says better
+        return c_float(one).value, c_float(other).value
+    return pair
 
 
 def rounded(context: Context, *values: float) -> Any:
@@ -131,7 +143,15 @@ def glStencilOp(fail: int, zfail: int, zpass: int) -> None:
     """Set the stencil operations of both facings: stencil test fails, depth test fails, both pass."""
     context = thread.context
     if context.ready or is_allowed(context, glStencilOp, fail, zfail, zpass):
-        _stencil_op(context, "glStencilOp", _active_faces(context), fail, zfail, zpass)
+        values, faces = STENCIL_OP_VALUES, _active_faces(context)
+        if not (context.ready and fail in values and zfail in values and zpass in values):
+            _stencil_op(context, "glStencilOp", faces, fail, zfail, zpass)
+            return
+        for name in faces:  # `_stencil_op` in three quarters of the time
+            face = context.groups[name]
+            fields = face.fields
+            fields["sfail"], fields["zfail"], fields["zpass"] = values[fail], values[zfail], values[zpass]
+            context.changed.add(face)
 
 
 def glStencilOpSeparate(face: int, sfail: int, dpfail: int, dppass: int) -> None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
 from softshadow.context import current, thread
+from softshadow.context.matrix_stacks import packed_perspective
 from softshadow.gl.calls import in_lists, is_allowed, is_ready, spelled_like_gl
 from softshadow.gl.errors import outside_begin
 from softshadow.gl.transforms import glOrtho, glScalef, glTranslatef
@@ -18,11 +18,11 @@ def gluPerspective(fovy: float, aspect: float, zNear: float, zFar: float) -> Non
     context = thread.context
     if not (context.ready or is_allowed(context, gluPerspective, fovy, aspect, zNear, zFar)):
         return
-    sine = math.sin(math.radians(fovy / 2)) if math.isfinite(fovy) else math.nan
-    if zFar != zNear and sine != 0 and aspect != 0:
+    packed = packed_perspective(fovy, aspect, zNear, zFar)
+    if packed:
         if not context.ready:
             context.flush()
-        context.matrix_stack.perspective(fovy, aspect, zNear, zFar)
+        context.matrix_stack.multiply_packed(packed)
 
 
 @in_lists

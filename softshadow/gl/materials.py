@@ -24,9 +24,9 @@ FIELDS: dict[int, tuple[str, ...]] = {
 PARAMETERS = {**FIELDS, gl.GL_SHININESS: ("shininess",)}
 A_COLOR = "GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR, GL_EMISSION or GL_AMBIENT_AND_DIFFUSE"
 SIDES = {gl.GL_FRONT: ("front",), gl.GL_BACK: ("back",), gl.GL_FRONT_AND_BACK: ("front", "back")}
-MATERIALS = {side: f"lighting.{side}" for side in SIDES[gl.GL_FRONT_AND_BACK]}  # groups of the state
 NAMES = {  # of the attributes, by side and field
-    side: {field: f"{side}.{field}" for fields in PARAMETERS.values() for field in fields} for side in MATERIALS
+    side: {field: f"{side}.{field}" for fields in PARAMETERS.values() for field in fields}
+    for side in SIDES[gl.GL_FRONT_AND_BACK]
 }
 LARGEST_SHININESS = 128
 
@@ -70,9 +70,11 @@ def glMaterialf(face: int, pname: int, param: float) -> None:
     context = thread.context
     if context.compiled_list is not None:
         record(context, glMaterialf, face, pname, param)
-    elif (
-        pname == gl.GL_SHININESS or is_one_of("glMaterialf", "pname", pname, (gl.GL_SHININESS,), "GL_SHININESS")
-    ) and (face in SIDES or is_one_of("glMaterialf", "face", face, FACES, A_FACE)):
+    elif pname == gl.GL_SHININESS and face in SIDES and 0 <= param <= LARGEST_SHININESS:
+        set_material(context, face, {"shininess": rounded_number(context, param)})
+    elif is_one_of("glMaterialf", "pname", pname, (gl.GL_SHININESS,), "GL_SHININESS") and is_one_of(
+        "glMaterialf", "face", face, FACES, A_FACE
+    ):
         _set_shininess("glMaterialf", context, face, param)
 
 
@@ -92,14 +94,17 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
     Between glBegin and glEnd they become attributes of the vertices.
     """
     follows, primitive = context.groups["lighting"].fields["color_material"], context.primitive
+    buffer, old_values = context.vertex_buffer, context.pending.old_values
+    sizes, active_sizes = buffer.sizes, buffer.active_sizes
     for side in SIDES[face]:
         free, names = fields, NAMES[side]
         if follows:
             fixed = followed(context, side)
             free = {field: value for field, value in fields.items() if field not in fixed}
         for field, value in free.items():
-            name = names[field]
-            carry_attribute(context, name, len(value) if type(value) is tuple else 1)
+            name, size = names[field], len(value) if type(value) is tuple else 1
+            if not (sizes.get(name) == active_sizes.get(name) == size and name in old_values):
+                carry_attribute(context, name, size)  # which does nothing else
             if primitive is not None:
                 primitive.materials |= {name}
                 primitive.change(name, context.material(side)[field], value)

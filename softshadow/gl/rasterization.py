@@ -6,7 +6,7 @@ from softshadow import tokens as gl
 from softshadow.context import thread
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.fragment_state import A_FACE, FACES, clamp01, rounded, rounded_number
+from softshadow.gl.fragment_state import A_FACE, FACES, clamp01, rounded_number, rounded_pair
 
 LARGEST_VIEWPORT = 16384
 FARTHEST_CORNER = 32768  # Mesa clamps the corner of a viewport to this
@@ -49,7 +49,7 @@ def glPolygonOffset(factor: float, units: float) -> None:
     """Set the depth offset of polygons: `factor` times the slope, plus `units` times the smallest depth step."""
     context = thread.context
     if context.ready or is_allowed(context, glPolygonOffset, factor, units):
-        factor, units = rounded(context, factor, units)
+        factor, units = rounded_pair(context, factor, units)
         context.change_fields("polygon", {"factor": factor, "units": units})
 
 
@@ -84,12 +84,13 @@ def glViewport(x: int, y: int, width: int, height: int) -> None:
     if not (context.ready or is_allowed(context, glViewport, x, y, width, height)):
         return
     if (width >= 0 and height >= 0) or _box_is_valid("glViewport", width, height):
-        x, y, width, height = int(x), int(y), int(width), int(height)
+        if not (type(x) is type(y) is type(width) is type(height) is int):
+            x, y, width, height = int(x), int(y), int(width), int(height)
         if width > LARGEST_VIEWPORT or height > LARGEST_VIEWPORT:
             width, height = min(width, LARGEST_VIEWPORT), min(height, LARGEST_VIEWPORT)
         if not (-FARTHEST_CORNER <= x < FARTHEST_CORNER and -FARTHEST_CORNER <= y < FARTHEST_CORNER):
             x, y = (max(-FARTHEST_CORNER, min(corner, FARTHEST_CORNER - 1)) for corner in (x, y))
-        context.change("viewport", x=x, y=y, width=width, height=height)
+        context.change_fields("viewport", {"x": x, "y": y, "width": width, "height": height})
 
 
 @in_lists
@@ -113,7 +114,7 @@ def glDepthRange(zNear: float, zFar: float) -> None:
     """Set the depths of the near and far plane, clamped to [0, 1]."""
     context = outside_begin("glDepthRange")
     if context is not None:
-        near, far = rounded(context, clamp01(zNear), clamp01(zFar))
+        near, far = rounded_pair(context, clamp01(zNear), clamp01(zFar))
         context.change("viewport", near=near, far=far)
 
 

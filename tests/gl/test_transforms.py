@@ -7,6 +7,7 @@ import pytest
 
 from gl.gl_state import make
 from softshadow import gl
+from softshadow.context import MatrixStack
 from softshadow.testing import run_on_mesa
 
 SIZE = (10, 8)
@@ -32,6 +33,40 @@ def test_pop_brings_the_pushed_matrix_back():
         gl.glPopMatrix()
         expected = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [1, 2, 3, 1]]  # column after column
         np.testing.assert_array_equal(gl.glGetFloatv(gl.GL_MODELVIEW_MATRIX), expected)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_calls_push_and_pop_as_the_stack_does(seed):
+    """The calls contain what its methods do in most cases."""
+    rng, expected = np.random.default_rng(seed), MatrixStack(STACKS["GL_PROJECTION"], np.float32)
+    context = gl.create_context(*SIZE, raise_errors=False)
+    gl.glMatrixMode(gl.GL_PROJECTION)
+    for _ in range(STEPS):
+        name = rng.choice(["push", "push", "pop", "translate", "perspective", "identity", "fill", "read"])
+        error = gl.GL_NO_ERROR
+        if name == "push":
+            gl.glPushMatrix()
+            error = gl.GL_NO_ERROR if expected.push() else gl.GL_STACK_OVERFLOW
+        elif name == "pop":
+            gl.glPopMatrix()
+            error = gl.GL_NO_ERROR if expected.pop() else gl.GL_STACK_UNDERFLOW
+        elif name == "identity":
+            gl.glLoadIdentity()
+            expected.load_identity()
+        elif name == "perspective":  # whose kind must be derived before the next push
+            gl.gluPerspective(45, 1, 1, 10)
+            expected.perspective(45, 1, 1, 10)
+        elif name == "read":
+            assert gl.glGetFloatv(gl.GL_PROJECTION_MATRIX).tobytes() == expected.current.T.tobytes()
+        else:
+            for _ in range(100 if name == "fill" else 1):  # the queue has room for 128
+                gl.glTranslatef(0.5, 0.25, 0.125)
+                expected.translate(0.5, 0.25, 0.125)
+        assert gl.glGetError() == error
+        assert len(context.projection_stack) == len(expected)
+    for level in range(len(expected)):
+        assert context.projection_stack[level].tobytes() == expected[level].tobytes()
+    assert context.projection_stack.kind == expected.kind
 
 
 def test_each_texture_unit_has_its_own_matrix():
