@@ -77,9 +77,11 @@ class Program:
         for cap, p in (
             (gl.GL_DEPTH_TEST, 0.7), (gl.GL_CULL_FACE, 0.2), (gl.GL_BLEND, 0.3), (gl.GL_STENCIL_TEST, 0.3),
             (gl.GL_FOG, 0.3), (gl.GL_ALPHA_TEST, 0.2), (gl.GL_POLYGON_OFFSET_FILL, 0.2), (gl.GL_DEPTH_CLAMP, 0.1),
-            (gl.GL_CLIP_PLANE0, 0.05),
+            (gl.GL_CLIP_PLANE0, 0.2), (gl.GL_CLIP_PLANE3, 0.1),
         ):  # fmt: skip
             self.switch(cap, p)
+        for plane in (gl.GL_CLIP_PLANE0, gl.GL_CLIP_PLANE3):
+            gl.glClipPlane(plane, self.numbers(4))
         gl.glBlendFunc(self.one_of(gl.GL_ONE, gl.GL_SRC_ALPHA), self.one_of(gl.GL_ONE, gl.GL_ONE_MINUS_SRC_ALPHA))
         gl.glStencilFunc(self.one_of(gl.GL_ALWAYS, gl.GL_EQUAL), self.one_of(0, 1), 255)
         gl.glStencilOp(gl.GL_KEEP, self.one_of(gl.GL_KEEP, gl.GL_INVERT), self.one_of(gl.GL_INCR, gl.GL_DECR_WRAP))
@@ -144,10 +146,15 @@ class Program:
 
     def set_textures(self) -> None:
         self.switch(gl.GL_TEXTURE_2D, 0.4)
-        for coordinate, cap in ((gl.GL_S, gl.GL_TEXTURE_GEN_S), (gl.GL_T, gl.GL_TEXTURE_GEN_T)):
-            self.switch(cap, 0.3)
-            mode = self.one_of(gl.GL_OBJECT_LINEAR, gl.GL_EYE_LINEAR, gl.GL_EYE_LINEAR, gl.GL_SPHERE_MAP)
-            gl.glTexGeni(coordinate, gl.GL_TEXTURE_GEN_MODE, mode)
+        caps = {gl.GL_S: gl.GL_TEXTURE_GEN_S, gl.GL_T: gl.GL_TEXTURE_GEN_T, gl.GL_R: gl.GL_TEXTURE_GEN_R}
+        for coordinate, cap in caps.items():
+            self.switch(cap, 0.1 if coordinate == gl.GL_R else 0.4)
+            maps = (
+                gl.GL_REFLECTION_MAP,
+                gl.GL_NORMAL_MAP,
+                gl.GL_REFLECTION_MAP if coordinate == gl.GL_R else gl.GL_SPHERE_MAP,
+            )
+            gl.glTexGeni(coordinate, gl.GL_TEXTURE_GEN_MODE, self.one_of(gl.GL_OBJECT_LINEAR, gl.GL_EYE_LINEAR, *maps))
             gl.glTexGenfv(coordinate, gl.GL_EYE_PLANE, self.numbers(4))
             gl.glTexGenfv(coordinate, gl.GL_OBJECT_PLANE, self.numbers(4))
 

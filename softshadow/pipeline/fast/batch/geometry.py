@@ -27,7 +27,6 @@ from softshadow.pipeline.geometry.geometry import (
     filled_offset,
     has_float_units,
     points_and_lines_geometry,
-    user_planes,
     window_transform,
 )
 from softshadow.pipeline.geometry.lines import clip_lines
@@ -143,10 +142,10 @@ def geometry_of(
             n_triangles = assemble_draws(table.numbers, table.indices, outputs.codes, triangles, provoking)
     clip, codes, columns = outputs.clip, outputs.codes, outputs.columns
     if width == 3:
-        clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, user_planes(command))
+        clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, run.user_planes)
     else:
         primitives, clip_primitives = _lines_or_points(table, most, width), clip_points if width == 1 else clip_lines
-        provoking, clipped = primitives[:, -1], clip_primitives(clip, columns, primitives, codes, user_planes(command))
+        provoking, clipped = primitives[:, -1], clip_primitives(clip, columns, primitives, codes, run.user_planes)
     window = outputs.window
     if len(clipped.clip) > n:  # the new vertices of clipping come last
         window = append_rows(window, to_window(clipped.clip[n:], *window_transform(command, target)))
@@ -201,7 +200,7 @@ def _repeated_geometry(
     if len(geometry.window) > n and known.cut is not None:
         cut, clip, codes = known.cut, outputs.clip, outputs.codes
         own = np.arange(len(cut), dtype=np.int32).reshape(-1, 3)
-        pieces = clip_triangles(clip[cut], columns[cut], own, codes[cut], user_planes(run.command))
+        pieces = clip_triangles(clip[cut], columns[cut], own, codes[cut], run.user_planes)
         columns = np.concatenate([columns, pieces.values[len(cut) :]])
     geometry = geometry._replace(flat=setting.flat, program=setting.program, uniforms=setting.uniforms)
     return _with_values(geometry, columns, setting)
@@ -234,8 +233,8 @@ def _inputs(table: Table, setting: Setting) -> tuple[Any, ...]:
     placed = np.zeros((len(table.rows), table.lights.shape[1], PLACED_COLUMNS), REAL)
     return (
         table.layout, table.numbers, table.rows, table.lights, table.materials, table.flags, placed, table.generated,
-        table.planes, table.unit_rows, table.positions, table.colors, table.normals, table.texcoords, setting.scale,
-        setting.shift,
+        table.planes, table.user_planes, table.unit_rows, table.positions, table.colors, table.normals,
+        table.texcoords, setting.scale, setting.shift,
     )  # fmt: skip
 
 
@@ -248,9 +247,9 @@ def _write_outputs(table: Table, inputs: tuple[Any, ...], outputs: Outputs) -> N
 
 @kernel
 def set_up_run(
-    layout, numbers, rows, lights, materials, flags, placed, generated, planes, unit_rows, positions, colors, normals,
-    texcoords, scale, shift, clip, codes, window, values, back, indices, triangles, triangles_read, provoking, snapped,
-    culled, positive_is_front, offset, corners, vertices, depth, front, ids,
+    layout, numbers, rows, lights, materials, flags, placed, generated, planes, user_planes, unit_rows, positions,
+    colors, normals, texcoords, scale, shift, clip, codes, window, values, back, indices, triangles, triangles_read,
+    provoking, snapped, culled, positive_is_front, offset, corners, vertices, depth, front, ids,
 ):  # fmt: skip
     """Process the vertices of all draws and set their triangles up, unless any of them must be clipped.
 
@@ -260,8 +259,8 @@ def set_up_run(
     n = positions.shape[0]
     prepare_draws(layout, numbers, rows, lights, flags, placed)
     process_vertices(
-        0, n, layout, numbers, rows, lights, materials, flags, placed, generated, planes, unit_rows, positions, colors,
-        normals, texcoords, scale, shift, clip, codes, window, values, back,
+        0, n, layout, numbers, rows, lights, materials, flags, placed, generated, planes, user_planes, unit_rows,
+        positions, colors, normals, texcoords, scale, shift, clip, codes, window, values, back,
     )  # fmt: skip
     n_triangles = assemble_draws(numbers, indices, codes, triangles, provoking)
     any_code = 0

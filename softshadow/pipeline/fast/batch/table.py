@@ -29,9 +29,12 @@ from softshadow.pipeline.fast.batch.vertices import (
     HAS_ARRAY,
     MODELVIEW,
     NORMAL,
+    NORMAL_MAP,
     NUMBERS,
     OBJECT_LINEAR,
     PROJECTION,
+    REFLECTION_MAP,
+    SPHERE_MAP,
     UNIT_COLUMNS,
     UNIT_CONSTANT,
     UNIT_IS_IDENTITY,
@@ -39,6 +42,7 @@ from softshadow.pipeline.fast.batch.vertices import (
     Layout,
 )
 from softshadow.pipeline.geometry.clip import NEAR_FAR
+from softshadow.pipeline.geometry.geometry import user_planes
 from softshadow.pipeline.geometry.program import bound_textures
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.mesa.polygon_rules import passes_stages
@@ -47,12 +51,15 @@ from softshadow.pipeline.mesa.rectangles import start_of_last_nine
 from softshadow.programs import reflectances
 from softshadow.programs.fixed_function import Unit, has_secondary, needs_vertex_color, units_in_use
 from softshadow.programs.inverse import UNKNOWN
-from softshadow.programs.texture_coordinates import IN_EYE_SPACE
+from softshadow.programs.texture_coordinates import IN_EYE_SPACE, needs_normals, reflects_r
 from softshadow.programs.vertex_color_use import reads_primary_color
 from softshadow.state import Lighting, Lines, MaterialState, Points, State
 
 BATCH_KERNELS = KernelGroup("batch")
-GENERATED = {gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR}
+GENERATED = {
+    gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR, gl.GL_SPHERE_MAP: SPHERE_MAP,
+    gl.GL_REFLECTION_MAP: REFLECTION_MAP, gl.GL_NORMAL_MAP: NORMAL_MAP,
+}  # fmt: skip
 GROUPS = tuple(group.name for group in fields(State) if group.name not in ("lighting", "read_framebuffer"))
 groups_of = attrgetter(*GROUPS)
 # groups that concern fragments only, but for whether depths are clamped; alpha test and colour mask decide more
@@ -87,7 +94,7 @@ class Run:
     writes_color : bool      else no colours are computed
     arrays : Arrays          of all draws
     across : bool            quads are cut along the other diagonal even without indices (`Varyings.flat_input`)
-    layout, generated, planes : of its `Table`
+    layout, generated, planes, user_planes : of its `Table`
     """
 
     def __init__(self, command: Draw, storage: Storage, writes_color: bool) -> None:
@@ -99,6 +106,7 @@ class Run:
         self._last = command  # taken
         is_flat = writes_color and self.state.lighting.shade_model == gl.GL_FLAT
         self.generated, self.planes, in_eye_space = _generation(self)
+        self.user_planes = user_planes(command)
         self.layout = self._layout(in_eye_space)
         self.across = is_flat and (
             bool(self.layout.separate)
@@ -117,6 +125,7 @@ class Run:
 
     def _layout(self, in_eye_space: bool) -> Layout:
         state, lit = self.state, self.lit
+        settings = [state.units[number] for number in self._unit_numbers]
         return Layout(
             lit=int(lit),
             separate=int(lit and has_secondary(state)),
@@ -126,6 +135,8 @@ class Run:
             normals=int(self.arrays.normal),
             units=len(self.units),
             in_eye_space=int(in_eye_space),
+            maps_normals=int(any(map(needs_normals, settings))),
+            reflects_r=int(any(map(reflects_r, settings))),
             ignored=NEAR_FAR if state.depth.clamp else 0,
         )
 
@@ -137,6 +148,17 @@ class Run:
     def lit(self) -> bool:
         """Whether vertices are lit."""
         return self.writes_color and self.state.lighting.enabled
+
+    @property
+    def reads_normals(self) -> bool:
+        """Whether the colours or texture coordinates of vertices depend on their normals."""
+        return self.lit or bool(self.layout.maps_normals)
+
+    def _has_same_clip_planes(self, command: Draw, projection: np.ndarray, kind: int) -> bool:
+        """Return whether the clip planes are those of the run in clip space, by a projection that has these."""
+        if not len(self.user_planes) or command.projection is projection:
+            return True
+        return command.projection_kind == kind and command.projection.tobytes() == projection.tobytes()
 
     def takes(self, command: Draw) -> bool:
         """Return whether a draw of the same kind as the others continues the run."""
@@ -172,6 +194,8 @@ class Run:
             return False
         if _structure(command.state.lighting) != _structure(self.state.lighting):
             return False
+        if not self._has_same_clip_planes(command, self.command.projection, self.command.projection_kind):
+            return False
         return self._arrays_of(command) == self.arrays and can_run(command)
 
     def _is_like_last(self, command: Draw) -> bool:
@@ -182,6 +206,8 @@ class Run:
         if command.mode != last.mode or command.modelview_kind & UNKNOWN or command.joined_positions is not None:
             return False
         if command.mode == gl.GL_TRIANGLES and command.indices is None:
+            return False
+        if not self._has_same_clip_planes(command, last.projection, last.projection_kind):
             return False
         one, other, numbers = command.vertices, last.vertices, self._unit_numbers
         return one is other or (
@@ -216,7 +242,8 @@ def geometry_structure(run: Run) -> tuple[Hashable, ...]:
     state = run.state
     return (
         state.draw_framebuffer, state.viewport, state.polygon, state.depth.clamp, *_structure(state.lighting),
-        run.layout, run.arrays, run.generated.tobytes(), run.planes.tobytes(), run.across, run.writes_color,
+        run.layout, run.arrays, run.generated.tobytes(), run.planes.tobytes(), run.user_planes.tobytes(), run.across,
+        run.writes_color,
         tuple([unit.index for unit in run.units]), width_of(run.command.mode),
     )  # fmt: skip
 
@@ -237,7 +264,7 @@ def can_run(command: Draw) -> bool:
 def can_begin_run(command: Draw, target: Framebuffer) -> bool:
     """Return whether a draw can be processed in a table, as far as its state decides it."""
     state = command.state
-    if not can_run(command) or not target.attachments or passes_stages(state) or any(state.clip_planes.enabled):
+    if not can_run(command) or not target.attachments or passes_stages(state):
         return False
     if state.lines != PLAIN_LINES or state.points != PLAIN_POINTS or first_provokes(state):
         return False
@@ -257,6 +284,7 @@ class Table(NamedTuple):
 
     numbers (D, 9) int64; rows (D, 72), unit_rows (D, U, 21): matrices and constants; lights (L, N, 23), materials
     (L, 2, 20), flags (L, 9): each distinct `Lighting`; generated (U, 5), planes (U, 4, 4): generation of coordinates;
+    user_planes (P, 4): those of the user in clip space, of all draws;
     positions (V, 4), colors (V, 4), normals (V, 3), texcoords (U, V, 4): of all draws one after the other, no rows
     where they are constants; indices (I,) int32.
     """
@@ -270,6 +298,7 @@ class Table(NamedTuple):
     flags: np.ndarray
     generated: np.ndarray
     planes: np.ndarray
+    user_planes: np.ndarray
     positions: np.ndarray
     colors: np.ndarray
     normals: np.ndarray
@@ -296,9 +325,10 @@ def table_of(run: Run, draws: Sequence[Draw]) -> Table:
         *_lighting_arrays(lightings),
         run.generated,
         run.planes,
+        run.user_planes,
         _joined([each.position for each in vertices], True),
         _joined([each.color for each in vertices], arrays.color),
-        _joined([each.normal for each in vertices], arrays.normal and run.lit),
+        _joined([each.normal for each in vertices], arrays.normal and run.reads_normals),
         _texcoords(run, vertices, int(numbers[-1, END])),
         _joined([draw.indices for draw in draws if draw.indices is not None], True, NO_INDICES),
     )
@@ -325,14 +355,14 @@ def _joined(parts: list[np.ndarray], is_array: bool, nothing: np.ndarray = NO_RO
 
 def _numbers(draws: Sequence[Draw], run: Run) -> tuple[np.ndarray, list[Lighting]]:
     """Return the numbers of each draw, and the states of lighting that kernels can tell apart."""
-    lit, across, last = run.lit, run.across, draws[0].state.lighting
+    reads_normals, across, last = run.reads_normals, run.across, draws[0].state.lighting
     table: list[int] = []  # in the order of the columns
     lightings, start, index_start = [last], 0, 0
     for draw in draws:
         indices, lights = draw.indices, draw.state.lighting
         end, indexed = start + len(draw.vertices.position), indices is not None
         index_end = index_start if indices is None else index_start + len(indices)
-        if lights is not last and lit and not _same_rows(lights, last):
+        if lights is not last and reads_normals and not _same_rows(lights, last):
             last = lights
             lightings.append(lights)
         row = len(lightings) - 1

@@ -8,13 +8,24 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.jit import inlined, kernel
-from softshadow.pipeline.constants import ZERO
+from softshadow.pipeline.constants import HALF, ONE, ZERO
 from softshadow.pipeline.fast.batch.light_block import light_vertices
-from softshadow.pipeline.fast.batch.lighting import N_LIGHTS, NEEDS_EYE, OBJECT_SPACE, clamped, place_lights
+from softshadow.pipeline.fast.batch.lighting import (
+    N_LIGHTS,
+    NEEDS_EYE,
+    NORMALIZES,
+    OBJECT_SPACE,
+    RESCALES,
+    clamped,
+    dot3,
+    place_lights,
+    root_of,
+)
 from softshadow.pipeline.fast.batch.matrices import invert, multiply
-from softshadow.pipeline.geometry.clip import outcode
+from softshadow.pipeline.geometry.clip import outcode, write_outcodes
 from softshadow.pipeline.geometry.vertex import clip_position, window_position
 from softshadow.programs.inverse import LENGTH_PRESERVING
+from softshadow.programs.lighting import SMALLEST_SCALE
 
 # columns of a draw's row: matrices, constant attributes; the product and the inverse are written by `prepare_draws`
 MODELVIEW, PROJECTION, COLOR, NORMAL, PRODUCT, INVERSE, FLOATS = 0, 16, 32, 36, 40, 56, 72
@@ -23,7 +34,8 @@ MODELVIEW, PROJECTION, COLOR, NORMAL, PRODUCT, INVERSE, FLOATS = 0, 16, 32, 36, 
 START, END, MODE, INDEX_START, INDEX_END, INDEXED, KIND, LIGHTING, ACROSS, NUMBERS = range(10)
 # columns of a texture unit of a draw: its matrix, the constant coordinates, whether the matrix is the identity
 UNIT_MATRIX, UNIT_CONSTANT, UNIT_IS_IDENTITY, UNIT_COLUMNS = 0, 16, 20, 21
-SPECIFIED, OBJECT_LINEAR, EYE_LINEAR = range(3)  # how a texture coordinate is generated
+# how a texture coordinate is generated; from EYE_LINEAR on from the eye position, from SPHERE_MAP on from the normal
+SPECIFIED, OBJECT_LINEAR, EYE_LINEAR, SPHERE_MAP, REFLECTION_MAP, NORMAL_MAP = range(6)
 HAS_ARRAY = 4  # the column after those of the four coordinates: whether a unit has an array of them
 
 
@@ -31,7 +43,8 @@ class Layout(NamedTuple):
     """What all draws of a table have in common, as plain numbers.
 
     lit, separate, two_side, fog: the state; colors, normals: whether they are arrays; units: how many are in use;
-    in_eye_space: a unit generates coordinates there; ignored: clip codes that do not clip.
+    in_eye_space: a unit generates coordinates there; maps_normals: from normals; reflects_r: see
+    `texture_coordinates.Normals`; ignored: clip codes that do not clip.
     """
 
     lit: int
@@ -42,6 +55,8 @@ class Layout(NamedTuple):
     normals: int
     units: int
     in_eye_space: int
+    maps_normals: int
+    reflects_r: int
     ignored: int
 
 
@@ -58,9 +73,10 @@ def prepare_draws(layout, numbers, rows, lights, flags, placed):
         row, kind = rows[d], numbers[d, KIND]
         modelview = matrix_at(row, MODELVIEW)
         multiply(matrix_at(row, PROJECTION), modelview, matrix_at(row, PRODUCT))
-        if layout.lit:
-            to_object, lighting = matrix_at(row, INVERSE), numbers[d, LIGHTING]
+        to_object, lighting = matrix_at(row, INVERSE), numbers[d, LIGHTING]
+        if layout.lit or layout.maps_normals:
             invert(modelview, kind, to_object)
+        if layout.lit:
             place_lights(
                 lights[lighting], flags[lighting, N_LIGHTS], modelview, to_object,
                 in_object_space(layout, flags[lighting], kind), placed[d],
@@ -87,8 +103,8 @@ def transformed(m, i, x, y, z, w):
 
 @kernel
 def process_vertices(
-    begin, end, layout, numbers, rows, lights, materials, flags, placed, generated, planes, unit_rows, positions,
-    colors, normals, texcoords, scale, shift, clip, codes, window, values, back,
+    begin, end, layout, numbers, rows, lights, materials, flags, placed, generated, planes, user_planes, unit_rows,
+    positions, colors, normals, texcoords, scale, shift, clip, codes, window, values, back,
 ):  # fmt: skip
     """Write clip position, clip code, window position and varyings of the vertices [begin, end) of all draws."""
     for d in range(numbers.shape[0]):
@@ -102,8 +118,10 @@ def process_vertices(
             clip_position(product, positions, v, clip)
             codes[v] = outcode(clip[v, 0], clip[v, 1], clip[v, 2], clip[v, 3]) & ~layout.ignored
             window_position(clip, v, scale, shift, window)
+        if user_planes.shape[0]:
+            write_outcodes(clip[first:last], user_planes, layout.ignored, codes[first:last])
+        lighting, kind = numbers[d, LIGHTING], numbers[d, KIND]
         if layout.lit:
-            lighting, kind = numbers[d, LIGHTING], numbers[d, KIND]
             light_vertices(
                 first, last, layout.two_side, layout.separate, in_object_space(layout, flags[lighting], kind),
                 not kind & ~LENGTH_PRESERVING, modelview, matrix_at(row, INVERSE), row[NORMAL:PRODUCT],
@@ -118,8 +136,9 @@ def process_vertices(
         column = 7 if layout.separate else 4
         for unit in range(layout.units):
             write_coordinates(
-                first, last, generated[unit], planes[unit], unit_rows[d, unit], modelview, positions, texcoords[unit],
-                values, column,
+                first, last, generated[unit], planes[unit], unit_rows[d, unit], modelview, matrix_at(row, INVERSE),
+                flags[lighting, NORMALIZES], flags[lighting, RESCALES] and kind & ~LENGTH_PRESERVING,
+                layout.reflects_r, row[NORMAL:PRODUCT], positions, normals, texcoords[unit], values, column,
             )  # fmt: skip
             column += 4
         if layout.fog:
@@ -138,10 +157,20 @@ def process_vertices(
 
 @kernel
 def write_coordinates(
-    first, last, generated, planes, unit_row, modelview, positions, texcoords, values, column
+    first, last, generated, planes, unit_row, modelview, to_object, normalizes, rescales, reflects_r, normal,
+    positions, normals, texcoords, values, column,
 ):  # fmt: skip
-    """Write the texture coordinates of vertices in one unit: specified or generated, times the texture matrix."""
+    """Write the texture coordinates of vertices in one unit: specified or generated, times the texture matrix.
+
+    `normal` is that of all vertices where `normals` has no rows.
+    """
     matrix = unit_row[UNIT_MATRIX : UNIT_MATRIX + 16].reshape(4, 4)
+    most = max(max(generated[0], generated[1]), max(generated[2], generated[3]))
+    if most >= SPHERE_MAP:
+        write_mapped(
+            first, last, generated, modelview, to_object, normalizes, rescales, reflects_r, normal, positions, normals,
+            values, column,
+        )  # fmt: skip
     for vertex in range(first, last):
         v = np.uint64(vertex)
         x, y, z, w = positions[v, 0], positions[v, 1], positions[v, 2], positions[v, 3]
@@ -150,7 +179,7 @@ def write_coordinates(
                 values[v, column + c] = texcoords[v, c] if generated[HAS_ARRAY] else unit_row[UNIT_CONSTANT + c]
             elif generated[c] == OBJECT_LINEAR:
                 values[v, column + c] = plane_dot(planes, c, x, y, z, w)
-            else:
+            elif generated[c] == EYE_LINEAR:
                 values[v, column + c] = plane_dot(
                     planes, c, transformed(modelview, 0, x, y, z, w), transformed(modelview, 1, x, y, z, w),
                     transformed(modelview, 2, x, y, z, w), transformed(modelview, 3, x, y, z, w),
@@ -159,3 +188,50 @@ def write_coordinates(
             s, t, r, q = values[v, column], values[v, column + 1], values[v, column + 2], values[v, column + 3]
             for c in range(4):
                 values[v, column + c] = transformed(matrix, c, s, t, r, q)
+
+
+@kernel
+def write_mapped(
+    first, last, generated, modelview, to_object, normalizes, rescales, reflects_r, normal, positions, normals, values,
+    column,
+):  # fmt: skip
+    """Write the coordinates that are generated from normals, as `texture_coordinates.generate_coordinate`."""
+    m = to_object
+    squared = (m[2, 0] * m[2, 0] + m[2, 1] * m[2, 1]) + m[2, 2] * m[2, 2]
+    scale = ONE / np.sqrt(squared if squared >= SMALLEST_SCALE else ONE)
+    has_normals = normals.shape[0] != 0
+    for vertex in range(first, last):
+        v = np.uint64(vertex)
+        a, b, c = normal[0], normal[1], normal[2]
+        if has_normals:
+            a, b, c = normals[v, 0], normals[v, 1], normals[v, 2]
+        nx = dot3(a, b, c, m[0, 0], m[1, 0], m[2, 0])
+        ny = dot3(a, b, c, m[0, 1], m[1, 1], m[2, 1])
+        nz = dot3(a, b, c, m[0, 2], m[1, 2], m[2, 2])
+        factor = ONE
+        if normalizes:
+            factor = root_of(dot3(nx, ny, nz, nx, ny, nz))
+        elif rescales:
+            factor = scale
+        if normalizes or rescales:
+            nx, ny, nz = nx * factor, ny * factor, nz * factor
+        x, y, z, w = positions[v, 0], positions[v, 1], positions[v, 2], positions[v, 3]
+        ux = transformed(modelview, 0, x, y, z, w)
+        uy = transformed(modelview, 1, x, y, z, w)
+        uz = transformed(modelview, 2, x, y, z, w)
+        factor = root_of(dot3(ux, uy, uz, ux, uy, uz))
+        ux, uy, uz = ux * factor, uy * factor, uz * factor
+        cosine = dot3(nx, ny, nz, ux, uy, uz)
+        turn = -(cosine + cosine)
+        turn_z = turn * nz
+        rx, ry, rz = turn * nx + ux, turn * ny + uy, turn_z + uz
+        half_way = rz + ONE if reflects_r else (turn_z + ONE) + uz
+        over = root_of(dot3(rx, ry, half_way, rx, ry, half_way)) * HALF
+        for k in range(4):
+            mapped = nx if k == 0 else ny if k == 1 else nz
+            if generated[k] == SPHERE_MAP:
+                mapped = (rx if k == 0 else ry if k == 1 else rz) * over + HALF
+            elif generated[k] == REFLECTION_MAP:
+                mapped = rx if k == 0 else ry if k == 1 else rz
+            if generated[k] >= SPHERE_MAP:
+                values[v, column + k] = mapped
