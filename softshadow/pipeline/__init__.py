@@ -40,7 +40,7 @@ from softshadow.pipeline.choose import (
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.draw_path import DrawPath, explain_paths
 from softshadow.pipeline.memory.threads import set_threads, threads
-from softshadow.pipeline.raster.fill import fill, fill_buffers
+from softshadow.pipeline.raster.fill import OfRows, fill, fill_buffers, nothing
 from softshadow.pipeline.raster.ordered import process_fragments
 from softshadow.pipeline.raster.region import buffer_cells, covered, depth_range_of, padded_shape, region_of
 from softshadow.pipeline.raster.spans import LAST, ONLY
@@ -304,7 +304,10 @@ def _fill(
     `bands` receive the last triangle of each pixel; `ids` the only one, or that there are several.
     """
     writes_ids = LAST if bands else ONLY if ids is not None else 0
-    ids, around = (bands.ids, {"before": bands.clear, "after": bands.count}) if bands else (ids, {})
+    before: OfRows = nothing
+    after: OfRows = nothing
+    if bands:
+        ids, before, after = bands.ids, bands.clear, bands.count
     n_triangles = len(triangles.ids) if ranges is None else sum(end - first for first, end in ranges)
     choice = choose_fill(
         plan, n_triangles, fragments, region, writes_ids=writes_ids, counts=counts, depth=target.depth, ties=ties
@@ -313,5 +316,6 @@ def _fill(
     buffers = fill_buffers(*buffer_cells(target, real, writes_depth=writes_depth), real, region, ids)
     fill(
         choice.kernel, plan.front, plan.back, triangles, region, depth_range_of(state, real.type), buffers,
-        writes_ids=bool(writes_ids), band_rows_log2=choice.band_rows_log2, ranges=ranges, **around,
+        writes_ids=bool(writes_ids), band_rows_log2=choice.band_rows_log2, ranges=ranges, before=before,
+        after=after,
     )  # fmt: skip

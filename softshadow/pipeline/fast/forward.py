@@ -115,20 +115,23 @@ def draw_forward(
 
 def _planes_of_all(geometry: Geometry, triangles: Setup) -> np.ndarray:
     """Return the `interpolate.attribute_planes` of all triangles of a part of the geometry."""
-    values, back, parts = geometry.values, geometry.back, parts_of(len(triangles.ids), PLANES)
-    planes = scratch((len(triangles.ids), 3, values.shape[1] + 1), np.float32)
+    count, values, back = len(triangles.ids), geometry.values, geometry.back
+    planes = scratch((count, 3, values.shape[1] + 1), np.float32)
 
-    def write_part(n: int) -> None:
-        rows = slice(*parts[n])
+    def write_part(first: int, end: int) -> None:
         attribute_planes(
             geometry.window, values, values if back is None else back, triangles.vertices, triangles.front,
-            _in_order[rows], geometry.flat, geometry.provoking, triangles.ids, planes[rows],
+            _in_order[first:end], geometry.flat, geometry.provoking, triangles.ids, planes[first:end],
         )  # fmt: skip
 
-    share(write_part, len(parts))
+    if count < 2 * PLANES:  # most draws: no time to look for threads
+        write_part(0, count)
+    else:
+        parts = parts_of(count, PLANES)
+        share(lambda n: write_part(*parts[n]), len(parts))
     if geometry.sprites is not None:
         part = geometry._replace(triangles=triangles)
-        write_sprite_planes(part, geometry.sprites, AttributePlanes(planes, _in_order[: len(planes)]))
+        write_sprite_planes(part, geometry.sprites, AttributePlanes(planes, _in_order[:count]))
     return planes
 
 

@@ -156,9 +156,11 @@ class Run:
 
     def _has_same_clip_planes(self, command: Draw, projection: np.ndarray, kind: int) -> bool:
         """Return whether the clip planes are those of the run in clip space, by a projection that has these."""
-        if not len(self.user_planes) or command.projection is projection:
+        if not len(self.user_planes):
             return True
-        return command.projection_kind == kind and command.projection.tobytes() == projection.tobytes()
+        return command.projection_kind == kind and (
+            command.projection is projection or command.projection.tobytes() == projection.tobytes()
+        )
 
     def takes(self, command: Draw) -> bool:
         """Return whether a draw of the same kind as the others continues the run."""
