@@ -35,7 +35,7 @@ from softshadow.state import State
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS, any_state_kernel
-    from softshadow.pipeline.fast.batch.table import Run, can_begin_run
+    from softshadow.pipeline.fast.batch.run import Run, can_begin_run
     from softshadow.pipeline.fast.depth_only import Chunk, chunks_of, fill_in_blocks, threads_of_blocks, window_mesh
     from softshadow.pipeline.fast.drawn_surfaces import (
         Watch,

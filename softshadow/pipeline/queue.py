@@ -22,8 +22,9 @@ from softshadow.pipeline.commands import Draw
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
     from softshadow.pipeline.fast.batch.geometry import WORTH_COMPARING, Setting, geometry_of, setting_of
+    from softshadow.pipeline.fast.batch.run import Run, key_of, width_of
     from softshadow.pipeline.fast.batch.segments import Part, cut, geometry_key
-    from softshadow.pipeline.fast.batch.table import BATCH_KERNELS, Run, key_of, width_of
+    from softshadow.pipeline.fast.batch.table import BATCH_KERNELS
     from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL
 except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
     pass

@@ -16,7 +16,7 @@ from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch import geometry
 from softshadow.pipeline.fast.batch.geometry import Setting
 from softshadow.pipeline.fast.batch.matrices import invert
-from softshadow.pipeline.fast.batch.table import Run
+from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.memory import threads as pool
 from softshadow.pipeline.records import Geometry

@@ -16,7 +16,8 @@ from softshadow.jit import kernel, read_only
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.assembly import assemble_draws, assemble_lines_and_points, primitive_count
 from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
-from softshadow.pipeline.fast.batch.table import Run, Table, table_of, width_of
+from softshadow.pipeline.fast.batch.run import Run, width_of
+from softshadow.pipeline.fast.batch.table import Table, table_of
 from softshadow.pipeline.fast.batch.vertices import prepare_draws, process_vertices
 from softshadow.pipeline.fast.geometry_cache import recent_of
 from softshadow.pipeline.fast.recent_triangles import triangles_key, window_key

@@ -15,7 +15,7 @@ import numpy as np
 from softshadow.jit import kernel
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.geometry import Setting
-from softshadow.pipeline.fast.batch.table import Run, geometry_structure
+from softshadow.pipeline.fast.batch.run import Run, geometry_structure
 from softshadow.pipeline.raster.coverage import extent
 from softshadow.pipeline.records import Geometry, Setup
 

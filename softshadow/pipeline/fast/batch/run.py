@@ -1,0 +1,277 @@
+"""Which draws form a run; its triangles equal `geometry.geometry.process_geometry`, see fast/test_batch.py.
+
+The draws of a run are processed together. They have the same state but for their lighting, so they share a viewport, a
+program of the fixed function and all that happens to fragments. Their matrices, vertices, current attributes and lights
+differ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from copy import copy
+from dataclasses import fields
+from operator import attrgetter
+from typing import NamedTuple
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.fast.batch.assembly import MODES, POLYGONS
+from softshadow.pipeline.fast.batch.vertices import (
+    EYE_LINEAR,
+    HAS_ARRAY,
+    NORMAL_MAP,
+    OBJECT_LINEAR,
+    REFLECTION_MAP,
+    SPHERE_MAP,
+    Layout,
+)
+from softshadow.pipeline.geometry.clip import NEAR_FAR
+from softshadow.pipeline.geometry.geometry import user_planes
+from softshadow.pipeline.geometry.program import bound_textures
+from softshadow.pipeline.mesa.polygon_rules import passes_stages
+from softshadow.pipeline.mesa.provoking_vertex import first_provokes
+from softshadow.pipeline.mesa.rectangles import start_of_last_nine
+from softshadow.programs.fixed_function import Unit, has_secondary, needs_vertex_color, units_in_use
+from softshadow.programs.inverse import UNKNOWN
+from softshadow.programs.texture_coordinates import IN_EYE_SPACE, needs_normals, reflects_r
+from softshadow.programs.vertex_color_use import reads_primary_color
+from softshadow.state import Lighting, Lines, Points, State
+
+GENERATED = {
+    gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR, gl.GL_SPHERE_MAP: SPHERE_MAP,
+    gl.GL_REFLECTION_MAP: REFLECTION_MAP, gl.GL_NORMAL_MAP: NORMAL_MAP,
+}  # fmt: skip
+GROUPS = tuple(group.name for group in fields(State) if group.name not in ("lighting", "read_framebuffer"))
+groups_of = attrgetter(*GROUPS)
+# groups that concern fragments only, but for whether depths are clamped; alpha test and colour mask decide more
+OF_TESTS = ("scissor", "stencil", "depth", "blend")
+other_groups_of = attrgetter(*(group for group in GROUPS if group not in OF_TESTS))
+PLAIN_LINES, PLAIN_POINTS = Lines(), Points()
+IDENTITY = np.eye(4, dtype=np.float32)
+
+
+class Arrays(NamedTuple):
+    """Which attributes of a draw are arrays, not constants: colour, normal, coordinates of each unit in use.
+
+    `identities` says of each unit whether its texture matrix is the identity.
+    """
+
+    color: bool
+    normal: bool
+    texcoords: tuple[bool, ...]
+    identities: tuple[bool, ...]
+
+
+class Run:
+    """What the draws of a run have in common.
+
+    Attributes
+    ----------
+    state : State            of the first draw; the others differ at most in lights and materials
+    command : Draw           the first draw
+    units : the texture units in use
+    writes_color : bool      else no colours are computed
+    arrays : Arrays          of all draws
+    across : bool            quads are cut along the other diagonal even without indices (`Varyings.flat_input`)
+    layout, generated, planes, user_planes : of its `Table`
+    """
+
+    def __init__(self, command: Draw, storage: Storage, writes_color: bool) -> None:
+        self.command, self.state, self.writes_color = command, command.state, writes_color
+        bound = bound_textures(command, storage) if writes_color else {}
+        self.units: list[Unit] = units_in_use(self.state, bound) if bound else []
+        self._unit_numbers = [unit.index for unit in self.units]
+        self.arrays = self._arrays_of(command)
+        self._last = command  # taken
+        is_flat = writes_color and self.state.lighting.shade_model == gl.GL_FLAT
+        self.generated, self.planes, in_eye_space = _generation(self)
+        self.user_planes = user_planes(command)
+        self.layout = self._layout(in_eye_space)
+        self.across = is_flat and (
+            bool(self.layout.separate)
+            or ((self.lit or self.arrays.color) and needs_vertex_color(self.state, self.units))
+        )
+
+    def _arrays_of(self, command: Draw) -> Arrays:
+        vertices = command.vertices
+        numbers = self._unit_numbers
+        return Arrays(
+            vertices.color.strides[0] != 0,
+            vertices.normal.strides[0] != 0,
+            tuple([vertices.texcoords[number].strides[0] != 0 for number in numbers]),
+            tuple([self._is_identity(command.texture_matrices[number]) for number in numbers]),
+        )
+
+    def _layout(self, in_eye_space: bool) -> Layout:
+        state, lit = self.state, self.lit
+        settings = [state.units[number] for number in self._unit_numbers]
+        return Layout(
+            lit=int(lit),
+            separate=int(lit and has_secondary(state)),
+            two_side=int(lit and state.lighting.two_side),
+            fog=int(self.writes_color and state.fog.enabled),
+            colors=int(self.arrays.color),
+            normals=int(self.arrays.normal),
+            units=len(self.units),
+            in_eye_space=int(in_eye_space),
+            maps_normals=int(any(map(needs_normals, settings))),
+            reflects_r=int(any(map(reflects_r, settings))),
+            ignored=NEAR_FAR if state.depth.clamp else 0,
+        )
+
+    @staticmethod
+    def _is_identity(matrix: np.ndarray) -> bool:
+        return bool((matrix == IDENTITY).all())
+
+    @property
+    def lit(self) -> bool:
+        """Whether vertices are lit."""
+        return self.writes_color and self.state.lighting.enabled
+
+    @property
+    def reads_normals(self) -> bool:
+        """Whether the colours or texture coordinates of vertices depend on their normals."""
+        return self.lit or bool(self.layout.maps_normals)
+
+    def _has_same_clip_planes(self, command: Draw, projection: np.ndarray, kind: int) -> bool:
+        """Return whether the clip planes are those of the run in clip space, by a projection that has these."""
+        if not len(self.user_planes):
+            return True
+        return command.projection_kind == kind and (
+            command.projection is projection or command.projection.tobytes() == projection.tobytes()
+        )
+
+    def takes(self, command: Draw) -> bool:
+        """Return whether a draw of the same kind as the others continues the run."""
+        if self._is_like_last(command):
+            return True
+        if command.state is not self.state and groups_of(command.state) != groups_of(self.state):
+            return False
+        if not self._is_alike(command):
+            return False
+        self._last = command
+        return True
+
+    def under(self, command: Draw) -> Run | None:
+        """Return the run that begins with a draw whose state has other tests or blending; None if more differs."""
+        state, first = command.state, self.state
+        if other_groups_of(state) != other_groups_of(first) or state.depth.clamp != first.depth.clamp:
+            return None
+        if not self._is_alike(command):
+            return None
+        run = copy(self)
+        run.command, run.state, run._last = command, state, command
+        return run
+
+    def has_tests_of(self, state: State) -> bool:
+        """Return whether a state that differs in tests or blending only has other scissor boxes at most."""
+        return (
+            state.depth is self.state.depth and state.stencil is self.state.stencil and state.blend is self.state.blend
+        )
+
+    def _is_alike(self, command: Draw) -> bool:
+        """Return whether a draw continues the run as far as the groups of its state do not decide it."""
+        if width_of(command.mode) != width_of(self.command.mode):
+            return False
+        if _structure(command.state.lighting) != _structure(self.state.lighting):
+            return False
+        if not self._has_same_clip_planes(command, self.command.projection, self.command.projection_kind):
+            return False
+        return self._arrays_of(command) == self.arrays and can_run(command)
+
+    def _is_like_last(self, command: Draw) -> bool:
+        """Return whether a draw differs from the last one only in what every run allows, as far as is seen at once."""
+        last = self._last
+        if command.state is not last.state or command.texture_matrices is not last.texture_matrices:
+            return False
+        if command.mode != last.mode or command.modelview_kind & UNKNOWN or command.joined_positions is not None:
+            return False
+        if command.mode == gl.GL_TRIANGLES and command.indices is None:
+            return False
+        if not self._has_same_clip_planes(command, last.projection, last.projection_kind):
+            return False
+        one, other, numbers = command.vertices, last.vertices, self._unit_numbers
+        return one is other or (
+            one.color.strides == other.color.strides
+            and one.normal.strides == other.normal.strides
+            and (
+                one.texcoords is other.texcoords
+                or [one.texcoords[n].strides for n in numbers] == [other.texcoords[n].strides for n in numbers]
+            )
+            and not one.materials
+        )
+
+
+def width_of(mode: int) -> int:
+    """Return how many vertices a primitive has that reaches the setup: 3 for polygons, which are cut into triangles."""
+    return 3 if mode in POLYGONS else 1 if mode == gl.GL_POINTS else 2
+
+
+def key_of(state: State, *, with_tests: bool = True) -> tuple[int, ...]:
+    """Return by what to look for a run that may take draws of a state: the identities of its groups."""
+    return tuple(map(id, groups_of(state) if with_tests else other_groups_of(state)))
+
+
+def _structure(lights: Lighting) -> tuple[object, ...]:
+    """Return what decides which columns the varyings have."""
+    shading = lights.shade_model, lights.provoking_vertex
+    return lights.enabled, lights.two_side, lights.color_control, lights.color_material, *shading
+
+
+def geometry_structure(run: Run) -> tuple[Hashable, ...]:
+    """Return what the geometry of a run's draws depends on in their state and in which arrays they have."""
+    state = run.state
+    return (
+        state.draw_framebuffer, state.viewport, state.polygon, state.depth.clamp, *_structure(state.lighting),
+        run.layout, run.arrays, run.generated.tobytes(), run.planes.tobytes(), run.user_planes.tobytes(), run.across,
+        run.writes_color,
+        tuple([unit.index for unit in run.units]), width_of(run.command.mode),
+    )  # fmt: skip
+
+
+def can_run(command: Draw) -> bool:
+    """Return whether a draw can be processed in a table, as far as its vertices and its primitives decide it."""
+    if command.mode not in MODES or command.program_name or command.linear or command.joined_positions is not None:
+        return False
+    vertices, lights = command.vertices, command.state.lighting
+    if vertices.materials or vertices.position.dtype != np.float32 or command.modelview_kind & UNKNOWN:
+        return False
+    if command.mode == gl.GL_TRIANGLES and command.indices is None and start_of_last_nine(len(vertices.position)) >= 0:
+        return False  # triangles that llvmpipe leaves out (mesa.rectangles)
+    # Mesa's back materials that follow the colour of each vertex have stale products (programs.stale_registers)
+    return not (lights.enabled and lights.two_side and lights.color_material and vertices.color.strides[0])
+
+
+def can_begin_run(command: Draw, target: Framebuffer) -> bool:
+    """Return whether a draw can be processed in a table, as far as its state decides it."""
+    state = command.state
+    if not can_run(command) or not target.attachments or passes_stages(state):
+        return False
+    if state.lines != PLAIN_LINES or state.points != PLAIN_POINTS or first_provokes(state):
+        return False
+    fog, polygon = state.fog, state.polygon
+    if fog.color_sum or fog.source != gl.GL_FRAGMENT_DEPTH:
+        return False
+    if polygon.mode_front != gl.GL_FILL or polygon.mode_back != gl.GL_FILL:
+        return False  # edge flags may decide how quads are cut (geometry.draw_primitives)
+    if not state.lighting.enabled and any(map(reads_primary_color, state.units)):
+        return False
+    modes = [gen.mode for unit in state.units for gen in unit.gen if gen.enabled]
+    return all(mode in GENERATED for mode in modes)
+
+
+def _generation(run: Run) -> tuple[np.ndarray, np.ndarray, bool]:
+    """Return how the coordinates of each unit are generated, the planes, and whether that is in eye space."""
+    generated = np.zeros((len(run.units), 5), np.int64)
+    planes, in_eye_space = np.zeros((len(run.units), 4, 4), np.float32), False
+    for row, unit in enumerate(run.units):
+        generated[row, HAS_ARRAY] = run.arrays.texcoords[row]
+        for c, gen in enumerate(run.state.units[unit.index].gen):
+            if gen.enabled:
+                generated[row, c] = GENERATED[gen.mode]
+                planes[row, c] = gen.object_plane if gen.mode == gl.GL_OBJECT_LINEAR else gen.eye_plane
+                in_eye_space |= gen.mode in IN_EYE_SPACE
+    return generated, planes, in_eye_space
