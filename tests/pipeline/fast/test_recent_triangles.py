@@ -60,8 +60,9 @@ class Frame:
     def set_state(self) -> None:
         for cap in (gl.GL_CULL_FACE, gl.GL_LIGHTING, gl.GL_LIGHT0, gl.GL_LIGHT1, gl.GL_STENCIL_TEST):
             self.switch(cap)
-        for cap in (gl.GL_BLEND, gl.GL_SCISSOR_TEST, gl.GL_POLYGON_OFFSET_FILL, gl.GL_DEPTH_CLAMP, gl.GL_CLIP_PLANE0):
+        for cap in (gl.GL_BLEND, gl.GL_SCISSOR_TEST, gl.GL_POLYGON_OFFSET_FILL, gl.GL_DEPTH_CLAMP):
             self.switch(cap, 0.1)
+        self.switch(gl.GL_CLIP_PLANE0, 0.3)
         for cap in (gl.GL_LINE_SMOOTH, gl.GL_POLYGON_STIPPLE):  # with which Mesa cuts quads in another way
             self.switch(cap, 0.1)
         first, last = gl.GL_FIRST_VERTEX_CONVENTION, gl.GL_LAST_VERTEX_CONVENTION
