@@ -264,7 +264,7 @@ class Context(CurrentValues):
         """Draw primitives under the current state; nobody may change the arrays afterwards."""
         self.flush()
         self.update_current()
-        self._carry_out(self._draw_command(mode, self._with_current(vertices), indices))
+        self._carry_out(self.draw_command(mode, self._with_current(vertices), indices))
 
     def _with_current(self, vertices: Vertices) -> Vertices:
         """Return vertices with the current edge flag, secondary colour and fog coordinate, where they have no array."""
@@ -280,16 +280,17 @@ class Context(CurrentValues):
     def draw_primitive(self, mode: int, vertices: Vertices) -> None:
         """Draw a primitive of immediate mode at once; the vertex format stays for those that follow."""
         self.vertex_buffer.draw_joined_pairs()
-        self.vertex_buffer.draw(self._draw_command(mode, vertices))
+        self.vertex_buffer.draw(self.draw_command(mode, vertices))
 
     def collect(self, mode: int, vertices: Vertices) -> None:
         """Collect triangles or quads of immediate mode, to draw them together with pairs that follow."""
         if not self.vertex_buffer.can_join(mode):
-            self.vertex_buffer.begin_joined_pairs(self._draw_command(mode, vertices))
+            self.vertex_buffer.begin_joined_pairs(self.draw_command(mode, vertices))
         self.vertex_buffer.join("/".join(self.labels) if self.labels else "", self.origin, vertices)
 
     # -- recording -----------------------------------------------------------------------------------------------------
-    def _draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
+    def draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
+        """Return a draw under the current state."""
         state = self.state_groups.drawn()
         if state.lighting.color_material:
             followed = self.state_groups.followed

@@ -67,6 +67,12 @@ class ConstantSet:
         """The attributes in the order of the slots: colour, normal, texture coordinates."""
         return self.color, self.normal, *self.texcoords.attributes
 
+    def attribute(self, name: str) -> ConstantAttribute:
+        """Return an attribute by its name: "color", "normal", "texcoord0" ..."""
+        if name.startswith("texcoord"):
+            return self.texcoords.attributes[int(name.removeprefix("texcoord"))]
+        return self.color if name == "color" else self.normal
+
     def rows(self, count: int) -> list[np.ndarray]:
         """Return `count` rows of each attribute, in the order of the slots."""
         return [self.color.rows(count), self.normal.rows(count), *self.texcoords.rows(count)]

@@ -6,18 +6,19 @@ vertex, which decide how Mesa collects the others; these are added at once, with
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
+from functools import cached_property
 from typing import Any
-
-import numpy as np
 
 from softshadow.context import Context, thread
 from softshadow.gl.immediate import glBegin, glEnd, glVertex3f
+from softshadow.gl.similar_pairs import PairVertices, SimilarPairs, similar_pairs
 from softshadow.gl.texture_coordinates import glTexCoord2f
 from softshadow.gl.vertex_attributes import glNormal3f
 
 Call = tuple[Callable[..., None], tuple[float, ...]]
-SIZES = {"normal": 3, "texcoord0": 2}  # components that the calls of a shape set
+NAMES = {glNormal3f: "normal", glTexCoord2f: "texcoord0"}
+SIZES = {"normal": 3, "texcoord0": 2}  # components that these calls set
 
 
 class Strip:
@@ -35,50 +36,83 @@ class Strip:
         self.calls: list[Call] = []
         self.positions: list[float] = []
         self.changes: dict[str, list[tuple[int, tuple[float, ...]]]] = {}
-        self._arrays: dict[Any, dict[str, np.ndarray]] = {}
+        self._vertices: dict[Any, PairVertices] = {}
 
     def draw(self) -> None:
         """Draw the vertices."""
         glBegin(self.mode)
-        n_made = 0
+        n_made, n_vertices = 0, 0
         for call, arguments in self.calls:
             call(*arguments)
             n_made += 1
-            if call is glVertex3f:
+            n_vertices += call is glVertex3f
+            if n_vertices > self.latest:
                 break
         if not self._add_rest(thread.context):
             for call, arguments in self.calls[n_made:]:
                 call(*arguments)
         glEnd()
 
+    def draw_after(self, similar: SimilarPairs | None) -> bool:
+        """Draw the vertices as one of similar pairs; return False, and do nothing, if that is not possible."""
+        if similar is None or similar.sizes != self.sizes:
+            return False
+        context = thread.context
+        if not similar.add(self.mode, self._vertices_for(context)):
+            return False
+        for name, changes in self.changes.items():
+            context.set_attribute(name, changes[-1][1])
+        return True
+
+    @cached_property
+    def sizes(self) -> dict[str, int]:
+        """Components of positions and attributes that the calls set."""
+        return {"position": 3} | {name: SIZES[name] for name in self.changes}
+
+    @cached_property
+    def starts(self) -> dict[str, int]:
+        """The first vertex that has a value of each attribute; those before have the current one."""
+        return {name: changes[0][0] // 4 for name, changes in self.changes.items()}
+
+    @cached_property
+    def latest(self) -> int:
+        """The first vertex that has values of all attributes."""
+        return max(self.starts.values(), default=0)
+
     def _add_rest(self, context: Context) -> bool:
-        """Do what the calls after the first vertex do; return False where that is more than to add numbers."""
-        primitive = context.primitive
-        if primitive is None or len(primitive.positions) != 4 or primitive.position_size != 3:
+        """Do what the calls after the vertex `latest` do; return False where that is more than to add numbers."""
+        primitive, made = context.primitive, 4 * self.latest + 4
+        if primitive is None or len(primitive.positions) != made or primitive.position_size != 3:
             return False
         if len(self.positions) >= primitive.limit:
             return False
-        for name in self.changes:
-            if primitive.steady.get(name) != SIZES[name] or len(primitive.changes[name]) != 2:
+        numbers = {name: sum(start < made for start, _ in changes) for name, changes in self.changes.items()}
+        for name, number in numbers.items():
+            if primitive.steady.get(name) != SIZES[name] or len(primitive.changes[name]) != number + 1:
                 return False
-        primitive.positions += self.positions[4:]
+        primitive.positions += self.positions[made:]
         for name, changes in self.changes.items():
-            primitive.changes[name] += changes[1:]
+            primitive.changes[name] += changes[numbers[name] :]
             context.set_attribute(name, changes[-1][1])
-        primitive.arrays = self._arrays_of(context)
+        arrays, starts = self._vertices_for(context).arrays, self.starts
+        primitive.arrays = {name: rows for name, rows in arrays.items() if not starts.get(name)}
         return True
 
-    def _arrays_of(self, context: Context) -> Mapping[str, np.ndarray]:
-        """Return positions and attributes as arrays, one row for each vertex, in the context's precision."""
-        arrays = self._arrays.get(context.real)
-        if arrays is None:
+    def _vertices_for(self, context: Context) -> PairVertices:
+        """Return positions and attributes as arrays in the context's precision."""
+        vertices = self._vertices.get(context.real)
+        if vertices is None:
             n = len(self.positions)
-            arrays = self._arrays[context.real] = {"position": context.packed(self.positions, n // 4, 4)}
+            arrays = {"position": context.packed(self.positions, n // 4, 4)}
             for name, changes in self.changes.items():
-                ends = [*(start for start, _ in changes[1:]), n]
-                rows = [value for (start, value), end in zip(changes, ends, strict=True) for _ in range(start, end, 4)]
+                starts = [0, *(start for start, _ in changes[1:])]  # rows before the first one are replaced
+                ends = [*starts[1:], n]
+                values = [value for _, value in changes]
+                repeated = zip(values, starts, ends, strict=True)
+                rows = [value for value, start, end in repeated for _ in range(start, end, 4)]
                 arrays[name] = context.packed([x for row in rows for x in row], n // 4, len(rows[0]))
-        return arrays
+            vertices = self._vertices[context.real] = PairVertices(arrays, self.starts)
+        return vertices
 
 
 class Calls:
@@ -90,11 +124,20 @@ class Calls:
 
     def make(self) -> None:
         """Make the calls."""
+        before: Strip | None = None  # drawn by its calls, with only strips and calls like its own since
+        similar: SimilarPairs | None = None
         for part in self._parts:
             if isinstance(part, Strip):
-                part.draw()
+                if before is not None and similar is None:
+                    similar = similar_pairs(thread.context, before.sizes)
+                if not part.draw_after(similar):
+                    part.draw()
+                    before, similar = part, None
             else:
-                part[0](*part[1])
+                call, arguments = part
+                call(*arguments)
+                if before is not None and NAMES[call] not in before.sizes:
+                    before = similar = None
 
     def begin(self, mode: int) -> None:
         """Add glBegin."""

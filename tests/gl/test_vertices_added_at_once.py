@@ -17,23 +17,35 @@ ROUNDS = 60
 
 
 def draws_of(program: Callable[[], None]) -> list[tuple[Any, ...]]:
-    """Return modes, vertices and indices of all draws of a program, and its attributes after it."""
+    """Return modes, vertices and materials of all draws of a program, and its attributes and vertex buffer after it."""
     with gl.create_context(16, 12) as context:
         program()
+        buffer = context.vertex_buffer
+        collected = buffer.sizes.copy(), buffer.active_sizes.copy(), buffer.n_vertices, buffer.used_bytes, buffer.pairs
         commands = [command for command in context.frame.commands if isinstance(command, Draw)]
         current = tuple(
             gl.glGetFloatv(getattr(gl, f"GL_CURRENT_{name}")) for name in ("COLOR", "NORMAL", "TEXTURE_COORDS")
         )
-    drawn: list[tuple[Any, ...]] = [tuple(np.asarray(value).tobytes() for value in current)]
+    drawn: list[tuple[Any, ...]] = [tuple(np.asarray(value).tobytes() for value in current), collected]
     for command in commands:
         vertices = command.vertices
-        arrays = vertices.position, vertices.color, vertices.normal, vertices.texcoords[0], command.indices
-        drawn.append((command.mode, *(None if array is None else (array.shape, array.tobytes()) for array in arrays)))
+        arrays = (
+            vertices.position,
+            vertices.color,
+            vertices.normal,
+            vertices.texcoords[0],
+            vertices.edges,
+            command.indices,
+        )
+        front = command.state.lighting.front
+        drawn.append(
+            (command.mode, front, *(None if array is None else (array.shape, array.tobytes()) for array in arrays))
+        )
     return drawn
 
 
-class RandomStrips:
-    """Strips of a shape between other calls, in a random order that depends on a seed."""
+class RandomShapes:
+    """Shapes of several strips between other calls, in a random order that depends on a seed."""
 
     def __init__(self, seed: int) -> None:
         rng = np.random.default_rng(seed)
@@ -41,7 +53,7 @@ class RandomStrips:
 
     def _part(self, rng: np.random.Generator) -> Callable[[Any], None]:
         numbers = [float(np.float32(x)) for x in rng.uniform(-1, 1, 4)]
-        kind = int(rng.integers(10))
+        kind = int(rng.integers(14))
         if kind == 0:
             return lambda draw: gl.glColor3f(*numbers[:3])
         if kind == 1:
@@ -52,43 +64,54 @@ class RandomStrips:
             return lambda draw: gl.glNormal3f(*numbers[:3])
         if kind == 4:
             return lambda draw: gl.glTranslatef(*numbers[:3])
-        strip = self._strip(rng)
-        return lambda draw: draw(strip)
+        if kind == 5:
+            switch = gl.glEnable if numbers[0] > 0 else gl.glDisable
+            return lambda draw: switch(gl.GL_COLOR_MATERIAL if numbers[1] > 0 else gl.GL_LIGHTING)
+        if kind == 6 and numbers[0] > 0.5:
+            return lambda draw: gl.glEdgeFlag(numbers[1] > 0)
+        shape = self._shape(rng)
+        return lambda draw: draw(shape)
 
-    def _strip(self, rng: np.random.Generator) -> Strip:
+    def _shape(self, rng: np.random.Generator) -> Calls:
         calls, has_normals, has_coordinates = Calls(), rng.random() < 0.7, rng.random() < 0.4
         modes = gl.GL_QUAD_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_TRIANGLE_STRIP, gl.GL_LINE_STRIP, gl.GL_POINTS, gl.GL_QUADS
-        calls.begin(int(rng.choice(modes)))
-        late = int(rng.random() < 0.2)  # attributes begin after the first vertex
-        for vertex in range(int(rng.integers(1, 40))):
-            if has_normals and vertex >= late and rng.random() < 0.9:
+        for _ in range(int(rng.integers(1, 6))):
+            if rng.random() < 0.3:
                 calls.normal(*rng.normal(size=3).tolist())
-            if has_coordinates and vertex >= late:
-                calls.coordinates(*rng.normal(size=2).tolist())
-            calls.vertex(*rng.normal(size=3).tolist())
-        calls.end()
-        (strip,) = calls._parts
-        assert isinstance(strip, Strip)
-        return strip
+            calls.begin(int(rng.choice(modes)))
+            late = int(rng.integers(1, 4)) if rng.random() < 0.3 else 0  # attributes begin after the first vertex
+            for vertex in range(int(rng.integers(1, 40))):
+                if has_normals and vertex >= late and rng.random() < 0.9:
+                    calls.normal(*rng.normal(size=3).tolist())
+                if has_coordinates and vertex >= late:
+                    calls.coordinates(*rng.normal(size=2).tolist())
+                calls.vertex(*rng.normal(size=3).tolist())
+            calls.end()
+        return calls
 
-    def draw(self, draw: Callable[[Strip], None]) -> None:
+    def draw(self, draw: Callable[[Calls], None]) -> None:
         for part in self.parts:
             part(draw)
 
 
-def call_by_call(strip: Strip) -> None:
-    gl.glBegin(strip.mode)
-    for call, arguments in strip.calls:
-        call(*arguments)
-    gl.glEnd()
+def call_by_call(shape: Calls) -> None:
+    for part in shape._parts:
+        if isinstance(part, Strip):
+            gl.glBegin(part.mode)
+            for call, arguments in part.calls:
+                call(*arguments)
+            gl.glEnd()
+        else:
+            call, arguments = part
+            call(*arguments)
 
 
 @pytest.mark.parametrize("n_bytes", [vertex_buffer.BYTES, 4096])
-def test_strips_give_the_draws_of_their_calls(n_bytes: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_shapes_give_the_draws_of_their_calls(n_bytes: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(vertex_buffer, "BYTES", n_bytes)
     for seed in range(ROUNDS):
-        program = RandomStrips(seed)
-        assert draws_of(partial(program.draw, Strip.draw)) == draws_of(partial(program.draw, call_by_call)), seed
+        program = RandomShapes(seed)
+        assert draws_of(partial(program.draw, Calls.make)) == draws_of(partial(program.draw, call_by_call)), seed
 
 
 def test_strips_use_their_arrays() -> None:

@@ -1,0 +1,142 @@
+"""glBegin ... glEnd pairs in a row that differ in nothing but their vertices, such as the strips of a sphere.
+
+The first pair is made by its calls, which set the vertex format. The others have the same format and the same state, so
+their draws are copies of one draw with other vertices.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from softshadow.context import Context
+from softshadow.frozen import create, evolve
+from softshadow.gl.constant_attributes import ConstantSet, constant_attributes
+from softshadow.gl.vertex_format import OPTIONAL, TEXCOORDS
+from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.pipeline.mesa.driver_draws import CORNERS
+from softshadow.state import BLACK
+
+FEWEST = 4  # vertices: Mesa draws some pairs with fewer in another mode
+KEPT = 64  # constant values for which vertices are kept
+NO_STARTS: Mapping[str, int] = {}
+
+
+class PairVertices:
+    """The vertices of a pair.
+
+    Attributes
+    ----------
+    arrays : dict            "position" (N, 4), "normal" (N, 3) ...: one row for each vertex
+    has_late : bool          whether some vertices have a current value instead: those before the numbers in `starts`
+    count : int              N
+    """
+
+    __slots__ = ("_made", "_starts", "arrays", "count", "has_late")
+
+    def __init__(self, arrays: Mapping[str, np.ndarray], starts: Mapping[str, int] = NO_STARTS) -> None:
+        self.arrays, self.count = arrays, len(arrays["position"])
+        self._starts = {name: start for name, start in starts.items() if start}
+        self.has_late = bool(self._starts)
+        self._made: dict[ConstantSet, Vertices] = {}
+
+    def with_constants(self, constants: ConstantSet) -> Vertices:
+        """Return the vertices of a draw; attributes without an array are constant."""
+        vertices = self._made.get(constants)
+        if vertices is None:
+            arrays, count = self._complete(constants), self.count
+            texcoords = constants.texcoords.rows(count)
+            if any(name in arrays for name in TEXCOORDS):
+                places = enumerate(TEXCOORDS)
+                texcoords = tuple([arrays[name] if name in arrays else texcoords[place] for place, name in places])
+            vertices = create(
+                Vertices,
+                position=arrays["position"],
+                color=arrays["color"] if "color" in arrays else constants.color.rows(count),
+                normal=arrays["normal"] if "normal" in arrays else constants.normal.rows(count),
+                texcoords=texcoords,
+                materials={},
+                edges=None,
+                secondary=None,
+                fog_coordinates=None,
+            )
+            if len(self._made) >= KEPT:
+                self._made.clear()
+            self._made[constants] = vertices
+        return vertices
+
+    def _complete(self, constants: ConstantSet) -> Mapping[str, np.ndarray]:
+        """Return the arrays, with the current values where vertices have these."""
+        complete = dict(self.arrays)
+        for name, start in self._starts.items():
+            rows = complete[name] = complete[name].copy()
+            rows[:start] = constants.attribute(name).row
+            rows.setflags(write=False)
+        return complete
+
+
+class SimilarPairs:
+    """Pairs that follow a drawn one without a call between, and whose vertices set the same attributes.
+
+    Parameters
+    ----------
+    context : Context
+    sizes : dict                   "position", "normal" ...: components that the calls of each vertex set
+    """
+
+    def __init__(self, context: Context, sizes: Mapping[str, int]) -> None:
+        self._context, self.sizes = context, sizes
+        self._constants = constant_attributes(context)
+        self._draw: Draw | None = None
+
+    def add(self, mode: int, pair: PairVertices) -> bool:
+        """Draw a pair; return False, and do nothing, if it must be drawn by its calls.
+
+        Afterwards the current values are those before it.
+        """
+        context, count = self._context, pair.count
+        buffer = context.vertex_buffer
+        n_vertices = buffer.n_vertices + count
+        if count < FEWEST or mode in CORNERS or n_vertices >= buffer.room - 1:
+            return False
+        buffer.n_vertices = n_vertices
+        constants = constant_attributes(context) if pair.has_late else self._constants
+        vertices = pair.with_constants(constants)
+        if self._draw is None:
+            self._draw = context.draw_command(mode, vertices)
+        else:
+            self._draw = evolve(self._draw, mode=mode, vertices=vertices)
+        buffer.draw_joined_pairs()
+        buffer.draw(self._draw)
+        buffer.end_pair(mode, count)
+        return True
+
+
+def similar_pairs(context: Context, sizes: Mapping[str, int]) -> SimilarPairs | None:
+    """Return what draws more pairs like the one that has ended just now; None if they may need more than that.
+
+    Parameters
+    ----------
+    context : Context
+    sizes : dict                   "position", "normal" ...: components that the calls of the vertices set
+    """
+    if context.list_depth or context.executes_list or context.primitive is not None:
+        return None
+    current, pending, buffer = context.current, context.pending, context.vertex_buffer
+    if not (current.edge and current.secondary == BLACK and not current.fog_coordinate and pending.has_vertices):
+        return None
+    carried, active = buffer.sizes, buffer.active_sizes
+    if any(name in OPTIONAL or "." in name for name in carried):
+        return None
+    if "color" in sizes and context.groups["lighting"].fields["color_material"]:
+        return None
+    for name, size in sizes.items():
+        if not carried.get(name) == active.get(name) == size:
+            return None
+        if name != "position" and name not in pending.old_values:
+            return None
+    return SimilarPairs(context, sizes)
+
+
+__all__ = ["PairVertices", "SimilarPairs", "similar_pairs"]
