@@ -18,6 +18,7 @@ from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import vector
 from softshadow.gl.errors import is_one_of, outside_begin
 from softshadow.gl.immediate import glBegin, glEnd
+from softshadow.gl.similar_pairs import PairVertices, similar_pairs
 from softshadow.gl.vertex_format import REST, add_vertex, carry_attribute, store_vertices
 
 F32 = np.float32
@@ -61,6 +62,13 @@ class Evaluated(NamedTuple):
         """Return what they have at some of the parameters."""
         rows = {name: values[start:end] for name, values in self.rows.items()}
         return Evaluated(self.sizes, rows, None if self.points is None else self.points[start:end])
+
+    def arrays(self, context: Context) -> dict[str, np.ndarray]:
+        """Return the rows of attributes and positions, with all their components; none without positions."""
+        if self.points is None:
+            return {}
+        arrays = {name: _columns(rows, len(context.attribute(name))) for name, rows in self.rows.items()}
+        return {name: context.frozen(rows) for name, rows in (arrays | {"position": _columns(self.points, 4)}).items()}
 
 
 def _evaluated(context: Context, parameters: tuple[np.ndarray, ...]) -> Evaluated:
@@ -113,10 +121,7 @@ def _add_vertices(context: Context, evaluated: Evaluated, count: int) -> None:
                 primitive.changes[name] += zip(range(first, first + 4 * (count - last), 4), values[last:], strict=True)
             primitive.positions += positions[last:].reshape(-1).tolist()
             if number == 0 and first == 4:
-                arrays = {name: _columns(evaluated.rows[name], len(rows[name][0])) for name in rows}
-                primitive.arrays = {
-                    key: context.frozen(each) for key, each in (arrays | {"position": positions}).items()
-                }
+                primitive.arrays = evaluated.arrays(context)
             store_vertices(context, primitive)
             last = count
         for name, value in before.items():
@@ -277,12 +282,21 @@ def _draw(mode: int, *strips: tuple[np.ndarray, ...]) -> None:
     context, lengths = current(), [len(strip[0]) for strip in strips]
     if not strips:
         return
-    evaluated, start = _evaluated(context, tuple(map(np.concatenate, zip(*strips, strict=True)))), 0
-    for length in lengths:
-        glBegin(mode)
-        _add_vertices(context, evaluated.part(start, start + length), length)
-        glEnd()
-        start += length
+    evaluated = _evaluated(context, tuple(map(np.concatenate, zip(*strips, strict=True))))
+    arrays, sizes = evaluated.arrays(context), dict(evaluated.sizes)
+    if evaluated.points is not None:
+        sizes["position"] = evaluated.points.shape[1]
+    similar, start = None, 0
+    for number, length in enumerate(lengths):
+        end = start + length
+        if number == 1 and arrays:
+            similar = similar_pairs(context, sizes)
+        rows = {name: each[start:end] for name, each in arrays.items()}
+        if similar is None or not similar.add(mode, PairVertices(rows)):
+            glBegin(mode)
+            _add_vertices(context, evaluated.part(start, end), length)
+            glEnd()
+        start = end
 
 
 __all__ = spelled_like_gl(globals())

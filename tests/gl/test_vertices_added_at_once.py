@@ -28,19 +28,10 @@ def draws_of(program: Callable[[], None]) -> list[tuple[Any, ...]]:
         )
     drawn: list[tuple[Any, ...]] = [tuple(np.asarray(value).tobytes() for value in current), collected]
     for command in commands:
-        vertices = command.vertices
-        arrays = (
-            vertices.position,
-            vertices.color,
-            vertices.normal,
-            vertices.texcoords[0],
-            vertices.edges,
-            command.indices,
-        )
-        front = command.state.lighting.front
-        drawn.append(
-            (command.mode, front, *(None if array is None else (array.shape, array.tobytes()) for array in arrays))
-        )
+        vertices, lighting = command.vertices, command.state.lighting
+        arrays = (vertices.position, vertices.color, vertices.normal, vertices.texcoords[0], vertices.edges)
+        rows = (None if array is None else (array.shape, array.tobytes()) for array in (*arrays, command.indices))
+        drawn.append((command.mode, lighting.color_material, lighting.front, *rows))
     return drawn
 
 
@@ -53,9 +44,10 @@ class RandomShapes:
 
     def _part(self, rng: np.random.Generator) -> Callable[[Any], None]:
         numbers = [float(np.float32(x)) for x in rng.uniform(-1, 1, 4)]
-        kind = int(rng.integers(14))
+        kind = int(rng.integers(15))
         if kind == 0:
-            return lambda draw: gl.glColor3f(*numbers[:3])
+            color = numbers[:3] if numbers[3] > 0 else (1.0, 0.5, 0.0)  # the same one again
+            return lambda draw: gl.glColor3f(*color)
         if kind == 1:
             return lambda draw: gl.glColor4f(*numbers)
         if kind == 2:
@@ -67,7 +59,12 @@ class RandomShapes:
         if kind == 5:
             switch = gl.glEnable if numbers[0] > 0 else gl.glDisable
             return lambda draw: switch(gl.GL_COLOR_MATERIAL if numbers[1] > 0 else gl.GL_LIGHTING)
-        if kind == 6 and numbers[0] > 0.5:
+        if kind == 6:
+            return lambda draw: (
+                gl.glMaterialfv(gl.GL_FRONT, gl.GL_DIFFUSE, numbers),
+                gl.glEnable(gl.GL_COLOR_MATERIAL),
+            )
+        if kind == 7 and numbers[0] > 0.5:
             return lambda draw: gl.glEdgeFlag(numbers[1] > 0)
         shape = self._shape(rng)
         return lambda draw: draw(shape)
@@ -75,12 +72,13 @@ class RandomShapes:
     def _shape(self, rng: np.random.Generator) -> Calls:
         calls, has_normals, has_coordinates = Calls(), rng.random() < 0.7, rng.random() < 0.4
         modes = gl.GL_QUAD_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_TRIANGLE_STRIP, gl.GL_LINE_STRIP, gl.GL_POINTS, gl.GL_QUADS
+        most = int(rng.choice([5, 8, 40]))  # after a few vertices, Mesa makes the next ones carry a colour set between
         for _ in range(int(rng.integers(1, 6))):
             if rng.random() < 0.3:
                 calls.normal(*rng.normal(size=3).tolist())
             calls.begin(int(rng.choice(modes)))
             late = int(rng.integers(1, 4)) if rng.random() < 0.3 else 0  # attributes begin after the first vertex
-            for vertex in range(int(rng.integers(1, 40))):
+            for vertex in range(int(rng.integers(1, most))):
                 if has_normals and vertex >= late and rng.random() < 0.9:
                     calls.normal(*rng.normal(size=3).tolist())
                 if has_coordinates and vertex >= late:
@@ -114,6 +112,33 @@ def test_shapes_give_the_draws_of_their_calls(n_bytes: int, monkeypatch: pytest.
         assert draws_of(partial(program.draw, Calls.make)) == draws_of(partial(program.draw, call_by_call)), seed
 
 
+def strips(count: int, length: int) -> Calls:
+    calls = Calls()
+    for strip in range(count):
+        calls.begin(gl.GL_TRIANGLE_STRIP)
+        for vertex in range(length):
+            calls.normal(0.0, 0.0, float(vertex))
+            calls.vertex(float(vertex), 0.0, float(strip))
+        calls.end()
+    return calls
+
+
+def test_strips_with_kept_materials_give_the_draws_of_their_calls() -> None:
+    """A material set before GL_COLOR_MATERIAL lasts for vertices that share the colour, not for those that carry it."""
+    short, long = strips(1, 4), strips(3, 6)
+
+    def program(draw: Callable[[Calls], None]) -> None:
+        gl.glColor3f(1.0, 0.5, 0.0)
+        draw(long)
+        gl.glMaterialfv(gl.GL_FRONT, gl.GL_DIFFUSE, (0.1, 0.2, 0.3, 1.0))
+        gl.glEnable(gl.GL_COLOR_MATERIAL)
+        draw(short)
+        gl.glColor3f(1.0, 0.5, 0.0)  # the vertices carry it, because few others are collected
+        draw(long)
+
+    assert draws_of(partial(program, Calls.make)) == draws_of(partial(program, call_by_call))
+
+
 def test_strips_use_their_arrays() -> None:
     calls = Calls()
     calls.begin(gl.GL_TRIANGLE_STRIP)
@@ -135,12 +160,14 @@ def evaluate_meshes(seed: int) -> None:
         if target == "VERTEX_3" or rng.random() < 0.4:
             gl.glMap2f(getattr(gl, f"GL_MAP2_{target}"), 0, 1, 0, 1, rng.normal(size=(3, 4, size)).astype(np.float32))
             gl.glEnable(getattr(gl, f"GL_MAP2_{target}"))
-    if rng.random() < 0.5:
-        gl.glEnable(gl.GL_AUTO_NORMAL)
+    for switch in (gl.GL_AUTO_NORMAL, gl.GL_COLOR_MATERIAL):
+        if rng.random() < 0.5:
+            gl.glEnable(switch)
     for _ in range(4):
         gl.glMapGrid2f(int(rng.integers(1, 12)), 0, 1, int(rng.integers(1, 5)), 0, 1)
         mode = int(rng.choice([gl.GL_POINT, gl.GL_LINE, gl.GL_FILL]))
-        gl.glColor4f(*rng.random(4).tolist())
+        if rng.random() < 0.7:
+            gl.glColor4f(*rng.random(4).tolist())
         gl.glEvalMesh2(mode, 0, int(rng.integers(0, 12)), 0, int(rng.integers(0, 5)))
         if rng.random() < 0.5:
             gl.glTexCoord4f(*rng.random(4).tolist())
@@ -153,4 +180,5 @@ def test_meshes_of_evaluators_give_the_draws_of_single_vertices(n_bytes: int, mo
         at_once = draws_of(partial(evaluate_meshes, seed))
         with monkeypatch.context() as patch:
             patch.setattr(evaluators, "_takes_all", lambda *_: False)
+            patch.setattr(evaluators, "similar_pairs", lambda *_: None)
             assert draws_of(partial(evaluate_meshes, seed)) == at_once, seed
