@@ -83,9 +83,10 @@ from softshadow.tokens import *
 
 # calls that programs make most: a function around them would take longer than they do
 FREQUENT = (
-    "glBegin", "glEnd", "glVertex2f", "glVertex3f", "glVertex4f", "glColor3f", "glNormal3f", "glTexCoord2f",
-    "glEnable", "glDisable", "glMatrixMode", "glPushMatrix", "glPopMatrix", "glLoadIdentity", "glTranslatef",
-    "glScalef", "glRotatef", "glCallList", "glGetError",
+    "glBegin", "glEnd", "glVertex2f", "glVertex2fv", "glVertex3f", "glVertex3fv", "glVertex4f", "glVertex4fv",
+    "glColor3f", "glColor3fv", "glColor4f", "glColor4fv", "glNormal3f", "glNormal3fv", "glTexCoord2f", "glTexCoord2fv",
+    "glArrayElement", "glEnable", "glDisable", "glMatrixMode", "glPushMatrix", "glPopMatrix", "glLoadIdentity",
+    "glTranslatef", "glScalef", "glRotatef", "glCallList", "glGetError",
 )  # fmt: skip
 globals().update(all_naming_arguments(globals(), FREQUENT))
 

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, current
+from softshadow.context import Context, current, thread
 from softshadow.context.arrays import ArrayLayout, BufferObject, RowSnapshot, VertexArray
 from softshadow.gl.array_snapshots import EDGE, FOG_COORDINATE, POSITION, SECONDARY, slice_of, snapshot_rows
 from softshadow.gl.calls import in_lists, spelled_like_gl
@@ -31,10 +31,11 @@ from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
 from softshadow.gl.fog import set_fog_coordinate
 from softshadow.gl.immediate import A_MODE, MODES, add_vertex, can_draw, consecutive_indices, glVertex2f, glVertex3f
 from softshadow.gl.index_snapshots import snapshot_indices
+from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.secondary_colors import set_secondary
 from softshadow.gl.texture_coordinates import glTexCoord2f, set_coordinate
 from softshadow.gl.vertex_arrays import DTYPES, SLOTS, rows_of
-from softshadow.gl.vertex_attributes import glColor3f, glEdgeFlag, glNormal3f, set_color, set_normal
+from softshadow.gl.vertex_attributes import glColor3f, glColor4f, glEdgeFlag, glNormal3f, set_color, set_normal
 from softshadow.pipeline.commands import Vertices
 
 INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
@@ -52,7 +53,7 @@ CONVERSIONS: dict[type[np.generic], Callable[[Any], float]] = {  # by glArrayEle
 # attributes, with their numbers of components, that have calls for floats which are quick between glBegin and glEnd
 CALLS: dict[tuple[str, int], Callable[..., None]] = {
     ("position", 2): glVertex2f, ("position", 3): glVertex3f, ("normal", 3): glNormal3f, ("color", 3): glColor3f,
-    ("texcoord0", 2): glTexCoord2f,
+    ("color", 4): glColor4f, ("texcoord0", 2): glTexCoord2f,
 }  # fmt: skip
 
 
@@ -150,19 +151,25 @@ def _refused(operation: str, mode: int, count: int) -> bool:
 
 def glArrayElement(i: int) -> None:
     """Set the current attributes from one vertex of the enabled arrays; its position adds a vertex, as glVertex."""
-    context = current()
-    for key, rows, call, convert in _readers(context):
-        if not 0 <= i < len(rows):
-            raise ValueError(f"glArrayElement(i={i}): the array of {key}s has {len(rows)}")
-        values = rows[i].tolist()
-        if convert is not None:
-            values = [convert(number) for number in values]
-        if call is not None:
-            call(*values)
-        elif context.compiled_list is None:
-            _set_attribute(key, values)
-        else:
-            _record_attribute(key, values)
+    context = thread.context
+    try:
+        arrays = context.arrays
+        active, known = arrays.active, arrays.readers
+        readers = known[1] if known is not None and known[0] is active is not None else _readers(context)
+        for key, rows, length, call, convert in readers:
+            if not 0 <= i < length:
+                raise ValueError(f"glArrayElement(i={i}): the array of {key}s has {length}")
+            values = rows[i].tolist()
+            if convert is not None:
+                values = [convert(number) for number in values]
+            if call is not None:
+                call(*values)
+            elif context.compiled_list is None:
+                _set_attribute(key, values)
+            else:
+                _record_attribute(key, values)
+    except CONVERTING as error:
+        raise refusal(glArrayElement, error, i) from error
 
 
 class _Reader(NamedTuple):
@@ -170,25 +177,26 @@ class _Reader(NamedTuple):
 
     key: str
     rows: np.ndarray
+    length: int
     call: Callable[..., None] | None
     convert: Callable[[Any], float] | None
 
 
 def _readers(context: Context) -> tuple[_Reader, ...]:
     """Return the readers of the enabled arrays, that of the positions last."""
-    active, known = _arrays_in_use(context), context.arrays.readers
-    if known is None or known[0] is not active:
-        index = _array(context, NOT_DRAWN) if NOT_DRAWN in context.arrays.enabled else None
-        arrays = active if index is None else (*active, index)
-        known = context.arrays.readers = active, tuple([_reader(array) for array in reversed(arrays)])
-    readers: tuple[_Reader, ...] = known[1]
+    active = _arrays_in_use(context)
+    index = _array(context, NOT_DRAWN) if NOT_DRAWN in context.arrays.enabled else None
+    arrays = active if index is None else (*active, index)
+    readers = tuple([_reader(array) for array in reversed(arrays)])
+    context.arrays.readers = active, readers
     return readers
 
 
 def _reader(array: VertexArray) -> _Reader:
     key, rows = KEYS[array.slot], array.rows
     convert = CONVERSIONS.get(rows.dtype.type, float) if key in NORMALIZED else float
-    return _Reader(key, rows, CALLS.get((key, rows.shape[1])), None if rows.dtype.kind == "f" else convert)
+    call = CALLS.get((key, rows.shape[1]))
+    return _Reader(key, rows, len(rows), call, None if rows.dtype.kind == "f" else convert)
 
 
 def _set_attribute(key: str, values: list[float]) -> None:

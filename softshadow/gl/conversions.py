@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from ctypes import c_byte, c_int, c_short, c_ubyte, c_uint, c_ushort
+from ctypes import c_int, c_short, c_uint, c_ushort
 from typing import Any
 
 import numpy as np
@@ -16,16 +16,21 @@ SMALLEST_INT, LARGEST_INT = -(2**31), 2**31 - 1
 ONE, TWO = np.float32(1), np.float32(2)
 BYTE_STEP, SHORT_STEP = ONE / np.float32(255), ONE / np.float32(65535)
 INT_STEP, UNSIGNED_INT_STEP = 1 / 4294967294.0, 1 / 4294967295.0
+# what bytes represent, by their bits
+OF_UNSIGNED_BYTES: list[float] = (np.arange(256, dtype=np.float32) / np.float32(255)).tolist()
+OF_BYTES: list[float] = (
+    (TWO * np.arange(256, dtype=np.uint8).view(np.int8).astype(np.float32) + ONE) * BYTE_STEP
+).tolist()
 
 
 def from_byte(b: int) -> float:
     """Return the float that a byte represents: -128 is -1, 127 is 1."""
-    return float((TWO * np.float32(c_byte(int(b)).value) + ONE) * BYTE_STEP)
+    return OF_BYTES[int(b) & 255]
 
 
 def from_unsigned_byte(b: int) -> float:
     """Return the float that an unsigned byte represents: 255 is 1."""
-    return float(np.float32(c_ubyte(int(b)).value) / np.float32(255))
+    return OF_UNSIGNED_BYTES[int(b) & 255]
 
 
 def from_short(s: int) -> float:
@@ -120,11 +125,15 @@ def vector(params: Any, length: int, convert: Callable[[Any], float] = float) ->
     ValueError
         The argument has fewer numbers.
     """
-    if convert is float and type(params) in SEQUENCES and len(params) >= length:
-        try:
-            return [float(value) for value in params[:length]]
-        except TypeError:  # nested sequences
-            pass
+    if convert is float:
+        kind = type(params)
+        if kind in SEQUENCES and len(params) >= length:
+            try:
+                return list(map(float, params[:length]))
+            except TypeError:  # nested sequences
+                pass
+        elif kind is np.ndarray and params.ndim == 1 and params.dtype.char in "fd" and len(params) >= length:
+            return params[:length].tolist()
     values = numbers(params, convert)
     if len(values) < length:
         raise ValueError(f"params={params!r}: expected {length} numbers")

@@ -144,22 +144,28 @@ def glVertex4f(x: float, y: float, z: float, w: float) -> None:
         store_vertices(context, primitive)
 
 
-@in_lists
 def glVertex2fv(v: Any) -> None:
     """Add a vertex from a vector."""
-    glVertex2f(*vector(v, 2))
+    try:
+        glVertex2f(*(v if type(v) is tuple and len(v) == 2 else vector(v, 2)))
+    except CONVERTING as error:
+        raise refusal(glVertex2fv, error, v) from error
 
 
-@in_lists
 def glVertex3fv(v: Any) -> None:
     """Add a vertex from a vector."""
-    glVertex3f(*vector(v, 3))
+    try:
+        glVertex3f(*(v if type(v) is tuple and len(v) == 3 else vector(v, 3)))
+    except CONVERTING as error:
+        raise refusal(glVertex3fv, error, v) from error
 
 
-@in_lists
 def glVertex4fv(v: Any) -> None:
     """Add a vertex from a vector."""
-    glVertex4f(*vector(v, 4))
+    try:
+        glVertex4f(*(v if type(v) is tuple and len(v) == 4 else vector(v, 4)))
+    except CONVERTING as error:
+        raise refusal(glVertex4fv, error, v) from error
 
 
 @in_lists

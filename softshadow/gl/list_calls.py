@@ -61,7 +61,7 @@ def _undecorated(call: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _attribute_calls() -> dict[Callable[..., Any], AttributeCall]:
-    """Return all calls that set an attribute or add a vertex."""
+    """Return all calls that set an attribute or add a vertex, except those that make another one of them."""
     calls: dict[Callable[..., Any], AttributeCall] = {}
     convert: Callable[[Any], float]
 
@@ -71,14 +71,14 @@ def _attribute_calls() -> dict[Callable[..., Any], AttributeCall]:
     for n in (1, 2, 3, 4):
         for name, slot in (("TexCoord", TEXCOORD), ("MultiTexCoord", None)):
             for suffix, convert in (("f", float), ("fv", float), ("iv", int)):
-                add(texture_coordinates, f"gl{name}{n}{suffix}", slot, n, "v" in suffix, convert)
+                if f"{name}{n}{suffix}" != "TexCoord2fv":
+                    add(texture_coordinates, f"gl{name}{n}{suffix}", slot, n, "v" in suffix, convert)
         if n > 1:
-            for suffix, convert in (("f", float), ("fv", float), ("iv", int)):
+            for suffix, convert in (("f", float), ("iv", int)):
                 add(immediate, f"glVertex{n}{suffix}", POSITION, n, "v" in suffix, convert)
-    for suffix in ("f", "fv"):
-        add(vertex_attributes, f"glNormal3{suffix}", NORMAL, 3, "v" in suffix)
-        add(vertex_attributes, f"glColor3{suffix}", COLOR, 3, "v" in suffix)
-        add(vertex_attributes, f"glColor4{suffix}", COLOR, 4, "v" in suffix)
+    add(vertex_attributes, "glNormal3f", NORMAL, 3, False)
+    add(vertex_attributes, "glColor3f", COLOR, 3, False)
+    add(vertex_attributes, "glColor4f", COLOR, 4, False)
     for suffix in ("d", "dv"):  # Mesa sets four components in all glColor3 calls but glColor3f
         add(vertex_attributes, f"glColor3{suffix}", COLOR, 3, "v" in suffix, rest=(1.0,))
     for kind, convert in (

@@ -6,7 +6,7 @@ from math import hypot
 from typing import Any
 
 from softshadow import tokens as gl
-from softshadow.context import current, thread
+from softshadow.context import thread
 from softshadow.gl.calls import in_lists, record, spelled_like_gl
 from softshadow.gl.conversions import vector
 from softshadow.gl.refusals import CONVERTING, refusal
@@ -19,8 +19,14 @@ A_UNIT = f"GL_TEXTURE0 … GL_TEXTURE{TEXTURE_UNITS - 1}"
 
 def set_coordinate(unit: int, *coordinates: float) -> None:
     """Set the current texture coordinate of a unit."""
-    context, new = current(), tuple(float(c) for c in coordinates)
-    before, name = context.current.texcoords[unit], TEXCOORDS[unit]
+    context, new, name = thread.context, tuple(map(float, coordinates)), TEXCOORDS[unit]
+    primitive = context.primitive
+    if primitive is not None and primitive.steady.get(name) == len(new):
+        coordinate: Any = new + REST[len(new) :]
+        context.current.texcoords[unit] = coordinate
+        primitive.changes[name].append((len(primitive.positions), coordinate))
+        return
+    before = context.current.texcoords[unit]
     size = max(carry_attribute(context, name, len(new)), len(new))
     set_attribute(context, name, len(new), new + before[len(new) : size] + REST[size:])
 
@@ -60,10 +66,12 @@ def glTexCoord2f(s: float, t: float) -> None:
         raise refusal(glTexCoord2f, error, s, t) from error
 
 
-@in_lists
 def glTexCoord2fv(v: Any) -> None:
     """Set the texture coordinate of unit 0 from a vector."""
-    glTexCoord2f(*vector(v, 2))
+    try:
+        glTexCoord2f(*(v if type(v) is tuple and len(v) == 2 else vector(v, 2)))
+    except CONVERTING as error:
+        raise refusal(glTexCoord2fv, error, v) from error
 
 
 @in_lists

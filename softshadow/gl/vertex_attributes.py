@@ -24,13 +24,17 @@ from softshadow.gl.vertex_format import carry_attribute, set_attribute
 
 # -- colour ------------------------------------------------------------------------------------------------------------
 def set_color(red: float, green: float, blue: float, *alpha: float) -> None:
-    context = thread.context
-    n_components = 3 + len(alpha)
+    context, n_components = thread.context, 3 + len(alpha)
+    primitive = context.primitive
+    if primitive is not None and primitive.steady.get("color") == n_components:
+        context.current.color = color = (float(red), float(green), float(blue), float(alpha[0]) if alpha else 1.0)
+        primitive.changes["color"].append((len(primitive.positions), color))
+        return
     size = carry_attribute(context, "color", n_components)
     if not alpha:
         alpha = context.current.color[3:] if size > 3 else (1.0,)
     color = (float(red), float(green), float(blue), float(alpha[0]))
-    if context.primitive is None:
+    if primitive is None:
         context.current.color = color
         follow_color(context)
     else:  # glEnd lets the materials follow
@@ -54,22 +58,37 @@ def glColor3f(red: float, green: float, blue: float) -> None:
         raise refusal(glColor3f, error, red, green, blue) from error
 
 
-@in_lists
 def glColor4f(red: float, green: float, blue: float, alpha: float) -> None:
     """Set the current colour."""
-    set_color(red, green, blue, alpha)
+    context = thread.context
+    try:
+        hypot(red, green, blue, alpha)
+        primitive = context.primitive
+        if primitive is not None and primitive.steady.get("color") == 4:
+            context.current.color = color = (float(red), float(green), float(blue), float(alpha))
+            primitive.changes["color"].append((len(primitive.positions), color))
+        elif context.compiled_list is None:
+            set_color(red, green, blue, alpha)
+        else:
+            record(context, glColor4f, red, green, blue, alpha)
+    except CONVERTING as error:
+        raise refusal(glColor4f, error, red, green, blue, alpha) from error
 
 
-@in_lists
 def glColor3fv(v: Any) -> None:
     """Set the current colour from a vector, alpha 1."""
-    glColor3f(*vector(v, 3))
+    try:
+        glColor3f(*(v if type(v) is tuple and len(v) == 3 else vector(v, 3)))
+    except CONVERTING as error:
+        raise refusal(glColor3fv, error, v) from error
 
 
-@in_lists
 def glColor4fv(v: Any) -> None:
     """Set the current colour from a vector."""
-    set_color(*vector(v, 4))
+    try:
+        glColor4f(*(v if type(v) is tuple and len(v) == 4 else vector(v, 4)))
+    except CONVERTING as error:
+        raise refusal(glColor4fv, error, v) from error
 
 
 @in_lists
@@ -145,10 +164,12 @@ def glNormal3f(nx: float, ny: float, nz: float) -> None:
         raise refusal(glNormal3f, error, nx, ny, nz) from error
 
 
-@in_lists
 def glNormal3fv(v: Any) -> None:
     """Set the current normal from a vector."""
-    glNormal3f(*vector(v, 3))
+    try:
+        glNormal3f(*(v if type(v) is tuple and len(v) == 3 else vector(v, 3)))
+    except CONVERTING as error:
+        raise refusal(glNormal3fv, error, v) from error
 
 
 glNormal3d, glNormal3dv = glNormal3f, glNormal3fv

@@ -242,6 +242,9 @@ def test_primitives_become_arrays(context):
     assert [type(call) is ListPrimitive for call in calls] == [False, True, False, True]
 
 
+MAKE_OTHERS = ("glVertex2fv", "glVertex3fv", "glVertex4fv", "glNormal3fv", "glColor3fv", "glColor4fv", "glTexCoord2fv")
+
+
 def test_all_calls_that_set_attributes_are_known(context):
     names = [
         name for name in dir(gl)
@@ -249,14 +252,24 @@ def test_all_calls_that_set_attributes_are_known(context):
         and name[-1:] in "dfisbv" and any(digit in name for digit in "1234")
         and not name.endswith(("ARB", "EXT"))
     ]  # fmt: skip
-    known = {getattr(getattr(gl, name), "__wrapped__", getattr(gl, name)) for name in names}
-    assert known == set(CALLS)
+    known, others = (
+        {getattr(getattr(gl, name), "__wrapped__", getattr(gl, name)) for name in these}
+        for these in (names, MAKE_OTHERS)
+    )
+    assert known - others == set(CALLS)
+
+
+@pytest.mark.parametrize("name", MAKE_OTHERS)
+def test_wrong_vectors_are_refused_before_they_are_recorded(context, name):
+    with pytest.raises(ValueError, match=rf"{name}\(v=\[0\]\).*expected [234] numbers"):
+        compiled((name, ([0],)))
+    gl.glEndList()
 
 
 @pytest.mark.parametrize(
     "call",
-    [("glMaterialfv", (gl.GL_FRONT, gl.GL_DIFFUSE, (1, 0, 0, 1))), ("glCallList", (7,)), ("glVertex3fv", ([0, 1],)),
-     ("glVertex2f", (2**60, 1)), ("glNormal3fv", ([0, 1],)), ("glBegin", (gl.GL_LINES,))],
+    [("glMaterialfv", (gl.GL_FRONT, gl.GL_DIFFUSE, (1, 0, 0, 1))), ("glCallList", (7,)), ("glVertex3iv", ([0, 1],)),
+     ("glVertex2f", (2**60, 1)), ("glNormal3iv", ([0, 1],)), ("glBegin", (gl.GL_LINES,))],
 )  # fmt: skip
 def test_other_calls_stay_calls(context, call):
     assert not any(type(each) is ListPrimitive for each in compiled(*TRIANGLE[:2], call, *TRIANGLE[2:-1]))
