@@ -117,6 +117,8 @@ class Context(CurrentValues):
         # texture units, and the samplers of the textures bound to them; None after a change of a texture
         self.bound_samplers: tuple[Any, Any] | None = None
         self.pending = PendingAttributes()
+        # texture matrices and coordinates, and their products at the last raster position
+        self.raster_texcoords: tuple[Any, Any, tuple[tuple[float, ...], ...]] | None = None
         self.lists: dict[int, DisplayList] = {}
         self.compiled_list: DisplayList | None = None  # between glNewList and glEndList; whoever sets it clears `ready`
         self.executes_list = False  # while a compiled call is also being executed
@@ -186,8 +188,10 @@ class Context(CurrentValues):
         self.active_unit = unit
         self.select_matrices(self.matrix_mode)
 
-    def _read_texture_matrices(self) -> tuple[np.ndarray, ...]:
-        """Return the texture matrices, and keep them until calls can change them."""
+    def texture_matrices(self) -> tuple[np.ndarray, ...]:
+        """Return the texture matrices: the same tuple until calls can change them."""
+        if self._texture_matrices is not None:
+            return self._texture_matrices
         matrices = tuple([stack.current for stack in self.texture_stacks])
         if self.matrix_mode != gl.GL_TEXTURE:
             self._texture_matrices = matrices
@@ -307,7 +311,7 @@ class Context(CurrentValues):
             indices=indices,
             modelview=modelview,
             projection=projection,
-            texture_matrices=self._texture_matrices or self._read_texture_matrices(),
+            texture_matrices=self._texture_matrices or self.texture_matrices(),
             uniforms=dict(self.uniforms[program]) if program else NO_UNIFORMS,
             program_name=self.programs[program].name if program else "",
             label="/".join(self.labels) if self.labels else "",

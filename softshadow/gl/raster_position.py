@@ -5,6 +5,8 @@ References: GL 2.1, sec. 2.13 (current raster position); rastpos.c of Mesa 22.3.
 
 from __future__ import annotations
 
+from functools import lru_cache
+from operator import is_
 from typing import Any
 
 import numpy as np
@@ -18,6 +20,7 @@ from softshadow.gl.errors import outside_begin
 from softshadow.gl.raster_lighting import raster_colors, transformed
 from softshadow.gl.render_modes import note_raster_position
 from softshadow.pipeline.geometry.geometry import planes_in_clip_space
+from softshadow.state import Viewport
 
 F32 = np.float32
 
@@ -46,46 +49,65 @@ def _set(context: Context, point: np.ndarray) -> None:
     eye = transformed(modelview, point)
     clip = transformed(projection, eye)
     planes = planes_in_clip_space(state.clip_planes, projection, projection_kind)
+    w = float(clip[3])
     if not _is_inside(clip, state.depth.clamp, planes):
         context.current.raster = evolve(before, valid=False)
         return
-    view, one = state.viewport, F32(1)
-    near, far = F32(view.near), F32(view.far)
-    over_w = one if clip[3] == 0 else one / clip[3]
-    scale = (F32(0.5) * F32(view.width), F32(0.5) * F32(view.height), F32(0.5) * (far - near))
-    shift = (scale[0] + F32(view.x), scale[1] + F32(view.y), F32(0.5) * (near + far))
-    window = [float(clip[i] * over_w * scale[i] + shift[i]) for i in range(3)]
+    scale, shift, near, far = _window_of(state.viewport)
+    over_w = F32(1) if w == 0 else F32(1) / clip[3]
+    x, y, z = (clip[:3] * over_w * scale + shift).tolist()
     color, secondary = _current_colors(context)
     if state.lighting.enabled:
         color, secondary = raster_colors(context, point, modelview, modelview_kind)
-    w = clip[3]
     if state.depth.clamp:  # as in Mesa, which clamps w in place of z
         w = (far if w > far else w) if w > near else near
     context.current.raster = RasterPosition(
-        window=(window[0], window[1], window[2], float(w)),
+        window=(x, y, z, w),
         distance=_distance(context, eye),
         color=color,
         secondary=secondary,
-        texcoords=tuple(
-            tuple(transformed(stack.current.astype(F32), np.array(coordinates, F32)).tolist())
-            for stack, coordinates in zip(context.texture_stacks, context.current.texcoords, strict=True)
-        ),
+        texcoords=_texcoords(context),
     )
     note_raster_position(context)
 
 
+@lru_cache(maxsize=16)
+def _window_of(view: Viewport) -> tuple[np.ndarray, np.ndarray, float, float]:
+    """Return scale and shift (3,) from normalized device coordinates to the window, and the depth range."""
+    near, far = F32(view.near), F32(view.far)
+    scale = np.array([F32(0.5) * F32(view.width), F32(0.5) * F32(view.height), F32(0.5) * (far - near)])
+    shift = np.array([scale[0] + F32(view.x), scale[1] + F32(view.y), F32(0.5) * (near + far)])
+    return scale, shift, float(near), float(far)
+
+
 def _is_inside(clip: np.ndarray, depth_clamp: bool, planes: np.ndarray) -> bool:
     """Return whether a point lies in the view volume; what is not a number is inside, as in Mesa."""
-    x, y, z, w = clip
+    x, y, z, w = clip.tolist()
     outside = x > w or x < -w or y > w or y < -w or (not depth_clamp and (z < -w or z > w))
+    if outside or not len(planes):
+        return not outside
+    x, y, z, w = clip
     distances = [((x * a + y * b) + z * c) + w * d for a, b, c, d in planes]
-    return not outside and not any(distance < 0 for distance in distances)
+    return not any(distance < 0 for distance in distances)
 
 
-def _current_colors(context: Context) -> tuple[tuple[float, ...], ...]:
+def _texcoords(context: Context) -> tuple[tuple[float, ...], ...]:
+    """Return the current texture coordinates times the texture matrices; texts have the same ones for each line."""
+    matrices, coordinates = context.texture_matrices(), context.current.texcoords
+    known = context.raster_texcoords
+    if known is None or known[0] is not matrices or not all(map(is_, known[1], coordinates)):
+        products = tuple(
+            tuple(transformed(matrix.astype(F32), np.array(each, F32)).tolist())
+            for matrix, each in zip(matrices, coordinates, strict=True)
+        )
+        known = context.raster_texcoords = matrices, tuple(coordinates), products
+    return known[2]
+
+
+def _current_colors(context: Context) -> list[tuple[float, ...]]:
     """Return the current colour and secondary colour in single precision."""
     current = context.current
-    return tuple(tuple(float(F32(channel)) for channel in color) for color in (current.color, current.secondary))
+    return [tuple(np.array(color, F32).tolist()) for color in (current.color, current.secondary)]
 
 
 def _distance(context: Context, eye: np.ndarray) -> float:
