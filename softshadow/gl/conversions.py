@@ -99,7 +99,7 @@ ELEMENTS: dict[Callable[[Any], Any], type[np.generic]] = {
 }
 
 
-SEQUENCES = (list, tuple)
+SEQUENCES, NUMBERS = (list, tuple), (int, float)
 
 
 def numbers(params: Any, convert: Callable[[Any], Any] = float) -> np.ndarray:
@@ -148,6 +148,8 @@ def first(params: Any, convert: Callable[[Any], Any] = float) -> Any:
     ValueError
         The argument is empty.
     """
+    if convert is float and type(params) in NUMBERS:
+        return params
     values = numbers(params, convert)
     if not len(values):
         raise ValueError(f"params={params!r}: expected a number")

@@ -32,17 +32,18 @@ def glFrontFace(mode: int) -> None:
         context.change_field("cull", "front_face", int(mode))
 
 
-@in_lists
 def glPolygonMode(face: int, mode: int) -> None:
     """Set whether polygons are drawn filled, as lines or as points."""
-    context = outside_begin("glPolygonMode")
-    if context is None or not is_one_of("glPolygonMode", "face", face, FACES, A_FACE):
+    context = thread.context
+    if not (context.ready or is_allowed(context, glPolygonMode, face, mode)):
+        return
+    if not is_one_of("glPolygonMode", "face", face, FACES, A_FACE):
         return
     if is_one_of("glPolygonMode", "mode", mode, POLYGON_MODES, "GL_POINT, GL_LINE or GL_FILL"):
-        if face != gl.GL_BACK:
-            context.change("polygon", mode_front=int(mode))
+        fields = {} if face == gl.GL_BACK else {"mode_front": int(mode)}
         if face != gl.GL_FRONT:
-            context.change("polygon", mode_back=int(mode))
+            fields["mode_back"] = int(mode)
+        context.change_fields("polygon", fields)
 
 
 def glPolygonOffset(factor: float, units: float) -> None:
@@ -93,12 +94,15 @@ def glViewport(x: int, y: int, width: int, height: int) -> None:
         context.change_fields("viewport", {"x": x, "y": y, "width": width, "height": height})
 
 
-@in_lists
 def glScissor(x: int, y: int, width: int, height: int) -> None:
     """Set the scissor box, in pixels from the lower left."""
-    context = outside_begin("glScissor")
-    if context is not None and _box_is_valid("glScissor", width, height):
-        context.change("scissor", x=int(x), y=int(y), width=int(width), height=int(height))
+    context = thread.context
+    if not (context.ready or is_allowed(context, glScissor, x, y, width, height)):
+        return
+    if (width >= 0 and height >= 0) or _box_is_valid("glScissor", width, height):
+        if not (type(x) is type(y) is type(width) is type(height) is int):
+            x, y, width, height = int(x), int(y), int(width), int(height)
+        context.change_fields("scissor", {"x": x, "y": y, "width": width, "height": height})
 
 
 def _box_is_valid(operation: str, width: int, height: int) -> bool:
@@ -109,13 +113,12 @@ def _box_is_valid(operation: str, width: int, height: int) -> bool:
     return False
 
 
-@in_lists
 def glDepthRange(zNear: float, zFar: float) -> None:
     """Set the depths of the near and far plane, clamped to [0, 1]."""
-    context = outside_begin("glDepthRange")
-    if context is not None:
+    context = thread.context
+    if context.ready or is_allowed(context, glDepthRange, zNear, zFar):
         near, far = rounded_pair(context, clamp01(zNear), clamp01(zFar))
-        context.change("viewport", near=near, far=far)
+        context.change_fields("viewport", {"near": near, "far": far})
 
 
 glDepthRangef = glDepthRange

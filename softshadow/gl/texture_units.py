@@ -11,7 +11,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.conversions import enum, first, from_int, numbers, vector
+from softshadow.gl.conversions import NUMBERS, enum, first, from_int, numbers, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.texture_combiners import COMBINE_PARAMETERS, SCALES, parameter_of, with_parameter
 from softshadow.gl.textures import queried_color, set_unit
@@ -80,7 +80,7 @@ def glTexEnviv(target: int, pname: int, params: Any) -> None:
 def _set_environment(operation: str, target: int, pname: int, value: Any, is_vector: bool = False) -> None:
     if (context := outside_begin(operation)) is None:
         return None
-    values = np.ravel(value)
+    values = np.ravel(value) if is_vector or type(value) not in NUMBERS else (value,)
     if problem := _environment_problem(target, pname, is_vector):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
     if target == gl.GL_POINT_SPRITE:
