@@ -10,23 +10,88 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import current
+from softshadow.context import Context, RasterPosition, current
+from softshadow.framebuffer import DEFAULT
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_memory import source
+from softshadow.gl.raster_draws import (
+    EDGES,
+    KEPT_VERTICES,
+    attributes_of,
+    draw_at,
+    normalized,
+    positions,
+    raster_vertices,
+)
 from softshadow.gl.render_modes import is_rendered
-from softshadow.gl.window_quads import draw_of_quads
-from softshadow.pixel_store import bitmap_rows
+from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.pixel_store import PixelStore, bitmap_rows
 
+MARGIN = 256  # pixels outside the window in which characters often begin or end
+KEPT_PLACES = 64  # of a character, where it has been drawn
 KEPT_BYTES = 512  # of a bitmap up to which it may be a character, which is drawn again
 ROUNDING = np.float32(0.0001)  # of Mesa: so much below a whole number is still that number
+
+
+class PixelQuads:
+    """Quads between whole pixels, such as the runs of set bits of a character, to be drawn at several places.
+
+    Attributes
+    ----------
+    quads : (N, 4) int           left, bottom, right, top
+    """
+
+    __slots__ = ("_bounds", "_placed", "_x", "_y", "quads")
+
+    def __init__(self, quads: np.ndarray) -> None:
+        self.quads = quads
+        # of the corners in Mesa's order
+        self._x, self._y = (quads[:, EDGES[:, axis]].reshape(-1).astype(np.intp) for axis in (0, 1))
+        lowest, highest = (quads.min(axis=0), quads.max(axis=0)) if len(quads) else (np.zeros(4, int),) * 2
+        self._bounds: tuple[int, ...] = (*lowest[:2].tolist(), *highest[2:].tolist())
+        self._placed: dict[tuple[Any, ...], Vertices] = {}  # the latest, by place and size of the framebuffer
+
+    def vertices(self, left: int, bottom: int, size: tuple[int, int], raster: RasterPosition, real: Any) -> Vertices:
+        """Return the corners of the quads so many pixels from the corner; the same object if a text is drawn again."""
+        place, n = (left, bottom, size, real), len(self._x)
+        before = self._placed.get(place)
+        color, texcoords = attributes_of(raster, n, real)
+        if before is not None and before.color is color and before.texcoords is texcoords:
+            return before
+        position = self._positions(left, bottom, size, real) if before is None else before.position
+        vertices = raster_vertices(position, color, texcoords)
+        if n <= KEPT_VERTICES:
+            if len(self._placed) >= KEPT_PLACES:
+                self._placed.clear()
+            self._placed[place] = vertices
+        return vertices
+
+    def _positions(self, left: int, bottom: int, size: tuple[int, int], real: Any) -> np.ndarray:
+        """Return the corners (4 N, 4) in normalized device coordinates."""
+        x0, y0, x1, y1 = self._bounds
+        are_near = left + x0 >= -MARGIN <= bottom + y0 and left + x1 <= size[0] + MARGIN
+        if not (are_near and bottom + y1 <= size[1] + MARGIN):
+            return positions(self.quads + np.array([left, bottom, left, bottom]), size, EDGES, real)
+        position = np.zeros((len(self._x), 4), real)
+        position[:, 0] = _coordinates(size[0], real)[self._x + (left + MARGIN)]
+        position[:, 1] = _coordinates(size[1], real)[self._y + (bottom + MARGIN)]
+        position[:, 3] = 1
+        return position
+
+
+def draw_of_pixels(context: Context, pixels: PixelQuads, left: int, bottom: int) -> Draw:
+    """Return a draw of quads in the colour and at the depth of the raster position, so many pixels from the corner."""
+    state, real = context.state, cast(Any, context.real)
+    size = context.objects.framebuffers[state.draw_framebuffer].size
+    return draw_at(context, state, size, pixels.vertices(left, bottom, size, context.current.raster, real))
 
 
 def glBitmap(
@@ -48,7 +113,7 @@ def glBitmap(
     ValueError
         The bitmap has too few bytes.
     """
-    context, bits = current(), None
+    context, pixels = current(), None
     store = context.unpack_store
     if (bitmap is not None or store.buffer) and width > 0 and height > 0:  # read now, also for a display list
         bytes_of_row = -(-(store.row_length or width) // (8 * store.alignment)) * store.alignment
@@ -56,14 +121,14 @@ def glBitmap(
         if bitmap is None:
             return
         content = bitmap.tobytes() if isinstance(bitmap, np.ndarray) else bitmap
-        rows = _kept_rows if isinstance(content, bytes) and len(content) <= KEPT_BYTES else bitmap_rows
-        bits = rows(content, context.unpack_store, int(width), int(height), "glBitmap")
-    _bitmap(width, height, xorig, yorig, xmove, ymove, bits)
+        are_kept = isinstance(content, bytes) and len(content) <= KEPT_BYTES
+        pixels = (_kept_pixels if are_kept else _pixels)(content, context.unpack_store, int(width), int(height))
+    _bitmap(width, height, xorig, yorig, xmove, ymove, pixels)
 
 
 @in_lists
 def _bitmap(
-    width: int, height: int, xorig: float, yorig: float, xmove: float, ymove: float, bits: np.ndarray | None
+    width: int, height: int, xorig: float, yorig: float, xmove: float, ymove: float, pixels: PixelQuads | None
 ) -> None:
     context = outside_begin("glBitmap")
     if context is None:
@@ -73,17 +138,15 @@ def _bitmap(
         return
     if not context.current.raster.valid:
         return
-    name = context.state.draw_framebuffer
-    if framebuffer_status(context, name) != gl.GL_FRAMEBUFFER_COMPLETE:
+    name = context.groups[""].fields["draw_framebuffer"]
+    if name != DEFAULT and framebuffer_status(context, name) != gl.GL_FRAMEBUFFER_COMPLETE:
         fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, "glBitmap", f"framebuffer {name} is not complete")
         return
     x, y, *rest = context.current.raster.window  # the sums below are in float32
-    if is_rendered(context, gl.GL_BITMAP_TOKEN) and bits is not None:
-        quads = _kept_runs(bits.tobytes(), bits.shape) if bits.size <= 8 * KEPT_BYTES else runs(bits)
-        if len(quads):
-            left = math.floor(x + ROUNDING - np.float32(xorig))
-            bottom = math.floor(y + ROUNDING - np.float32(yorig))
-            context.execute(draw_of_quads(context, quads + np.array([left, bottom, left, bottom]), context.state))
+    if is_rendered(context, gl.GL_BITMAP_TOKEN) and pixels is not None and len(pixels.quads):
+        left = math.floor(x + ROUNDING - np.float32(xorig))
+        bottom = math.floor(y + ROUNDING - np.float32(yorig))
+        context.execute(draw_of_pixels(context, pixels, left, bottom))
     window = float(x + np.float32(xmove)), float(y + np.float32(ymove)), *rest
     context.current.raster = evolve(context.current.raster, window=window)
 
@@ -104,13 +167,17 @@ def runs(bits: np.ndarray) -> np.ndarray:
     return np.stack([begin, row, end, row + 1], axis=1)
 
 
-# those of the characters of a text
-_kept_rows = lru_cache(256)(bitmap_rows)
+@lru_cache(16)
+def _coordinates(side: int, real: Any) -> np.ndarray:
+    """Return normalized device coordinates of the edges of pixels, from `MARGIN` before the window to as many after."""
+    return normalized(np.arange(-MARGIN, side + MARGIN + 1), side, real)
 
 
-@lru_cache(256)
-def _kept_runs(bits: bytes, shape: tuple[int, int]) -> np.ndarray:
-    return runs(np.frombuffer(bits, bool).reshape(shape))
+def _pixels(bitmap: Any, store: PixelStore, width: int, height: int) -> PixelQuads:
+    return PixelQuads(runs(bitmap_rows(bitmap, store, width, height, "glBitmap")))
+
+
+_kept_pixels = lru_cache(256)(_pixels)  # those of the characters of a text
 
 
 __all__ = spelled_like_gl(globals())

@@ -1,11 +1,8 @@
-"""Draws of rectangles in window coordinates at the raster position: what glBitmap and glDrawPixels become."""
+"""Draws of rectangles at the raster position that show a texture: what glDrawPixels and glCopyPixels become."""
 
 from __future__ import annotations
 
-import struct
-from collections.abc import Sequence
-from functools import lru_cache
-from typing import Any, NamedTuple, cast
+from typing import Any, cast
 
 import numpy as np
 
@@ -13,29 +10,23 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.framebuffer import DEFAULT, LARGEST_SIDE
 from softshadow.frozen import evolve
-from softshadow.image import FORMATS, Format
-from softshadow.pipeline.commands import (
-    CopyToTexture,
-    CreateTexture,
-    DefineImage,
-    Draw,
-    SetSampler,
-    UpdateImage,
-    Vertices,
+from softshadow.gl.raster_draws import (
+    CORNERS,
+    CORNERS_FROM_TOP,
+    EDGES,
+    EDGES_FROM_TOP,
+    attributes_of,
+    draw_at,
+    positions,
+    raster_vertices,
 )
-from softshadow.state import ClipPlanes, Cull, Polygon, State, TextureUnit, Viewport
+from softshadow.image import FORMATS, Format
+from softshadow.pipeline.commands import CopyToTexture, CreateTexture, DefineImage, Draw, SetSampler, UpdateImage
+from softshadow.state import State, TextureUnit
 from softshadow.state.texturing import SWITCHES
 from softshadow.texture import DEFAULTS, Sampler
 
-# the unit square in the order of Mesa's vertices; for images in framebuffer objects it counts rows from the top
-CORNERS = np.array([[0, 1], [1, 1], [1, 0], [0, 0]])
-CORNERS_FROM_TOP = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
-TRIANGLES = np.array([0, 1, 2, 0, 2, 3])  # a fan, as in Mesa
-# of left, bottom, right, top: x and y of each corner
-EDGES, EDGES_FROM_TOP = (2 * corners + [0, 1] for corners in (CORNERS, CORNERS_FROM_TOP))
-
 LARGEST_ZOOM = 16
-KEPT_VERTICES = 1024  # of a draw; a character has some hundred
 TEXTURE = min(DEFAULTS.values()) - 1  # key in the storage of the texture that holds the rectangle
 SAMPLER = Sampler(
     min_filter=gl.GL_NEAREST, mag_filter=gl.GL_NEAREST, wrap_s=gl.GL_CLAMP_TO_EDGE, wrap_t=gl.GL_CLAMP_TO_EDGE
@@ -89,7 +80,7 @@ def _draw_of_texture(context: Context, width: int, height: int, left: int, botto
         y1 = np.trunc(y1)
         y0 = y1 - np.float32(height) * zoom_y
     quad = np.array([[x0, y0, x1, y1]], np.float32)
-    draw = draw_of_quads(context, quad, _textured(context.state), textured=True)
+    draw = _draw_of_quad(context, quad, _textured(context.state))
     return evolve(draw, shown_at=_shown_at(context, float(x0), float(y0), width, height))
 
 
@@ -118,134 +109,15 @@ def _textured(state: State) -> State:
     return evolve(state, units=(first, *others))
 
 
-def draw_of_quads(context: Context, quads: np.ndarray, state: State, textured: bool = False) -> Draw:
-    """Return a draw of quads in the colour and at the depth of the raster position.
-
-    Parameters
-    ----------
-    quads : (N, 4)               left, bottom, right, top in pixels of the draw framebuffer
-    state : State                that of fragments applies; that of vertices and triangles is replaced
-    textured : bool              whether each quad shows the whole texture of unit 0; else all vertices have the texture
-        coordinates of the raster position
-    """
-    raster, real = context.current.raster, cast(Any, context.real)
-    size = context.objects.framebuffers[context.state.draw_framebuffer].size
+def _draw_of_quad(context: Context, quad: np.ndarray, state: State) -> Draw:
+    """Return a draw of a quad (1, 4) that shows the whole texture of unit 0."""
+    real = cast(Any, context.real)
+    size = context.objects.framebuffers[state.draw_framebuffer].size
     in_window = state.draw_framebuffer == DEFAULT
-    corners = CORNERS_FROM_TOP if textured and not in_window else CORNERS
-    n, edges = 4 * len(quads), quads.astype(real)
-    edges /= np.array(size * 2, real)
-    edges *= real(2)
-    edges -= real(1)
-    position = np.ones((len(quads), 4, 4), real)
-    position[:, :, :2] = edges[:, EDGES_FROM_TOP if corners is CORNERS_FROM_TOP else EDGES]
-    position[:, :, 2] = 0  # the projection adds the depth: in Mesa, fog is that of the distance 0
-    color, texcoords = _for(n, _attributes)(_packed(raster.color, *raster.texcoords), n, real)
-    if textured:
-        of_quads = texcoords[0].copy()
-        of_quads[:, :2] = np.tile(corners, (len(quads), 1))
-        texcoords = of_quads, *texcoords[1:]
-    position = position.reshape(n, 4)
-    for array in (position, texcoords[0]):
-        array.setflags(write=False)
-    return evolve(
-        _blank_draw(real, len(texcoords)),
-        state=_prepared(state, size, in_window, state.depth.clamp and textured),
-        vertices=Vertices(position, color, _for(n, _normals)(n, real), texcoords),
-        indices=_for(n, _indices)(len(quads)),
-        projection=_projection(raster.window[2], real),
-        label="/".join(context.labels),
-    )
-
-
-# what draws have in common, kept: text is made of many small ones
-def _for(n: int, kept: Any) -> Any:
-    """Return a function that keeps its results; for more than so many vertices, one that does not."""
-    return kept if n <= KEPT_VERTICES else kept.__wrapped__
-
-
-def _packed(*values: Sequence[float]) -> bytes:
-    """Return numbers as a key that tells -0 from 0."""
-    return b"".join([struct.pack(f"{len(value)}d", *value) for value in values])
-
-
-@lru_cache(256)
-def _attributes(packed: bytes, n: int, real: Any) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
-    """Return n equal colours and n equal texture coordinates of each unit; arrays, since Mesa interpolates them."""
-    values = np.frombuffer(packed).reshape(-1, 4)
-    arrays = {row.tobytes(): _repeated(row, n, real) for row in values}
-    color, *texcoords = (arrays[row.tobytes()] for row in values)
-    return color, tuple(texcoords)
-
-
-@lru_cache(256)
-def _normals(n: int, real: Any) -> np.ndarray:
-    return _repeated((0, 0, 1), n, real)
-
-
-def _repeated(value: Any, n: int, real: Any) -> np.ndarray:
-    rows = np.empty((n, len(value)), real)
-    rows[:] = value
-    rows.setflags(write=False)
-    return rows
-
-
-@lru_cache(256)
-def _indices(n_quads: int) -> np.ndarray:
-    indices = (np.arange(0, 4 * n_quads, 4)[:, np.newaxis] + TRIANGLES).reshape(-1).astype(np.int32)
-    indices.setflags(write=False)
-    return indices
-
-
-@lru_cache(16)
-def _blank_draw(real: Any, n_units: int) -> Draw:
-    """Return a draw of triangles under identity matrices, with one texture matrix per unit."""
-    nothing, identity = np.empty((0, 4), real), np.eye(4, dtype=real)
-    identity.setflags(write=False)
-    vertices = Vertices(nothing, nothing, nothing[:, :3], (nothing,) * n_units)
-    return Draw(State(), gl.GL_TRIANGLES, vertices, None, identity, identity, (identity,) * n_units, modelview_kind=0)
-
-
-@lru_cache(256)
-def _projection(depth: float, real: Any) -> np.ndarray:
-    """Return the matrix that moves z = 0 to a depth of the window."""
-    projection = np.eye(4)
-    projection[2, 3] = real(depth) * real(2) - real(1)
-    projection = projection.astype(real)
-    projection.setflags(write=False)
-    return projection
-
-
-class _Prepared(NamedTuple):
-    """A state without its vertex stages, and what it was made from."""
-
-    made_from: tuple[State, tuple[int, int], bool, bool]
-    state: State
-
-
-_latest: list[_Prepared] = []  # at most one
-
-
-def _prepared(state: State, size: tuple[int, int], in_window: bool, clamps: bool) -> State:
-    """Return what `_without_vertex_stages` returns, the same object while its arguments are the same."""
-    made_from = state, size, in_window, clamps
-    latest = _latest[:]
-    if latest and latest[0].made_from[0] is state and latest[0].made_from[1:] == made_from[1:]:
-        return latest[0].state
-    prepared = _without_vertex_stages(*made_from)
-    _latest[:] = [_Prepared(made_from, prepared)]
-    return prepared
-
-
-def _without_vertex_stages(state: State, size: tuple[int, int], in_window: bool, clamps: bool) -> State:
-    """Return the state with all that concerns vertices and triangles as in the initial state, except depth clamping."""
-    return evolve(
-        state,
-        viewport=Viewport(0, 0, *size),
-        cull=Cull(front_face=gl.GL_CW if in_window else gl.GL_CCW),  # as in Mesa, for the stencil test of two sides
-        polygon=Polygon(),
-        lighting=evolve(state.lighting, enabled=False),
-        clip_planes=ClipPlanes(),
-        depth=evolve(state.depth, clamp=clamps),
-        units=tuple(evolve(unit, gen=tuple(evolve(each, enabled=False) for each in unit.gen)) for unit in state.units),
-        program=0,
-    )
+    position = positions(quad, size, EDGES if in_window else EDGES_FROM_TOP, real)
+    color, texcoords = attributes_of(context.current.raster, 4, real)
+    of_quad = texcoords[0].copy()
+    of_quad[:, :2] = CORNERS if in_window else CORNERS_FROM_TOP
+    of_quad.flags.writeable = False
+    vertices = raster_vertices(position, color, (of_quad, *texcoords[1:]))
+    return draw_at(context, state, size, vertices, clamps=state.depth.clamp)

@@ -1,0 +1,201 @@
+"""Draws of quads in window coordinates, in the colour and at the depth of the raster position.
+
+glBitmap (`bitmaps`), glDrawPixels and glCopyPixels (`window_quads`) become such draws. What they have in common is
+kept: text is made of many small ones.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.context import Context, RasterPosition
+from softshadow.framebuffer import DEFAULT
+from softshadow.frozen import create, evolve
+from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.state import ClipPlanes, Cull, Polygon, State, Viewport
+
+# the unit square in the order of Mesa's vertices; for images in framebuffer objects it counts rows from the top
+CORNERS = np.array([[0, 1], [1, 1], [1, 0], [0, 0]])
+CORNERS_FROM_TOP = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+# of left, bottom, right, top: x and y of each corner
+EDGES, EDGES_FROM_TOP = (2 * corners + [0, 1] for corners in (CORNERS, CORNERS_FROM_TOP))
+TRIANGLES = np.array([0, 1, 2, 0, 2, 3])  # a fan, as in Mesa
+KEPT_VERTICES = 1024  # of a draw; a character has some hundred
+
+
+def raster_vertices(position: np.ndarray, color: np.ndarray, texcoords: tuple[np.ndarray, ...]) -> Vertices:
+    """Return vertices from arrays, which become read-only."""
+    position.flags.writeable = False
+    n = len(position)
+    return create(
+        Vertices,
+        position=position,
+        color=color,
+        normal=_for(n, _normals)(n, position.dtype.type),
+        texcoords=texcoords,
+        materials={},
+        edges=None,
+        secondary=None,
+        fog_coordinates=None,
+    )
+
+
+def draw_at(context: Context, state: State, size: tuple[int, int], vertices: Vertices, clamps: bool = False) -> Draw:
+    """Return a draw of quads at the depth of the raster position.
+
+    Of the state, that of fragments applies; that of vertices and triangles is replaced.
+    """
+    real, n = cast(Any, context.real), len(vertices.position)
+    return evolve(
+        _blank_draw(real, len(vertices.texcoords)),
+        state=_prepared(state, size, state.draw_framebuffer == DEFAULT, clamps),
+        vertices=vertices,
+        indices=_for(n, _indices)(n // 4),
+        projection=_projection(context.current.raster.window[2], real),
+        label="/".join(context.labels) if context.labels else "",
+    )
+
+
+def positions(quads: np.ndarray, size: tuple[int, int], edges: np.ndarray, real: Any) -> np.ndarray:
+    """Return the corners (4 N, 4) of quads (N, 4) in pixels, in normalized device coordinates."""
+    position = np.ones((len(quads), 4, 4), real)
+    position[:, :, :2] = normalized(quads, size * 2, real)[:, edges]
+    position[:, :, 2] = 0  # the projection adds the depth: in Mesa, fog is that of the distance 0
+    return position.reshape(-1, 4)
+
+
+def normalized(pixels: np.ndarray, size: Any, real: Any) -> np.ndarray:
+    """Return normalized device coordinates of edges of pixels."""
+    normalized = pixels.astype(real)
+    normalized /= np.array(size, real)
+    normalized *= real(2)
+    normalized -= real(1)
+    return normalized
+
+
+# -- what is kept ------------------------------------------------------------------------------------------------------
+def _for(n: int, kept: Any) -> Any:
+    """Return a function that keeps its results; for more than so many vertices, one that does not."""
+    return kept if n <= KEPT_VERTICES else kept.__wrapped__
+
+
+class _LatestAttributes(NamedTuple):
+    """Attributes of a raster position, and arrays of them by the number of vertices."""
+
+    color: tuple[float, ...]
+    texcoords: tuple[tuple[float, ...], ...]
+    real: Any
+    arrays: dict[int, tuple[np.ndarray, tuple[np.ndarray, ...]]]
+
+
+_latest_attributes: list[_LatestAttributes] = []  # at most one
+
+
+def attributes_of(raster: RasterPosition, n: int, real: Any) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
+    """Return n equal colours and n equal texture coordinates of each unit; a text has the same ones throughout."""
+    latest = _latest_attributes[:]
+    if not latest or not (
+        latest[0].color is raster.color and latest[0].texcoords is raster.texcoords and latest[0].real is real
+    ):
+        latest = [_LatestAttributes(raster.color, raster.texcoords, real, {})]
+        _latest_attributes[:] = latest
+    arrays = latest[0].arrays.get(n)
+    if arrays is None:
+        arrays = _for(n, _attributes)(_packed(raster.color, *raster.texcoords), n, real)
+        if n <= KEPT_VERTICES:
+            latest[0].arrays[n] = arrays
+    return arrays
+
+
+def _packed(*values: Sequence[float]) -> bytes:
+    """Return numbers as a key that tells -0 from 0."""
+    return b"".join([struct.pack(f"{len(value)}d", *value) for value in values])
+
+
+@lru_cache(256)
+def _attributes(packed: bytes, n: int, real: Any) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
+    """Return n equal colours and n equal texture coordinates of each unit; arrays, since Mesa interpolates them."""
+    values = np.frombuffer(packed).reshape(-1, 4)
+    arrays = {row.tobytes(): _repeated(row, n, real) for row in values}
+    color, *texcoords = (arrays[row.tobytes()] for row in values)
+    return color, tuple(texcoords)
+
+
+@lru_cache(256)
+def _normals(n: int, real: Any) -> np.ndarray:
+    return _repeated((0, 0, 1), n, real)
+
+
+def _repeated(value: Any, n: int, real: Any) -> np.ndarray:
+    rows = np.empty((n, len(value)), real)
+    rows[:] = value
+    rows.setflags(write=False)
+    return rows
+
+
+@lru_cache(256)
+def _indices(n_quads: int) -> np.ndarray:
+    indices = (np.arange(0, 4 * n_quads, 4)[:, np.newaxis] + TRIANGLES).reshape(-1).astype(np.int32)
+    indices.setflags(write=False)
+    return indices
+
+
+@lru_cache(16)
+def _blank_draw(real: Any, n_units: int) -> Draw:
+    """Return a draw of triangles under identity matrices, with one texture matrix per unit."""
+    nothing, identity = np.empty((0, 4), real), np.eye(4, dtype=real)
+    identity.setflags(write=False)
+    vertices = Vertices(nothing, nothing, nothing[:, :3], (nothing,) * n_units)
+    return Draw(State(), gl.GL_TRIANGLES, vertices, None, identity, identity, (identity,) * n_units, modelview_kind=0)
+
+
+@lru_cache(256)
+def _projection(depth: float, real: Any) -> np.ndarray:
+    """Return the matrix that moves z = 0 to a depth of the window."""
+    projection = np.eye(4)
+    projection[2, 3] = real(depth) * real(2) - real(1)
+    projection = projection.astype(real)
+    projection.setflags(write=False)
+    return projection
+
+
+class _Prepared(NamedTuple):
+    """A state without its vertex stages, and what it was made from."""
+
+    made_from: tuple[State, tuple[int, int], bool, bool]
+    state: State
+
+
+_latest: list[_Prepared] = []  # at most one
+
+
+def _prepared(state: State, size: tuple[int, int], in_window: bool, clamps: bool) -> State:
+    """Return what `_without_vertex_stages` returns, the same object while its arguments are the same."""
+    made_from = state, size, in_window, clamps
+    latest = _latest[:]
+    if latest and latest[0].made_from[0] is state and latest[0].made_from[1:] == made_from[1:]:
+        return latest[0].state
+    prepared = _without_vertex_stages(*made_from)
+    _latest[:] = [_Prepared(made_from, prepared)]
+    return prepared
+
+
+def _without_vertex_stages(state: State, size: tuple[int, int], in_window: bool, clamps: bool) -> State:
+    """Return the state with all that concerns vertices and triangles as in the initial state, except depth clamping."""
+    return evolve(
+        state,
+        viewport=Viewport(0, 0, *size),
+        cull=Cull(front_face=gl.GL_CW if in_window else gl.GL_CCW),  # as in Mesa, for the stencil test of two sides
+        polygon=Polygon(),
+        lighting=evolve(state.lighting, enabled=False),
+        clip_planes=ClipPlanes(),
+        depth=evolve(state.depth, clamp=clamps),
+        units=tuple(evolve(unit, gen=tuple(evolve(each, enabled=False) for each in unit.gen)) for unit in state.units),
+        program=0,
+    )
