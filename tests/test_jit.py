@@ -84,6 +84,7 @@ def test_code_is_kept_and_read_again(tmp_path):
     assert any(name.startswith("fragment_ops.process_fragment") for name in cached)
 
 
+@pytest.mark.slow
 def test_a_cache_folder_that_cannot_be_written_is_no_error(tmp_path):
     blocked = tmp_path / "a file where the folder should be"
     blocked.write_text("")
@@ -115,6 +116,7 @@ def test_code_of_old_versions_is_deleted(tmp_path):
     assert f"{0:016x}" not in left
 
 
+@pytest.mark.slow
 def test_code_that_is_used_is_recent_though_nothing_new_is_compiled(tmp_path):
     run_with(PACKAGE.parent, tmp_path)
     (folder,) = (tmp_path / "softshadow").iterdir()

@@ -119,6 +119,7 @@ def test_a_kernel_that_is_compiled_later_calls_one_from_disk(run: Any) -> None:
     assert run("print(inner(3), compiler_started(), outer(3), compiler_started())") == "7 False 107 True"
 
 
+@pytest.mark.slow
 def test_a_name_that_is_missing_in_the_process_starts_the_compiler(run: Any) -> None:
     run(RUN)
     missing = "stored_code.llvm.address_of_symbol = lambda name: None\n"
@@ -131,6 +132,7 @@ def test_another_version_of_numba_loads_kernels_in_its_own_way(run: Any) -> None
     assert run(other + RUN) == RESULT.format(True)
 
 
+@pytest.mark.slow
 def test_another_version_of_numba_compiles_in_its_own_way(run: Any) -> None:
     late = """
 @kernel
@@ -166,7 +168,11 @@ DAMAGE = {
 @pytest.mark.parametrize(
     ("ending", "damage"),
     [
-        pytest.param(ending, damage, marks=[] if damage == "flipped bits in the middle" else [pytest.mark.slow])
+        pytest.param(
+            ending,
+            damage,
+            marks=[] if (ending, damage) == (".nbi", "flipped bits in the middle") else [pytest.mark.slow],
+        )
         for ending in (".nbi", ".nbc")
         for damage in DAMAGE
     ],
@@ -215,6 +221,7 @@ def test_a_deleted_folder_only_costs_time(run: Any, tmp_path: Path) -> None:
     assert run(f"import shutil; shutil.rmtree({str(tmp_path / 'cache')!r})\nprint(inner(3))") == "7"
 
 
+@pytest.mark.slow
 def test_constant_arguments_do_not_compile_a_kernel_again(run: Any) -> None:
     assert run("print(many_calls(2), len(inner.signatures))") == "9 1"
 
@@ -225,6 +232,7 @@ def test_only_allocating_kernels_count_references(run: Any) -> None:
     assert run(code) == "True False"
 
 
+@pytest.mark.slow
 def test_wrong_arguments_have_numbas_own_message(run: Any) -> None:
     code = "try:\n    inner(object())\nexcept Exception as error:\n    print(type(error).__name__)"
     assert run(code) == "TypingError"

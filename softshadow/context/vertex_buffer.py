@@ -178,7 +178,8 @@ class VertexBuffer:
 
     def submit(self) -> None:
         """Draw the collected vertices; those that follow lie behind them in Mesa's buffer."""
-        self.draw_joined_pairs()
+        if self.joined_pairs is not None:
+            self.draw_joined_pairs()
         if self.driver_draw.mode >= 0:
             self.driver_draw = DriverDraw()
         if self.pairs.n_pairs:

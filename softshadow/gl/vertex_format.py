@@ -118,7 +118,13 @@ def add_vertex(context: Context, *coordinates: float) -> None:
     if primitive is None:  # undefined in GL; here it adds nothing
         context.flush()
         return
-    carry_attribute(context, "position", size)
+    buffer = context.vertex_buffer
+    if primitive.positions or primitive.from_list or "position" in buffer.sizes:
+        carry_attribute(context, "position", size)
+    else:  # what that does for the first vertex after a flush
+        buffer.submit()
+        buffer.sizes["position"] = buffer.active_sizes["position"] = size
+        context.ready = False
     primitive.positions += (*coordinates, *REST[size:])
     store_vertices(context, primitive)
     primitive.position_size = 0 if context.executes_list else size

@@ -18,6 +18,7 @@ def draw(gl: Any, name: str) -> None:
     get(name).resized(SIZE).frames(gl, FRAMES)
 
 
+@pytest.mark.thin(3)
 @pytest.mark.mesa
 @pytest.mark.parametrize("name", PROGRAMS)
 def test_program_draws_the_same_picture_as_mesa(name: str) -> None:

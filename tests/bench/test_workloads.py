@@ -40,6 +40,7 @@ def test_workload_leaves_the_same_buffers_on_mesa(name: str) -> None:
         np.testing.assert_array_equal(ours[buffer], theirs[buffer], buffer)
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("name", DRAWN)
 def test_every_frame_of_a_workload_is_the_same(name: str) -> None:
     workload = small(name)
