@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import softshadow
 from softshadow.kernel_cache import KERNEL_SOURCES
 
