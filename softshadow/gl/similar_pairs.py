@@ -129,9 +129,10 @@ def similar_pairs(context: Context, sizes: Mapping[str, int]) -> SimilarPairs | 
     carried, active = buffer.sizes, buffer.active_sizes
     if any(name in OPTIONAL or "." in name for name in carried):
         return None
-    followed = context.state_groups.followed
-    if context.groups["lighting"].fields["color_material"] and (followed is None or followed[2] is not current.color):
-        return None  # the materials of each draw depend on its colours (`with_kept_materials`)
+    if "color" in carried and "color" not in sizes and context.groups["lighting"].fields["color_material"]:
+        followed = context.state_groups.followed
+        if followed is None or followed[2] is not current.color:
+            return None  # vertices that carry a colour may have other materials (`with_kept_materials`)
     for name, size in sizes.items():
         if not carried.get(name) == active.get(name) == size:
             return None
