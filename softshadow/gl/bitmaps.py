@@ -49,26 +49,27 @@ class PixelQuads:
     quads : (N, 4) int           left, bottom, right, top
     """
 
-    __slots__ = ("_bounds", "_placed", "_x", "_y", "quads")
+    __slots__ = ("_bounds", "_is_small", "_placed", "_x", "_y", "quads")
 
     def __init__(self, quads: np.ndarray) -> None:
         self.quads = quads
-        # of the corners in Mesa's order
-        self._x, self._y = (quads[:, EDGES[:, axis]].reshape(-1).astype(np.intp) for axis in (0, 1))
-        lowest, highest = (quads.min(axis=0), quads.max(axis=0)) if len(quads) else (np.zeros(4, int),) * 2
-        self._bounds: tuple[int, ...] = (*lowest[:2].tolist(), *highest[2:].tolist())
+        self._is_small = 0 < 4 * len(quads) <= KEPT_VERTICES
+        if self._is_small:
+            # of the corners in Mesa's order
+            self._x, self._y = (quads[:, EDGES[:, axis]].reshape(-1).astype(np.intp) for axis in (0, 1))
+            self._bounds = *quads[:, :2].min(axis=0).tolist(), *quads[:, 2:].max(axis=0).tolist()
         self._placed: dict[tuple[Any, ...], Vertices] = {}  # the latest, by place and size of the framebuffer
 
     def vertices(self, left: int, bottom: int, size: tuple[int, int], raster: RasterPosition, real: Any) -> Vertices:
         """Return the corners of the quads so many pixels from the corner; the same object if a text is drawn again."""
-        place, n = (left, bottom, size, real), len(self._x)
+        place, n = (left, bottom, size, real), 4 * len(self.quads)
         before = self._placed.get(place)
         color, texcoords = attributes_of(raster, n, real)
         if before is not None and before.color is color and before.texcoords is texcoords:
             return before
         position = self._positions(left, bottom, size, real) if before is None else before.position
         vertices = raster_vertices(position, color, texcoords)
-        if n <= KEPT_VERTICES:
+        if self._is_small:
             if len(self._placed) >= KEPT_PLACES:
                 self._placed.clear()
             self._placed[place] = vertices
@@ -76,15 +77,19 @@ class PixelQuads:
 
     def _positions(self, left: int, bottom: int, size: tuple[int, int], real: Any) -> np.ndarray:
         """Return the corners (4 N, 4) in normalized device coordinates."""
-        x0, y0, x1, y1 = self._bounds
-        are_near = left + x0 >= -MARGIN <= bottom + y0 and left + x1 <= size[0] + MARGIN
-        if not (are_near and bottom + y1 <= size[1] + MARGIN):
+        if not (self._is_small and self._is_near(left, bottom, size)):
             return positions(self.quads + np.array([left, bottom, left, bottom]), size, EDGES, real)
         position = np.zeros((len(self._x), 4), real)
         position[:, 0] = _coordinates(size[0], real)[self._x + (left + MARGIN)]
         position[:, 1] = _coordinates(size[1], real)[self._y + (bottom + MARGIN)]
         position[:, 3] = 1
         return position
+
+    def _is_near(self, left: int, bottom: int, size: tuple[int, int]) -> bool:
+        """Return whether the tables of coordinates reach far enough."""
+        x0, y0, x1, y1 = self._bounds
+        is_after_start = left + x0 >= -MARGIN and bottom + y0 >= -MARGIN
+        return is_after_start and left + x1 <= size[0] + MARGIN and bottom + y1 <= size[1] + MARGIN
 
 
 def draw_of_pixels(context: Context, pixels: PixelQuads, left: int, bottom: int) -> Draw:
