@@ -29,7 +29,7 @@ from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import create, evolve
 from softshadow.image import Image
-from softshadow.pipeline.commands import Clear, Command, Draw, Origin, Vertices
+from softshadow.pipeline.commands import Clear, Command, CopyToTexture, Draw, Origin, UpdateImage, Vertices
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.geometry.geometry import stipple_place_after
 from softshadow.pipeline.queue import DrawQueue
@@ -39,6 +39,7 @@ from softshadow.programs import Program
 from softshadow.state import BLACK, TEXTURE_UNITS, State
 
 NO_UNIFORMS: Mapping[str, Any] = {}
+PIXELS_ONLY = frozenset((Clear, UpdateImage, CopyToTexture))  # commands that change no size, format or sampler
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
 
 
@@ -223,7 +224,7 @@ class Context(CurrentValues):
         if type(command) is Draw and command.state.lines.stippled:
             command = self._continue_stipple(command)
         if type(command) is not Draw:
-            if type(command) is not Clear:
+            if type(command) not in PIXELS_ONLY:
                 self._waiting.forget()
                 self.bound_samplers = None
             execute(command, self.storage)

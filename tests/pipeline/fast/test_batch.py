@@ -398,3 +398,30 @@ def test_what_a_run_depends_on_is_known_when_its_state_returns(monkeypatch):
         gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
     gl.glFinish()
     assert len(planned) == 2
+
+
+def test_what_a_run_depends_on_stays_known_when_texels_change(monkeypatch):
+    planned = []
+    plan_draw = queue.plan_draw
+    monkeypatch.setattr(queue, "plan_draw", lambda *arguments: planned.append(1) or plan_draw(*arguments))
+    context = gl.create_context(SIZE, SIZE)
+    corners = np.array([[-1, -1, 0], [3, -1, 0], [-1, 3, 0]], np.float32)
+    texels = np.zeros((2, 2, 4), np.uint8)
+    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, corners)
+    gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 2, 2, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
+    gl.glEnable(gl.GL_TEXTURE_2D)
+    gl.glClearColor(0.5, 0.5, 0.5, 0.5)
+    drawn = []
+    for n in range(4):
+        texels[:] = 60 * n + 10
+        if n < 3:
+            gl.glTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 2, 2, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
+        else:
+            gl.glClear(gl.GL_COLOR_BUFFER_BIT)
+            gl.glCopyTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 0, 0, 2, 2)
+        gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
+        drawn.append(context.storage.window.color.view.copy())
+    assert [np.unique(picture).tolist() for picture in drawn] == [[10], [70], [130], [128]]
+    assert len(planned) == 1
