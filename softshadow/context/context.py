@@ -29,7 +29,7 @@ from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import create, evolve
 from softshadow.image import Image
-from softshadow.pipeline.commands import Clear, Command, CopyToTexture, Draw, Origin, UpdateImage, Vertices
+from softshadow.pipeline.commands import Clear, Command, CopyToTexture, DefineImage, Draw, Origin, UpdateImage, Vertices
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.geometry.geometry import stipple_place_after
 from softshadow.pipeline.queue import DrawQueue
@@ -40,6 +40,7 @@ from softshadow.state import BLACK, TEXTURE_UNITS, State
 
 NO_UNIFORMS: Mapping[str, Any] = {}
 PIXELS_ONLY = frozenset((Clear, UpdateImage, CopyToTexture))  # commands that change no size, format or sampler
+SHAPE = ("format", "internal_format", "width", "height", "slices")  # of an image
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
 
 
@@ -224,7 +225,7 @@ class Context(CurrentValues):
         if type(command) is Draw and command.state.lines.stippled:
             command = self._continue_stipple(command)
         if type(command) is not Draw:
-            if type(command) not in PIXELS_ONLY:
+            if type(command) not in PIXELS_ONLY and not self._has_image_like(command):
                 self._waiting.forget()
                 self.bound_samplers = None
             execute(command, self.storage)
@@ -232,6 +233,13 @@ class Context(CurrentValues):
             execute(command, self.objects)
         if self._frame.append(command):
             self._frame.shorten(self.storage)
+
+    def _has_image_like(self, command: Command) -> bool:
+        """Return whether a command replaces an image of a texture by one of the same format and size."""
+        if type(command) is not DefineImage:
+            return False
+        before = self.objects.textures[command.texture].images.get((command.face, command.level))
+        return before is not None and all(getattr(before, name) == getattr(command, name) for name in SHAPE)
 
     def _continue_stipple(self, command: Draw) -> Draw:
         """Return a draw with the place in the line stipple that the draws before it have left."""

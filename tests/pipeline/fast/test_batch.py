@@ -414,14 +414,21 @@ def test_what_a_run_depends_on_stays_known_when_texels_change(monkeypatch):
     gl.glEnable(gl.GL_TEXTURE_2D)
     gl.glClearColor(0.5, 0.5, 0.5, 0.5)
     drawn = []
-    for n in range(4):
+    for n in range(5):
         texels[:] = 60 * n + 10
-        if n < 3:
+        if n == 4:
+            gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 2, 2, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
+        elif n < 3:
             gl.glTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 2, 2, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
         else:
             gl.glClear(gl.GL_COLOR_BUFFER_BIT)
             gl.glCopyTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 0, 0, 2, 2)
         gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
         drawn.append(context.storage.window.color.view.copy())
-    assert [np.unique(picture).tolist() for picture in drawn] == [[10], [70], [130], [128]]
+    assert [np.unique(picture).tolist() for picture in drawn] == [[10], [70], [130], [128], [250]]
     assert len(planned) == 1
+    for size in (4, 2):  # another size does end it
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, size, size, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, None)
+        gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
+    gl.glFinish()
+    assert len(planned) == 3
