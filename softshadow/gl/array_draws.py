@@ -154,8 +154,10 @@ def glArrayElement(i: int) -> None:
     context = thread.context
     try:
         arrays = context.arrays
-        active, known = arrays.active, arrays.readers
-        readers = known[1] if known is not None and known[0] is active is not None else _readers(context)
+        known = arrays.readers
+        if known is None or arrays.active is None or known[0] is not arrays.active:
+            known = _find_readers(context)
+        readers: tuple[_Reader, ...] = known[1]
         for key, rows, length, call, convert in readers:
             if not 0 <= i < length:
                 raise ValueError(f"glArrayElement(i={i}): the array of {key}s has {length}")
@@ -182,14 +184,14 @@ class _Reader(NamedTuple):
     convert: Callable[[Any], float] | None
 
 
-def _readers(context: Context) -> tuple[_Reader, ...]:
-    """Return the readers of the enabled arrays, that of the positions last."""
+def _find_readers(context: Context) -> tuple[tuple[VertexArray, ...], tuple[_Reader, ...]]:
+    """Return the enabled arrays that draws read, and the readers of all enabled ones, that of the positions last."""
     active = _arrays_in_use(context)
     index = _array(context, NOT_DRAWN) if NOT_DRAWN in context.arrays.enabled else None
     arrays = active if index is None else (*active, index)
     readers = tuple([_reader(array) for array in reversed(arrays)])
     context.arrays.readers = active, readers
-    return readers
+    return active, readers
 
 
 def _reader(array: VertexArray) -> _Reader:

@@ -20,6 +20,10 @@ from softshadow.gl.conversions import (
     vector,
 )
 
+# calls that lists do not record themselves: they make the call for single numbers
+MAKE_OTHERS = (
+    "glVertex2fv", "glVertex3fv", "glVertex4fv", "glNormal3fv", "glColor3fv", "glColor4fv", "glTexCoord2fv",
+)  # fmt: skip
 EXACT = 2**53  # integers up to here are exact in float64
 Values = tuple[float, ...]
 
@@ -61,24 +65,25 @@ def _undecorated(call: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _attribute_calls() -> dict[Callable[..., Any], AttributeCall]:
-    """Return all calls that set an attribute or add a vertex, except those that make another one of them."""
+    """Return all calls that set an attribute or add a vertex, as lists record them."""
     calls: dict[Callable[..., Any], AttributeCall] = {}
     convert: Callable[[Any], float]
 
     def add(module: Any, name: str, *parameters: Any, **named: Any) -> None:
-        calls.setdefault(_undecorated(getattr(module, name)), AttributeCall(*parameters, **named))
+        if name not in MAKE_OTHERS:
+            calls.setdefault(_undecorated(getattr(module, name)), AttributeCall(*parameters, **named))
 
     for n in (1, 2, 3, 4):
         for name, slot in (("TexCoord", TEXCOORD), ("MultiTexCoord", None)):
             for suffix, convert in (("f", float), ("fv", float), ("iv", int)):
-                if f"{name}{n}{suffix}" != "TexCoord2fv":
-                    add(texture_coordinates, f"gl{name}{n}{suffix}", slot, n, "v" in suffix, convert)
+                add(texture_coordinates, f"gl{name}{n}{suffix}", slot, n, "v" in suffix, convert)
         if n > 1:
-            for suffix, convert in (("f", float), ("iv", int)):
+            for suffix, convert in (("f", float), ("fv", float), ("iv", int)):
                 add(immediate, f"glVertex{n}{suffix}", POSITION, n, "v" in suffix, convert)
-    add(vertex_attributes, "glNormal3f", NORMAL, 3, False)
-    add(vertex_attributes, "glColor3f", COLOR, 3, False)
-    add(vertex_attributes, "glColor4f", COLOR, 4, False)
+    for suffix in ("f", "fv"):
+        add(vertex_attributes, f"glNormal3{suffix}", NORMAL, 3, "v" in suffix)
+        add(vertex_attributes, f"glColor3{suffix}", COLOR, 3, "v" in suffix)
+        add(vertex_attributes, f"glColor4{suffix}", COLOR, 4, "v" in suffix)
     for suffix in ("d", "dv"):  # Mesa sets four components in all glColor3 calls but glColor3f
         add(vertex_attributes, f"glColor3{suffix}", COLOR, 3, "v" in suffix, rest=(1.0,))
     for kind, convert in (

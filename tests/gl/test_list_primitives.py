@@ -8,7 +8,7 @@ import pytest
 
 from softshadow import gl
 from softshadow.gl import list_compiling, list_primitives, lists
-from softshadow.gl.list_calls import CALLS
+from softshadow.gl.list_calls import CALLS, MAKE_OTHERS
 from softshadow.gl.list_compiling import with_primitives
 from softshadow.gl.list_primitives import ListPrimitive
 from softshadow.pipeline.commands import Draw, Vertices
@@ -240,9 +240,6 @@ TRIANGLE = [("glBegin", (gl.GL_TRIANGLES,)), *[("glVertex2f", (x, x * x)) for x 
 def test_primitives_become_arrays(context):
     calls = compiled(("glColor3f", (1, 0, 0)), *TRIANGLE, ("glTranslatef", (1, 0, 0)), *TRIANGLE)
     assert [type(call) is ListPrimitive for call in calls] == [False, True, False, True]
-
-
-MAKE_OTHERS = ("glVertex2fv", "glVertex3fv", "glVertex4fv", "glNormal3fv", "glColor3fv", "glColor4fv", "glTexCoord2fv")
 
 
 def test_all_calls_that_set_attributes_are_known(context):
