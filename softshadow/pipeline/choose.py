@@ -36,6 +36,7 @@ from softshadow.state import State
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS, any_state_kernel
     from softshadow.pipeline.fast.batch.run import Run, can_begin_run
+    from softshadow.pipeline.fast.batch.segments import Part
     from softshadow.pipeline.fast.depth_only import Chunk, chunks_of, fill_in_blocks, threads_of_blocks, window_mesh
     from softshadow.pipeline.fast.drawn_surfaces import (
         Watch,
@@ -45,14 +46,14 @@ try:
         remember_surface,
     )
     from softshadow.pipeline.fast.fixed_function_spans import SPAN_KERNELS, fixed_function_shader
-    from softshadow.pipeline.fast.forward import draw_forward, forward_state
+    from softshadow.pipeline.fast.forward import draw_forward
     from softshadow.pipeline.fast.geometry_cache import cached_geometry
     from softshadow.pipeline.fast.hierarchical_z import only_counts, order_independent
     from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL, map_visibility_shader
+    from softshadow.pipeline.fast.segment_tables import SegmentState, segment_state
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
     from softshadow.pipeline.fast.shown_depths import draw_shown_depths, shows_depths
     from softshadow.pipeline.fast.shown_rectangles import is_shown, show_rectangle
-    from softshadow.pipeline.fast.span_state import SpanState
     from softshadow.pipeline.fast.stencil_tiles import shared_tiles_kernel, tiles_kernel
     from softshadow.pipeline.fast.unordered_blend import triangles_without_overlaps
     from softshadow.pipeline.fast.visibility_cache import FillInputs, cached_fill, is_repeated
@@ -136,7 +137,7 @@ class Plan(NamedTuple):
     front: FragmentOps
     back: FragmentOps
     path: DrawPath
-    numbers: list[SpanState]
+    numbers: list[SegmentState]
     in_chunks: bool = False
     cached_fill: Callable[..., tuple[Spans, bool]] | None = None
     remember_surface: Callable[..., None] | None = None
@@ -383,7 +384,7 @@ def choose_forward(
     )
     if not plan.forward or not (plan.in_order or is_small or (hides_little and _short_cuts.get() is True)):
         return None
-    numbers = forward_state(state, target, geometry, plan.numbers)
+    numbers = segment_state(state, plan.front, plan.back, target, geometry, geometry.program.units, plan.numbers)
     if numbers is None or not _are_compiled(fragments):
         return None
     if not (plan.in_order or is_small):
@@ -392,7 +393,16 @@ def choose_forward(
         if is_repeated(FillInputs(plan.front, plan.back, geometry.triangles, region, depth_range), target, storage):
             return None
     plan.path.fill, plan.path.shading = "span by span", "fixed-function kernel"
-    return lambda: draw_forward(numbers, plan.front, plan.back, state, target, geometry, region, fragments)
+    return lambda: draw_forward(numbers, state, target, geometry, region, fragments)
+
+
+def joins_others(plan: Plan, state: State, target: Framebuffer, part: Part) -> SegmentState | None:
+    """Return the fragment state of a small segment that is drawn with others (`fast.segment_groups`), or None."""
+    is_small = 0 <= part.fragments <= FEW_FRAGMENTS and part.end - part.first < MANY_TRIANGLES
+    if not plan.forward or not is_small:
+        return None
+    numbers = segment_state(state, plan.front, plan.back, target, part.batch, part.program.units, plan.numbers)
+    return numbers if numbers is not None and _are_compiled(part.fragments) else None
 
 
 def choose_shading(plan: Plan, state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None]:

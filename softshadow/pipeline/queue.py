@@ -16,16 +16,26 @@ import numpy as np
 
 from softshadow import pipeline
 from softshadow.framebuffer import Framebuffer, Storage
-from softshadow.pipeline.choose import MOST_DRAWS, MOST_VERTICES, SHORT_CUTS_EXIST, Plan, begin_run, may_wait, plan_draw
+from softshadow.pipeline.choose import (
+    MOST_DRAWS,
+    MOST_VERTICES,
+    SHORT_CUTS_EXIST,
+    Plan,
+    begin_run,
+    joins_others,
+    may_wait,
+    plan_draw,
+)
 from softshadow.pipeline.commands import Draw
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
     from softshadow.pipeline.fast.batch.geometry import WORTH_COMPARING, Setting, geometry_of, setting_of
     from softshadow.pipeline.fast.batch.run import Run, key_of, width_of
-    from softshadow.pipeline.fast.batch.segments import Part, cut, geometry_key
+    from softshadow.pipeline.fast.batch.segments import Part, cut, geometry_key, whole
     from softshadow.pipeline.fast.batch.table import BATCH_KERNELS
     from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL
+    from softshadow.pipeline.fast.segment_groups import Group
 except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
     pass
 
@@ -159,14 +169,36 @@ class DrawQueue:
             return
         self._kind, self._batches, self._segments = None, {}, []
         self._n_draws, self._n_vertices, self._are_small = 0, 0, True
-        storage = self._storage
         with np.errstate(all="ignore"):  # as in pipeline.draw
             parts = self._parts(batches, segments)
             BATCH_KERNELS.note_compiled()
-            for segment, (geometry, fragments) in zip(segments, parts, strict=True):
-                command = segment.kind.run.command
-                target = storage.framebuffers[command.state.draw_framebuffer]
-                pipeline.draw_geometry(segment.kind.plan, command, target, storage, geometry, fragments=fragments)
+            group: Group | None = None
+            for segment, part in zip(segments, parts, strict=True):
+                if part.end > part.first:
+                    group = self._draw_segment(segment.kind, part, group)
+            if group:
+                group.draw()
+
+    def _draw_segment(self, kind: Kind, part: Part, group: Group | None) -> Group | None:
+        """Draw the triangles of a segment, or add them to a group, which may be a new one; return the group.
+
+        The draws of a group that has been drawn, or could not take them, come first.
+        """
+        plan, command, storage = kind.plan, kind.run.command, self._storage
+        state, target = command.state, storage.framebuffers[command.state.draw_framebuffer]
+        numbers = joins_others(plan, state, target, part)
+        if numbers is None:
+            if group:
+                group.draw()
+            pipeline.draw_geometry(plan, command, target, storage, part.geometry(), fragments=part.fragments)
+            return None
+        if group and group.takes(state, numbers, part, target):
+            return group
+        if group:
+            group.draw()
+        group = Group(target, storage, len(part.batch.flat))
+        group.takes(state, numbers, part, target)
+        return group
 
     def _parts(self, batches: dict[Hashable, list[Draw]], segments: list[Segment]) -> list[Part]:
         """Return the triangles of each segment."""
@@ -179,7 +211,7 @@ class DrawQueue:
             target = self._storage.framebuffers[kind.run.state.draw_framebuffer]
             geometry, fragments = geometry_of(kind.run, kind.setting, draws, target, self._storage)
             if len(own) == 1:
-                parts[id(own[0])] = Part(geometry, fragments)
+                parts[id(own[0])] = whole(geometry, fragments)
                 continue
             firsts, settings = [segment.first for segment in own], [segment.kind.setting for segment in own]
             parts.update(zip(map(id, own), cut(geometry, draws, firsts, settings), strict=True))

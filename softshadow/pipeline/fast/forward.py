@@ -1,27 +1,24 @@
 """Triangles in drawing order; equals `raster.ordered.process_fragments`, see fast/test_forward.py.
 
 For draws whose colours depend on the order of their fragments, and for small opaque ones: no fragment is listed, and no
-buffer of triangle numbers is searched for spans. The triangles are tested row by row, one after the other; the spans
-that pass are shaded and written in the same order.
+buffer of triangle numbers is searched for spans. A draw is one segment (`segment_rows`); consecutive small draws are
+drawn together (`segment_groups`).
 """
 
 from __future__ import annotations
 
 import threading
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 
 from softshadow.framebuffer import Framebuffer
-from softshadow.pipeline.fast.fixed_function_spans import NO_DEPTH, NO_STENCIL, covered_state, shade_spans
 from softshadow.pipeline.fast.fragment_block import block_memory
-from softshadow.pipeline.fast.span_state import NEEDED, SpanState, with_texels
-from softshadow.pipeline.fast.span_tests import alpha_tests, collect_passing_spans, span_tests
-from softshadow.pipeline.fast.special_fragments import NO_SPECIAL, discards_some, needed_places, special_numbers
+from softshadow.pipeline.fast.segment_rows import draw_segments
+from softshadow.pipeline.fast.segment_tables import NO_DEPTH, NO_STENCIL, SegmentState, padded_textures, texels_of_units
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share, threads
 from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, few_bands, triangles_in_bands
-from softshadow.pipeline.raster.fragment_ops import ALWAYS, FragmentOps
 from softshadow.pipeline.raster.region import depth_range_of
 from softshadow.pipeline.records import Geometry, Region, Setup, Spans
 from softshadow.pipeline.shade.interpolate import AttributePlanes, attribute_planes
@@ -35,8 +32,6 @@ WORTH_BANDS = 30_000  # fragments from which bands of rows pay for several threa
 SMALL_TRIANGLE = 40  # fragments that take as long as a small triangle
 STENCIL_TESTED = 8  # if the stencil test can fail: fragments that fail take an eighth of the time
 
-Numbers = tuple[Any, ...]  # arguments of kernels
-
 
 class _SpanLists(threading.local):
     """The memory of collected spans, for each thread."""
@@ -47,81 +42,89 @@ class _SpanLists(threading.local):
 
 
 _lists = _SpanLists()
-_in_order = np.arange(TRIANGLES, dtype=np.int32)
+in_order = np.arange(TRIANGLES, dtype=np.int32)
 
 
-def forward_state(state: State, target: Framebuffer, geometry: Geometry, known: list[SpanState]) -> SpanState | None:
-    """Return the numbers of the fragment state for `draw_forward`, or None where it cannot draw.
+class Segments(NamedTuple):
+    """Segments to draw, and what all of them have in common.
 
-    `known` keeps the numbers of a plan, of which only the contents of textures can change.
+    table (S, 10) int32: columns as in `segment_tables`; ranges (S, 2) float32: what depths are clamped to; flats (g, k)
+    bool: which columns are not interpolated; states: of `state_tables`; textures: of `padded_textures`; depth, stencil,
+    pixels: the buffers; region: where any of the segments may write; work: about how many fragments they have.
     """
-    if known:
-        return with_texels(known[0], geometry.program.units or [])
-    depth = target.depth
-    if depth is not None and depth.format.dtype != np.float32:
-        return None
-    numbers = covered_state(state, target, geometry)
-    if numbers is not None:
-        known.append(numbers)
-    return numbers
+
+    table: np.ndarray
+    ranges: np.ndarray
+    flats: np.ndarray
+    states: tuple[np.ndarray, ...]
+    textures: tuple[np.ndarray, ...]
+    depth: np.ndarray
+    stencil: np.ndarray
+    pixels: np.ndarray
+    region: Region
+    work: int
+
+    @property
+    def pay_bands(self) -> bool:
+        """Whether several threads share bands of rows."""
+        rows = self.region.end_row - self.region.first_row
+        return threads() > 1 and self.work >= WORTH_BANDS and rows > 1 << BAND_ROWS_LOG2
 
 
 def draw_forward(
-    numbers: SpanState,
-    front: FragmentOps,
-    back: FragmentOps,
-    state: State,
-    target: Framebuffer,
-    geometry: Geometry,
-    region: Region,
-    fragments: int = 0,
+    numbers: SegmentState, state: State, target: Framebuffer, geometry: Geometry, region: Region, fragments: int = 0
 ) -> None:
     """Draw the triangles of a geometry in drawing order: tests, colours, blending and writes.
 
     Parameters
     ----------
-    numbers : of `forward_state`
-    front, back : the per-fragment operations of each facing
+    numbers : of `segment_tables.segment_state`
     fragments : about how many fragments there are; many are shared by several threads in bands of rows
     """
     if region.first_row >= region.end_row:
         return
-    depth, stencil, writes = target.depth, target.stencil, front.depth_write or back.depth_write
-    buffers = (
-        *depth_range_of(state, np.float32), NO_DEPTH if depth is None else depth.cells if writes else depth.read_cells,
-        NO_STENCIL if stencil is None else stencil.cells,
+    count, textures = len(geometry.triangles.ids), texels_of_units(geometry.program.units)
+    row = 0, 0, 0, count, region.left, region.right, region.first_row, region.end_row, 0, 1
+    segments = Segments(
+        np.array([row], np.int32), np.array([depth_range_of(state, np.float32)], np.float32), np.array([geometry.flat]),
+        numbers.tables, padded_textures(textures), *buffers_of(target, numbers.writes_depth), region,
+        work_of(numbers, fragments, count),
     )  # fmt: skip
-    special, switches = special_numbers(geometry), numbers.switches
-    if discards_some(special) and not front.alpha_test:  # they are left out with those that fail the alpha test
-        front, back = (ops._replace(alpha_test=1, alpha_func=ALWAYS) for ops in (front, back))
-    if special is not NO_SPECIAL:
-        switches = switches.copy()
-        switches[NEEDED] |= needed_places(special)
-    tests, later_tests = (*span_tests(front, back), *buffers), (*alpha_tests(front, back), *buffers)
-    pixels = target.colors[0].cells.view(np.int32)[..., 0]
-    colors = (geometry.flat, switches, numbers.numbers, *numbers.texels, special, pixels)
-    tests_stencil = front.stencil_test or back.stencil_test
-    work = fragments // (STENCIL_TESTED if tests_stencil else 1) + SMALL_TRIANGLE * len(geometry.triangles.ids)
-    for begin in range(0, len(geometry.triangles.ids), TRIANGLES):
+    for begin in range(0, count, TRIANGLES):
         triangles = geometry.triangles
-        if len(triangles.ids) > TRIANGLES:
+        if count > TRIANGLES:
             triangles = Setup(*(array[begin : begin + TRIANGLES] for array in triangles))
-        shared = triangles, _planes_of_all(geometry, triangles), region, tests, later_tests, colors
-        if threads() > 1 and work >= WORTH_BANDS and region.end_row - region.first_row > 1 << BAND_ROWS_LOG2:
-            _draw_in_bands(*shared)
+        planes = scratch((len(triangles.ids), 3, len(geometry.flat) + 1), np.float32)
+        write_planes(geometry, triangles, planes)
+        if segments.pay_bands:
+            _draw_in_bands(segments, triangles, planes)
         else:
-            _draw_rows(_in_order[: len(triangles.ids)], region.first_row, region.end_row, *shared)
+            draw_rows(segments, region.first_row, region.end_row, triangles, planes, in_order[: len(triangles.ids)])
 
 
-def _planes_of_all(geometry: Geometry, triangles: Setup) -> np.ndarray:
-    """Return the `interpolate.attribute_planes` of all triangles of a part of the geometry."""
+def buffers_of(target: Framebuffer, writes_depth: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return depth and stencil values and pixels; those that are missing have a stand-in."""
+    depth, stencil = target.depth, target.stencil
+    return (
+        NO_DEPTH if depth is None else depth.cells if writes_depth else depth.read_cells,
+        NO_STENCIL if stencil is None else stencil.cells,
+        target.colors[0].cells.view(np.int32)[..., 0],
+    )
+
+
+def work_of(numbers: SegmentState, fragments: int, n_triangles: int) -> int:
+    """Return how many fragments without stencil test take as long as these triangles, about."""
+    return fragments // (STENCIL_TESTED if numbers.tests_stencil else 1) + SMALL_TRIANGLE * n_triangles
+
+
+def write_planes(geometry: Geometry, triangles: Setup, planes: np.ndarray) -> None:
+    """Write the `interpolate.attribute_planes` of all triangles of a part of the geometry."""
     count, values, back = len(triangles.ids), geometry.values, geometry.back
-    planes = scratch((count, 3, values.shape[1] + 1), np.float32)
 
     def write_part(first: int, end: int) -> None:
         attribute_planes(
             geometry.window, values, values if back is None else back, triangles.vertices, triangles.front,
-            _in_order[first:end], geometry.flat, geometry.provoking, triangles.ids, planes[first:end],
+            in_order[first:end], geometry.flat, geometry.provoking, triangles.ids, planes[first:end],
         )  # fmt: skip
 
     if count < 2 * PLANES:  # most draws: no time to look for threads
@@ -131,32 +134,27 @@ def _planes_of_all(geometry: Geometry, triangles: Setup) -> np.ndarray:
         share(lambda n: write_part(*parts[n]), len(parts))
     if geometry.sprites is not None:
         part = geometry._replace(triangles=triangles)
-        write_sprite_planes(part, geometry.sprites, AttributePlanes(planes, _in_order[:count]))
-    return planes
+        write_sprite_planes(part, geometry.sprites, AttributePlanes(planes, in_order[:count]))
 
 
-def _draw_in_bands(triangles: Setup, planes: np.ndarray, region: Region, *numbers: Numbers) -> None:
-    """Draw the triangles in bands of rows, which several threads share."""
+def _draw_in_bands(segments: Segments, triangles: Setup, planes: np.ndarray) -> None:
+    """Draw the triangles of one segment in bands of rows, which several threads share."""
+    region = segments.region
     bands = triangles_in_bands(triangles.corners, [(0, len(triangles.ids))], region, few_bands(region))
 
     def draw_band(n: int) -> None:
-        _draw_rows(*bands[n], triangles, planes, region, *numbers)
+        draw_rows(segments, bands[n].first_row, bands[n].end_row, triangles, planes, bands[n].numbers)
 
     share(draw_band, len(bands))
 
 
-def _draw_rows(
-    order: np.ndarray, first_row: int, end_row: int, triangles: Setup, planes: np.ndarray, region: Region,
-    tests: Numbers, later_tests: Numbers, colors: Numbers,
-) -> None:  # fmt: skip
-    """Draw the triangles with the numbers `order` (n,) into the rows [first_row, end_row)."""
-    corners, depth_planes, faces_front = triangles.corners, triangles.depth, triangles.front
-    spans, memory, columns, m, row = _lists.spans, block_memory.arrays, np.empty((2, end_row), np.int32), 0, first_row
-    while m < len(order):
-        m, row, n_spans = collect_passing_spans(
-            order, m, row, region.left, region.right, first_row, end_row, region.downwards, corners, depth_planes,
-            faces_front, *tests, *spans, *memory[:2], *columns,
-        )  # fmt: skip
-        shade_spans(
-            planes, _in_order, *spans, n_spans, True, *colors, depth_planes, faces_front, *later_tests, *memory
-        )  # fmt: skip
+def draw_rows(
+    segments: Segments, first_row: int, end_row: int, triangles: Setup, planes: np.ndarray, order: np.ndarray
+) -> None:
+    """Draw the segments into the rows [first_row, end_row); they divide the numbers of triangles `order` (n,)."""
+    draw_segments(
+        segments.table, segments.ranges, order, first_row, end_row, segments.region.downwards, triangles.corners,
+        triangles.depth, triangles.front, planes, in_order, segments.flats, *segments.states, segments.textures,
+        segments.pixels, segments.depth, segments.stencil, *_lists.spans, *np.empty((2, end_row), np.int32),
+        *block_memory.arrays,
+    )  # fmt: skip

@@ -16,7 +16,7 @@ from softshadow import tokens as gl
 from softshadow.image import Format
 from softshadow.pipeline.fast.combine_numbers import CONSTANT_COLOR, write_combine
 from softshadow.pipeline.fast.fragment_block import COLUMNS, OTHER_TEXEL, PRIMARY, SIZE, TEXEL
-from softshadow.pipeline.fast.span_texels import LEVELS, level_offsets, texels_of
+from softshadow.pipeline.fast.span_texels import LEVELS, level_offsets
 from softshadow.pipeline.shade.blend import FOUR_BYTES, BlendOps, blend_ops
 from softshadow.pixels import LARGEST_UINT
 from softshadow.programs.box_filtering import box_wraps
@@ -59,21 +59,12 @@ COMPARISONS = {
     gl.GL_NEVER: 0, gl.GL_LESS: 1, gl.GL_EQUAL: 2, gl.GL_LEQUAL: 3, gl.GL_GREATER: 4, gl.GL_NOTEQUAL: 13,
     gl.GL_GEQUAL: 6, gl.GL_ALWAYS: 15,
 }  # fmt: skip
-NO_TEXTURES = (np.zeros(1, np.int32),) * UNITS
 ON_FACES = (gl.GL_CLAMP_TO_EDGE, gl.GL_CLAMP_TO_EDGE)  # the wrap codes of all cube maps
 RGB, ALPHA = 0x00FFFFFF, 0xFF000000
 
 
-class SpanState(NamedTuple):
-    """The state of the fragment stage: switches int64, numbers float32, the texels (n,) int32 of two units."""
-
-    switches: np.ndarray
-    numbers: np.ndarray
-    texels: tuple[np.ndarray, ...]
-
-
 class StateNumbers(NamedTuple):
-    """What depends on the state and the samplers only, not on the images."""
+    """The state of the fragment stage and its samplers: switches int64, numbers float32."""
 
     switches: np.ndarray
     numbers: np.ndarray
@@ -83,7 +74,7 @@ _numbers: dict[object, StateNumbers | None] = {}  # by all that they depend on
 KEPT = 256
 
 
-def span_state(state: State, units: list[Unit], color: Format | None, columns: int) -> SpanState | None:
+def span_state(state: State, units: list[Unit], color: Format | None, columns: int) -> StateNumbers | None:
     """Return the numbers of a fixed-function state, or None where it is not covered.
 
     Parameters
@@ -101,14 +92,7 @@ def span_state(state: State, units: list[Unit], color: Format | None, columns: i
         if len(_numbers) >= KEPT:
             _numbers.clear()
         _numbers[key] = _state_numbers(state, units, color)
-    known = _numbers[key]
-    return None if known is None else with_texels(SpanState(*known, NO_TEXTURES), units)
-
-
-def with_texels(numbers: SpanState, units: list[Unit]) -> SpanState:
-    """Return the numbers with the present texels of the units."""
-    texels = [texels_of(unit.texture) for unit in units]
-    return numbers._replace(texels=(*texels, *NO_TEXTURES[len(texels) :])) if texels else numbers
+    return _numbers[key]
 
 
 def is_covered(color: Format) -> bool:

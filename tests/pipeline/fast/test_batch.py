@@ -17,6 +17,7 @@ from softshadow.pipeline.fast.batch import geometry
 from softshadow.pipeline.fast.batch.geometry import Setting
 from softshadow.pipeline.fast.batch.matrices import invert
 from softshadow.pipeline.fast.batch.run import Run
+from softshadow.pipeline.fast.batch.segments import Part
 from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.memory import threads as pool
 from softshadow.pipeline.records import Geometry
@@ -338,19 +339,19 @@ def test_many_small_draws_are_one_run(monkeypatch):
 
 
 def test_small_draws_between_changes_of_tests_are_one_batch(monkeypatch):
-    batches, segments, drawn = [], [], queue.pipeline.draw_geometry
-    geometry_of = queue.geometry_of
+    batches, segments = [], []
+    geometry_of, draw_segment = queue.geometry_of, queue.DrawQueue._draw_segment
 
     def note_batch(run: Run, setting: Setting, draws: list[Draw], *rest: Any) -> tuple[Geometry, int]:
         batches.append(len(draws))
         return geometry_of(run, setting, draws, *rest)
 
-    def note_segment(plan: Any, command: Draw, target: Any, storage: Any, geometry: Geometry, **more: Any) -> None:
-        segments.append(len(geometry.triangles.ids))
-        drawn(plan, command, target, storage, geometry, **more)
+    def note_segment(waiting: queue.DrawQueue, kind: queue.Kind, part: Part, group: Any) -> Any:
+        segments.append(part.end - part.first)
+        return draw_segment(waiting, kind, part, group)
 
     monkeypatch.setattr(queue, "geometry_of", note_batch)
-    monkeypatch.setattr(queue.pipeline, "draw_geometry", note_segment)
+    monkeypatch.setattr(queue.DrawQueue, "_draw_segment", note_segment)
     gl.create_context(SIZE, SIZE)
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
     gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.eye(3, dtype=np.float32))

@@ -14,7 +14,7 @@ from softshadow.pipeline import choose, explain_paths, use_short_cuts
 
 @pytest.fixture(autouse=True)
 def _not_forward(monkeypatch):
-    monkeypatch.setattr(choose, "forward_state", lambda *arguments: None)  # which the fixed function would take
+    monkeypatch.setattr(choose, "segment_state", lambda *arguments: None)  # which the fixed function would take
 
 
 @given(

@@ -7,8 +7,8 @@ filled and shaded under one state, one after the other.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
-from typing import NamedTuple
+from collections.abc import Hashable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from softshadow.pipeline.fast.batch.geometry import Setting
 from softshadow.pipeline.fast.batch.run import Run, geometry_structure
 from softshadow.pipeline.raster.coverage import extent
 from softshadow.pipeline.records import Geometry, Setup
+from softshadow.programs import Program
 
 
 def geometry_key(run: Run, setting: Setting) -> Hashable:
@@ -29,10 +30,30 @@ def geometry_key(run: Run, setting: Setting) -> Hashable:
 
 
 class Part(NamedTuple):
-    """The triangles of a segment, and about how many fragments they have."""
+    """The triangles [first, end) of a batch, which are those of a segment.
 
-    geometry: Geometry
+    program, uniforms: what shades them; fragments: about how many they have, -1 if that is not known.
+    """
+
+    batch: Geometry
+    first: int
+    end: int
+    program: Program
+    uniforms: Mapping[str, Any]
     fragments: int
+
+    def geometry(self) -> Geometry:
+        """Return the triangles on their own."""
+        batch = self.batch
+        if self.end - self.first == len(batch.triangles.ids):
+            return batch._replace(program=self.program, uniforms=self.uniforms)
+        own = Setup(*[array[self.first : self.end] for array in batch.triangles])
+        return batch._replace(triangles=own, program=self.program, uniforms=self.uniforms)
+
+
+def whole(batch: Geometry, fragments: int) -> Part:
+    """Return the only segment of a batch."""
+    return Part(batch, 0, len(batch.triangles.ids), batch.program, batch.uniforms, fragments)
 
 
 def cut(geometry: Geometry, draws: Sequence[Draw], firsts: Sequence[int], settings: Sequence[Setting]) -> list[Part]:
@@ -51,11 +72,11 @@ def cut(geometry: Geometry, draws: Sequence[Draw], firsts: Sequence[int], settin
     bounds = np.searchsorted(segments, np.arange(len(starts) + 1))
     areas = np.empty(len(starts), np.int64)
     write_areas(triangles.corners, bounds, areas)
-    parts = []
-    for setting, first, end, area in zip(settings, bounds.tolist(), bounds[1:].tolist(), areas.tolist(), strict=False):
-        own = Setup(*[array[first:end] for array in triangles])
-        parts.append(Part(geometry._replace(triangles=own, program=setting.program, uniforms=setting.uniforms), area))
-    return parts
+    ends, sizes = bounds[1:].tolist(), areas.tolist()
+    return [
+        Part(geometry, first, end, setting.program, setting.uniforms, area)
+        for setting, first, end, area in zip(settings, bounds.tolist(), ends, sizes, strict=False)
+    ]
 
 
 @kernel

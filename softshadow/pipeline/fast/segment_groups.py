@@ -1,0 +1,162 @@
+"""Consecutive small draws, drawn together; equals `raster.ordered.process_fragments`, see fast/test_segments.py.
+
+A program that binds a texture or moves the scissor box between small draws makes segments of a few triangles. To begin
+one costs more than its fragments, so consecutive ones are drawn by one call of a kernel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.pipeline.fast.batch.segments import Part
+from softshadow.pipeline.fast.drawn_surfaces import Watch
+from softshadow.pipeline.fast.forward import (
+    TRIANGLES,
+    Segments,
+    buffers_of,
+    draw_rows,
+    in_order,
+    work_of,
+    write_planes,
+)
+from softshadow.pipeline.fast.segment_tables import (
+    END,
+    END_ROW,
+    FIRST,
+    FIRST_ROW,
+    FLATS,
+    LEFT,
+    RIGHT,
+    TEXTURES,
+    SegmentState,
+    padded_textures,
+    state_tables,
+)
+from softshadow.pipeline.fast.span_state import UNITS
+from softshadow.pipeline.fast.span_texels import texels_of
+from softshadow.pipeline.memory.scratch import scratch
+from softshadow.pipeline.memory.threads import share
+from softshadow.pipeline.raster.bins import bands_of, few_bands, rows_of_band
+from softshadow.pipeline.raster.region import depth_range_of, region_of
+from softshadow.pipeline.records import DepthRange, Geometry, Region, Setup
+from softshadow.state import State
+from softshadow.texture import Texture
+
+SEGMENTS = 1 << 10  # of one group
+
+
+@dataclass(slots=True)
+class Triangles:
+    """Triangles [first, end) of a batch, which has a `place` among those of a group."""
+
+    place: int
+    batch: Geometry
+    first: int
+    end: int
+
+
+class Group:
+    """Consecutive small draws to one framebuffer.
+
+    Parameters
+    ----------
+    target : Framebuffer     that they are drawn to, in this storage
+    columns : int            how many values they interpolate
+    """
+
+    def __init__(self, target: Framebuffer, storage: Storage, columns: int) -> None:
+        self._target, self._storage, self._columns = target, storage, columns
+        self._rows: list[tuple[int, ...]] = []  # of the table of segments, with places in batches
+        self._ranges: list[DepthRange] = []
+        self._states: dict[int, tuple[int, SegmentState]] = {}  # with their places, by identity
+        self._batches: dict[int, Triangles] = {}  # in use, by the identity of the batch
+        self._textures: dict[int, tuple[int, np.ndarray]] = {}  # texels with their places, by the texture's identity
+        self._regions: dict[tuple[int, ...], Region] = {}  # by the identity of what they depend on
+        self._n_triangles, self._work = 0, 0
+
+    def takes(self, state: State, numbers: SegmentState, part: Part, target: Framebuffer) -> bool:
+        """Add a draw and return True; return False where it belongs to another group."""
+        count, units = part.end - part.first, part.program.units or []
+        new = [unit for unit in units if id(unit.texture) not in self._textures]
+        if self._rows and (
+            target is not self._target
+            or len(part.batch.flat) != self._columns
+            or self._n_triangles + count > TRIANGLES
+            or len(self._textures) + len(new) >= TEXTURES  # one place is left for units that are not in use
+            or len(self._rows) == SEGMENTS
+        ):
+            return False
+        used = [self._place_of(unit.texture) for unit in units]
+        used += [TEXTURES - 1] * (UNITS - len(used))
+        k, _ = self._states.setdefault(id(numbers), (len(self._states), numbers))
+        triangles = self._batches.get(id(part.batch))
+        if triangles is None:
+            triangles = self._batches[id(part.batch)] = Triangles(len(self._batches), part.batch, part.first, part.end)
+        triangles.end = part.end
+        region = self._region_of(state)
+        self._rows.append((k, triangles.place, part.first, part.end, *region[:4], *used))
+        self._ranges.append(depth_range_of(state, np.float32))
+        self._n_triangles += count
+        self._work += work_of(numbers, part.fragments, count)
+        return True
+
+    def _place_of(self, texture: Texture) -> int:
+        if id(texture) not in self._textures:
+            self._textures[id(texture)] = len(self._textures), texels_of(texture)
+        return self._textures[id(texture)][0]
+
+    def _region_of(self, state: State) -> Region:
+        key = id(state.scissor), id(state.points), id(state.viewport)
+        if key not in self._regions:
+            self._regions[key] = region_of(state, self._target)
+        return self._regions[key]
+
+    def draw(self) -> None:
+        """Draw them in their order."""
+        lessens = all(numbers.only_lessens for _, numbers in self._states.values())
+        watch = Watch(self._target, self._storage) if lessens else None
+        self._draw()
+        if watch:
+            watch.note_drawn()
+
+    def _draw(self) -> None:
+        triangles, planes = self._joined()
+        segments = self._segments()
+        region, order = segments.region, in_order[: self._n_triangles]
+        if not segments.pay_bands:
+            draw_rows(segments, region.first_row, region.end_row, triangles, planes, order)
+            return
+        rows_log2 = few_bands(region)
+
+        def draw_band(n: int) -> None:
+            draw_rows(segments, *rows_of_band(n, region, rows_log2), triangles, planes, order)
+
+        share(draw_band, bands_of(region, rows_log2))
+
+    def _segments(self) -> Segments:
+        batches, table = list(self._batches.values()), np.array(self._rows, np.int32)
+        starts = np.cumsum([0, *[each.end - each.first for each in batches]])
+        shifts = np.array([start - each.first for start, each in zip(starts, batches, strict=False)], np.int32)
+        table[:, FIRST : END + 1] += shifts[table[:, FLATS], None]
+        states = [numbers for _, numbers in self._states.values()]
+        textures = [texels for _, texels in self._textures.values()]
+        buffers = buffers_of(self._target, any(numbers.writes_depth for numbers in states))
+        rows = int(table[:, FIRST_ROW].min()), int(table[:, END_ROW].max())
+        region = Region(int(table[:, LEFT].min()), int(table[:, RIGHT].max()), *rows, int(self._target.flipped))
+        return Segments(
+            table, np.array(self._ranges, np.float32), np.array([each.batch.flat for each in batches]),
+            state_tables(states), padded_textures(textures), *buffers, region, self._work,
+        )  # fmt: skip
+
+    def _joined(self) -> tuple[Setup, np.ndarray]:
+        """Return the triangles of all batches, one after the other, and the planes of their values."""
+        planes, first, parts = scratch((self._n_triangles, 3, self._columns + 1), np.float32), 0, []
+        for each in self._batches.values():
+            own = Setup(*[array[each.first : each.end] for array in each.batch.triangles])
+            write_planes(each.batch, own, planes[first : first + len(own.ids)])
+            first += len(own.ids)
+            parts.append(own)
+        return (parts[0] if len(parts) == 1 else Setup(*map(np.concatenate, zip(*parts, strict=True)))), planes
