@@ -7,6 +7,7 @@ from typing import Any
 
 from softshadow import tokens as gl
 from softshadow.context import Context, current, thread
+from softshadow.context.current_values import MATERIALS
 from softshadow.gl.calls import in_lists, record, spelled_like_gl
 from softshadow.gl.conversions import as_floats, as_ints, first, from_int, nearest_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
@@ -29,6 +30,10 @@ NAMES = {  # of the attributes, by side and field
     for side in SIDES[gl.GL_FRONT_AND_BACK]
 }
 LARGEST_SHININESS = 128
+# by face, what glMaterialf changes: groups of the state, and names of the attributes
+SHININESS = {
+    face: [(MATERIALS[side], NAMES[side]["shininess"]) for side in sides] for face, sides in SIDES.items()
+}
 
 
 @in_lists
@@ -71,7 +76,16 @@ def glMaterialf(face: int, pname: int, param: float) -> None:
     if context.compiled_list is not None:
         record(context, glMaterialf, face, pname, param)
     elif pname == gl.GL_SHININESS and face in SIDES and 0 <= param <= LARGEST_SHININESS:
-        set_material(context, face, {"shininess": rounded_number(context, param)})
+        value, old_values, buffer = rounded_number(context, param), context.pending.old_values, context.vertex_buffer
+        if context.primitive is not None or context.state_groups.followed is not None:
+            set_material(context, face, {"shininess": value})
+            return
+        for group, name in SHININESS[face]:  # `set_material` in half the time: no shininess follows a colour
+            if not (name in old_values and buffer.sizes.get(name) == buffer.active_sizes.get(name) == 1):
+                carry_attribute(context, name, 1)
+            material = context.groups[group]
+            material.fields["shininess"] = value
+            context.changed.add(material)
     elif is_one_of("glMaterialf", "pname", pname, (gl.GL_SHININESS,), "GL_SHININESS") and is_one_of(
         "glMaterialf", "face", face, FACES, A_FACE
     ):

@@ -162,7 +162,7 @@ def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
                                 inside = (column >= left) & (column < right)
                                 hit = (depth_passes(depth_test, z, stored) != 0) & inside
                                 tied = ties[np.uint64(k)]
-                                ties[np.uint64(k)] = np.int32(tied | np.int32(inside & (z == stored)))
+                                ties[np.uint64(k)] = max(tied, np.int32(inside & (z == stored)))
                             number = triangle if before == NO_TRIANGLE else repeated
                             depth[j, i] = z if hit & writes_depth else stored
                             ids[id_j, i] = number if hit else before

@@ -134,7 +134,7 @@ def fill_small(
                             outside = outside_edges(at0, at1, at2, across0, across1, across2, np.int32(k))
                             hit = np.int32(depth_passes(depth_test, z, stored) & ~outside) != 0
                             tied = ties[np.uint64(k)]
-                            ties[np.uint64(k)] = np.int32(tied | np.int32((-1 if z == stored else 0) & ~outside))
+                            ties[np.uint64(k)] = max(tied, np.int32((1 if z == stored else 0) & ~outside))
                         number = triangle if before == NO_TRIANGLE else repeated
                         depth[j, i] = z if hit & writes_depth else stored
                         ids[id_j, i] = number if hit else before
