@@ -31,9 +31,7 @@ NAMES = {  # of the attributes, by side and field
 }
 LARGEST_SHININESS = 128
 # by face, what glMaterialf changes: groups of the state, and names of the attributes
-SHININESS = {
-    face: [(MATERIALS[side], NAMES[side]["shininess"]) for side in sides] for face, sides in SIDES.items()
-}
+SHININESS = {face: [(MATERIALS[side], NAMES[side]["shininess"]) for side in sides] for face, sides in SIDES.items()}
 
 
 @in_lists

@@ -4,6 +4,10 @@ The textbook asks at every pixel what the state is. Here the state is numbers (`
 filled in chunks of 32 columns by a few loops without branches. Depths are tested in floats, 16 to a vector, stencil
 values in bytes, 32 to a vector; between the two loops, the results of the depth test are bytes. Columns outside the
 triangle are masked out: their stored values are written back.
+
+Of the first store of a loop, if it writes a new or the stored value, the compiler makes a masked store, which takes AMD
+processors a dozen cycles. So each loop first writes numbers that are neither: whether depths were equal, as a maximum,
+or, only for this, which fragments pass.
 """
 
 from typing import Any
@@ -114,7 +118,7 @@ def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
             row_spans(corners, t, first, end, region.downwards, region.left, region.right, lefts, rights)
             z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
             f = np.uint64(faces[t])
-            depth_test, writes_depth = depth_test_of(ops, f), ops[f, DEPTH_WRITE] != 0
+            depth_test, writes_depth = depth_test_of(ops, f), np.int32(-1 if ops[f, DEPTH_WRITE] else 0)
             if tests_stencil:
                 stencil_test, ref, read = stencil_test_of(byte_ops, f), byte_ops[f, REF], byte_ops[f, READ]
                 write, most = byte_ops[f, WRITE], byte_ops[f, LARGEST]
@@ -131,8 +135,9 @@ def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
                 if tests_stencil:
                     # for the whole row: bytes read right after they were written in other portions would have to wait
                     for at in range(start, right, CHUNK):
+                        start_at = np.float32(np.int32(at))
                         for k in range(CHUNK):
-                            i, column = np.uint64(at) + np.uint64(k), np.int32(np.int32(at) + np.int32(k))
+                            i, column = np.uint64(at) + np.uint64(k), start_at + np.float32(np.int32(k))
                             z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                             passed[i] = np.uint8(depth_passes(depth_test, z, depth[j, i]))
                     for at in range(start, right, CHUNK):
@@ -150,31 +155,37 @@ def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
                             stencil[j, i] = np.uint8(s ^ np.uint8(np.uint8(s ^ after) & np.uint8(write & inside)))
                             passed[i] = np.uint8(np.uint8(hit & inside) & allowed)
                 for at in range(start, right, CHUNK):
+                    start_at, begin, stop = np.float32(np.int32(at)), np.int32(left - at), np.int32(right - at)
                     if writes_ids:
                         id_j = np.uint64(row - region.first_row)
                         for k in range(CHUNK):
-                            i, column = np.uint64(at) + np.uint64(k), np.int32(np.int32(at) + np.int32(k))
+                            i, place = np.uint64(at) + np.uint64(k), np.int32(k)
+                            column = start_at + np.float32(place)
                             z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                             stored, before = depth[j, i], ids[id_j, i]
                             if tests_stencil:
-                                hit = passed[i] != 0
+                                hit = np.int32(-1 if passed[i] else 0)
+                                ties[np.uint64(k)] = hit
                             else:
-                                inside = (column >= left) & (column < right)
-                                hit = (depth_passes(depth_test, z, stored) != 0) & inside
-                                tied = ties[np.uint64(k)]
-                                ties[np.uint64(k)] = max(tied, np.int32(inside & (z == stored)))
+                                inside = np.int32(-1 if (place >= begin) & (place < stop) else 0)
+                                hit = np.int32(depth_passes(depth_test, z, stored) & inside)
+                                tied = np.int32((1 if z == stored else 0) & inside)
+                                ties[np.uint64(k)] = max(ties[np.uint64(k)], tied)
                             number = triangle if before == NO_TRIANGLE else repeated
-                            depth[j, i] = z if hit & writes_depth else stored
+                            depth[j, i] = z if np.int32(hit & writes_depth) else stored
                             ids[id_j, i] = number if hit else before
                     elif writes_depth:
                         for k in range(CHUNK):
-                            i, column = np.uint64(at) + np.uint64(k), np.int32(np.int32(at) + np.int32(k))
+                            i, place = np.uint64(at) + np.uint64(k), np.int32(k)
+                            column = start_at + np.float32(place)
                             z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                             stored = depth[j, i]
                             if tests_stencil:
-                                hit = passed[i] != 0
+                                hit = np.int32(-1 if passed[i] else 0)
                             else:
-                                hit = (depth_passes(depth_test, z, stored) != 0) & (column >= left) & (column < right)
+                                inside = np.int32(-1 if (place >= begin) & (place < stop) else 0)
+                                hit = np.int32(depth_passes(depth_test, z, stored) & inside)
+                            ties[np.uint64(k)] = hit
                             depth[j, i] = z if hit else stored
 
     return fill

@@ -205,8 +205,9 @@ def collect_passing(
             if length >= SHORT:
                 every = np.uint8(255)
                 if tests_depth:
+                    start_at = np.float32(np.int32(at))
                     for k in range(np.uint64(length)):
-                        column = np.int32(np.int32(at) + np.int32(k))
+                        column = start_at + np.float32(np.int32(k))
                         z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                         hits[k] = np.uint8(depth_passes(depth_test, z, depth[j, np.uint64(at) + k]))
                 else:
@@ -233,7 +234,8 @@ def collect_passing(
                         hit = hits[k] != 0
                     else:
                         if tests_depth:
-                            z = depth_of(z0, dz, dz_row, offset, np.int32(place), row_at, depth_range, largest)
+                            column = np.float32(np.int32(place))
+                            z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                             hit = depth_passes(depth_test, z, depth[j, i]) != 0
                         if tests_stencil:
                             hit = hit and stencil_passes(stencil_test, ref, np.uint8(stencil[j, i] & read)) != 0

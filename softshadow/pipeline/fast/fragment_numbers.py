@@ -151,8 +151,12 @@ def stencil_update_of(numbers, f, which):
 
 @kernel
 def depth_of(z0, dz, dz_row, offset, column, row, depth_range, largest):
-    """Return the depth of a plane at a pixel, in buffer units; `column` is an int32, `row` a float."""
-    return depth_units(depth_at(z0, dz, dz_row, offset, np.float32(column), row), depth_range, largest)
+    """Return the depth of a plane at a pixel, in buffer units; `column` and `row` are float32.
+
+    Loops over columns add two floats, the first column of a chunk and a place in it: they are exact, and a vector of
+    places stays in a register, while the compiler makes one of sums of integers number by number.
+    """
+    return depth_units(depth_at(z0, dz, dz_row, offset, column, row), depth_range, largest)
 
 
 @kernel

@@ -50,7 +50,7 @@ def fill_narrow(
                 column = np.int64(lefts[j]) + k
                 inside = column < rights[j]
                 i, row_at = np.uint64(min(column, last_column)), np.float32(np.int32(row))
-                z = depth_of(z0, dz, dz_row, offset, np.int32(column), row_at, depth_range, largest)
+                z = depth_of(z0, dz, dz_row, offset, np.float32(np.int32(column)), row_at, depth_range, largest)
                 s, hit = stencil[j, i], depth_passes(depth_test, z, depth[j, i]) != 0
                 after, other = updated(passing, s, most), updated(failing, s, most)
                 after = after if hit else other

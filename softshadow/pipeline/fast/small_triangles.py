@@ -85,7 +85,7 @@ def fill_small(
         x0, y0, x1, y1 = corners[t, 0], corners[t, 1], corners[t, 2], corners[t, 3]
         x2, y2 = corners[t, 4], corners[t, 5]
         f = np.uint64(faces[t])
-        depth_test, writes_depth = depth_test_of(ops, f), ops[f, DEPTH_WRITE] != 0
+        depth_test, writes_depth = depth_test_of(ops, f), np.int32(-1 if ops[f, DEPTH_WRITE] else 0)
         if tests_stencil:
             stencil_test, ref, read = stencil_test_of(byte_ops, f), byte_ops[f, REF], byte_ops[f, READ]
             write, most = byte_ops[f, WRITE], byte_ops[f, LARGEST]
@@ -100,7 +100,7 @@ def fill_small(
             n_columns = np.int32(HALF)
         while left < right:
             start = np.int32(min(left, pitch - n_columns))
-            x, y = np.int32(start << 8), np.int32(first << 8)
+            x, y, start_at = np.int32(start << 8), np.int32(first << 8), np.float32(start)
             at0, across0, along0 = edge_from(x0, y0, x1, y1, x, y, flip)
             at1, across1, along1 = edge_from(x1, y1, x2, y2, x, y, flip)
             at2, across2, along2 = edge_from(x2, y2, x0, y0, x, y, flip)
@@ -108,7 +108,7 @@ def fill_small(
                 j, row_at = np.uint64(row), np.float32(np.int32(row))
                 if tests_stencil:
                     for k in range(WIDEST):
-                        i, column = np.uint64(start) + np.uint64(k), np.int32(start + np.int32(k))
+                        i, column = np.uint64(start) + np.uint64(k), start_at + np.float32(np.int32(k))
                         z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                         outside = outside_edges(at0, at1, at2, across0, across1, across2, np.int32(k))
                         passed[np.uint64(k)] = np.uint8(depth_passes(depth_test, z, depth[j, i]))
@@ -125,29 +125,31 @@ def fill_small(
                 if writes_ids:
                     id_j = np.uint64(row - region.first_row)
                     for k in range(WIDEST):
-                        i, column = np.uint64(start) + np.uint64(k), np.int32(start + np.int32(k))
+                        i, column = np.uint64(start) + np.uint64(k), start_at + np.float32(np.int32(k))
                         z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                         stored, before = depth[j, i], ids[id_j, i]
                         if tests_stencil:
-                            hit = passed[np.uint64(k)] != 0
+                            hit = np.int32(-1 if passed[np.uint64(k)] else 0)
+                            ties[np.uint64(k)] = hit  # see `any_state`
                         else:
                             outside = outside_edges(at0, at1, at2, across0, across1, across2, np.int32(k))
-                            hit = np.int32(depth_passes(depth_test, z, stored) & ~outside) != 0
-                            tied = ties[np.uint64(k)]
-                            ties[np.uint64(k)] = max(tied, np.int32((1 if z == stored else 0) & ~outside))
+                            hit = np.int32(depth_passes(depth_test, z, stored) & ~outside)
+                            tied = np.int32((1 if z == stored else 0) & ~outside)
+                            ties[np.uint64(k)] = max(ties[np.uint64(k)], tied)  # see `any_state`
                         number = triangle if before == NO_TRIANGLE else repeated
-                        depth[j, i] = z if hit & writes_depth else stored
+                        depth[j, i] = z if np.int32(hit & writes_depth) else stored
                         ids[id_j, i] = number if hit else before
                 elif writes_depth:
                     for k in range(n_columns):
-                        i, column = np.uint64(start) + np.uint64(k), np.int32(start + np.int32(k))
+                        i, column = np.uint64(start) + np.uint64(k), start_at + np.float32(np.int32(k))
                         z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                         stored = depth[j, i]
                         if tests_stencil:
-                            hit = passed[np.uint64(k)] != 0
+                            hit = np.int32(-1 if passed[np.uint64(k)] else 0)
                         else:
                             outside = outside_edges(at0, at1, at2, across0, across1, across2, np.int32(k))
-                            hit = np.int32(depth_passes(depth_test, z, stored) & ~outside) != 0
+                            hit = np.int32(depth_passes(depth_test, z, stored) & ~outside)
+                        ties[np.uint64(k)] = hit  # see `any_state`
                         depth[j, i] = z if hit else stored
                 at0, at1, at2 = np.int32(at0 + along0), np.int32(at1 + along1), np.int32(at2 + along2)
             left += WIDEST

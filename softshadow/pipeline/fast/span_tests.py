@@ -22,6 +22,7 @@ from softshadow.pipeline.fast.fragment_block import (
     SPAN_LEFT,
     SPAN_ROW,
     SPAN_START,
+    W,
 )
 from softshadow.pipeline.fast.fragment_numbers import (
     DEPTH_WRITE,
@@ -198,18 +199,26 @@ def test_span(
         every &= whole[mask + n]
         some |= whole[mask + n]
     if numbers[f, DEPTH_WRITE] and some:
-        for n in range(length):
-            depth[j, first + n] = room[z + n] if whole[mask + n] else depth[j, first + n]
+        write_passing(j, first, length, depth, at, room, whole)
     return every != 0, some != 0
+
+
+@kernel
+def write_passing(j, first, length, depth, at, room, whole):
+    """Write the depths of the fragments where MASK is set to row `j`, from column `first` on."""
+    for n in range(length):
+        z = room[DEPTH + at + n] if whole[MASK + at + n] else depth[j, first + n]
+        room[W + at + n] = z  # not for its value: of a first store like the next, a masked one is made, see `any_state`
+        depth[j, first + n] = z
 
 
 @kernel
 def write_depths(planes, t, depth_range, largest, j, left, length, row, room):
     """Write the depths of fragments in row `j` of triangle `t`, in buffer units, from place `row` of the block on."""
     z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
-    row_at, shift = np.float32(np.int32(j)), np.int32(left)
+    row_at, start_at = np.float32(np.int32(j)), np.float32(np.int32(left))
     for n in range(length):
-        column = np.int32(np.int32(n) + shift)
+        column = start_at + np.float32(np.int32(n))
         room[row + n] = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
 
 
@@ -260,8 +269,7 @@ def test_depths_of_block(
         for n in range(length):
             whole[mask + n] &= depth_passes(depth_test, room[z + n], depth[j, first + n])
         if numbers[f, DEPTH_WRITE]:
-            for n in range(length):
-                depth[j, first + n] = room[z + n] if whole[mask + n] else depth[j, first + n]
+            write_passing(j, first, length, depth, start, room, whole)
 
 
 @kernel

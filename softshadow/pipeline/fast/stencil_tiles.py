@@ -225,14 +225,15 @@ def fill_in_tiles(
                             if lefts[j] >= at + CHUNK or rights[j] <= at:
                                 continue
                             place = np.uint64(((row - first_here) << COLUMNS_LOG2) + at - first_chunk)
+                            start_at = np.float32(np.int32(at))
                             if func == LESS:  # what nearly all shadow volumes use, in two thirds of the time
                                 for k in range(CHUNK):
-                                    i, column = np.uint64(at) + np.uint64(k), np.int32(np.int32(at) + np.int32(k))
+                                    i, column = np.uint64(at) + np.uint64(k), start_at + np.float32(np.int32(k))
                                     z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                                     passed[place + np.uint64(k)] = ALL if z < depth[j, i] else NONE
                                 continue
                             for k in range(CHUNK):
-                                i, column = np.uint64(at) + np.uint64(k), np.int32(np.int32(at) + np.int32(k))
+                                i, column = np.uint64(at) + np.uint64(k), start_at + np.float32(np.int32(k))
                                 z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                                 passed[place + np.uint64(k)] = np.uint8(depth_passes(depth_test, z, depth[j, i]))
                     for row in range(first_here, end_here):

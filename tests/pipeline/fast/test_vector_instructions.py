@@ -24,6 +24,7 @@ PACKED_FLOATS_COMPARED = re.compile(r"\bv?cmp\w*ps\b[^\n]*%[xyz]mm|\bv?(?:min|ma
 PACKED_BYTES_COUNTED = re.compile(r"\bv?p(?:add|sub)b\b[^\n]*%[xyz]mm")
 FLOATS_WIDENED = re.compile(r"\bv?cvtps2pd\b")
 BYTES_WIDENED = re.compile(r"\bv?pmov[sz]x[bw]q\b|\bvpmovqb\b")  # in one step or by way of words, and back
+MASKED_STORE = re.compile(r"\bvp?maskmov\w+[^\n]*\)$", re.MULTILINE)  # of a load, the last operand is a register
 NAMES = {"depths": (False, False), "ids": (False, True), "stencil": (True, False), "stencil and ids": (True, True)}
 DEPTH_KERNELS, STENCIL_KERNELS = {"depths", "ids"}, {"stencil", "stencil and ids", "tiles"}
 
@@ -132,3 +133,14 @@ def test_stencil_values_are_counted_many_at_a_time(kernels, name):
 def test_neither_floats_nor_bytes_are_widened_to_64_bits(kernels, name):
     assert not FLOATS_WIDENED.search(kernels[name])
     assert not BYTES_WIDENED.search(kernels[name])
+
+
+def test_the_search_for_masked_stores_finds_stores_only():
+    assert MASKED_STORE.search("\tvpmaskmovd\t%ymm6, %ymm2, 32(%rcx)\n")
+    assert not MASKED_STORE.search("\tvmaskmovps\t(%r8,%r9,4), %ymm3, %ymm3\n")
+
+
+@pytest.mark.parametrize("name", sorted(DEPTH_KERNELS | STENCIL_KERNELS - {"tiles"}))
+def test_no_store_is_masked(kernels, name):
+    """AMD processors take a dozen cycles for one."""
+    assert not MASKED_STORE.search(kernels[name])
