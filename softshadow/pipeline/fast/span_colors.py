@@ -4,7 +4,18 @@ import numpy as np
 
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ONE, ZERO
-from softshadow.pipeline.fast.fragment_block import PACKED, ROW, TEXEL, TEXEL_ALPHA, WEIGHT, interpolate_block
+from softshadow.pipeline.fast.fragment_block import (
+    FOUR_COLUMNS,
+    NEXT,
+    PACKED,
+    ROW,
+    SPAN_PLACE,
+    SPAN_START,
+    TEXEL,
+    TEXEL_ALPHA,
+    WEIGHT,
+    interpolate_block,
+)
 from softshadow.pipeline.fast.span_combine import combine_block, keep_primary, swap_texels
 from softshadow.pipeline.fast.span_state import (
     ADD,
@@ -47,6 +58,9 @@ def shade_block(planes, spans, n_spans, count, flat, switches, numbers, texels0,
 
     planes (P, 3, k + 1) are those of `shade.interpolate.attribute_planes`, `spans` and `count` say which fragments.
     """
+    if switches[NEEDED] == FOUR_COLUMNS and flat[0] and flat[1] and flat[2] and flat[3]:
+        write_constant_colors(planes, spans, n_spans, room, whole)
+        return
     interpolate_block(planes, spans, n_spans, flat, switches[NEEDED], room)
     combines, n_units = switches[COMBINES] != 0, switches[N_UNITS]
     for m in range(n_units):
@@ -69,6 +83,17 @@ def shade_block(planes, spans, n_spans, count, flat, switches, numbers, texels0,
         apply_fog_to_block(switches, numbers, count, room)
     cover_block(special, count, room)
     pack_block(count, room, whole)
+
+
+@kernel
+def write_constant_colors(planes, spans, n_spans, room, whole):
+    """Write the colour of each span as the first four planes of its triangle have it, PACKED and alpha."""
+    for s in range(np.uint64(n_spans)):
+        p, start, end = spans[SPAN_PLACE, s], spans[SPAN_START, s], spans[SPAN_START, s + NEXT]
+        red, green, blue, alpha = planes[p, 0, 0], planes[p, 0, 1], planes[p, 0, 2], planes[p, 0, 3]
+        packed = byte_of(red) | byte_of(green) << GREEN | byte_of(blue) << BLUE | byte_of(alpha) << UPPERMOST
+        for n in range(np.uint64(start), np.uint64(end)):
+            whole[PACKED + n], room[ALPHA_ROW + n] = packed, alpha
 
 
 @kernel
