@@ -164,16 +164,16 @@ def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
                             z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                             stored, before = depth[j, i], ids[id_j, i]
                             if tests_stencil:
-                                hit = np.int32(-1 if passed[i] else 0)
-                                ties[np.uint64(k)] = hit
+                                passes = np.int32(-1 if passed[i] else 0)
+                                ties[np.uint64(k)] = passes
                             else:
-                                inside = np.int32(-1 if (place >= begin) & (place < stop) else 0)
-                                hit = np.int32(depth_passes(depth_test, z, stored) & inside)
-                                tied = np.int32((1 if z == stored else 0) & inside)
+                                within = np.int32(-1 if (place >= begin) & (place < stop) else 0)
+                                passes = np.int32(depth_passes(depth_test, z, stored) & within)
+                                tied = np.int32((1 if z == stored else 0) & within)
                                 ties[np.uint64(k)] = max(ties[np.uint64(k)], tied)
                             number = triangle if before == NO_TRIANGLE else repeated
-                            depth[j, i] = z if np.int32(hit & writes_depth) else stored
-                            ids[id_j, i] = number if hit else before
+                            depth[j, i] = z if np.int32(passes & writes_depth) else stored
+                            ids[id_j, i] = number if passes else before
                     elif writes_depth:
                         for k in range(CHUNK):
                             i, place = np.uint64(at) + np.uint64(k), np.int32(k)
@@ -181,12 +181,12 @@ def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
                             z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                             stored = depth[j, i]
                             if tests_stencil:
-                                hit = np.int32(-1 if passed[i] else 0)
+                                passes = np.int32(-1 if passed[i] else 0)
                             else:
-                                inside = np.int32(-1 if (place >= begin) & (place < stop) else 0)
-                                hit = np.int32(depth_passes(depth_test, z, stored) & inside)
-                            ties[np.uint64(k)] = hit
-                            depth[j, i] = z if hit else stored
+                                within = np.int32(-1 if (place >= begin) & (place < stop) else 0)
+                                passes = np.int32(depth_passes(depth_test, z, stored) & within)
+                            ties[np.uint64(k)] = passes
+                            depth[j, i] = z if passes else stored
 
     return fill
 
