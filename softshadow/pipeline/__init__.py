@@ -112,36 +112,15 @@ def draw_geometry(
     storage: Storage,
     geometry: Geometry,
     counts: FragmentCounts | None = None,
-    fragments: int = -1,
 ) -> None:
-    """Draw triangles in the window, under the state of a command; about so many `fragments`, -1 if not known."""
+    """Draw triangles in the window, under the state of a command."""
     if not len(geometry.triangles.ids):
         return
     watch = plan.watch(target, storage) if plan.watch else None
-    _draw_triangles(plan, command, target, storage, geometry, counts, fragments)
+    draw_triangles = _draw_in_order if plan.in_order else _draw_opaque
+    draw_triangles(plan, command, target, storage, geometry, counts)
     if watch:
         watch.note_drawn()
-
-
-def _draw_triangles(
-    plan: Plan,
-    command: Draw,
-    target: Framebuffer,
-    storage: Storage,
-    geometry: Geometry,
-    counts: FragmentCounts | None,
-    fragments: int,
-) -> None:
-    if fragments >= 0 and plan.forward and not plan.without_overlaps:  # a small draw: no time to look for its rows
-        region = region_of(command.state, target)
-        forward = choose_forward(plan, command.state, target, geometry, region, fragments)
-        if forward:
-            forward()
-            return
-    if plan.in_order:
-        _draw_in_order(plan, command, target, storage, geometry, counts)
-    else:
-        _draw_opaque(plan, command, target, storage, geometry, counts)
 
 
 def _draw_opaque(

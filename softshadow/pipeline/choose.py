@@ -402,7 +402,7 @@ def joins_others(plan: Plan, state: State, target: Framebuffer, part: Part) -> S
     if not plan.forward or not is_small:
         return None
     numbers = segment_state(state, plan.front, plan.back, target, part.batch, part.program.units, plan.numbers)
-    return numbers if numbers is not None and _are_compiled(part.fragments) else None
+    return numbers if SPAN_KERNELS.are_compiled() else None  # else a draw on its own pays for compiling them
 
 
 def choose_shading(plan: Plan, state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None]:

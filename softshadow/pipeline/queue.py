@@ -190,7 +190,7 @@ class DrawQueue:
         if numbers is None:
             if group:
                 group.draw()
-            pipeline.draw_geometry(plan, command, target, storage, part.geometry(), fragments=part.fragments)
+            pipeline.draw_geometry(plan, command, target, storage, part.geometry())
             return None
         if group and group.takes(state, numbers, part, target):
             return group

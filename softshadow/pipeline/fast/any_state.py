@@ -5,9 +5,9 @@ filled in chunks of 32 columns by a few loops without branches. Depths are teste
 values in bytes, 32 to a vector; between the two loops, the results of the depth test are bytes. Columns outside the
 triangle are masked out: their stored values are written back.
 
-Of the first store of a loop, if it writes a new or the stored value, the compiler makes a masked store, which takes AMD
-processors a dozen cycles. So each loop first writes numbers that are neither: whether depths were equal, as a maximum,
-or, only for this, which fragments pass.
+Where the first store of a loop writes either a new value or the one that is there, the compiler makes it a masked
+store, for which AMD processors take a dozen cycles. So each loop first stores something else in scratch memory: whether
+depths are equal, as a maximum, or which fragments pass, which is not read afterwards.
 """
 
 from typing import Any

@@ -153,8 +153,8 @@ def stencil_update_of(numbers, f, which):
 def depth_of(z0, dz, dz_row, offset, column, row, depth_range, largest):
     """Return the depth of a plane at a pixel, in buffer units; `column` and `row` are float32.
 
-    Loops over columns add two floats, the first column of a chunk and a place in it: they are exact, and a vector of
-    places stays in a register, while the compiler makes one of sums of integers number by number.
+    Loops over the columns of a chunk add two floats, its first column and the place in it. The sum is exact. With sums
+    of integers, the compiler puts each vector of columns together from single numbers.
     """
     return depth_units(depth_at(z0, dz, dz_row, offset, column, row), depth_range, largest)
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from softshadow.image import Image
 from softshadow.jit import inlined, kernel
+from softshadow.pipeline.constants import ZERO
 from softshadow.pipeline.fast.fragment_numbers import LARGEST, UNMASKED_REF, ZFAIL_OP, ZPASS_OP, update_of, updated
 from softshadow.pipeline.raster.depth import depth_at, depth_units
 from softshadow.pipeline.raster.fragment_ops import (
@@ -132,8 +133,8 @@ def find_bounds(depth, first, end, left, right, scratch):
         stored = depth[row, left:right]
         for k in range(width):
             z = stored[k]
-            low[k] = z if z < low[k] else low[k]
-            high[k] = z if z > high[k] else high[k]
+            lower, higher = z if z < low[k] else low[k], z if z > high[k] else high[k]
+            low[k], high[k] = lower + ZERO, higher + ZERO  # plus 0: else they are masked stores, see `any_state`
             odd[k] += z - z  # 0 for numbers
     lowest, highest = low[0], high[0]
     for k in range(width):

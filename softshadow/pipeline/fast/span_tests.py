@@ -208,7 +208,7 @@ def write_passing(j, first, length, depth, at, room, whole):
     """Write the depths of the fragments where MASK is set to row `j`, from column `first` on."""
     for n in range(length):
         z = room[DEPTH + at + n] if whole[MASK + at + n] else depth[j, first + n]
-        room[W + at + n] = z  # not for its value: of a first store like the next, a masked one is made, see `any_state`
+        room[W + at + n] = z  # is not read: without it, the next store would be a masked one, see `any_state`
         depth[j, first + n] = z
 
 

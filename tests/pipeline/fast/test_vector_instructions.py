@@ -140,7 +140,7 @@ def test_the_search_for_masked_stores_finds_stores_only():
     assert not MASKED_STORE.search("\tvmaskmovps\t(%r8,%r9,4), %ymm3, %ymm3\n")
 
 
-@pytest.mark.parametrize("name", sorted(DEPTH_KERNELS | STENCIL_KERNELS - {"tiles"}))
+@pytest.mark.parametrize("name", sorted(DEPTH_KERNELS | STENCIL_KERNELS))
 def test_no_store_is_masked(kernels, name):
     """AMD processors take a dozen cycles for one."""
     assert not MASKED_STORE.search(kernels[name])
