@@ -8,6 +8,7 @@ from __future__ import annotations
 import struct
 import threading
 from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -27,7 +28,7 @@ from softshadow.context.state_groups import StateGroups
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
-from softshadow.frozen import create, evolve
+from softshadow.frozen import evolve
 from softshadow.image import Image
 from softshadow.pipeline.commands import Clear, Command, CopyToTexture, DefineImage, Draw, Origin, UpdateImage, Vertices
 from softshadow.pipeline.execute import execute
@@ -80,7 +81,6 @@ class Context(CurrentValues):
         self._frame = Frame((width, height), depth_format, stencil_bits, precision, history_bytes=history_bytes)
         self.objects = self._frame.fresh_storage()
         self._waiting = DrawQueue(self.objects, compiles)
-        self.offset_slope, self.offset_unit = polygon_offset_slope, polygon_offset_unit
         self.raise_errors = raise_errors
         # no list is compiled, no primitive is open, nothing is collected: a call may change the state at once.
         # Not always True then, but always False otherwise.
@@ -91,6 +91,7 @@ class Context(CurrentValues):
         viewport = evolve(State().viewport, width=width, height=height)
         scissor = evolve(State().scissor, width=width, height=height)
         self.real: type[np.floating] = np.float64 if precision == "exact" else np.float32
+        self._dtype = np.dtype(self.real)
         self.state_groups = StateGroups(evolve(State(), viewport=viewport, scissor=scissor), self.real is np.float32)
         self.groups, self.changed = self.state_groups.groups, self.state_groups.changed  # see `change`
         self.current = CurrentVertex()
@@ -111,6 +112,11 @@ class Context(CurrentValues):
         self.vertex_buffer = VertexBuffer(self._carry_out, self.objects)  # immediate mode
         self.arrays = ClientArrays()
         self.client_stack: list[Any] = []
+        unset: Any = None  # what `draw_command` sets, beside this
+        self._usual_draw = Draw(
+            unset, 0, unset, None, unset, unset, unset, NO_UNIFORMS,
+            offset_slope=polygon_offset_slope, offset_unit=polygon_offset_unit,
+        )  # fmt: skip
         self._stipple_place = 0  # in the line stipple, after the draws so far
         self.buffers: dict[int, BufferObject] = {}
         self.attribute_stack: list[Any] = []
@@ -172,8 +178,8 @@ class Context(CurrentValues):
 
     def packed(self, numbers: Sequence[float], *shape: int) -> np.ndarray:
         """Return what `frozen` returns of plain numbers, one dimension by default, in a third of the time."""
-        kind = "f" if self.real is np.float32 else "d"
-        return np.ndarray(shape or len(numbers), self.real, struct.pack(f"{len(numbers)}{kind}", *numbers))
+        dtype, n = self._dtype, len(numbers)
+        return np.ndarray(shape or n, dtype, _packer(n, dtype.char)(*numbers))
 
     # -- matrices and units --------------------------------------------------------------------------------------------
     def select_matrices(self, mode: int) -> None:
@@ -312,8 +318,8 @@ class Context(CurrentValues):
         program = state.program
         modelview, modelview_kind = self.modelview_stack.drawn()
         projection, projection_kind = self.projection_stack.drawn()
-        return create(
-            Draw,
+        command = evolve(
+            self._usual_draw,
             state=state,
             mode=mode,
             vertices=vertices,
@@ -321,21 +327,15 @@ class Context(CurrentValues):
             modelview=modelview,
             projection=projection,
             texture_matrices=self._texture_matrices or self.texture_matrices(),
-            uniforms=dict(self.uniforms[program]) if program else NO_UNIFORMS,
-            program_name=self.programs[program].name if program else "",
-            label="/".join(self.labels) if self.labels else "",
-            offset_slope=self.offset_slope,
-            offset_unit=self.offset_unit,
             modelview_kind=modelview_kind,
             projection_kind=projection_kind,
-            joined_positions=None,
-            joined_start=0,
-            linear=False,
-            offset_mode=0,
-            stipple_place=0,
             origin=self.origin,
-            shown_at=None,
         )
+        if program or self.labels:
+            uniforms = dict(self.uniforms[program]) if program else NO_UNIFORMS
+            name = self.programs[program].name if program else ""
+            command = evolve(command, uniforms=uniforms, program_name=name, label="/".join(self.labels))
+        return command
 
     def end_step(self, title: str) -> None:
         """Mark the end of a step in the recording."""
@@ -355,6 +355,11 @@ class Context(CurrentValues):
         if self.open_step is not None:
             self.end_step(self.open_step)
             self.open_step = None
+
+
+@lru_cache(maxsize=256)
+def _packer(count: int, kind: str) -> Callable[..., bytes]:
+    return struct.Struct(f"{count}{kind}").pack
 
 
 class _NoContext:

@@ -10,6 +10,7 @@ from softshadow.context.changing_state import ChangingState
 from softshadow.context.raster_position import INITIAL_RASTER_POSITION, RasterPosition
 from softshadow.state import BLACK, TEXTURE_UNITS
 
+UNIT_OF = {f"texcoord{unit}": unit for unit in range(TEXTURE_UNITS)}
 MATERIALS = {side: f"lighting.{side}" for side in ("front", "back")}  # groups of the state
 
 
@@ -45,8 +46,8 @@ class CurrentValues(ChangingState):
         current = self.current.__dict__
         if name in current:
             return current[name]
-        if name.startswith("texcoord"):
-            return self.current.texcoords[int(name.removeprefix("texcoord"))]
+        if name in UNIT_OF:
+            return current["texcoords"][UNIT_OF[name]]
         side, _, material = name.partition(".")
         return self.material(side)[material]
 
@@ -55,8 +56,8 @@ class CurrentValues(ChangingState):
         current = self.current.__dict__
         if name in current:
             current[name] = value
-        elif name.startswith("texcoord"):
-            self.current.texcoords[int(name.removeprefix("texcoord"))] = value
+        elif name in UNIT_OF:
+            current["texcoords"][UNIT_OF[name]] = value
         else:
             side, _, material = name.partition(".")
             self.set_material(side, material, value)

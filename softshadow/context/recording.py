@@ -42,39 +42,41 @@ class Contents:
         if kind is Draw:
             if id(command.vertices) not in self._sizes:  # type: ignore[union-attr]
                 self._add_vertices(command.vertices)  # type: ignore[union-attr]
-            for array in (command.indices, command.joined_positions):  # type: ignore[union-attr]
-                if array is not None and id(array) not in self._sizes:
-                    self._add_array(array)
+            if command.indices is not None:  # type: ignore[union-attr]
+                self._add_array(command.indices)  # type: ignore[union-attr]
+            if command.joined_positions is not None:  # type: ignore[union-attr]
+                self._add_array(command.joined_positions)  # type: ignore[union-attr]
         elif kind is DefineImage or kind is UpdateImage:
             for array in (command.cells, command.stencil):  # type: ignore[union-attr]
                 if array is not None:
                     self._add_array(array)
 
     def _add_vertices(self, vertices: Vertices) -> None:
-        self._sizes[id(vertices)] = 0
-        self._add_rows(vertices.position, vertices.color, vertices.normal)
-        if id(vertices.texcoords) not in self._sizes:
-            self._sizes[id(vertices.texcoords)] = 0
-            self._add_rows(*vertices.texcoords)
-        for array in vertices.materials.values():
-            self._add_array(array)
+        sizes, texcoords = self._sizes, vertices.texcoords
+        sizes[id(vertices)] = 0
+        attributes = [vertices.position, vertices.color, vertices.normal]
+        if id(texcoords) not in sizes:
+            sizes[id(texcoords)] = 0
+            attributes += texcoords
         for optional in (vertices.edges, vertices.secondary, vertices.fog_coordinates):
-            if optional is not None and optional.strides[0]:
-                self._add_array(optional)
-
-    def _add_rows(self, *attributes: np.ndarray) -> None:
+            if optional is not None:
+                attributes.append(optional)
         for array in attributes:
             if array.strides[0]:  # a constant attribute is one row
                 self._add_array(array)
+        if vertices.materials:
+            for array in vertices.materials.values():
+                self._add_array(array)
 
     def _add_array(self, array: np.ndarray) -> None:
-        while isinstance(array.base, np.ndarray):
-            self._sizes[id(array)] = 0
-            array = array.base
-        if id(array) not in self._sizes:
-            self._sizes[id(array)] = array.nbytes
+        sizes, base = self._sizes, array.base
+        while isinstance(base, np.ndarray):
+            sizes[id(array)] = 0
+            array, base = base, base.base
+        if id(array) not in sizes:
+            size = sizes[id(array)] = array.nbytes
             if id(array) not in self._before:
-                self.new_bytes += array.nbytes
+                self.new_bytes += size
 
 
 @dataclass(repr=False)

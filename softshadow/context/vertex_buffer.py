@@ -18,6 +18,7 @@ from softshadow.pipeline.mesa.driver_draws import MAX_PAIRS, SEPARATE, Collected
 
 BYTES = 512 * 1024  # size of the vertex buffer (vbo_exec_draw.c)
 LEAST_BYTES = 1024  # Mesa takes a new buffer when no more than these are left
+NO_DRAW = DriverDraw()  # the driver has drawn all
 
 
 class Primitive:
@@ -128,7 +129,7 @@ class VertexBuffer:
         self.active_sizes: dict[str, int] = {}
         self.n_vertices, self.used_bytes = 0, 0
         self.joined_pairs: JoinedPairs | None = None
-        self.pairs, self.driver_draw = CollectedPairs(), DriverDraw()
+        self.pairs, self.driver_draw = CollectedPairs(), NO_DRAW
 
     @property
     def room(self) -> int:
@@ -141,10 +142,14 @@ class VertexBuffer:
 
     def draw(self, command: Draw) -> None:
         """Draw at once; consecutive draws of one mode are one draw of the driver."""
-        if command.mode != self.driver_draw.mode:
-            self.driver_draw = DriverDraw(command.mode)
-        if not self.driver_draw.is_lost:
-            self._carry_out(self.driver_draw.part(command, lambda draw: offset_mode_of(draw, self._storage)))
+        driver_draw = self.driver_draw
+        if command.mode != driver_draw.mode:
+            driver_draw = self.driver_draw = DriverDraw(command.mode)
+        if not driver_draw.is_lost:
+            self._carry_out(driver_draw.part(command, self._offset_mode_of))
+
+    def _offset_mode_of(self, draw: Draw) -> int:
+        return offset_mode_of(draw, self._storage)
 
     def can_join(self, mode: int) -> bool:
         """Return whether vertices of a mode can be joined to the pairs that are not drawn yet."""
@@ -180,15 +185,12 @@ class VertexBuffer:
         """Draw the collected vertices; those that follow lie behind them in Mesa's buffer."""
         if self.joined_pairs is not None:
             self.draw_joined_pairs()
-        if self.driver_draw.mode >= 0:
-            self.driver_draw = DriverDraw()
-        if self.pairs.n_pairs:
-            self.pairs = CollectedPairs()
+        self.driver_draw = NO_DRAW
+        self.pairs.clear()
         if self.n_vertices:
-            self.used_bytes += self.n_vertices * self._vertex_bytes
+            used = self.used_bytes + self.n_vertices * self._vertex_bytes
+            self.used_bytes = used if used + LEAST_BYTES < BYTES else 0
             self.n_vertices = 0
-        if self.used_bytes + LEAST_BYTES >= BYTES:
-            self.used_bytes = 0
 
     def flush(self) -> None:
         """Draw the collected vertices and reset the vertex format."""

@@ -6,13 +6,14 @@ Draws with the same current values share one view of it per number of vertices.
 from __future__ import annotations
 
 import struct
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from operator import is_
 
 import numpy as np
 
 from softshadow.context import Context, CurrentVertex
-from softshadow.state import TEXTURE_UNITS
+from softshadow.context.current_values import UNIT_OF
 
 MOST_VIEWS = 1024  # of one value, by the number of vertices
 MOST_VALUES = 4096
@@ -70,7 +71,7 @@ class ConstantSet:
     def attribute(self, name: str) -> ConstantAttribute:
         """Return an attribute by its name: "color", "normal", "texcoord0" ..."""
         if name.startswith("texcoord"):
-            return self.texcoords.attributes[int(name.removeprefix("texcoord"))]
+            return self.texcoords.attributes[UNIT_OF[name]]
         return self.color if name == "color" else self.normal
 
     def rows(self, count: int) -> list[np.ndarray]:
@@ -82,21 +83,27 @@ class ConstantAttributes:
     """The current values as the last draw had them, and all sets of values; equal values have the same objects."""
 
     def __init__(self) -> None:
-        self.color: tuple[float, ...] = ()
-        self.normal: tuple[float, ...] = ()
-        self.texcoords: tuple[tuple[float, ...], ...] = ((),) * TEXTURE_UNITS
+        initial = CurrentVertex()
+        self.color: tuple[float, ...] = initial.color
+        self.normal: tuple[float, ...] = initial.normal
+        self.texcoords: tuple[tuple[float, ...], ...] = tuple(initial.texcoords)
         self.texcoord_attributes = ConstantTexcoords(())
         self.known_texcoords: dict[tuple[bytes, ...], ConstantTexcoords] = {}
         self.known: dict[bytes, ConstantAttribute] = {}
         self.sets: dict[tuple[bytes, ConstantTexcoords], ConstantSet] = {}
         self.last: ConstantSet | None = None
 
-    def find(self, context: Context, current: CurrentVertex) -> ConstantSet:
-        """Return the set of the current values."""
-        if not all(map(is_, current.texcoords, self.texcoords)):
-            self.texcoords = tuple(current.texcoords)
+    def find(
+        self,
+        context: Context,
+        color: tuple[float, ...],
+        normal: tuple[float, ...],
+        texcoords: Sequence[tuple[float, ...]],
+    ) -> ConstantSet:
+        """Return the set of these values."""
+        if self.last is None or not all(map(is_, texcoords, self.texcoords)):
+            self.texcoords = tuple(texcoords)
             self.texcoord_attributes = self._find_texcoords(context)
-        color, normal = current.color, current.normal
         key = PACK_COLOR_AND_NORMAL(*color, *normal), self.texcoord_attributes
         found = self.sets.get(key)
         if found is None:
@@ -120,15 +127,27 @@ class ConstantAttributes:
         return attribute
 
 
-def constant_attributes(context: Context) -> ConstantSet:
-    """Return colour, normal and texture coordinates of the context; the same object for the same bits."""
+def constant_attributes(context: Context, carried: Collection[str] = ()) -> ConstantSet:
+    """Return colour, normal and texture coordinates of the context; the same object for the same bits.
+
+    Nobody asks for those in `carried`: they have values of an earlier draw, so that no set is made for new ones.
+    """
     current, kept = context.current, context.arrays.constants
     if kept is None or len(kept.sets) >= MOST_VALUES or len(kept.known_texcoords) >= MOST_VALUES:
         kept = context.arrays.constants = ConstantAttributes()
-    is_last = current.color is kept.color and current.normal is kept.normal
-    found: ConstantSet = kept.last
-    if not is_last or not all(map(is_, current.texcoords, kept.texcoords)):
-        found = kept.find(context, current)
+    color, normal, texcoords = current.color, current.normal, current.texcoords
+    if carried:
+        color = kept.color if "color" in carried else color
+        normal = kept.normal if "normal" in carried else normal
+        units = [UNIT_OF[name] for name in carried if name in UNIT_OF]
+        if units:
+            texcoords = texcoords.copy()
+            for unit in units:
+                texcoords[unit] = kept.texcoords[unit]
+    found: ConstantSet | None = kept.last
+    is_last = found is not None and color is kept.color and normal is kept.normal
+    if found is None or not is_last or not all(map(is_, texcoords, kept.texcoords)):
+        found = kept.find(context, color, normal, texcoords)
     return found
 
 

@@ -15,17 +15,19 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, Primitive
+from softshadow.context.current_values import UNIT_OF
 from softshadow.frozen import create
 from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
-from softshadow.state import BLACK, TEXTURE_UNITS
+from softshadow.state import BLACK
 
 REST = (0.0, 0.0, 0.0, 1.0)  # default values of components that a call does not set
-TEXCOORDS = tuple(f"texcoord{unit}" for unit in range(TEXTURE_UNITS))
-ANY_TEXCOORD = frozenset(TEXCOORDS)
+TEXCOORDS = tuple(UNIT_OF)
 OPTIONAL = {"edge": True, "secondary": BLACK, "fog_coordinate": 0.0}  # the last fields of `Vertices`: initial values
+IS_OPTIONAL = frozenset(OPTIONAL)
 NO_MATERIALS: frozenset[str] = frozenset()
+NONE: dict[str, np.ndarray] = {}
 FEW_VERTICES = 8  # with more collected vertices, a new attribute outside glBegin makes Mesa reset all others
 
 
@@ -66,24 +68,29 @@ def carry_attribute(context: Context, name: str, size: int) -> int:
     """
     if name != "position" and name not in context.pending.old_values:
         context.remember_attribute(name)
-    sizes, primitive = context.vertex_buffer.sizes, context.primitive
-    carried, previous_size = sizes.get(name, 0), context.vertex_buffer.active_sizes.get(name, 0)
+    buffer, primitive = context.vertex_buffer, context.primitive
+    sizes, active_sizes = buffer.sizes, buffer.active_sizes
+    carried = sizes.get(name, 0)
     if carried >= size:
         in_list = context.list_depth > 0 or (primitive is not None and context.executes_list)
-        if size < previous_size or in_list:
-            context.vertex_buffer.active_sizes[name] = size
+        if in_list or size < active_sizes.get(name, 0):
+            active_sizes[name] = size
             return size
         return carried
-    context.vertex_buffer.active_sizes[name] = size
+    active_sizes[name] = size
     if primitive is not None:
         primitive.position_size = 0  # there is room for fewer vertices
-        if not primitive.from_list:
+        if primitive.from_list:
+            pass
+        elif primitive.positions:
             _wrap(context, primitive)
-            if name not in sizes:
+            if not carried:
                 _shorten(context, primitive, name, size)
+        else:
+            buffer.submit()
     else:
-        had_many = context.vertex_buffer.n_vertices > FEW_VERTICES
-        context.vertex_buffer.submit()
+        had_many = buffer.n_vertices > FEW_VERTICES
+        buffer.submit()
         if name not in sizes and had_many:
             sizes.clear()
             context.reset_attributes()
@@ -94,7 +101,7 @@ def carry_attribute(context: Context, name: str, size: int) -> int:
 
 def _shorten(context: Context, primitive: Primitive, name: str, size: int) -> None:
     """Reset all but `size` components of an attribute in the copied vertices, which did not carry it, as Mesa does."""
-    if name == "color" or name.startswith("texcoord"):
+    if name == "color" or name in UNIT_OF:
         value = context.attribute(name)
         primitive.changes[name] = [(0, (*value[:size], *REST[size:]))]
 
@@ -137,13 +144,15 @@ def store_vertices(context: Context, primitive: Primitive) -> None:
         return
     buffer = context.vertex_buffer
     _count(context, primitive)
-    if buffer.n_vertices >= buffer.room - 1:  # one is reserved for the end of a line loop
+    room = buffer.room - 1  # one is reserved for the end of a line loop
+    if buffer.n_vertices >= room:
         _wrap(context, primitive)
-    primitive.limit = len(primitive.positions) + 4 * (buffer.room - 1 - buffer.n_vertices)
+        room = buffer.room - 1
+    primitive.limit = len(primitive.positions) + 4 * (room - buffer.n_vertices)
 
 
 def _count(context: Context, primitive: Primitive) -> None:
-    count = len(primitive)
+    count = len(primitive.positions) // 4
     context.vertex_buffer.n_vertices += count - primitive.counted
     primitive.counted = count
 
@@ -163,9 +172,6 @@ def end(context: Context, primitive: Primitive) -> None:
 
 def _wrap(context: Context, primitive: Primitive) -> None:
     """Draw the collected vertices, and keep those that the rest of the primitive needs."""
-    if not primitive.positions:
-        context.vertex_buffer.submit()
-        return
     _count(context, primitive)
     n = len(primitive)
     alone = context.vertex_buffer.n_vertices == n
@@ -199,38 +205,46 @@ def _cut(primitive: Primitive, n: int) -> Cut:
 
 def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int | None = None) -> Vertices:
     """Return the vertices [start, end) of a primitive; attributes that they do not carry are repeats of one row."""
-    carried, constants = context.vertex_buffer.sizes, constant_attributes(context)
+    carried = context.vertex_buffer.sizes
+    constants = constant_attributes(context, carried)
     arrays = primitive.arrays if end is None else {}
-    end = len(primitive) if end is None else end
+    positions = primitive.positions
+    if end is None:
+        end = len(positions) // 4
+    else:
+        positions = positions[4 * start : 4 * end]
     count = end - start
 
     def rows(name: str) -> np.ndarray:
         if name in arrays:
             return arrays[name]
-        current = context.attribute(name)
-        if not isinstance(current, tuple):
-            return context.packed(primitive.values(name, current)[start:end])
-        width = len(current)
-        return context.packed(primitive.components(name, current)[width * start : width * end], count, width)
+        value = context.attribute(name)
+        if type(value) is not tuple:
+            return context.packed(primitive.values(name, value)[start:end])
+        width, numbers = len(value), primitive.components(name, value)
+        if len(numbers) != width * count:
+            numbers = numbers[width * start : width * end]
+        return context.packed(numbers, count, width)
 
     texcoords = constants.texcoords.rows(count)
-    if not ANY_TEXCOORD.isdisjoint(carried):
-        places = enumerate(TEXCOORDS)
-        texcoords = tuple([rows(name) if name in carried else texcoords[place] for place, name in places])
+    for name in carried:
+        if name in UNIT_OF:
+            unit = UNIT_OF[name]
+            texcoords = (*texcoords[:unit], rows(name), *texcoords[unit + 1 :])
     edges = secondary = fog_coordinates = None
     current = context.current
     are_initial = current.edge and current.secondary == BLACK and not current.fog_coordinate
-    if not (are_initial and OPTIONAL.keys().isdisjoint(carried)):
+    if not (are_initial and IS_OPTIONAL.isdisjoint(carried)):
         edges, secondary, fog_coordinates = [
             _optional_rows(context, primitive, name, rows, start, end) for name in OPTIONAL
         ]
     return create(
         Vertices,
-        position=arrays["position"] if arrays else context.packed(primitive.positions[4 * start : 4 * end], count, 4),
+        position=arrays["position"] if arrays else context.packed(positions, count, 4),
         color=rows("color") if "color" in carried else constants.color.rows(count),
         normal=rows("normal") if "normal" in carried else constants.normal.rows(count),
         texcoords=texcoords,
-        materials={name: rows(name) for name in primitive.materials},
+        materials={name: rows(name) for name in primitive.materials} if primitive.materials else NONE,
         edges=edges,
         secondary=secondary,
         fog_coordinates=fog_coordinates,

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass
+from itertools import count
 from typing import NamedTuple
 
 import numpy as np
@@ -47,13 +48,13 @@ KNOWN_VERTICES = 64 * MOST_VERTICES  # about, of the draws that kinds keep
 class Kind(NamedTuple):
     """A state of draws that wait, with all that depends on it: run and setting for their geometry, plan for the rest.
 
-    Kinds with equal `geometry_key` share batches.
+    Kinds of one `batch` share batches: all that their geometry depends on is equal.
     """
 
     run: Run
     setting: Setting
     plan: Plan
-    geometry_key: Hashable
+    batch: int
 
 
 @dataclass(eq=False, slots=True)
@@ -87,9 +88,13 @@ class DrawQueue:
         # by the identity of what they depend on; the latest by all but their tests and blending
         self._known: dict[tuple[int, ...], list[Kind]] = {}
         self._latest: dict[tuple[int, ...], Kind] = {}
+        self._of_states: dict[int, tuple[Kind, Draw]] = {}  # the latest, and a draw of it, by the identity of its state
+        self._batch_numbers: dict[Hashable, int] = {}  # by geometry key
+        self._next_number = count()
         self._known_vertices = 0
         self._kind: Kind | None = None  # of the last draw
-        self._batches: dict[Hashable, list[Draw]] = {}  # by geometry key
+        self._like: Draw  # a draw of this kind
+        self._batches: dict[int, list[Draw]] = {}  # by their numbers
         self._segments: list[Segment] = []  # in drawing order
         self._n_draws, self._n_vertices, self._are_small = 0, 0, True
 
@@ -99,7 +104,7 @@ class DrawQueue:
         if self._n_vertices + n_vertices > MOST_VERTICES:
             self.carry_out()
         kind = self._kind
-        if kind is None or not kind.run.takes(command):
+        if kind is None or not kind.run.continues(command, self._like):
             kind = self._kind_of(command)
             if kind is None:
                 self.carry_out()
@@ -107,13 +112,16 @@ class DrawQueue:
             # large meshes are drawn again under other states: alone, they are found to be equal
             if not (self._are_small and n_vertices < WORTH_COMPARING):
                 self.carry_out()
-            self._kind = kind
-        batch = self._batches.setdefault(kind.geometry_key, [])
+            self._kind, self._like = kind, command
+        batch = self._batches.get(kind.batch)
+        if batch is None:
+            batch = self._batches[kind.batch] = []
         batch.append(command)
-        if self._segments and self._segments[-1].kind is kind:
-            self._segments[-1].end += 1
+        segments = self._segments
+        if segments and segments[-1].kind is kind:
+            segments[-1].end += 1
         else:
-            self._segments.append(Segment(kind, len(batch) - 1, len(batch)))
+            segments.append(Segment(kind, len(batch) - 1, len(batch)))
         self._n_draws += 1
         self._n_vertices += n_vertices
         self._are_small = self._are_small and n_vertices < WORTH_COMPARING
@@ -125,18 +133,23 @@ class DrawQueue:
         """Return the kind of a draw, or None if it cannot wait."""
         if not may_wait(command, self._storage) or not (self._compiles or BATCH_KERNELS.are_compiled()):
             return None
+        known = self._of_states.get(id(command.state))
+        if known is not None and known[0].run.continues(command, known[1]):
+            return known[0]
         key = key_of(command.state)
-        for kind in self._known.get(key, ()):
-            if kind.run.takes(command):
-                return kind
-        target = self._storage.framebuffers[command.state.draw_framebuffer]
-        made = self._with_other_tests(command, target) or self._new_kind(command, target)
-        if made is not None:
-            if len(self._known) >= KNOWN_KINDS or self._known_vertices > KNOWN_VERTICES:
+        kind = next((each for each in self._known.get(key, ()) if each.run.takes(command)), None)
+        is_new = kind is None
+        if kind is None:
+            target = self._storage.framebuffers[command.state.draw_framebuffer]
+            kind = self._with_other_tests(command, target) or self._new_kind(command, target)
+        if kind is not None:
+            if max(len(self._known), len(self._of_states)) >= KNOWN_KINDS or self._known_vertices > KNOWN_VERTICES:
                 self.forget()
-            self._known.setdefault(key, []).append(made)
+            if is_new:
+                self._known.setdefault(key, []).append(kind)
+            self._of_states[id(command.state)] = kind, command
             self._known_vertices += len(command.vertices.position)
-        return made
+        return kind
 
     def _with_other_tests(self, command: Draw, target: Framebuffer) -> Kind | None:
         """Return the kind of a draw by one that differs in tests and blending only."""
@@ -152,7 +165,8 @@ class DrawQueue:
         if run is None:
             return None
         setting = setting_of(run, target, self._storage)
-        kind = Kind(run, setting, plan_draw(command, target, False), geometry_key(run, setting))
+        batch = self._batch_numbers.setdefault(geometry_key(run, setting), next(self._next_number))
+        kind = Kind(run, setting, plan_draw(command, target, False), batch)
         self._latest[_key_without_tests(command)] = kind
         return kind
 
@@ -160,6 +174,8 @@ class DrawQueue:
         """Forget the kinds of runs, when a texture or a framebuffer object changes."""
         self._known.clear()
         self._latest.clear()
+        self._of_states.clear()
+        self._batch_numbers.clear()
         self._known_vertices = 0
 
     def carry_out(self) -> None:
@@ -200,14 +216,14 @@ class DrawQueue:
         group.takes(state, numbers, part, target)
         return group
 
-    def _parts(self, batches: dict[Hashable, list[Draw]], segments: list[Segment]) -> list[Part]:
+    def _parts(self, batches: dict[int, list[Draw]], segments: list[Segment]) -> list[Part]:
         """Return the triangles of each segment."""
         parts: dict[int, Part] = {}  # by segment
-        of_batch: dict[Hashable, list[Segment]] = {key: [] for key in batches}
+        of_batch: dict[int, list[Segment]] = {number: [] for number in batches}
         for segment in segments:
-            of_batch[segment.kind.geometry_key].append(segment)
-        for key, own in of_batch.items():
-            draws, kind = batches[key], own[0].kind
+            of_batch[segment.kind.batch].append(segment)
+        for number, own in of_batch.items():
+            draws, kind = batches[number], own[0].kind
             target = self._storage.framebuffers[kind.run.state.draw_framebuffer]
             geometry, fragments = geometry_of(kind.run, kind.setting, draws, target, self._storage)
             if len(own) == 1:

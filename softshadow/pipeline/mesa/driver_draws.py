@@ -29,7 +29,7 @@ OPTIONAL = {"edges": True, "secondary": BLACK, "fog_coordinates": 0.0}  # the la
 MAX_PAIRS = 64  # with so many collected pairs, Mesa draws them (VBO_MAX_PRIM)
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, slots=True)
 class JoinedPairs:
     """Joined pairs that are not drawn yet: `first` is the command of the first one, with the state of all.
 
@@ -66,7 +66,7 @@ class JoinedPairs:
         return commands
 
 
-@dataclass
+@dataclass(slots=True)
 class CollectedPairs:
     """The glBegin ... glEnd pairs that Mesa has collected: their number, and mode and number of vertices of the last.
 
@@ -78,6 +78,10 @@ class CollectedPairs:
     mode: int = -1
     n_vertices: int = 0
 
+    def clear(self) -> None:
+        """Forget all pairs: they have been drawn."""
+        self.n_pairs, self.mode, self.n_vertices = 0, -1, 0
+
     def add(self, mode: int, n_vertices: int) -> int:
         """Add a pair, or join it to the one before; return the number of pairs."""
         if mode == self.mode and mode in SEPARATE and self.n_vertices % SEPARATE[mode] == 0:
@@ -87,7 +91,7 @@ class CollectedPairs:
         return self.n_pairs
 
 
-@dataclass
+@dataclass(slots=True)
 class DriverDraw:
     """Draws of one mode that Mesa hands to the driver as one (st_draw_gallium_multimode).
 

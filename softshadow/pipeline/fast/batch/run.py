@@ -85,7 +85,6 @@ class Run:
         self.units: list[Unit] = units_in_use(self.state, bound) if bound else []
         self._unit_numbers = [unit.index for unit in self.units]
         self.arrays = self._arrays_of(command)
-        self._last = command  # taken
         is_flat = writes_color and self.state.lighting.shade_model == gl.GL_FLAT
         self.generated, self.planes, in_eye_space = _generation(self)
         self.user_planes = user_planes(command)
@@ -146,14 +145,8 @@ class Run:
 
     def takes(self, command: Draw) -> bool:
         """Return whether a draw of the same kind as the others continues the run."""
-        if self._is_like_last(command):
-            return True
-        if command.state is not self.state and groups_of(command.state) != groups_of(self.state):
-            return False
-        if not self._is_alike(command):
-            return False
-        self._last = command
-        return True
+        is_state = command.state is self.state or groups_of(command.state) == groups_of(self.state)
+        return is_state and self._is_alike(command)
 
     def under(self, command: Draw) -> Run | None:
         """Return the run that begins with a draw whose state has other tests or blending; None if more differs."""
@@ -163,7 +156,7 @@ class Run:
         if not self._is_alike(command):
             return None
         run = copy(self)
-        run.command, run.state, run._last = command, state, command
+        run.command, run.state = command, state
         return run
 
     def has_tests_of(self, state: State) -> bool:
@@ -182,18 +175,17 @@ class Run:
             return False
         return self._arrays_of(command) == self.arrays and can_run(command)
 
-    def _is_like_last(self, command: Draw) -> bool:
-        """Return whether a draw differs from the last one only in what every run allows, as far as is seen at once."""
-        last = self._last
-        if command.state is not last.state or command.texture_matrices is not last.texture_matrices:
+    def continues(self, command: Draw, taken: Draw) -> bool:
+        """Return whether a draw differs from one of the run only in what every run allows, as is seen at once."""
+        if command.state is not taken.state or command.texture_matrices is not taken.texture_matrices:
             return False
-        if command.mode != last.mode or command.modelview_kind & UNKNOWN or command.joined_positions is not None:
+        if command.mode != taken.mode or command.modelview_kind & UNKNOWN or command.joined_positions is not None:
             return False
-        if command.mode == gl.GL_TRIANGLES and command.indices is None:
+        if command.mode == gl.GL_TRIANGLES and leaves_out_triangles(command):
             return False
-        if not self._has_same_clip_planes(command, last.projection, last.projection_kind):
+        if len(self.user_planes) and not self._has_same_clip_planes(command, taken.projection, taken.projection_kind):
             return False
-        one, other, numbers = command.vertices, last.vertices, self._unit_numbers
+        one, other, numbers = command.vertices, taken.vertices, self._unit_numbers
         return one is other or (
             one.color.strides == other.color.strides
             and one.normal.strides == other.normal.strides
@@ -232,6 +224,11 @@ def geometry_structure(run: Run) -> tuple[Hashable, ...]:
     )  # fmt: skip
 
 
+def leaves_out_triangles(command: Draw) -> bool:
+    """Return whether llvmpipe may leave out triangles of a draw of separate triangles (`mesa.rectangles`)."""
+    return command.indices is None and start_of_last_nine(len(command.vertices.position)) >= 0
+
+
 def can_run(command: Draw) -> bool:
     """Return whether a draw can be processed in a table, as far as its vertices and its primitives decide it."""
     if command.mode not in MODES or command.program_name or command.linear or command.joined_positions is not None:
@@ -239,8 +236,8 @@ def can_run(command: Draw) -> bool:
     vertices, lights = command.vertices, command.state.lighting
     if vertices.materials or vertices.position.dtype != np.float32 or command.modelview_kind & UNKNOWN:
         return False
-    if command.mode == gl.GL_TRIANGLES and command.indices is None and start_of_last_nine(len(vertices.position)) >= 0:
-        return False  # triangles that llvmpipe leaves out (mesa.rectangles)
+    if command.mode == gl.GL_TRIANGLES and leaves_out_triangles(command):
+        return False
     # Mesa's back materials that follow the colour of each vertex have stale products (programs.stale_registers)
     return not (lights.enabled and lights.two_side and lights.color_material and vertices.color.strides[0])
 
