@@ -110,7 +110,7 @@ class DrawQueue:
                 self.carry_out()
                 return False
             # large meshes are drawn again under other states: alone, they are found to be equal
-            if not (self._are_small and n_vertices < WORTH_COMPARING):
+            if kind is not self._kind and not (self._are_small and n_vertices < WORTH_COMPARING):
                 self.carry_out()
             self._kind, self._like = kind, command
         batch = self._batches.get(kind.batch)
