@@ -162,11 +162,21 @@ def random_special_fragments(rng):
 
 
 def random_picture(
-    seed, *, size=(70, 50), n_triangles=12, ordered=False, tested=False, special=False, units=None, **options
+    seed,
+    *,
+    size=(70, 50),
+    n_triangles=12,
+    ordered=False,
+    tested=False,
+    special=False,
+    white=False,
+    units=None,
+    **options,
 ):
     """Return a window after a draw in a random state of the fixed function, over a random background.
 
-    `ordered`: with blending or a logic operation; `tested`: with alpha test; `special`: see `random_special_fragments`.
+    `ordered`: with blending or a logic operation; `tested`: with alpha test; `special`: see `random_special_fragments`;
+    `white`: all vertices have this colour, without lighting and fog.
     """
     rng = np.random.default_rng(seed)
     context = gl.create_context(*size, **options)
@@ -185,6 +195,9 @@ def random_picture(
         gl.glLightModeli(
             gl.GL_LIGHT_MODEL_COLOR_CONTROL, pick(rng, (gl.GL_SINGLE_COLOR, gl.GL_SEPARATE_SPECULAR_COLOR))
         )
+    if white:
+        gl.glDisable(gl.GL_LIGHTING)
+        gl.glDisable(gl.GL_FOG)
     gl.glShadeModel(gl.GL_SMOOTH if rng.random() < 0.8 else gl.GL_FLAT)
     gl.glMatrixMode(gl.GL_TEXTURE)
     gl.glLoadMatrixf(np.eye(4, dtype=np.float32) + rng.normal(0, 0.1, (4, 4)).astype(np.float32))
@@ -212,9 +225,12 @@ def random_picture(
     scale = rng.choice([0.5, 3, 30])
     coordinates = rng.normal(0, 1, (2, 3 * n_triangles, 4)) * [scale, scale, 1, 0.1] + [0, 0, 0.5, 1]
     colors = rng.uniform(-0.1, 1.2, (3 * n_triangles, 4))
+    if white:
+        gl.glColor4f(1.0, 1.0, 1.0, 1.0)
     gl.glBegin(pick(rng, (gl.GL_TRIANGLES, gl.GL_TRIANGLES, gl.GL_QUADS, gl.GL_LINES, gl.GL_POINTS)))
     for n in range(3 * n_triangles):
-        gl.glColor4f(*colors[n].tolist())
+        if not white:
+            gl.glColor4f(*colors[n].tolist())
         gl.glNormal3f(*rng.normal(0, 1, 3).tolist())
         for unit in range(2):
             gl.glMultiTexCoord4f(gl.GL_TEXTURE0 + unit, *coordinates[unit, n].tolist())

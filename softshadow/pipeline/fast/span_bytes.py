@@ -48,6 +48,7 @@ from softshadow.pipeline.fast.span_state import (
     MAG_LINEAR,
     MIN_LINEAR,
     NO_LEVELS,
+    PACKED_LEVELS,
     SLICES,
     WRAP_R,
     WRAP_S,
@@ -58,6 +59,16 @@ from softshadow.programs.filtering import UNORM8_STEP
 BYTE = np.int32(255)
 EVEN, HALVES = np.int32(0x00FF00FF), np.int32(0x00800080)  # two bytes of a pixel, and the rounding of both
 WEIGHT_STEPS = np.float32(256.0)
+
+
+@kernel
+def filter_block(switches, unit, count, texels, room, whole):
+    """Write FILTERED: the four bytes of each fragment, those of two levels mixed."""
+    filter_level(switches, unit, count, texels, room, whole)
+    if switches[unit + PACKED_LEVELS] and begin_upper_level(count, room, whole):
+        filter_level(switches, unit, count, texels, room, whole)
+        for n in range(np.uint64(count)):
+            whole[FILTERED + n] = mix_bytes_of(whole[STEPS + n], whole[LOWER + n], whole[FILTERED + n])
 
 
 @kernel
@@ -160,11 +171,8 @@ def begin_upper_level(count, room, whole):
 
 
 @kernel
-def unpack_texels(mixed, count, room, whole):
-    """Write the filtered bytes as floats; `mixed`: first those of two levels are mixed."""
-    if mixed:
-        for n in range(np.uint64(count)):
-            whole[FILTERED + n] = mix_bytes_of(whole[STEPS + n], whole[LOWER + n], whole[FILTERED + n])
+def unpack_texels(count, room, whole):
+    """Write the filtered bytes as floats."""
     for n in range(np.uint64(count)):
         texel = whole[FILTERED + n]
         room[TEXEL + n] = np.float32(texel & BYTE) * UNORM8_STEP

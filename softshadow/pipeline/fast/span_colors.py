@@ -5,6 +5,7 @@ import numpy as np
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import (
+    FILTERED,
     FOUR_COLUMNS,
     NEXT,
     PACKED,
@@ -16,11 +17,13 @@ from softshadow.pipeline.fast.fragment_block import (
     WEIGHT,
     interpolate_block,
 )
+from softshadow.pipeline.fast.span_bytes import BYTE, filter_block
 from softshadow.pipeline.fast.span_combine import combine_block, keep_primary, swap_texels
 from softshadow.pipeline.fast.span_state import (
     ADD,
     ALPHA_OPERATION,
     BLEND,
+    CHANNELS,
     COMBINE,
     COMBINES,
     CONSTANT,
@@ -31,11 +34,14 @@ from softshadow.pipeline.fast.span_state import (
     FOG_COLUMN,
     FOG_SHIFT,
     FOG_SLOPE,
+    IN_BYTES,
+    KEEP,
     LINEAR_FOG,
     MULTIPLY,
     N_UNITS,
     NEEDED,
     NUMBERS_OF_UNIT,
+    PATH,
     REPLACE,
     RGB_OPERATION,
     SEPARATE,
@@ -43,12 +49,14 @@ from softshadow.pipeline.fast.span_state import (
     UNIT_NUMBERS,
     UNIT_SWITCHES,
 )
-from softshadow.pipeline.fast.span_textures import sample_block
-from softshadow.pipeline.fast.special_fragments import cover_block
+from softshadow.pipeline.fast.span_textures import place_block, sample_block
+from softshadow.pipeline.fast.special_fragments import LINE_PLACES, POINT_PLACES, cover_block
 from softshadow.pipeline.shade.color_writes import BLUE, GREEN, UPPERMOST, byte_of
+from softshadow.programs.filtering import CONSTANT_ONE, UNORM8_STEP
 from softshadow.programs.llvmpipe_math import exp2_of_all
 
 RED_ROW, GREEN_ROW, BLUE_ROW, ALPHA_ROW = (np.uint64(n) * ROW for n in range(4))
+OPAQUE = np.int32(-1 << 24)  # the largest alpha of a packed colour
 SECONDARY = np.uint64(4) * ROW
 
 
@@ -60,6 +68,14 @@ def shade_block(planes, spans, n_spans, count, flat, switches, numbers, texels0,
     """
     if switches[NEEDED] == FOUR_COLUMNS and flat[0] and flat[1] and flat[2] and flat[3]:
         write_constant_colors(planes, spans, n_spans, room, whole)
+        return
+    if copies_texels(planes, spans, n_spans, flat, switches, special):
+        interpolate_block(planes, spans, n_spans, flat, switches[NEEDED] & ~FOUR_COLUMNS, room)
+        place_block(
+            planes, spans, n_spans, count, flat, switches, numbers, UNIT_SWITCHES, UNIT_NUMBERS, room, whole
+        )  # fmt: skip
+        filter_block(switches, UNIT_SWITCHES, count, texels0, room, whole)
+        copy_texels(has_no_alpha(switches), count, room, whole)
         return
     interpolate_block(planes, spans, n_spans, flat, switches[NEEDED], room)
     combines, n_units = switches[COMBINES] != 0, switches[N_UNITS]
@@ -94,6 +110,48 @@ def write_constant_colors(planes, spans, n_spans, room, whole):
         packed = byte_of(red) | byte_of(green) << GREEN | byte_of(blue) << BLUE | byte_of(alpha) << UPPERMOST
         for n in range(np.uint64(start), np.uint64(end)):
             whole[PACKED + n], room[ALPHA_ROW + n] = packed, alpha
+
+
+@kernel
+def copies_texels(planes, spans, n_spans, flat, switches, special):
+    """Return whether the colours are the bytes of one texture: it replaces them, or multiplies a constant white."""
+    if switches[N_UNITS] != 1 or switches[UNIT_SWITCHES + PATH] != IN_BYTES:
+        return False
+    for c in range(4):
+        source = switches[UNIT_SWITCHES + CHANNELS + c]
+        if source != c and not (c == 3 and source == CONSTANT_ONE):
+            return False
+    if switches[SEPARATE] or switches[FOG] or special[POINT_PLACES] >= 0 or special[LINE_PLACES] >= 0:
+        return False
+    rgb, alpha = switches[UNIT_SWITCHES + RGB_OPERATION], switches[UNIT_SWITCHES + ALPHA_OPERATION]
+    if rgb == REPLACE and alpha == REPLACE:
+        return True
+    if (rgb != REPLACE and rgb != MULTIPLY) or (alpha != KEEP and alpha != rgb):
+        return False
+    if not (flat[0] and flat[1] and flat[2] and flat[3]):
+        return False
+    for s in range(np.uint64(n_spans)):
+        p = spans[SPAN_PLACE, s]
+        for c in range(4):
+            if planes[p, 0, c] != ONE:
+                return False
+    return True
+
+
+@inlined
+def has_no_alpha(switches):
+    """Return whether the alphas of `copies_texels` are all 1: the texture has none, or that of the colour is kept."""
+    return switches[UNIT_SWITCHES + CHANNELS + 3] == CONSTANT_ONE or switches[UNIT_SWITCHES + ALPHA_OPERATION] == KEEP
+
+
+@kernel
+def copy_texels(is_opaque, count, room, whole):
+    """Write PACKED and alpha by the filtered bytes; with `is_opaque`, all alphas are 1."""
+    alphas = OPAQUE if is_opaque else np.int32(0)
+    for n in range(np.uint64(count)):
+        texel = np.int32(whole[FILTERED + n] | alphas)
+        whole[PACKED + n] = texel
+        room[ALPHA_ROW + n] = np.float32(np.int32(texel >> 24) & BYTE) * UNORM8_STEP
 
 
 @kernel

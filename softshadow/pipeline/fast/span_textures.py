@@ -9,7 +9,7 @@ import numpy as np
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import ROW, TEXEL, R, S, T
-from softshadow.pipeline.fast.span_bytes import begin_upper_level, filter_level, unpack_texels
+from softshadow.pipeline.fast.span_bytes import filter_block, unpack_texels
 from softshadow.pipeline.fast.span_cubes import project_onto_faces_of_block
 from softshadow.pipeline.fast.span_floats import compare_nearest_depths, sample_in_float
 from softshadow.pipeline.fast.span_levels import select_levels_of_block, write_squared_steps
@@ -24,7 +24,6 @@ from softshadow.pipeline.fast.span_state import (
     LOD_MODE,
     NEAREST_DEPTH,
     NO_LEVELS,
-    PACKED_LEVELS,
     PATH,
     READS_R,
     S_COLUMN,
@@ -41,6 +40,22 @@ def sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, n
 
     `unit` and `number` are where the unit's switches and numbers begin.
     """
+    path = switches[unit + PATH]
+    place_block(planes, spans, n_spans, count, flat, switches, numbers, unit, number, room, whole)
+    if path == IN_BYTES:
+        filter_block(switches, unit, count, texels, room, whole)
+        unpack_texels(count, room, whole)
+    elif path == NEAREST_DEPTH:
+        compare_nearest_depths(switches, numbers, unit, number, count, texels, room, whole)
+    else:
+        sample_in_float(switches, numbers, unit, number, count, texels, room, whole)
+    if switches[unit + IS_SPREAD]:
+        spread_channels(switches, unit, count, room)
+
+
+@kernel
+def place_block(planes, spans, n_spans, count, flat, switches, numbers, unit, number, room, whole):
+    """Write where a unit's texture is looked up, and the level of each fragment."""
     column, path, has_levels = switches[unit + S_COLUMN], switches[unit + PATH], switches[unit + LOD_MODE] != NO_LEVELS
     in_space = switches[unit + SLICES] | switches[unit + IS_CUBE]
     if has_levels and in_space:
@@ -54,20 +69,6 @@ def sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, n
     project_block(column, count, switches[unit + READS_R] != 0, room)
     if switches[unit + IS_CUBE]:
         project_onto_faces_of_block(switches[unit + BY_RECIPROCAL] != 0, count, room, whole)
-    if path == IN_BYTES:
-        filter_level(switches, unit, count, texels, room, whole)
-        mixed = False
-        if switches[unit + PACKED_LEVELS]:
-            mixed = begin_upper_level(count, room, whole)
-        if mixed:
-            filter_level(switches, unit, count, texels, room, whole)
-        unpack_texels(mixed, count, room, whole)
-    elif path == NEAREST_DEPTH:
-        compare_nearest_depths(switches, numbers, unit, number, count, texels, room, whole)
-    else:
-        sample_in_float(switches, numbers, unit, number, count, texels, room, whole)
-    if switches[unit + IS_SPREAD]:
-        spread_channels(switches, unit, count, room)
 
 
 @kernel

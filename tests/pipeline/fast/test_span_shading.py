@@ -56,6 +56,18 @@ def test_combined_textures_are_shaded_in_blocks(monkeypatch):
         assert shadings <= {"fixed-function kernel", ""}  # the latter where nothing is visible
 
 
+@pytest.mark.parametrize("mode", [gl.GL_REPLACE, gl.GL_MODULATE])
+@pytest.mark.parametrize("format", [gl.GL_RGBA, gl.GL_RGB])
+def test_texels_that_are_the_colours_are_copied(mode, format, monkeypatch):
+    choices = {"MODES": (mode,), "FORMATS": (format,), "TARGETS": (gl.GL_TEXTURE_2D,), "WRAPS": (gl.GL_REPEAT,) * 2}
+    for name, values in choices.items():
+        monkeypatch.setattr(fixed_function_pictures, name, values)
+    monkeypatch.setattr(fixed_function_pictures, "DEPTH_SHARE", 0)
+    for seed in range(24):
+        ways = {"ordered": seed % 3 == 0, "tested": seed % 4 == 1, "special": seed % 5 == 2}
+        assert_same(seed, units=1, size=(40, 30), white=True, **ways)
+
+
 @pytest.mark.parametrize("target", [gl.GL_TEXTURE_3D, gl.GL_TEXTURE_CUBE_MAP])
 def test_textures_of_other_targets_are_sampled_in_blocks(target, monkeypatch):
     monkeypatch.setattr(fixed_function_pictures, "TARGETS", (target,))
