@@ -5,9 +5,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from ctypes import c_uint
 from functools import partial
+from struct import Struct
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -44,6 +45,7 @@ Rows = tuple[list[RowSnapshot], int, int]  # of each array, positions first, and
 KEYS = tuple(SLOTS)  # names of the arrays by slot
 OPTIONAL = {EDGE: "edges", SECONDARY: "secondary", FOG_COORDINATE: "fog_coordinates"}  # fields of `Vertices`
 MOST_DRAWN = 4096  # ranges of one array with the vertices that were drawn
+NO_MEMORY = memoryview(b"")
 NOT_DRAWN = "index"  # the array that only glArrayElement reads
 NORMALIZED = ("color", "normal", "secondary")  # integers represent 0 to 1 or -1 to 1
 CONVERSIONS: dict[type[np.generic], Callable[[Any], float]] = {  # by glArrayElement, as in glColor and glNormal
@@ -158,10 +160,10 @@ def glArrayElement(i: int) -> None:
         if known is None or arrays.active is None or known[0] is not arrays.active:
             known = _find_readers(context)
         readers: tuple[_Reader, ...] = known[1]
-        for key, rows, length, call, convert in readers:
+        for key, rows, length, call, convert, unpack, memory, stride in readers:
             if not 0 <= i < length:
                 raise ValueError(f"glArrayElement(i={i}): the array of {key}s has {length}")
-            values = rows[i].tolist()
+            values = rows[i].tolist() if unpack is None else unpack(memory, i * stride)
             if convert is not None:
                 values = [convert(number) for number in values]
             if call is not None:
@@ -175,13 +177,20 @@ def glArrayElement(i: int) -> None:
 
 
 class _Reader(NamedTuple):
-    """How glArrayElement takes an attribute from an array: its rows, a quick call, and what makes numbers floats."""
+    """How glArrayElement takes an attribute from an array.
+
+    rows, length: the array; call: a quick call, where there is one; convert: what makes integers floats;
+    unpack, memory, stride: what reads a row in half the time; unpack is None where there are gaps between rows.
+    """
 
     key: str
     rows: np.ndarray
     length: int
     call: Callable[..., None] | None
     convert: Callable[[Any], float] | None
+    unpack: Callable[[memoryview, int], tuple[Any, ...]] | None
+    memory: memoryview
+    stride: int
 
 
 def _find_readers(context: Context) -> tuple[tuple[VertexArray, ...], tuple[_Reader, ...]]:
@@ -198,10 +207,15 @@ def _reader(array: VertexArray) -> _Reader:
     key, rows = KEYS[array.slot], array.rows
     convert = CONVERSIONS.get(rows.dtype.type, float) if key in NORMALIZED else float
     call = CALLS.get((key, rows.shape[1]))
-    return _Reader(key, rows, len(rows), call, None if rows.dtype.kind == "f" else convert)
+    unpack: Callable[..., tuple[Any, ...]] | None = None
+    memory = NO_MEMORY
+    if len(rows) and rows.flags.c_contiguous and rows.dtype.isnative:
+        unpack, memory = Struct(f"{rows.shape[1]}{rows.dtype.char}").unpack_from, rows.data.cast("B")
+    conversion = None if rows.dtype.kind == "f" else convert
+    return _Reader(key, rows, len(rows), call, conversion, unpack, memory, rows.strides[0])
 
 
-def _set_attribute(key: str, values: list[float]) -> None:
+def _set_attribute(key: str, values: Sequence[float]) -> None:
     if key == "position":
         add_vertex(current(), *values)
     elif key == "color":
