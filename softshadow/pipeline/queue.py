@@ -143,8 +143,10 @@ class DrawQueue:
             target = self._storage.framebuffers[command.state.draw_framebuffer]
             kind = self._with_other_tests(command, target) or self._new_kind(command, target)
         if kind is not None:
-            if max(len(self._known), len(self._of_states)) >= KNOWN_KINDS or self._known_vertices > KNOWN_VERTICES:
+            if len(self._known) >= KNOWN_KINDS or self._known_vertices > KNOWN_VERTICES:
                 self.forget()
+            if len(self._of_states) >= KNOWN_KINDS:  # a light that moves makes a new state in each frame
+                self._of_states.clear()
             if is_new:
                 self._known.setdefault(key, []).append(kind)
             self._of_states[id(command.state)] = kind, command

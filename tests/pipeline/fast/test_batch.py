@@ -393,12 +393,28 @@ def test_what_a_run_depends_on_is_known_when_its_state_returns(monkeypatch):
     gl.create_context(SIZE, SIZE)
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
     gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.eye(3, dtype=np.float32))
-    for n in range(6):
+    for n in range(2 * queue.KNOWN_KINDS):  # as many states, since the light moves, of two kinds
         (gl.glEnable if n % 2 else gl.glDisable)(gl.GL_DEPTH_TEST)
         gl.glLightfv(gl.GL_LIGHT0, gl.GL_POSITION, [n, 0, 1, 0])
         gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
     gl.glFinish()
     assert len(planned) == 2
+
+
+def test_large_draws_of_one_kind_are_set_up_together(monkeypatch):
+    runs, geometry_of = [], queue.geometry_of
+    monkeypatch.setattr(
+        queue, "geometry_of", lambda *arguments: runs.append(len(arguments[2])) or geometry_of(*arguments)
+    )
+    gl.create_context(SIZE, SIZE)
+    gl.glEnable(gl.GL_LIGHTING)
+    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.zeros((queue.WORTH_COMPARING, 3), np.float32))
+    for n in range(5):
+        gl.glMaterialfv(gl.GL_FRONT, gl.GL_DIFFUSE, [n / 5, 0, 0, 1])
+        gl.glDrawArrays(gl.GL_TRIANGLES, 0, queue.WORTH_COMPARING)
+    gl.glFinish()
+    assert runs == [5]
 
 
 def test_what_a_run_depends_on_stays_known_when_texels_change(monkeypatch):
