@@ -12,17 +12,17 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
-from softshadow.jit import kernel, read_only
+from softshadow.jit import read_only
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.assembly import assemble_draws, assemble_lines_and_points, primitive_count
 from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
 from softshadow.pipeline.fast.batch.run import Run, width_of
+from softshadow.pipeline.fast.batch.small_runs import set_up_pieces, set_up_run
 from softshadow.pipeline.fast.batch.table import Table, table_of
 from softshadow.pipeline.fast.batch.vertices import prepare_draws, process_vertices
 from softshadow.pipeline.fast.geometry_cache import recent_of
 from softshadow.pipeline.fast.recent_triangles import triangles_key, window_key
 from softshadow.pipeline.geometry.clip import CUT, Clipped, clip_triangles, write_sides
-from softshadow.pipeline.geometry.facing import snap_vertices
 from softshadow.pipeline.geometry.geometry import (
     filled_geometry,
     filled_offset,
@@ -33,7 +33,12 @@ from softshadow.pipeline.geometry.geometry import (
 from softshadow.pipeline.geometry.lines import clip_lines
 from softshadow.pipeline.geometry.points import clip_points
 from softshadow.pipeline.geometry.program import program_of
-from softshadow.pipeline.geometry.triangle_setup import NO_TRIANGLES, Offset, set_up_triangles, stored_culling
+from softshadow.pipeline.geometry.triangle_setup import (
+    NO_TRIANGLES,
+    Offset,
+    empty_setup,
+    stored_culling,
+)
 from softshadow.pipeline.geometry.vertex import append_rows, scale_and_shift, to_window
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
@@ -126,11 +131,9 @@ def geometry_of(
     unset = Geometry(
         NO_TRIANGLES, *outputs[2:], setting.flat, provoking, provoking, setting.program, setting.uniforms
     )  # fmt: skip
-    if width == 3 and max(n, most) <= SMALL and not has_float_units(command, target):
-        setup = Setup(
-            np.empty((most, 6), np.int32), np.empty((most, 3), np.int32), np.empty((most, 4), REAL),
-            np.empty(most, np.uint8), np.empty(most, np.int32),
-        )  # fmt: skip
+    is_small = width == 3 and max(n, most) <= SMALL and not has_float_units(command, target)
+    if is_small:
+        setup = empty_setup(most, REAL)
         n_triangles, n_drawn, area = set_up_run(
             *inputs, *outputs.for_kernels, table.indices, triangles, read_only(triangles), provoking,
             np.empty((n, 2), np.int32), setting.culled, setting.positive_is_front, setting.offset, *setup,
@@ -144,6 +147,9 @@ def geometry_of(
     clip, codes, columns = outputs.clip, outputs.codes, outputs.columns
     if width == 3:
         clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, run.user_planes)
+        if is_small and not recent:
+            geometry = unset._replace(source=clipped.source, provoking=provoking[clipped.source])
+            return _with_pieces(_with_values(geometry, clipped.values, setting), clipped, setting)
     else:
         primitives, clip_primitives = _lines_or_points(table, most, width), clip_points if width == 1 else clip_lines
         provoking, clipped = primitives[:, -1], clip_primitives(clip, columns, primitives, codes, run.user_planes)
@@ -164,6 +170,16 @@ def geometry_of(
         alive = [(draw.vertices.position, draw.indices) for draw in draws]
         recent.add(key, known, (*arrays, clipped.triangles), alive)
     return geometry, -1
+
+
+def _with_pieces(geometry: Geometry, clipped: Clipped, setting: Setting) -> tuple[Geometry, int]:
+    """Return a geometry with the triangles that clipping has left, set up, and about how many fragments they have."""
+    window, setup = np.empty_like(clipped.clip), empty_setup(len(clipped.triangles), REAL)
+    n_drawn, area = set_up_pieces(
+        clipped.clip, geometry.window, setting.scale, setting.shift, window, np.empty((len(window), 2), np.int32),
+        read_only(clipped.triangles), setting.culled, setting.positive_is_front, setting.offset, *setup,
+    )  # fmt: skip
+    return geometry._replace(window=window, triangles=Setup(*[array[:n_drawn] for array in setup])), area >> 8
 
 
 def _may_be_repeated(draws: Sequence[Draw]) -> bool:
@@ -244,37 +260,6 @@ def _write_outputs(table: Table, inputs: tuple[Any, ...], outputs: Outputs) -> N
     prepare_draws(*inputs[:3], table.lights, table.flags, inputs[PLACED])
     parts = parts_of(len(outputs.clip), VERTICES_PER_TASK)
     share(lambda part: process_vertices(*parts[part], *inputs, *outputs.for_kernels), len(parts))
-
-
-@kernel
-def set_up_run(
-    layout, numbers, rows, lights, materials, flags, placed, generated, planes, user_planes, unit_rows, positions,
-    colors, normals, texcoords, scale, shift, clip, codes, window, values, back, indices, triangles, triangles_read,
-    provoking, snapped, culled, positive_is_front, offset, corners, vertices, depth, front, ids,
-):  # fmt: skip
-    """Process the vertices of all draws and set their triangles up, unless any of them must be clipped.
-
-    Return the numbers of triangles and of those that are drawn, the latter -1 where a vertex needs clipping, and the
-    sum of their areas in 1/256 pixel. `triangles_read` is `triangles`, read-only.
-    """
-    n = positions.shape[0]
-    prepare_draws(layout, numbers, rows, lights, flags, placed)
-    process_vertices(
-        0, n, layout, numbers, rows, lights, materials, flags, placed, generated, planes, user_planes, unit_rows,
-        positions, colors, normals, texcoords, scale, shift, clip, codes, window, values, back,
-    )  # fmt: skip
-    n_triangles = assemble_draws(numbers, indices, codes, triangles, provoking)
-    any_code = 0
-    for v in range(n):
-        any_code |= codes[v]
-    if any_code:
-        return n_triangles, np.int64(-1), np.int64(0)
-    snap_vertices(window, 0, n, snapped)
-    n_drawn, area = set_up_triangles(
-        window, snapped, triangles_read, 0, n_triangles, culled, positive_is_front, offset, 0, corners, vertices, depth,
-        front, ids,
-    )  # fmt: skip
-    return n_triangles, np.int64(n_drawn), np.int64(area)
 
 
 def _lines_or_points(table: Table, most: int, width: int) -> np.ndarray:
