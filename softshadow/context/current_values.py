@@ -10,6 +10,7 @@ from softshadow.context.changing_state import ChangingState
 from softshadow.context.raster_position import INITIAL_RASTER_POSITION, RasterPosition
 from softshadow.state import BLACK, TEXTURE_UNITS
 
+# names of texture coordinates: the texture unit of each
 UNIT_OF = {f"texcoord{unit}": unit for unit in range(TEXTURE_UNITS)}
 MATERIALS = {side: f"lighting.{side}" for side in ("front", "back")}  # groups of the state
 

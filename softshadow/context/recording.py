@@ -64,9 +64,8 @@ class Contents:
         for array in attributes:
             if array.strides[0]:  # a constant attribute is one row
                 self._add_array(array)
-        if vertices.materials:
-            for array in vertices.materials.values():
-                self._add_array(array)
+        for array in vertices.materials.values():
+            self._add_array(array)
 
     def _add_array(self, array: np.ndarray) -> None:
         sizes, base = self._sizes, array.base

@@ -16,6 +16,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context, current, thread
 from softshadow.context.arrays import ArrayLayout, BufferObject, RowSnapshot, VertexArray
+from softshadow.context.current_values import UNIT_OF
 from softshadow.gl.array_snapshots import EDGE, FOG_COORDINATE, POSITION, SECONDARY, slice_of, snapshot_rows
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.color_indices import set_index
@@ -231,7 +232,7 @@ def _set_attribute(key: str, values: Sequence[float]) -> None:
     elif key == "index":
         set_index(values[0])
     else:
-        set_coordinate(int(key.removeprefix("texcoord")), *values)
+        set_coordinate(UNIT_OF[key], *values)
 
 
 _record_attribute = in_lists(_set_attribute)

@@ -80,14 +80,12 @@ def carry_attribute(context: Context, name: str, size: int) -> int:
     active_sizes[name] = size
     if primitive is not None:
         primitive.position_size = 0  # there is room for fewer vertices
-        if primitive.from_list:
-            pass
-        elif primitive.positions:
+        if not primitive.positions and not primitive.from_list:
+            buffer.submit()
+        elif not primitive.from_list:
             _wrap(context, primitive)
             if not carried:
                 _shorten(context, primitive, name, size)
-        else:
-            buffer.submit()
     else:
         had_many = buffer.n_vertices > FEW_VERTICES
         buffer.submit()

@@ -1,7 +1,6 @@
 """Draws that wait and are processed together leave the bits of draws carried out one by one."""
 
 from functools import partial
-from typing import Any
 
 import numpy as np
 import pytest
@@ -17,7 +16,6 @@ from softshadow.pipeline.fast.batch import geometry
 from softshadow.pipeline.fast.batch.geometry import Setting
 from softshadow.pipeline.fast.batch.matrices import invert
 from softshadow.pipeline.fast.batch.run import Run
-from softshadow.pipeline.fast.batch.segments import Part
 from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.memory import threads as pool
 from softshadow.pipeline.records import Geometry
@@ -315,55 +313,6 @@ def test_the_cut_of_quads_depends_on_their_segment(seed, n_clipped):
     assert same_buffers(quads(), expected)
 
 
-def test_many_small_draws_are_one_run(monkeypatch):
-    runs = []
-    geometry_of = queue.geometry_of
-
-    def count(run: Run, setting: Setting, draws: list[Draw], *rest: Any) -> tuple[Geometry, int]:
-        runs.append(len(draws))
-        return geometry_of(run, setting, draws, *rest)
-
-    monkeypatch.setattr(queue, "geometry_of", count)
-    gl.create_context(SIZE, SIZE)
-    gl.glEnable(gl.GL_LIGHTING)
-    gl.glEnable(gl.GL_COLOR_MATERIAL)
-    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
-    gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.eye(3, dtype=np.float32))
-    for n in range(50):
-        gl.glColor3f(n / 50, 0, 0)
-        gl.glRotatef(n, 0, 1, 0)
-        gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
-    assert not runs
-    gl.glReadPixels(0, 0, 1, 1, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
-    assert runs == [50]
-
-
-def test_small_draws_between_changes_of_tests_are_one_batch(monkeypatch):
-    batches, segments = [], []
-    geometry_of, draw_segment = queue.geometry_of, queue.DrawQueue._draw_segment
-
-    def note_batch(run: Run, setting: Setting, draws: list[Draw], *rest: Any) -> tuple[Geometry, int]:
-        batches.append(len(draws))
-        return geometry_of(run, setting, draws, *rest)
-
-    def note_segment(waiting: queue.DrawQueue, kind: queue.Kind, part: Part, group: Any) -> Any:
-        segments.append(part.end - part.first)
-        return draw_segment(waiting, kind, part, group)
-
-    monkeypatch.setattr(queue, "geometry_of", note_batch)
-    monkeypatch.setattr(queue.DrawQueue, "_draw_segment", note_segment)
-    gl.create_context(SIZE, SIZE)
-    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
-    gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.eye(3, dtype=np.float32))
-    for n in range(12):
-        if n % 3 == 0:
-            gl.glScissor(n, 0, SIZE, SIZE)
-        gl.glDrawArrays(gl.GL_LINES if n % 3 == 2 else gl.GL_TRIANGLES, 0, 2 if n % 3 == 2 else 3)
-    gl.glFinish()
-    assert batches == [8, 4]  # of triangles and of lines
-    assert segments == [2, 2] * 4  # two triangles; two of a line
-
-
 def test_a_long_run_is_cut(monkeypatch):
     monkeypatch.setattr(queue, "MOST_VERTICES", 10)
     context = gl.create_context(SIZE, SIZE)
@@ -384,68 +333,3 @@ def test_inverses_are_those_of_the_textbook(seed, kind):
         invert(matrix, kind, result)
         expected = inverse.inverse(matrix, kind)
     np.testing.assert_array_equal(result, expected)
-
-
-def test_what_a_run_depends_on_is_known_when_its_state_returns(monkeypatch):
-    planned = []
-    plan_draw = queue.plan_draw
-    monkeypatch.setattr(queue, "plan_draw", lambda *arguments: planned.append(1) or plan_draw(*arguments))
-    gl.create_context(SIZE, SIZE)
-    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
-    gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.eye(3, dtype=np.float32))
-    for n in range(2 * queue.KNOWN_KINDS):  # as many states, since the light moves, of two kinds
-        (gl.glEnable if n % 2 else gl.glDisable)(gl.GL_DEPTH_TEST)
-        gl.glLightfv(gl.GL_LIGHT0, gl.GL_POSITION, [n, 0, 1, 0])
-        gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
-    gl.glFinish()
-    assert len(planned) == 2
-
-
-def test_large_draws_of_one_kind_are_set_up_together(monkeypatch):
-    runs, geometry_of = [], queue.geometry_of
-    monkeypatch.setattr(
-        queue, "geometry_of", lambda *arguments: runs.append(len(arguments[2])) or geometry_of(*arguments)
-    )
-    gl.create_context(SIZE, SIZE)
-    gl.glEnable(gl.GL_LIGHTING)
-    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
-    gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.zeros((queue.WORTH_COMPARING, 3), np.float32))
-    for n in range(5):
-        gl.glMaterialfv(gl.GL_FRONT, gl.GL_DIFFUSE, [n / 5, 0, 0, 1])
-        gl.glDrawArrays(gl.GL_TRIANGLES, 0, queue.WORTH_COMPARING)
-    gl.glFinish()
-    assert runs == [5]
-
-
-def test_what_a_run_depends_on_stays_known_when_texels_change(monkeypatch):
-    planned = []
-    plan_draw = queue.plan_draw
-    monkeypatch.setattr(queue, "plan_draw", lambda *arguments: planned.append(1) or plan_draw(*arguments))
-    context = gl.create_context(SIZE, SIZE)
-    corners = np.array([[-1, -1, 0], [3, -1, 0], [-1, 3, 0]], np.float32)
-    texels = np.zeros((2, 2, 4), np.uint8)
-    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
-    gl.glVertexPointer(3, gl.GL_FLOAT, 0, corners)
-    gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
-    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 2, 2, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
-    gl.glEnable(gl.GL_TEXTURE_2D)
-    gl.glClearColor(0.5, 0.5, 0.5, 0.5)
-    drawn = []
-    for n in range(5):
-        texels[:] = 60 * n + 10
-        if n == 4:
-            gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 2, 2, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
-        elif n < 3:
-            gl.glTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 2, 2, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
-        else:
-            gl.glClear(gl.GL_COLOR_BUFFER_BIT)
-            gl.glCopyTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 0, 0, 2, 2)
-        gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
-        drawn.append(context.storage.window.color.view.copy())
-    assert [np.unique(picture).tolist() for picture in drawn] == [[10], [70], [130], [128], [250]]
-    assert len(planned) == 1
-    for size in (4, 2):  # another size does end it
-        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, size, size, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, None)
-        gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
-    gl.glFinish()
-    assert len(planned) == 3

@@ -33,12 +33,7 @@ from softshadow.pipeline.geometry.geometry import (
 from softshadow.pipeline.geometry.lines import clip_lines
 from softshadow.pipeline.geometry.points import clip_points
 from softshadow.pipeline.geometry.program import program_of
-from softshadow.pipeline.geometry.triangle_setup import (
-    NO_TRIANGLES,
-    Offset,
-    empty_setup,
-    stored_culling,
-)
+from softshadow.pipeline.geometry.triangle_setup import NO_TRIANGLES, Offset, empty_setup, stored_culling
 from softshadow.pipeline.geometry.vertex import append_rows, scale_and_shift, to_window
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share

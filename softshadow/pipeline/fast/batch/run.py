@@ -145,8 +145,8 @@ class Run:
 
     def takes(self, command: Draw) -> bool:
         """Return whether a draw of the same kind as the others continues the run."""
-        is_state = command.state is self.state or groups_of(command.state) == groups_of(self.state)
-        return is_state and self._is_alike(command)
+        has_state = command.state is self.state or groups_of(command.state) == groups_of(self.state)
+        return has_state and self._is_alike(command)
 
     def under(self, command: Draw) -> Run | None:
         """Return the run that begins with a draw whose state has other tests or blending; None if more differs."""
@@ -181,7 +181,7 @@ class Run:
             return False
         if command.mode != taken.mode or command.modelview_kind & UNKNOWN or command.joined_positions is not None:
             return False
-        if command.mode == gl.GL_TRIANGLES and leaves_out_triangles(command):
+        if leaves_out_triangles(command):
             return False
         if len(self.user_planes) and not self._has_same_clip_planes(command, taken.projection, taken.projection_kind):
             return False
@@ -226,7 +226,8 @@ def geometry_structure(run: Run) -> tuple[Hashable, ...]:
 
 def leaves_out_triangles(command: Draw) -> bool:
     """Return whether llvmpipe may leave out triangles of a draw of separate triangles (`mesa.rectangles`)."""
-    return command.indices is None and start_of_last_nine(len(command.vertices.position)) >= 0
+    is_list = command.mode == gl.GL_TRIANGLES and command.indices is None
+    return is_list and start_of_last_nine(len(command.vertices.position)) >= 0
 
 
 def can_run(command: Draw) -> bool:
@@ -236,7 +237,7 @@ def can_run(command: Draw) -> bool:
     vertices, lights = command.vertices, command.state.lighting
     if vertices.materials or vertices.position.dtype != np.float32 or command.modelview_kind & UNKNOWN:
         return False
-    if command.mode == gl.GL_TRIANGLES and leaves_out_triangles(command):
+    if leaves_out_triangles(command):
         return False
     # Mesa's back materials that follow the colour of each vertex have stale products (programs.stale_registers)
     return not (lights.enabled and lights.two_side and lights.color_material and vertices.color.strides[0])
