@@ -32,15 +32,17 @@ def warmup(as_json: bool) -> None:
     from softshadow.kernel_cache import cache_folder
     from softshadow.pipeline import use_short_cuts
     from softshadow.runs import run
+    from softshadow.scene import Scene
 
     start = time.perf_counter()
     with warnings.catch_warnings(), use_short_cuts("always"), _without_collection():
         warnings.simplefilter("ignore", SoftShadowWarning)  # the images are not used
+        scene = Scene.named("boxes")
         for name in techniques.names():
             for options in _option_sets(name):
                 text = ", ".join(f"{key}={value}" for key, value in options.items() if key not in FEWER)
                 say(f"compiling {name}{f' ({text})' if text else ''} ...")
-                run(name, "boxes", WARM_SIZE, **options)
+                run(name, scene, WARM_SIZE, **options)
     seconds = time.perf_counter() - start
     if as_json:
         print_json("warmup", seconds=seconds, cache_folder=cache_folder())

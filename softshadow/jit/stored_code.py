@@ -8,6 +8,7 @@ folder).
 """
 
 import contextlib
+import hashlib
 import pickle
 import sys
 from importlib import import_module
@@ -22,6 +23,7 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.environment import Environment, lookup_environment
 from numba.core.registry import CPUDispatcher
+from numba.core.serialize import dumps
 from numba.core.sigutils import normalize_signature
 from numba.core.typing.typeof import Purpose, typeof
 from numba.np import numpy_support
@@ -213,7 +215,9 @@ class KernelCache(FunctionCache):
         return result
 
     def _index_key(self, sig: Any, codegen: Any) -> Any:
-        key = super()._index_key(sig, codegen)
+        """Return what tells results apart; in place of Numba's, which pickles kernels, in each process differently."""
+        enclosed = hashlib.sha256(dumps(enclosed_by(self._py_func))).hexdigest()
+        key = sig, codegen.magic_tuple(), (hashlib.sha256(self._py_func.__code__.co_code).hexdigest(), enclosed)
         return (*key, PART) if self.for_kernels else key
 
     def load_without_compiler(self, argument_types: tuple[Any, ...], target_context: Any) -> Any:
@@ -225,6 +229,15 @@ class KernelCache(FunctionCache):
         """Store a result, if that is possible: the disk may be full, or the folder deleted."""
         with contextlib.suppress(OSError):
             super().save_overload(sig, data)
+
+
+def enclosed_by(function: Any) -> tuple[Any, ...]:
+    """Return the values that a function encloses, and in place of kernels their names and what they enclose."""
+    values = [cell.cell_contents for cell in function.__closure__ or ()]
+    return tuple(
+        (each.py_func.__qualname__, enclosed_by(each.py_func)) if isinstance(each, KernelDispatcher) else each
+        for each in values
+    )
 
 
 NumbaDispatcher: Any = CPUDispatcher  # type checkers do not see the attributes that its C base class has

@@ -36,7 +36,7 @@ from softshadow.pipeline.fast.fragment_numbers import (
     stencil_update_of,
     updated,
 )  # fmt: skip
-from softshadow.pipeline.fast.small_triangles import fill_small
+from softshadow.pipeline.fast.small_triangles import small_fill_for
 from softshadow.pipeline.raster.coverage import bounds, row_spans
 from softshadow.pipeline.raster.fill import FillKernel
 from softshadow.pipeline.raster.fragment_ops import FragmentOps
@@ -95,6 +95,7 @@ def fill_scratch(pitch: int, region: Region) -> tuple[np.ndarray, ...]:
 
 def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
     """Return the kernel that tests stencil values or not, and writes ids or not; loops that it lacks cost no time."""
+    fill_small = small_fill_for(tests_stencil, writes_ids)
 
     @kernel
     def fill(
@@ -106,8 +107,8 @@ def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
         n = 0
         while n < numbers.shape[0]:
             n = fill_small(
-                tests_stencil, writes_ids, which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, n,
-                region, depth_range, pitch, depth, stencil, ids, passed, covered, ties,
+                which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, n, region, depth_range, pitch,
+                depth, stencil, ids, passed, covered, ties,
             )  # fmt: skip
             if n == numbers.shape[0]:
                 break

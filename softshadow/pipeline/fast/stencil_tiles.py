@@ -46,7 +46,7 @@ from softshadow.pipeline.fast.hierarchical_z import (
     write_tile_bounds,
 )  # fmt: skip
 from softshadow.pipeline.fast.narrow_rows import WIDEST, extent_of_rows, fill_narrow
-from softshadow.pipeline.fast.small_triangles import columns_of, fill_small
+from softshadow.pipeline.fast.small_triangles import columns_of, small_fill_for
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.coverage import bounds, row_spans
@@ -145,6 +145,10 @@ def _fill_chunks(
     apply_pending_updates(*numbers, pending, region, stencil)
 
 
+# writes stencil values only; the arrays for numbers of triangles and for ties only have the types that it expects
+fill_small = small_fill_for(True, False)
+
+
 @kernel
 def fill_in_tiles(
     ops, byte_ops, largest, corners, planes, faces, numbers, region, depth_range, lows, highs, width, pitch, columns,
@@ -162,8 +166,8 @@ def fill_in_tiles(
     n = 0
     while n < numbers.shape[0]:
         n = fill_small(
-            1, 0, 0, ops, byte_ops, largest, corners, planes, faces, numbers, n, region, depth_range, pitch, depth,
-            stencil, depth, passed, covered, covered,
+            0, ops, byte_ops, largest, corners, planes, faces, numbers, n, region, depth_range, pitch, depth, stencil,
+            pending, passed, covered, lefts,
         )  # fmt: skip
         if n == numbers.shape[0]:
             break
