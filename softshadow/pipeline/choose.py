@@ -63,7 +63,7 @@ except ModuleNotFoundError:  # the folder can be deleted: the textbook draws eve
     SHORT_CUTS_EXIST = False
 
 WORTH_BANDS = 1_000_000  # fragments from which one thread draws layers in bands: sorting is small against the work
-WORTH_THREADS = 300_000  # fragments from which several threads share bands: these take some 600 us, a hand-over 60
+WORTH_THREADS = 400_000  # fragments from which several threads share bands: these take some 800 us
 SMALL_TRIANGLE = 100  # fragments that are filled in the time that a small triangle takes
 WORTH_SHARING = 64  # triangles for each thread, from which threads share them in place of bands of rows
 WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volumes are long and thin

@@ -23,7 +23,7 @@ from softshadow.pipeline.fast.span_tests import NO_OPS
 from softshadow.pipeline.fast.special_fragments import NO_SPECIAL
 from softshadow.pipeline.records import Geometry, Spans
 from softshadow.pipeline.shade.interpolate import AttributePlanes
-from softshadow.pipeline.shade.shading import shade_in_parts
+from softshadow.pipeline.shade.shading import LOOKED_UP, shade_in_parts
 from softshadow.state import State
 
 NO_RANGE, NO_ORDER, NO_COLUMNS = np.zeros((1, 2), np.float32), np.empty(0, np.int32), np.empty((2, 0), np.int32)
@@ -50,4 +50,4 @@ def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry)
             *block_memory.arrays,
         )  # fmt: skip
 
-    return lambda spans: shade_in_parts(geometry, spans, shade_part)
+    return lambda spans: shade_in_parts(geometry, spans, shade_part, LOOKED_UP if geometry.program.units else 1)

@@ -17,7 +17,7 @@ from softshadow.pipeline.fast.fragment_block import block_memory
 from softshadow.pipeline.fast.segment_rows import draw_segments
 from softshadow.pipeline.fast.segment_tables import NO_DEPTH, NO_STENCIL, SegmentState, padded_textures, texels_of_units
 from softshadow.pipeline.memory.scratch import scratch
-from softshadow.pipeline.memory.threads import parts_of, share, threads
+from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, few_bands, triangles_in_bands
 from softshadow.pipeline.raster.region import depth_range_of
 from softshadow.pipeline.records import Geometry, Region, Setup, Spans
@@ -26,10 +26,9 @@ from softshadow.pipeline.shade.shading import write_sprite_planes
 from softshadow.state import State
 
 TRIANGLES = 1 << 12  # whose planes are computed at a time
-PLANES = 1 << 11  # of triangles, computed by one thread in one go
 SPANS = 1 << 14  # collected at a time; a row of the widest buffer has at most half as many
 WORTH_BANDS = 30_000  # fragments from which bands of rows pay for several threads: they take some 250 us
-SMALL_TRIANGLE = 40  # fragments that take as long as a small triangle
+SORTED_TRIANGLE = 10  # fragments that are drawn in the time in which a triangle is sorted into bands
 STENCIL_TESTED = 8  # if the stencil test can fail: fragments that fail take an eighth of the time
 
 
@@ -50,7 +49,7 @@ class Segments(NamedTuple):
 
     table (S, 10) int32: columns as in `segment_tables`; ranges (S, 2) float32: what depths are clamped to; flats (g, k)
     bool: which columns are not interpolated; states: of `state_tables`; textures: of `padded_textures`; depth, stencil,
-    pixels: the buffers; region: where any of the segments may write; work: about how many fragments they have.
+    pixels: the buffers; region: where any of the segments may write; work: see `work_of`.
     """
 
     table: np.ndarray
@@ -113,25 +112,17 @@ def buffers_of(target: Framebuffer, writes_depth: bool) -> tuple[np.ndarray, np.
 
 
 def work_of(numbers: SegmentState, fragments: int, n_triangles: int) -> int:
-    """Return how many fragments without stencil test take as long as these triangles, about."""
-    return fragments // (STENCIL_TESTED if numbers.tests_stencil else 1) + SMALL_TRIANGLE * n_triangles
+    """Return by how many fragments, about, bands of rows pay: what sorting the triangles costs is taken off."""
+    return max(fragments // (STENCIL_TESTED if numbers.tests_stencil else 1) - SORTED_TRIANGLE * n_triangles, 0)
 
 
 def write_planes(geometry: Geometry, triangles: Setup, planes: np.ndarray) -> None:
     """Write the `interpolate.attribute_planes` of all triangles of a part of the geometry."""
     count, values, back = len(triangles.ids), geometry.values, geometry.back
-
-    def write_part(first: int, end: int) -> None:
-        attribute_planes(
-            geometry.window, values, values if back is None else back, triangles.vertices, triangles.front,
-            in_order[first:end], geometry.flat, geometry.provoking, triangles.ids, planes[first:end],
-        )  # fmt: skip
-
-    if count < 2 * PLANES:  # most draws: no time to look for threads
-        write_part(0, count)
-    else:
-        parts = parts_of(count, PLANES)
-        share(lambda n: write_part(*parts[n]), len(parts))
+    attribute_planes(
+        geometry.window, values, values if back is None else back, triangles.vertices, triangles.front,
+        in_order[:count], geometry.flat, geometry.provoking, triangles.ids, planes,
+    )  # fmt: skip
     if geometry.sprites is not None:
         part = geometry._replace(triangles=triangles)
         write_sprite_planes(part, geometry.sprites, AttributePlanes(planes, in_order[:count]))

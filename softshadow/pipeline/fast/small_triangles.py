@@ -67,15 +67,15 @@ def small_fill_for(tests_stencil: bool, writes_ids: bool) -> Any:
 
     @kernel
     def fill_small(
-        which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, n, region,
-        depth_range, pitch, depth, stencil, ids, passed, covered, ties,
+        which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, n, region, depth_range, pitch, depth,
+        stencil, ids, passed, covered, ties,
     ):  # fmt: skip
         """Fill small triangles by bounding box, from ``numbers[n]`` on; the arguments: see `any_state.compiled_for`.
 
-        Return the index of the first triangle that is not small. The caller's loop over large triangles is separate so that
-        the registers of one loop need not hold the values of the other: in one loop, it takes twice as long. `passed` and
-        `covered` (16,) uint8 are scratch. Columns and rows as floats are those of `FillBuffers.columns`: reading that array
-        would make the compiler test for every triangle whether it overlaps the buffers.
+        Return the index of the first triangle that is not small. The caller's loop over large triangles is separate so
+        that the registers of one loop need not hold the values of the other: in one loop, it takes twice as long.
+        `passed` and `covered` (16,) uint8 are scratch. Columns and rows as floats are those of `FillBuffers.columns`:
+        reading that array would make the compiler test for every triangle whether it overlaps the buffers.
         """
         flip = 0 if region.downwards else -1
         while n < numbers.shape[0]:

@@ -21,7 +21,9 @@ from softshadow.pipeline.shade.visible_spans import fragments_of, spans_of
 from softshadow.state import State
 
 SPAN = 16  # fragments that take as long as the beginning of a span
-WORTH_SHARING = 40_000  # fragments from which several threads shade them
+# plain fragments from which several threads shade them: these take some 800 us, and dividing them 350
+WORTH_SHARING = 350_000
+LOOKED_UP = 5  # plain fragments that take as long as one with a texture
 PARTS_PER_THREAD = 2  # more would balance the threads better, but a triangle is interpolated anew in each part
 CHUNK = 32 * 2091  # fragments; an odd number of cache lines per column, so that columns do not share cache sets
 
@@ -66,10 +68,17 @@ def shade_and_write(state: State, target: Framebuffer, geometry: Geometry, spans
     share(chunk, len(cuts) - 1)
 
 
-def shade_in_parts(geometry: Geometry, spans: Spans, shade_part: Callable[[Spans, AttributePlanes], None]) -> None:
-    """Shade spans that do not overlap, in parts where several threads draw and there is enough to do."""
+def shade_in_parts(
+    geometry: Geometry, spans: Spans, shade_part: Callable[[Spans, AttributePlanes], None], weight: int = LOOKED_UP
+) -> None:
+    """Shade spans that do not overlap, in parts where several threads draw and there is enough to do.
+
+    Parameters
+    ----------
+    weight : how many plain fragments take as long as one of these, about
+    """
     n_threads = threads()
-    if n_threads == 1 or spans.fragments + len(spans.row) * SPAN < WORTH_SHARING:
+    if n_threads == 1 or weight * spans.fragments + len(spans.row) * SPAN < WORTH_SHARING:
         shade_part(spans, attribute_planes_of(geometry, spans))
         return
     parts = spans.equal_parts(PARTS_PER_THREAD * n_threads, SPAN)
