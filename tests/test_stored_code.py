@@ -1,5 +1,6 @@
 """Kernels whose machine code is on disk: the same results, without the compiler."""
 
+import operator
 import os
 import subprocess
 import sys
@@ -9,9 +10,11 @@ from typing import Any, NamedTuple
 import numba
 import numpy as np
 import pytest
+from numba import types
 from numba.core.compiler import Flags
+from numba.core.registry import cpu_target
 
-from softshadow.jit.parts import KernelFlags
+from softshadow.jit.parts import KernelFlags, typing_for_kernels
 from softshadow.jit.stored_code import type_of
 
 KERNELS = """
@@ -26,6 +29,10 @@ def inner(x):
 @kernel
 def outer(x):
     return inner(x) + 100
+
+@kernel
+def outermost(x):
+    return outer(x) - 7
 
 @kernel
 def many_calls(x):
@@ -67,6 +74,19 @@ def make(number):
     def closed(x):
         return x + number
     return closed
+
+def calling(number):
+    part = make(number)
+    @kernel
+    def caller(x):
+        return part(x) * 10
+    return caller
+
+@kernel
+def with_a_function(x):
+    def twice(y):
+        return y + y
+    return twice(x)
 
 def compiler_started():
     return "numba.np.arrayobj" in sys.modules
@@ -264,6 +284,37 @@ def test_a_part_from_disk_is_not_compiled_again_for_another_caller(run: Any) -> 
     assert run("print(outer(3))") == "107"
     code = COMPILATIONS + "print(many_calls(2), compiled)\nprint(inner(3), compiled)"
     assert run(code) == "9 ['many_calls']\n7 ['many_calls', 'inner']"
+
+
+def test_kernels_that_enclose_kernels_are_found_on_disk(run: Any) -> None:
+    code = "print(calling(5)(1), calling(6)(1), compiler_started())"
+    assert run(code) == "60 70 True"
+    assert run(code) == "60 70 False"
+
+
+def test_parts_are_stored_without_addresses_of_the_process(run: Any) -> None:
+    # Numba warns where it cannot store
+    code = "import warnings; warnings.simplefilter('error')\nprint(outermost(3), calling(5)(1))"
+    assert run(code) == "100 60"
+
+
+@pytest.mark.slow
+def test_a_function_within_a_kernel_is_compiled_with_it(run: Any) -> None:
+    assert run("print(with_a_function(4))") == "8"
+
+
+def test_operators_have_numbas_types() -> None:
+    numbas = cpu_target.typing_context
+    ours = typing_for_kernels(numbas)
+    ours.refresh()
+    for func in (operator.add, operator.lt, operator.and_, operator.truediv):
+        for each in ((types.int32, types.uint64), (types.float32, types.int64), (types.float32, types.float64)):
+            if func is operator.and_ and types.float32 in each:
+                continue
+            expected = numbas.resolve_function_type(func, each, {})
+            # looked for, and then known
+            assert expected == ours.resolve_function_type(func, each, {}) == ours.resolve_function_type(func, each, {})
+    assert ours is typing_for_kernels(numbas)
 
 
 @pytest.mark.slow
