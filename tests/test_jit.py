@@ -155,7 +155,7 @@ def test_the_hash_takes_in_whatever_kernels_are_made_of():
 def test_only_hashed_sources_have_kernels():
     hashed = {file for name in KERNEL_SOURCES for file in sources_of(name)}
     for file in set(PACKAGE.rglob("*.py")) - hashed:
-        assert not {"@kernel", "@allocating_kernel", "@inlined"} & set(file.read_text().split()), file
+        assert not {"@kernel", "@copied_kernel", "@allocating_kernel", "@inlined"} & set(file.read_text().split()), file
 
 
 MAKES_ARRAYS = {"empty", "zeros", "ones", "full", "arange", "array", "empty_like", "zeros_like", "concatenate"}
@@ -164,7 +164,9 @@ MAKES_ARRAYS = {"empty", "zeros", "ones", "full", "arange", "array", "empty_like
 def test_kernels_that_make_arrays_say_so():
     for file in PACKAGE.rglob("*.py"):
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-            if not isinstance(node, ast.FunctionDef) or "kernel" not in map(ast.unparse, node.decorator_list):
+            if not isinstance(node, ast.FunctionDef) or not {"kernel", "copied_kernel"} & set(
+                map(ast.unparse, node.decorator_list)
+            ):
                 continue
             calls = [ast.unparse(call.func) for call in ast.walk(node) if isinstance(call, ast.Call)]
             made = MAKES_ARRAYS & {call.removeprefix("np.") for call in calls if call.startswith("np.")}

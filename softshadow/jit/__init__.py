@@ -32,11 +32,25 @@ def allocating_kernel(function: Callable[..., Any]) -> Any:
     return _dispatcher_of(function, counts_references=True)
 
 
-def _dispatcher_of(function: Callable[..., Any], *, counts_references: bool) -> Any:
+def copied_kernel(function: Callable[..., Any]) -> Any:
+    """Compile a kernel that is copied into each kernel that calls it (decorator).
+
+    Its types are found once, where `inlined` finds them in each caller anew.
+    """
+    return _dispatcher_of(function, counts_references=False, forceinline=True)
+
+
+def _dispatcher_of(function: Callable[..., Any], *, counts_references: bool, **more: Any) -> Any:
     config: Any = numba.config  # type checkers do not see its settings, which Numba creates at import
     if config.DISABLE_JIT:
         return function
-    options = {"nopython": True, "boundscheck": None, "_nrt": counts_references, **OPTIONS}  # the first two as in njit
+    options = {
+        "nopython": True,
+        "boundscheck": None,
+        "_nrt": counts_references,
+        **OPTIONS,
+        **more,
+    }  # the first two as in njit
     dispatcher = KernelDispatcher(function, targetoptions=options)
     folder = cache_folder()
     if folder:

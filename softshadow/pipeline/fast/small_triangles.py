@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import copied_kernel, kernel
 from softshadow.pipeline.fast.fragment_numbers import (
     DEPTH_WRITE,
     LARGEST,
@@ -65,7 +65,7 @@ def is_small(corners, t, region, pitch):
 def small_fill_for(tests_stencil: bool, writes_ids: bool) -> Any:
     """Return the kernel `fill_small` for fills that test stencil values or not, and write ids or not."""
 
-    @kernel
+    @copied_kernel
     def fill_small(
         which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, n, region, depth_range, pitch, depth,
         stencil, ids, passed, covered, ties,
