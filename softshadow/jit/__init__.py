@@ -44,13 +44,8 @@ def _dispatcher_of(function: Callable[..., Any], *, counts_references: bool, **m
     config: Any = numba.config  # type checkers do not see its settings, which Numba creates at import
     if config.DISABLE_JIT:
         return function
-    options = {
-        "nopython": True,
-        "boundscheck": None,
-        "_nrt": counts_references,
-        **OPTIONS,
-        **more,
-    }  # the first two as in njit
+    as_in_njit = {"nopython": True, "boundscheck": None}
+    options = {**as_in_njit, "_nrt": counts_references, **OPTIONS, **more}
     dispatcher = KernelDispatcher(function, targetoptions=options)
     folder = cache_folder()
     if folder:
