@@ -21,7 +21,7 @@ PART = "part"  # kind of a stored library
 # what may differ between a part and a complete kernel, without any effect on what they call
 ONLY_FOR_PARTS = {"no_compile": False, "no_cpython_wrapper": False}
 FLAGS_HASH = hash(Flags())
-MANY_FUNCTIONS = 50  # fills have some 25, shading has 100
+MANY_FUNCTIONS = 50  # in a kernel that is optimized twice: fills have 25 to 40, shading has 100
 OPERATORS = "_operator"  # the module of their functions
 
 
@@ -148,8 +148,9 @@ class KernelCompiler(NumbaCompiler):
         self.targetdescr.options.parse_as_flags(flags, self.targetoptions)
         if is_for_kernels:
             flags.no_compile = flags.no_cpython_wrapper = True
-        library = (PartLibrary if is_for_kernels else WholeLibrary)(target.codegen(), self.py_func.__qualname__)
-        if not is_for_kernels:
+            library: WholeLibrary = PartLibrary(target.codegen(), self.py_func.__qualname__)
+        else:
+            library = WholeLibrary(target.codegen(), self.py_func.__qualname__)
             library.enable_object_caching()
         result = compile_extra(
             typing_for_kernels(self.targetdescr.typing_context), target, self.py_func, args, return_type, flags,

@@ -235,7 +235,7 @@ def enclosed_by(function: Any) -> tuple[Any, ...]:
     """Return the values that a function encloses, and in place of kernels their names and what they enclose."""
     values = [cell.cell_contents for cell in function.__closure__ or ()]
     return tuple(
-        (each.py_func.__qualname__, enclosed_by(each.py_func)) if isinstance(each, KernelDispatcher) else each
+        (each.__module__, each.__qualname__, enclosed_by(each.py_func)) if isinstance(each, KernelDispatcher) else each
         for each in values
     )
 
