@@ -120,8 +120,10 @@ class Context(CurrentValues):
         self._stipple_place = 0  # in the line stipple, after the draws so far
         self.buffers: dict[int, BufferObject] = {}
         self.attribute_stack: list[Any] = []
-        # the state at the last glPushAttrib or glPopAttrib; bits of the groups that calls have marked as changed since
-        self.state_at_push, self.touched = self.state, 0
+        # the state at the last glPushAttrib or glPopAttrib; bits of the groups that calls have marked as changed since,
+        # and between the push that the next pop belongs to and the last pop
+        self.state_at_push, self.touched, self.touched_before = self.state, 0, 0
+        self.others_at_push: tuple[Any, ...] | None = None  # attributes outside the state, while none is marked
         # texture units, and the samplers of the textures bound to them; None after a change of a texture
         self.bound_samplers: tuple[Any, Any] | None = None
         self.pending = PendingAttributes()

@@ -200,6 +200,14 @@ def with_group(bit: int, now: State, before: State) -> State:
     return evolve_to(before, now, **restored) if restored else now
 
 
+@remembered
+def with_groups(bits: tuple[int, ...], now: State, before: State) -> State:
+    """Return the state with several groups restored, one after the other."""
+    for bit in bits:
+        now = with_group(bit, now, before)
+    return now
+
+
 def _with_capabilities(state: State, before: State) -> State:
     switched = list(_switched(before, state, lights=False))
     if not switched:

@@ -20,11 +20,12 @@ from softshadow.context.color_indices import ColorIndices
 from softshadow.context.evaluators import EvaluatorSettings
 from softshadow.context.state_groups import Followed
 from softshadow.frozen import evolve, evolve_to
-from softshadow.gl.attribute_groups import GROUPS, changed_groups, needs_calls, with_group
+from softshadow.gl.attribute_groups import GROUPS, changed_groups, needs_calls, with_group, with_groups
 from softshadow.gl.calls import is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail
 from softshadow.gl.framebuffers import glDrawBuffer, glDrawBuffers, glReadBuffer
 from softshadow.gl.materials import start_to_follow
+from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.pipeline.commands import CreateTexture, SetSampler
 from softshadow.pixel_transfer import PixelTransfer
 from softshadow.state import State, TextureUnit
@@ -35,8 +36,22 @@ DEEPEST_ATTRIBUTES = 16
 USED_BY_VERTICES = gl.GL_CURRENT_BIT | gl.GL_LIGHTING_BIT
 WITH_MATERIALS = gl.GL_LIGHTING_BIT | gl.GL_ENABLE_BIT  # groups with materials, or with whether they follow colours
 WITH_BUFFERS = gl.GL_COLOR_BUFFER_BIT | gl.GL_PIXEL_MODE_BIT
-NO_HINTS: dict[int, int] = {}
 NO_SAMPLERS: dict[tuple[int, int], Sampler] = {}
+
+
+class OtherAttributes(NamedTuple):
+    """Attributes outside `State`; calls that change one mark its group in `Context.touched`."""
+
+    hints: dict[int, int]
+    matrix_mode: int
+    active_unit: int
+    list_base: int
+    draw_buffers: tuple[int, ...]
+    read_buffer: int
+    pixel_zoom: tuple[float, float]
+    pixel_transfer: PixelTransfer
+    color_indices: ColorIndices
+    evaluators: EvaluatorSettings
 
 
 class SavedAttributes(NamedTuple):
@@ -53,54 +68,64 @@ class SavedAttributes(NamedTuple):
     state: State
     followed: Followed | None
     current: tuple[Any, ...]
-    hints: dict[int, int]
-    matrix_mode: int
-    active_unit: int
-    list_base: int
-    draw_buffers: tuple[int, ...]
-    read_buffer: int
-    pixel_zoom: tuple[float, float]
-    pixel_transfer: PixelTransfer
-    color_indices: ColorIndices
-    evaluators: EvaluatorSettings
     samplers: dict[tuple[int, int], Sampler]  # of the bound textures, by (target, key in the storage)
+    others: OtherAttributes
 
 
 def glPushAttrib(mask: int) -> None:
     """Save the groups of state in `mask` until the matching pop."""
     context = thread.context
-    if not (context.ready or is_allowed(context, glPushAttrib, mask)):
-        return
-    if len(context.attribute_stack) == DEEPEST_ATTRIBUTES:
-        fail(gl.GL_STACK_OVERFLOW, "glPushAttrib", f"this stack holds {DEEPEST_ATTRIBUTES} entries")
-        return
-    state = context.drawn_state if context.changed else context.groups[""].value
-    touched = context.touched if state is context.state_at_push else _changed_since_push(context, state)
-    if mask & USED_BY_VERTICES and context.pending.old_values:
-        context.update_current()
-        state = context.drawn_state
-    framebuffers, current, samplers = context.objects.framebuffers, context.current, NO_SAMPLERS
-    if mask & gl.GL_TEXTURE_BIT:
-        known = context.bound_samplers
-        samplers = known[1] if known is not None and known[0] is state.units else _bound_samplers(context, state.units)
-    entry = (  # the fields of SavedAttributes
-        mask,
-        touched,
-        state,
-        context.state_groups.followed,
-        (
-            current.color,
-            current.normal,
-            (*current.texcoords,),
-            current.raster,
-            current.edge,
-            current.secondary,
-            current.fog_coordinate,
-            current.index,
+    try:
+        if not (context.ready or is_allowed(context, glPushAttrib, mask)):
+            return
+        if len(context.attribute_stack) == DEEPEST_ATTRIBUTES:
+            fail(gl.GL_STACK_OVERFLOW, "glPushAttrib", f"this stack holds {DEEPEST_ATTRIBUTES} entries")
+            return
+        state = context.drawn_state if context.changed else context.groups[""].value
+        touched, others = context.touched | context.touched_before, context.others_at_push
+        if state is not context.state_at_push:
+            touched, others = touched | changed_groups(context.state_at_push, state), None
+        if others is None or context.touched:
+            others = context.others_at_push = _other_attributes(context, state)
+        if mask & USED_BY_VERTICES and context.pending.old_values:
+            context.update_current()
+            state = context.drawn_state
+        current, samplers = context.current, NO_SAMPLERS
+        if mask & gl.GL_TEXTURE_BIT:
+            known = context.bound_samplers
+            samplers = (
+                known[1] if known is not None and known[0] is state.units else _bound_samplers(context, state.units)
+            )
+        entry = (  # the fields of SavedAttributes
+            mask,
+            touched,
+            state,
+            context.state_groups.followed,
+            (
+                current.color,
+                current.normal,
+                (*current.texcoords,),
+                current.raster,
+                current.edge,
+                current.secondary,
+                current.fog_coordinate,
+                current.index,
+            )
+            if mask & gl.GL_CURRENT_BIT
+            else (),
+            samplers,
+            others,
         )
-        if mask & gl.GL_CURRENT_BIT
-        else (),
-        context.hints.copy() if context.hints else NO_HINTS,
+        context.attribute_stack.append(entry)
+        context.touched, context.touched_before, context.state_at_push = 0, 0, state
+    except CONVERTING as error:
+        raise refusal(glPushAttrib, error, mask) from error
+
+
+def _other_attributes(context: Context, state: State) -> OtherAttributes:
+    framebuffers = context.objects.framebuffers
+    return OtherAttributes(
+        context.hints.copy(),
         context.matrix_mode,
         context.active_unit,
         context.list_base,
@@ -110,15 +135,7 @@ def glPushAttrib(mask: int) -> None:
         context.pixel_transfer,
         context.color_indices,
         context.evaluators,
-        samplers,
     )
-    context.attribute_stack.append(entry)
-    context.touched, context.state_at_push = 0, state
-
-
-def _changed_since_push(context: Context, state: State) -> int:
-    """Return the bits of the groups that have changed since the last push or pop."""
-    return context.touched | changed_groups(context.state_at_push, state)
 
 
 def _bound_samplers(context: Context, units: tuple[TextureUnit, ...]) -> dict[tuple[int, int], Sampler]:
@@ -149,15 +166,42 @@ def glPopAttrib() -> None:
     if mask & gl.GL_CURRENT_BIT and context.pending.old_values:
         context.update_current()
     state = context.drawn_state if context.changed else context.groups[""].value
-    mask &= context.touched if state is context.state_at_push else _changed_since_push(context, state)
+    changed = marked = context.touched | context.touched_before
+    if state is not context.state_at_push:
+        changed |= changed_groups(context.state_at_push, state)
+    mask &= changed
     if mask:
         saved = SavedAttributes(*entry)
-        for bit in _bits_in(mask):
-            _restore(context, bit, saved)
+        if marked or not _is_simple(context, state, saved):
+            for bit in _bits_in(mask):
+                _restore(context, bit, saved)
+        else:
+            context.state = with_groups(_bits_in(mask), state, saved.state)
+            if mask & gl.GL_TEXTURE_BIT:
+                _restore_textures(context, saved)
         if mask & WITH_BUFFERS:
             _restore_buffers(context, mask, saved)
         state = context.drawn_state
-    context.touched, context.state_at_push = touched, state
+    if marked or state is not entry[2]:
+        context.others_at_push = None
+    context.touched, context.touched_before, context.state_at_push = 0, touched, state
+
+
+def _is_simple(context: Context, state: State, saved: SavedAttributes) -> bool:
+    """Return whether groups of `State` are all that a pop may have to restore, if no group was marked as changed.
+
+    Then they are restored together; otherwise one by one, with materials and vertices that wait.
+    """
+    before, after = saved.state.lighting, state.lighting
+    return (
+        before.front is after.front
+        and before.back is after.back
+        and before.color_material == after.color_material
+        and saved.followed is None
+        and context.state_groups.followed is None
+        and not context.pending.names
+        and not context.has_collected
+    )
 
 
 def _restore(context: Context, bit: int, saved: SavedAttributes) -> None:
@@ -189,10 +233,10 @@ def _needs_more_calls(context: Context, bit: int, saved: SavedAttributes) -> boo
         bit == gl.GL_PIXEL_MODE_BIT
         or (
             bit == gl.GL_COLOR_BUFFER_BIT
-            and (context.color_indices != saved.color_indices or _sets_draw_buffer(context, saved))
+            and (context.color_indices != saved.others.color_indices or _sets_draw_buffer(context, saved))
         )
-        or (bit == gl.GL_HINT_BIT and context.hints != saved.hints)
-        or (bit == gl.GL_TEXTURE_BIT and context.active_unit != saved.active_unit)
+        or (bit == gl.GL_HINT_BIT and context.hints != saved.others.hints)
+        or (bit == gl.GL_TEXTURE_BIT and context.active_unit != saved.others.active_unit)
     )
 
 
@@ -220,7 +264,7 @@ def _restore_materials(context: Context, saved: SavedAttributes) -> None:
 
 
 def _restore_textures(context: Context, saved: SavedAttributes) -> None:
-    context.select_unit(saved.active_unit)
+    context.select_unit(saved.others.active_unit)
     for (target, name), sampler in saved.samplers.items():
         texture = context.objects.textures.get(name)
         if texture is None and name > 0:  # deleted since the push: binding the name creates it again
@@ -230,36 +274,36 @@ def _restore_textures(context: Context, saved: SavedAttributes) -> None:
 
 
 def _restore_hints(context: Context, saved: SavedAttributes) -> None:
-    context.hints = saved.hints.copy()
+    context.hints = saved.others.hints.copy()
 
 
 def _restore_list_base(context: Context, saved: SavedAttributes) -> None:
-    context.list_base = saved.list_base
+    context.list_base = saved.others.list_base
 
 
 def _restore_pixel_mode(context: Context, saved: SavedAttributes) -> None:
-    context.pixel_zoom = saved.pixel_zoom
+    context.pixel_zoom = saved.others.pixel_zoom
     maps = context.pixel_transfer.maps  # which no attribute group has
-    context.pixel_transfer = evolve(saved.pixel_transfer, maps=maps)
+    context.pixel_transfer = evolve(saved.others.pixel_transfer, maps=maps)
 
 
 def _restore_matrix_mode(context: Context, saved: SavedAttributes) -> None:
-    context.select_matrices(saved.matrix_mode)
+    context.select_matrices(saved.others.matrix_mode)
 
 
 def _restore_evaluators(context: Context, saved: SavedAttributes) -> None:
-    context.evaluators = saved.evaluators
+    context.evaluators = saved.others.evaluators
 
 
 def _restore_color_indices(context: Context, saved: SavedAttributes) -> None:
-    context.color_indices = saved.color_indices
+    context.color_indices = saved.others.color_indices
 
 
 def _restore_enabled(context: Context, saved: SavedAttributes) -> None:
-    if context.evaluators.enabled != saved.evaluators.enabled:
-        context.evaluators = evolve(context.evaluators, enabled=saved.evaluators.enabled)
-    if context.color_indices.logic_enabled != saved.color_indices.logic_enabled:
-        context.color_indices = evolve(context.color_indices, logic_enabled=saved.color_indices.logic_enabled)
+    if context.evaluators.enabled != saved.others.evaluators.enabled:
+        context.evaluators = evolve(context.evaluators, enabled=saved.others.evaluators.enabled)
+    if context.color_indices.logic_enabled != saved.others.color_indices.logic_enabled:
+        context.color_indices = evolve(context.color_indices, logic_enabled=saved.others.color_indices.logic_enabled)
 
 
 # what is restored besides the fields of `State`
@@ -279,7 +323,8 @@ OTHERS = {
 
 def _sets_draw_buffer(context: Context, saved: SavedAttributes) -> bool:
     """Return whether Mesa sets the saved draw buffers: it compares them with the window's, whatever is bound."""
-    return _in_use(saved.draw_buffers) != _in_use(context.objects.window.draw_buffers)
+    before, after = saved.others.draw_buffers, context.objects.window.draw_buffers
+    return before is not after and _in_use(before) != _in_use(after)
 
 
 def _in_use(draw_buffers: tuple[int, ...]) -> tuple[int, ...]:
@@ -295,11 +340,11 @@ def _in_use(draw_buffers: tuple[int, ...]) -> tuple[int, ...]:
 def _restore_buffers(context: Context, mask: int, saved: SavedAttributes) -> None:
     # by GL calls: it is an error if the framebuffer that is bound now does not have the buffer
     if mask & gl.GL_COLOR_BUFFER_BIT and _sets_draw_buffer(context, saved):
-        buffers = _in_use(saved.draw_buffers)
+        buffers = _in_use(saved.others.draw_buffers)
         # glDrawBuffers does not take GL_FRONT, which may mean several buffers
         glDrawBuffer(buffers[0]) if len(buffers) == 1 else glDrawBuffers(buffers)
     if mask & gl.GL_PIXEL_MODE_BIT:
-        glReadBuffer(saved.read_buffer)
+        glReadBuffer(saved.others.read_buffer)
 
 
 __all__ = spelled_like_gl(globals())

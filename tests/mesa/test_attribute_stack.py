@@ -119,6 +119,63 @@ def test_random_steps_between_push_and_pop_leave_what_mesa_leaves():
         assert comparison, (bits, inside, afterwards, str(comparison))
 
 
+NESTED_BITS = ("GL_HINT_BIT", "GL_LIST_BIT", "GL_PIXEL_MODE_BIT", "GL_TRANSFORM_BIT", "GL_EVAL_BIT", "GL_TEXTURE_BIT")
+OUTSIDE_STATE: dict[str, Callable[[Any, int], Any]] = {
+    "hint": lambda gl, n: gl.glHint(gl.GL_FOG_HINT, (gl.GL_DONT_CARE, gl.GL_NICEST, gl.GL_FASTEST)[n]),
+    "list base": lambda gl, n: gl.glListBase(n),
+    "zoom": lambda gl, n: gl.glPixelZoom(n + 1, 1),
+    "scale": lambda gl, n: gl.glPixelTransferf(gl.GL_RED_SCALE, n),
+    "matrix mode": lambda gl, n: gl.glMatrixMode((gl.GL_MODELVIEW, gl.GL_PROJECTION, gl.GL_TEXTURE)[n]),
+    "unit": lambda gl, n: gl.glActiveTexture(gl.GL_TEXTURE0 + n),
+    "grid": lambda gl, n: gl.glMapGrid1f(n + 1, 0, 1),
+    "draw buffer": lambda gl, n: gl.glDrawBuffer((gl.GL_BACK, gl.GL_NONE, gl.GL_BACK)[n]),
+    "index mask": lambda gl, n: gl.glIndexMask(n),
+    "blend": lambda gl, n: (gl.glDisable if n else gl.glEnable)(gl.GL_BLEND),
+    "lighting": lambda gl, n: (gl.glDisable if n else gl.glEnable)(gl.GL_LIGHTING),
+    "texture": lambda gl, n: (gl.glDisable if n else gl.glEnable)(gl.GL_TEXTURE_2D),
+    "binding": lambda gl, n: gl.glBindTexture(gl.GL_TEXTURE_2D, n),
+    "filter": lambda gl, n: gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST + n % 2),
+    "shape": lambda gl, n: shape(gl),
+}
+NUMBERS = (
+    "GL_FOG_HINT", "GL_LIST_BASE", "GL_ZOOM_X", "GL_RED_SCALE", "GL_MATRIX_MODE", "GL_ACTIVE_TEXTURE",
+    "GL_MAP1_GRID_SEGMENTS", "GL_DRAW_BUFFER", "GL_INDEX_WRITEMASK", "GL_BLEND", "GL_LIGHTING", "GL_TEXTURE_2D",
+    "GL_TEXTURE_BINDING_2D",
+)  # fmt: skip
+
+
+def nested(seed: int) -> Callable[[Any], list[Any]]:
+    """Return a program that changes what pops restore, in and between nested pushes; it returns all numbers."""
+
+    def program(gl: Any) -> list[Any]:
+        rng = np.random.default_rng(seed)
+        gl.glReadBuffer(gl.GL_BACK)
+        pushed, answers = 0, []
+        for _ in range(40):
+            choice = rng.random()
+            if choice < 0.25 and pushed < 6:
+                pushed += 1
+                bits = [*NESTED_BITS, "GL_COLOR_BUFFER_BIT", "GL_ENABLE_BIT", *["GL_ALL_ATTRIB_BITS"] * 4]
+                gl.glPushAttrib(getattr(gl, str(rng.choice(bits))))
+            elif choice < 0.5 and pushed:
+                pushed -= 1
+                gl.glPopAttrib()
+                answers.append([float(gl.glGetFloatv(getattr(gl, name))) for name in NUMBERS])
+            else:
+                OUTSIDE_STATE[str(rng.choice(list(OUTSIDE_STATE)))](gl, int(rng.integers(3)))
+        gl.glDrawBuffer(gl.GL_BACK)
+        return [np.array(answers)]
+
+    return program
+
+
+@pytest.mark.mesa
+def test_nested_pushes_restore_what_mesa_restores():
+    for seed in range(25):
+        comparison = compare(nested(seed), SIZE)
+        assert comparison, (seed, str(comparison))
+
+
 def popped_elsewhere(bits: str, pushed_in: int, popped_in: int, changes: tuple[str, ...]) -> Callable[[Any], list[Any]]:
     """Return a program that pushes in one framebuffer and pops in another, and returns error codes and both buffers."""
 
