@@ -8,12 +8,13 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.image import Image
+from softshadow.jit import kernel, read_only
 from softshadow.pixels import LARGEST_SAMPLED, LARGEST_UINT
 from softshadow.programs.level_of_detail import FILTERS
 from softshadow.texture import Texture
 
 LEVELS = 16
-ROWS_AT_ONCE = 16  # of an image; they stay in the processor's cache
+OF_UPPER_BITS = 2.0**-9  # of the unit of a 32-bit depth
 
 
 def level_offsets(image: Image, last: int, n_faces: int) -> list[int]:
@@ -58,8 +59,13 @@ def _in_32_bits(cells: np.ndarray) -> np.ndarray:
     """Return cells (n,) int32: four bytes, or the bits of a depth in float32; of 32-bit depths the upper 23 bits."""
     if cells.dtype != np.float64:
         return cells.reshape(-1).view(np.int32)
-    upper = np.empty(cells.shape, np.float32)
-    for first in range(0, len(cells), ROWS_AT_ONCE):
-        rows = slice(first, first + ROWS_AT_ONCE)
-        upper[rows] = np.minimum(np.floor(cells[rows] * (1 / 512)), LARGEST_SAMPLED)
-    return upper.reshape(-1).view(np.int32)
+    upper = np.empty(cells.size, np.float32)
+    write_upper_bits(read_only(cells.reshape(-1)), upper)
+    return upper.view(np.int32)
+
+
+@kernel
+def write_upper_bits(depths, upper):
+    """Write the upper 23 bits of 32-bit depths (n,) float64 as numbers (n,) float32."""
+    for i in range(depths.shape[0]):
+        upper[i] = min(np.floor(depths[i] * OF_UPPER_BITS), LARGEST_SAMPLED)

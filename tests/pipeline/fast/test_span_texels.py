@@ -3,11 +3,13 @@
 import gc
 
 import numpy as np
+import pytest
 
 from softshadow import tokens as gl
 from softshadow.image import FORMATS, Image
 from softshadow.pipeline.fast import span_texels
-from softshadow.texture import Texture
+from softshadow.pixels import LARGEST_SAMPLED, LARGEST_UINT
+from softshadow.texture import Sampler, Texture
 
 
 def mipmapped_texture() -> Texture:
@@ -36,3 +38,15 @@ def test_texels_are_freed_with_their_images():
     del texture
     gc.collect()
     assert len(span_texels._made) <= before
+
+
+@pytest.mark.interpreted
+def test_32_bit_depths_are_sampled_by_their_upper_23_bits():
+    rng = np.random.default_rng(2)
+    limits = [0, 511, 512, 1023, LARGEST_UINT - 512, LARGEST_UINT - 511, LARGEST_UINT, 1 << 32]
+    depths = np.append(limits, rng.integers(0, 1 << 32, 5 * 17 - len(limits))).reshape(5, 17)
+    image = Image.new(FORMATS[gl.GL_DEPTH_COMPONENT32], 17, 5)
+    image.view[:] = depths
+    texture = Texture(1, gl.GL_TEXTURE_2D, Sampler(min_filter=gl.GL_NEAREST), {(0, 0): image})
+    texels = span_texels.texels_of(texture).view(np.float32).reshape(5, -1)[:, :17]
+    assert np.array_equal(texels, np.minimum(depths >> 9, LARGEST_SAMPLED).astype(np.float32))
