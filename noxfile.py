@@ -60,7 +60,13 @@ def bounds(session: nox.Session) -> None:
 
 @nox.session
 def interpreted(session: nox.Session) -> None:
-    """Run the kernels as plain Python and report the lines that no test reached."""
+    """Run the kernels as plain Python."""
+    session.run("pytest", "-q", "-m", "interpreted", *session.posargs, env={"NUMBA_DISABLE_JIT": "1"})
+
+
+@nox.session
+def coverage(session: nox.Session) -> None:
+    """Run the kernels as plain Python, in three times the time, and report the lines that no test reached."""
     data = {"COVERAGE_FILE": os.path.join(session.create_tmp(), "coverage")}
     session.run("coverage", "erase", env=data)
     environment = {"NUMBA_DISABLE_JIT": "1", **data}
