@@ -157,11 +157,11 @@ def _draw_opaque(
     if plan.cached_fill:
         depth_range = depth_range_of(state, real)
         spans, was_cached = plan.cached_fill(
-            plan.front, plan.back, triangles, region, depth_range, target, storage, visible
+            plan.front, plan.back, triangles, region, depth_range, target, storage, visible, ties
         )
         if was_cached:
             plan.path.note("an equal draw over the same depths was filled before: only shaded")
-        elif plan.remember_surface and not ties:
+        if plan.remember_surface and not ties:
             plan.remember_surface(triangles, region_of(state, target), depth_range, target, storage, spans)
     else:
         spans = visible()

@@ -33,7 +33,7 @@ from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.raster.fragment_ops import EQUAL, LEQUAL, LESS, NEVER, FragmentOps
 from softshadow.pipeline.records import DepthRange, Region, Setup, Spans
 
-MOST_SURFACES = 4  # of one storage
+MOST_SURFACES = 16  # of one storage
 BLOCK = 64  # fragments of a span that are tested at a time
 SHORT = 8  # fragments of a span that are tested one by one
 NO_STENCIL = np.zeros((1, 1), np.uint8)
@@ -71,12 +71,16 @@ def only_lessens_depths(front: FragmentOps, back: FragmentOps) -> bool:
 def remember_surface(
     triangles: Setup, region: Region, depth_range: DepthRange, target: Framebuffer, storage: Storage, spans: Spans
 ) -> None:
-    """Remember the visible spans of a draw that `leaves_nearest`, in which no two depths were equal."""
+    """Remember the visible spans of a draw that `leaves_nearest`, in which no two depths were equal.
+
+    Those of a cached fill may be known from an earlier frame: they become the latest.
+    """
     surfaces, image = _surfaces_of(storage), target.depth
     if image is None:
         return
     if image.version is None:
         image.version = object()
+    surfaces[:] = [surface for surface in surfaces if surface.spans is not spans]
     surfaces.append(DrawnSurface(triangles, region, depth_range, image, image.version, image.version, spans))
     del surfaces[:-MOST_SURFACES]
 

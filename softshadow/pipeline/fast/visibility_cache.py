@@ -72,13 +72,17 @@ def same_bits(a: np.ndarray, b: np.ndarray) -> bool:
 
 @dataclass(eq=False)
 class CacheEntry:
-    """The result of a fill: tokens of depth and stencil, their rows where they were written, and the visible spans."""
+    """The result of a fill: tokens of depth and stencil, their rows where they were written, and the visible spans.
+
+    `ties` is not empty if two depths may have been equal.
+    """
 
     inputs: FillInputs
     after: tuple[object, object]
     depth: np.ndarray | None
     stencil: np.ndarray | None
     spans: Spans
+    ties: list[int]
     hits: int = 0
 
     @property
@@ -152,12 +156,14 @@ def cached_fill(
     target: Framebuffer,
     storage: Storage,
     fill: Callable[[], Spans],
+    ties: list[int],
 ) -> tuple[Spans, bool]:
     """Fill, or restore the result of an equal fill; return the visible spans, and whether they were cached.
 
     Parameters
     ----------
     fill : fills the buffers of `target` and returns the visible spans
+    ties : receives numbers if two depths were equal, or could have been; `fill` adds them
     """
     inputs = FillInputs(front, back, triangles, region, depth_range)
     cache = storage.visibility_cache = storage.visibility_cache or VisibilityCache()
@@ -172,6 +178,7 @@ def cached_fill(
         ):
             if image is not None and rows is not None:
                 image.write_later(inputs.region.first_row, rows, token)
+        ties += entry.ties
         return entry.spans, True
     spans = fill()
     pays = cache.pays(key[0]) and None not in before
@@ -179,7 +186,7 @@ def cached_fill(
     stencil = _after_fill(target.stencil, inputs.region, tokens[1], inputs.tests_stencil, pays)
     if pays:
         after = _version(target.depth), _version(target.stencil)
-        cache.add(key, CacheEntry(inputs, after, depth, stencil, spans))
+        cache.add(key, CacheEntry(inputs, after, depth, stencil, spans, ties))
     return spans, False
 
 

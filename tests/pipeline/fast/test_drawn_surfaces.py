@@ -17,6 +17,7 @@ from softshadow.pipeline.memory import threads as pool
 from softshadow.state import Blend, State
 
 HIT = "an earlier draw left these surfaces in the depth buffer: only their fragments are tested"
+CACHED = "an equal draw over the same depths was filled before: only shaded"
 SQUARE = [[-1, -1, 0, 1], [1, -1, 0, 1], [1, 1, 0, 1], [-1, -1, 0, 1], [1, 1, 0, 1], [-1, 1, 0, 1]]
 seeds = st.integers(0, 2**32 - 1)
 
@@ -154,3 +155,26 @@ def test_few_surfaces_are_remembered():
         for _ in range(3 * drawn_surfaces.MOST_SURFACES):
             draw(context, state, random_triangles(rng, 3))
     assert len(context.storage.visibility_cache.surfaces) <= drawn_surfaces.MOST_SURFACES
+
+
+@pytest.mark.parametrize(("twice", "is_known"), [(False, True), (True, False)])
+def test_the_surface_of_a_cached_fill_is_known_again_after_it_was_forgotten(twice, is_known):
+    surface, contexts = vertices(SQUARE * 2 if twice else SQUARE), []
+    for policy in ("always", False):
+        context, rng = Context(40, 32, "d24"), np.random.default_rng(0)
+        depth = replace(context.state.depth, enabled=True)
+        opaque = replace(context.state, depth=depth)
+        light = replace(context.state, depth=replace(depth, func=gl.GL_LEQUAL, write=False), blend=ADDING)
+        with use_short_cuts(policy), explain_paths() as paths:
+            for number in range(4):
+                context.execute(Clear(opaque, gl.GL_DEPTH_BUFFER_BIT | gl.GL_COLOR_BUFFER_BIT))
+                draw(context, opaque, surface)
+                draw(context, light, surface)
+                for _ in range(drawn_surfaces.MOST_SURFACES if number == 2 else 0):
+                    draw(context, opaque, random_triangles(rng, 3))
+        if policy == "always":
+            filled, lit = paths[-2:]
+            assert CACHED in filled.reasons
+            assert (HIT in lit.reasons) == is_known
+        contexts.append(context)
+    assert same_window(*contexts)
