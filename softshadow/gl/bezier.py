@@ -5,8 +5,6 @@ References: m_eval.c of Mesa 22.3.
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 
 F32 = np.float32
@@ -62,29 +60,28 @@ def surface_with_tangents(
     return _square(points, u, v)
 
 
-def _net(points: np.ndarray, n: int) -> list[list[np.ndarray]]:
-    return [[np.broadcast_to(point, (n, len(point))) for point in row] for row in points]
+def _net(points: np.ndarray, n: int) -> np.ndarray:
+    """Return the control points of `n` points of a surface: (rows, columns, n, k)."""
+    return np.broadcast_to(points[:, :, None], (*points.shape[:2], n, points.shape[2]))
 
 
-def _bilinear(net: list[list[np.ndarray]], u: np.ndarray, v: np.ndarray, steps: int, u_first: bool) -> None:
-    """Replace a net by those of the first `steps` bilinear steps, each with a row and a column less."""
+def _bilinear(net: np.ndarray, u: np.ndarray, v: np.ndarray, steps: int, u_first: bool) -> np.ndarray:
+    """Return the net after the first `steps` bilinear steps, each of which leaves a row and a column less."""
     us, vs = ONE - u, ONE - v
     for _ in range(steps):
-        rows, columns = len(net) - 1, len(net[0]) - 1
         if u_first:
-            middle = [[us * net[i][j] + u * net[i + 1][j] for j in range(columns + 1)] for i in range(rows)]
-            net[:] = [[vs * middle[i][j] + v * middle[i][j + 1] for j in range(columns)] for i in range(rows)]
+            net = us * net[:-1] + u * net[1:]
+            net = vs * net[:, :-1] + v * net[:, 1:]
         else:
-            across = [[vs * net[i][j] + v * net[i][j + 1] for j in range(columns)] for i in range(rows + 1)]
-            net[:] = [[us * across[i][j] + u * across[i + 1][j] for j in range(columns)] for i in range(rows)]
+            net = vs * net[:, :-1] + v * net[:, 1:]
+            net = us * net[:-1] + u * net[1:]
+    return net
 
 
 def _square(points: np.ndarray, u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return point and tangents of a surface with equal orders."""
-    net = _net(points, len(u))
-    _bilinear(net, u, v, len(net) - 2, u_first=True)
+    (a, b), (c, d) = _bilinear(_net(points, len(u)), u, v, len(points) - 2, u_first=True)
     us, vs = ONE - u, ONE - v
-    (a, b), (c, d) = net
     du = vs * (c - a) + v * (d - b)
     dv = us * (b - a) + u * (d - c)
     return us * (vs * a + v * b) + u * (vs * c + v * d), du, dv
@@ -97,13 +94,10 @@ def _along_v(
 
     `u_first` tells whether the bilinear steps interpolate along u before v.
     """
-    net = _net(points, len(u))
-    _bilinear(net, u, v, len(net) - 2, u_first)
+    first, second = _bilinear(_net(points, len(u)), u, v, len(points) - 2, u_first)
     us, vs = ONE - u, ONE - v
-    first, second = net
-    across = [b - a for a, b in zip(first, second, strict=True)]
-    along = [us * a + u * b for a, b in zip(first, second, strict=True)]
+    across, along = second - first, us * first + u * second
     while len(along) > 2:
-        across = [vs * a + v * b for a, b in pairwise(across)]
-        along = [vs * a + v * b for a, b in pairwise(along)]
+        across = vs * across[:-1] + v * across[1:]
+        along = vs * along[:-1] + v * along[1:]
     return vs * along[0] + v * along[1], vs * across[0] + v * across[1], along[1] - along[0]

@@ -15,13 +15,16 @@ from softshadow.pipeline.records import NO_VERTEX, Setup
 
 PIXEL = 1 << SUBPIXEL_BITS
 LARGEST_SIZE = np.float32(255)
+ALL_TRUE = np.ones(4, np.bool_).view(np.uint32)[0]
 
 
 def clip_points(
     clip: np.ndarray, values: np.ndarray, points: np.ndarray, codes: np.ndarray, user_planes: np.ndarray
 ) -> Clipped:
     """Return the points (P, 1) whose centre is inside the frustum and the user planes, as `clip_triangles` does."""
-    visible = np.flatnonzero((codes[points[:, 0]] == 0) & np.isfinite(clip[points[:, 0]]).all(axis=1)).astype(np.int32)
+    # four truth values are compared as one number: `all(axis=1)` would take ten times as long
+    are_finite = np.isfinite(clip, order="C").view(np.uint32)[:, 0] == ALL_TRUE
+    visible = np.flatnonzero(((codes == 0) & are_finite)[points[:, 0]]).astype(np.int32)
     return Clipped(clip, values, np.ascontiguousarray(points[visible]), visible)
 
 
