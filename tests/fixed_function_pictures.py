@@ -70,6 +70,7 @@ def random_texture(rng, unit):
         gl.glTexEnvf(gl.GL_TEXTURE_FILTER_CONTROL, gl.GL_TEXTURE_LOD_BIAS, float(rng.uniform(-2, 2)))
     width, height = (2 ** rng.integers(0, 7, 2) if rng.random() < 0.5 else rng.integers(1, 65, 2)).tolist()
     height = width if target == gl.GL_TEXTURE_CUBE_MAP else height
+    height = 1 if target == gl.GL_TEXTURE_1D else height
     slices = int(rng.integers(1, 9)) if target == gl.GL_TEXTURE_3D else 1
     is_depth = rng.random() < DEPTH_SHARE and target != gl.GL_TEXTURE_3D
     internal = int(pick(rng, DEPTH_FORMATS if is_depth else FORMATS))
@@ -88,6 +89,8 @@ def random_texture(rng, unit):
             for face in range(6):
                 to = gl.GL_TEXTURE_CUBE_MAP_POSITIVE_X + face
                 gl.glTexImage2D(to, level, internal, width, height, 0, format, gl.GL_FLOAT, texels[face])
+        elif target == gl.GL_TEXTURE_1D:
+            gl.glTexImage1D(target, level, internal, width, 0, format, gl.GL_FLOAT, texels[0, 0])
         else:
             gl.glTexImage2D(target, level, internal, width, height, 0, format, gl.GL_FLOAT, texels[0])
         if width == height == slices == 1 or min_filter in (gl.GL_NEAREST, gl.GL_LINEAR):

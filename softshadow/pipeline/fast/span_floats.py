@@ -1,7 +1,7 @@
 """Textures filtered in float for a block of fragments; equals `shade.shading.shade`, see fast/test_span_shading.py.
 
-The nearest depth is compared in a few loops (`compare_nearest_depths`); everything else, with borders and comparisons
-of filtered depths, goes texel by texel (`sample_in_float`), with the functions of `softshadow.programs.wrapping`.
+The nearest depth is compared in a few loops (`compare_nearest_depths`), and so is what is filtered linearly on one
+level (`span_linear`); everything else goes texel by texel, with the functions of `softshadow.programs.wrapping`.
 """
 
 import numpy as np
@@ -26,6 +26,7 @@ from softshadow.pipeline.fast.fragment_block import (
     T,
     W,
 )
+from softshadow.pipeline.fast.span_linear import CODES, are_linear, code_of, filter_linearly
 from softshadow.pipeline.fast.span_places import ONE_TEXEL, nearest_places, write_places
 from softshadow.pipeline.fast.span_state import (
     BORDER,
@@ -43,7 +44,6 @@ from softshadow.pipeline.fast.span_state import (
 )
 from softshadow.programs.wrapping import linear_texels, nearest_texel
 
-LESS, EQUAL, GREATER, UNORDERED, CODES = np.int32(1), np.int32(2), np.int32(4), np.int32(8), np.int32(15)
 NO_BORDER = np.int32(-1)  # as a place: outside the image
 
 
@@ -69,13 +69,15 @@ def compare_nearest_depths(switches, numbers, unit, number, count, texels, room,
         if clamped:
             r = r if r > ZERO else ZERO
             r = r if r < ONE else ONE
-        code = LESS if r < depth else EQUAL if r == depth else GREATER if r > depth else UNORDERED
-        room[TEXEL + n] = ONE if code & wanted else ZERO
+        room[TEXEL + n] = ONE if code_of(r, depth) & wanted else ZERO
 
 
 @kernel
 def sample_in_float(switches, numbers, unit, number, count, texels, room, whole):
-    """Write the texels fragment by fragment, filtered in float, with borders and comparisons of depths."""
+    """Write the texels, filtered in float, with borders and comparisons of depths."""
+    if are_linear(count, room, whole):
+        filter_linearly(switches, numbers, unit, number, count, texels, room, whole)
+        return
     for m in range(count):
         n = np.uint64(m)
         level, linear = whole[LEVEL + n], whole[LINEAR + n] != 0
@@ -152,6 +154,5 @@ def channels_of(switches, numbers, unit, number, place, r, share, texels):
     if place >= 0:
         depth = texels.view(np.float32)[np.uint64(place)] * step
     if switches[unit + COMPARISON]:
-        code = LESS if r < depth else EQUAL if r == depth else GREATER if r > depth else UNORDERED
-        depth = share if code & np.int32(switches[unit + COMPARISON]) & CODES else ZERO
+        depth = share if code_of(r, depth) & np.int32(switches[unit + COMPARISON]) & CODES else ZERO
     return depth, depth, depth, depth

@@ -2,8 +2,8 @@
 
 The kernels that shade spans take the state as an array of integers, `switches`, and an array of float32, `numbers`:
 passing two arrays takes a fraction of a microsecond, and no state has to be compiled. What is not covered here
-(1-D and rectangular textures, textures of floats, cube maps that are seamless or of depths, borders of 3-D textures,
-more than two units ...) is shaded by the textbook.
+(1-D textures with levels, rectangular ones, textures of floats, cube maps that are seamless or of depths, borders of
+3-D textures, more than two units ...) is shaded by the textbook.
 """
 
 from __future__ import annotations
@@ -169,8 +169,9 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     assert image is not None
     is_depth, is_flat = image.format.kind == "depth", texture.target == gl.GL_TEXTURE_2D
     is_box, is_cube = texture.target == gl.GL_TEXTURE_3D, texture.target == gl.GL_TEXTURE_CUBE_MAP
+    is_line = texture.target == gl.GL_TEXTURE_1D and not needs_blocks(texture)  # t has no part in the level of detail
     if (
-        not (is_flat or is_box or is_cube)
+        not (is_flat or is_box or is_cube or is_line)
         or (is_depth and not is_flat)
         or filters_cube_in_float(texture)
         or texture.is_anisotropic
@@ -180,6 +181,8 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
         return False
     first = texture.images.get((0, 0)) or image
     wraps = box_wraps(texture, first) if is_box else ON_FACES if is_cube else wraps_of(sampler, first)
+    if is_line:
+        wraps = wraps[0], gl.GL_CLAMP_TO_EDGE  # the only row
     if image.format.has_few_bits and not in_8_bits(image, wraps):
         return False
     within, between = FILTERS[sampler.min_filter]
@@ -210,7 +213,7 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     switches[IS_SPREAD] = switches[CHANNELS : CHANNELS + 4].tolist() != [0, 1, 2, 3]
     switches[RGB_OPERATION : ALPHA_OPERATION + 1] = environment_operations(setting.env_mode, base_format(texture))
     switches[COMPARISON] = 16 | COMPARISONS[sampler.compare_func] if compares else 0
-    switches[READS_R] = compares or not is_flat
+    switches[READS_R] = compares or is_box or is_cube
     switches[CLAMPED], switches[IS_DEPTH] = image.format.largest > 0, is_depth
     switches[PACKED_LEVELS] = last > 0
     switches[LEVEL_OFFSETS : LEVEL_OFFSETS + LEVELS] = level_offsets(image, last, len(texture.faces))

@@ -68,9 +68,26 @@ def test_texels_that_are_the_colours_are_copied(mode, format, monkeypatch):
         assert_same(seed, units=1, size=(40, 30), white=True, **ways)
 
 
-@pytest.mark.parametrize("target", [gl.GL_TEXTURE_3D, gl.GL_TEXTURE_CUBE_MAP])
+@pytest.mark.parametrize("depth_share", [0, 1])
+def test_linear_filters_in_float_have_borders_and_compare_depths(depth_share, monkeypatch):
+    choices = {"TARGETS": (gl.GL_TEXTURE_2D,), "MIN_FILTERS": (gl.GL_LINEAR, gl.GL_LINEAR_MIPMAP_NEAREST)}
+    for name, values in choices.items():
+        monkeypatch.setattr(fixed_function_pictures, name, values)
+    monkeypatch.setattr(fixed_function_pictures, "DEPTH_SHARE", depth_share)
+    edges = (gl.GL_CLAMP, gl.GL_CLAMP_TO_BORDER, gl.GL_MIRRORED_REPEAT, gl.GL_REPEAT, gl.GL_CLAMP_TO_EDGE)
+    for seed in range(30):
+        first = edges[seed % 5]
+        monkeypatch.setattr(fixed_function_pictures, "WRAPS", (first, gl.GL_CLAMP, first))
+        assert_same(seed, units=1 + seed % 2, size=(40, 30), ordered=seed % 3 == 0)
+
+
+@pytest.mark.parametrize("target", [gl.GL_TEXTURE_1D, gl.GL_TEXTURE_3D, gl.GL_TEXTURE_CUBE_MAP])
 def test_textures_of_other_targets_are_sampled_in_blocks(target, monkeypatch):
     monkeypatch.setattr(fixed_function_pictures, "TARGETS", (target,))
+    if target == gl.GL_TEXTURE_1D:  # others of them are shaded by the textbook
+        monkeypatch.setattr(fixed_function_pictures, "MIN_FILTERS", (gl.GL_NEAREST, gl.GL_LINEAR))
+        monkeypatch.setattr(fixed_function_pictures, "WRAPS", (gl.GL_REPEAT, gl.GL_CLAMP_TO_EDGE))
+        monkeypatch.setattr(fixed_function_pictures, "DEPTH_SHARE", 0)
     shadings = [assert_same(seed, units=1 + seed % 2, size=(40, 30), ordered=seed % 3 == 0) for seed in range(30)]
     assert shadings.count({"fixed-function kernel"}) > len(shadings) / 4
 

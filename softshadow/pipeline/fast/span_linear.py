@@ -1,0 +1,205 @@
+"""Linear filters in float for a block of fragments; equals `shade.shading.shade`, see fast/test_span_shading.py.
+
+llvmpipe filters depths in float, and colours whose wrap modes are not those of `span_bytes`: GL_CLAMP,
+GL_CLAMP_TO_BORDER and GL_MIRRORED_REPEAT.
+"""
+
+import numpy as np
+
+from softshadow.jit import kernel
+from softshadow.pipeline.constants import HALF, ONE, ZERO
+from softshadow.pipeline.fast.fragment_block import (
+    CORNER_00,
+    CORNER_01,
+    CORNER_10,
+    CORNER_11,
+    FILTERED,
+    FIRST,
+    LENGTH,
+    LINEAR,
+    OFFSET,
+    PITCH,
+    ROW,
+    SECOND,
+    SQUARED,
+    T_AXIS,
+    TEXEL,
+    TEXEL_ALPHA,
+    TEXEL_BLUE,
+    TEXEL_GREEN,
+    WEIGHT,
+    R,
+    S,
+    T,
+    W,
+)
+from softshadow.pipeline.fast.span_places import NOTHING, ONE_TEXEL, write_places
+from softshadow.pipeline.fast.span_state import BORDER, CLAMPED, COMPARISON, IS_DEPTH, STEP, WRAP_S, WRAP_T
+from softshadow.programs.wrapping import REPEAT_BY_MASK, mirror, to_int32
+from softshadow.tokens import GL_CLAMP, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT, GL_REPEAT
+
+LESS, EQUAL, GREATER, UNORDERED, CODES = np.int32(1), np.int32(2), np.int32(4), np.int32(8), np.int32(15)
+OUT_00, OUT_10, OUT_01, OUT_11 = np.int32(1), np.int32(2), np.int32(4), np.int32(8)  # corners outside the image
+BYTE = np.int32(255)
+X_WEIGHT, Y_WEIGHT, OUTSIDE = W, SQUARED, FILTERED  # rows that nothing else needs any more, or not yet
+
+
+@kernel
+def are_linear(count, room, whole):
+    """Return whether the filters of all fragments are linear, on one level each."""
+    all_linear, heaviest = ONE_TEXEL, ZERO
+    for n in range(np.uint64(count)):
+        all_linear = min(all_linear, np.int32(whole[LINEAR + n] != NOTHING))
+    for n in range(np.uint64(count)):
+        heaviest = room[WEIGHT + n] if room[WEIGHT + n] > heaviest else heaviest
+    return all_linear != NOTHING and heaviest == ZERO
+
+
+@kernel
+def filter_linearly(switches, numbers, unit, number, count, texels, room, whole):
+    """Write the texels of linear filters; of depths, only the first channel."""
+    write_places(switches, unit, count, whole)
+    linear_places_in_float(S, np.uint64(0), switches[unit + WRAP_S], X_WEIGHT, count, room, whole)
+    linear_places_in_float(T, T_AXIS, switches[unit + WRAP_T], Y_WEIGHT, count, room, whole)
+    write_corners(count, whole)
+    if not switches[unit + IS_DEPTH]:
+        mix_colors(numbers, number, count, texels, room, whole)
+        return
+    gather_depths(numbers, number, count, texels.view(np.float32), room, whole)
+    if switches[unit + COMPARISON]:
+        wanted = np.int32(switches[unit + COMPARISON]) & CODES
+        compare_and_mix(wanted, switches[unit + CLAMPED] != 0, count, room)
+    else:
+        for n in range(np.uint64(count)):
+            x, y = room[X_WEIGHT + n], room[Y_WEIGHT + n]
+            lower = x * (room[TEXEL_GREEN + n] - room[TEXEL + n]) + room[TEXEL + n]
+            upper = x * (room[TEXEL_ALPHA + n] - room[TEXEL_BLUE + n]) + room[TEXEL_BLUE + n]
+            room[TEXEL + n] = y * (upper - lower) + lower
+
+
+@kernel
+def linear_places_in_float(coordinate, axis, wrap, weight, count, room, whole):
+    """Write FIRST and SECOND of an axis and the row `weight`, as `wrapping.linear_texels`."""
+    length, first, second = axis + LENGTH, axis + FIRST, axis + SECOND
+    if wrap == REPEAT_BY_MASK:
+        for n in range(np.uint64(count)):
+            u, last = room[coordinate + n] * np.float32(whole[length + n]) - HALF, np.int32(whole[length + n] - 1)
+            i = to_int32(np.floor(u))
+            whole[first + n], whole[second + n] = i & last, np.int32(i + 1) & last
+            room[weight + n] = u - np.floor(u)
+    elif wrap == GL_REPEAT:
+        for n in range(np.uint64(count)):
+            c, last = room[coordinate + n], np.int32(whole[length + n] - 1)
+            u = (c - np.floor(c)) * np.float32(whole[length + n]) - HALF
+            i = last if u < ZERO else to_int32(np.floor(u))
+            whole[first + n], whole[second + n] = i, NOTHING if i == last else np.int32(i + 1)
+            room[weight + n] = u - np.floor(u)
+    elif wrap == GL_MIRRORED_REPEAT:
+        for n in range(np.uint64(count)):
+            last = np.int32(whole[length + n] - 1)
+            u = mirror(room[coordinate + n]) * np.float32(whole[length + n]) - HALF
+            i = to_int32(np.floor(u))
+            whole[first + n], whole[second + n] = max(i, NOTHING), min(np.int32(i + 1), last)
+            room[weight + n] = u - np.floor(u)
+    elif wrap == GL_CLAMP_TO_EDGE:
+        for n in range(np.uint64(count)):
+            size, last = np.float32(whole[length + n]), np.int32(whole[length + n] - 1)
+            u = room[coordinate + n] * size
+            u = (u if u < size else size) - HALF
+            u = u if u > ZERO else ZERO
+            i = to_int32(u)
+            whole[first + n], whole[second + n] = i, min(np.int32(i + 1), last)
+            room[weight + n] = u - np.floor(u)
+    else:
+        clamps = wrap == GL_CLAMP
+        for n in range(np.uint64(count)):
+            size = np.float32(whole[length + n])
+            u = room[coordinate + n] * size
+            if clamps:
+                u = u if u < size else size  # NaN too
+                u = u if u > ZERO else ZERO
+            u = u - HALF
+            i = to_int32(np.floor(u))
+            whole[first + n], whole[second + n] = i, np.int32(i + 1)
+            room[weight + n] = u - np.floor(u)
+
+
+@kernel
+def write_corners(count, whole):
+    """Write the places of the four texels around each fragment, and which of them are outside the image."""
+    for n in range(np.uint64(count)):
+        i0, i1, j0, j1 = whole[FIRST + n], whole[SECOND + n], whole[T_AXIS + FIRST + n], whole[T_AXIS + SECOND + n]
+        width, height = np.uint32(whole[LENGTH + n]), np.uint32(whole[T_AXIS + LENGTH + n])
+        left = NOTHING if np.uint32(i0) < width else np.int32(OUT_00 | OUT_01)
+        right = NOTHING if np.uint32(i1) < width else np.int32(OUT_10 | OUT_11)
+        low = NOTHING if np.uint32(j0) < height else np.int32(OUT_00 | OUT_10)
+        high = NOTHING if np.uint32(j1) < height else np.int32(OUT_01 | OUT_11)
+        whole[OUTSIDE + n] = left | right | low | high
+    for n in range(np.uint64(count)):
+        low = np.int32(whole[OFFSET + n] + np.int32(whole[T_AXIS + FIRST + n] * whole[PITCH + n]))
+        high = np.int32(whole[OFFSET + n] + np.int32(whole[T_AXIS + SECOND + n] * whole[PITCH + n]))
+        whole[CORNER_00 + n], whole[CORNER_10 + n] = low + whole[FIRST + n], low + whole[SECOND + n]
+        whole[CORNER_01 + n], whole[CORNER_11 + n] = high + whole[FIRST + n], high + whole[SECOND + n]
+
+
+@kernel
+def mix_colors(numbers, number, count, texels, room, whole):
+    """Write the four channels of a colour texture."""
+    largest, step = np.uint32(len(texels) - 1), numbers[number + STEP]
+    for n in range(np.uint64(count)):
+        whole[CORNER_00 + n] = texels[np.uint64(min(np.uint32(whole[CORNER_00 + n]), largest))]
+        whole[CORNER_10 + n] = texels[np.uint64(min(np.uint32(whole[CORNER_10 + n]), largest))]
+        whole[CORNER_01 + n] = texels[np.uint64(min(np.uint32(whole[CORNER_01 + n]), largest))]
+        whole[CORNER_11 + n] = texels[np.uint64(min(np.uint32(whole[CORNER_11 + n]), largest))]
+    for channel in range(4):
+        border, shift = numbers[number + BORDER + channel], np.int32(8 * channel)
+        row = TEXEL + np.uint64(channel) * ROW
+        for n in range(np.uint64(count)):
+            x, y, out = room[X_WEIGHT + n], room[Y_WEIGHT + n], whole[OUTSIDE + n]
+            a = np.float32(np.int32(whole[CORNER_00 + n] >> shift) & BYTE) * step
+            b = np.float32(np.int32(whole[CORNER_10 + n] >> shift) & BYTE) * step
+            c = np.float32(np.int32(whole[CORNER_01 + n] >> shift) & BYTE) * step
+            d = np.float32(np.int32(whole[CORNER_11 + n] >> shift) & BYTE) * step
+            a, b = border if out & OUT_00 else a, border if out & OUT_10 else b
+            c, d = border if out & OUT_01 else c, border if out & OUT_11 else d
+            a, c = x * (b - a) + a, x * (d - c) + c
+            room[row + n] = y * (c - a) + a
+
+
+@kernel
+def gather_depths(numbers, number, count, depths, room, whole):
+    """Write the depths of the four corners to the rows of the channels."""
+    largest, step, border = np.uint32(len(depths) - 1), numbers[number + STEP], numbers[number + BORDER]
+    for n in range(np.uint64(count)):
+        out = whole[OUTSIDE + n]
+        a = depths[np.uint64(min(np.uint32(whole[CORNER_00 + n]), largest))] * step
+        b = depths[np.uint64(min(np.uint32(whole[CORNER_10 + n]), largest))] * step
+        c = depths[np.uint64(min(np.uint32(whole[CORNER_01 + n]), largest))] * step
+        d = depths[np.uint64(min(np.uint32(whole[CORNER_11 + n]), largest))] * step
+        room[TEXEL + n] = border if out & OUT_00 else a
+        room[TEXEL_GREEN + n] = border if out & OUT_10 else b
+        room[TEXEL_BLUE + n] = border if out & OUT_01 else c
+        room[TEXEL_ALPHA + n] = border if out & OUT_11 else d
+
+
+@kernel
+def compare_and_mix(wanted, clamped, count, room):
+    """Write the share of the four corners' depths that compare with R as `wanted`."""
+    if clamped:
+        for n in range(np.uint64(count)):
+            r = room[R + n] if room[R + n] > ZERO else ZERO
+            room[R + n] = r if r < ONE else ONE
+    for n in range(np.uint64(count)):
+        r, x, y = room[R + n], room[X_WEIGHT + n], room[Y_WEIGHT + n]
+        rest = ONE - x
+        lower = rest if code_of(r, room[TEXEL + n]) & wanted else ZERO
+        lower = (x if code_of(r, room[TEXEL_GREEN + n]) & wanted else ZERO) + lower
+        upper = rest if code_of(r, room[TEXEL_BLUE + n]) & wanted else ZERO
+        upper = (x if code_of(r, room[TEXEL_ALPHA + n]) & wanted else ZERO) + upper
+        room[TEXEL + n] = y * (upper - lower) + lower
+
+
+@kernel
+def code_of(r, depth):
+    """Return the result of a comparison, as in `span_state.COMPARISONS`."""
+    return LESS if r < depth else EQUAL if r == depth else GREATER if r > depth else UNORDERED
