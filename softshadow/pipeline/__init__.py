@@ -224,12 +224,14 @@ def _shade_known_surface(plan: Plan, command: Draw, target: Framebuffer, storage
     if not plan.passing_spans:
         return False
     depth_range = depth_range_of(state, triangles.depth.dtype.type)
-    spans = plan.passing_spans(plan.front, plan.back, triangles, region_of(state, target), depth_range, target, storage)
-    if spans is None:
+    parts = plan.passing_spans(plan.front, plan.back, triangles, region_of(state, target), depth_range, target, storage)
+    if parts is None:
         return False
     plan.path.way = "opaque"
-    plan.path.note("an earlier draw left these surfaces in the depth buffer: only their fragments are tested")
-    choose_shading(plan, state, target, geometry)(spans)
+    plan.path.note("earlier draws left these surfaces in the depth buffer: only their fragments are tested")
+    shade_spans = choose_shading(plan, state, target, geometry)
+    for spans in parts:
+        shade_spans(spans)
     return True
 
 

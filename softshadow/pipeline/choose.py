@@ -125,11 +125,11 @@ class Plan(NamedTuple):
 
     in_order: fragments are tested and written one by one; writes_color: colours may change; front, back: the
     per-fragment operations of each facing; counting: whether fragments are counted. The short cuts to take, or None:
-    cached_fill looks for an equal fill, remember_surface keeps the visible spans, passing_spans looks for those of an
-    earlier draw, without_overlaps finds out whether blended fragments overlap; watch: begun before a draw that makes no
-    depth larger; show_rectangle copies texels to pixels; in_chunks: whether some triangles are set up and filled at a
-    time; forward: whether the draw may go triangle by triangle from coverage to pixels, for which `numbers` keeps what
-    is computed from its state.
+    cached_fill looks for an equal fill, remember_surface keeps the visible spans, passing_spans looks for those of
+    earlier draws, without_overlaps finds out whether blended fragments overlap; watch: begun before a draw that makes
+    no depth larger; show_rectangle copies texels to pixels; in_chunks: whether some triangles are set up and filled at
+    a time; forward: whether the draw may go triangle by triangle from coverage to pixels, for which `numbers` keeps
+    what is computed from its state.
     """
 
     in_order: bool
@@ -141,7 +141,7 @@ class Plan(NamedTuple):
     in_chunks: bool = False
     cached_fill: Callable[..., tuple[Spans, bool]] | None = None
     remember_surface: Callable[..., None] | None = None
-    passing_spans: Callable[..., Spans | None] | None = None
+    passing_spans: Callable[..., list[Spans] | None] | None = None
     without_overlaps: WithoutOverlaps | None = None
     watch: Callable[[Framebuffer, Storage], Watch] | None = None
     show_rectangle: Callable[[Draw, Framebuffer, Storage], None] | None = None

@@ -119,8 +119,11 @@ def passing_spans(
     depth_range: DepthRange,
     target: Framebuffer,
     storage: Storage,
-) -> Spans | None:
-    """Return the spans of the fragments that pass, where the triangles are those of a surface that is known, else None.
+) -> list[Spans] | None:
+    """Return the spans of the fragments that pass, if the triangles are those of surfaces that are known, else None.
+
+    Draws under equal states are drawn together, as of the objects of a scene or for several lights. Each of the lists
+    has the spans of one surface; they are in drawing order.
 
     Parameters
     ----------
@@ -129,12 +132,33 @@ def passing_spans(
     image = target.depth
     if image is None or not (front.depth_test and back.depth_test) or storage.visibility_cache is None:
         return None
-    for surface in storage.visibility_cache.surfaces:
-        if surface.image is image and surface.now is image.version and surface.region == region:
-            is_same_range = repr(surface.depth_range) == repr(depth_range)  # 0 is not -0
-            if is_same_range and _are_equal(surface.triangles, triangles):
-                return _tested(surface, front, back, depth_range, target)
-    return None
+    known = [
+        surface
+        for surface in storage.visibility_cache.surfaces
+        if surface.image is image
+        and surface.now is image.version
+        and surface.region == region
+        and repr(surface.depth_range) == repr(depth_range)  # 0 is not -0
+    ]
+    found: list[tuple[int, DrawnSurface]] = []  # the number of the first triangle, and the surface
+    first = 0
+    while first < len(triangles.ids):
+        surface = next((each for each in known if _begin_with(triangles, first, each.triangles)), None)
+        if surface is None:
+            return None
+        found.append((first, surface))
+        first += len(surface.triangles.ids)
+    parts = [_tested(surface, front, back, depth_range, target) for _, surface in found]
+    return [
+        spans._replace(triangle=spans.triangle + np.int32(first)) if first else spans
+        for (first, _), spans in zip(found, parts, strict=True)
+    ]
+
+
+def _begin_with(triangles: Setup, first: int, others: Setup) -> bool:
+    """Return whether the triangles from `first` on begin with the fragments of others."""
+    rows = slice(first, first + len(others.ids))
+    return rows.stop <= len(triangles.ids) and _are_equal(others, Setup(*(array[rows] for array in triangles)))
 
 
 def _are_equal(a: Setup, b: Setup) -> bool:

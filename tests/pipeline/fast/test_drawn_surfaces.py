@@ -8,15 +8,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from draws import ADDING, draw, random_state, random_triangles, same_window, small_triangles, vertices
+from softshadow import gl as on
 from softshadow import tokens as gl
 from softshadow.context import Context
-from softshadow.pipeline import explain_paths, set_threads, threads, use_short_cuts
+from softshadow.gl import create_context
+from softshadow.pipeline import choose, explain_paths, set_threads, threads, use_short_cuts
 from softshadow.pipeline.commands import Clear, Vertices
 from softshadow.pipeline.fast import drawn_surfaces
 from softshadow.pipeline.memory import threads as pool
 from softshadow.state import Blend, State
 
-HIT = "an earlier draw left these surfaces in the depth buffer: only their fragments are tested"
+HIT = "earlier draws left these surfaces in the depth buffer: only their fragments are tested"
 CACHED = "an equal draw over the same depths was filled before: only shaded"
 SQUARE = [[-1, -1, 0, 1], [1, -1, 0, 1], [1, 1, 0, 1], [-1, -1, 0, 1], [1, 1, 0, 1], [-1, 1, 0, 1]]
 seeds = st.integers(0, 2**32 - 1)
@@ -178,3 +180,51 @@ def test_the_surface_of_a_cached_fill_is_known_again_after_it_was_forgotten(twic
             assert (HIT in lit.reasons) == is_known
         contexts.append(context)
     assert same_window(*contexts)
+
+
+@pytest.mark.parametrize("surfaces", [1, 3])
+def test_draws_that_are_joined_find_the_surfaces_of_each(surfaces, monkeypatch):
+    """Light is added twice to each of some spheres; the draws of all lights are one run."""
+    found, windows = [], []
+
+    def noted(*arguments):
+        parts = drawn_surfaces.passing_spans(*arguments)
+        found.append(0 if parts is None else len(parts))
+        return parts
+
+    monkeypatch.setattr(choose, "passing_spans", noted)
+    for kernels in (choose.FILL_KERNELS, choose.SPAN_KERNELS):
+        monkeypatch.setattr(kernels, "pays_after", 0)
+    for policy in (True, False):
+        context = create_context(320, 240)
+        with use_short_cuts(policy):
+            light_spheres(surfaces)
+            on.glFinish()
+        windows.append(context)
+    assert found == [2]  # of two lights, each with all spheres
+    assert same_window(*windows)
+
+
+def light_spheres(surfaces: int) -> None:
+    """Draw spheres without light, and then once more for each of two lights."""
+    on.glClear(on.GL_COLOR_BUFFER_BIT | on.GL_DEPTH_BUFFER_BIT)
+    on.glEnable(on.GL_DEPTH_TEST)
+    on.glEnable(on.GL_LIGHTING)
+    on.glEnable(on.GL_LIGHT0)
+    for color in (0, 0.3, 0.6):
+        on.glLightfv(on.GL_LIGHT0, on.GL_DIFFUSE, (color, 0.4, 0.2, 1))
+        if color:
+            on.glEnable(on.GL_BLEND)
+            on.glBlendFunc(on.GL_ONE, on.GL_ONE)
+            on.glDepthFunc(on.GL_EQUAL)
+            on.glDepthMask(on.GL_FALSE)
+        for index in range(surfaces):
+            on.glPushMatrix()
+            on.glTranslatef(0.4 * index - 0.3, 0.1, 0.1 * index)
+            on.glScalef(0.8, 0.8, 0.8)  # small draws go triangle by triangle
+            on.gluSphere(on.gluNewQuadric(), 1.0, 9, 7)
+            on.glPopMatrix()
+    for cap in (on.GL_BLEND, on.GL_LIGHTING):
+        on.glDisable(cap)
+    on.glDepthFunc(on.GL_LESS)
+    on.glDepthMask(on.GL_TRUE)
