@@ -100,15 +100,19 @@ class Watch:
         self._before = None if self._image is None or not self._surfaces else self._image.version
 
     def note_drawn(self) -> None:
-        """Note that the draw has only made depths smaller."""
+        """Note that the draw has only made depths smaller; surfaces of earlier depths are forgotten."""
         image = self._image
         if self._before is None or image is None or image.version is self._before:
             return
         if image.version is None:
             image.version = object()
-        for n, surface in enumerate(self._surfaces):
-            if surface.image is image and surface.now is self._before:
-                self._surfaces[n] = surface._replace(now=image.version)
+        kept = []
+        for surface in self._surfaces:
+            if surface.image is not image or surface.now is image.version:
+                kept.append(surface)
+            elif surface.now is self._before:
+                kept.append(surface._replace(now=image.version))
+        self._surfaces[:] = kept
 
 
 def passing_spans(

@@ -159,6 +159,18 @@ def test_few_surfaces_are_remembered():
     assert len(context.storage.visibility_cache.surfaces) <= drawn_surfaces.MOST_SURFACES
 
 
+def test_surfaces_of_the_frames_before_are_forgotten():
+    context, rng, most = Context(16, 16, "d24"), np.random.default_rng(1), 0
+    state = replace(context.state, depth=replace(context.state.depth, enabled=True, func=gl.GL_LESS))
+    with use_short_cuts("always"):
+        for _ in range(6):
+            context.execute(Clear(state, gl.GL_DEPTH_BUFFER_BIT))
+            for _ in range(2):
+                draw(context, state, random_triangles(rng, 3))
+            most = max(most, len(context.storage.visibility_cache.surfaces))
+    assert most == 2
+
+
 @pytest.mark.parametrize(("twice", "is_known"), [(False, True), (True, False)])
 def test_the_surface_of_a_cached_fill_is_known_again_after_it_was_forgotten(twice, is_known):
     surface, contexts = vertices(SQUARE * 2 if twice else SQUARE), []
