@@ -79,7 +79,7 @@ def coverage(session: nox.Session) -> None:
 def docs(session: nox.Session) -> None:
     """Build the documentation, in which a warning is an error, and open pages in a browser."""
     folder = session.posargs[0] if session.posargs else "docs/_build/html"
-    session.run("sphinx-build", "-q", "-W", "--keep-going", "-b", "html", "docs", folder)
+    session.run("sphinx-build", "-q", "-W", "--keep-going", "-j", "auto", "-b", "html", "docs", folder)
     site = {"SOFTSHADOW_SITE": os.path.abspath(folder)}
     session.run("pytest", "-q", "-n0", "tests/docs/test_site_in_browser.py", env=site)
     # Sphinx and the executed pages leave nothing in the tree
