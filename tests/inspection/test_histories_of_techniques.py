@@ -73,6 +73,7 @@ def test_rows_are_plain_data_for_json(name):
     assert len(json.loads(json.dumps(drawn.pixel(x, y).to_dicts()))) == len(drawn.pixel(x, y))
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("scene", SCENES)
 @each_technique
 def test_causes_of_shadow_are_failed_tests_or_lookups(name, scene):

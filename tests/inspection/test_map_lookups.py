@@ -26,6 +26,7 @@ def pixels(mask, count=25):
     return [(int(x[n]), int(y[n])) for n in chosen]
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("scene", ["boxes", "spotlight", "soft-slab"])
 @pytest.mark.parametrize(("name", "options"), [*((n, {}) for n in BY_MAP), ("map-pcf", {"bilinear": True})])
 def test_what_a_program_finds_visible_is_the_picture(name, options, scene):

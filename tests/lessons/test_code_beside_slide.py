@@ -6,6 +6,7 @@ from softshadow import listings
 from softshadow.lessons import code_beside_slide, run_listing
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("name", listings.names())
 def test_every_step_of_every_listing_marks_lines(name: str) -> None:
     for step, title in enumerate(code_beside_slide(name).titles):

@@ -86,6 +86,7 @@ def test_components_without_generation_keep_what_was_given():
 
 
 @pytest.mark.mesa
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("modes", MODES_FROM_NORMALS, ids=lambda modes: "-".join(map(gl.token_name, modes)))
 @pytest.mark.parametrize("normals", ["plain", "normalize", "rescale_normal"])
 @pytest.mark.parametrize("kind", ["identity", "affine", "scale"])
