@@ -104,7 +104,7 @@ def glPushAttrib(mask: int) -> None:
             (
                 current.color,
                 current.normal,
-                (*current.texcoords,),
+                tuple(current.texcoords),
                 current.raster,
                 current.edge,
                 current.secondary,
