@@ -40,6 +40,7 @@ from softshadow.pipeline.fast.span_places import (
     linear_places,
     move_by_slices,
     nearest_places,
+    write_corners,
     write_places,
 )
 from softshadow.pipeline.fast.span_state import (
@@ -132,11 +133,7 @@ def take_nearest(axis, nearest, count, whole):
 @kernel
 def mix_corners(count, texels, whole):
     """Write FILTERED: the mixture of the texels at FIRST and SECOND of s and t."""
-    for n in range(np.uint64(count)):
-        upper = np.int32(whole[OFFSET + n] + np.int32(whole[T_AXIS + FIRST + n] * whole[PITCH + n]))
-        lower = np.int32(whole[OFFSET + n] + np.int32(whole[T_AXIS + SECOND + n] * whole[PITCH + n]))
-        whole[CORNER_00 + n], whole[CORNER_10 + n] = upper + whole[FIRST + n], upper + whole[SECOND + n]
-        whole[CORNER_01 + n], whole[CORNER_11 + n] = lower + whole[FIRST + n], lower + whole[SECOND + n]
+    write_corners(count, whole)
     gather(texels, CORNER_00, count, whole)
     gather(texels, CORNER_10, count, whole)
     gather(texels, CORNER_01, count, whole)

@@ -1,7 +1,7 @@
 """Textures filtered in float for a block of fragments; equals `shade.shading.shade`, see fast/test_span_shading.py.
 
-The nearest depth is compared in a few loops (`compare_nearest_depths`), and so is what is filtered linearly on one
-level (`span_linear`); everything else goes texel by texel, with the functions of `softshadow.programs.wrapping`.
+The nearest depth is compared in a few loops (`compare_nearest_depths`), and linear filters on one level take a few, too
+(`span_linear`). Everything else goes texel by texel, with the functions of `softshadow.programs.wrapping`.
 """
 
 import numpy as np

@@ -17,8 +17,6 @@ from softshadow.pipeline.fast.fragment_block import (
     FIRST,
     LENGTH,
     LINEAR,
-    OFFSET,
-    PITCH,
     ROW,
     SECOND,
     SQUARED,
@@ -33,14 +31,14 @@ from softshadow.pipeline.fast.fragment_block import (
     T,
     W,
 )
-from softshadow.pipeline.fast.span_places import NOTHING, ONE_TEXEL, write_places
+from softshadow.pipeline.fast.span_bytes import BYTE, gather
+from softshadow.pipeline.fast.span_places import NOTHING, ONE_TEXEL, write_corners, write_places
 from softshadow.pipeline.fast.span_state import BORDER, CLAMPED, COMPARISON, IS_DEPTH, STEP, WRAP_S, WRAP_T
 from softshadow.programs.wrapping import REPEAT_BY_MASK, mirror, to_int32
 from softshadow.tokens import GL_CLAMP, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT, GL_REPEAT
 
 LESS, EQUAL, GREATER, UNORDERED, CODES = np.int32(1), np.int32(2), np.int32(4), np.int32(8), np.int32(15)
 OUT_00, OUT_10, OUT_01, OUT_11 = np.int32(1), np.int32(2), np.int32(4), np.int32(8)  # corners outside the image
-BYTE = np.int32(255)
 X_WEIGHT, Y_WEIGHT, OUTSIDE = W, SQUARED, FILTERED  # rows that nothing else needs any more, or not yet
 
 
@@ -61,6 +59,7 @@ def filter_linearly(switches, numbers, unit, number, count, texels, room, whole)
     write_places(switches, unit, count, whole)
     linear_places_in_float(S, np.uint64(0), switches[unit + WRAP_S], X_WEIGHT, count, room, whole)
     linear_places_in_float(T, T_AXIS, switches[unit + WRAP_T], Y_WEIGHT, count, room, whole)
+    note_outside(count, whole)
     write_corners(count, whole)
     if not switches[unit + IS_DEPTH]:
         mix_colors(numbers, number, count, texels, room, whole)
@@ -125,8 +124,8 @@ def linear_places_in_float(coordinate, axis, wrap, weight, count, room, whole):
 
 
 @kernel
-def write_corners(count, whole):
-    """Write the places of the four texels around each fragment, and which of them are outside the image."""
+def note_outside(count, whole):
+    """Write OUTSIDE: which of the four texels around each fragment are outside the image."""
     for n in range(np.uint64(count)):
         i0, i1, j0, j1 = whole[FIRST + n], whole[SECOND + n], whole[T_AXIS + FIRST + n], whole[T_AXIS + SECOND + n]
         width, height = np.uint32(whole[LENGTH + n]), np.uint32(whole[T_AXIS + LENGTH + n])
@@ -135,22 +134,16 @@ def write_corners(count, whole):
         low = NOTHING if np.uint32(j0) < height else np.int32(OUT_00 | OUT_10)
         high = NOTHING if np.uint32(j1) < height else np.int32(OUT_01 | OUT_11)
         whole[OUTSIDE + n] = left | right | low | high
-    for n in range(np.uint64(count)):
-        low = np.int32(whole[OFFSET + n] + np.int32(whole[T_AXIS + FIRST + n] * whole[PITCH + n]))
-        high = np.int32(whole[OFFSET + n] + np.int32(whole[T_AXIS + SECOND + n] * whole[PITCH + n]))
-        whole[CORNER_00 + n], whole[CORNER_10 + n] = low + whole[FIRST + n], low + whole[SECOND + n]
-        whole[CORNER_01 + n], whole[CORNER_11 + n] = high + whole[FIRST + n], high + whole[SECOND + n]
 
 
 @kernel
 def mix_colors(numbers, number, count, texels, room, whole):
     """Write the four channels of a colour texture."""
-    largest, step = np.uint32(len(texels) - 1), numbers[number + STEP]
-    for n in range(np.uint64(count)):
-        whole[CORNER_00 + n] = texels[np.uint64(min(np.uint32(whole[CORNER_00 + n]), largest))]
-        whole[CORNER_10 + n] = texels[np.uint64(min(np.uint32(whole[CORNER_10 + n]), largest))]
-        whole[CORNER_01 + n] = texels[np.uint64(min(np.uint32(whole[CORNER_01 + n]), largest))]
-        whole[CORNER_11 + n] = texels[np.uint64(min(np.uint32(whole[CORNER_11 + n]), largest))]
+    step = numbers[number + STEP]
+    gather(texels, CORNER_00, count, whole)
+    gather(texels, CORNER_10, count, whole)
+    gather(texels, CORNER_01, count, whole)
+    gather(texels, CORNER_11, count, whole)
     for channel in range(4):
         border, shift = numbers[number + BORDER + channel], np.int32(8 * channel)
         row = TEXEL + np.uint64(channel) * ROW

@@ -7,6 +7,10 @@ import numpy as np
 
 from softshadow.jit import kernel
 from softshadow.pipeline.fast.fragment_block import (
+    CORNER_00,
+    CORNER_01,
+    CORNER_10,
+    CORNER_11,
     FIRST,
     FRACTION,
     LENGTH,
@@ -60,6 +64,16 @@ def move_by_slices(row, count, whole):
     for n in range(np.uint64(count)):
         rows = np.int32(whole[row + n] * whole[T_AXIS + LENGTH + n])
         whole[OFFSET + n] += np.int32(rows * whole[PITCH + n])
+
+
+@kernel
+def write_corners(count, whole):
+    """Write CORNER_00 to CORNER_11: the places of the texels at FIRST and SECOND of s and t."""
+    for n in range(np.uint64(count)):
+        upper = np.int32(whole[OFFSET + n] + np.int32(whole[T_AXIS + FIRST + n] * whole[PITCH + n]))
+        lower = np.int32(whole[OFFSET + n] + np.int32(whole[T_AXIS + SECOND + n] * whole[PITCH + n]))
+        whole[CORNER_00 + n], whole[CORNER_10 + n] = upper + whole[FIRST + n], upper + whole[SECOND + n]
+        whole[CORNER_01 + n], whole[CORNER_11 + n] = lower + whole[FIRST + n], lower + whole[SECOND + n]
 
 
 @kernel
