@@ -14,6 +14,8 @@ from softshadow.bench.corpus import (
     stencil_shadows,
     textured,
 )
+from softshadow.bench.corpus.features import program_with
+from softshadow.bench.corpus.features.feature import FAMILY
 from softshadow.bench.corpus.program import Program
 from softshadow.errors import nearest
 
@@ -25,12 +27,15 @@ PROGRAMS = {program.name: program for family in FAMILIES for program in family.P
 
 
 def get(name: str) -> Program:
-    """Return the program with this name.
+    """Return the program with this name, or that of features ("features/fog-exp+scissor").
 
     Raises
     ------
     ValueError                   unknown name; the message suggests the nearest
     """
+    family, _, names = name.rpartition("/")
+    if family == FAMILY:
+        return program_with(names)
     if name not in PROGRAMS:
         raise ValueError(f"unknown program corpus/{name}: {nearest(name, PROGRAMS)}")
     return PROGRAMS[name]

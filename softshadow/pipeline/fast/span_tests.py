@@ -61,6 +61,7 @@ LARGEST_BYTE, START = np.float32(255), np.uint64(0)
 NO_OPS = FragmentOps(0, ALWAYS, 0, ALWAYS, KEEP, KEEP, KEEP, 0, 0, ALWAYS, 0, 0, 0, 0, 0, 0)
 # depth tests that a fragment, once it has failed, fails for ever: what passes moves the stored depth away from it
 LASTING = (NEVER, LESS, EQUAL, LEQUAL, GREATER, GEQUAL)
+SHORT = 32  # fragments of a short span: a loop over half as many is unrolled, and has no vectors
 IS_TESTED, IF_LESS, IF_EQUAL, IF_GREATER, ALPHA_REF = range(5)  # of `AlphaTests.alpha`
 
 
@@ -152,10 +153,15 @@ def collect_passing_spans(
                 left = right
             while left < right:
                 length = np.uint64(min(right - left, SIZE))
-                every, some = test_span(
-                    tests_depth, tests_stencil, numbers, byte_numbers, largest, f, planes, t, depth_range, j, left,
-                    length, depth, stencil, START, room, whole,
-                )  # fmt: skip
+                if length <= SHORT and left + SHORT <= depth.shape[1] and tests_depth and not tests_stencil:
+                    every, some = test_short_span(
+                        numbers, largest, f, planes, t, depth_range, j, left, length, depth, START, False, whole
+                    )
+                else:
+                    every, some = test_span(
+                        tests_depth, tests_stencil, numbers, byte_numbers, largest, f, planes, t, depth_range, j, left,
+                        length, depth, stencil, START, room, whole,
+                    )  # fmt: skip
                 n = np.uint64(0)
                 while some and n < length:
                     while n < length and not whole[MASK + n]:
@@ -172,6 +178,30 @@ def collect_passing_spans(
             row += 1
         m, row = m + 1, first_row
     return m, row, n_spans
+
+
+@kernel
+def test_short_span(numbers, largest, f, planes, t, depth_range, j, left, length, depth, at, is_masked, whole):
+    """Do what `test_span` does for up to SHORT fragments that are tested for depth only, in one loop of fixed length.
+
+    A loop of any length over a few fragments takes them one by one. The buffer has SHORT columns from `left` on. If
+    `is_masked`, fragments whose MASK is not set fail.
+    """
+    first, mask, count, depth_test = np.uint64(left), MASK + at, np.int32(length), depth_test_of(numbers, f)
+    z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
+    row_at, start_at = np.float32(np.int32(j)), np.float32(np.int32(left))
+    writes, unmasked = np.int32(-1 if numbers[f, DEPTH_WRITE] else 0), np.int32(0 if is_masked else -1)
+    every, some = np.int32(-1), np.int32(0)
+    for k in range(SHORT):
+        n, place = np.uint64(k), np.int32(k)
+        z = depth_of(z0, dz, dz_row, offset, start_at + np.float32(place), row_at, depth_range, largest)
+        inside, stored, before = np.int32(-1 if place < count else 0), depth[j, first + n], whole[mask + n]
+        passes = np.int32(depth_passes(depth_test, z, stored) & np.int32(inside & np.int32(before | unmasked)))
+        outside = np.int32(~inside)
+        whole[mask + n] = np.int32(passes | np.int32(before & outside))
+        every, some = np.int32(every & np.int32(passes | outside)), np.int32(some | passes)
+        depth[j, first + n] = z if np.int32(passes & writes) else stored
+    return every != 0, some != 0
 
 
 @kernel
@@ -263,6 +293,9 @@ def test_depths_of_block(
         t, j, left = np.uint64(triangles[s]), np.uint64(spans[SPAN_ROW, s]), int(spans[SPAN_LEFT, s])
         start, f = np.uint64(spans[SPAN_START, s]), np.uint64(faces_front[t])
         length, first = np.uint64(spans[SPAN_START, s + NEXT]) - start, np.uint64(left)
+        if length <= SHORT and left + SHORT <= depth.shape[1]:
+            test_short_span(numbers, largest, f, planes, t, depth_range, j, left, length, depth, start, True, whole)
+            continue
         mask, z = MASK + start, DEPTH + start
         write_depths(planes, t, depth_range, largest, j, left, length, z, room)
         depth_test = depth_test_of(numbers, f)
