@@ -185,7 +185,7 @@ def random_picture(
     context = gl.create_context(*size, **options)
     gl.glClearColor(*rng.random(4).tolist())
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
-    count = rng.integers(0, 3) if units is None else units
+    count = rng.integers(0, 5) if units is None else units
     first = rng.integers(0, 2) if count == 1 else 0
     for unit in range(first, first + count):
         random_texture(rng, unit)
@@ -226,7 +226,7 @@ def random_picture(
         positions[:, :, :3] += rng.normal(0, 1, (n_triangles, 3, 3)) * 0.15
         positions = positions.reshape(-1, 4)
     scale = rng.choice([0.5, 3, 30])
-    coordinates = rng.normal(0, 1, (2, 3 * n_triangles, 4)) * [scale, scale, 1, 0.1] + [0, 0, 0.5, 1]
+    coordinates = rng.normal(0, 1, (4, 3 * n_triangles, 4)) * [scale, scale, 1, 0.1] + [0, 0, 0.5, 1]
     colors = rng.uniform(-0.1, 1.2, (3 * n_triangles, 4))
     if white:
         gl.glColor4f(1.0, 1.0, 1.0, 1.0)
@@ -235,7 +235,7 @@ def random_picture(
         if not white:
             gl.glColor4f(*colors[n].tolist())
         gl.glNormal3f(*rng.normal(0, 1, 3).tolist())
-        for unit in range(2):
+        for unit in range(4):
             gl.glMultiTexCoord4f(gl.GL_TEXTURE0 + unit, *coordinates[unit, n].tolist())
         gl.glVertex4f(*positions[n].tolist())
     gl.glEnd()

@@ -443,7 +443,7 @@ def _shade_fixed_function(
     """Shade with the kernels of the fixed function, or with the program until compiling them pays."""
     if _are_compiled(spans.fragments):
         plan.path.shading = "fixed-function kernel"
-        plan.path.note("fixed function with two textures at most, and one buffer of bytes")
+        plan.path.note("fixed function with four textures at most, and one buffer of bytes")
         shader(spans)
         return
     plan.path.shading = "program"

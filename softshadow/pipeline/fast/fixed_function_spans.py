@@ -11,6 +11,7 @@ from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.fast.fragment_block import block_memory
 from softshadow.pipeline.fast.segment_rows import draw_segments
 from softshadow.pipeline.fast.segment_tables import (
+    IN_ORDER,
     NO_DEPTH,
     NO_STENCIL,
     OF_SPANS,
@@ -43,7 +44,7 @@ def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry)
     flats = np.array([geometry.flat])
 
     def shade_part(spans: Spans, planes: AttributePlanes) -> None:
-        segment = np.array([[0, 0, OF_SPANS, len(spans.row), 0, 0, 0, 0, 0, 1]], np.int32)
+        segment = np.array([[0, 0, OF_SPANS, len(spans.row), 0, 0, 0, 0, *IN_ORDER]], np.int32)
         draw_segments(
             segment, NO_RANGE, NO_ORDER, 0, 0, 0, triangles.corners, triangles.depth, triangles.front, planes.values,
             planes.place, flats, *tables, textures, pixels, NO_DEPTH, NO_STENCIL, *spans, *NO_COLUMNS,

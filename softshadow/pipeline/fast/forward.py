@@ -15,7 +15,14 @@ import numpy as np
 from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.fast.fragment_block import block_memory
 from softshadow.pipeline.fast.segment_rows import draw_segments
-from softshadow.pipeline.fast.segment_tables import NO_DEPTH, NO_STENCIL, SegmentState, padded_textures, texels_of_units
+from softshadow.pipeline.fast.segment_tables import (
+    IN_ORDER,
+    NO_DEPTH,
+    NO_STENCIL,
+    SegmentState,
+    padded_textures,
+    texels_of_units,
+)
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, few_bands, triangles_in_bands
@@ -47,7 +54,7 @@ in_order = np.arange(TRIANGLES, dtype=np.int32)
 class Segments(NamedTuple):
     """Segments to draw, and what all of them have in common.
 
-    table (S, 10) int32: columns as in `segment_tables`; ranges (S, 2) float32: what depths are clamped to; flats (g, k)
+    table (S, 12) int32: columns as in `segment_tables`; ranges (S, 2) float32: what depths are clamped to; flats (g, k)
     bool: which columns are not interpolated; states: of `state_tables`; textures: of `padded_textures`; depth, stencil,
     pixels: the buffers; region: where any of the segments may write; work: see `work_of`.
     """
@@ -83,7 +90,7 @@ def draw_forward(
     if region.first_row >= region.end_row:
         return
     count, textures = len(geometry.triangles.ids), texels_of_units(geometry.program.units)
-    row = 0, 0, 0, count, region.left, region.right, region.first_row, region.end_row, 0, 1
+    row = 0, 0, 0, count, region.left, region.right, region.first_row, region.end_row, *IN_ORDER
     segments = Segments(
         np.array([row], np.int32), np.array([depth_range_of(state, np.float32)], np.float32), np.array([geometry.flat]),
         numbers.tables, padded_textures(textures), *buffers_of(target, numbers.writes_depth), region,

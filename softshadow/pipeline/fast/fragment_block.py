@@ -18,8 +18,8 @@ from softshadow.pipeline.constants import ONE
 
 SIZE = 192  # fragments; with 12 to 20 rows in use by one step, they fit into 32 KB
 LONG_RUN = 8  # fragments of one triangle; from this number on, a loop per column pays
-# interpolated at most: two colours, coordinates of two units, fog, the primary colour again, place in a smooth line
-COLUMNS = 24
+# interpolated at most: two colours, coordinates of four units, fog, the primary colour again, place in a smooth line
+COLUMNS = 33
 
 
 def _rows(first: int, count: int) -> list[np.uint64]:

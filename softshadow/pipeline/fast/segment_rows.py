@@ -20,12 +20,11 @@ from softshadow.pipeline.fast.segment_tables import (
     FLATS,
     LEFT,
     OF_SPANS,
+    OWN_TEXTURES,
     RIGHT,
     STATE,
     STENCIL_AFTER,
     STENCIL_BEFORE,
-    TEXTURE_0,
-    TEXTURE_1,
 )
 from softshadow.pipeline.fast.shade_spans import shade_spans
 from softshadow.pipeline.fast.span_tests import collect_passing_spans
@@ -41,7 +40,7 @@ def draw_segments(
 
     Parameters
     ----------
-    segments (S, 10) int32 : columns as in `segment_tables`; of spans, there is only one, and `order` is empty
+    segments (S, 12) int32 : columns as in `segment_tables`; of spans, there is only one, and `order` is empty
     ranges (S, 2) float32 : what depths are clamped to
     order (n,) int32 : numbers of triangles, of which a segment's begin at its FIRST and end at its END
     planes (T, 3, k + 1), place (T,) : see `interpolate.AttributePlanes`
@@ -53,7 +52,7 @@ def draw_segments(
     """
     for n in range(segments.shape[0]):
         k, flat = segments[n, STATE], flats[segments[n, FLATS]]
-        texels0, texels1 = textures[segments[n, TEXTURE_0]], textures[segments[n, TEXTURE_1]]
+        own_textures = segments[n, OWN_TEXTURES:]
         low, high, left, right = ranges[n, 0], ranges[n, 1], segments[n, LEFT], segments[n, RIGHT]
         first, end = max(first_row, np.int64(segments[n, FIRST_ROW])), min(end_row, np.int64(segments[n, END_ROW]))
         is_spans = segments[n, FIRST] == OF_SPANS
@@ -69,8 +68,8 @@ def draw_segments(
                 )  # fmt: skip
             shade_spans(
                 planes, place, rows, lefts, triangles, starts, n_spans, not is_spans, flat, switches[k], numbers[k],
-                texels0, texels1, specials[k], pixels, depth_planes, faces_front, alphas[k], tests[k, DEPTH_AFTER],
-                tests[k, STENCIL_AFTER], after[k], after_bytes[k], tests[k, DEPTH_LARGEST], low, high, depth, stencil,
-                room, whole, spans, own_triangles,
+                textures, own_textures, specials[k], pixels, depth_planes, faces_front, alphas[k],
+                tests[k, DEPTH_AFTER], tests[k, STENCIL_AFTER], after[k], after_bytes[k], tests[k, DEPTH_LARGEST], low,
+                high, depth, stencil, room, whole, spans, own_triangles,
             )  # fmt: skip
             is_spans = False

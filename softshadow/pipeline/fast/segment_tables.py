@@ -15,7 +15,7 @@ import numpy as np
 from softshadow.framebuffer import Framebuffer
 from softshadow.jit import read_only
 from softshadow.pipeline.fast.drawn_surfaces import only_lessens_depths
-from softshadow.pipeline.fast.span_state import NEEDED, StateNumbers, span_state
+from softshadow.pipeline.fast.span_state import NEEDED, UNITS, StateNumbers, span_state
 from softshadow.pipeline.fast.span_tests import alpha_tests, span_tests
 from softshadow.pipeline.fast.span_texels import texels_of
 from softshadow.pipeline.fast.special_fragments import NO_SPECIAL, discards_some, needed_places, special_numbers
@@ -26,7 +26,8 @@ from softshadow.state import State
 
 TEXTURES = 16  # of the segments of one call
 # columns of a table of segments: rows of the tables of states and of `flats`, triangles, where they may write, textures
-STATE, FLATS, FIRST, END, LEFT, RIGHT, FIRST_ROW, END_ROW, TEXTURE_0, TEXTURE_1 = range(10)
+STATE, FLATS, FIRST, END, LEFT, RIGHT, FIRST_ROW, END_ROW, OWN_TEXTURES = range(9)
+IN_ORDER = tuple(range(UNITS))  # the textures of a segment that is drawn alone
 OF_SPANS = -1  # in column FIRST: the segment is spans, as many as column END says
 # columns of `tests`: whether depth and stencil are tested before shading, and after it; the integer that z = 1 becomes
 DEPTH_BEFORE, STENCIL_BEFORE, DEPTH_AFTER, STENCIL_AFTER, DEPTH_LARGEST = range(5)

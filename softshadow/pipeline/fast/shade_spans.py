@@ -31,9 +31,9 @@ from softshadow.pipeline.fast.special_fragments import discard_from_block
 
 @kernel
 def shade_spans(
-    planes, place, rows, lefts, triangles, starts, n_all, may_overlap, flat, switches, numbers, texels0, texels1,
-    special, pixels, depth_planes, faces_front, alpha_test, tests_depth, tests_stencil, test_numbers, test_bytes,
-    largest, low, high, depth, stencil, room, whole, spans, own_triangles,
+    planes, place, rows, lefts, triangles, starts, n_all, may_overlap, flat, switches, numbers, textures,
+    own_textures, special, pixels, depth_planes, faces_front, alpha_test, tests_depth, tests_stencil, test_numbers,
+    test_bytes, largest, low, high, depth, stencil, room, whole, spans, own_triangles,
 ):  # fmt: skip
     """Shade `n_all` spans, as many at a time as fit into a block, and write them to `pixels` (H, pitch) int32.
 
@@ -57,7 +57,7 @@ def shade_spans(
             spans[SPAN_START, s + NEXT] = n
             if done == starts[r + 1] - starts[r]:
                 r, done = r + 1, np.int64(0)
-        shade_block(planes, spans, n_spans, n, flat, switches, numbers, texels0, texels1, special, room, whole)
+        shade_block(planes, spans, n_spans, n, flat, switches, numbers, textures, own_textures, special, room, whole)
         if alpha_test[IS_TESTED]:
             test_alpha_of_block(alpha_test, n, ALPHA_ROW, room, whole)
             discard_from_block(special, spans, n_spans, n, room, whole)

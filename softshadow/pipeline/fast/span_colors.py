@@ -48,6 +48,7 @@ from softshadow.pipeline.fast.span_state import (
     SWITCHES_OF_UNIT,
     UNIT_NUMBERS,
     UNIT_SWITCHES,
+    WITH_OTHER,
 )
 from softshadow.pipeline.fast.span_textures import place_block, sample_block
 from softshadow.pipeline.fast.special_fragments import LINE_PLACES, POINT_PLACES, cover_block
@@ -61,10 +62,11 @@ SECONDARY = np.uint64(4) * ROW
 
 
 @inlined
-def shade_block(planes, spans, n_spans, count, flat, switches, numbers, texels0, texels1, special, room, whole):
+def shade_block(planes, spans, n_spans, count, flat, switches, numbers, textures, own_textures, special, room, whole):
     """Write PACKED, the colours of all fragments of a block as bytes; the colours stay in the first rows of `room`.
 
-    planes (P, 3, k + 1) are those of `shade.interpolate.attribute_planes`, `spans` and `count` say which fragments.
+    planes (P, 3, k + 1) are those of `shade.interpolate.attribute_planes`, `spans` and `count` say which fragments;
+    `own_textures` (UNITS,) which of the textures the units have.
     """
     if switches[NEEDED] == FOUR_COLUMNS and flat[0] and flat[1] and flat[2] and flat[3]:
         write_constant_colors(planes, spans, n_spans, room, whole)
@@ -74,22 +76,24 @@ def shade_block(planes, spans, n_spans, count, flat, switches, numbers, texels0,
         place_block(
             planes, spans, n_spans, count, flat, switches, numbers, UNIT_SWITCHES, UNIT_NUMBERS, room, whole
         )  # fmt: skip
-        filter_block(switches, UNIT_SWITCHES, count, texels0, room, whole)
+        filter_block(switches, UNIT_SWITCHES, count, textures[own_textures[0]], room, whole)
         copy_texels(has_no_alpha(switches), count, room, whole)
         return
     interpolate_block(planes, spans, n_spans, flat, switches[NEEDED], room)
-    combines, n_units = switches[COMBINES] != 0, switches[N_UNITS]
+    n_units, with_other = switches[N_UNITS], switches[COMBINES] == WITH_OTHER
+    if switches[COMBINES]:
+        keep_primary(count, room)
     for m in range(n_units):
-        u = n_units - 1 - m if combines else m
+        u = n_units - 1 - m if with_other else m
         unit, number = UNIT_SWITCHES + u * SWITCHES_OF_UNIT, UNIT_NUMBERS + u * NUMBERS_OF_UNIT
-        texels = texels0 if u == 0 else texels1
+        texels = textures[own_textures[u]]
         sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, number, texels, room, whole)
-        if not combines:
-            apply_environment_to_block(switches, numbers, unit, number, count, room)
+        if not with_other:
+            apply_unit(switches, numbers, unit, number, count, room)
         elif u:
             swap_texels(count, room)
-    if combines:
-        combine_units(switches, numbers, n_units, count, room)
+    if with_other:
+        combine_with_other(switches, numbers, n_units, count, room)
     if switches[SEPARATE]:
         for c in range(3):
             row = np.uint64(c) * ROW
@@ -163,17 +167,22 @@ def pack_block(count, room, whole):
 
 
 @kernel
-def combine_units(switches, numbers, n_units, count, room):
-    """Apply the texture functions of all units, of which one at least combines; the first one's texels are in TEXEL."""
-    keep_primary(count, room)
+def combine_with_other(switches, numbers, n_units, count, room):
+    """Apply the texture functions of up to two units, which read each other's texels; the first one's are in TEXEL."""
     for u in range(n_units):
         unit, number = UNIT_SWITCHES + u * SWITCHES_OF_UNIT, UNIT_NUMBERS + u * NUMBERS_OF_UNIT
         if u:
             swap_texels(count, room)
-        if switches[unit + RGB_OPERATION] == COMBINE:
-            combine_block(switches, numbers, unit, number, count, room)
-        else:
-            apply_environment_to_block(switches, numbers, unit, number, count, room)
+        apply_unit(switches, numbers, unit, number, count, room)
+
+
+@kernel
+def apply_unit(switches, numbers, unit, number, count, room):
+    """Apply a unit's texture function to the colours."""
+    if switches[unit + RGB_OPERATION] == COMBINE:
+        combine_block(switches, numbers, unit, number, count, room)
+    else:
+        apply_environment_to_block(switches, numbers, unit, number, count, room)
 
 
 @kernel

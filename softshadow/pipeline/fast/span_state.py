@@ -3,7 +3,7 @@
 The kernels that shade spans take the state as an array of integers, `switches`, and an array of float32, `numbers`:
 passing two arrays takes a fraction of a microsecond, and no state has to be compiled. What is not covered here
 (1-D textures with levels, rectangular ones, textures of floats, cube maps that are seamless or of depths, borders of
-3-D textures, more than two units ...) is shaded by the textbook.
+3-D textures, more than four units ...) is shaded by the textbook.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from softshadow.programs.texture_environment import MODES, WITHOUT_ALPHA
 from softshadow.state import State
 from softshadow.texture import Sampler
 
-UNITS = 2  # texture units at most
+UNITS = 4  # texture units at most
 # in `switches`
 NEEDED, SEPARATE, FOG, FOG_COLUMN, N_UNITS, WRITABLE, BLENDS = range(7)
 LOGIC_OP, EQUATION_RGB, EQUATION_ALPHA, SATURATES, SOURCE_TERMS, TARGET_TERMS, COMBINES = 7, 8, 9, 10, 11, 17, 23
@@ -54,6 +54,8 @@ KEEP, REPLACE, MULTIPLY, DECAL, ADD, BLEND, COMBINE = range(7)
 NO_FOG, LINEAR_FOG, EXP_FOG, EXP2_FOG = range(4)
 FOGS = {gl.GL_LINEAR: LINEAR_FOG, gl.GL_EXP: EXP_FOG, gl.GL_EXP2: EXP2_FOG}
 NO_BLENDING, BLENDING, LOGIC = range(3)
+# whether units combine: none; each with its own texel; with those of the other one, too
+NO_COMBINING, IN_TURN, WITH_OTHER = range(3)
 # results of a comparison as bits: less, equal, greater, unordered
 COMPARISONS = {
     gl.GL_NEVER: 0, gl.GL_LESS: 1, gl.GL_EQUAL: 2, gl.GL_LEQUAL: 3, gl.GL_GREATER: 4, gl.GL_NOTEQUAL: 13,
@@ -137,7 +139,9 @@ def _state_numbers(state: State, units: list[Unit], color: Format | None) -> Sta
             numbers[FOG_SLOPE] = scaled_density(state.fog)
         column += 1
     if any(state.units[unit.index].env_mode == gl.GL_COMBINE for unit in units):
-        switches[COMBINES] = True
+        switches[COMBINES] = WITH_OTHER if _read_other_texels(state, units) else IN_TURN
+        if switches[COMBINES] == WITH_OTHER and len(units) > 2:
+            return None
         is_repeated = repeats_primary(state, units)
         needed |= 0b1111 << column if is_repeated else 0
         _write_combining(state, units, column * SIZE if is_repeated else int(PRIMARY), switches, numbers)
@@ -147,6 +151,19 @@ def _state_numbers(state: State, units: list[Unit], color: Format | None) -> Sta
         switches[WRITABLE] = np.where(mask, np.uint8(255), np.uint8(0)).view(np.int32)[0]
         _write_blending(state, blend_ops(state.blend, color), switches)
     return StateNumbers(switches, numbers)
+
+
+def _read_other_texels(state: State, units: list[Unit]) -> bool:
+    """Return whether a unit with GL_COMBINE reads the texel of another one."""
+    names = {gl.GL_TEXTURE0 + unit.index for unit in units}
+    combining = [(unit.index, state.units[unit.index]) for unit in units]
+    return any(
+        not (names - {gl.GL_TEXTURE0 + index}).isdisjoint(
+            (*setting.combine.sources_rgb, *setting.combine.sources_alpha)
+        )
+        for index, setting in combining
+        if setting.env_mode == gl.GL_COMBINE
+    )
 
 
 def _write_combining(state: State, units: list[Unit], primary: int, switches: np.ndarray, numbers: np.ndarray) -> None:

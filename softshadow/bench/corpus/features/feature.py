@@ -74,6 +74,7 @@ def program_of(features: tuple[Feature, ...]) -> Program:
         gl.glEnable(gl.GL_TEXTURE_2D)
         gl.glClearColor(0.1, 0.15, 0.25, 1.0)
         gl.glColor4f(0.9, 0.8, 0.7, 0.6)
+        gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)  # a feature may keep later ones from some pixels
         around = [each for each in (feature.prepare(gl) for feature in features) if each is not None]
 
         def frame(number: int) -> None:

@@ -74,7 +74,7 @@ FEATURES = (
     plain("scissor", "a scissor box", "GL_SCISSOR_TEST", glScissor=(100, 80, 300, 250)),
     plain("depth-always", "a depth test that always passes", glDepthFunc=("GL_ALWAYS",)),
     plain("depth-lequal", "depth test GL_LEQUAL", glDepthFunc=("GL_LEQUAL",)),
-    plain("depth-greater", "depth test GL_GREATER from a cleared depth of 0", glDepthFunc=("GL_GREATER",), glClearDepth=(0.0,)),
+    plain("depth-greater", "depth test GL_GREATER", glDepthFunc=("GL_GREATER",), glClearDepth=(0.0,)),
     plain("depth-not-written", "depths that are not written", glDepthMask=(False,)),
     plain("no-depth-test", "no depth test", glDisable=("GL_DEPTH_TEST",)),
     plain("depth-range", "a small depth range", glDepthRange=(0.25, 0.75)),
@@ -82,5 +82,5 @@ FEATURES = (
     plain("no-color", "depths without colours", glColorMask=(False, False, False, False)),
     plain("fog-linear", "linear fog", "GL_FOG", glFogi=("GL_FOG_MODE", "GL_LINEAR"), glFogf=("GL_FOG_END", 5.0)),
     plain("fog-exp", "exponential fog", "GL_FOG", glFogi=("GL_FOG_MODE", "GL_EXP"), glFogf=("GL_FOG_DENSITY", 0.3)),
-    plain("fog-exp2", "squared exponential fog", "GL_FOG", glFogi=("GL_FOG_MODE", "GL_EXP2"), glFogf=("GL_FOG_DENSITY", 0.3)),
+    plain("fog-exp2", "squared fog", "GL_FOG", glFogi=("GL_FOG_MODE", "GL_EXP2"), glFogf=("GL_FOG_DENSITY", 0.3)),
 )  # fmt: skip

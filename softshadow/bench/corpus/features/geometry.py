@@ -68,6 +68,6 @@ FEATURES = (
     plain("cull-back", "no back faces", "GL_CULL_FACE"),
     plain("cull-front", "no front faces", "GL_CULL_FACE", glCullFace=("GL_FRONT",)),
     plain("polygon-offset", "a polygon offset", "GL_POLYGON_OFFSET_FILL", glPolygonOffset=(1.0, 2.0)),
-    plain("polygon-smooth", "smooth polygons", "GL_POLYGON_SMOOTH", "GL_BLEND", glBlendFunc=("GL_SRC_ALPHA", "GL_ONE_MINUS_SRC_ALPHA")),
+    plain("polygon-smooth", "smooth polygons", "GL_POLYGON_SMOOTH"),
     plain("color-sum", "a secondary colour", "GL_COLOR_SUM", glSecondaryColor3f=(0.1, 0.2, 0.3)),
 )  # fmt: skip
