@@ -1,17 +1,18 @@
 """glBlitFramebuffer: rectangles from framebuffer to framebuffer, scaled and mirrored.
 
-llvmpipe draws a textured rectangle, and so do we: which of two equally near texels a pixel gets, and the last bits of a
-filtered colour, follow from interpolation and sampling in the pipeline. Rows are those in storage: they begin at the
-top in the window and at the bottom in framebuffer objects, so a copy between the two is mirrored.
+llvmpipe draws a textured rectangle, and so do we where it is scaled: which of two equally near texels a pixel gets, and
+the last bits of a filtered colour, follow from interpolation and sampling in the pipeline. Without scaling, each pixel
+gets the texel at its centre. Rows are those in storage: they begin at the top in the window and at the bottom in
+framebuffer objects, so a copy between the two is mirrored.
 
 References: GL 4.5 compatibility, sec. 18.3.1; Mesa, main/blit.c, main/image.c and gallium's util/u_blitter.c.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -28,6 +29,9 @@ from softshadow.texture import Sampler, Texture
 DrawFunction = Callable[[Draw, Storage], None]
 
 F32 = np.float32
+FARTHEST = 1 << 14  # up to here, a centre that is interpolated in float32 is off by some thousandths of a texel
+KEPT = 64  # scaled blits whose texels are kept
+Index = Any  # of rows and columns
 
 
 class Rectangles(NamedTuple):
@@ -64,30 +68,33 @@ def blit(command: BlitFramebuffer, storage: Storage, draw: DrawFunction) -> None
         return
     if command.mask & gl.GL_COLOR_BUFFER_BIT and source.read_color is not None:
         for image in target.colors:
-            _blit_color(source.read_color.copy(), image, rectangles, command.filter, draw)
+            _blit_color(source.read_color, image, rectangles, command.filter, draw)
     stencils = (source.stencil, target.stencil) if command.mask & gl.GL_STENCIL_BUFFER_BIT else (None, None)
     if command.mask & gl.GL_DEPTH_BUFFER_BIT and source.depth is not None and target.depth is not None:
         is_32_bit = target.depth.format.largest == LARGEST_UINT  # llvmpipe copies 32 bits as integers (lp_surface.c)
         unchanged = is_32_bit or (rectangles.straight and _depth_is_unchanged(source, target, None not in stencils))
         where, texels = nearest_texels(source.depth, target.depth, rectangles, draw)
-        cells = source.depth.view[texels]
+        cells = source.depth.read_cells[texels]
         if not unchanged:
             cells = quantized_depth(sampled_depth(cells, source.depth.format), target.depth.format)
         target.depth.view[where] = cells
     source_stencil, target_stencil = stencils
     if source_stencil is not None and target_stencil is not None:
         where, texels = nearest_texels(source_stencil, target_stencil, rectangles, draw)
-        target_stencil.view[where] = source_stencil.view[texels]
+        target_stencil.view[where] = source_stencil.read_cells[texels]
 
 
 def _blit_color(source: Image, target: Image, rectangles: Rectangles, texture_filter: int, draw: DrawFunction) -> None:
     if texture_filter == gl.GL_LINEAR and rectangles.scaled:  # without scaling, the blitter does not filter
-        draw_image(source, target, rectangles, gl.GL_LINEAR, draw)
-    else:
-        where, texels = nearest_texels(source, target, rectangles, draw)
-        colors = convert_color(source.view[texels], source, target)
-        for channel in np.flatnonzero(target.format.written):
-            target.view[..., channel][where] = colors[..., channel]
+        draw_image(source.copy(), target, rectangles, gl.GL_LINEAR, draw)  # it may draw to itself
+        return
+    where, texels = nearest_texels(source, target, rectangles, draw)
+    colors = convert_color(source.read_cells[texels], source, target)
+    if all(target.format.written):
+        target.view[where] = colors
+        return
+    for channel in np.flatnonzero(target.format.written):
+        target.view[..., channel][where] = colors[..., channel]
 
 
 def _depth_is_unchanged(source: Framebuffer, target: Framebuffer, with_stencil: bool) -> bool:
@@ -122,7 +129,7 @@ def rectangles_of(command: BlitFramebuffer, source: Framebuffer, target: Framebu
         right, top = min(right, box.x + box.width), min(top, box.y + box.height)
     columns = _clipped((sx0, sx1), (dx0, dx1), read_width, left, right)
     rows = _clipped((sy0, sy1), (dy0, dy1), read_height, bottom, top)
-    if columns is None or rows is None:
+    if columns is None or rows is None or columns[0] == columns[1] or rows[0] == rows[1]:
         return None
     is_cut = (columns, rows) != ((dx0, dx1), (dy0, dy1))
     if target.flipped:
@@ -178,19 +185,70 @@ def _part(cut: int, whole: int, length: int) -> int:
     return int(F32(cut) / F32(whole) * F32(length) + (HALF if length > 0 else -HALF))
 
 
-# -- drawing -----------------------------------------------------------------------------------------------------------
-def nearest_texels(source: Image, target: Image, rectangles: Rectangles, draw: DrawFunction) -> tuple[tuple, tuple]:
-    """Return the pixels (rows, columns) of the target that are written, and their texels (rows, columns)."""
+# -- texels of pixels --------------------------------------------------------------------------------------------------
+_known: dict[Hashable, tuple[Index, Index]] = {}  # by sizes and rectangles
+
+
+def nearest_texels(source: Image, target: Image, rectangles: Rectangles, draw: DrawFunction) -> tuple[Index, Index]:
+    """Return the index of the pixels of the target that are written, and that of their texels."""
+    if not rectangles.scaled and max(map(abs, (*rectangles.source, *rectangles.target))) <= FARTHEST:
+        unscaled = unscaled_texels(source, target, rectangles)
+        if unscaled is not None:
+            return unscaled
+    key = source.width, source.height, target.width, target.height, rectangles
+    if key in _known:
+        return _known[key]
+    where, texels = drawn_texels(source, target, rectangles, draw)
+    if isinstance(where[0], slice):
+        if len(_known) >= KEPT:
+            _known.clear()
+        _known[key] = where, texels
+    return where, texels
+
+
+def unscaled_texels(source: Image, target: Image, rectangles: Rectangles) -> tuple[Index, Index] | None:
+    """Return what `drawn_texels` returns, as slices, where nothing is scaled; None if some lie outside of the images.
+
+    Mesa's clipping leaves such pixels and texels where a rectangle is clipped on both sides.
+    """
+    left, first, right, end = rectangles.box
+    (x0, y0, x1, y1), (to_x, to_y, _, _) = rectangles.source, rectangles.target
+    columns = _texels((left, right), target.width, to_x, (x0, x1), source.width)
+    rows = _texels((first, end), target.height, to_y, (y0, y1), source.height)
+    return None if columns is None or rows is None else (np.s_[first:end, left:right], (rows, columns))
+
+
+def _texels(pixels: Span, size: int, to: int, texels: Span, n_texels: int) -> slice | None:
+    """Return the texels of pixels on one axis; `to` is the pixel of the first texel, or of the last one if mirrored."""
+    (first, end), (start, stop) = pixels, texels
+    step = 1 if start < stop else -1
+    begin = start + first - to if step > 0 else start - 1 - (first - to)
+    last = begin + step * (end - 1 - first)
+    if first < 0 or end > size or min(begin, last) < 0 or max(begin, last) >= n_texels:
+        return None
+    return slice(begin, last + step if last + step >= 0 else None, step)
+
+
+def drawn_texels(source: Image, target: Image, rectangles: Rectangles, draw: DrawFunction) -> tuple[Index, Index]:
+    """Return the pixels and texels of `nearest_texels` by drawing the numbers of the texels.
+
+    They are slices and one number per row and column, where that is enough.
+    """
     texel_numbers = Image.new(FORMATS[gl.GL_RGBA32F], source.width, source.height)
     texel_numbers.view[..., 0], texel_numbers.view[..., 1] = np.arange(source.height)[:, None], np.arange(source.width)
     looked_up = Image.new(FORMATS[gl.GL_RGBA32F], target.width, target.height)
     looked_up.view[...] = -1
     draw_image(texel_numbers, looked_up, rectangles, gl.GL_NEAREST, draw)
+    left, first, right, end = np.maximum(rectangles.box, 0).tolist()  # rounding may clip to a box beside the buffer
+    rows, columns = (looked_up.view[first:end, left:right, channel] for channel in (0, 1))
+    if rows.size and (rows >= 0).all() and (rows == rows[:, :1]).all() and (columns == columns[:1]).all():
+        return np.s_[first:end, left:right], np.ix_(rows[:, 0].astype(np.intp), columns[0].astype(np.intp))
     where = np.nonzero(looked_up.view[..., 0] >= 0)
     rows, columns = (looked_up.view[where][:, channel].astype(np.intp) for channel in (0, 1))
     return where, (rows, columns)
 
 
+# -- drawing -----------------------------------------------------------------------------------------------------------
 def draw_image(source: Image, target: Image, rectangles: Rectangles, texture_filter: int, draw: DrawFunction) -> None:
     """Draw an image as a textured rectangle: a fan of two triangles, in the order of gallium's blitter."""
     if rectangles.in_texels:
