@@ -27,6 +27,7 @@ LAST_WEIGHT = 1023
 TWO, FOUR, SCALE = np.float32(2.0), np.float32(4.0), np.float32(LAST_WEIGHT)
 # texels of an ellipse's box: no loop may be endless, whatever the coordinates are
 MOST_TEXELS, WIDEST = 1 << 30, 1 << 14  # in all; on both axes, where there would be more
+FEW_COLUMNS = 256  # of a box, which are looked up once for all its rows
 
 
 def _weights() -> np.ndarray:
@@ -53,34 +54,45 @@ def sample_ellipses(texture: Texture, coordinates: np.ndarray, n_levels: int, ou
     if n_levels > 1:
         texels = steps * np.array((image.width, image.height), steps.dtype)
         texels = texels * texels
-        shortest = (texels[..., 0] + texels[..., 1]).min(axis=1)
-        levels = truncated_levels(shortest, sampler, n_levels - 1)
-    levels = np.repeat(levels, 4) + sampler.base_level
-    steps = np.repeat(steps, 4, axis=0)
-    for level in np.unique(levels):
-        pixels = np.nonzero(levels == level)[0]
+        lengths = texels[..., 0] + texels[..., 1]
+        levels = truncated_levels(np.minimum(lengths[:, 0], lengths[:, 1]), sampler, n_levels - 1)
+    levels += sampler.base_level
+    for level in np.flatnonzero(np.bincount(levels)).tolist():
+        blocks = np.flatnonzero(levels == level)
+        pixels = (4 * blocks[:, None] + np.arange(4)).ravel()
         part = np.empty((out.shape[1], len(pixels)), out.dtype)
-        scaled = side * np.float32(1.0 / (1 << int(level)))
-        footprints = steps[pixels] * side * np.float32(1.0 / (1 << int(level)))
-        average_level(texture, texture.images[0, int(level)], scaled, footprints, coordinates[pixels], part)
+        scaled = side * np.float32(1.0 / (1 << level))
+        footprints = steps[blocks] * side * np.float32(1.0 / (1 << level))
+        average_level(texture, texture.images[0, level], scaled, footprints, coordinates[pixels], part)
         out[pixels] = part.T
 
 
 def average_level(
     texture: Texture, image: Image, scaled: np.ndarray, footprints: np.ndarray, coordinates: np.ndarray, out: np.ndarray
 ) -> None:
-    """Fill `out` (k, N) from one level; `footprints` (N, 2, 2) are the steps to the next column and row in texels."""
+    """Fill `out` (k, N) from one level.
+
+    `footprints` (N / 4, 2, 2) are the steps to the next column and row of each 2x2 block, in texels.
+    """
     sources = sources_of(image, texture.sampler)
     cells, border, unit = texels_of(image, texture.sampler, coordinates.dtype)
     places = np.ascontiguousarray(coordinates.T)
     sides = np.array((image.width, image.height, image.slices))
     wraps = np.array(box_wraps(texture, texture.images.get((0, 0)) or image))
     normalized = texture.target != GL_TEXTURE_RECTANGLE
-    mix_floats(places, cells, sides, wraps, normalized, border, unit, sources, out)
+    columns, has_texels = np.empty(FEW_COLUMNS, np.int64), np.empty(len(coordinates), np.bool_)
     with np.errstate(all="ignore"):
         average_ellipses(
-            places, footprints, scaled, cells, sides, wraps, normalized, border, unit, WEIGHTS, sources, out
+            places, footprints, scaled, cells, sides, wraps, normalized, border, unit, WEIGHTS, sources, columns,
+            has_texels, out,
+        )  # fmt: skip
+    if not has_texels.all():
+        without = np.flatnonzero(~has_texels)
+        mixed = np.empty((len(out), len(without)), out.dtype)
+        mix_floats(
+            np.ascontiguousarray(places[:, without]), cells, sides, wraps, normalized, border, unit, sources, mixed
         )
+        out[:, without] = mixed
 
 
 @kernel
@@ -104,11 +116,16 @@ def weight_at(weights, q):
 
 @kernel
 def average_ellipses(
-    coordinates, footprints, scaled, cells, sides, wraps, normalized, border, unit, weights, sources, out
-):
-    """Write the weighted means of the texels in all ellipses to `out` (k, N); ellipses without texels stay."""
+    coordinates, footprints, scaled, cells, sides, wraps, normalized, border, unit, weights, sources, found,
+    has_texels, out,
+):  # fmt: skip
+    """Write the weighted means of the texels in all ellipses to `out` (k, N), and which ellipses have texels.
+
+    `found` is scratch for the columns of a box.
+    """
+    width = sides[0]
     for n in range(coordinates.shape[1]):
-        a, b, c, f, half_width, half_height = ellipse_of(footprints[n])
+        a, b, c, f, half_width, half_height = ellipse_of(footprints[n >> 2])
         scale = SCALE / f
         a, b, c = a * scale, b * scale, c * scale
         u, v = coordinates[0, n] * scaled[0] - HALF, coordinates[1, n] * scaled[1] - HALF
@@ -121,6 +138,11 @@ def average_ellipses(
         first_step, first_q = (TWO * left + ONE) * a, (left * left) * a
         total, red, green, blue, alpha = ZERO, ZERO, ZERO, ZERO, ZERO
         k = nearest_on_axis(coordinates[2, n], sides[2], wraps[2], normalized) if len(wraps) > 2 else 0
+        is_narrow = columns < len(found)
+        if is_narrow:
+            for i in range(columns + 1):
+                s = np.float32(u0 + i) / np.float32(width)
+                found[i] = nearest_on_axis(s, width, wraps[0], normalized)
         for j in range(v0, v0 + rows + 1):
             up = np.float32(j) - v
             step, q = up * b + first_step, (c * up + b * left) * up + first_q
@@ -129,15 +151,18 @@ def average_ellipses(
             for i in range(u0, u0 + columns + 1):
                 weight = weight_at(weights, q)
                 if weight != ZERO:
-                    s = np.float32(i) / np.float32(sides[0])
-                    column = nearest_on_axis(s, sides[0], wraps[0], normalized)
-                    red += channel_of(cells, sides[0], border, unit, column, row, sources[0]) * weight
-                    green += channel_of(cells, sides[0], border, unit, column, row, sources[1]) * weight
-                    blue += channel_of(cells, sides[0], border, unit, column, row, sources[2]) * weight
-                    alpha += channel_of(cells, sides[0], border, unit, column, row, sources[3]) * weight
+                    if is_narrow:
+                        column = found[i - u0]
+                    else:
+                        column = nearest_on_axis(np.float32(i) / np.float32(width), width, wraps[0], normalized)
+                    red += channel_of(cells, width, border, unit, column, row, sources[0]) * weight
+                    green += channel_of(cells, width, border, unit, column, row, sources[1]) * weight
+                    blue += channel_of(cells, width, border, unit, column, row, sources[2]) * weight
+                    alpha += channel_of(cells, width, border, unit, column, row, sources[3]) * weight
                     total += weight
                 q += step
                 step += a * TWO
+        has_texels[n] = total != ZERO
         if total != ZERO:
             out[0, n], out[1, n], out[2, n], out[3, n] = red / total, green / total, blue / total, alpha / total
 

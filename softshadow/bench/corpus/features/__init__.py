@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from softshadow.bench.corpus.features import fragments, geometry, passes, textures
+from softshadow.bench.corpus.features import arrays, fragments, geometry, passes, pixels, textures
 from softshadow.bench.corpus.features.feature import AND, FAMILY, PLAIN, Feature, program_of
 from softshadow.bench.corpus.program import Program
 from softshadow.errors import nearest
 
 FEATURES: dict[str, Feature] = {
-    each.name: each for group in (textures, fragments, geometry, passes) for each in group.FEATURES
+    each.name: each for group in (textures, fragments, geometry, arrays, passes, pixels) for each in group.FEATURES
 }
 NAMES = tuple(f"{FAMILY}/{name}" for name in (PLAIN, *FEATURES))
 

@@ -51,18 +51,6 @@ def copied_to_texture(gl: Any) -> Around:
     return copied
 
 
-def read_back(gl: Any) -> Around:
-    """Pictures read into an array."""
-    pixels = np.zeros((480, 640, 4), np.uint8)
-
-    @contextmanager
-    def read() -> Iterator[None]:
-        yield
-        gl.glReadPixels(0, 0, 640, 480, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, pixels)
-
-    return read
-
-
 def framebuffer_bytes(gl: Any) -> Around:
     """A texture of bytes as target, shown by a blit."""
     return _framebuffer(gl, gl.GL_RGBA8)
@@ -101,6 +89,4 @@ def _framebuffer(gl: Any, internal: int) -> Around:
     return drawn
 
 
-FEATURES = tuple(
-    map(feature, (occlusion_query, accumulated, copied_to_texture, read_back, framebuffer_bytes, framebuffer_floats))
-)
+FEATURES = tuple(map(feature, (occlusion_query, accumulated, copied_to_texture, framebuffer_bytes, framebuffer_floats)))
