@@ -173,13 +173,14 @@ def random_picture(
     tested=False,
     special=False,
     white=False,
+    counted=False,
     units=None,
     **options,
 ):
     """Return a window after a draw in a random state of the fixed function, over a random background.
 
     `ordered`: with blending or a logic operation; `tested`: with alpha test; `special`: see `random_special_fragments`;
-    `white`: all vertices have this colour, without lighting and fog.
+    `white`: all vertices have this colour, without lighting and fog; `counted`: an occlusion query counts fragments.
     """
     rng = np.random.default_rng(seed)
     context = gl.create_context(*size, **options)
@@ -230,6 +231,8 @@ def random_picture(
     colors = rng.uniform(-0.1, 1.2, (3 * n_triangles, 4))
     if white:
         gl.glColor4f(1.0, 1.0, 1.0, 1.0)
+    if counted:
+        gl.glBeginQuery(gl.GL_SAMPLES_PASSED, gl.glGenQueries(1))
     gl.glBegin(pick(rng, (gl.GL_TRIANGLES, gl.GL_TRIANGLES, gl.GL_QUADS, gl.GL_LINES, gl.GL_POINTS)))
     for n in range(3 * n_triangles):
         if not white:
@@ -239,5 +242,7 @@ def random_picture(
             gl.glMultiTexCoord4f(gl.GL_TEXTURE0 + unit, *coordinates[unit, n].tolist())
         gl.glVertex4f(*positions[n].tolist())
     gl.glEnd()
+    if counted:
+        gl.glEndQuery(gl.GL_SAMPLES_PASSED)
     gl.glFinish()
     return context

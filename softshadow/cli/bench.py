@@ -41,6 +41,7 @@ class Threads(click.ParamType):
     epilog=examples(
         "softshadow bench w4",
         "softshadow bench corpus --against mesa",
+        "softshadow bench features/fog-exp+scissor --against mesa",
     )
 )
 @click.argument("names", metavar="[WORKLOAD]...", nargs=-1)

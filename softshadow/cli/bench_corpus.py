@@ -1,4 +1,4 @@
-"""``softshadow bench corpus``: ordinary GL programs, here and on Mesa."""
+"""``softshadow bench corpus`` and ``features``: ordinary GL programs, and single features, here and on Mesa."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import click
 
 from softshadow.cli.console import CHECK_FAILED, print_json, say, table
 
-CORPUS = "corpus"
+CORPUS, FEATURES = "corpus", "features"
 
 
 def is_of_corpus(name: str) -> bool:
-    """Return whether a name of `softshadow bench` is the corpus or one of its programs, "corpus/PROGRAM"."""
-    return name.partition("/")[0] == CORPUS
+    """Return whether a name of `softshadow bench` is one of these families, or a program in one: "corpus/PROGRAM"."""
+    return name.partition("/")[0] in (CORPUS, FEATURES)
 
 
 def bench_corpus(
@@ -24,6 +24,7 @@ def bench_corpus(
     as_json: bool,
 ) -> None:
     """Measure the programs and print the table; exit code 1 if a buffer differs."""
+    from softshadow.bench.corpus.features import NAMES
     from softshadow.bench.corpus.measuring import measure
     from softshadow.bench.corpus.programs import PROGRAMS, get
     from softshadow.bench.corpus.results import to_json
@@ -31,10 +32,14 @@ def bench_corpus(
     from softshadow.testing.machine import machine
 
     if not all(map(is_of_corpus, names)):
-        raise click.UsageError("the corpus is measured alone: expected corpus or corpus/PROGRAM")
+        raise click.UsageError(
+            "programs of the corpus and features are measured alone: expected corpus, corpus/PROGRAM, features or "
+            "features/FEATURE+FEATURE"
+        )
     if against not in (("mesa",), ("llvmpipe",)):
         raise click.UsageError("the corpus is measured against llvmpipe: expected --against mesa")
-    chosen = [each for name in names for each in ([name.partition("/")[2]] if "/" in name else PROGRAMS)]
+    families = {CORPUS: tuple(PROGRAMS), FEATURES: NAMES}
+    chosen = [each for name in names for each in families.get(name, (name.removeprefix(f"{CORPUS}/"),))]
     programs = [get(name) for name in dict.fromkeys(chosen)]
     results = []
     for number in threads:

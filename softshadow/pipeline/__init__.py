@@ -90,7 +90,7 @@ def draw(command: Draw, storage: Storage, counts: FragmentCounts | None = None) 
     target = storage.framebuffers[command.state.draw_framebuffer]
     if not target.attachments:
         raise StateError(f"framebuffer {target.name} has nothing attached to draw to")
-    plan = plan_draw(command, target, counts is not None)
+    plan = plan_draw(command, target, counts)
     if plan.show_rectangle:
         plan.show_rectangle(command, target, storage)
         return
@@ -138,7 +138,7 @@ def _draw_opaque(
         return
     forward = choose_forward(plan, state, target, geometry, region, fragments, storage)
     if forward:
-        forward()
+        _count_passed(forward(), counts)
         return
 
     ties: list[int] = []
@@ -188,7 +188,7 @@ def _draw_in_order(
         rows, n_fragments = covered(triangles, region)
         forward = choose_forward(plan, state, target, geometry, rows, n_fragments)
         if forward:
-            forward()
+            _count_passed(forward(), counts)
             return
     if not is_mesh and _shade_without_overlaps(plan, command, target, geometry):
         return
@@ -216,6 +216,11 @@ def _draw_in_order(
         else:
             for image in target.colors:
                 color_writer(state, image)(spans, colors[passed])
+
+
+def _count_passed(n_fragments: int, counts: FragmentCounts | None) -> None:
+    if counts is not None:
+        counts.verdicts[PASSED] += n_fragments
 
 
 def _shade_known_surface(plan: Plan, command: Draw, target: Framebuffer, storage: Storage, geometry: Geometry) -> bool:

@@ -149,15 +149,15 @@ class Plan(NamedTuple):
     counting: bool = False
 
 
-def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
-    """Return what the state decides about a draw; `counting`: its fragments are counted, so each is processed once."""
+def plan_draw(command: Draw, target: Framebuffer, counts: FragmentCounts | None = None) -> Plan:
+    """Return what the state decides about a draw; with `counts`, its fragments are counted: each is processed once."""
     state, path = command.state, begin_path(command.label, command.mode)
     front = fragment_ops(state, target.depth, target.stencil, True)
     is_one_sided = state.stencil.front == state.stencil.back
     back = front if is_one_sided else fragment_ops(state, target.depth, target.stencil, False)
     is_special = has_special_fragments(state, command.mode)
     in_order, writes_color = needs_order(state) or is_special, bool(target.colors) and any(state.color.mask)
-    plan = Plan(in_order, writes_color, front, back, path, [], counting=counting)
+    plan = Plan(in_order, writes_color, front, back, path, [], counting=counts is not None)
     path.way = "in order" if in_order else "opaque"
     if is_special:
         path.note("stipple, smoothing or point sprites decide about each fragment")
@@ -165,9 +165,15 @@ def plan_draw(command: Draw, target: Framebuffer, counting: bool) -> Plan:
         path.note("neither blending nor alpha test: fragments are tested before any is shaded")
     else:
         path.note("the alpha test reads colours" if tests_alpha(state) else "blending depends on the drawing order")
-    if counting or not _short_cuts.get():
-        path.note("fragments are counted: no short cut" if counting else "short cuts are off")
+    if not _short_cuts.get():
+        path.note("short cuts are off")
         return plan
+    if counts is not None:
+        if not counts.only_passed or is_special or tests_alpha(state):
+            path.note("fragments are counted: no short cut")
+            return plan
+        path.note("fragments that pass are counted: they are tested in drawing order")
+        return plan._replace(forward=True, watch=Watch if only_lessens_depths(front, back) else None)
     if is_special:  # its fragments are not those of its triangles, which surfaces drawn before are compared by
         return plan._replace(forward=True)
     if not in_order and writes_color and is_shown(command, target, front):
@@ -220,7 +226,7 @@ def begin_run(command: Draw, target: Framebuffer, storage: Storage) -> Run | Non
 
 def choose_geometry(plan: Plan, command: Draw, target: Framebuffer, storage: Storage) -> Geometry:
     """Return the triangles of a draw; with short cuts, those of an equal earlier draw if they are cached."""
-    if plan.counting or not _short_cuts.get():
+    if (plan.counting and not plan.forward) or not _short_cuts.get():
         return process_geometry(command, target, storage)
     geometry, was_cached = cached_geometry(command, target, storage)
     if was_cached:
@@ -370,8 +376,10 @@ def choose_forward(
     region: Region,
     fragments: int,
     storage: Storage | None = None,
-) -> Callable[[], None] | None:
+) -> Callable[[], int] | None:
     """Return the function that draws triangle by triangle from coverage to pixels, or None where another way is taken.
+
+    It returns how many fragments have passed the tests before shading.
 
     It is for draws in order, for opaque ones of few fragments, and where finding visible spans would cost more than it
     saves: for a quad, or few fragments in a large region; but not if such a draw is made again and again. `fragments`
@@ -382,12 +390,13 @@ def choose_forward(
         len(geometry.triangles.ids) <= TRIANGLES_OF_QUAD
         or fragments < SPARSE * (region.right - region.left) * (region.end_row - region.first_row)
     )
-    if not plan.forward or not (plan.in_order or is_small or (hides_little and _short_cuts.get() is True)):
+    must_test_in_order = plan.in_order or plan.counting
+    if not plan.forward or not (must_test_in_order or is_small or (hides_little and _short_cuts.get() is True)):
         return None
     numbers = segment_state(state, plan.front, plan.back, target, geometry, geometry.program.units, plan.numbers)
     if numbers is None or not _are_compiled(fragments):
         return None
-    if not (plan.in_order or is_small):
+    if not (must_test_in_order or is_small):
         assert storage is not None
         depth_range = depth_range_of(state, geometry.window.dtype.type)
         if is_repeated(FillInputs(plan.front, plan.back, geometry.triangles, region, depth_range), target, storage):

@@ -35,7 +35,7 @@ def draw_depths(command: DrawDepths, storage: Storage, counts: FragmentCounts | 
     if short_cut:
         short_cut(command, target, storage, counts)
         return
-    plan = plan_draw(draw, target, True)
+    plan = plan_draw(draw, target, counts or FragmentCounts.zero())  # as if counted: no short cut
     with np.errstate(all="ignore"):
         geometry = choose_geometry(plan, draw, target, storage)
         fragments = list_fragments(geometry.triangles, region_of(draw.state, target))

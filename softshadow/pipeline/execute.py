@@ -24,7 +24,7 @@ def _draw(command: Draw, storage: Storage) -> None:
     if not storage.active_query:
         pipeline.draw(command, storage)
         return
-    counts = FragmentCounts.zero()
+    counts = FragmentCounts.zero(only_passed=True)
     pipeline.draw(command, storage, counts)
     storage.queries[storage.active_query] += int(counts.verdicts[PASSED])
 

@@ -160,7 +160,7 @@ class DrawQueue:
         if similar is None or run is None:
             return None
         same_tests = similar.run.has_tests_of(command.state)
-        return similar._replace(run=run, plan=similar.plan if same_tests else plan_draw(command, target, False))
+        return similar._replace(run=run, plan=similar.plan if same_tests else plan_draw(command, target))
 
     def _new_kind(self, command: Draw, target: Framebuffer) -> Kind | None:
         run = begin_run(command, target, self._storage)
@@ -168,7 +168,7 @@ class DrawQueue:
             return None
         setting = setting_of(run, target, self._storage)
         batch = self._batch_numbers.setdefault(geometry_key(run, setting), next(self._next_number))
-        kind = Kind(run, setting, plan_draw(command, target, False), batch)
+        kind = Kind(run, setting, plan_draw(command, target), batch)
         self._latest[_key_without_tests(command)] = kind
         return kind
 

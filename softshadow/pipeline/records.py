@@ -120,16 +120,18 @@ class DepthRange(NamedTuple):
 class FragmentCounts(NamedTuple):
     """How many fragments met which fate: verdicts (5,) int64, by `VERDICTS`; stencil_updates (1,) int64.
 
-    A stencil update is a stencil value that changed.
+    A stencil update is a stencil value that changed. `only_passed`: nobody asks for more than how many have passed, so
+    the other numbers may stay 0.
     """
 
     verdicts: np.ndarray
     stencil_updates: np.ndarray
+    only_passed: bool = False
 
     @classmethod
-    def zero(cls) -> FragmentCounts:
+    def zero(cls, only_passed: bool = False) -> FragmentCounts:
         """Return counts of 0."""
-        return cls(np.zeros(len(VERDICTS), np.int64), np.zeros(1, np.int64))
+        return cls(np.zeros(len(VERDICTS), np.int64), np.zeros(1, np.int64), only_passed)
 
 
 class FillBuffers(NamedTuple):

@@ -77,7 +77,9 @@ def test_command_measures_both_sides_and_prints_json() -> None:
     ("words", "code", "said"),
     [
         (["corpus"], 2, "expected --against mesa"),
-        (["corpus", "w5", "--against", "mesa"], 2, "expected corpus or corpus/PROGRAM"),
+        (["corpus", "w5", "--against", "mesa"], 2, "expected corpus, corpus/PROGRAM"),
+        (["features", "w5", "--against", "mesa"], 2, "features/FEATURE+FEATURE"),
+        (["features/fog+scissor", "--against", "mesa"], 2, "unknown feature"),
         (["corpus/ches-board", "--against", "mesa"], 2, "did you mean 'chess-board'"),
         (["corpus", "--against", "mesa", "--starts"], 2, "--starts"),
     ],

@@ -79,8 +79,10 @@ class Segments(NamedTuple):
 
 def draw_forward(
     numbers: SegmentState, state: State, target: Framebuffer, geometry: Geometry, region: Region, fragments: int = 0
-) -> None:
+) -> int:
     """Draw the triangles of a geometry in drawing order: tests, colours, blending and writes.
+
+    Return how many fragments have passed the tests before shading.
 
     Parameters
     ----------
@@ -88,7 +90,8 @@ def draw_forward(
     fragments : about how many fragments there are; many are shared by several threads in bands of rows
     """
     if region.first_row >= region.end_row:
-        return
+        return 0
+    n_passed = 0
     count, textures = len(geometry.triangles.ids), texels_of_units(geometry.program.units)
     row = 0, 0, 0, count, region.left, region.right, region.first_row, region.end_row, *IN_ORDER
     segments = Segments(
@@ -103,9 +106,11 @@ def draw_forward(
         planes = scratch((len(triangles.ids), 3, len(geometry.flat) + 1), np.float32)
         write_planes(geometry, triangles, planes)
         if segments.pay_bands:
-            _draw_in_bands(segments, triangles, planes)
+            n_passed += _draw_in_bands(segments, triangles, planes)
         else:
-            draw_rows(segments, region.first_row, region.end_row, triangles, planes, in_order[: len(triangles.ids)])
+            order = in_order[: len(triangles.ids)]
+            n_passed += draw_rows(segments, region.first_row, region.end_row, triangles, planes, order)
+    return n_passed
 
 
 def buffers_of(target: Framebuffer, writes_depth: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -135,24 +140,28 @@ def write_planes(geometry: Geometry, triangles: Setup, planes: np.ndarray) -> No
         write_sprite_planes(part, geometry.sprites, AttributePlanes(planes, in_order[:count]))
 
 
-def _draw_in_bands(segments: Segments, triangles: Setup, planes: np.ndarray) -> None:
+def _draw_in_bands(segments: Segments, triangles: Setup, planes: np.ndarray) -> int:
     """Draw the triangles of one segment in bands of rows, which several threads share."""
     region = segments.region
     bands = triangles_in_bands(triangles.corners, [(0, len(triangles.ids))], region, few_bands(region))
 
-    def draw_band(n: int) -> None:
-        draw_rows(segments, bands[n].first_row, bands[n].end_row, triangles, planes, bands[n].numbers)
+    def draw_band(n: int) -> int:
+        return draw_rows(segments, bands[n].first_row, bands[n].end_row, triangles, planes, bands[n].numbers)
 
-    share(draw_band, len(bands))
+    return sum(share(draw_band, len(bands)))
 
 
 def draw_rows(
     segments: Segments, first_row: int, end_row: int, triangles: Setup, planes: np.ndarray, order: np.ndarray
-) -> None:
-    """Draw the segments into the rows [first_row, end_row); they divide the numbers of triangles `order` (n,)."""
-    draw_segments(
+) -> int:
+    """Draw the segments into the rows [first_row, end_row); they divide the numbers of triangles `order` (n,).
+
+    Return how many fragments have passed the tests before shading.
+    """
+    n_passed: int = draw_segments(
         segments.table, segments.ranges, order, first_row, end_row, segments.region.downwards, triangles.corners,
         triangles.depth, triangles.front, planes, in_order, segments.flats, *segments.states, segments.textures,
         segments.pixels, segments.depth, segments.stencil, *_lists.spans, *np.empty((2, end_row), np.int32),
         *block_memory.arrays,
     )  # fmt: skip
+    return n_passed

@@ -27,7 +27,8 @@ from softshadow.pipeline.fast.segment_tables import (
     STENCIL_BEFORE,
 )
 from softshadow.pipeline.fast.shade_spans import shade_spans
-from softshadow.pipeline.fast.span_tests import collect_passing_spans
+from softshadow.pipeline.fast.span_state import WRITABLE
+from softshadow.pipeline.fast.span_tests import IS_TESTED, collect_passing_spans
 
 
 @kernel
@@ -36,7 +37,9 @@ def draw_segments(
     tests, before, before_bytes, after, after_bytes, alphas, switches, numbers, specials, textures, pixels, depth,
     stencil, rows, lefts, triangles, starts, first_columns, end_columns, room, whole, spans, own_triangles,
 ):  # fmt: skip
-    """Draw the segments into the rows [first_row, end_row).
+    """Draw the segments into the rows [first_row, end_row); return how many fragments pass the tests before shading.
+
+    Fragments are shaded where a colour is written, or decides.
 
     Parameters
     ----------
@@ -50,6 +53,7 @@ def draw_segments(
     rows, ..., starts : spans, or scratch for them (`records.Spans`)
     first_columns, end_columns (end_row,) int32 : scratch, as are the last four (`fragment_block.block_memory`)
     """
+    n_passed = np.int64(0)
     for n in range(segments.shape[0]):
         k, flat = segments[n, STATE], flats[segments[n, FLATS]]
         own_textures = segments[n, OWN_TEXTURES:]
@@ -66,6 +70,9 @@ def draw_segments(
                     tests[k, DEPTH_LARGEST], low, high, depth, stencil, rows, lefts, triangles, starts, room, whole,
                     first_columns, end_columns,
                 )  # fmt: skip
+                n_passed += starts[n_spans]
+                if switches[k, WRITABLE] == 0 and not alphas[k, IS_TESTED]:
+                    continue
             shade_spans(
                 planes, place, rows, lefts, triangles, starts, n_spans, not is_spans, flat, switches[k], numbers[k],
                 textures, own_textures, specials[k], pixels, depth_planes, faces_front, alphas[k],
@@ -73,3 +80,4 @@ def draw_segments(
                 high, depth, stencil, room, whole, spans, own_triangles,
             )  # fmt: skip
             is_spans = False
+    return n_passed

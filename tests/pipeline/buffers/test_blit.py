@@ -63,10 +63,14 @@ def test_texels_are_those_of_a_drawn_rectangle(scaled: bool) -> None:
 
 def test_rectangles_too_large_for_exact_centres_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
     image, drawn = Image.new(FORMATS[gl.GL_RGBA8], 8, 8), []
-    monkeypatch.setattr(blit, "drawn_texels", lambda *_: drawn.append(True) or unscaled_texels(image, image, near))
     near = Rectangles((0, 0, 8, 8), (0, 0, 8, 8), (0, 0, 8, 8), False, False)
+
+    def note_drawn(*_: object) -> object:
+        drawn.append(True)
+        return unscaled_texels(image, image, near)
+
+    monkeypatch.setattr(blit, "drawn_texels", note_drawn)
     nearest_texels(image, image, near, draw)
     assert not drawn
-    far = near._replace(source=(0, 0, 1 << 15, 8), target=(0, 0, 1 << 15, 8))
-    nearest_texels(image, image, far, draw)
+    nearest_texels(image, image, near._replace(source=(0, 0, 1 << 15, 8), target=(0, 0, 1 << 15, 8)), draw)
     assert drawn

@@ -43,6 +43,29 @@ def test_small_opaque_draws_leave_the_bits_of_the_fill(seed):
     assert_same(seed, size=(40, 30))
 
 
+@given(st.integers(0, 2**32 - 1), st.booleans(), st.booleans(), st.sampled_from([1, 2]))
+def test_fragments_that_pass_are_counted(seed, ordered, tested, thread_count):
+    before, worth = threads(), forward.WORTH_BANDS
+    try:
+        set_threads(thread_count)
+        forward.WORTH_BANDS = 0
+        window = random_picture(seed, ordered=ordered, tested=tested, counted=True)
+        with use_short_cuts(False):
+            textbook = random_picture(seed, ordered=ordered, tested=tested, counted=True)
+    finally:
+        set_threads(before)
+        forward.WORTH_BANDS = worth
+    assert same_window(window, textbook), seed
+    assert window.objects.queries == textbook.objects.queries, seed
+
+
+def test_a_query_does_not_keep_draws_from_the_kernels():
+    with explain_paths() as paths:
+        counts = [random_picture(seed, counted=True, units=seed % 2).objects.queries for seed in range(12)]
+    assert sum(path.fill == "span by span" for path in paths) > 6
+    assert len({*map(str, counts)}) > 3
+
+
 @example(675991)  # GL_ADD of texels and colours below 0
 @given(st.integers(0, 2**32 - 1))
 def test_bands_of_rows_keep_the_order(seed):

@@ -84,11 +84,11 @@ def _arrays(gl: Any, mesh: Surface) -> Callable[[], None]:
 
 
 def _doubles(gl: Any, mesh: Surface) -> Callable[[], None]:
-    corners = [part.astype(np.float64) for part in _corners(mesh)]
+    positions, normals, places = (part.astype(np.float64) for part in _corners(mesh))
 
     def draw() -> None:
-        _pointers(gl, *corners, gl.GL_DOUBLE)
-        gl.glDrawArrays(gl.GL_TRIANGLES, 0, len(corners[0]))
+        _pointers(gl, positions, normals, places, gl.GL_DOUBLE)
+        gl.glDrawArrays(gl.GL_TRIANGLES, 0, len(positions))
 
     return draw
 

@@ -29,7 +29,10 @@ VALUES = {
 
 
 def _after(name: str, title: str, begin: Callable[[Any], Callable[[], None]]) -> Feature:
-    """Return a feature that does something after each drawing: `begin` prepares it and returns it."""
+    """Return a feature that does something after each drawing, without texture: `begin` prepares it and returns it.
+
+    Mesa shows rectangles of pixels with the textures in use, softshadow without (docs/exactness.md).
+    """
 
     def prepare(gl: Any) -> Around:
         gl.glPixelStorei(gl.GL_PACK_ALIGNMENT, 1)
@@ -39,7 +42,9 @@ def _after(name: str, title: str, begin: Callable[[Any], Callable[[], None]]) ->
         @contextmanager
         def around() -> Iterator[None]:
             yield
+            gl.glDisable(gl.GL_TEXTURE_2D)
             act()
+            gl.glEnable(gl.GL_TEXTURE_2D)
 
         return around
 
