@@ -5,25 +5,26 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import softshadow as ss
 from softshadow.errors import EdgeNearLight
 from softshadow.inspection import soft_truth
-from softshadow.inspection.hard_truth import seen_faces
+from softshadow.inspection.hard_truth import own_faces, seen_faces
 from softshadow.scene import Disc, Light, LightShape, Rectangle, Scene, SceneObject, Segment, Sphere, placement, shapes
 from softshadow.scene.light_coverage import THIN
 from softshadow.scene.penumbra_wedge import SilhouetteEdges
 from softshadow.techniques.wedge_passes import WIDEST, edge_texture
+from softshadow.truth import light_visibility
 from techniques.drawn_frames import draw
 
 pytestmark = pytest.mark.filterwarnings("ignore::softshadow.OpenMesh", "ignore::softshadow.EdgeNearLight")
 
 SIZE = (64, 48)
-# the visible point is float32, 2^-22 of up to eight units off in each direction; penumbras are a quarter of a unit wide
-# or wider, so the visibility changes by at most four per unit: 1.1e-5 in all
-FLOAT_PRECISION = 2e-5
+# the visible point is float32, 2^-22 of a few units off; the visibility changes by at most a few per unit
+FLOAT_PRECISION = 1e-5
+AT_ITS_POINTS = 5e-6  # at the points that the run has: what float32 areas of wedges lose, some 2^-22 for each edge
 SHAPES: list[LightShape] = [
     Rectangle((1, 0, 0.2), (-0.1, 0.3, 0.5)),
     Disc(0.5, (0.2, 1, 0.1)),
@@ -57,16 +58,32 @@ def errors_on_the_floor(scene: Scene, size: tuple[int, int] = SIZE, **options: A
     return (run.visibility - truth.visibility)[floor]
 
 
+def errors_at_its_points(scene: Scene) -> np.ndarray:
+    """Return what `errors_on_the_floor` returns, with the exact visibility of the points that the run has in float32.
+
+    So it does not matter how narrow a penumbra is.
+    """
+    run, (light,) = ss.run("volume-wedges", scene, size=SIZE), scene.lights
+    objects, triangles, _ = seen_faces(scene, SIZE)
+    points = run.maps["positions"].reshape(-1, 3) + np.array(light.position)[:3]  # those of a run begin at the light
+    floor = run.valid.ravel() & (np.abs(points[:, 1]) < 1e-4) & (objects == 0)
+    assert floor.sum() > 500
+    exclude = own_faces(scene, objects[floor], triangles[floor])
+    truth = light_visibility(points[floor], light, scene.casters, exclude=exclude, method="exact")
+    return run.visibility.ravel()[floor] - truth.visible
+
+
 @each_shape
 @settings(max_examples=5)
+@example(seed=671)  # in a narrow penumbra, the float32 point matters more than all else
 @given(seed=st.integers(0, 2**32 - 1))
 def test_one_flat_convex_caster_is_exact_to_float_precision(shape: LightShape, seed: int) -> None:
     rng = np.random.default_rng(seed)
     turn = (float(rng.uniform(-40, 40)), *rng.normal(size=3))
     sheet = SceneObject(shapes.floor(float(rng.uniform(0.8, 2))), placement((0.2, 1.5, 0), turn), name="sheet")
     light = Light((rng.uniform(-0.8, 0.8), rng.uniform(3.5, 5), rng.uniform(-0.8, 0.8)), shape=shape)
-    errors = np.abs(errors_on_the_floor(over_the_floor(light, sheet)))
-    assert errors.max() < (SEGMENT_PRECISION if isinstance(shape, Segment) else FLOAT_PRECISION)
+    errors = np.abs(errors_at_its_points(over_the_floor(light, sheet)))
+    assert errors.max() < (SEGMENT_PRECISION if isinstance(shape, Segment) else AT_ITS_POINTS)
 
 
 def test_the_slab_is_exact_and_takes_all_kinds_of_pixels() -> None:

@@ -44,11 +44,11 @@ def _strip(mesh: Surface) -> np.ndarray:
 
 
 def _immediate(gl: Any, mesh: Surface) -> Callable[[], None]:
-    rows = [list(zip(*(part.tolist() for part in _corners(mesh)), strict=True))]
+    corners = list(zip(*(part.tolist() for part in _corners(mesh)), strict=True))
 
     def draw() -> None:
         gl.glBegin(gl.GL_TRIANGLES)
-        for position, normal, place in rows[0]:
+        for position, normal, place in corners:
             gl.glNormal3f(*normal)
             gl.glTexCoord2f(*place)
             gl.glVertex3f(*position)

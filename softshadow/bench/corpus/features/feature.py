@@ -41,10 +41,10 @@ def feature(prepare: Callable[[Any], Around | None]) -> Feature:
     return Feature(prepare.__name__.replace("_", "-"), (prepare.__doc__ or "").partition(".")[0], prepare)
 
 
-def switched_on(title: str, *capabilities: str, **settings: tuple[Any, ...]) -> Callable[[Any], None]:
-    """Return a function that enables capabilities and makes calls, ``glFogi=("GL_FOG_MODE", "GL_LINEAR")``.
+def setting(name: str, title: str, *capabilities: str, **settings: tuple[Any, ...]) -> Feature:
+    """Return a feature that only enables capabilities and makes calls, as in ``glFogi=("GL_FOG_MODE", "GL_LINEAR")``.
 
-    Arguments that are str are names of tokens; the function's docstring is the title.
+    Arguments that are str are names of tokens.
     """
 
     def prepare(gl: Any) -> None:
@@ -53,13 +53,7 @@ def switched_on(title: str, *capabilities: str, **settings: tuple[Any, ...]) -> 
         for call, arguments in settings.items():
             getattr(gl, call)(*[getattr(gl, each) if isinstance(each, str) else each for each in arguments])
 
-    prepare.__doc__ = title
-    return prepare
-
-
-def plain(name: str, title: str, *capabilities: str, **settings: tuple[Any, ...]) -> Feature:
-    """Return a feature that only enables capabilities and makes calls, see `switched_on`."""
-    return Feature(name, title, switched_on(title, *capabilities, **settings))
+    return Feature(name, title, prepare)
 
 
 def program_of(features: tuple[Feature, ...]) -> Program:
@@ -69,7 +63,7 @@ def program_of(features: tuple[Feature, ...]) -> Program:
         mesh = torus(1.0, 0.45, COLUMNS, ROWS)
         look(gl, size, (0.0, 1.5, 2.6))
         light(gl)
-        upload(gl, checkers(), gl.GL_LINEAR_MIPMAP_LINEAR, gl.GL_REPEAT)
+        upload(gl, checkers(), gl.GL_LINEAR_MIPMAP_LINEAR, gl.GL_REPEAT)  # with mipmaps, which some filters use
         gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_LINEAR)
         gl.glEnable(gl.GL_TEXTURE_2D)
         gl.glClearColor(0.1, 0.15, 0.25, 1.0)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from softshadow.bench.corpus.features.feature import Feature, feature, plain
+from softshadow.bench.corpus.features.feature import Feature, feature, setting
 
 
 def _mode(name: str) -> Feature:
-    return plain(
+    return setting(
         f"mode-{name.lower()}", f"polygons drawn as GL_{name}", glPolygonMode=("GL_FRONT_AND_BACK", f"GL_{name}")
     )
 
@@ -64,10 +64,10 @@ FEATURES = (
     *map(_lights, (2, 8)),
     *map(_clip_planes, (1, 6)),
     *map(feature, (highlight, spot_light, no_light, two_sides)),
-    plain("flat", "flat shading", glShadeModel=("GL_FLAT",)),
-    plain("cull-back", "no back faces", "GL_CULL_FACE"),
-    plain("cull-front", "no front faces", "GL_CULL_FACE", glCullFace=("GL_FRONT",)),
-    plain("polygon-offset", "a polygon offset", "GL_POLYGON_OFFSET_FILL", glPolygonOffset=(1.0, 2.0)),
-    plain("polygon-smooth", "smooth polygons", "GL_POLYGON_SMOOTH"),
-    plain("color-sum", "a secondary colour", "GL_COLOR_SUM", glSecondaryColor3f=(0.1, 0.2, 0.3)),
+    setting("flat", "flat shading", glShadeModel=("GL_FLAT",)),
+    setting("cull-back", "no back faces", "GL_CULL_FACE"),
+    setting("cull-front", "no front faces", "GL_CULL_FACE", glCullFace=("GL_FRONT",)),
+    setting("polygon-offset", "a polygon offset", "GL_POLYGON_OFFSET_FILL", glPolygonOffset=(1.0, 2.0)),
+    setting("polygon-smooth", "smooth polygons", "GL_POLYGON_SMOOTH"),
+    setting("color-sum", "a secondary colour", "GL_COLOR_SUM", glSecondaryColor3f=(0.1, 0.2, 0.3)),
 )  # fmt: skip

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens  # PyOpenGL has those of extensions elsewhere
-from softshadow.bench.corpus.features.feature import Feature, feature, plain
+from softshadow.bench.corpus.features.feature import Feature, feature, setting
 from softshadow.bench.corpus.shapes import checkers, noise
 from softshadow.bench.corpus.views import upload
 
@@ -162,12 +162,12 @@ def _dashed(name: str) -> str:
 
 
 FEATURES = (
-    plain("no-texture", "no texture", glDisable=("GL_TEXTURE_2D",)),
+    setting("no-texture", "no texture", glDisable=("GL_TEXTURE_2D",)),
     *map(_filter, FILTERS),
     *map(_wrap, WRAPS),
     *map(_format, FORMATS),
     *(
-        plain(f"env-{mode.lower()}", f"texture environment GL_{mode}",
+        setting(f"env-{mode.lower()}", f"texture environment GL_{mode}",
               glTexEnvi=("GL_TEXTURE_ENV", "GL_TEXTURE_ENV_MODE", f"GL_{mode}"))
         for mode in MODES
     ),
