@@ -31,8 +31,8 @@ from softshadow.pipeline.commands import Draw
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
-    from softshadow.pipeline.fast.batch.geometry import WORTH_COMPARING, Setting, geometry_of, setting_of
-    from softshadow.pipeline.fast.batch.run import Run, key_of, width_of
+    from softshadow.pipeline.fast.batch.geometry import Setting, geometry_of, setting_of
+    from softshadow.pipeline.fast.batch.run import WORTH_COMPARING, Run, key_of, width_of
     from softshadow.pipeline.fast.batch.segments import Part, cut, geometry_key, whole
     from softshadow.pipeline.fast.batch.table import BATCH_KERNELS
     from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL
@@ -88,7 +88,8 @@ class DrawQueue:
         # by the identity of what they depend on; the latest by all but their tests and blending
         self._known: dict[tuple[int, ...], list[Kind]] = {}
         self._latest: dict[tuple[int, ...], Kind] = {}
-        self._of_states: dict[int, tuple[Kind, Draw]] = {}  # the latest, and a draw of it, by the identity of its state
+        # the latest, and a draw of it, by the identity of its state and its mode
+        self._of_states: dict[tuple[int, int], tuple[Kind, Draw]] = {}
         self._batch_numbers: dict[Hashable, int] = {}  # by geometry key
         self._next_number = count()
         self._known_vertices = 0
@@ -133,7 +134,8 @@ class DrawQueue:
         """Return the kind of a draw, or None if it cannot wait."""
         if not may_wait(command, self._storage) or not (self._compiles or BATCH_KERNELS.are_compiled()):
             return None
-        known = self._of_states.get(id(command.state))
+        place = id(command.state), command.mode
+        known = self._of_states.get(place)
         if known is not None and known[0].run.continues(command, known[1]):
             return known[0]
         key = key_of(command.state)
@@ -149,7 +151,7 @@ class DrawQueue:
                 self._of_states.clear()
             if is_new:
                 self._known.setdefault(key, []).append(kind)
-            self._of_states[id(command.state)] = kind, command
+            self._of_states[place] = kind, command
             self._known_vertices += len(command.vertices.position)
         return kind
 
@@ -227,10 +229,10 @@ class DrawQueue:
         for number, own in of_batch.items():
             draws, kind = batches[number], own[0].kind
             target = self._storage.framebuffers[kind.run.state.draw_framebuffer]
-            geometry, fragments = geometry_of(kind.run, kind.setting, draws, target, self._storage)
+            batch = geometry_of(kind.run, kind.setting, draws, target, self._storage)
             if len(own) == 1:
-                parts[id(own[0])] = whole(geometry, fragments)
+                parts[id(own[0])] = whole(batch)
                 continue
             firsts, settings = [segment.first for segment in own], [segment.kind.setting for segment in own]
-            parts.update(zip(map(id, own), cut(geometry, draws, firsts, settings), strict=True))
+            parts.update(zip(map(id, own), cut(batch, draws, firsts, settings), strict=True))
         return [parts[id(segment)] for segment in segments]

@@ -3,28 +3,30 @@
 from typing import Any
 
 import numpy as np
+import pytest
 
 from softshadow import gl
 from softshadow.pipeline import queue
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.fast.batch.geometry import Setting
+from softshadow.pipeline.fast.batch.geometry import Batch, Setting
 from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.fast.batch.segments import Part
-from softshadow.pipeline.records import Geometry
 
 SIZE = 32
 
 
-def test_many_small_draws_are_one_run(monkeypatch):
+@pytest.mark.parametrize("polygon_mode", [gl.GL_FILL, gl.GL_LINE, gl.GL_POINT])
+def test_many_small_draws_are_one_run(monkeypatch, polygon_mode):
     runs = []
     geometry_of = queue.geometry_of
 
-    def count(run: Run, setting: Setting, draws: list[Draw], *rest: Any) -> tuple[Geometry, int]:
+    def count(run: Run, setting: Setting, draws: list[Draw], *rest: Any) -> Batch:
         runs.append(len(draws))
         return geometry_of(run, setting, draws, *rest)
 
     monkeypatch.setattr(queue, "geometry_of", count)
     gl.create_context(SIZE, SIZE)
+    gl.glPolygonMode(gl.GL_FRONT_AND_BACK, polygon_mode)
     gl.glEnable(gl.GL_LIGHTING)
     gl.glEnable(gl.GL_COLOR_MATERIAL)
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
@@ -42,7 +44,7 @@ def test_small_draws_between_changes_of_tests_are_one_batch(monkeypatch):
     batches, segments = [], []
     geometry_of, draw_segment = queue.geometry_of, queue.DrawQueue._draw_segment
 
-    def note_batch(run: Run, setting: Setting, draws: list[Draw], *rest: Any) -> tuple[Geometry, int]:
+    def note_batch(run: Run, setting: Setting, draws: list[Draw], *rest: Any) -> Batch:
         batches.append(len(draws))
         return geometry_of(run, setting, draws, *rest)
 

@@ -121,7 +121,7 @@ def triangles_with_outputs(
     begins = begins_stipple(command.mode, len(provoking))[clipped.source]
     cut = (codes[assembled.corners] != 0).any(axis=1)[clipped.source]
     begins = np.where(cut, np.diff(clipped.source, prepend=-1) != 0, begins)
-    return _outlined(geometry, clipped, command, target, cull, begins, vertex_sizes)
+    return outlined_geometry(geometry, clipped, command, target, cull, begins, vertex_sizes)
 
 
 def _with_new_vertices(window: np.ndarray, clipped: Clipped, command: Draw, target: Framebuffer) -> np.ndarray:
@@ -203,17 +203,22 @@ def points_and_lines_geometry(
     return geometry._replace(triangles=triangles)
 
 
-def _outlined(
+def outlined_geometry(
     geometry: Geometry,
     clipped: Clipped,
     command: Draw,
     target: Framebuffer,
     cull: Cull,
-    begins: np.ndarray,
-    sizes: np.ndarray | None,
+    begins: np.ndarray | None = None,
+    sizes: np.ndarray | None = None,
 ) -> Geometry:
-    """Return the geometry of polygons that pass Mesa's stages; it has vertices of its own."""
+    """Return the geometry of polygons that pass Mesa's stages; it has vertices of its own.
+
+    `begins` (T',): the pieces at which the line stipple begins anew, None where lines are solid; `sizes` (V',): of
+    points, or None.
+    """
     state, flipped = command.state, target.flipped
+    begins = np.ones(len(clipped.source), bool) if begins is None else begins
     outlined = outline(
         geometry.window, geometry.values, geometry.back, geometry.flat, clipped.triangles, clipped.edges,
         geometry.provoking, state, cull, target.depth, command.offset_slope, command.offset_unit, flipped,

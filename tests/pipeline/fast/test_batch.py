@@ -13,12 +13,11 @@ from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline import choose, queue, set_threads, threads, use_short_cuts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch import geometry
-from softshadow.pipeline.fast.batch.geometry import Setting
+from softshadow.pipeline.fast.batch.geometry import Batch, Setting
 from softshadow.pipeline.fast.batch.matrices import invert
 from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.memory import threads as pool
-from softshadow.pipeline.records import Geometry
 from softshadow.programs import inverse
 
 SIZE = 32
@@ -88,6 +87,12 @@ class Program:
         gl.glLineWidth(self.one_of(1, 1, 2, 5))
         gl.glPointSize(self.one_of(1, 2, 3))
         gl.glPolygonOffset(*self.numbers(2, -2, 2))
+        mode = self.one_of(gl.GL_LINE, gl.GL_POINT) if self.chance(0.3) else gl.GL_FILL
+        gl.glPolygonMode(gl.GL_FRONT_AND_BACK, mode)
+        if self.chance(0.1):
+            gl.glPolygonMode(gl.GL_BACK, self.one_of(gl.GL_LINE, gl.GL_FILL))
+        for cap in (gl.GL_POLYGON_OFFSET_LINE, gl.GL_POLYGON_OFFSET_POINT):
+            self.switch(cap, 0.2)
         gl.glFogi(gl.GL_FOG_MODE, self.one_of(gl.GL_LINEAR, gl.GL_EXP))
         gl.glColorMask(*[self.chance(0.9)] * 4)
 
@@ -245,11 +250,9 @@ def test_a_lit_mesh_has_the_colours_of_the_textbook(seed):
     geometries = []
     program, rng = Program(seed), np.random.default_rng(seed)
 
-    def compared(
-        run: Run, setting: Setting, draws: list[Draw], target: Framebuffer, storage: Storage
-    ) -> tuple[Geometry, int]:
+    def compared(run: Run, setting: Setting, draws: list[Draw], target: Framebuffer, storage: Storage) -> Batch:
         result = geometry_of(run, setting, draws, target, storage)
-        geometries.append((result[0], process_geometry(draws[0], target, context.storage)))
+        geometries.append((result.geometry, process_geometry(draws[0], target, context.storage)))
         return result
 
     context, geometry_of = gl.create_context(SIZE, SIZE), queue.geometry_of

@@ -5,7 +5,16 @@ The patterns are those of `geometry.assembly`; how quads are cut depends on the 
 """
 
 from softshadow.jit import kernel
-from softshadow.pipeline.fast.batch.vertices import ACROSS, END, INDEX_END, INDEX_START, INDEXED, MODE, START
+from softshadow.pipeline.fast.batch.vertices import (
+    ACROSS,
+    END,
+    IN_STAGES,
+    INDEX_END,
+    INDEX_START,
+    INDEXED,
+    MODE,
+    START,
+)
 from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.mesa.quad_cuts import INDEXED_SEGMENT, SEGMENT
 from softshadow.tokens import (
@@ -113,7 +122,7 @@ def write_quads(numbers, indices, codes, d, mode, n, triangles, provoking, row):
                 is_clipped = is_clipped or codes[vertex_at(numbers, indices, d, i)] != 0
         one, two, three = at + 1, at + 2, at + 3
         if is_strip:
-            if is_clipped:
+            if is_clipped or numbers[d, ACROSS] == IN_STAGES:
                 write_triangle(numbers, indices, d, triangles, provoking, row, two, at, three, three)
                 write_triangle(numbers, indices, d, triangles, provoking, row + 1, at, one, three, three)
             else:

@@ -6,6 +6,8 @@ Vertices, lighting and assembly of all draws take three calls of kernels; clippi
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
+from itertools import groupby
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,17 +18,19 @@ from softshadow.jit import read_only
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.assembly import assemble_draws, assemble_lines_and_points, primitive_count
 from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
-from softshadow.pipeline.fast.batch.run import Run, width_of
+from softshadow.pipeline.fast.batch.run import WIDTH_OF_POLYGONS, WORTH_COMPARING, Run, width_of
 from softshadow.pipeline.fast.batch.small_runs import set_up_pieces, set_up_run
 from softshadow.pipeline.fast.batch.table import Table, table_of
 from softshadow.pipeline.fast.batch.vertices import prepare_draws, process_vertices
 from softshadow.pipeline.fast.geometry_cache import recent_of
 from softshadow.pipeline.fast.recent_triangles import triangles_key, window_key
-from softshadow.pipeline.geometry.clip import CUT, Clipped, clip_triangles, write_sides
+from softshadow.pipeline.geometry.assembly import edge_flags
+from softshadow.pipeline.geometry.clip import CUT, NO_EDGES, Clipped, clip_triangles, write_sides
 from softshadow.pipeline.geometry.geometry import (
     filled_geometry,
     filled_offset,
     has_float_units,
+    outlined_geometry,
     points_and_lines_geometry,
     window_transform,
 )
@@ -44,7 +48,7 @@ from softshadow.programs.fixed_function import has_secondary
 REAL = np.dtype(np.float32)
 VERTICES_PER_TASK = 1 << 13  # that a thread processes in one go
 SMALL = 1 << 12  # vertices, and triangles, of a run that one kernel sets up
-MOST_COMPARED, WORTH_COMPARING = 32, 256  # draws of a run that is compared with recent ones, and the vertices of each
+MOST_COMPARED = 32  # draws of a run that is compared with recent ones
 PLACED = 6  # of the inputs of the vertex stage: the array that `prepare_draws` fills
 
 
@@ -94,6 +98,18 @@ class Outputs(NamedTuple):
         return self.values if self.back is None else np.hstack([self.values, self.back])
 
 
+class Batch(NamedTuple):
+    """The triangles of draws that are processed together.
+
+    geometry : all triangles, in drawing order; fragments: about how many they have, -1 where that is not known;
+    vertices (T',): by the ids of triangles, a vertex of their draw, numbered through all draws.
+    """
+
+    geometry: Geometry
+    fragments: int
+    vertices: np.ndarray
+
+
 class RunTriangles(NamedTuple):
     """The triangles of a run, to be used again: `setups` by culling.
 
@@ -108,17 +124,16 @@ class RunTriangles(NamedTuple):
 
 def geometry_of(
     run: Run, setting: Setting, draws: Sequence[Draw], target: Framebuffer, storage: Storage | None = None
-) -> tuple[Geometry, int]:
-    """Return the triangles of all draws of a run, in drawing order, in the window of `target`.
+) -> Batch:
+    """Return the triangles of all draws of a run, in the window of `target`.
 
-    And about how many fragments they have, -1 where that is not known. With a `storage`, the triangles of a recent run
-    are used again if they are the same.
+    With a `storage`, the triangles of a recent run are used again if they are the same.
     """
     recent = recent_of(storage) if _may_be_repeated(draws) else None
     key = _key_of(run, setting, draws, target) if recent else ()
     known: RunTriangles | None = recent.look_up(key) if recent else None
     if known and (known.cut is not None or not run.writes_color):
-        return _repeated_geometry(run, setting, draws, target, known), -1
+        return _batch(_repeated_geometry(run, setting, draws, target, known))
     table, n, most = table_of(run, draws), sum([len(draw.vertices.position) for draw in draws]), _most_primitives(draws)
     command, width, outputs = run.command, width_of(run.command.mode), _empty_outputs(n, table, setting)
     inputs = _inputs(table, setting)
@@ -126,7 +141,8 @@ def geometry_of(
     unset = Geometry(
         NO_TRIANGLES, *outputs[2:], setting.flat, provoking, provoking, setting.program, setting.uniforms
     )  # fmt: skip
-    is_small = width == 3 and max(n, most) <= SMALL and not has_float_units(command, target)
+    is_polygons, is_filled = width == WIDTH_OF_POLYGONS, not run.unfilled
+    is_small = is_polygons and is_filled and max(n, most) <= SMALL and not has_float_units(command, target)
     if is_small:
         setup = empty_setup(most, REAL)
         n_triangles, n_drawn, area = set_up_run(
@@ -134,17 +150,18 @@ def geometry_of(
             np.empty((n, 2), np.int32), setting.culled, setting.positive_is_front, setting.offset, *setup,
         )  # fmt: skip
         if n_drawn >= 0:
-            return unset._replace(triangles=Setup(*[array[:n_drawn] for array in setup])), area >> 8
+            return _batch(unset._replace(triangles=Setup(*[array[:n_drawn] for array in setup])), area >> 8)
     else:
         _write_outputs(table, inputs, outputs)
-        if width == 3:
+        if is_polygons:
             n_triangles = assemble_draws(table.numbers, table.indices, outputs.codes, triangles, provoking)
     clip, codes, columns = outputs.clip, outputs.codes, outputs.columns
-    if width == 3:
-        clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, run.user_planes)
+    if is_polygons:
+        edges = NO_EDGES if is_filled else _drawn_edges(draws)
+        clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, run.user_planes, edges)
         if is_small and not recent:
             geometry = unset._replace(source=clipped.source, provoking=provoking[clipped.source])
-            return _with_pieces(_with_values(geometry, clipped.values, setting), clipped, setting)
+            return _batch(*_with_pieces(_with_values(geometry, clipped.values, setting), clipped, setting))
     else:
         primitives, clip_primitives = _lines_or_points(table, most, width), clip_points if width == 1 else clip_lines
         provoking, clipped = primitives[:, -1], clip_primitives(clip, columns, primitives, codes, run.user_planes)
@@ -153,8 +170,11 @@ def geometry_of(
         window = append_rows(window, to_window(clipped.clip[n:], *window_transform(command, target)))
     geometry = unset._replace(window=window, source=clipped.source, provoking=provoking[clipped.source])
     geometry = _with_values(geometry, clipped.values, setting)
-    if width != 3:
-        return points_and_lines_geometry(geometry, clipped, command, target), -1
+    if not is_polygons:
+        return _batch(points_and_lines_geometry(geometry, clipped, command, target))
+    if not is_filled:
+        outlined = outlined_geometry(geometry, clipped, command, target, command.state.cull)
+        return Batch(outlined, -1, geometry.provoking)
     geometry = filled_geometry(geometry, clipped, command, target, command.state.cull)
     if recent:
         bare = clipped._replace(clip=clip[:0], values=columns[:0])
@@ -164,7 +184,22 @@ def geometry_of(
         arrays = geometry.window, geometry.values, geometry.source, geometry.provoking, *geometry.triangles
         alive = [(draw.vertices.position, draw.indices) for draw in draws]
         recent.add(key, known, (*arrays, clipped.triangles), alive)
-    return geometry, -1
+    return _batch(geometry)
+
+
+def _batch(geometry: Geometry, fragments: int = -1) -> Batch:
+    """Return a batch whose geometry has the vertices of its draws."""
+    return Batch(geometry, fragments, geometry.provoking)
+
+
+def _drawn_edges(draws: Sequence[Draw]) -> np.ndarray:
+    """Return which edges of the assembled triangles (T, 3) of draws without edge flags are drawn."""
+    edges = []
+    for mode, same in groupby(draws, attrgetter("mode")):
+        counts = [primitive_count(mode, _named_vertices(draw)) for draw in same]
+        # the triangles of other modes have the same edges in a draw of their own
+        edges += [edge_flags(mode, count) for count in (counts if mode == gl.GL_POLYGON else [sum(counts)])]
+    return edges[0] if len(edges) == 1 else np.concatenate(edges)
 
 
 def _with_pieces(geometry: Geometry, clipped: Clipped, setting: Setting) -> tuple[Geometry, int]:
@@ -179,7 +214,7 @@ def _with_pieces(geometry: Geometry, clipped: Clipped, setting: Setting) -> tupl
 
 def _may_be_repeated(draws: Sequence[Draw]) -> bool:
     """Return whether a run is large enough to be compared with recent ones: of large draws of triangles."""
-    if width_of(draws[0].mode) != 3 or len(draws) > MOST_COMPARED:
+    if width_of(draws[0].mode) != WIDTH_OF_POLYGONS or len(draws) > MOST_COMPARED:
         return False
     return sum([len(draw.vertices.position) for draw in draws]) >= WORTH_COMPARING * len(draws)
 
@@ -265,12 +300,12 @@ def _lines_or_points(table: Table, most: int, width: int) -> np.ndarray:
 
 def _most_primitives(draws: Sequence[Draw]) -> int:
     """Return how many primitives the draws have before clipping, at most."""
-    return sum(
-        [
-            primitive_count(draw.mode, len(draw.vertices.position if draw.indices is None else draw.indices))
-            for draw in draws
-        ]
-    )
+    return sum([primitive_count(draw.mode, _named_vertices(draw)) for draw in draws])
+
+
+def _named_vertices(draw: Draw) -> int:
+    """Return how many vertices a draw names, by indices or in order."""
+    return len(draw.vertices.position if draw.indices is None else draw.indices)
 
 
 def _flat_columns(run: Run) -> np.ndarray:

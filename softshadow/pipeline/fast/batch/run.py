@@ -31,7 +31,7 @@ from softshadow.pipeline.fast.batch.vertices import (
 from softshadow.pipeline.geometry.clip import NEAR_FAR
 from softshadow.pipeline.geometry.geometry import user_planes
 from softshadow.pipeline.geometry.program import bound_textures
-from softshadow.pipeline.mesa.polygon_rules import passes_stages
+from softshadow.pipeline.mesa.polygon_rules import effective_modes, passes_stages
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.mesa.rectangles import start_of_last_nine
 from softshadow.programs.fixed_function import Unit, has_secondary, needs_vertex_color, units_in_use
@@ -50,7 +50,9 @@ groups_of = attrgetter(*GROUPS)
 OF_TESTS = ("scissor", "stencil", "depth", "blend")
 other_groups_of = attrgetter(*(group for group in GROUPS if group not in OF_TESTS))
 PLAIN_LINES, PLAIN_POINTS = Lines(), Points()
+WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recent ones
 IDENTITY = np.eye(4, dtype=np.float32)
+WIDTH_OF_POLYGONS = 3
 
 
 class Arrays(NamedTuple):
@@ -75,6 +77,7 @@ class Run:
     units : the texture units in use
     writes_color : bool      else no colours are computed
     arrays : Arrays          of all draws
+    unfilled : bool          polygons are drawn as their edges or corners (glPolygonMode)
     across : bool            quads are cut along the other diagonal even without indices (`Varyings.flat_input`)
     layout, generated, planes, user_planes : of its `Table`
     """
@@ -85,6 +88,7 @@ class Run:
         self.units: list[Unit] = units_in_use(self.state, bound) if bound else []
         self._unit_numbers = [unit.index for unit in self.units]
         self.arrays = self._arrays_of(command)
+        self.unfilled = width_of(command.mode) == WIDTH_OF_POLYGONS and passes_stages(self.state)
         is_flat = writes_color and self.state.lighting.shade_model == gl.GL_FLAT
         self.generated, self.planes, in_eye_space = _generation(self)
         self.user_planes = user_planes(command)
@@ -181,7 +185,7 @@ class Run:
             return False
         if command.mode != taken.mode or command.modelview_kind & UNKNOWN or command.joined_positions is not None:
             return False
-        if leaves_out_triangles(command):
+        if leaves_out_triangles(command) or is_outlined_alone(command):
             return False
         if len(self.user_planes) and not self._has_same_clip_planes(command, taken.projection, taken.projection_kind):
             return False
@@ -199,7 +203,7 @@ class Run:
 
 def width_of(mode: int) -> int:
     """Return how many vertices a primitive has that reaches the setup: 3 for polygons, which are cut into triangles."""
-    return 3 if mode in POLYGONS else 1 if mode == gl.GL_POINTS else 2
+    return WIDTH_OF_POLYGONS if mode in POLYGONS else 1 if mode == gl.GL_POINTS else 2
 
 
 def key_of(state: State, *, with_tests: bool = True) -> tuple[int, ...]:
@@ -219,7 +223,7 @@ def geometry_structure(run: Run) -> tuple[Hashable, ...]:
     return (
         state.draw_framebuffer, state.viewport, state.polygon, state.depth.clamp, *_structure(state.lighting),
         run.layout, run.arrays, run.generated.tobytes(), run.planes.tobytes(), run.user_planes.tobytes(), run.across,
-        run.writes_color,
+        run.writes_color, effective_modes(state),
         tuple([unit.index for unit in run.units]), width_of(run.command.mode),
     )  # fmt: skip
 
@@ -230,6 +234,14 @@ def leaves_out_triangles(command: Draw) -> bool:
     return is_list and start_of_last_nine(len(command.vertices.position)) >= 0
 
 
+def is_outlined_alone(command: Draw) -> bool:
+    """Return whether a draw of unfilled polygons has edge flags, or is large: a large one is looked for on its own."""
+    polygon, vertices = command.state.polygon, command.vertices
+    if polygon.mode_front == gl.GL_FILL and polygon.mode_back == gl.GL_FILL:
+        return False
+    return vertices.edges is not None or len(vertices.position) >= WORTH_COMPARING
+
+
 def can_run(command: Draw) -> bool:
     """Return whether a draw can be processed in a table, as far as its vertices and its primitives decide it."""
     if command.mode not in MODES or command.program_name or command.linear or command.joined_positions is not None:
@@ -237,7 +249,7 @@ def can_run(command: Draw) -> bool:
     vertices, lights = command.vertices, command.state.lighting
     if vertices.materials or vertices.position.dtype != np.float32 or command.modelview_kind & UNKNOWN:
         return False
-    if leaves_out_triangles(command):
+    if leaves_out_triangles(command) or is_outlined_alone(command):
         return False
     # Mesa's back materials that follow the colour of each vertex have stale products (programs.stale_registers)
     return not (lights.enabled and lights.two_side and lights.color_material and vertices.color.strides[0])
@@ -246,15 +258,16 @@ def can_run(command: Draw) -> bool:
 def can_begin_run(command: Draw, target: Framebuffer) -> bool:
     """Return whether a draw can be processed in a table, as far as its state decides it."""
     state = command.state
-    if not can_run(command) or not target.attachments or passes_stages(state):
+    if not can_run(command) or not target.attachments:
+        return False
+    front, back = effective_modes(state)
+    if front != back or state.polygon.stippled:
         return False
     if state.lines != PLAIN_LINES or state.points != PLAIN_POINTS or first_provokes(state):
         return False
-    fog, polygon = state.fog, state.polygon
+    fog = state.fog
     if fog.color_sum or fog.source != gl.GL_FRAGMENT_DEPTH:
         return False
-    if polygon.mode_front != gl.GL_FILL or polygon.mode_back != gl.GL_FILL:
-        return False  # edge flags may decide how quads are cut (geometry.draw_primitives)
     if not state.lighting.enabled and any(map(reads_primary_color, state.units)):
         return False
     modes = [gen.mode for unit in state.units for gen in unit.gen if gen.enabled]

@@ -14,7 +14,7 @@ import numpy as np
 
 from softshadow.jit import kernel
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.fast.batch.geometry import Setting
+from softshadow.pipeline.fast.batch.geometry import Batch, Setting
 from softshadow.pipeline.fast.batch.run import Run, geometry_structure
 from softshadow.pipeline.raster.coverage import extent
 from softshadow.pipeline.records import Geometry, Setup
@@ -51,24 +51,25 @@ class Part(NamedTuple):
         return batch._replace(triangles=own, program=self.program, uniforms=self.uniforms)
 
 
-def whole(batch: Geometry, fragments: int) -> Part:
+def whole(batch: Batch) -> Part:
     """Return the only segment of a batch."""
-    return Part(batch, 0, len(batch.triangles.ids), batch.program, batch.uniforms, fragments)
+    geometry = batch.geometry
+    return Part(geometry, 0, len(geometry.triangles.ids), geometry.program, geometry.uniforms, batch.fragments)
 
 
-def cut(geometry: Geometry, draws: Sequence[Draw], firsts: Sequence[int], settings: Sequence[Setting]) -> list[Part]:
+def cut(batch: Batch, draws: Sequence[Draw], firsts: Sequence[int], settings: Sequence[Setting]) -> list[Part]:
     """Return the geometry of each segment of a batch.
 
     Parameters
     ----------
-    geometry : of all draws of the batch
+    batch : of all draws
     firsts : the first draw of each segment
     settings : of each segment: its program shades the fragments
     """
     ends_of_draws = np.cumsum([len(draw.vertices.position) for draw in draws])
     starts = np.append(0, ends_of_draws)[np.asarray(firsts)]  # the first vertex of each segment
-    triangles = geometry.triangles
-    segments = np.searchsorted(starts, geometry.provoking[triangles.ids], side="right") - 1
+    geometry, triangles = batch.geometry, batch.geometry.triangles
+    segments = np.searchsorted(starts, batch.vertices[triangles.ids], side="right") - 1
     bounds = np.searchsorted(segments, np.arange(len(starts) + 1))
     areas = np.empty(len(starts), np.int64)
     write_areas(triangles.corners, bounds, areas)

@@ -17,6 +17,7 @@ from softshadow.pipeline.fast.batch.vertices import (
     COLOR,
     END,
     FLOATS,
+    IN_STAGES,
     MODELVIEW,
     NORMAL,
     NUMBERS,
@@ -111,7 +112,8 @@ def _joined(parts: list[np.ndarray], is_array: bool, nothing: np.ndarray = NO_RO
 
 def _numbers(draws: Sequence[Draw], run: Run) -> tuple[np.ndarray, list[Lighting]]:
     """Return the numbers of each draw, and the states of lighting that kernels can tell apart."""
-    reads_normals, across, last = run.reads_normals, run.across, draws[0].state.lighting
+    reads_normals, last = run.reads_normals, draws[0].state.lighting
+    across = IN_STAGES if run.unfilled else int(run.across)
     table: list[int] = []  # in the order of the columns
     lightings, start, index_start = [last], 0, 0
     for draw in draws:
