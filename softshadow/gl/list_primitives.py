@@ -39,6 +39,7 @@ class ListPrimitive:
     last : dict                  slot: the value after the pair
     sizes : dict                 name: components in the last call
     drawn : dict                 `Vertices` by the current values that they have
+    latest : the set of current values of the latest draw, and its vertices
     """
 
     calls: list[Callable[[], Any]]
@@ -49,6 +50,7 @@ class ListPrimitive:
     sizes: dict[str, int]
     indices: np.ndarray
     drawn: dict[tuple[ConstantAttribute, ...], Vertices] = field(default_factory=dict)
+    latest: tuple[ConstantSet, Vertices] | None = None
 
     def __call__(self) -> None:
         """Draw the primitive, and make its last attributes current."""
@@ -61,20 +63,31 @@ class ListPrimitive:
             return
         if context.pending.names:
             context.reset_attributes()
-        vertices = self.vertices(constant_attributes(context))
-        values: Any = context.current
-        for slot, value in self.last.items():
-            context.remember_attribute(NAMES[slot])
-            if slot == COLOR:
-                values.color = value
-            elif slot == NORMAL:
-                values.normal = value
-            else:
-                values.texcoords[slot - TEXCOORD] = value
+        constants, latest = constant_attributes(context), self.latest
+        if latest is None or latest[0] is not constants:
+            latest = self.latest = constants, self.vertices(constants)
+        self._make_current(context)
         context.vertex_buffer.active_sizes.update(self.sizes)
         follow_color(context)
         context.pending.reset_due = context.pending.has_vertices = True
-        context.draw(self.mode, vertices, self.indices)
+        context.draw(self.mode, latest[1], self.indices)
+
+    def _make_current(self, context: Context) -> None:
+        """Make the last attributes of the primitive current."""
+        values: Any = context.current
+        pending, texcoords = context.pending, values.texcoords
+        keeps = not pending.hidden and not pending.old_values  # then, what is current already needs nothing
+        for slot, value in self.last.items():
+            if slot == COLOR:  # materials may have to follow the same colour again
+                context.remember_attribute(NAMES[slot])
+                values.color = value
+            elif slot == NORMAL:
+                if not keeps or values.normal is not value:
+                    context.remember_attribute(NAMES[slot])
+                    values.normal = value
+            elif not keeps or texcoords[slot - TEXCOORD] is not value:
+                context.remember_attribute(NAMES[slot])
+                texcoords[slot - TEXCOORD] = value
 
     def vertices(self, constants: ConstantSet) -> Vertices:
         """Return the vertices; the same object for the same current values."""
