@@ -90,9 +90,13 @@ class Program:
         mode = self.one_of(gl.GL_LINE, gl.GL_POINT) if self.chance(0.3) else gl.GL_FILL
         gl.glPolygonMode(gl.GL_FRONT_AND_BACK, mode)
         if self.chance(0.1):
-            gl.glPolygonMode(gl.GL_BACK, self.one_of(gl.GL_LINE, gl.GL_FILL))
+            gl.glPolygonMode(gl.GL_BACK, self.one_of(gl.GL_LINE, gl.GL_POINT, gl.GL_FILL))
         for cap in (gl.GL_POLYGON_OFFSET_LINE, gl.GL_POLYGON_OFFSET_POINT):
             self.switch(cap, 0.2)
+        for cap in (gl.GL_LINE_SMOOTH, gl.GL_POINT_SMOOTH, gl.GL_LINE_STIPPLE, gl.GL_POLYGON_STIPPLE):
+            self.switch(cap, 0.05)
+        gl.glLineStipple(2, 0x3B5D)
+        gl.glPolygonStipple(self.rng.bytes(128))
         gl.glFogi(gl.GL_FOG_MODE, self.one_of(gl.GL_LINEAR, gl.GL_EXP))
         gl.glColorMask(*[self.chance(0.9)] * 4)
 

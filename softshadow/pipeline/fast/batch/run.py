@@ -31,14 +31,14 @@ from softshadow.pipeline.fast.batch.vertices import (
 from softshadow.pipeline.geometry.clip import NEAR_FAR
 from softshadow.pipeline.geometry.geometry import user_planes
 from softshadow.pipeline.geometry.program import bound_textures
-from softshadow.pipeline.mesa.polygon_rules import effective_modes, passes_stages
+from softshadow.pipeline.mesa.polygon_rules import effective_modes, is_stippled, offset_is_on, passes_stages
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.mesa.rectangles import start_of_last_nine
 from softshadow.programs.fixed_function import Unit, has_secondary, needs_vertex_color, units_in_use
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE, needs_normals, reflects_r
 from softshadow.programs.vertex_color_use import reads_primary_color
-from softshadow.state import Lighting, Lines, Points, State
+from softshadow.state import Lighting, Points, State
 
 GENERATED = {
     gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR, gl.GL_SPHERE_MAP: SPHERE_MAP,
@@ -49,7 +49,7 @@ groups_of = attrgetter(*GROUPS)
 # groups that concern fragments only, but for whether depths are clamped; alpha test and colour mask decide more
 OF_TESTS = ("scissor", "stencil", "depth", "blend")
 other_groups_of = attrgetter(*(group for group in GROUPS if group not in OF_TESTS))
-PLAIN_LINES, PLAIN_POINTS = Lines(), Points()
+PLAIN_POINTS = Points()
 WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recent ones
 IDENTITY = np.eye(4, dtype=np.float32)
 WIDTH_OF_POLYGONS = 3
@@ -260,10 +260,7 @@ def can_begin_run(command: Draw, target: Framebuffer) -> bool:
     state = command.state
     if not can_run(command) or not target.attachments:
         return False
-    front, back = effective_modes(state)
-    if front != back or state.polygon.stippled:
-        return False
-    if state.lines != PLAIN_LINES or state.points != PLAIN_POINTS or first_provokes(state):
+    if not _are_plain(command.mode, state) or first_provokes(state):
         return False
     fog = state.fog
     if fog.color_sum or fog.source != gl.GL_FRAGMENT_DEPTH:
@@ -272,6 +269,20 @@ def can_begin_run(command: Draw, target: Framebuffer) -> bool:
         return False
     modes = [gen.mode for unit in state.units for gen in unit.gen if gen.enabled]
     return all(mode in GENERATED for mode in modes)
+
+
+def _are_plain(mode: int, state: State) -> bool:
+    """Return whether primitives of a mode have no stipple, are not smooth, and share their polygon offset."""
+    lines_are_plain = not (state.lines.smooth or is_stippled(state.lines))
+    points_are_plain = state.points == PLAIN_POINTS
+    if width_of(mode) < WIDTH_OF_POLYGONS:
+        return points_are_plain if mode == gl.GL_POINTS else lines_are_plain
+    if not passes_stages(state):
+        return True
+    front, back = effective_modes(state)
+    is_unfilled, shares_offset = (front, back) != (gl.GL_FILL,) * 2, front == back or not offset_is_on(state.polygon)
+    are_plain = lines_are_plain and points_are_plain and not state.polygon.stippled
+    return is_unfilled and shares_offset and are_plain
 
 
 def _generation(run: Run) -> tuple[np.ndarray, np.ndarray, bool]:
