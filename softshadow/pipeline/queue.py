@@ -216,7 +216,7 @@ class DrawQueue:
             return group
         if group:
             group.draw()
-        group = Group(target, storage, len(part.batch.flat))
+        group = Group(target, storage)
         group.takes(state, numbers, part, target)
         return group
 

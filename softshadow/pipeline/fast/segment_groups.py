@@ -64,18 +64,17 @@ class Group:
     Parameters
     ----------
     target : Framebuffer     that they are drawn to, in this storage
-    columns : int            how many values they interpolate
     """
 
-    def __init__(self, target: Framebuffer, storage: Storage, columns: int) -> None:
-        self._target, self._storage, self._columns = target, storage, columns
+    def __init__(self, target: Framebuffer, storage: Storage) -> None:
+        self._target, self._storage = target, storage
         self._rows: list[tuple[int, ...]] = []  # of the table of segments, with places in batches
         self._ranges: list[DepthRange] = []
         self._states: dict[int, tuple[int, SegmentState]] = {}  # with their places, by identity
         self._batches: dict[int, Triangles] = {}  # in use, by the identity of the batch
         self._textures: dict[int, tuple[int, np.ndarray]] = {}  # texels with their places, by the texture's identity
         self._regions: dict[tuple[int, ...], Region] = {}  # by the identity of what they depend on
-        self._n_triangles, self._work = 0, 0
+        self._n_triangles, self._work, self._columns = 0, 0, 0
 
     def takes(self, state: State, numbers: SegmentState, part: Part, target: Framebuffer) -> bool:
         """Add a draw and return True; return False where it belongs to another group."""
@@ -83,7 +82,6 @@ class Group:
         new = [unit for unit in units if id(unit.texture) not in self._textures]
         if self._rows and (
             target is not self._target
-            or len(part.batch.flat) != self._columns
             or self._n_triangles + count > TRIANGLES
             or len(self._textures) + len(new) >= TEXTURES  # one place is left for units that are not in use
             or len(self._rows) == SEGMENTS
@@ -95,6 +93,7 @@ class Group:
         triangles = self._batches.get(id(part.batch))
         if triangles is None:
             triangles = self._batches[id(part.batch)] = Triangles(len(self._batches), part.batch, part.first, part.end)
+            self._columns = max(self._columns, len(part.batch.flat))
         triangles.end = part.end
         region = self._region_of(state)
         self._rows.append((k, triangles.place, part.first, part.end, *region[:4], *used))
@@ -147,7 +146,7 @@ class Group:
         rows = int(table[:, FIRST_ROW].min()), int(table[:, END_ROW].max())
         region = Region(int(table[:, LEFT].min()), int(table[:, RIGHT].max()), *rows, int(self._target.flipped))
         return Segments(
-            table, np.array(self._ranges, np.float32), np.array([each.batch.flat for each in batches]),
+            table, np.array(self._ranges, np.float32), np.array([_widened(each.batch.flat, self._columns, True) for each in batches]),
             state_tables(states), padded_textures(textures), *buffers, region, self._work,
         )  # fmt: skip
 
@@ -156,7 +155,25 @@ class Group:
         planes, first, parts = scratch((self._n_triangles, 3, self._columns + 1), np.float32), 0, []
         for each in self._batches.values():
             own = Setup(*[array[each.first : each.end] for array in each.batch.triangles])
-            write_planes(each.batch, own, planes[first : first + len(own.ids)])
+            write_planes(_with_columns(each.batch, self._columns), own, planes[first : first + len(own.ids)])
             first += len(own.ids)
             parts.append(own)
         return (parts[0] if len(parts) == 1 else Setup(*map(np.concatenate, zip(*parts, strict=True)))), planes
+
+
+def _with_columns(batch: Geometry, columns: int) -> Geometry:
+    """Return triangles with so many columns of values; nobody reads those that are added."""
+    if len(batch.flat) == columns:
+        return batch
+    back = None if batch.back is None else _widened(batch.back, columns, 0)
+    flat = _widened(batch.flat, columns, True)
+    return batch._replace(values=_widened(batch.values, columns, 0), back=back, flat=flat)
+
+
+def _widened(rows: np.ndarray, columns: int, value: float) -> np.ndarray:
+    """Return rows with so many columns, the last ones of them of one value."""
+    if rows.shape[-1] == columns:
+        return rows
+    wide = np.full((*rows.shape[:-1], columns), value, rows.dtype)
+    wide[..., : rows.shape[-1]] = rows
+    return wide
