@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.context import matrix_products as products
+from softshadow.context.matrix_kinds import derived_kind
 from softshadow.context.matrix_products import IDENTITY, LOAD, LOOK_AT, MULTIPLY, PUSH, ROTATE, SCALE, SIZES, TRANSLATE
 from softshadow.matrices import frustum, ortho, perspective_elements, sine_and_cosine
 from softshadow.programs.inverse import (
@@ -106,8 +107,13 @@ class MatrixStack:
     def kind(self) -> int:
         """The kind of the current matrix; an unknown one is derived from its elements, as Mesa does at each draw."""
         if self.unresolved_kind & UNKNOWN:
-            self.unresolved_kind = known_kind(self.current, self.unresolved_kind)
+            self.unresolved_kind = self._derive_kind()
         return self.unresolved_kind
+
+    def _derive_kind(self) -> int:
+        matrix = self.current
+        is_compiled = self._carry_out is not products.carry_out_by_textbook
+        return int(derived_kind(matrix)) if is_compiled else known_kind(matrix)
 
     def drawn(self) -> tuple[np.ndarray, int]:
         """Return the current matrix and its kind, for a draw."""

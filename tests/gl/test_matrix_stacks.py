@@ -4,9 +4,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from softshadow import gl, matrices
 from softshadow.context import MatrixStack, matrix_products
+from softshadow.context.matrix_kinds import derived_kind
+from softshadow.jit import read_only
 from softshadow.programs.inverse import known_kind
 
 LIMIT = 6
@@ -131,6 +135,22 @@ def test_kinds_are_those_of_the_calls_and_unknown_ones_are_derived():
     stack.scale(1, 2, 3)
     stack.pop()
     assert stack.kind == known_kind(stack.current)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_the_compiled_kind_of_a_matrix_is_that_of_the_textbook(seed):
+    rng = np.random.default_rng(seed)
+    for _ in range(20):
+        matrix = np.eye(4, dtype=np.float32)
+        with np.errstate(all="ignore"):
+            for call in rng.choice(["translate", "scale", "rotate", "look_at", "load", "multiply"], rng.integers(4)):
+                matrix = expected_product(matrix, call, numbers(rng, COUNTS[call]))
+        matrix = np.array(matrix, np.float32)
+        if rng.random() < 0.3:  # near the limits at which a matrix no longer counts as a rotation
+            matrix[:3, :3] += rng.normal(0, 1e-6, (3, 3)) * rng.integers(0, 2, (3, 3))
+        if rng.random() < 0.3:
+            matrix[rng.integers(2, 4)] = np.eye(4)[rng.integers(2, 4)]
+        assert derived_kind(read_only(matrix)) == known_kind(matrix)
 
 
 @pytest.mark.parametrize("call", [gl.glTranslatef, gl.glScalef, gl.glRotatef])

@@ -142,11 +142,12 @@ class Group:
         table[:, FIRST : END + 1] += shifts[table[:, FLATS], None]
         states = [numbers for _, numbers in self._states.values()]
         textures = [texels for _, texels in self._textures.values()]
+        flats = [_widened(each.batch.flat, self._columns, True) for each in batches]
         buffers = buffers_of(self._target, any(numbers.writes_depth for numbers in states))
         rows = int(table[:, FIRST_ROW].min()), int(table[:, END_ROW].max())
         region = Region(int(table[:, LEFT].min()), int(table[:, RIGHT].max()), *rows, int(self._target.flipped))
         return Segments(
-            table, np.array(self._ranges, np.float32), np.array([_widened(each.batch.flat, self._columns, True) for each in batches]),
+            table, np.array(self._ranges, np.float32), np.array(flats),
             state_tables(states), padded_textures(textures), *buffers, region, self._work,
         )  # fmt: skip
 
