@@ -281,11 +281,19 @@ class Context(CurrentValues):
         frame.size = width, height
         self.begin_recording()
 
-    def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> None:
+    def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
         """Draw primitives under the current state; nobody may change the arrays afterwards."""
         self.flush()
         self.update_current()
-        self._carry_out(self.draw_command(mode, self._with_current(vertices), indices))
+        command = self.draw_command(mode, self._with_current(vertices), indices)
+        self._carry_out(command)
+        return command
+
+    def draw_like(self, before: Draw, mode: int, vertices: Vertices, indices: np.ndarray | None) -> Draw:
+        """Draw other primitives like those of the latest draw: nothing has changed since."""
+        command = evolve(before, mode=mode, vertices=self._with_current(vertices), indices=indices)
+        self._carry_out(command)
+        return command
 
     def _with_current(self, vertices: Vertices) -> Vertices:
         """Return vertices with the current edge flag, secondary colour and fog coordinate, where they have no array."""

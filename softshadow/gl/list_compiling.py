@@ -18,7 +18,7 @@ from softshadow.gl.array_snapshots import NORMAL, POSITION, TEXCOORD
 from softshadow.gl.immediate import MODES, consecutive_indices
 from softshadow.gl.list_calls import BEGIN, CALLS, END, Values
 from softshadow.gl.list_joining import joined
-from softshadow.gl.list_primitives import NAMES, ListPrimitive
+from softshadow.gl.list_primitives import NAMES, ListPrimitive, with_similar_joined
 from softshadow.gl.vertex_format import REST
 from softshadow.pipeline.mesa.driver_draws import CORNERS
 from softshadow.state import TEXTURE_UNITS
@@ -40,7 +40,7 @@ def with_primitives(context: Context, calls: list[Callable[[], Any]]) -> list[Ca
             begin = -1
         elif function not in CALLS:
             begin = -1
-    return _with_joined(compiled)
+    return with_similar_joined(_with_joined(compiled))
 
 
 def _with_joined(calls: list[Callable[[], Any]]) -> list[Callable[[], Any]]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,7 @@ from softshadow.gl.errors import GLError, fail
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.list_calls import Values
 from softshadow.gl.materials import follow_color
-from softshadow.pipeline.commands import Vertices
+from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.state import TEXTURE_UNITS
 
 MOST_DRAWN = 16  # current values that a primitive was drawn with
@@ -61,33 +62,38 @@ class ListPrimitive:
         if not _is_between_primitives(context):
             carry_out(self.calls)
             return
+        self.draw(context)
+
+    def draw(self, context: Context) -> tuple[Draw, ConstantSet]:
+        """Draw the primitive; return the draw, and the values of the attributes that the list does not set."""
         if context.pending.names:
             context.reset_attributes()
-        constants, latest = constant_attributes(context), self.latest
+        constants = constant_attributes(context)
+        vertices = self.latest_vertices(constants)
+        self.make_current(context)
+        return context.draw(self.mode, vertices, self.indices), constants
+
+    def latest_vertices(self, constants: ConstantSet) -> Vertices:
+        """Return what `vertices` returns, sooner where the set of values is that of the latest draw."""
+        latest = self.latest
         if latest is None or latest[0] is not constants:
             latest = self.latest = constants, self.vertices(constants)
-        self._make_current(context)
+        return latest[1]
+
+    def make_current(self, context: Context) -> None:
+        """Make the last attributes of the primitive current, as its vertices do."""
+        values: Any = context.current
+        for slot, value in self.last.items():
+            context.remember_attribute(NAMES[slot])
+            if slot == COLOR:
+                values.color = value
+            elif slot == NORMAL:
+                values.normal = value
+            else:
+                values.texcoords[slot - TEXCOORD] = value
         context.vertex_buffer.active_sizes.update(self.sizes)
         follow_color(context)
         context.pending.reset_due = context.pending.has_vertices = True
-        context.draw(self.mode, latest[1], self.indices)
-
-    def _make_current(self, context: Context) -> None:
-        """Make the last attributes of the primitive current."""
-        values: Any = context.current
-        pending, texcoords = context.pending, values.texcoords
-        keeps = not pending.hidden and not pending.old_values  # then, what is current already needs nothing
-        for slot, value in self.last.items():
-            if slot == COLOR:  # materials may have to follow the same colour again
-                context.remember_attribute(NAMES[slot])
-                values.color = value
-            elif slot == NORMAL:
-                if not keeps or values.normal is not value:
-                    context.remember_attribute(NAMES[slot])
-                    values.normal = value
-            elif not keeps or texcoords[slot - TEXCOORD] is not value:
-                context.remember_attribute(NAMES[slot])
-                texcoords[slot - TEXCOORD] = value
 
     def vertices(self, constants: ConstantSet) -> Vertices:
         """Return the vertices; the same object for the same current values."""
@@ -106,6 +112,44 @@ class ListPrimitive:
                 self.drawn.clear()
             vertices = self.drawn[key] = Vertices(self.rows[POSITION], rows[0], rows[1], tuple(rows[2:]))
         return vertices
+
+
+@dataclass(eq=False)
+class SimilarPrimitives:
+    """Primitives in a row of a list that set the same attributes at their first vertices, but no colour.
+
+    No colour, as materials may follow it. So their draws differ in modes and vertices only.
+    """
+
+    primitives: list[ListPrimitive]
+
+    def __call__(self) -> None:
+        """Draw the primitives, and make the attributes of the last one current."""
+        context = current()
+        if _is_left_out(context) or not _is_between_primitives(context):
+            carry_out(self.primitives)
+            return
+        draw, constants = self.primitives[0].draw(context)
+        for each in self.primitives[1:]:
+            draw = context.draw_like(draw, each.mode, each.latest_vertices(constants), each.indices)
+        self.primitives[-1].make_current(context)
+        context.flush()
+
+
+def with_similar_joined(calls: list[Callable[[], Any]]) -> list[Callable[[], Any]]:
+    """Return the calls of a list with primitives in a row that are similar as one call."""
+    result: list[Callable[[], Any]] = []
+    for key, part in groupby(calls, _similarity):
+        similar: list[Any] = list(part)
+        result += [SimilarPrimitives(similar)] if key is not None and len(similar) > 1 else similar
+    return result
+
+
+def _similarity(call: Callable[[], Any]) -> tuple[object, ...] | None:
+    """Return what similar primitives have in common, None for other calls."""
+    if not isinstance(call, ListPrimitive) or COLOR in call.last or any(call.starts.values()):
+        return None
+    return tuple(call.sizes.items())
 
 
 def _is_left_out(context: Context) -> bool:
@@ -141,4 +185,4 @@ def carry_out(calls: Iterable[Callable[[], Any]]) -> None:
         raise first_error
 
 
-__all__ = ["ListPrimitive", "carry_out"]
+__all__ = ["ListPrimitive", "carry_out", "with_similar_joined"]

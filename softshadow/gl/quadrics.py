@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.glu_tokens import (
     GLU_ERROR,
     GLU_FILL,
@@ -159,7 +159,6 @@ def _both_ways(quad: Manner, n: int) -> Iterator[int]:
     return iter(range(n, -1, -1) if quad.orientation == GLU_OUTSIDE else range(n + 1))
 
 
-@in_lists
 def gluSphere(quad: GLUquadric, radius: float, slices: int, stacks: int) -> None:
     """Draw a sphere around the origin, with its poles on the z axis."""
     slices, stacks = min(int(slices), MOST), min(int(stacks), MOST)
@@ -255,7 +254,6 @@ def _sphere(quad: Manner, radius: float, slices: int, stacks: int) -> Calls:
     return calls
 
 
-@in_lists
 def gluCylinder(quad: GLUquadric, base: float, top: float, height: float, slices: int, stacks: int) -> None:
     """Draw a cylinder or cone around the z axis, from z = 0 to z = height, without its ends."""
     slices, stacks = min(int(slices), MOST), int(stacks)
@@ -326,13 +324,11 @@ def _cylinder(quad: Manner, base: float, top: float, height: float, slices: int,
     return calls
 
 
-@in_lists
 def gluDisk(quad: GLUquadric, inner: float, outer: float, slices: int, loops: int) -> None:
     """Draw a disk in the plane z = 0, with a hole of radius `inner`."""
     gluPartialDisk(quad, inner, outer, slices, loops, 0.0, 360.0)
 
 
-@in_lists
 def gluPartialDisk(
     quad: GLUquadric, inner: float, outer: float, slices: int, loops: int, start: float, sweep: float
 ) -> None:

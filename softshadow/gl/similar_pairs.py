@@ -121,7 +121,8 @@ def similar_pairs(context: Context, sizes: Mapping[str, int]) -> SimilarPairs | 
     context : Context
     sizes : dict                   "position", "normal" ...: components that the calls of the vertices set
     """
-    if context.list_depth or context.executes_list or context.primitive is not None:
+    is_listed = context.compiled_list is not None or context.list_depth or context.executes_list
+    if is_listed or context.primitive is not None:
         return None
     current, pending, buffer = context.current, context.pending, context.vertex_buffer
     if not (current.edge and current.secondary == BLACK and not current.fog_coordinate and pending.has_vertices):

@@ -101,9 +101,23 @@ class Author:
             return "glBindFramebuffer", (gl.GL_FRAMEBUFFER, int(self.chance(0.2)))  # 1 is incomplete
         return "glShadeModel", (int(self.rng.choice([gl.GL_FLAT, gl.GL_SMOOTH])),)
 
+    def similar_pairs(self) -> list[Call]:
+        """Pairs in a row whose vertices all set the same attributes."""
+        kinds = self.rng.permutation(["glNormal3f", "glTexCoord2f", "glColor3f"])[: int(self.rng.integers(0, 3))]
+        calls: list[Call] = []
+        for _ in range(int(self.rng.integers(2, 5))):
+            calls.append(("glBegin", (int(self.rng.integers(gl.GL_POINTS, gl.GL_POLYGON + 1)),)))
+            for _ in range(int(self.rng.integers(4, 7))):
+                calls += [(str(kind), tuple(self.floats(2 if kind == "glTexCoord2f" else 3))) for kind in kinds]
+                calls.append(("glVertex3f", tuple(self.floats(3))))
+            calls.append(("glEnd", ()))
+        return calls
+
     def some(self) -> list[Call]:
         which = self.rng.random()
-        return self.pair() if which < 0.5 else [self.attribute()] if which < 0.75 else [self.between()]
+        if which < 0.2:
+            return self.similar_pairs()
+        return self.pair() if which < 0.6 else [self.attribute()] if which < 0.75 else [self.between()]
 
     def program(self) -> list[Call]:
         calls: list[Call] = []
@@ -206,7 +220,7 @@ def what_happened(calls: list[Call], precision: str) -> list[Any]:
         return [*seen, *(image.image.view.tobytes() for image in images)]
 
 
-@pytest.mark.parametrize("seed", range(24))
+@pytest.mark.parametrize("seed", range(30))
 def test_lists_of_arrays_draw_what_their_calls_draw(monkeypatch, seed):
     calls, precision = Author(seed).program(), "exact" if seed % 5 == 4 else "mesa"
     # rules of Mesa's arrays: see mesa/test_list_contents.py and mesa/test_incomplete_primitives_in_lists.py
