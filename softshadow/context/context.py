@@ -32,7 +32,7 @@ from softshadow.frozen import evolve
 from softshadow.image import Image
 from softshadow.pipeline.commands import Clear, Command, CopyToTexture, DefineImage, Draw, Origin, UpdateImage, Vertices
 from softshadow.pipeline.execute import execute
-from softshadow.pipeline.geometry.geometry import stipple_place_after
+from softshadow.pipeline.geometry.stipple_places import begins_stipple_anew, draws_stippled_lines, stipple_place_after
 from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
 from softshadow.pixel_transfer import PixelTransfer
@@ -117,7 +117,8 @@ class Context(CurrentValues):
             unset, 0, unset, None, unset, unset, unset, NO_UNIFORMS,
             offset_slope=polygon_offset_slope, offset_unit=polygon_offset_unit,
         )  # fmt: skip
-        self._stipple_place = 0  # in the line stipple, after the draws so far
+        self._stippled: Draw | None = None  # the last draw of stippled lines: only few ask where its pattern ended
+        self._stipple_place = 0  # in the line stipple, after the draws before
         self.buffers: dict[int, BufferObject] = {}
         self.attribute_stack: list[Any] = []
         # the state at the last glPushAttrib or glPopAttrib; bits of the groups that calls have marked as changed since,
@@ -234,6 +235,7 @@ class Context(CurrentValues):
             command = self._continue_stipple(command)
         if type(command) is not Draw:
             if type(command) not in PIXELS_ONLY and not self._has_image_like(command):
+                self._find_stipple_place()
                 self._waiting.forget()
                 self.bound_samplers = None
             execute(command, self.storage)
@@ -250,11 +252,18 @@ class Context(CurrentValues):
         return before is not None and all(getattr(before, name) == getattr(command, name) for name in SHAPE)
 
     def _continue_stipple(self, command: Draw) -> Draw:
-        """Return a draw with the place in the line stipple that the draws before it have left."""
-        if self._stipple_place:
-            command = evolve(command, stipple_place=self._stipple_place)
-        self._stipple_place = stipple_place_after(command, self.storage)
+        """Return a draw with the place in the line stipple that the draws before it have left, if it goes on there."""
+        if draws_stippled_lines(command):
+            if not begins_stipple_anew(command):
+                self._find_stipple_place()
+                command = evolve(command, stipple_place=self._stipple_place)
+            self._stippled = command
         return command
+
+    def _find_stipple_place(self) -> None:
+        """Find out where the draws so far have left the line stipple."""
+        if self._stippled is not None:
+            self._stipple_place, self._stippled = stipple_place_after(self._stippled, self.storage), None
 
     def carry_out(self, commands: Sequence[Command]) -> None:
         """Carry out and record commands that the gate has kept back."""
@@ -273,6 +282,7 @@ class Context(CurrentValues):
     def resize(self, width: int, height: int) -> None:
         """Replace the window by a cleared one of another size; the recording begins with it."""
         self.finish()
+        self._find_stipple_place()
         self._waiting.forget()
         before, frame = self.objects.window, self._frame
         window = default_framebuffer(width, height, frame.depth_format, frame.stencil_bits, frame.precision)

@@ -14,7 +14,7 @@ from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.assembly import begins_stipple
 from softshadow.pipeline.geometry.clip import NO_EDGES, Clipped, clip_triangles
 from softshadow.pipeline.geometry.draw_primitives import drawn_edges, has_no_edges, lines_or_points_of, triangles_of
-from softshadow.pipeline.geometry.line_stipple import place_after
+from softshadow.pipeline.geometry.line_stipple import places_of
 from softshadow.pipeline.geometry.lines import LINES, clip_lines
 from softshadow.pipeline.geometry.lines_and_points import set_up_lines_of, set_up_points_of
 from softshadow.pipeline.geometry.points import clip_points
@@ -30,7 +30,7 @@ from softshadow.pipeline.geometry.triangle_setup import (
     snapped_vertices,
 )
 from softshadow.pipeline.geometry.vertex import append_rows, process_vertices, to_window
-from softshadow.pipeline.mesa.polygon_rules import is_stippled, offset_is_on, passes_stages
+from softshadow.pipeline.mesa.polygon_rules import offset_is_on, passes_stages
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes, order_for_setup, order_pieces
 from softshadow.pipeline.records import Discards, Geometry
 from softshadow.programs import Program, Varyings, VertexInputs
@@ -67,12 +67,17 @@ def process_geometry(command: Draw, target: Framebuffer, storage: Storage, cull:
 
 def vertex_outputs(command: Draw, storage: Storage) -> VertexOutputs:
     """Return what the program of a draw makes of its vertices."""
-    vertices, (program, uniforms) = command.vertices, program_of(command, storage)
+    program, uniforms = program_of(command, storage)
+    return VertexOutputs(program.vertex(vertex_inputs(command, uniforms)), program, uniforms)
+
+
+def vertex_inputs(command: Draw, uniforms: Mapping[str, Any]) -> VertexInputs:
+    """Return what the program of a draw makes its outputs of."""
+    vertices = command.vertices
     arrays = (vertices.position, vertices.color, vertices.normal, vertices.texcoords)
     transforms = (command.modelview, command.projection, command.texture_matrices)
     optional = vertices.materials, vertices.secondary, vertices.fog_coordinates
-    inputs = VertexInputs(*arrays, *transforms, uniforms, command.modelview_kind, *optional)
-    return VertexOutputs(program.vertex(inputs), program, uniforms)
+    return VertexInputs(*arrays, *transforms, uniforms, command.modelview_kind, *optional)
 
 
 def triangles_with_outputs(
@@ -100,7 +105,7 @@ def triangles_with_outputs(
         clipped = clip_triangles(clip, columns, assembled.corners, codes, planes, edges, command.linear)
         if first_provokes(state):
             clipped = _in_provoking_order(clipped, codes, assembled.corners)
-    window = _with_new_vertices(window, clipped, command, target)
+    window = with_new_vertices(window, clipped, command, target)
     k = varyings.values.shape[1]
     geometry = Geometry(
         NO_TRIANGLES,
@@ -124,7 +129,7 @@ def triangles_with_outputs(
     return outlined_geometry(geometry, clipped, command, target, cull, begins, vertex_sizes)
 
 
-def _with_new_vertices(window: np.ndarray, clipped: Clipped, command: Draw, target: Framebuffer) -> np.ndarray:
+def with_new_vertices(window: np.ndarray, clipped: Clipped, command: Draw, target: Framebuffer) -> np.ndarray:
     """Return the window positions of a draw's vertices and of those that clipping has made, which come last."""
     n_vertices = len(window)
     if len(clipped.clip) == n_vertices:
@@ -132,9 +137,9 @@ def _with_new_vertices(window: np.ndarray, clipped: Clipped, command: Draw, targ
     return append_rows(window, to_window(clipped.clip[n_vertices:], *window_transform(command, target)))
 
 
-def _restarts(clipped: Clipped, command: Draw) -> np.ndarray:
-    """Return at which of the clipped lines (L,) the line stipple begins anew."""
-    return clipped.source == 0 if command.mode != gl.GL_LINES else np.ones(len(clipped.source), bool)
+def stipple_places(clipped: Clipped, command: Draw) -> np.ndarray:
+    """Return the places (L,) of the clipped lines in the line stipple."""
+    return places_of(clipped.source == 0 if command.mode != gl.GL_LINES else np.ones(len(clipped.source), bool))
 
 
 def _in_provoking_order(clipped: Clipped, codes: np.ndarray, corners: np.ndarray) -> Clipped:
@@ -189,17 +194,25 @@ def filled_geometry(geometry: Geometry, clipped: Clipped, command: Draw, target:
 
 
 def points_and_lines_geometry(
-    geometry: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, sizes: np.ndarray | None = None
+    geometry: Geometry,
+    clipped: Clipped,
+    command: Draw,
+    target: Framebuffer,
+    sizes: np.ndarray | None = None,
+    places: np.ndarray | None = None,
 ) -> Geometry:
-    """Return the geometry with its points or lines set up; they are never culled. `sizes` (V,): of points, or None."""
+    """Return the geometry with its points or lines set up; they are never culled.
+
+    `sizes` (V,): of points, or None; `places` (L,): of lines of several draws in the line stipple.
+    """
     state, primitives = command.state, clipped.triangles
     ids = np.arange(len(primitives), dtype=np.int32)
     geometry = geometry._replace(back=None, faceless=True, stipple_place=command.stipple_place)
     if command.mode == gl.GL_POINTS:
         geometry, triangles = set_up_points_of(geometry, primitives[:, 0], ids, sizes, state, target.flipped)
     else:
-        restarts = _restarts(clipped, command)
-        geometry, triangles = set_up_lines_of(geometry, primitives, ids, restarts, state, target.flipped)
+        places = stipple_places(clipped, command) if places is None else places
+        geometry, triangles = set_up_lines_of(geometry, primitives, ids, places, state, target.flipped)
     return geometry._replace(triangles=triangles)
 
 
@@ -243,7 +256,7 @@ def outlined_geometry(
     sizes = None if sizes is None else sizes[clipped.triangles].reshape(-1)
     point_ids, line_ids = outlined.points // 3, outlined.lines[:, 0] // 3
     geometry, points = set_up_points_of(geometry, outlined.points, point_ids, sizes, state, flipped)
-    geometry, lines = set_up_lines_of(geometry, outlined.lines, line_ids, outlined.restarts, state, flipped)
+    geometry, lines = set_up_lines_of(geometry, outlined.lines, line_ids, outlined.places, state, flipped)
     place = 0 if outlined.ends_stipple else geometry.stipple_place
     return geometry._replace(triangles=merge_by_id([filled, lines, points]), stipple_place=place)
 
@@ -272,21 +285,6 @@ def planes_in_clip_space(planes: ClipPlanes, projection: np.ndarray, projection_
         for row, (a, b, c, d) in zip(in_clip_space, np.array(enabled, np.float32), strict=True):
             row[:] = ((a * m[0] + b * m[1]) + c * m[2]) + d * m[3]
     return in_clip_space
-
-
-def stipple_place_after(command: Draw, storage: Storage) -> int:
-    """Return the place in the line stipple after a draw; it is 0 again after filled polygons and points."""
-    state = command.state
-    if not is_stippled(state.lines) or not (command.mode in LINES or passes_stages(state)):
-        return command.stipple_place
-    target = storage.framebuffers[state.draw_framebuffer]
-    with np.errstate(all="ignore"):  # as in pipeline.draw
-        if command.mode not in LINES:
-            return process_geometry(command, target, storage).stipple_place
-        clip, codes, window, planes = positions_of(command, target)
-        clipped = clip_lines(clip, np.empty((len(clip), 0), clip.dtype), lines_or_points_of(command), codes, planes)
-        window = _with_new_vertices(window, clipped, command, target)
-        return place_after(window, clipped.triangles, _restarts(clipped, command), state.lines, command.stipple_place)
 
 
 def offset_mode_of(command: Draw, storage: Storage) -> int:

@@ -15,6 +15,7 @@ from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.state import Lines
 
 PATTERN_BITS = 16
+CONTINUES = -1  # the pattern goes on at a line
 
 
 class LinePieces(NamedTuple):
@@ -36,7 +37,7 @@ def cut_into_pieces(
     lines: np.ndarray,
     provoking: np.ndarray,
     flat: np.ndarray,
-    restarts: np.ndarray,
+    places: np.ndarray,
     stipple: Lines,
     counter: int,
 ) -> LinePieces:
@@ -48,7 +49,7 @@ def cut_into_pieces(
     values : (V, k) outputs of the vertex stage
     lines : (L, 2) int32, vertices
     provoking : (L,) int32, the vertices whose values the columns take that are `flat` (k,)
-    restarts : (L,) bool, whether the pattern begins anew
+    places : (L,) int32, the place in the pattern at which a line begins, or CONTINUES
     counter : the place in the pattern before the first line
 
     References
@@ -56,7 +57,7 @@ def cut_into_pieces(
     GL 2.1, sec. 3.4.2.
     """
     inputs = (
-        window, values, lines, provoking, flat, restarts, stipple.smooth, stipple.factor, stipple.pattern, counter,
+        window, values, lines, provoking, flat, places, stipple.smooth, stipple.factor, stipple.pattern, counter,
         np.empty(2, window.dtype),
     )  # fmt: skip
     n, counter_after = write_pieces(*inputs, *_room(0, window, values))
@@ -65,11 +66,16 @@ def cut_into_pieces(
     return LinePieces(*pieces, counter_after)
 
 
-def place_after(window: np.ndarray, lines: np.ndarray, restarts: np.ndarray, stipple: Lines, counter: int) -> int:
+def places_of(restarts: np.ndarray) -> np.ndarray:
+    """Return the places (L,) int32 of lines that begin the pattern anew, or continue it."""
+    return np.where(restarts, 0, CONTINUES).astype(np.int32)
+
+
+def place_after(window: np.ndarray, lines: np.ndarray, places: np.ndarray, stipple: Lines, counter: int) -> int:
     """Return the place in the pattern after lines, `LinePieces.counter`; the arguments are those of their pieces."""
     no_values, no_vertices, no_columns = np.empty((0, 0), window.dtype), np.empty(0, np.int32), np.empty(0, bool)
     _, counter_after = write_pieces(
-        window, no_values, lines, no_vertices, no_columns, restarts, stipple.smooth, stipple.factor, stipple.pattern,
+        window, no_values, lines, no_vertices, no_columns, places, stipple.smooth, stipple.factor, stipple.pattern,
         counter, np.empty(2, window.dtype), *_room(0, window, no_values),
     )  # fmt: skip
     return int(counter_after)
@@ -81,7 +87,7 @@ def _room(n: int, window: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, n
 
 @kernel
 def write_pieces(
-    window, values, lines, provoking, flat, restarts, is_smooth, factor, pattern, counter, t, piece_window,
+    window, values, lines, provoking, flat, places, is_smooth, factor, pattern, counter, t, piece_window,
     piece_values, piece_lines,
 ):  # fmt: skip
     """Write the pieces if the arrays have room; return how many they are, and the place in the pattern after them.
@@ -91,8 +97,8 @@ def write_pieces(
     n_pieces, room = 0, len(piece_lines)
     for row in range(lines.shape[0]):
         a, b = lines[row, 0], lines[row, 1]
-        if restarts[row]:
-            counter = 0
+        if places[row] >= 0:
+            counter = np.int64(places[row])
         dx, dy = abs(window[b, 0] - window[a, 0]), abs(window[b, 1] - window[a, 1])
         length = dy if dy > dx else dx
         if is_smooth:

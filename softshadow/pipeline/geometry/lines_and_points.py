@@ -35,11 +35,11 @@ COLUMNS_OF_UNIT = 4
 
 
 def set_up_lines_of(
-    geometry: Geometry, lines: np.ndarray, ids: np.ndarray, restarts: np.ndarray, state: State, flipped: bool
+    geometry: Geometry, lines: np.ndarray, ids: np.ndarray, places: np.ndarray, state: State, flipped: bool
 ) -> tuple[Geometry, Setup]:
     """Return the triangles of lines (L, 2) int32, and the geometry with the vertices and values that they need.
 
-    `ids` (L,) int32 are copied to the triangles; `restarts` (L,) bool: where the line stipple begins anew.
+    `ids` (L,) int32 are copied to the triangles; `places` (L,) int32: see `line_stipple.cut_into_pieces`.
     """
     width = state.polygon.line_width
     stippled, smooth = is_stippled(state.lines), state.lines.smooth
@@ -47,8 +47,8 @@ def set_up_lines_of(
         return geometry, set_up_lines(geometry.window, lines, ids, width)
     window, values, provoking = geometry.window, geometry.values, geometry.provoking[ids]
     if stippled:
-        place = geometry.stipple_place
-        pieces = cut_into_pieces(window, values, lines, provoking, geometry.flat, restarts, state.lines, place)
+        before = geometry.stipple_place
+        pieces = cut_into_pieces(window, values, lines, provoking, geometry.flat, places, state.lines, before)
         geometry, ids = geometry._replace(stipple_place=pieces.counter), ids[pieces.line]
         lines = np.arange(2 * len(ids), dtype=np.int32).reshape(-1, 2)
         window, values, provoking = pieces.window, pieces.values, np.ascontiguousarray(lines[:, 0])

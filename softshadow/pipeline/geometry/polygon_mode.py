@@ -12,6 +12,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.image import Image
 from softshadow.pipeline.geometry.facing import CULL_BACK, CULL_FRONT, culling
+from softshadow.pipeline.geometry.line_stipple import places_of
 from softshadow.pipeline.geometry.triangle_setup import Offset, add_float_units, offset_of
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, offset_is_on
 from softshadow.state import Cull, Polygon, State
@@ -25,8 +26,8 @@ class Outlined(NamedTuple):
 
     window (3T, 4), z with its offset; values (3T, k), those of the facing, flat ones equal at all three; triangles
     (A, 3), lines (B, 2) and points (C,) int32; their number t is a vertex // 3; front (T,) bool; offset_mode: the
-    polygon mode whose offset was added, 0 where no triangle decides it; restarts (B,) bool: the lines at which the line
-    stipple begins anew; ends_stipple: whether it begins anew after the last line.
+    polygon mode whose offset was added, 0 where no triangle decides it; places (B,) int32: of the lines in the line
+    stipple (`line_stipple.cut_into_pieces`); ends_stipple: whether it begins anew after the last line.
     """
 
     window: np.ndarray
@@ -36,7 +37,7 @@ class Outlined(NamedTuple):
     points: np.ndarray
     front: np.ndarray
     offset_mode: int
-    restarts: np.ndarray
+    places: np.ndarray
     ends_stipple: bool
 
 
@@ -108,7 +109,7 @@ def outline(
         (first[as_points][:, None] + np.arange(3, dtype=np.int32))[edges[as_points] != 0],
         front,
         offset_mode,
-        *_restarts(restarting & visible, as_lines, drawn_lines),
+        *_places(restarting & visible, as_lines, drawn_lines),
     )
 
 
@@ -129,8 +130,8 @@ def _edge_lines(first: np.ndarray, drawn: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(lines[drawn], np.int32)
 
 
-def _restarts(begins: np.ndarray, as_lines: np.ndarray, drawn: np.ndarray) -> tuple[np.ndarray, bool]:
-    """Return the lines (B,) bool at which the line stipple begins anew, and whether it does so after the last one.
+def _places(begins: np.ndarray, as_lines: np.ndarray, drawn: np.ndarray) -> tuple[np.ndarray, bool]:
+    """Return the places (B,) of lines in the line stipple, and whether it begins anew after the last one.
 
     `begins` (T,) are the triangles that begin it, filled ones and those of points among them; `drawn` (n, 3) the edges
     of the triangles drawn as lines.
@@ -138,7 +139,7 @@ def _restarts(begins: np.ndarray, as_lines: np.ndarray, drawn: np.ndarray) -> tu
     number = np.cumsum(begins)  # of beginnings up to each triangle
     of_line = np.repeat(number[as_lines], drawn.sum(axis=1))
     last = int(of_line[-1]) if len(of_line) else 0
-    return np.diff(of_line, prepend=0) > 0, bool(len(number) and number[-1] > last)
+    return places_of(np.diff(of_line, prepend=0) > 0), bool(len(number) and number[-1] > last)
 
 
 def _mode_offset(polygon: Polygon, mode: int) -> Polygon:

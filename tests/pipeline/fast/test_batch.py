@@ -94,7 +94,8 @@ class Program:
         for cap in (gl.GL_POLYGON_OFFSET_LINE, gl.GL_POLYGON_OFFSET_POINT):
             self.switch(cap, 0.2)
         for cap in (gl.GL_LINE_SMOOTH, gl.GL_POINT_SMOOTH, gl.GL_LINE_STIPPLE, gl.GL_POLYGON_STIPPLE):
-            self.switch(cap, 0.05)
+            self.switch(cap, 0.1)
+        gl.glPointParameterfv(gl.GL_POINT_DISTANCE_ATTENUATION, [1.0, 0.2 * self.chance(0.2), 0.0])
         gl.glLineStipple(2, 0x3B5D)
         gl.glPolygonStipple(self.rng.bytes(128))
         gl.glFogi(gl.GL_FOG_MODE, self.one_of(gl.GL_LINEAR, gl.GL_EXP))

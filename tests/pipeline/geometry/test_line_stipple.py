@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from softshadow.pipeline.geometry.line_stipple import cut_into_pieces, place_after
+from softshadow.pipeline.geometry.line_stipple import cut_into_pieces, place_after, places_of
 from softshadow.state import Lines
 
 
@@ -41,9 +41,10 @@ def test_pieces_are_the_runs_of_lit_pixels(seed):
         window[0, :2] = np.nan, np.inf
     values, flat = rng.random((2 * count, 3), np.float32), np.array([False, True, False])
     lines, restarts = rng.permutation(2 * count).astype(np.int32).reshape(-1, 2), rng.random(count) < 0.5
-    cut = cut_into_pieces(window, values, lines, np.ascontiguousarray(lines[:, 1]), flat, restarts, stipple, 5)
+    places = places_of(restarts)
+    cut = cut_into_pieces(window, values, lines, np.ascontiguousarray(lines[:, 1]), flat, places, stipple, 5)
     expected, counter = pieces_by_pixels(window[lines][:, :, :2], restarts, stipple, 5)
-    assert cut.counter == counter == place_after(window, lines, restarts, stipple, 5)
+    assert cut.counter == counter == place_after(window, lines, places, stipple, 5)
     assert cut.line.tolist() == [line for line, *_ in expected]
     for n, (line, *weights) in enumerate(expected):
         a, b = lines[line]

@@ -19,6 +19,7 @@ from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.mesa.quad_cuts import INDEXED_SEGMENT, SEGMENT
 from softshadow.tokens import (
     GL_LINE_LOOP,
+    GL_LINE_STRIP,
     GL_LINES,
     GL_POINTS,
     GL_POLYGON,
@@ -34,13 +35,17 @@ MODES = (*POLYGONS, *LINES, GL_POINTS)
 
 
 def primitive_count(mode: int, n: int) -> int:
-    """Return the number of triangles that `n` vertices or indices make, or at most so many lines or points."""
+    """Return the number of triangles, lines or points that `n` vertices or indices make."""
     if mode == GL_TRIANGLES:
         return n // 3
     if mode == GL_QUADS:
         return n // 4 * 2
+    if mode == GL_LINES:
+        return n // 2
+    if mode in LINES and n < 2:
+        return 0
     if mode not in POLYGONS:
-        return n
+        return n - 1 if mode == GL_LINE_STRIP else n
     return max(n // 2 - 1, 0) * 2 if mode == GL_QUAD_STRIP else max(n - 2, 0)
 
 

@@ -18,7 +18,7 @@ from softshadow.jit import read_only
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.assembly import assemble_draws, assemble_lines_and_points, primitive_count
 from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
-from softshadow.pipeline.fast.batch.run import WIDTH_OF_POLYGONS, WORTH_COMPARING, Run, width_of
+from softshadow.pipeline.fast.batch.run import PLAIN_POINTS, WIDTH_OF_POLYGONS, WORTH_COMPARING, Run, width_of
 from softshadow.pipeline.fast.batch.small_runs import set_up_pieces, set_up_run
 from softshadow.pipeline.fast.batch.table import Table, table_of
 from softshadow.pipeline.fast.batch.vertices import prepare_draws, process_vertices
@@ -32,8 +32,10 @@ from softshadow.pipeline.geometry.geometry import (
     has_float_units,
     outlined_geometry,
     points_and_lines_geometry,
+    vertex_inputs,
     window_transform,
 )
+from softshadow.pipeline.geometry.line_stipple import CONTINUES
 from softshadow.pipeline.geometry.lines import clip_lines
 from softshadow.pipeline.geometry.points import clip_points
 from softshadow.pipeline.geometry.program import program_of
@@ -43,8 +45,9 @@ from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.records import Geometry, Setup
 from softshadow.programs import Program
-from softshadow.programs.fixed_function import has_secondary
+from softshadow.programs.fixed_function import has_secondary, point_sizes
 
+NO_UNIFORMS: Mapping[str, Any] = {}
 REAL = np.dtype(np.float32)
 VERTICES_PER_TASK = 1 << 13  # that a thread processes in one go
 SMALL = 1 << 12  # vertices, and triangles, of a run that one kernel sets up
@@ -164,14 +167,18 @@ def geometry_of(
             return _batch(*_with_pieces(_with_values(geometry, clipped.values, setting), clipped, setting))
     else:
         primitives, clip_primitives = _lines_or_points(table, most, width), clip_points if width == 1 else clip_lines
-        provoking, clipped = primitives[:, -1], clip_primitives(clip, columns, primitives, codes, run.user_planes)
+        sizes = _point_sizes(run, draws) if width == 1 else None
+        with_sizes = columns if sizes is None else np.hstack([columns, sizes[:, np.newaxis]])
+        provoking, clipped = primitives[:, -1], clip_primitives(clip, with_sizes, primitives, codes, run.user_planes)
     window = outputs.window
     if len(clipped.clip) > n:  # the new vertices of clipping come last
         window = append_rows(window, to_window(clipped.clip[n:], *window_transform(command, target)))
     geometry = unset._replace(window=window, source=clipped.source, provoking=provoking[clipped.source])
-    geometry = _with_values(geometry, clipped.values, setting)
+    geometry = _with_values(geometry, clipped.values[:, : columns.shape[1]], setting)
     if not is_polygons:
-        return _batch(points_and_lines_geometry(geometry, clipped, command, target))
+        sizes = None if sizes is None else clipped.values[:, -1]
+        places = _stipple_places(draws, clipped.source) if run.stippled else None
+        return _batch(points_and_lines_geometry(geometry, clipped, command, target, sizes, places))
     if not is_filled:
         outlined = outlined_geometry(geometry, clipped, command, target, command.state.cull)
         return Batch(outlined, -1, geometry.provoking)
@@ -210,6 +217,28 @@ def _with_pieces(geometry: Geometry, clipped: Clipped, setting: Setting) -> tupl
         read_only(clipped.triangles), setting.culled, setting.positive_is_front, setting.offset, *setup,
     )  # fmt: skip
     return geometry._replace(window=window, triangles=Setup(*[array[:n_drawn] for array in setup])), area >> 8
+
+
+def _point_sizes(run: Run, draws: Sequence[Draw]) -> np.ndarray | None:
+    """Return the sizes of points (V,) where they depend on the distance, else None."""
+    if run.state.points.attenuation == PLAIN_POINTS.attenuation:
+        return None
+    sizes = [point_sizes(draw.state, vertex_inputs(draw, NO_UNIFORMS)) for draw in draws]
+    return np.concatenate([each for each in sizes if each is not None])
+
+
+def _stipple_places(draws: Sequence[Draw], source: np.ndarray) -> np.ndarray:
+    """Return the places of clipped lines in the line stipple, as for draws on their own.
+
+    A strip or loop whose first line is clipped goes on where the draw before it ended.
+    """
+    counts = [primitive_count(draw.mode, _named_vertices(draw)) for draw in draws]
+    of_line = np.repeat(np.arange(len(draws)), counts)[source]
+    firsts = (np.cumsum(counts) - counts)[of_line]
+    separate = np.array([draw.mode == gl.GL_LINES for draw in draws])[of_line]
+    before = np.array([draw.stipple_place for draw in draws], np.int32)[of_line]
+    goes_on = np.diff(of_line, prepend=-1) == 0
+    return np.where(separate | (source == firsts), 0, np.where(goes_on, CONTINUES, before)).astype(np.int32)
 
 
 def _may_be_repeated(draws: Sequence[Draw]) -> bool:

@@ -52,7 +52,7 @@ other_groups_of = attrgetter(*(group for group in GROUPS if group not in OF_TEST
 PLAIN_POINTS = Points()
 WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recent ones
 IDENTITY = np.eye(4, dtype=np.float32)
-WIDTH_OF_POLYGONS = 3
+WIDTH_OF_LINES, WIDTH_OF_POLYGONS = 2, 3
 
 
 class Arrays(NamedTuple):
@@ -78,6 +78,7 @@ class Run:
     writes_color : bool      else no colours are computed
     arrays : Arrays          of all draws
     unfilled : bool          polygons are drawn as their edges or corners (glPolygonMode)
+    stippled : bool          lines are cut into pieces by a pattern
     across : bool            quads are cut along the other diagonal even without indices (`Varyings.flat_input`)
     layout, generated, planes, user_planes : of its `Table`
     """
@@ -89,6 +90,7 @@ class Run:
         self._unit_numbers = [unit.index for unit in self.units]
         self.arrays = self._arrays_of(command)
         self.unfilled = width_of(command.mode) == WIDTH_OF_POLYGONS and passes_stages(self.state)
+        self.stippled = width_of(command.mode) == WIDTH_OF_LINES and is_stippled(self.state.lines)
         is_flat = writes_color and self.state.lighting.shade_model == gl.GL_FLAT
         self.generated, self.planes, in_eye_space = _generation(self)
         self.user_planes = user_planes(command)
@@ -203,7 +205,7 @@ class Run:
 
 def width_of(mode: int) -> int:
     """Return how many vertices a primitive has that reaches the setup: 3 for polygons, which are cut into triangles."""
-    return WIDTH_OF_POLYGONS if mode in POLYGONS else 1 if mode == gl.GL_POINTS else 2
+    return WIDTH_OF_POLYGONS if mode in POLYGONS else 1 if mode == gl.GL_POINTS else WIDTH_OF_LINES
 
 
 def key_of(state: State, *, with_tests: bool = True) -> tuple[int, ...]:
@@ -223,7 +225,7 @@ def geometry_structure(run: Run) -> tuple[Hashable, ...]:
     return (
         state.draw_framebuffer, state.viewport, state.polygon, state.depth.clamp, *_structure(state.lighting),
         run.layout, run.arrays, run.generated.tobytes(), run.planes.tobytes(), run.user_planes.tobytes(), run.across,
-        run.writes_color, effective_modes(state),
+        run.writes_color, effective_modes(state), state.lines, state.points,
         tuple([unit.index for unit in run.units]), width_of(run.command.mode),
     )  # fmt: skip
 
@@ -260,7 +262,7 @@ def can_begin_run(command: Draw, target: Framebuffer) -> bool:
     state = command.state
     if not can_run(command) or not target.attachments:
         return False
-    if not _are_plain(command.mode, state) or first_provokes(state):
+    if not _are_covered(command.mode, state) or first_provokes(state):
         return False
     fog = state.fog
     if fog.color_sum or fog.source != gl.GL_FRAGMENT_DEPTH:
@@ -271,17 +273,16 @@ def can_begin_run(command: Draw, target: Framebuffer) -> bool:
     return all(mode in GENERATED for mode in modes)
 
 
-def _are_plain(mode: int, state: State) -> bool:
-    """Return whether primitives of a mode have no stipple, are not smooth, and share their polygon offset."""
-    lines_are_plain = not (state.lines.smooth or is_stippled(state.lines))
-    points_are_plain = state.points == PLAIN_POINTS
+def _are_covered(mode: int, state: State) -> bool:
+    """Return whether primitives of a mode can be set up together: unfilled polygons only if they are plain."""
+    points, lines = state.points, state.lines
     if width_of(mode) < WIDTH_OF_POLYGONS:
-        return points_are_plain if mode == gl.GL_POINTS else lines_are_plain
+        return mode != gl.GL_POINTS or not points.sprites
     if not passes_stages(state):
         return True
     front, back = effective_modes(state)
     is_unfilled, shares_offset = (front, back) != (gl.GL_FILL,) * 2, front == back or not offset_is_on(state.polygon)
-    are_plain = lines_are_plain and points_are_plain and not state.polygon.stippled
+    are_plain = not (lines.smooth or is_stippled(lines) or state.polygon.stippled) and points == PLAIN_POINTS
     return is_unfilled and shares_offset and are_plain
 
 

@@ -16,6 +16,7 @@ from softshadow.jit import kernel
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.geometry import Batch, Setting
 from softshadow.pipeline.fast.batch.run import Run, geometry_structure
+from softshadow.pipeline.geometry.smooth import with_coverage
 from softshadow.pipeline.raster.coverage import extent
 from softshadow.pipeline.records import Geometry, Setup
 from softshadow.programs import Program
@@ -75,9 +76,18 @@ def cut(batch: Batch, draws: Sequence[Draw], firsts: Sequence[int], settings: Se
     write_areas(triangles.corners, bounds, areas)
     ends, sizes = bounds[1:].tolist(), areas.tolist()
     return [
-        Part(geometry, first, end, setting.program, setting.uniforms, area)
+        Part(geometry, first, end, _with_coverage(setting.program, geometry), setting.uniforms, area)
         for setting, first, end, area in zip(settings, bounds.tolist(), ends, sizes, strict=False)
     ]
+
+
+def _with_coverage(program: Program, batch: Geometry) -> Program:
+    """Return the program of a segment with the coverage of its batch, where lines or points are smooth."""
+    if batch.line_places >= 0:
+        program = with_coverage(program, batch.line_places, "line")
+    if batch.discards is not None and batch.discards.places >= 0:
+        program = with_coverage(program, batch.discards.places, "point")
+    return program
 
 
 @kernel

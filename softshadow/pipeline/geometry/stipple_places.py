@@ -1,0 +1,56 @@
+"""Where draws leave the line stipple: a strip whose first line is clipped goes on where the draw before it ended."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from softshadow import matrices
+from softshadow.framebuffer import Storage
+from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.geometry.clip import outcodes
+from softshadow.pipeline.geometry.draw_primitives import lines_or_points_of
+from softshadow.pipeline.geometry.geometry import (
+    positions_of,
+    process_geometry,
+    stipple_places,
+    user_planes,
+    with_new_vertices,
+)
+from softshadow.pipeline.geometry.line_stipple import place_after
+from softshadow.pipeline.geometry.lines import LINES, clip_lines
+from softshadow.pipeline.geometry.vertex import to_clip
+from softshadow.pipeline.mesa.polygon_rules import is_stippled, passes_stages
+
+
+def draws_stippled_lines(command: Draw) -> bool:
+    """Return whether a draw may go on in the line stipple, or leave it elsewhere."""
+    state = command.state
+    return is_stippled(state.lines) and (command.mode in LINES or passes_stages(state))
+
+
+def begins_stipple_anew(command: Draw) -> bool:
+    """Return whether the first line of a draw is surely drawn, so that its pattern begins anew there."""
+    if command.mode not in LINES:
+        return False
+    indices, positions = command.indices, command.vertices.position
+    ends = positions[:2] if indices is None else positions[indices[:2]]
+    if len(ends) < 2:
+        return False
+    clip = to_clip(matrices.multiply(command.projection, command.modelview), ends)
+    return not outcodes(clip, command.state.depth.clamp, user_planes(command)).any()
+
+
+def stipple_place_after(command: Draw, storage: Storage) -> int:
+    """Return the place in the line stipple after a draw; it is 0 again after filled polygons and points."""
+    if not draws_stippled_lines(command):
+        return command.stipple_place
+    state = command.state
+    target = storage.framebuffers[state.draw_framebuffer]
+    with np.errstate(all="ignore"):  # as in pipeline.draw
+        if command.mode not in LINES:
+            return process_geometry(command, target, storage).stipple_place
+        clip, codes, window, planes = positions_of(command, target)
+        clipped = clip_lines(clip, np.empty((len(clip), 0), clip.dtype), lines_or_points_of(command), codes, planes)
+        window = with_new_vertices(window, clipped, command, target)
+        places = stipple_places(clipped, command)
+        return place_after(window, clipped.triangles, places, state.lines, command.stipple_place)
