@@ -1,4 +1,4 @@
-"""``softshadow bench corpus`` and ``features``: ordinary GL programs, and single features, here and on Mesa."""
+"""``softshadow bench corpus``, ``features`` and ``small-draws``: GL programs and single features, here and on Mesa."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import click
 
 from softshadow.cli.console import CHECK_FAILED, print_json, say, table
 
-CORPUS, FEATURES = "corpus", "features"
+CORPUS, FEATURES, SMALL = "corpus", "features", "small-draws"
 
 
 def is_of_corpus(name: str) -> bool:
     """Return whether a name of `softshadow bench` is one of these families, or a program in one: "corpus/PROGRAM"."""
-    return name.partition("/")[0] in (CORPUS, FEATURES)
+    return name.partition("/")[0] in (CORPUS, FEATURES, SMALL)
 
 
 def bench_corpus(
@@ -26,19 +26,19 @@ def bench_corpus(
     """Measure the programs and print the table; exit code 1 if a buffer differs."""
     from softshadow.bench.corpus.features import NAMES
     from softshadow.bench.corpus.measuring import measure
-    from softshadow.bench.corpus.programs import PROGRAMS, get
+    from softshadow.bench.corpus.programs import PROGRAMS, SMALL_DRAWS, get
     from softshadow.bench.corpus.results import to_json
     from softshadow.bench.corpus.tables import program_rows, summary_lines
     from softshadow.testing.machine import machine
 
     if not all(map(is_of_corpus, names)):
         raise click.UsageError(
-            "programs of the corpus and features are measured alone: expected corpus, corpus/PROGRAM, features or "
-            "features/FEATURE+FEATURE"
+            "programs of the corpus, features and small draws are measured alone: expected corpus, corpus/PROGRAM, "
+            "features, features/FEATURE+FEATURE, small-draws or small-draws/PROGRAM"
         )
     if against not in (("mesa",), ("llvmpipe",)):
         raise click.UsageError("the corpus is measured against llvmpipe: expected --against mesa")
-    families = {CORPUS: tuple(PROGRAMS), FEATURES: NAMES}
+    families = {CORPUS: tuple(PROGRAMS), FEATURES: NAMES, SMALL: tuple(SMALL_DRAWS)}
     chosen = [each for name in names for each in families.get(name, (name.removeprefix(f"{CORPUS}/"),))]
     programs = [get(name) for name in dict.fromkeys(chosen)]
     results = []

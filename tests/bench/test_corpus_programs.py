@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from softshadow.bench.corpus.programs import PROGRAMS, get
+from softshadow.bench.corpus.programs import EVERY, PROGRAMS, get
 from softshadow.testing import compare, run_here
 
 SIZE = (64, 48)
@@ -20,7 +20,7 @@ def draw(gl: Any, name: str) -> None:
 
 @pytest.mark.thin(3)
 @pytest.mark.mesa
-@pytest.mark.parametrize("name", PROGRAMS)
+@pytest.mark.parametrize("name", EVERY)
 def test_program_draws_the_same_picture_as_mesa(name: str) -> None:
     comparison = compare(partial(draw, name=name), SIZE)
     assert comparison, comparison
@@ -36,7 +36,7 @@ def test_frames_of_a_program_differ() -> None:
 
 def test_programs_have_titles_and_there_are_enough() -> None:
     assert len(PROGRAMS) >= 24
-    assert all(program.title and program.name == name for name, program in PROGRAMS.items())
+    assert all(program.title and program.name == name for name, program in EVERY.items())
 
 
 def test_an_unknown_program_names_the_nearest() -> None:

@@ -11,6 +11,7 @@ from softshadow.bench.corpus import (
     more_calls,
     several_passes,
     shadow_maps,
+    small_draws,
     stencil_shadows,
     textured,
 )
@@ -24,10 +25,12 @@ FAMILIES = (
     flat, more_calls,
 )  # fmt: skip
 PROGRAMS = {program.name: program for family in FAMILIES for program in family.PROGRAMS}
+SMALL_DRAWS = {program.name: program for program in small_draws.PROGRAMS}  # measured apart from the corpus
+EVERY = PROGRAMS | SMALL_DRAWS
 
 
 def get(name: str) -> Program:
-    """Return the program with this name, or that of features ("features/fog-exp+scissor").
+    """Return the program with this name ("small-draws/widgets"), or that of features ("features/fog-exp+scissor").
 
     Raises
     ------
@@ -36,6 +39,6 @@ def get(name: str) -> Program:
     family, _, names = name.rpartition("/")
     if family == FAMILY:
         return program_with(names)
-    if name not in PROGRAMS:
-        raise ValueError(f"unknown program corpus/{name}: {nearest(name, PROGRAMS)}")
-    return PROGRAMS[name]
+    if name not in EVERY:
+        raise ValueError(f"unknown program {name if family else f'corpus/{name}'}: {nearest(name, EVERY)}")
+    return EVERY[name]

@@ -1,0 +1,57 @@
+"""Where a line pattern ended is found only when a draw asks; the lines are those of patterns followed draw by draw."""
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softshadow import gl
+from softshadow.frozen import evolve
+from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.geometry.geometry import process_geometry
+from softshadow.pipeline.geometry.stipple_places import begins_stipple_anew, stipple_place_after
+
+SIZE = 24
+MODES = (gl.GL_LINES, gl.GL_LINE_STRIP, gl.GL_LINE_LOOP, gl.GL_LINE_STRIP, gl.GL_POINTS, gl.GL_TRIANGLES)
+
+
+def draw_something(rng: np.random.Generator) -> None:
+    """Draw a few lines, often from outside of the window or with too few vertices, or something else."""
+    gl.glPolygonMode(gl.GL_FRONT_AND_BACK, int(rng.choice([gl.GL_LINE, gl.GL_FILL])))
+    (gl.glDisable if rng.random() < 0.2 else gl.glEnable)(gl.GL_LINE_STIPPLE)
+    gl.glBegin(int(rng.choice(MODES)))
+    for x, y in rng.uniform(-1.6, 1.6, (int(rng.integers(0, 6)), 2)).tolist():
+        gl.glVertex2f(x, y)
+    gl.glEnd()
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_patterns_go_on_where_the_draws_before_have_left_them(seed):
+    rng = np.random.default_rng(seed)
+    with gl.create_context(SIZE, SIZE) as context:
+        gl.glLineStipple(int(rng.integers(1, 4)), int(rng.integers(1, 1 << 16)))
+        for n in range(12):
+            draw_something(rng)
+            if n == 6:
+                gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+        gl.glFinish()
+        place, storage = 0, context.storage
+        for command in context._frame.commands:
+            if isinstance(command, Draw):
+                expected = evolve(command, stipple_place=place)
+                ours, theirs = (process_geometry(each, storage.window, storage) for each in (command, expected))
+                np.testing.assert_array_equal(ours.triangles.corners, theirs.triangles.corners)
+                place = stipple_place_after(expected, storage)
+
+
+def test_a_strip_that_begins_inside_does_not_ask():
+    with gl.create_context(SIZE, SIZE) as context:
+        gl.glEnable(gl.GL_LINE_STIPPLE)
+        gl.glLineStipple(1, 0x0F0F)
+        for x in (0.0, 2.0):
+            gl.glBegin(gl.GL_LINE_STRIP)
+            for y in (0.0, 0.5, -0.5):
+                gl.glVertex2f(x if y == 0 else 0.25, y)
+            gl.glEnd()
+        gl.glFinish()
+        draws = [command for command in context._frame.commands if isinstance(command, Draw)]
+        assert [begins_stipple_anew(draw) for draw in draws] == [True, False]
