@@ -263,7 +263,7 @@ class Context(CurrentValues):
     def _find_stipple_place(self) -> None:
         """Find out where the draws so far have left the line stipple."""
         if self._stippled is not None:
-            self._stipple_place, self._stippled = stipple_place_after(self._stippled, self.storage), None
+            self._stipple_place, self._stippled = stipple_place_after(self._stippled, self.objects), None
 
     def carry_out(self, commands: Sequence[Command]) -> None:
         """Carry out and record commands that the gate has kept back."""

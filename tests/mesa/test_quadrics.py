@@ -71,6 +71,22 @@ def test_quadrics_are_those_of_libglu(seed: int) -> None:
 
 
 @pytest.mark.mesa
+def test_a_list_keeps_the_style_with_which_it_was_compiled() -> None:
+    def program(gl: Any) -> None:
+        quadric = gl.gluNewQuadric()
+        gl.gluQuadricDrawStyle(quadric, gl.GLU_LINE)
+        gl.glNewList(1, gl.GL_COMPILE)
+        gl.gluSphere(quadric, 0.7, 8, 6)
+        gl.glEndList()
+        gl.gluQuadricDrawStyle(quadric, gl.GLU_FILL)
+        gl.glCallList(1)
+
+    assert (comparison := compare(program, SIZE)), comparison
+    drawn = comparison.ours.color[..., 0] > 0
+    assert 0 < drawn.sum() < 0.5 * np.pi * 0.7**2 * drawn.size / 4, "lines, not the whole disc"
+
+
+@pytest.mark.mesa
 def test_strings_are_those_of_libglu() -> None:
     def program(gl: Any) -> np.ndarray:
         texts = [gl.gluErrorString(code) for code in (0, 1280, 1281, 1282, 1283, 1284, 1285, 1286, 100900, 100902)]
