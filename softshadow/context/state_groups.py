@@ -26,7 +26,7 @@ TUPLES: tuple[tuple[str, str], ...] = (
 UNDRAWN = frozenset(("clear", "clear_accum", "active_back"))
 PACK = struct.Struct("4d").pack
 COLOR = struct.Struct("4f")
-PAST = 256  # values of each group that are kept
+PAST = 1024  # values of each group that are kept
 
 
 def affects_draws(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:

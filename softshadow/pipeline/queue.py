@@ -41,7 +41,7 @@ except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
     pass
 
 
-KNOWN_KINDS = 256
+KNOWN_KINDS = 1024
 KNOWN_VERTICES = 64 * MOST_VERTICES  # about, of the draws that kinds keep
 
 

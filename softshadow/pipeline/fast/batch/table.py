@@ -143,7 +143,7 @@ def _same_rows(a: Lighting, b: Lighting) -> bool:
 
 
 _rows_of: dict[int, tuple[Lighting, lighting.LightingRows]] = {}  # of the latest states of lighting, by id
-KNOWN_LIGHTINGS = 256
+KNOWN_LIGHTINGS = 1024
 
 
 def _rows(lights: Lighting) -> lighting.LightingRows:
