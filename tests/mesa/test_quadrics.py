@@ -81,7 +81,8 @@ def test_a_list_keeps_the_style_with_which_it_was_compiled() -> None:
         gl.gluQuadricDrawStyle(quadric, gl.GLU_FILL)
         gl.glCallList(1)
 
-    assert (comparison := compare(program, SIZE)), comparison
+    comparison = compare(program, SIZE)
+    assert comparison, comparison
     drawn = comparison.ours.color[..., 0] > 0
     assert 0 < drawn.sum() < 0.5 * np.pi * 0.7**2 * drawn.size / 4, "lines, not the whole disc"
 
