@@ -20,6 +20,7 @@ from softshadow.context.current_values import CurrentValues, CurrentVertex
 from softshadow.context.display_list import DisplayList
 from softshadow.context.evaluators import EvaluatorSettings, initial_maps
 from softshadow.context.kept_materials import with_kept_materials
+from softshadow.context.line_pattern import LinePattern
 from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.recording import Frame
@@ -32,7 +33,6 @@ from softshadow.frozen import evolve
 from softshadow.image import Image
 from softshadow.pipeline.commands import Clear, Command, CopyToTexture, DefineImage, Draw, Origin, UpdateImage, Vertices
 from softshadow.pipeline.execute import execute
-from softshadow.pipeline.geometry.stipple_places import begins_stipple_anew, draws_stippled_lines, stipple_place_after
 from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
 from softshadow.pixel_transfer import PixelTransfer
@@ -117,8 +117,7 @@ class Context(CurrentValues):
             unset, 0, unset, None, unset, unset, unset, NO_UNIFORMS,
             offset_slope=polygon_offset_slope, offset_unit=polygon_offset_unit,
         )  # fmt: skip
-        self._stippled: Draw | None = None  # the last draw of stippled lines: only few ask where its pattern ended
-        self._stipple_place = 0  # in the line stipple, after the draws before
+        self._line_pattern = LinePattern(self.objects)
         self.buffers: dict[int, BufferObject] = {}
         self.attribute_stack: list[Any] = []
         # the state at the last glPushAttrib or glPopAttrib; bits of the groups that calls have marked as changed since,
@@ -232,10 +231,10 @@ class Context(CurrentValues):
         if self.gate is not None and not self.gate(command):
             return
         if type(command) is Draw and command.state.lines.stippled:
-            command = self._continue_stipple(command)
+            command = self._line_pattern.continued(command)
         if type(command) is not Draw:
             if type(command) not in PIXELS_ONLY and not self._has_image_like(command):
-                self._find_stipple_place()
+                self._line_pattern.find_place()
                 self._waiting.forget()
                 self.bound_samplers = None
             execute(command, self.storage)
@@ -250,20 +249,6 @@ class Context(CurrentValues):
             return False
         before = self.objects.textures[command.texture].images.get((command.face, command.level))
         return before is not None and all(getattr(before, name) == getattr(command, name) for name in SHAPE)
-
-    def _continue_stipple(self, command: Draw) -> Draw:
-        """Return a draw with the place in the line stipple that the draws before it have left, if it goes on there."""
-        if draws_stippled_lines(command):
-            if not begins_stipple_anew(command):
-                self._find_stipple_place()
-                command = evolve(command, stipple_place=self._stipple_place)
-            self._stippled = command
-        return command
-
-    def _find_stipple_place(self) -> None:
-        """Find out where the draws so far have left the line stipple."""
-        if self._stippled is not None:
-            self._stipple_place, self._stippled = stipple_place_after(self._stippled, self.objects), None
 
     def carry_out(self, commands: Sequence[Command]) -> None:
         """Carry out and record commands that the gate has kept back."""
@@ -282,7 +267,7 @@ class Context(CurrentValues):
     def resize(self, width: int, height: int) -> None:
         """Replace the window by a cleared one of another size; the recording begins with it."""
         self.finish()
-        self._find_stipple_place()
+        self._line_pattern.find_place()
         self._waiting.forget()
         before, frame = self.objects.window, self._frame
         window = default_framebuffer(width, height, frame.depth_format, frame.stencil_bits, frame.precision)

@@ -36,8 +36,9 @@ def begins_stipple_anew(command: Draw) -> bool:
     ends = positions[:2] if indices is None else positions[indices[:2]]
     if len(ends) < 2:
         return False
-    clip = to_clip(matrices.multiply(command.projection, command.modelview), ends)
-    return not outcodes(clip, command.state.depth.clamp, user_planes(command)).any()
+    with np.errstate(all="ignore"):  # as in pipeline.draw
+        clip = to_clip(matrices.multiply(command.projection, command.modelview), ends)
+        return not outcodes(clip, command.state.depth.clamp, user_planes(command)).any()
 
 
 def stipple_place_after(command: Draw, storage: Storage) -> int:

@@ -55,3 +55,20 @@ def test_a_strip_that_begins_inside_does_not_ask():
         gl.glFinish()
         draws = [command for command in context._frame.commands if isinstance(command, Draw)]
         assert [begins_stipple_anew(draw) for draw in draws] == [True, False]
+
+
+def test_numbers_without_a_value_give_no_warning(recwarn):
+    with gl.create_context(SIZE, SIZE):
+        gl.glEnable(gl.GL_LINE_STIPPLE)
+        gl.glLineStipple(1, 0x0F0F)
+        gl.glEnable(gl.GL_CLIP_PLANE0)
+        gl.glClipPlane(gl.GL_CLIP_PLANE0, [3e38, 3e38, 3e38, 3e38])
+        gl.glMatrixMode(gl.GL_PROJECTION)
+        gl.glLoadMatrixf(np.diag([1e-20, 1e-20, 1.0, 1.0]))
+        for _ in range(2):
+            gl.glBegin(gl.GL_LINE_STRIP)
+            for x in (3e38, -3e38, 0.0):
+                gl.glVertex2f(x, x)
+            gl.glEnd()
+        gl.glFinish()
+    assert not recwarn.list
