@@ -1,5 +1,6 @@
 """Fast copies of dataclasses with some fields changed."""
 
+from functools import cache
 from operator import is_
 from typing import Any, TypeVar
 
@@ -51,7 +52,12 @@ def create(kind: type[Value], **values: Any) -> Value:
     """
     instance = object.__new__(kind)
     instance.__dict__.update(values)
-    if values.keys() != kind.__dataclass_fields__.keys():  # type: ignore[attr-defined]
+    if (*values,) != _names_of(kind) and values.keys() != kind.__dataclass_fields__.keys():  # type: ignore[attr-defined]
         wrong = ", ".join(sorted(values.keys() ^ kind.__dataclass_fields__.keys()))  # type: ignore[attr-defined]
         raise TypeError(f"{kind.__name__}: missing or unknown fields {wrong}")
     return instance
+
+
+@cache
+def _names_of(kind: type[Any]) -> tuple[str, ...]:
+    return (*kind.__dataclass_fields__,)

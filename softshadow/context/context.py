@@ -183,6 +183,11 @@ class Context(CurrentValues):
         dtype, n = self._dtype, len(numbers)
         return np.ndarray(shape or n, dtype, _packer(n, dtype.char)(*numbers))
 
+    def repeated(self, row: Sequence[float], count: int) -> np.ndarray:
+        """Return what `packed` returns of `count` equal rows."""
+        dtype, width = self._dtype, len(row)
+        return np.ndarray((count, width), dtype, _packer(width, dtype.char)(*row) * count)
+
     # -- matrices and units --------------------------------------------------------------------------------------------
     def select_matrices(self, mode: int) -> None:
         """Select the stack that matrix calls work on."""

@@ -6,19 +6,45 @@ Draws with the same current values share one view of it per number of vertices.
 from __future__ import annotations
 
 import struct
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from operator import is_
+from typing import NamedTuple
 
 import numpy as np
 
 from softshadow.context import Context, CurrentVertex
 from softshadow.context.current_values import UNIT_OF
+from softshadow.state import BLACK
 
 MOST_VIEWS = 1024  # of one value, by the number of vertices
 MOST_VALUES = 4096
+OPTIONAL = {"edge": True, "secondary": BLACK, "fog_coordinate": 0.0}  # the last fields of `Vertices`: initial values
+IS_OPTIONAL = frozenset(OPTIONAL)
 # 0 and -0 are different values, so values are compared by their bits
 PACK_3, PACK_4, PACK_COLOR_AND_NORMAL = (struct.Struct(f"{count}d").pack for count in (3, 4, 7))
+
+
+class Carried(NamedTuple):
+    """Which attributes the vertices carry: `units` are (unit, name) of texture coordinates, `materials` names.
+
+    `optional`: at least one that not every `Vertices` has, such as the edge flag.
+    """
+
+    color: bool
+    normal: bool
+    units: tuple[tuple[int, str], ...]
+    materials: frozenset[str]
+    optional: bool
+
+
+@lru_cache(maxsize=1024)
+def carried_of(names: tuple[str, ...]) -> Carried:
+    """Return which attributes these are; the same object for the same names."""
+    units = tuple([(UNIT_OF[name], name) for name in names if name in UNIT_OF])
+    materials = frozenset([name for name in names if "." in name])
+    return Carried("color" in names, "normal" in names, units, materials, not IS_OPTIONAL.isdisjoint(names))
 
 
 @dataclass(eq=False, slots=True)
@@ -127,22 +153,23 @@ class ConstantAttributes:
         return attribute
 
 
-def constant_attributes(context: Context, carried: Collection[str] = ()) -> ConstantSet:
+def constant_attributes(context: Context, carried: Carried | None = None) -> ConstantSet:
     """Return colour, normal and texture coordinates of the context; the same object for the same bits.
 
-    Nobody asks for those in `carried`: they have values of an earlier draw, so that no set is made for new ones.
+    Nobody asks for those that are carried: they have values of an earlier draw, so that no set is made for new ones.
     """
     current, kept = context.current, context.arrays.constants
     if kept is None or len(kept.sets) >= MOST_VALUES or len(kept.known_texcoords) >= MOST_VALUES:
         kept = context.arrays.constants = ConstantAttributes()
     color, normal, texcoords = current.color, current.normal, current.texcoords
-    if carried:
-        color = kept.color if "color" in carried else color
-        normal = kept.normal if "normal" in carried else normal
-        units = [UNIT_OF[name] for name in carried if name in UNIT_OF]
-        if units:
+    if carried is not None:
+        if carried.color:
+            color = kept.color
+        if carried.normal:
+            normal = kept.normal
+        if carried.units:
             texcoords = texcoords.copy()
-            for unit in units:
+            for unit, _ in carried.units:
                 texcoords[unit] = kept.texcoords[unit]
     found: ConstantSet | None = kept.last
     is_last = found is not None and color is kept.color and normal is kept.normal

@@ -12,8 +12,8 @@ import numpy as np
 
 from softshadow.context import Context
 from softshadow.frozen import create, evolve
-from softshadow.gl.constant_attributes import ConstantSet, constant_attributes
-from softshadow.gl.vertex_format import OPTIONAL, TEXCOORDS
+from softshadow.gl.constant_attributes import ConstantSet, carried_of, constant_attributes
+from softshadow.gl.vertex_format import TEXCOORDS
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.mesa.driver_draws import CORNERS
 from softshadow.state import BLACK
@@ -128,7 +128,8 @@ def similar_pairs(context: Context, sizes: Mapping[str, int]) -> SimilarPairs | 
     if not (current.edge and current.secondary == BLACK and not current.fog_coordinate and pending.has_vertices):
         return None
     carried, active = buffer.sizes, buffer.active_sizes
-    if any(name in OPTIONAL or "." in name for name in carried):
+    attributes = carried_of(tuple(carried))
+    if attributes.optional or attributes.materials:
         return None
     if "color" in carried and "color" not in sizes and context.groups["lighting"].fields["color_material"]:
         followed = context.state_groups.followed

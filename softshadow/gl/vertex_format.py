@@ -14,18 +14,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, Primitive
+from softshadow.context import Context, Primitive, VertexBuffer
 from softshadow.context.current_values import UNIT_OF
 from softshadow.frozen import create
-from softshadow.gl.constant_attributes import constant_attributes
+from softshadow.gl.constant_attributes import OPTIONAL, carried_of, constant_attributes
 from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
 from softshadow.state import BLACK
 
 REST = (0.0, 0.0, 0.0, 1.0)  # default values of components that a call does not set
 TEXCOORDS = tuple(UNIT_OF)
-OPTIONAL = {"edge": True, "secondary": BLACK, "fog_coordinate": 0.0}  # the last fields of `Vertices`: initial values
-IS_OPTIONAL = frozenset(OPTIONAL)
 NO_MATERIALS: frozenset[str] = frozenset()
 NONE: dict[str, np.ndarray] = {}
 FEW_VERTICES = 8  # with more collected vertices, a new attribute outside glBegin makes Mesa reset all others
@@ -45,14 +43,19 @@ class Cut(NamedTuple):
 
 def begin(context: Context, mode: int) -> None:
     """Begin a primitive. Attributes set before its first vertex are constant for all its vertices."""
-    sizes = context.vertex_buffer.sizes
+    buffer = context.vertex_buffer
+    sizes = buffer.sizes
     if "position" not in sizes:
         sizes.clear()
         if context.pending.names:
             context.reset_attributes()
-    materials = frozenset(name for name in sizes if "." in name) if sizes else NO_MATERIALS
     context.ready = False
-    context.primitive = Primitive(mode, context.list_depth > 0, materials)
+    materials = carried_of(tuple(sizes)).materials if sizes else NO_MATERIALS
+    primitive = context.primitive = Primitive(mode, context.list_depth > 0, materials)
+    size = sizes.get("position")
+    if size and size == buffer.active_sizes["position"] and not (context.list_depth or context.executes_list):
+        primitive.position_size = size  # vertices like the last ones do not change the format
+        _set_limit(buffer, primitive)
 
 
 def carry_attribute(context: Context, name: str, size: int) -> int:
@@ -142,11 +145,16 @@ def store_vertices(context: Context, primitive: Primitive) -> None:
         return
     buffer = context.vertex_buffer
     _count(context, primitive)
-    room = buffer.room - 1  # one is reserved for the end of a line loop
-    if buffer.n_vertices >= room:
+    if _set_limit(buffer, primitive) <= 0:
         _wrap(context, primitive)
-        room = buffer.room - 1
-    primitive.limit = len(primitive.positions) + 4 * (room - buffer.n_vertices)
+        _set_limit(buffer, primitive)
+
+
+def _set_limit(buffer: VertexBuffer, primitive: Primitive) -> int:
+    """Set how many numbers the positions may have, by the room in the buffer; return for how many vertices it is."""
+    room = buffer.room - 1 - buffer.n_vertices  # one is reserved for the end of a line loop
+    primitive.limit = len(primitive.positions) + 4 * room
+    return room
 
 
 def _count(context: Context, primitive: Primitive) -> None:
@@ -203,50 +211,53 @@ def _cut(primitive: Primitive, n: int) -> Cut:
 
 def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int | None = None) -> Vertices:
     """Return the vertices [start, end) of a primitive; attributes that they do not carry are repeats of one row."""
-    carried = context.vertex_buffer.sizes
+    carried = carried_of(tuple(context.vertex_buffer.sizes))
     constants = constant_attributes(context, carried)
-    arrays = primitive.arrays if end is None else {}
     positions = primitive.positions
     if end is None:
-        end = len(positions) // 4
+        arrays, end = primitive.arrays, len(positions) // 4
     else:
-        positions = positions[4 * start : 4 * end]
+        arrays, positions = NONE, positions[4 * start : 4 * end]
     count = end - start
 
     def rows(name: str) -> np.ndarray:
-        if name in arrays:
-            return arrays[name]
-        value = context.attribute(name)
-        if type(value) is not tuple:
-            return context.packed(primitive.values(name, value)[start:end])
-        width, numbers = len(value), primitive.components(name, value)
-        if len(numbers) != width * count:
-            numbers = numbers[width * start : width * end]
-        return context.packed(numbers, count, width)
+        return arrays[name] if name in arrays else _rows(context, primitive, name, start, count)
 
     texcoords = constants.texcoords.rows(count)
-    for name in carried:
-        if name in UNIT_OF:
-            unit = UNIT_OF[name]
-            texcoords = (*texcoords[:unit], rows(name), *texcoords[unit + 1 :])
+    for unit, name in carried.units:
+        texcoords = (*texcoords[:unit], rows(name), *texcoords[unit + 1 :])
     edges = secondary = fog_coordinates = None
     current = context.current
-    are_initial = current.edge and current.secondary == BLACK and not current.fog_coordinate
-    if not (are_initial and IS_OPTIONAL.isdisjoint(carried)):
+    if carried.optional or not current.edge or current.secondary != BLACK or current.fog_coordinate:
         edges, secondary, fog_coordinates = [
             _optional_rows(context, primitive, name, rows, start, end) for name in OPTIONAL
         ]
     return create(
         Vertices,
         position=arrays["position"] if arrays else context.packed(positions, count, 4),
-        color=rows("color") if "color" in carried else constants.color.rows(count),
-        normal=rows("normal") if "normal" in carried else constants.normal.rows(count),
+        color=rows("color") if carried.color else constants.color.rows(count),
+        normal=rows("normal") if carried.normal else constants.normal.rows(count),
         texcoords=texcoords,
         materials={name: rows(name) for name in primitive.materials} if primitive.materials else NONE,
         edges=edges,
         secondary=secondary,
         fog_coordinates=fog_coordinates,
     )
+
+
+def _rows(context: Context, primitive: Primitive, name: str, start: int, count: int) -> np.ndarray:
+    """Return the numbers of an attribute of `count` vertices from `start` on."""
+    changes, value = primitive.changes.get(name), context.attribute(name)
+    if type(value) is not tuple:
+        return context.packed(primitive.values(name, value)[start : start + count])
+    if changes is None:
+        return context.repeated(value, count)
+    if not changes[-1][0]:  # it was set before the first vertex
+        return context.repeated(changes[-1][1], count)
+    width, numbers = len(value), primitive.components(name, value)
+    if len(numbers) != width * count:
+        numbers = numbers[width * start : width * (start + count)]
+    return context.packed(numbers, count, width)
 
 
 def _optional_rows(
