@@ -1,10 +1,11 @@
 """Fast copies of dataclasses with some fields changed."""
 
-from functools import cache
+from dataclasses import fields
 from operator import is_
 from typing import Any, TypeVar
 
 Value = TypeVar("Value")
+NAMES: dict[type, tuple[str, ...]] = {}  # of the fields, by class
 
 
 def evolve(before: Value, **values: Any) -> Value:
@@ -18,11 +19,11 @@ def evolve(before: Value, **values: Any) -> Value:
         The class has no field of that name.
     """
     copy = object.__new__(type(before))
-    fields = copy.__dict__
-    fields.update(before.__dict__)
-    known = len(fields)
-    fields.update(values)
-    if len(fields) != known:
+    contents = copy.__dict__
+    contents.update(before.__dict__)
+    known = len(contents)
+    contents.update(values)
+    if len(contents) != known:
         unknown = ", ".join(values.keys() - before.__dict__.keys())
         raise TypeError(f"{type(before).__name__} has no field {unknown}")
     return copy
@@ -52,12 +53,8 @@ def create(kind: type[Value], **values: Any) -> Value:
     """
     instance = object.__new__(kind)
     instance.__dict__.update(values)
-    if (*values,) != _names_of(kind) and values.keys() != kind.__dataclass_fields__.keys():  # type: ignore[attr-defined]
-        wrong = ", ".join(sorted(values.keys() ^ kind.__dataclass_fields__.keys()))  # type: ignore[attr-defined]
+    names = NAMES.get(kind) or NAMES.setdefault(kind, tuple([field.name for field in fields(kind)]))  # type: ignore[arg-type]
+    if (*values,) != names and values.keys() != {*names}:
+        wrong = ", ".join(sorted(values.keys() ^ {*names}))
         raise TypeError(f"{kind.__name__}: missing or unknown fields {wrong}")
     return instance
-
-
-@cache
-def _names_of(kind: type[Any]) -> tuple[str, ...]:
-    return (*kind.__dataclass_fields__,)

@@ -59,9 +59,13 @@ class Kind(NamedTuple):
 
 @dataclass(eq=False, slots=True)
 class Segment:
-    """Consecutive draws of one kind: the places of the first one, and of the one after the last, in their batch."""
+    """Consecutive draws of one kind with one scissor box, which is that of `command`.
+
+    `first` and `end` are the places of the first one, and of the one after the last, in their batch.
+    """
 
     kind: Kind
+    command: Draw
     first: int
     end: int
 
@@ -88,8 +92,8 @@ class DrawQueue:
         # by the identity of what they depend on; the latest by all but their tests and blending
         self._known: dict[tuple[int, ...], list[Kind]] = {}
         self._latest: dict[tuple[int, ...], Kind] = {}
-        # the latest, and a draw of it, by the identity of its state and its mode
-        self._of_states: dict[tuple[int, int], tuple[Kind, Draw]] = {}
+        # the latest, and a draw of it, by its mode and the identity of its state but for the scissor box
+        self._of_states: dict[tuple[int, ...], tuple[Kind, Draw]] = {}
         self._batch_numbers: dict[Hashable, int] = {}  # by geometry key
         self._next_number = count()
         self._known_vertices = 0
@@ -119,10 +123,11 @@ class DrawQueue:
             batch = self._batches[kind.batch] = []
         batch.append(command)
         segments = self._segments
-        if segments and segments[-1].kind is kind:
-            segments[-1].end += 1
+        last = segments[-1] if segments else None
+        if last is not None and last.kind is kind and last.command.state.scissor is command.state.scissor:
+            last.end += 1
         else:
-            segments.append(Segment(kind, len(batch) - 1, len(batch)))
+            segments.append(Segment(kind, command, len(batch) - 1, len(batch)))
         self._n_draws += 1
         self._n_vertices += n_vertices
         self._are_small = self._are_small and n_vertices < WORTH_COMPARING
@@ -134,11 +139,11 @@ class DrawQueue:
         """Return the kind of a draw, or None if it cannot wait."""
         if not may_wait(command, self._storage) or not (self._compiles or BATCH_KERNELS.are_compiled()):
             return None
-        place = id(command.state), command.mode
-        known = self._of_states.get(place)
-        if known is not None and known[0].run.continues(command, known[1]):
-            return known[0]
         key = key_of(command.state)
+        place = *key, id(command.state.lighting), command.mode
+        known = self._of_states.get(place)
+        if known is not None and known[0].run.continues_under(command, known[1]):
+            return known[0]
         kind = next((each for each in self._known.get(key, ()) if each.run.takes(command)), None)
         is_new = kind is None
         if kind is None:
@@ -195,16 +200,16 @@ class DrawQueue:
             group: Group | None = None
             for segment, part in zip(segments, parts, strict=True):
                 if part.end > part.first:
-                    group = self._draw_segment(segment.kind, part, group)
+                    group = self._draw_segment(segment, part, group)
             if group:
                 group.draw()
 
-    def _draw_segment(self, kind: Kind, part: Part, group: Group | None) -> Group | None:
+    def _draw_segment(self, segment: Segment, part: Part, group: Group | None) -> Group | None:
         """Draw the triangles of a segment, or add them to a group, which may be a new one; return the group.
 
         The draws of a group that has been drawn, or could not take them, come first.
         """
-        plan, command, storage = kind.plan, kind.run.command, self._storage
+        plan, command, storage = segment.kind.plan, segment.command, self._storage
         state, target = command.state, storage.framebuffers[command.state.draw_framebuffer]
         numbers = joins_others(plan, state, target, part)
         if numbers is None:

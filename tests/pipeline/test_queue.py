@@ -48,9 +48,9 @@ def test_small_draws_between_changes_of_tests_are_one_batch(monkeypatch):
         batches.append(len(draws))
         return geometry_of(run, setting, draws, *rest)
 
-    def note_segment(waiting: queue.DrawQueue, kind: queue.Kind, part: Part, group: Any) -> Any:
+    def note_segment(waiting: queue.DrawQueue, segment: queue.Segment, part: Part, group: Any) -> Any:
         segments.append(part.end - part.first)
-        return draw_segment(waiting, kind, part, group)
+        return draw_segment(waiting, segment, part, group)
 
     monkeypatch.setattr(queue, "geometry_of", note_batch)
     monkeypatch.setattr(queue.DrawQueue, "_draw_segment", note_segment)
@@ -64,6 +64,29 @@ def test_small_draws_between_changes_of_tests_are_one_batch(monkeypatch):
     gl.glFinish()
     assert batches == [8, 4]  # of triangles and of lines
     assert segments == [2, 2] * 4  # two triangles; two of a line
+
+
+def test_draws_in_many_scissor_boxes_are_of_one_kind_and_fill_their_own_box(monkeypatch):
+    planned = []
+    plan_draw = queue.plan_draw
+    monkeypatch.setattr(queue, "plan_draw", lambda *arguments: planned.append(1) or plan_draw(*arguments))
+    gl.create_context(SIZE, SIZE)
+    gl.glEnable(gl.GL_SCISSOR_TEST)
+    expected = np.zeros((SIZE, SIZE, 4), np.uint8)
+    for frame in range(2):
+        for n in range(16):
+            x, y = 8 * (n % 4) + frame, 8 * (n // 4)
+            gl.glScissor(x, y, 6, 5)
+            gl.glColor4ub(10 * n, frame, 7, 255)
+            gl.glBegin(gl.GL_POLYGON)
+            for corner in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+                gl.glVertex2f(*corner)
+            gl.glEnd()
+            expected[y : y + 5, x : x + 6] = 10 * n, frame, 7, 255
+        gl.glFinish()
+    image = np.array(gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE))
+    np.testing.assert_array_equal(image.reshape(SIZE, SIZE, 4), expected)
+    assert len(planned) == 1
 
 
 def test_what_a_run_depends_on_is_known_when_its_state_returns(monkeypatch):

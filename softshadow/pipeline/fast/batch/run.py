@@ -1,8 +1,8 @@
 """Which draws form a run; its triangles equal `geometry.geometry.process_geometry`, see fast/test_batch.py.
 
 The draws of a run are processed together. They have the same state but for their lighting, so they share a viewport, a
-program of the fixed function and all that happens to fragments. Their matrices, vertices, current attributes and lights
-differ.
+program of the fixed function and all that happens to fragments but the scissor box. Their matrices, vertices, current
+attributes and lights differ.
 """
 
 from __future__ import annotations
@@ -44,10 +44,12 @@ GENERATED = {
     gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR, gl.GL_SPHERE_MAP: SPHERE_MAP,
     gl.GL_REFLECTION_MAP: REFLECTION_MAP, gl.GL_NORMAL_MAP: NORMAL_MAP,
 }  # fmt: skip
-GROUPS = tuple(group.name for group in fields(State) if group.name not in ("lighting", "read_framebuffer"))
+# lights and materials differ between the draws of a run, and so does the scissor box, which begins a segment
+DIFFERENT = ("lighting", "scissor", "read_framebuffer")
+GROUPS = tuple(group.name for group in fields(State) if group.name not in DIFFERENT)
 groups_of = attrgetter(*GROUPS)
 # groups that concern fragments only, but for whether depths are clamped; alpha test and colour mask decide more
-OF_TESTS = ("scissor", "stencil", "depth", "blend")
+OF_TESTS = ("stencil", "depth", "blend")
 other_groups_of = attrgetter(*(group for group in GROUPS if group not in OF_TESTS))
 PLAIN_POINTS = Points()
 WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recent ones
@@ -72,7 +74,7 @@ class Run:
 
     Attributes
     ----------
-    state : State            of the first draw; the others differ at most in lights and materials
+    state : State            of the first draw; the others differ at most in lights, materials and scissor box
     command : Draw           the first draw
     units : the texture units in use
     writes_color : bool      else no colours are computed
@@ -166,7 +168,7 @@ class Run:
         return run
 
     def has_tests_of(self, state: State) -> bool:
-        """Return whether a state that differs in tests or blending only has other scissor boxes at most."""
+        """Return whether a state that differs in tests or blending at most has the same ones."""
         return (
             state.depth is self.state.depth and state.stencil is self.state.stencil and state.blend is self.state.blend
         )
@@ -183,7 +185,11 @@ class Run:
 
     def continues(self, command: Draw, taken: Draw) -> bool:
         """Return whether a draw differs from one of the run only in what every run allows, as is seen at once."""
-        if command.state is not taken.state or command.texture_matrices is not taken.texture_matrices:
+        return command.state is taken.state and self.continues_under(command, taken)
+
+    def continues_under(self, command: Draw, taken: Draw) -> bool:
+        """Return what `continues` returns of a draw whose state has the groups of the other's, but its scissor box."""
+        if command.texture_matrices is not taken.texture_matrices:
             return False
         if command.mode != taken.mode or command.modelview_kind & UNKNOWN or command.joined_positions is not None:
             return False
