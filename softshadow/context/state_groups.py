@@ -57,7 +57,7 @@ class Group:
     was derived from them.
     """
 
-    __slots__ = ("_equal", "field", "fields", "index", "known", "parent", "parts", "tuples", "value")
+    __slots__ = ("_equal", "_is_kept", "field", "fields", "index", "known", "parent", "parts", "tuples", "value")
 
     def __init__(self, value: Any, parent: Group | None, field: str, index: int = -1) -> None:
         self.value, self.parent, self.field, self.index = value, parent, field, index
@@ -65,13 +65,15 @@ class Group:
         self.parts: dict[str, list[Group]] = {}  # groups among the fields: equal ones are the same object
         self.tuples: dict[tuple[int, ...], tuple[Any, ...]] = {}  # of groups, by their identity
         # values by the identity of their fields, each with its `_key`
-        self.known: dict[tuple[int, ...], tuple[Any, tuple[Any, ...]]] = {}
+        self.known: dict[tuple[int, ...], tuple[Any, tuple[Any, ...] | None]] = {}
         self._equal: dict[tuple[Any, ...], list[Any]] = {}  # the same values by their key
+        self._is_kept = False  # `value` is, or was, one of them
 
     def publish(self) -> bool:
         """Make the immutable value anew, and store it in the parent's fields; return whether it has changed."""
-        known = self.known.get(tuple(map(id, self.fields.values())))
-        value = self._equal_or_new() if known is None else known[0]
+        ids = _ids(self.fields)
+        known = self.known.get(ids)
+        value = self._equal_or_new(ids) if known is None else known[0]
         if value is self.value:
             return False
         self.value = value
@@ -92,6 +94,7 @@ class Group:
     def replace(self, value: Any) -> None:
         """Replace the immutable value, and those of the parts that differ."""
         before, self.value, self.fields = self.value.__dict__, value, dict(vars(value))
+        self._is_kept = False
         for field, parts in self.parts.items():
             new = self.fields[field]
             if new is not before[field]:
@@ -100,42 +103,43 @@ class Group:
                     if item is not part.value:
                         part.replace(item)
 
-    def _equal_or_new(self) -> Any:
+    def _equal_or_new(self, ids: tuple[int, ...]) -> Any:
         """Return an immutable value with the present fields: the last one or an earlier one if it has the same bits."""
-        if self._ids(self.value) not in self.known:
-            self._keep(self.value, self._key(self.value.__dict__))
-            if all(map(is_, self.value.__dict__.values(), self.fields.values())):
+        if not self._is_kept:
+            before, self._is_kept = self.value.__dict__, True
+            if _ids(before) not in self.known:
+                self._keep(_ids(before), self.value, self._key(before))
+            if all(map(is_, before.values(), self.fields.values())):
                 return self.value
         key = self._key(self.fields)
-        for value in self._equal.get(key, ()):
-            if self.parts or all(map(is_same, value.__dict__.values(), self.fields.values())):
+        for value in self._equal.get(key, ()) if key is not None else ():
+            if all(map(is_same, value.__dict__.values(), self.fields.values())):
                 self.fields.update(value.__dict__)
                 return value
         value = object.__new__(type(self.value))
         value.__dict__.update(self.fields)
-        self._keep(value, key)
+        self._keep(ids, value, key)
         return value
 
-    def _keep(self, value: Any, key: tuple[Any, ...]) -> None:
-        if len(self.known) == PAST:
+    def _keep(self, ids: tuple[int, ...], value: Any, key: tuple[Any, ...] | None) -> None:
+        if len(self.known) >= PAST:
             oldest, its_key = self.known.pop(next(iter(self.known)))
-            self._equal[its_key] = [each for each in self._equal[its_key] if each is not oldest]
-            if not self._equal[its_key]:
-                del self._equal[its_key]
-        self.known[self._ids(value)] = value, key
-        self._equal.setdefault(key, []).append(value)
+            if its_key is not None:
+                self._equal[its_key] = [each for each in self._equal[its_key] if each is not oldest]
+                if not self._equal[its_key]:
+                    del self._equal[its_key]
+        self.known[ids] = value, key
+        if key is not None:
+            self._equal.setdefault(key, []).append(value)
 
-    @staticmethod
-    def _ids(value: Any) -> tuple[int, ...]:
-        """Return by what a value is known: no other object gets these ids as long as it is kept."""
-        return tuple(map(id, value.__dict__.values()))
+    def _key(self, fields: Mapping[str, Any]) -> tuple[Any, ...] | None:
+        """Return equal keys for equal values; None for a group of groups, which is known by their identity."""
+        return None if self.parts else tuple(fields.values())
 
-    def _key(self, fields: Mapping[str, Any]) -> tuple[Any, ...]:
-        """Return equal keys for equal values; groups are equal if they are the same objects."""
-        values = tuple(fields.values())
-        if not self.parts:
-            return values
-        return tuple([tuple(map(id, value)) if type(value) is tuple else id(value) for value in values])
+
+def _ids(fields: Mapping[str, Any]) -> tuple[int, ...]:
+    """Return by what a value is known: no other object gets these ids as long as it is kept."""
+    return tuple(map(id, fields.values()))
 
 
 class StateGroups:
