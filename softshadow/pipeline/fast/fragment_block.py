@@ -16,8 +16,9 @@ import numpy as np
 from softshadow.jit import kernel
 from softshadow.pipeline.constants import ONE
 
-SIZE = 192  # fragments; with 12 to 20 rows in use by one step, they fit into 32 KB
-LONG_RUN = 8  # fragments of one triangle; from this number on, a loop per column pays
+SIZE = 192  # numbers in a row; 12 to 20 rows, which are in use by one step, fit into 32 KB
+PORTION = np.uint64(8)  # short spans are written in such portions: loops without a rest of single numbers
+FRAGMENTS = SIZE - 8  # at most: the last portion goes on behind them
 # interpolated at most: two colours, coordinates of four units, fog, the primary colour again, place in a smooth line
 COLUMNS = 33
 
@@ -27,11 +28,11 @@ def _rows(first: int, count: int) -> list[np.uint64]:
 
 
 # rows of `room`: the inputs of the fragment stage, of which the first four become the colour, and then
-W, COLUMN, LINE, S, T, R, SQUARED, QUADS, WEIGHT, DEPTH = _rows(COLUMNS, 10)
-TEXEL, TEXEL_GREEN, TEXEL_BLUE, TEXEL_ALPHA = _rows(COLUMNS + 10, 4)  # red, green, blue, alpha
+W, S, T, R, SQUARED, QUADS, WEIGHT, DEPTH = _rows(COLUMNS, 8)
+TEXEL, TEXEL_GREEN, TEXEL_BLUE, TEXEL_ALPHA = _rows(COLUMNS + 8, 4)  # red, green, blue, alpha
 ROW = np.uint64(SIZE)
-OTHER_TEXEL, PRIMARY = _rows(COLUMNS + 14, 8)[::4]  # for GL_COMBINE: the other unit's texel, and the primary colour
-FLOAT_ROWS = COLUMNS + 22
+OTHER_TEXEL, PRIMARY = _rows(COLUMNS + 12, 8)[::4]  # for GL_COMBINE: the other unit's texel, and the primary colour
+FLOAT_ROWS = COLUMNS + 20
 # rows of `whole`; those of the s axis, then of the t axis, and after all others those of the r axis
 LENGTH, FIRST, SECOND, FRACTION = _rows(0, 4)
 T_AXIS = np.uint64(4 * SIZE)
@@ -62,45 +63,42 @@ block_memory = BlockMemory()
 
 @kernel
 def interpolate_block(planes, spans, n_spans, flat, needed, room):
-    """Write W, COLUMN, LINE and the columns whose bits are set in `needed`; planes (P, 3, k + 1) as `attribute_planes`.
+    """Write W and the columns whose bits are set in `needed`; planes (P, 3, k + 1) as `attribute_planes`.
 
-    COLUMN and LINE are the pixel's column and row. The spans of one triangle, one after the other, go together.
+    Values over w first, in portions, then what they have in common with all others of the block.
     """
-    k, s, n_all = np.uint64(flat.shape[0]), np.uint64(0), np.uint64(n_spans)
-    while s < n_all:
-        place, first = spans[SPAN_PLACE, s], np.uint64(spans[SPAN_START, s])
-        end = first
-        while s < n_all and spans[SPAN_PLACE, s] == place:
-            begin, end, j = end, np.uint64(spans[SPAN_START, s + NEXT]), np.float32(spans[SPAN_ROW, s])
-            shift = np.int32(spans[SPAN_LEFT, s] - spans[SPAN_START, s])
-            for n in range(begin, end):
-                room[COLUMN + n], room[LINE + n] = np.float32(np.int32(np.int32(n) + shift)), j
-            s += NEXT
-        p = np.uint64(place)
-        start, slope, slope_down = planes[p, 0, k], planes[p, 1, k], planes[p, 2, k]
-        for n in range(first, end):
-            room[W + n] = ONE / ((slope * room[COLUMN + n] + start) + slope_down * room[LINE + n])
-        if end - first < LONG_RUN:
-            for n in range(first, end):
-                i, j, w = room[COLUMN + n], room[LINE + n], room[W + n]
-                if needed == FOUR_COLUMNS and k == ONE_COLOR and not (flat[0] | flat[1] | flat[2] | flat[3]):
-                    room[RED + n] = ((planes[p, 1, 0] * i + planes[p, 0, 0]) + planes[p, 2, 0] * j) * w
-                    room[GREEN + n] = ((planes[p, 1, 1] * i + planes[p, 0, 1]) + planes[p, 2, 1] * j) * w
-                    room[BLUE + n] = ((planes[p, 1, 2] * i + planes[p, 0, 2]) + planes[p, 2, 2] * j) * w
-                    room[ALPHA + n] = ((planes[p, 1, 3] * i + planes[p, 0, 3]) + planes[p, 2, 3] * j) * w
-                    continue
-                for c in range(k):
-                    value = planes[p, 0, c]
-                    room[c * ROW + n] = value if flat[c] else ((planes[p, 1, c] * i + value) + planes[p, 2, c] * j) * w
-            continue
-        for c in range(k):
-            if not (needed >> np.int64(c)) & 1:
+    k, end = np.uint64(flat.shape[0]), np.uint64(spans[SPAN_START, np.uint64(n_spans)])
+    wanted = needed | (np.int64(1) << np.int64(k))
+    for s in range(np.uint64(n_spans)):
+        p, j, left = np.uint64(spans[SPAN_PLACE, s]), np.float32(spans[SPAN_ROW, s]), spans[SPAN_LEFT, s]
+        first, last = np.uint64(spans[SPAN_START, s]), np.uint64(spans[SPAN_START, s + NEXT])
+        for c in range(k + NEXT):
+            if not (wanted >> np.int64(c)) & 1:
                 continue
-            start, slope, slope_down, row = planes[p, 0, c], planes[p, 1, c], planes[p, 2, c], c * ROW
-            if flat[c]:
-                for n in range(first, end):
-                    room[row + n] = start
+            at = (W if c == k else c * ROW) + first
+            start, slope, below = planes[p, 0, c], planes[p, 1, c], planes[p, 2, c] * j
+            if c < k and flat[c]:
+                write_constant(start, at, last - first, room)
             else:
-                for n in range(first, end):
-                    value = (slope * room[COLUMN + n] + start) + slope_down * room[LINE + n]
-                    room[row + n] = value * room[W + n]
+                write_line(start, slope, below, left, at, last - first, room)
+    for n in range(end):
+        room[W + n] = ONE / room[W + n]
+    for c in range(k):
+        if (needed >> np.int64(c)) & 1 and not flat[c]:
+            row = c * ROW
+            for n in range(end):
+                room[row + n] *= room[W + n]
+
+
+@kernel
+def write_line(start, slope, below, left, at, count, room):
+    """Write the values of a span, whose first column is `left`, in whole portions."""
+    for n in range((count + PORTION - NEXT) & ~(PORTION - NEXT)):
+        room[at + n] = (slope * np.float32(np.int32(left + np.int32(n))) + start) + below
+
+
+@kernel
+def write_constant(value, at, count, room):
+    """Write one value for a span, in whole portions."""
+    for n in range((count + PORTION - NEXT) & ~(PORTION - NEXT)):
+        room[at + n] = value

@@ -10,6 +10,7 @@ import numpy as np
 
 from softshadow.jit import kernel
 from softshadow.pipeline.fast.fragment_block import (
+    FRAGMENTS,
     MASK,
     NEXT,
     SIZE,
@@ -45,8 +46,8 @@ def shade_spans(
     r, done = 0, np.int64(0)  # the next span, and how many of its fragments are done
     while r < n_all:
         n_spans, n = 0, np.int64(0)
-        while r < n_all and n < SIZE:  # the last span may go on in the next block
-            length, s = min(starts[r + 1] - starts[r] - done, SIZE - n), np.uint64(n_spans)
+        while r < n_all and n < FRAGMENTS:  # the last span may go on in the next block
+            length, s = min(starts[r + 1] - starts[r] - done, FRAGMENTS - n), np.uint64(n_spans)
             own_triangles[s] = triangles[r]
             spans[SPAN_ROW, s], spans[SPAN_LEFT, s], spans[SPAN_PLACE, s] = (
                 rows[r],
