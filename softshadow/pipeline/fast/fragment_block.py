@@ -13,7 +13,7 @@ import threading
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import copied_kernel, kernel
 from softshadow.pipeline.constants import ONE
 
 SIZE = 192  # numbers in a row; 12 to 20 rows, which are in use by one step, fit into 32 KB
@@ -61,6 +61,12 @@ class BlockMemory(threading.local):
 block_memory = BlockMemory()
 
 
+@copied_kernel
+def whole_portions(count):
+    """Return a number of fragments or more, as many as fill whole portions."""
+    return (np.uint64(count) + PORTION - NEXT) & ~(PORTION - NEXT)
+
+
 @kernel
 def interpolate_block(planes, spans, n_spans, flat, needed, room):
     """Write W and the columns whose bits are set in `needed`; planes (P, 3, k + 1) as `attribute_planes`.
@@ -93,12 +99,12 @@ def interpolate_block(planes, spans, n_spans, flat, needed, room):
 @kernel
 def write_line(start, slope, below, left, at, count, room):
     """Write the values of a span, whose first column is `left`, in whole portions."""
-    for n in range((count + PORTION - NEXT) & ~(PORTION - NEXT)):
+    for n in range(whole_portions(count)):
         room[at + n] = (slope * np.float32(np.int32(left + np.int32(n))) + start) + below
 
 
 @kernel
 def write_constant(value, at, count, room):
     """Write one value for a span, in whole portions."""
-    for n in range((count + PORTION - NEXT) & ~(PORTION - NEXT)):
+    for n in range(whole_portions(count)):
         room[at + n] = value

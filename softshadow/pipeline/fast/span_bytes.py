@@ -148,8 +148,10 @@ def mix_corners(count, texels, whole):
 def gather(texels, row, count, whole):
     """Replace the places in a row by the texels there."""
     largest = np.uint32(len(texels) - 1)
+    for n in range(np.uint64(count)):  # a loop of its own, since the loads of the next one are not vectorised
+        whole[row + n] = np.int32(min(np.uint32(whole[row + n]), largest))
     for n in range(np.uint64(count)):
-        whole[row + n] = texels[np.uint64(min(np.uint32(whole[row + n]), largest))]
+        whole[row + n] = texels[np.uint64(np.uint32(whole[row + n]))]
 
 
 @kernel

@@ -19,6 +19,7 @@ from softshadow.pipeline.fast.fragment_block import (
     SPAN_START,
     SQUARED,
     WEIGHT,
+    whole_portions,
 )
 from softshadow.pipeline.fast.span_state import (
     BETWEEN,
@@ -58,7 +59,7 @@ def write_squared_steps(planes, spans, n_spans, column, is_flat, width, height, 
         t0, dt, t_upper, t_lower = planes[p, 0, d], planes[p, 1, d], planes[p, 2, d] * upper, planes[p, 2, d] * lower
         q0, dq, q_upper, q_lower = planes[p, 0, e], planes[p, 1, e], planes[p, 2, e] * upper, planes[p, 2, e] * lower
         even, n_quads = left & ~1, ((left + end - first - 1) >> 1) - (left >> 1) + 1
-        for b in range(np.uint64(n_quads)):
+        for b in range(whole_portions(n_quads)):
             if is_flat:
                 over_q = ONE / q0
                 step_s, step_t = s0 * over_q - s0 * over_q, t0 * over_q - t0 * over_q
@@ -82,7 +83,7 @@ def write_squared_steps(planes, spans, n_spans, column, is_flat, width, height, 
             larger = a if a > b_squared else b_squared
             room[QUADS + b] = larger if a == a else NOT_A_NUMBER  # whose sign decides about the level
         odd = np.uint64(left & 1)
-        for n in range(np.uint64(end - first)):
+        for n in range(whole_portions(end - first)):
             room[SQUARED + np.uint64(first) + n] = room[QUADS + ((n + odd) >> ODD)]
 
 
