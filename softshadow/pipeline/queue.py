@@ -32,7 +32,7 @@ from softshadow.pipeline.commands import Draw
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
     from softshadow.pipeline.fast.batch.geometry import Setting, geometry_of, setting_of
-    from softshadow.pipeline.fast.batch.run import WORTH_COMPARING, Run, key_of, width_of
+    from softshadow.pipeline.fast.batch.run import WORTH_COMPARING, Run, key_of, structure_of, width_of
     from softshadow.pipeline.fast.batch.segments import Part, cut, geometry_key, whole
     from softshadow.pipeline.fast.batch.table import BATCH_KERNELS
     from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL
@@ -92,8 +92,8 @@ class DrawQueue:
         # by the identity of what they depend on; the latest by all but their tests and blending
         self._known: dict[tuple[int, ...], list[Kind]] = {}
         self._latest: dict[tuple[int, ...], Kind] = {}
-        # the latest, and a draw of it, by its mode and the identity of its state but for the scissor box
-        self._of_states: dict[tuple[int, ...], tuple[Kind, Draw]] = {}
+        # the latest, and a draw of it, by its mode and what of its state matters
+        self._of_states: dict[tuple[object, ...], tuple[Kind, Draw]] = {}
         self._batch_numbers: dict[Hashable, int] = {}  # by geometry key
         self._next_number = count()
         self._known_vertices = 0
@@ -140,7 +140,7 @@ class DrawQueue:
         if not may_wait(command, self._storage) or not (self._compiles or BATCH_KERNELS.are_compiled()):
             return None
         key = key_of(command.state)
-        place = *key, id(command.state.lighting), command.mode
+        place = *key, *structure_of(command.state.lighting), command.mode
         known = self._of_states.get(place)
         if known is not None and known[0].run.continues_under(command, known[1]):
             return known[0]
@@ -152,7 +152,7 @@ class DrawQueue:
         if kind is not None:
             if len(self._known) >= KNOWN_KINDS or self._known_vertices > KNOWN_VERTICES:
                 self.forget()
-            if len(self._of_states) >= KNOWN_KINDS:  # a light that moves makes a new state in each frame
+            if len(self._of_states) >= KNOWN_KINDS:
                 self._of_states.clear()
             if is_new:
                 self._known.setdefault(key, []).append(kind)

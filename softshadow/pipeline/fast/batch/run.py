@@ -79,7 +79,7 @@ class Run:
     units : the texture units in use
     writes_color : bool      else no colours are computed
     arrays : Arrays          of all draws
-    unfilled : bool          polygons are drawn as their edges or corners (glPolygonMode)
+    unfilled : bool          polygons are stippled, or drawn as their edges or corners (glPolygonMode)
     stippled : bool          lines are cut into pieces by a pattern
     across : bool            quads are cut along the other diagonal even without indices (`Varyings.flat_input`)
     layout, generated, planes, user_planes : of its `Table`
@@ -177,7 +177,7 @@ class Run:
         """Return whether a draw continues the run as far as the groups of its state do not decide it."""
         if width_of(command.mode) != width_of(self.command.mode):
             return False
-        if _structure(command.state.lighting) != _structure(self.state.lighting):
+        if structure_of(command.state.lighting) != structure_of(self.state.lighting):
             return False
         if not self._has_same_clip_planes(command, self.command.projection, self.command.projection_kind):
             return False
@@ -188,7 +188,7 @@ class Run:
         return command.state is taken.state and self.continues_under(command, taken)
 
     def continues_under(self, command: Draw, taken: Draw) -> bool:
-        """Return what `continues` returns of a draw whose state has the groups of the other's, but its scissor box."""
+        """Return what `continues` returns of a draw whose state has the groups of the other's, and its `structure_of`."""
         if command.texture_matrices is not taken.texture_matrices:
             return False
         if command.mode != taken.mode or command.modelview_kind & UNKNOWN or command.joined_positions is not None:
@@ -219,7 +219,7 @@ def key_of(state: State, *, with_tests: bool = True) -> tuple[int, ...]:
     return tuple(map(id, groups_of(state) if with_tests else other_groups_of(state)))
 
 
-def _structure(lights: Lighting) -> tuple[object, ...]:
+def structure_of(lights: Lighting) -> tuple[object, ...]:
     """Return what decides which columns the varyings have."""
     shading = lights.shade_model, lights.provoking_vertex
     return lights.enabled, lights.two_side, lights.color_control, lights.color_material, *shading
@@ -229,7 +229,7 @@ def geometry_structure(run: Run) -> tuple[Hashable, ...]:
     """Return what the geometry of a run's draws depends on in their state and in which arrays they have."""
     state = run.state
     return (
-        state.draw_framebuffer, state.viewport, state.polygon, state.depth.clamp, *_structure(state.lighting),
+        state.draw_framebuffer, state.viewport, state.polygon, state.depth.clamp, *structure_of(state.lighting),
         run.layout, run.arrays, run.generated.tobytes(), run.planes.tobytes(), run.user_planes.tobytes(), run.across,
         run.writes_color, effective_modes(state), state.lines, state.points,
         tuple([unit.index for unit in run.units]), width_of(run.command.mode),
@@ -243,9 +243,12 @@ def leaves_out_triangles(command: Draw) -> bool:
 
 
 def is_outlined_alone(command: Draw) -> bool:
-    """Return whether a draw of unfilled polygons has edge flags, or is large: a large one is looked for on its own."""
+    """Return whether a draw of unfilled or stippled polygons has edge flags, or is large.
+
+    A large one is looked for on its own.
+    """
     polygon, vertices = command.state.polygon, command.vertices
-    if polygon.mode_front == gl.GL_FILL and polygon.mode_back == gl.GL_FILL:
+    if polygon.mode_front == gl.GL_FILL and polygon.mode_back == gl.GL_FILL and not polygon.stippled:
         return False
     return vertices.edges is not None or len(vertices.position) >= WORTH_COMPARING
 
@@ -280,16 +283,18 @@ def can_begin_run(command: Draw, target: Framebuffer) -> bool:
 
 
 def _are_covered(mode: int, state: State) -> bool:
-    """Return whether primitives of a mode can be set up together: unfilled polygons only if they are plain."""
-    points, lines = state.points, state.lines
+    """Return whether primitives of a mode can be set up together: unfilled or stippled polygons only if they are plain."""
+    points, lines, polygon = state.points, state.lines, state.polygon
     if width_of(mode) < WIDTH_OF_POLYGONS:
         return mode != gl.GL_POINTS or not points.sprites
     if not passes_stages(state):
         return True
+    if lines.smooth or is_stippled(lines) or points != PLAIN_POINTS:
+        return False
     front, back = effective_modes(state)
-    is_unfilled, shares_offset = (front, back) != (gl.GL_FILL,) * 2, front == back or not offset_is_on(state.polygon)
-    are_plain = not (lines.smooth or is_stippled(lines) or state.polygon.stippled) and points == PLAIN_POINTS
-    return is_unfilled and shares_offset and are_plain
+    if (front, back) == (gl.GL_FILL, gl.GL_FILL):
+        return polygon.stippled
+    return not polygon.stippled and (front == back or not offset_is_on(polygon))
 
 
 def _generation(run: Run) -> tuple[np.ndarray, np.ndarray, bool]:
