@@ -93,8 +93,12 @@ class Program:
             gl.glPolygonMode(gl.GL_BACK, self.one_of(gl.GL_LINE, gl.GL_POINT, gl.GL_FILL))
         for cap in (gl.GL_POLYGON_OFFSET_LINE, gl.GL_POLYGON_OFFSET_POINT):
             self.switch(cap, 0.2)
-        for cap in (gl.GL_LINE_SMOOTH, gl.GL_POINT_SMOOTH, gl.GL_LINE_STIPPLE, gl.GL_POLYGON_STIPPLE):
+        for cap in (
+            gl.GL_LINE_SMOOTH, gl.GL_POINT_SMOOTH, gl.GL_LINE_STIPPLE, gl.GL_POLYGON_STIPPLE, gl.GL_POINT_SPRITE,
+        ):  # fmt: skip
             self.switch(cap, 0.1)
+        gl.glTexEnvi(gl.GL_POINT_SPRITE, gl.GL_COORD_REPLACE, self.chance())
+        gl.glPointParameteri(gl.GL_POINT_SPRITE_COORD_ORIGIN, self.one_of(gl.GL_UPPER_LEFT, gl.GL_LOWER_LEFT))
         gl.glPointParameterfv(gl.GL_POINT_DISTANCE_ATTENUATION, [1.0, 0.2 * self.chance(0.2), 0.0])
         gl.glLineStipple(2, 0x3B5D)
         gl.glPolygonStipple(self.rng.bytes(128))
@@ -239,6 +243,31 @@ def test_segments_of_a_batch_leave_the_bits_of_single_draws(seed):
     with use_short_cuts(False):
         expected = Program(seed).draw(2, 16, changes_tests=True)
     assert same_buffers(Program(seed).draw(2, 16, changes_tests=True), expected)
+
+
+@pytest.mark.parametrize("mode", [gl.GL_POINTS, gl.GL_LINES, gl.GL_TRIANGLES])
+def test_sprites_replace_the_coordinates_of_all_primitives(mode):
+    def draw() -> Context:
+        context = gl.create_context(SIZE, SIZE)
+        texels = np.random.default_rng(1).integers(0, 256, (8, 8, 4), np.uint8)
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 8, 8, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
+        for cap in (gl.GL_TEXTURE_2D, gl.GL_POINT_SPRITE):
+            gl.glEnable(cap)
+        gl.glTexEnvi(gl.GL_POINT_SPRITE, gl.GL_COORD_REPLACE, True)
+        gl.glPointSize(9)
+        for n in range(4):
+            gl.glBegin(mode)
+            for x, y in ((-1, -1), (0, -1), (-0.5, 0)):
+                gl.glTexCoord2f(x, y)
+                gl.glVertex2f(x + n % 2, y + n // 2)
+            gl.glEnd()
+        gl.glFinish()
+        return context
+
+    with use_short_cuts(False):
+        expected = draw()
+    assert same_buffers(draw(), expected)
 
 
 @pytest.mark.interpreted

@@ -45,7 +45,7 @@ from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.records import Geometry, Setup
 from softshadow.programs import Program
-from softshadow.programs.fixed_function import has_secondary, point_sizes
+from softshadow.programs.fixed_function import has_secondary, is_replaced, point_sizes
 
 NO_UNIFORMS: Mapping[str, Any] = {}
 REAL = np.dtype(np.float32)
@@ -346,5 +346,6 @@ def _flat_columns(run: Run) -> np.ndarray:
     for n, unit in enumerate(run.units):
         generates = any(gen.enabled for gen in run.state.units[unit.index].gen)
         is_constant = not run.arrays.texcoords[n] and run.arrays.identities[n] and not generates
+        is_constant = is_constant and not is_replaced(run.state, unit.index)
         flat[n_color + 4 * n : n_color + 4 * n + 4] = is_constant
     return flat

@@ -34,7 +34,7 @@ from softshadow.pipeline.geometry.program import bound_textures
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, is_stippled, offset_is_on, passes_stages
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.mesa.rectangles import start_of_last_nine
-from softshadow.programs.fixed_function import Unit, has_secondary, needs_vertex_color, units_in_use
+from softshadow.programs.fixed_function import Unit, has_secondary, is_replaced, needs_vertex_color, units_in_use
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE, needs_normals, reflects_r
 from softshadow.programs.vertex_color_use import reads_primary_color
@@ -188,7 +188,7 @@ class Run:
         return command.state is taken.state and self.continues_under(command, taken)
 
     def continues_under(self, command: Draw, taken: Draw) -> bool:
-        """Return what `continues` returns of a draw whose state has the groups of the other's, and its `structure_of`."""
+        """Return what `continues` returns of a draw whose state has the groups and `structure_of` of the other's."""
         if command.texture_matrices is not taken.texture_matrices:
             return False
         if command.mode != taken.mode or command.modelview_kind & UNKNOWN or command.joined_positions is not None:
@@ -283,11 +283,9 @@ def can_begin_run(command: Draw, target: Framebuffer) -> bool:
 
 
 def _are_covered(mode: int, state: State) -> bool:
-    """Return whether primitives of a mode can be set up together: unfilled or stippled polygons only if they are plain."""
+    """Return whether primitives of a mode can be set up together: unfilled or stippled polygons if they are plain."""
     points, lines, polygon = state.points, state.lines, state.polygon
-    if width_of(mode) < WIDTH_OF_POLYGONS:
-        return mode != gl.GL_POINTS or not points.sprites
-    if not passes_stages(state):
+    if width_of(mode) < WIDTH_OF_POLYGONS or not passes_stages(state):
         return True
     if lines.smooth or is_stippled(lines) or points != PLAIN_POINTS:
         return False
@@ -302,6 +300,8 @@ def _generation(run: Run) -> tuple[np.ndarray, np.ndarray, bool]:
     generated = np.zeros((len(run.units), 5), np.int64)
     planes, in_eye_space = np.zeros((len(run.units), 4, 4), np.float32), False
     for row, unit in enumerate(run.units):
+        if is_replaced(run.state, unit.index):
+            continue
         generated[row, HAS_ARRAY] = run.arrays.texcoords[row]
         for c, gen in enumerate(run.state.units[unit.index].gen):
             if gen.enabled:

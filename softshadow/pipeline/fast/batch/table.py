@@ -30,6 +30,7 @@ from softshadow.pipeline.fast.batch.vertices import (
 )
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.programs import reflectances
+from softshadow.programs.fixed_function import NO_COORDINATE, is_replaced
 from softshadow.state import Lighting, MaterialState
 
 BATCH_KERNELS = KernelGroup("batch")
@@ -172,6 +173,9 @@ def _lighting_arrays(lightings: list[Lighting]) -> tuple[np.ndarray, np.ndarray,
 def _unit_rows(run: Run, draws: Sequence[Draw]) -> np.ndarray:
     rows = np.zeros((len(draws), len(run.units), UNIT_COLUMNS), np.float32)
     for n, unit in enumerate(run.units):
+        if is_replaced(run.state, unit.index):
+            rows[:, n, UNIT_CONSTANT:UNIT_IS_IDENTITY], rows[:, n, UNIT_IS_IDENTITY] = NO_COORDINATE, 1
+            continue
         matrices = [draw.texture_matrices[unit.index] for draw in draws]
         rows[:, n, UNIT_MATRIX:UNIT_CONSTANT] = _matrices(matrices)
         rows[:, n, UNIT_IS_IDENTITY] = run.arrays.identities[n]
