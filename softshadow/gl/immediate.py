@@ -200,9 +200,10 @@ def glRectf(x1: float, y1: float, x2: float, y2: float) -> None:
     context = outside_begin("glRectf")
     if context is None or not can_draw(context, "glRectf"):
         return
+    hypot(x1, y1, x2, y2)  # the quickest question whether these are numbers
     glBegin(gl.GL_QUADS)
     for x, y in ((x1, y1), (x2, y1), (x2, y2), (x1, y2)):
-        add_vertex(context, x, y)
+        glVertex2f(x, y)
     glEnd()
 
 
