@@ -189,6 +189,10 @@ class Storage:
             for attachment in target.attachments.values():
                 attachment.image.write_pending()
 
+    def note_passed(self, fragments: int) -> None:
+        """Add fragments that have passed to the count of the active query."""
+        self.queries[self.active_query] += fragments
+
     def reattach(self, texture: int, face: int, level: int, image: Image) -> None:
         """Attach the new image of a texture's level wherever the level is attached."""
         for target in self.framebuffers.values():

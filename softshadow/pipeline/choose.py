@@ -54,6 +54,7 @@ try:
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
     from softshadow.pipeline.fast.shown_depths import draw_shown_depths, shows_depths
     from softshadow.pipeline.fast.shown_rectangles import is_shown, show_rectangle
+    from softshadow.pipeline.fast.special_fragments import discards_some
     from softshadow.pipeline.fast.stencil_tiles import shared_tiles_kernel, tiles_kernel
     from softshadow.pipeline.fast.unordered_blend import triangles_without_overlaps
     from softshadow.pipeline.fast.visibility_cache import FillInputs, cached_fill, is_repeated
@@ -203,12 +204,12 @@ def choose_depths(command: DrawDepths, target: Framebuffer) -> Callable[..., Non
     return draw_shown_depths
 
 
-def may_wait(command: Draw, storage: Storage) -> bool:
-    """Return whether a draw may wait: short cuts are on, and nobody asks how draws went or counts their fragments.
+def may_wait(command: Draw) -> bool:
+    """Return whether a draw may wait: short cuts are on, and nobody asks how draws went.
 
     Rectangles that are copied do not wait: what follows is most often another one, which needs their texture.
     """
-    return _short_cuts.get() is True and not storage.active_query and not is_explained() and command.shown_at is None
+    return _short_cuts.get() is True and not is_explained() and command.shown_at is None
 
 
 def begin_run(command: Draw, target: Framebuffer, storage: Storage) -> Run | None:
@@ -395,6 +396,8 @@ def choose_forward(
         return None
     numbers = segment_state(state, plan.front, plan.back, target, geometry, geometry.program.units, plan.numbers)
     if numbers is None or not _are_compiled(fragments):
+        return None
+    if plan.counting and discards_some(numbers.special):  # of those that pass the tests, some are left out later
         return None
     if not (must_test_in_order or is_small):
         assert storage is not None

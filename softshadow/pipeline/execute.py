@@ -26,7 +26,7 @@ def _draw(command: Draw, storage: Storage) -> None:
         return
     counts = FragmentCounts.zero(only_passed=True)
     pipeline.draw(command, storage, counts)
-    storage.queries[storage.active_query] += int(counts.verdicts[PASSED])
+    storage.note_passed(int(counts.verdicts[PASSED]))
 
 
 def _draw_depths(command: DrawDepths, storage: Storage) -> None:
@@ -36,7 +36,7 @@ def _draw_depths(command: DrawDepths, storage: Storage) -> None:
         return
     counts = FragmentCounts.zero()
     draw_depths(command, storage, counts)
-    storage.queries[storage.active_query] += int(counts.verdicts[PASSED])
+    storage.note_passed(int(counts.verdicts[PASSED]))
 
 
 def _begin_query(command: BeginQuery, storage: Storage) -> None:

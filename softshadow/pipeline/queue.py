@@ -28,6 +28,7 @@ from softshadow.pipeline.choose import (
     plan_draw,
 )
 from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.records import PASSED, FragmentCounts
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
@@ -137,7 +138,7 @@ class DrawQueue:
 
     def _kind_of(self, command: Draw) -> Kind | None:
         """Return the kind of a draw, or None if it cannot wait."""
-        if not may_wait(command, self._storage) or not (self._compiles or BATCH_KERNELS.are_compiled()):
+        if not may_wait(command) or not (self._compiles or BATCH_KERNELS.are_compiled()):
             return None
         key = key_of(command.state)
         place = *key, *structure_of(command.state.lighting), command.mode
@@ -207,10 +208,17 @@ class DrawQueue:
     def _draw_segment(self, segment: Segment, part: Part, group: Group | None) -> Group | None:
         """Draw the triangles of a segment, or add them to a group, which may be a new one; return the group.
 
-        The draws of a group that has been drawn, or could not take them, come first.
+        The draws of a group that has been drawn, or could not take them, come first. Fragments that an occlusion query
+        counts belong to no group.
         """
         plan, command, storage = segment.kind.plan, segment.command, self._storage
         state, target = command.state, storage.framebuffers[command.state.draw_framebuffer]
+        if storage.active_query:
+            counts = FragmentCounts.zero(only_passed=True)
+            plan = plan_draw(command, target, counts)
+            pipeline.draw_geometry(plan, command, target, storage, part.geometry(), counts)
+            storage.note_passed(int(counts.verdicts[PASSED]))
+            return None
         numbers = joins_others(plan, state, target, part)
         if numbers is None:
             if group:

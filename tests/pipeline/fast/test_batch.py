@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from softshadow import gl
@@ -243,6 +243,31 @@ def test_segments_of_a_batch_leave_the_bits_of_single_draws(seed):
     with use_short_cuts(False):
         expected = Program(seed).draw(2, 16, changes_tests=True)
     assert same_buffers(Program(seed).draw(2, 16, changes_tests=True), expected)
+
+
+class CountedProgram(Program):
+    """A random program that counts the fragments of its draws, one or two at a time."""
+
+    def __init__(self, seed: int) -> None:
+        super().__init__(seed)
+        self.counted: list[int] = []
+
+    def draw_something(self) -> None:
+        gl.glBeginQuery(gl.GL_SAMPLES_PASSED, 1)
+        for _ in range(1 + self.chance()):
+            super().draw_something()
+        gl.glEndQuery(gl.GL_SAMPLES_PASSED)
+        self.counted.append(int(gl.glGetQueryObjectuiv(1, gl.GL_QUERY_RESULT)))
+
+
+@given(seeds)
+@example(33)  # smooth points are on, and polygons pass Mesa's stages
+def test_queries_count_the_fragments_of_draws_that_wait(seed):
+    one, other = CountedProgram(seed), CountedProgram(seed)
+    with use_short_cuts(False):
+        expected = one.draw()
+    assert same_buffers(other.draw(), expected)
+    assert other.counted == one.counted
 
 
 @pytest.mark.parametrize("mode", [gl.GL_POINTS, gl.GL_LINES, gl.GL_TRIANGLES])
