@@ -17,7 +17,7 @@ from softshadow.jit import copied_kernel, kernel
 from softshadow.pipeline.constants import ONE
 
 SIZE = 192  # numbers in a row; 12 to 20 rows, which are in use by one step, fit into 32 KB
-PORTION = np.uint64(8)  # short spans are written in such portions: loops without a rest of single numbers
+PORTION = np.uint64(8)  # numbers in a vector: loops over whole portions leave no rest that is computed one by one
 FRAGMENTS = SIZE - 8  # at most: the last portion goes on behind them
 # interpolated at most: two colours, coordinates of four units, fog, the primary colour again, place in a smooth line
 COLUMNS = 33
@@ -71,7 +71,7 @@ def whole_portions(count):
 def interpolate_block(planes, spans, n_spans, flat, needed, room):
     """Write W and the columns whose bits are set in `needed`; planes (P, 3, k + 1) as `attribute_planes`.
 
-    Values over w first, in portions, then what they have in common with all others of the block.
+    Each span gets its values over w, in whole portions; then all values of the block are multiplied by w.
     """
     k, end = np.uint64(flat.shape[0]), np.uint64(spans[SPAN_START, np.uint64(n_spans)])
     wanted = needed | (np.int64(1) << np.int64(k))
