@@ -26,6 +26,7 @@ from softshadow.state import Lighting, LightState, MaterialState
 # columns of a light: colours, position, spot, attenuation
 AMBIENT, DIFFUSE, SPECULAR, POSITION, SPOT_DIRECTION, SPOT_EXPONENT, COSINE = 0, 3, 6, 9, 13, 16, 17
 CONSTANT, LINEAR, QUADRATIC, HAS_SPOT, HAS_POLYNOMIAL, LIGHT_COLUMNS = 18, 19, 20, 21, 22, 23
+NO_SPOT = (0.0,) * 5  # direction, exponent and cosine of a light that shines in all directions
 # columns of a material; the last three are the light model's ambient colour
 MATERIAL_AMBIENT, MATERIAL_DIFFUSE, MATERIAL_SPECULAR, EMISSION, SHININESS, MODEL_AMBIENT = 0, 4, 8, 12, 16, 17
 # flags of a Lighting
@@ -51,9 +52,7 @@ class LightingRows(NamedTuple):
 def lighting_rows(lighting: Lighting) -> LightingRows:
     """Return the numbers that kernels read of a `Lighting`."""
     enabled = enabled_lights(lighting)
-    lights = np.zeros((len(enabled), LIGHT_COLUMNS), np.float32)
-    for row, light in zip(lights, enabled, strict=True):
-        _fill_light(row, light)
+    lights = np.array([_light(light) for light in enabled], np.float32).reshape(-1, LIGHT_COLUMNS)
     materials = np.array([_material(side, lighting) for side in (lighting.front, lighting.back)], np.float32)
     follows = [sum(FOLLOWS[name] for name in followed(lighting, side)) for side in ("front", "back")]
     flags = (
@@ -63,19 +62,23 @@ def lighting_rows(lighting: Lighting) -> LightingRows:
     return LightingRows(lights, materials, np.array(flags, np.int64))
 
 
-def _fill_light(row: np.ndarray, light: LightState) -> None:
-    row[AMBIENT:DIFFUSE], row[DIFFUSE:SPECULAR], row[SPECULAR:POSITION] = (
-        vector(color)[:3] for color in (light.ambient, light.diffuse, light.specular)
+def _light(light: LightState) -> tuple[float, ...]:
+    """Return the columns of a light."""
+    colors = *light.ambient[:3], *light.diffuse[:3], *light.specular[:3]
+    coefficients = light.constant_attenuation, light.linear_attenuation, light.quadratic_attenuation
+    has_polynomial = coefficients != (1.0, 0.0, 0.0) and light.position[3] != 0
+    has_spot = light.spot_cutoff != 180
+    return *colors, *light.position, *(_spot(light) if has_spot else NO_SPOT), *coefficients, has_spot, has_polynomial
+
+
+def _spot(light: LightState) -> tuple[float, ...]:
+    """Return direction, exponent and the cosine of the cutoff of a spotlight."""
+    direction, cutoff = normalize(normalize(vector(light.spot_direction))), np.float32(light.spot_cutoff)
+    return (
+        *direction.tolist(),
+        light.spot_exponent,
+        max(ZERO, np.float32(math.cos(np.float32(cutoff * math.pi / 180.0)))),
     )
-    row[POSITION:SPOT_DIRECTION] = light.position
-    if light.spot_cutoff != 180:
-        row[HAS_SPOT] = ONE
-        row[SPOT_DIRECTION:SPOT_EXPONENT] = normalize(normalize(vector(light.spot_direction)))
-        row[SPOT_EXPONENT], cutoff = light.spot_exponent, np.float32(light.spot_cutoff)
-        row[COSINE] = max(ZERO, np.float32(math.cos(np.float32(cutoff * math.pi / 180.0))))
-    coefficients = (light.constant_attenuation, light.linear_attenuation, light.quadratic_attenuation)
-    row[CONSTANT:HAS_SPOT] = coefficients
-    row[HAS_POLYNOMIAL] = coefficients != (1.0, 0.0, 0.0) and light.position[3] != 0
 
 
 def _material(material: MaterialState, lighting: Lighting) -> tuple[float, ...]:

@@ -54,6 +54,7 @@ other_groups_of = attrgetter(*(group for group in GROUPS if group not in OF_TEST
 PLAIN_POINTS = Points()
 WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recent ones
 IDENTITY = np.eye(4, dtype=np.float32)
+IDENTITY_BYTES = IDENTITY.tobytes()
 WIDTH_OF_LINES, WIDTH_OF_POLYGONS = 2, 3
 
 
@@ -109,8 +110,12 @@ class Run:
             vertices.color.strides[0] != 0,
             vertices.normal.strides[0] != 0,
             tuple([vertices.texcoords[number].strides[0] != 0 for number in numbers]),
-            tuple([self._is_identity(command.texture_matrices[number]) for number in numbers]),
+            self._identities_of(command),
         )
+
+    def _identities_of(self, command: Draw) -> tuple[bool, ...]:
+        """Return of each unit in use whether its texture matrix is the identity."""
+        return tuple([self._is_identity(command.texture_matrices[number]) for number in self._unit_numbers])
 
     def _layout(self, in_eye_space: bool) -> Layout:
         state, lit = self.state, self.lit
@@ -131,7 +136,7 @@ class Run:
 
     @staticmethod
     def _is_identity(matrix: np.ndarray) -> bool:
-        return bool((matrix == IDENTITY).all())
+        return matrix.tobytes() == IDENTITY_BYTES or bool((matrix == IDENTITY).all())
 
     @property
     def lit(self) -> bool:
@@ -189,7 +194,8 @@ class Run:
 
     def continues_under(self, command: Draw, taken: Draw) -> bool:
         """Return what `continues` returns of a draw whose state has the groups and `structure_of` of the other's."""
-        if command.texture_matrices is not taken.texture_matrices:
+        has_same_matrices = command.texture_matrices is taken.texture_matrices
+        if not has_same_matrices and self._identities_of(command) != self.arrays.identities:
             return False
         if command.mode != taken.mode or command.modelview_kind & UNKNOWN or command.joined_positions is not None:
             return False
