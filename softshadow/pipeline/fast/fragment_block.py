@@ -28,11 +28,11 @@ def _rows(first: int, count: int) -> list[np.uint64]:
 
 
 # rows of `room`: the inputs of the fragment stage, of which the first four become the colour, and then
-W, S, T, R, SQUARED, QUADS, WEIGHT, DEPTH = _rows(COLUMNS, 8)
-TEXEL, TEXEL_GREEN, TEXEL_BLUE, TEXEL_ALPHA = _rows(COLUMNS + 8, 4)  # red, green, blue, alpha
+W, COLUMN, LINE, S, T, R, SQUARED, QUADS, WEIGHT, DEPTH = _rows(COLUMNS, 10)
+TEXEL, TEXEL_GREEN, TEXEL_BLUE, TEXEL_ALPHA = _rows(COLUMNS + 10, 4)  # red, green, blue, alpha
 ROW = np.uint64(SIZE)
-OTHER_TEXEL, PRIMARY = _rows(COLUMNS + 12, 8)[::4]  # for GL_COMBINE: the other unit's texel, and the primary colour
-FLOAT_ROWS = COLUMNS + 20
+OTHER_TEXEL, PRIMARY = _rows(COLUMNS + 14, 8)[::4]  # for GL_COMBINE: the other unit's texel, and the primary colour
+FLOAT_ROWS = COLUMNS + 22
 # rows of `whole`; those of the s axis, then of the t axis, and after all others those of the r axis
 LENGTH, FIRST, SECOND, FRACTION = _rows(0, 4)
 T_AXIS = np.uint64(4 * SIZE)
@@ -69,24 +69,23 @@ def whole_portions(count):
 
 @kernel
 def interpolate_block(planes, spans, n_spans, flat, needed, room):
-    """Write W and the columns whose bits are set in `needed`; planes (P, 3, k + 1) as `attribute_planes`.
+    """Write W, COLUMN, LINE and the columns whose bits are set in `needed`; planes (P, 3, k + 1) as `attribute_planes`.
 
-    Each span gets its values over w, in whole portions; then all values of the block are multiplied by w.
+    COLUMN and LINE are the pixel's column and row. The spans of one triangle, one after the other, get their values
+    over w together, in whole portions; then all values of the block are multiplied by w.
     """
-    k, end = np.uint64(flat.shape[0]), np.uint64(spans[SPAN_START, np.uint64(n_spans)])
-    wanted = needed | (np.int64(1) << np.int64(k))
-    for s in range(np.uint64(n_spans)):
-        p, j, left = np.uint64(spans[SPAN_PLACE, s]), np.float32(spans[SPAN_ROW, s]), spans[SPAN_LEFT, s]
-        first, last = np.uint64(spans[SPAN_START, s]), np.uint64(spans[SPAN_START, s + NEXT])
+    k, n_all = np.uint64(flat.shape[0]), np.uint64(n_spans)
+    wanted, s, end = needed | (np.int64(1) << np.int64(k)), np.uint64(0), np.uint64(spans[SPAN_START, n_all])
+    write_pixels(spans, n_all, room)
+    while s < n_all:
+        place, first = spans[SPAN_PLACE, s], np.uint64(spans[SPAN_START, s])
+        while s < n_all and spans[SPAN_PLACE, s] == place:
+            s += NEXT
+        p, count = np.uint64(place), whole_portions(np.uint64(spans[SPAN_START, s]) - first)
         for c in range(k + NEXT):
-            if not (wanted >> np.int64(c)) & 1:
-                continue
-            at = (W if c == k else c * ROW) + first
-            start, slope, below = planes[p, 0, c], planes[p, 1, c], planes[p, 2, c] * j
-            if c < k and flat[c]:
-                write_constant(start, at, last - first, room)
-            else:
-                write_line(start, slope, below, left, at, last - first, room)
+            if (wanted >> np.int64(c)) & 1:
+                is_flat = c < k and flat[c]
+                write_values(planes, p, c, is_flat, first, (W if c == k else c * ROW) + first, count, room)
     for n in range(end):
         room[W + n] = ONE / room[W + n]
     for c in range(k):
@@ -97,14 +96,22 @@ def interpolate_block(planes, spans, n_spans, flat, needed, room):
 
 
 @kernel
-def write_line(start, slope, below, left, at, count, room):
-    """Write the values of a span, whose first column is `left`, in whole portions."""
-    for n in range(whole_portions(count)):
-        room[at + n] = (slope * np.float32(np.int32(left + np.int32(n))) + start) + below
+def write_pixels(spans, n_spans, room):
+    """Write COLUMN and LINE."""
+    for s in range(n_spans):
+        first, count = np.uint64(spans[SPAN_START, s]), spans[SPAN_START, s + NEXT] - spans[SPAN_START, s]
+        left, j = spans[SPAN_LEFT, s], np.float32(spans[SPAN_ROW, s])
+        for n in range(whole_portions(count)):
+            room[COLUMN + first + n], room[LINE + first + n] = np.float32(np.int32(left + np.int32(n))), j
 
 
-@kernel
-def write_constant(value, at, count, room):
-    """Write one value for a span, in whole portions."""
-    for n in range(whole_portions(count)):
-        room[at + n] = value
+@copied_kernel
+def write_values(planes, p, c, is_flat, first, at, count, room):
+    """Write the values of column `c` over w of the fragments of one triangle, from `first` on, to the places `at`."""
+    start, slope, slope_down = planes[p, 0, c], planes[p, 1, c], planes[p, 2, c]
+    if is_flat:
+        for n in range(count):
+            room[at + n] = start
+    else:
+        for n in range(count):
+            room[at + n] = (slope * room[COLUMN + first + n] + start) + slope_down * room[LINE + first + n]

@@ -20,7 +20,6 @@ from softshadow.pipeline.fast.fragment_block import (
     SPAN_START,
     TARGET,
     TARGET_FACTOR,
-    whole_portions,
 )
 from softshadow.pipeline.fast.span_state import (
     BLENDING,
@@ -95,8 +94,8 @@ def write_spans(spans, first, end, source, writable, is_masked, whole, pixels):
 
 @kernel
 def blend_pixels(switches, first, end, whole):
-    """Write PACKED blended with TARGET to OTHER, for the fragments [first, end) and some that follow."""
-    begin, stop = np.uint64(first), np.uint64(first) + whole_portions(end - first)
+    """Write PACKED blended with TARGET to OTHER, for the fragments [first, end)."""
+    begin, stop = np.uint64(first), np.uint64(end)
     if switches[BLENDS] != BLENDING:
         op = switches[LOGIC_OP]
         both, only_source = np.int32(-(op & 1)), np.int32(-(op >> 1 & 1))
