@@ -31,7 +31,17 @@ from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import evolve
 from softshadow.image import Image
-from softshadow.pipeline.commands import Clear, Command, CopyToTexture, DefineImage, Draw, Origin, UpdateImage, Vertices
+from softshadow.pipeline.commands import (
+    BeginQuery,
+    Clear,
+    Command,
+    CopyToTexture,
+    DefineImage,
+    Draw,
+    Origin,
+    UpdateImage,
+    Vertices,
+)
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
@@ -40,7 +50,9 @@ from softshadow.programs import Program
 from softshadow.state import BLACK, TEXTURE_UNITS, State
 
 NO_UNIFORMS: Mapping[str, Any] = {}
-PIXELS_ONLY = frozenset((Clear, UpdateImage, CopyToTexture))  # commands that change no size, format or sampler
+PIXELS_ONLY = frozenset(
+    (Clear, UpdateImage, CopyToTexture, BeginQuery)
+)  # commands that change no size, format or sampler
 SHAPE = ("format", "internal_format", "width", "height", "slices")  # of an image
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
 

@@ -11,7 +11,7 @@ from softshadow.pipeline import commands
 from softshadow.pipeline.buffers import accumulation, blit, clear, copy, mipmaps, objects
 from softshadow.pipeline.commands import BeginQuery, BlitFramebuffer, Command, Draw, DrawDepths
 from softshadow.pipeline.depth_rectangles import draw_depths
-from softshadow.pipeline.records import PASSED, FragmentCounts
+from softshadow.pipeline.records import FragmentCounts
 
 
 def execute(command: Command, storage: Storage) -> None:
@@ -26,7 +26,7 @@ def _draw(command: Draw, storage: Storage) -> None:
         return
     counts = FragmentCounts.zero(only_passed=True)
     pipeline.draw(command, storage, counts)
-    storage.note_passed(int(counts.verdicts[PASSED]))
+    storage.note_passed(counts.passed)
 
 
 def _draw_depths(command: DrawDepths, storage: Storage) -> None:
@@ -36,7 +36,7 @@ def _draw_depths(command: DrawDepths, storage: Storage) -> None:
         return
     counts = FragmentCounts.zero()
     draw_depths(command, storage, counts)
-    storage.note_passed(int(counts.verdicts[PASSED]))
+    storage.note_passed(counts.passed)
 
 
 def _begin_query(command: BeginQuery, storage: Storage) -> None:

@@ -28,7 +28,7 @@ from softshadow.pipeline.choose import (
     plan_draw,
 )
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.records import PASSED, FragmentCounts
+from softshadow.pipeline.records import FragmentCounts
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
@@ -217,7 +217,7 @@ class DrawQueue:
             counts = FragmentCounts.zero(only_passed=True)
             plan = plan_draw(command, target, counts)
             pipeline.draw_geometry(plan, command, target, storage, part.geometry(), counts)
-            storage.note_passed(int(counts.verdicts[PASSED]))
+            storage.note_passed(counts.passed)
             return None
         numbers = joins_others(plan, state, target, part)
         if numbers is None:

@@ -128,6 +128,11 @@ class FragmentCounts(NamedTuple):
     stencil_updates: np.ndarray
     only_passed: bool = False
 
+    @property
+    def passed(self) -> int:
+        """How many fragments have passed."""
+        return int(self.verdicts[PASSED])
+
     @classmethod
     def zero(cls, only_passed: bool = False) -> FragmentCounts:
         """Return counts of 0."""

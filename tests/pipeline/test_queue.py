@@ -15,6 +15,14 @@ from softshadow.pipeline.fast.batch.segments import Part
 SIZE = 32
 
 
+@pytest.fixture
+def planned(monkeypatch):
+    """Return a list that grows by 1 for each draw that is planned."""
+    planned, plan_draw = [], queue.plan_draw
+    monkeypatch.setattr(queue, "plan_draw", lambda *arguments: planned.append(1) or plan_draw(*arguments))
+    return planned
+
+
 @pytest.mark.parametrize("polygon_mode", [gl.GL_FILL, gl.GL_LINE, gl.GL_POINT])
 def test_many_small_draws_are_one_run(monkeypatch, polygon_mode):
     runs = []
@@ -66,10 +74,7 @@ def test_small_draws_between_changes_of_tests_are_one_batch(monkeypatch):
     assert segments == [2, 2] * 4  # two triangles; two of a line
 
 
-def test_draws_in_many_scissor_boxes_are_of_one_kind_and_fill_their_own_box(monkeypatch):
-    planned = []
-    plan_draw = queue.plan_draw
-    monkeypatch.setattr(queue, "plan_draw", lambda *arguments: planned.append(1) or plan_draw(*arguments))
+def test_draws_in_many_scissor_boxes_are_of_one_kind_and_fill_their_own_box(planned):
     gl.create_context(SIZE, SIZE)
     gl.glEnable(gl.GL_SCISSOR_TEST)
     expected = np.zeros((SIZE, SIZE, 4), np.uint8)
@@ -89,10 +94,7 @@ def test_draws_in_many_scissor_boxes_are_of_one_kind_and_fill_their_own_box(monk
     assert len(planned) == 1
 
 
-def test_what_a_run_depends_on_is_known_when_its_state_returns(monkeypatch):
-    planned = []
-    plan_draw = queue.plan_draw
-    monkeypatch.setattr(queue, "plan_draw", lambda *arguments: planned.append(1) or plan_draw(*arguments))
+def test_what_a_run_depends_on_is_known_when_its_state_returns(planned):
     gl.create_context(SIZE, SIZE)
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
     gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.eye(3, dtype=np.float32))
@@ -120,10 +122,7 @@ def test_large_draws_of_one_kind_are_set_up_together(monkeypatch):
     assert runs == [5]
 
 
-def test_what_a_run_depends_on_stays_known_when_texels_change(monkeypatch):
-    planned = []
-    plan_draw = queue.plan_draw
-    monkeypatch.setattr(queue, "plan_draw", lambda *arguments: planned.append(1) or plan_draw(*arguments))
+def test_what_a_run_depends_on_stays_known_when_texels_change(planned):
     context = gl.create_context(SIZE, SIZE)
     corners = np.array([[-1, -1, 0], [3, -1, 0], [-1, 3, 0]], np.float32)
     texels = np.zeros((2, 2, 4), np.uint8)

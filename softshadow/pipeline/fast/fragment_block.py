@@ -44,8 +44,8 @@ WHOLE_ROWS = 30
 # a list of spans is an array (4, SIZE + 1) int32: row, first column, place of the triangle's planes, first fragment
 SPAN_ROW, SPAN_LEFT, SPAN_PLACE, SPAN_START = range(4)
 NEXT = np.uint64(1)
-RED, GREEN, BLUE, ALPHA = _rows(0, 4)
-FOUR_COLUMNS, ONE_COLOR = 15, np.uint64(4)
+RED, ALPHA = _rows(0, 4)[::3]
+FOUR_COLUMNS = 15
 
 
 class BlockMemory(threading.local):
