@@ -29,6 +29,7 @@ from softshadow.pipeline.choose import (
 )
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.records import FragmentCounts
+from softshadow.state import State
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
@@ -60,7 +61,7 @@ class Kind(NamedTuple):
 
 @dataclass(eq=False, slots=True)
 class Segment:
-    """Consecutive draws of one kind with one scissor box, which is that of `command`.
+    """Consecutive draws of one kind with one viewport and one scissor box, which are those of `command`.
 
     `first` and `end` are the places of the first one, and of the one after the last, in their batch.
     """
@@ -69,6 +70,11 @@ class Segment:
     command: Draw
     first: int
     end: int
+
+    def continues_with(self, state: State) -> bool:
+        """Return whether a draw of the kind under a state has the same viewport and scissor box."""
+        own = self.command.state
+        return own is state or (own.scissor is state.scissor and own.viewport is state.viewport)
 
 
 def _key_without_tests(command: Draw) -> tuple[int, ...]:
@@ -125,7 +131,7 @@ class DrawQueue:
         batch.append(command)
         segments = self._segments
         last = segments[-1] if segments else None
-        if last is not None and last.kind is kind and last.command.state.scissor is command.state.scissor:
+        if last is not None and last.kind is kind and last.continues_with(command.state):
             last.end += 1
         else:
             segments.append(Segment(kind, command, len(batch) - 1, len(batch)))

@@ -94,6 +94,36 @@ def test_draws_in_many_scissor_boxes_are_of_one_kind_and_fill_their_own_box(plan
     assert len(planned) == 1
 
 
+@pytest.mark.parametrize("mode", [gl.GL_QUADS, gl.GL_LINE_LOOP, gl.GL_POINTS])
+def test_draws_in_many_viewports_are_of_one_kind_and_fill_their_own_one(planned, monkeypatch, mode):
+    batches, geometry_of = [], queue.geometry_of
+    monkeypatch.setattr(
+        queue, "geometry_of", lambda *arguments: batches.append(len(arguments[2])) or geometry_of(*arguments)
+    )
+    gl.create_context(SIZE, SIZE)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    gl.glDepthFunc(gl.GL_ALWAYS)
+    views = [(8 * (n % 4), 8 * (n // 4), n) for n in range(16)]
+    for x, y, n in views:  # half of the viewports cut corners off: those get new vertices
+        gl.glViewport(x, y, 8, 8)
+        gl.glDepthRange(0, n / 16)
+        gl.glColor4ub(10 * n, 0, 7, 255)
+        far = 3 if n % 2 else 0.9
+        gl.glBegin(mode)
+        for corner in ((-far, -far), (far, -far), (far, far), (-far, far), (0, 0)):
+            gl.glVertex3f(*corner, 1)
+        gl.glEnd()
+    gl.glFinish()
+    depth = np.array(gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT)).reshape(SIZE, SIZE)
+    image = np.array(gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)).reshape(SIZE, SIZE, 4)
+    for x, y, n in views:
+        own = depth[y : y + 8, x : x + 8]
+        assert set(own.ravel()) - {1} == {np.float32(round(n / 16 * (2**24 - 1)) / (2**24 - 1))}
+        assert set(image[y : y + 8, x : x + 8][own != 1, 0]) == {10 * n}
+    assert len(planned) == 1
+    assert batches == [16]
+
+
 def test_what_a_run_depends_on_is_known_when_its_state_returns(planned):
     gl.create_context(SIZE, SIZE)
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)

@@ -107,7 +107,7 @@ class Program:
 
     def set_tests(self) -> None:
         """Change a few of the settings that many small draws of ordinary programs change in between."""
-        kind = int(self.rng.integers(8))
+        kind = int(self.rng.integers(10))
         if kind == 0:
             self.switch(gl.GL_SCISSOR_TEST)
             gl.glScissor(*self.rng.integers(0, SIZE, 4).tolist())
@@ -127,8 +127,12 @@ class Program:
         elif kind == 6:
             gl.glBindTexture(gl.GL_TEXTURE_2D, self.one_of(0, *range(1, 4)))
             self.switch(gl.GL_TEXTURE_2D)
-        else:
+        elif kind == 7:
             self.switch(gl.GL_LIGHTING)
+        elif kind == 8:
+            gl.glViewport(*self.rng.integers(-4, SIZE, 2).tolist(), *self.rng.integers(1, SIZE, 2).tolist())
+        else:
+            gl.glDepthRange(*self.rng.random(2).tolist())
 
     def set_lighting(self) -> None:
         self.switch(gl.GL_LIGHTING, 0.7)

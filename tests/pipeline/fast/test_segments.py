@@ -61,7 +61,7 @@ def make_target(size):
 
 
 def change_something(rng, textures):
-    kind = int(rng.integers(9))
+    kind = int(rng.integers(10))
     if kind == 0:
         switch(rng, gl.GL_SCISSOR_TEST)
         gl.glScissor(*rng.integers(0, SIZE, 4).tolist())
@@ -85,6 +85,9 @@ def change_something(rng, textures):
     elif kind == 7:
         switch(rng, gl.GL_DEPTH_CLAMP, 0.3)
         switch(rng, gl.GL_POLYGON_STIPPLE, 0.2)
+    elif kind == 8:
+        gl.glViewport(*rng.integers(-4, SIZE, 2).tolist(), *rng.integers(1, SIZE, 2).tolist())
+        gl.glDepthRange(*rng.random(2).tolist())
     else:
         gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, one_of(rng, 0, 0, 0, 1))
     gl.glBindTexture(gl.GL_TEXTURE_2D, one_of(rng, *range(1, textures + 1)))

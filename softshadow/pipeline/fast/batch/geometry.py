@@ -19,9 +19,9 @@ from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.assembly import assemble_draws, assemble_lines_and_points, primitive_count
 from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
 from softshadow.pipeline.fast.batch.run import PLAIN_POINTS, WIDTH_OF_POLYGONS, WORTH_COMPARING, Run, width_of
-from softshadow.pipeline.fast.batch.small_runs import set_up_pieces, set_up_run
-from softshadow.pipeline.fast.batch.table import Table, table_of
-from softshadow.pipeline.fast.batch.vertices import prepare_draws, process_vertices
+from softshadow.pipeline.fast.batch.small_runs import place_new, set_up_pieces, set_up_run
+from softshadow.pipeline.fast.batch.table import REAL, Table, Views, table_of, views_of
+from softshadow.pipeline.fast.batch.vertices import END, VIEW, prepare_draws, process_vertices
 from softshadow.pipeline.fast.geometry_cache import recent_of
 from softshadow.pipeline.fast.recent_triangles import triangles_key, window_key
 from softshadow.pipeline.geometry.assembly import edge_flags
@@ -33,14 +33,13 @@ from softshadow.pipeline.geometry.geometry import (
     outlined_geometry,
     points_and_lines_geometry,
     vertex_inputs,
-    window_transform,
 )
 from softshadow.pipeline.geometry.line_stipple import CONTINUES
 from softshadow.pipeline.geometry.lines import clip_lines
 from softshadow.pipeline.geometry.points import clip_points
 from softshadow.pipeline.geometry.program import program_of
 from softshadow.pipeline.geometry.triangle_setup import NO_TRIANGLES, Offset, empty_setup, stored_culling
-from softshadow.pipeline.geometry.vertex import append_rows, scale_and_shift, to_window
+from softshadow.pipeline.geometry.vertex import append_rows
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.records import Geometry, Setup
@@ -48,7 +47,6 @@ from softshadow.programs import Program
 from softshadow.programs.fixed_function import has_secondary, is_replaced, point_sizes
 
 NO_UNIFORMS: Mapping[str, Any] = {}
-REAL = np.dtype(np.float32)
 VERTICES_PER_TASK = 1 << 13  # that a thread processes in one go
 SMALL = 1 << 12  # vertices, and triangles, of a run that one kernel sets up
 MOST_COMPARED = 32  # draws of a run that is compared with recent ones
@@ -58,12 +56,10 @@ PLACED = 6  # of the inputs of the vertex stage: the array that `prepare_draws` 
 class Setting(NamedTuple):
     """What the geometry of a run depends on besides its draws.
 
-    scale, shift (3,): the viewport transform; culled, positive_is_front, offset: see `triangle_setup.set_up_triangles`;
-    flat (k,): the columns of the varyings that are not interpolated.
+    culled, positive_is_front, offset: see `triangle_setup.set_up_triangles`; flat (k,): the columns of the varyings
+    that are not interpolated.
     """
 
-    scale: np.ndarray
-    shift: np.ndarray
     culled: int
     positive_is_front: int
     offset: Offset
@@ -74,11 +70,8 @@ class Setting(NamedTuple):
 
 def setting_of(run: Run, target: Framebuffer, storage: Storage) -> Setting:
     """Return what the geometry of a run depends on besides its draws."""
-    scale, shift = scale_and_shift(*window_transform(run.command, target), REAL)
     facing = stored_culling(run.state.cull, target.flipped)
-    return Setting(
-        scale, shift, *facing, filled_offset(run.command, target), _flat_columns(run), *program_of(run.command, storage)
-    )
+    return Setting(*facing, filled_offset(run.command, target), _flat_columns(run), *program_of(run.command, storage))
 
 
 class Outputs(NamedTuple):
@@ -133,13 +126,15 @@ def geometry_of(
     With a `storage`, the triangles of a recent run are used again if they are the same.
     """
     recent = recent_of(storage) if _may_be_repeated(draws) else None
-    key = _key_of(run, setting, draws, target) if recent else ()
+    views = views_of(draws, target)
+    key = _key_of(run, setting, draws, views, target) if recent else ()
     known: RunTriangles | None = recent.look_up(key) if recent else None
     if known and (known.cut is not None or not run.writes_color):
-        return _batch(_repeated_geometry(run, setting, draws, target, known))
-    table, n, most = table_of(run, draws), sum([len(draw.vertices.position) for draw in draws]), _most_primitives(draws)
+        return _batch(_repeated_geometry(run, setting, draws, views, target, known))
+    table, most = table_of(run, draws, views), _most_primitives(draws)
+    n = len(table.positions)
     command, width, outputs = run.command, width_of(run.command.mode), _empty_outputs(n, table, setting)
-    inputs = _inputs(table, setting)
+    inputs = _inputs(table)
     triangles, provoking = scratch((most, 3), np.int32), scratch(most, np.int32)
     unset = Geometry(
         NO_TRIANGLES, *outputs[2:], setting.flat, provoking, provoking, setting.program, setting.uniforms
@@ -164,16 +159,18 @@ def geometry_of(
         clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, run.user_planes, edges)
         if is_small and not recent:
             geometry = unset._replace(source=clipped.source, provoking=provoking[clipped.source])
-            return _batch(*_with_pieces(_with_values(geometry, clipped.values, setting), clipped, setting))
+            return _batch(*_with_pieces(_with_values(geometry, clipped.values, setting), clipped, setting, table))
     else:
         primitives, clip_primitives = _lines_or_points(table, most, width), clip_points if width == 1 else clip_lines
         sizes = _point_sizes(run, draws) if width == 1 else None
         with_sizes = columns if sizes is None else np.hstack([columns, sizes[:, np.newaxis]])
         provoking, clipped = primitives[:, -1], clip_primitives(clip, with_sizes, primitives, codes, run.user_planes)
-    window = outputs.window
+    window, of_pieces = outputs.window, provoking[clipped.source]
     if len(clipped.clip) > n:  # the new vertices of clipping come last
-        window = append_rows(window, to_window(clipped.clip[n:], *window_transform(command, target)))
-    geometry = unset._replace(window=window, source=clipped.source, provoking=provoking[clipped.source])
+        new = np.empty_like(clipped.clip[n:])
+        place_new(clipped.clip[n:], _views_of_new(clipped, of_pieces, table), table.scales, table.shifts, new)
+        window = append_rows(window, new)
+    geometry = unset._replace(window=window, source=clipped.source, provoking=of_pieces)
     geometry = _with_values(geometry, clipped.values[:, : columns.shape[1]], setting)
     if not is_polygons:
         sizes = None if sizes is None else clipped.values[:, -1]
@@ -209,11 +206,26 @@ def _drawn_edges(draws: Sequence[Draw]) -> np.ndarray:
     return edges[0] if len(edges) == 1 else np.concatenate(edges)
 
 
-def _with_pieces(geometry: Geometry, clipped: Clipped, setting: Setting) -> tuple[Geometry, int]:
+def _views_of_new(clipped: Clipped, provoking: np.ndarray, table: Table) -> np.ndarray:
+    """Return the row of the viewport of each vertex that clipping has made.
+
+    provoking (T',): a vertex of the primitive that each piece comes from.
+    """
+    n = len(table.positions)
+    if len(table.scales) == 1:
+        return np.zeros(len(clipped.clip) - n, np.int64)
+    draws = np.searchsorted(table.numbers[:, END], provoking, side="right")
+    views = np.zeros(len(clipped.clip), np.int64)
+    views[clipped.triangles] = table.numbers[draws, VIEW, np.newaxis]
+    return views[n:]
+
+
+def _with_pieces(geometry: Geometry, clipped: Clipped, setting: Setting, table: Table) -> tuple[Geometry, int]:
     """Return a geometry with the triangles that clipping has left, set up, and about how many fragments they have."""
+    views = _views_of_new(clipped, geometry.provoking, table)
     window, setup = np.empty_like(clipped.clip), empty_setup(len(clipped.triangles), REAL)
     n_drawn, area = set_up_pieces(
-        clipped.clip, geometry.window, setting.scale, setting.shift, window, np.empty((len(window), 2), np.int32),
+        clipped.clip, geometry.window, views, table.scales, table.shifts, window, np.empty((len(window), 2), np.int32),
         read_only(clipped.triangles), setting.culled, setting.positive_is_front, setting.offset, *setup,
     )  # fmt: skip
     return geometry._replace(window=window, triangles=Setup(*[array[:n_drawn] for array in setup])), area >> 8
@@ -248,17 +260,17 @@ def _may_be_repeated(draws: Sequence[Draw]) -> bool:
     return sum([len(draw.vertices.position) for draw in draws]) >= WORTH_COMPARING * len(draws)
 
 
-def _key_of(run: Run, setting: Setting, draws: Sequence[Draw], target: Framebuffer) -> Hashable:
+def _key_of(run: Run, setting: Setting, draws: Sequence[Draw], views: Views, target: Framebuffer) -> Hashable:
     """Return what the triangles of a run depend on, but for its culling."""
     image = target.depth
     return (
-        *map(triangles_key, draws), window_key(run.command, target), setting.scale.tobytes(), setting.shift.tobytes(),
-        repr(setting.offset), run.across, None if image is None else image.format,
+        *map(triangles_key, draws), window_key(run.command, target), *views.of_draws, views.scales.tobytes(),
+        views.shifts.tobytes(), repr(setting.offset), run.across, None if image is None else image.format,
     )  # fmt: skip
 
 
 def _repeated_geometry(
-    run: Run, setting: Setting, draws: Sequence[Draw], target: Framebuffer, known: RunTriangles
+    run: Run, setting: Setting, draws: Sequence[Draw], views: Views, target: Framebuffer, known: RunTriangles
 ) -> Geometry:
     """Return the triangles of a run that has those of a recent one; vertices are lit anew, and triangles culled."""
     geometry, facing = known.geometry, (setting.culled, setting.positive_is_front)
@@ -269,9 +281,10 @@ def _repeated_geometry(
     geometry = geometry._replace(triangles=known.setups[facing])
     if not run.writes_color:
         return geometry
-    table, n = table_of(run, draws), sum([len(draw.vertices.position) for draw in draws])
+    table = table_of(run, draws, views)
+    n = len(table.positions)
     outputs = _empty_outputs(n, table, setting)
-    _write_outputs(table, _inputs(table, setting), outputs)
+    _write_outputs(table, _inputs(table), outputs)
     columns = outputs.columns
     if len(geometry.window) > n and known.cut is not None:
         cut, clip, codes = known.cut, outputs.clip, outputs.codes
@@ -304,13 +317,13 @@ def _empty_outputs(n: int, table: Table, setting: Setting) -> Outputs:
     return Outputs(scratch((n, 4), REAL), scratch(n, np.int32), scratch((n, 4), REAL), scratch((n, k), REAL), back)
 
 
-def _inputs(table: Table, setting: Setting) -> tuple[Any, ...]:
+def _inputs(table: Table) -> tuple[Any, ...]:
     """Return the inputs of the vertex stage, as kernels take them."""
     placed = np.zeros((len(table.rows), table.lights.shape[1], PLACED_COLUMNS), REAL)
     return (
         table.layout, table.numbers, table.rows, table.lights, table.materials, table.flags, placed, table.generated,
         table.planes, table.user_planes, table.unit_rows, table.positions, table.colors, table.normals,
-        table.texcoords, setting.scale, setting.shift,
+        table.texcoords, table.scales, table.shifts,
     )  # fmt: skip
 
 

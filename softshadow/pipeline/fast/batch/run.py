@@ -1,8 +1,8 @@
 """Which draws form a run; its triangles equal `geometry.geometry.process_geometry`, see fast/test_batch.py.
 
-The draws of a run are processed together. They have the same state but for their lighting, so they share a viewport, a
-program of the fixed function and all that happens to fragments but the scissor box. Their matrices, vertices, current
-attributes and lights differ.
+The draws of a run are processed together. They have the same state but for their lighting, viewport and scissor box, so
+they share a program of the fixed function and nearly all that happens to fragments. Their matrices, vertices, current
+attributes, viewports and lights differ.
 """
 
 from __future__ import annotations
@@ -44,8 +44,8 @@ GENERATED = {
     gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR, gl.GL_SPHERE_MAP: SPHERE_MAP,
     gl.GL_REFLECTION_MAP: REFLECTION_MAP, gl.GL_NORMAL_MAP: NORMAL_MAP,
 }  # fmt: skip
-# lights and materials differ between the draws of a run, and so does the scissor box, which begins a segment
-DIFFERENT = ("lighting", "scissor", "read_framebuffer")
+# lights and materials differ between the draws of a run; other viewports and scissor boxes begin a segment
+DIFFERENT = ("lighting", "viewport", "scissor", "read_framebuffer")
 GROUPS = tuple(group.name for group in fields(State) if group.name not in DIFFERENT)
 groups_of = attrgetter(*GROUPS)
 # groups that concern fragments only, but for whether depths are clamped; alpha test and colour mask decide more
@@ -75,7 +75,7 @@ class Run:
 
     Attributes
     ----------
-    state : State            of the first draw; the others differ at most in lights, materials and scissor box
+    state : State            of the first draw; the others differ at most in what `DIFFERENT` names
     command : Draw           the first draw
     units : the texture units in use
     writes_color : bool      else no colours are computed
@@ -235,7 +235,7 @@ def geometry_structure(run: Run) -> tuple[Hashable, ...]:
     """Return what the geometry of a run's draws depends on in their state and in which arrays they have."""
     state = run.state
     return (
-        state.draw_framebuffer, state.viewport, state.polygon, state.depth.clamp, *structure_of(state.lighting),
+        state.draw_framebuffer, state.polygon, state.depth.clamp, *structure_of(state.lighting),
         run.layout, run.arrays, run.generated.tobytes(), run.planes.tobytes(), run.user_planes.tobytes(), run.across,
         run.writes_color, effective_modes(state), state.lines, state.points,
         tuple([unit.index for unit in run.units]), width_of(run.command.mode),

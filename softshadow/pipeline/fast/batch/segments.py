@@ -25,8 +25,8 @@ from softshadow.programs import Program
 def geometry_key(run: Run, setting: Setting) -> Hashable:
     """Return all that the geometry of a run depends on besides its draws; runs with equal keys can be one batch."""
     return (
-        *geometry_structure(run), setting.scale.tobytes(), setting.shift.tobytes(), setting.culled,
-        setting.positive_is_front, repr(setting.offset), setting.flat.tobytes(),
+        *geometry_structure(run), setting.culled, setting.positive_is_front, repr(setting.offset),
+        setting.flat.tobytes(),
     )  # fmt: skip
 
 

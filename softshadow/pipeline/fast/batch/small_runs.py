@@ -16,7 +16,7 @@ from softshadow.pipeline.geometry.vertex import window_position
 @kernel
 def set_up_run(
     layout, numbers, rows, lights, materials, flags, placed, generated, planes, user_planes, unit_rows, positions,
-    colors, normals, texcoords, scale, shift, clip, codes, window, values, back, indices, triangles, triangles_read,
+    colors, normals, texcoords, scales, shifts, clip, codes, window, values, back, indices, triangles, triangles_read,
     provoking, snapped, culled, positive_is_front, offset, corners, vertices, depth, front, ids,
 ):  # fmt: skip
     """Process the vertices of all draws and set their triangles up, unless any of them must be clipped.
@@ -28,7 +28,7 @@ def set_up_run(
     prepare_draws(layout, numbers, rows, lights, flags, placed)
     process_vertices(
         0, n, layout, numbers, rows, lights, materials, flags, placed, generated, planes, user_planes, unit_rows,
-        positions, colors, normals, texcoords, scale, shift, clip, codes, window, values, back,
+        positions, colors, normals, texcoords, scales, shifts, clip, codes, window, values, back,
     )  # fmt: skip
     n_triangles = assemble_draws(numbers, indices, codes, triangles, provoking)
     any_code = 0
@@ -46,22 +46,29 @@ def set_up_run(
 
 @kernel
 def set_up_pieces(
-    clip, known_window, scale, shift, window, snapped, triangles, culled, positive_is_front, offset, corners, vertices,
-    depth, front, ids,
+    clip, known_window, views, scales, shifts, window, snapped, triangles, culled, positive_is_front, offset, corners,
+    vertices, depth, front, ids,
 ):  # fmt: skip
     """Set up the triangles over vertices of which the first ones have known window positions, as `set_up_run` does.
 
-    Return the number of triangles that are drawn, and the sum of their areas in 1/256 pixel.
+    Return the number of triangles that are drawn, and the sum of their areas in 1/256 pixel. For `views` see
+    `place_new`.
     """
     n, n_known = clip.shape[0], known_window.shape[0]
     for v in range(n_known):
         for k in range(4):
             window[v, k] = known_window[v, k]
-    for v in range(n_known, n):  # the new vertices of clipping come last
-        window_position(clip, v, scale, shift, window)
+    place_new(clip[n_known:], views, scales, shifts, window[n_known:])
     snap_vertices(window, 0, n, snapped)
     n_drawn, area = set_up_triangles(
         window, snapped, triangles, 0, triangles.shape[0], culled, positive_is_front, offset, 0, corners, vertices,
         depth, front, ids,
     )  # fmt: skip
     return np.int64(n_drawn), np.int64(area)
+
+
+@kernel
+def place_new(clip, views, scales, shifts, window):
+    """Write the window positions of vertices that clipping has made; `views` are the rows of their viewports."""
+    for v in range(clip.shape[0]):
+        window_position(clip, v, scales[views[v]], shifts[views[v]], window)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from softshadow.framebuffer import Framebuffer
 from softshadow.jit import read_only
 from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.commands import Draw, Vertices
@@ -28,23 +29,27 @@ from softshadow.pipeline.fast.batch.vertices import (
     UNIT_MATRIX,
     Layout,
 )
+from softshadow.pipeline.geometry.vertex import scale_and_shift
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.programs import reflectances
 from softshadow.programs.fixed_function import NO_COORDINATE, is_replaced
-from softshadow.state import Lighting, MaterialState
+from softshadow.state import Lighting, MaterialState, Viewport
 
 BATCH_KERNELS = KernelGroup("batch")
 LIGHT_MODEL = tuple(field.name for field in fields(Lighting) if field.name not in ("front", "back"))
 MATERIAL = tuple(field.name for field in fields(MaterialState))
+MOST_KNOWN = 1024  # states of which the numbers are kept
+REAL = np.dtype(np.float32)
 
 
 class Table(NamedTuple):
     """The draws of a run as arrays, see the columns in `batch.vertices`.
 
-    numbers (D, 9) int64; rows (D, 72), unit_rows (D, U, 21): matrices and constants; lights (L, N, 23), materials
+    numbers (D, 10) int64; rows (D, 72), unit_rows (D, U, 21): matrices and constants; lights (L, N, 23), materials
     (L, 2, 20), flags (L, 9): each distinct `Lighting`; generated (U, 5), planes (U, 4, 4): generation of coordinates;
     user_planes (P, 4): the clip planes of all draws in clip space; positions (V, 4), colors (V, 4), normals (V, 3),
-    texcoords (U, V, 4): of all draws one after the other, no rows where they are constants; indices (I,) int32.
+    texcoords (U, V, 4): of all draws one after the other, no rows where they are constants; indices (I,) int32;
+    scales (W, 3), shifts (W, 3): of `Views`.
     """
 
     layout: Layout
@@ -62,9 +67,47 @@ class Table(NamedTuple):
     normals: np.ndarray
     texcoords: np.ndarray
     indices: np.ndarray
+    scales: np.ndarray
+    shifts: np.ndarray
 
 
-def table_of(run: Run, draws: Sequence[Draw]) -> Table:
+class Views(NamedTuple):
+    """The viewport transforms of the draws of a run.
+
+    of_draws: a row for each draw; scales (W, 3), shifts (W, 3) float32: see `geometry.vertex.scale_and_shift`.
+    """
+
+    of_draws: Sequence[int]
+    scales: np.ndarray
+    shifts: np.ndarray
+
+
+def views_of(draws: Sequence[Draw], target: Framebuffer) -> Views:
+    """Return the viewport transforms of draws."""
+    rows: dict[int, int] = {}  # by the identity of viewports
+    of_draws = [rows.setdefault(id(draw.state.viewport), len(rows)) for draw in draws]
+    firsts = draws[:1] if len(rows) == 1 else [draws[of_draws.index(row)] for row in range(len(rows))]
+    transforms = [_transform(draw.state.viewport, target) for draw in firsts]
+    if len(transforms) == 1:
+        return Views(of_draws, *transforms[0])
+    return Views(of_draws, *map(np.concatenate, zip(*transforms, strict=True)))
+
+
+_transforms: dict[int, tuple[Viewport, tuple[int, bool], tuple[np.ndarray, np.ndarray]]] = {}  # the latest, by id
+
+
+def _transform(viewport: Viewport, target: Framebuffer) -> tuple[np.ndarray, np.ndarray]:
+    """Return the scale (1, 3) and shift (1, 3) of a viewport."""
+    place, known = (target.size[1], target.flipped), _transforms.get(id(viewport))
+    if known is None or known[0] is not viewport or known[1] != place:
+        if len(_transforms) >= MOST_KNOWN:
+            _transforms.clear()
+        scale, shift = scale_and_shift(viewport, *place, REAL)
+        known = _transforms[id(viewport)] = viewport, place, (read_only(scale[None]), read_only(shift[None]))
+    return known[2]
+
+
+def table_of(run: Run, draws: Sequence[Draw], views: Views) -> Table:
     """Return the draws of a run as arrays."""
     arrays, vertices = run.arrays, [draw.vertices for draw in draws]
     rows = np.empty((len(draws), FLOATS), np.float32)
@@ -74,7 +117,7 @@ def table_of(run: Run, draws: Sequence[Draw]) -> Table:
         rows[:, COLOR:NORMAL] = np.concatenate([each.color[:1] for each in vertices])
     if not arrays.normal:
         rows[:, NORMAL : NORMAL + 3] = np.concatenate([each.normal[:1] for each in vertices])
-    numbers, lightings = _numbers(draws, run)
+    numbers, lightings = _numbers(draws, run, views)
     return Table(
         run.layout,
         numbers,
@@ -89,6 +132,8 @@ def table_of(run: Run, draws: Sequence[Draw]) -> Table:
         _joined([each.normal for each in vertices], arrays.normal and run.reads_normals),
         _texcoords(run, vertices, int(numbers[-1, END])),
         _joined([draw.indices for draw in draws if draw.indices is not None], True, NO_INDICES),
+        views.scales,
+        views.shifts,
     )
 
 
@@ -111,13 +156,13 @@ def _joined(parts: list[np.ndarray], is_array: bool, nothing: np.ndarray = NO_RO
     return read_only(np.concatenate(parts, out=joined))
 
 
-def _numbers(draws: Sequence[Draw], run: Run) -> tuple[np.ndarray, list[Lighting]]:
+def _numbers(draws: Sequence[Draw], run: Run, views: Views) -> tuple[np.ndarray, list[Lighting]]:
     """Return the numbers of each draw, and the states of lighting that kernels can tell apart."""
     reads_normals, last = run.reads_normals, draws[0].state.lighting
     across = IN_STAGES if run.unfilled else int(run.across)
     table: list[int] = []  # in the order of the columns
     lightings, start, index_start = [last], 0, 0
-    for draw in draws:
+    for draw, view in zip(draws, views.of_draws, strict=True):
         indices, lights = draw.indices, draw.state.lighting
         end, indexed = start + len(draw.vertices.position), indices is not None
         index_end = index_start if indices is None else index_start + len(indices)
@@ -125,7 +170,8 @@ def _numbers(draws: Sequence[Draw], run: Run) -> tuple[np.ndarray, list[Lighting
             last = lights
             lightings.append(lights)
         row = len(lightings) - 1
-        table += (start, end, draw.mode, index_start, index_end, indexed, draw.modelview_kind, row, across or indexed)
+        kind, cut = draw.modelview_kind, across or indexed
+        table += (start, end, draw.mode, index_start, index_end, indexed, kind, row, cut, view)
         start, index_start = end, index_end
     return np.array(table, np.int64).reshape(-1, NUMBERS), lightings
 
@@ -144,13 +190,12 @@ def _same_rows(a: Lighting, b: Lighting) -> bool:
 
 
 _rows_of: dict[int, tuple[Lighting, lighting.LightingRows]] = {}  # of the latest states of lighting, by id
-KNOWN_LIGHTINGS = 1024
 
 
 def _rows(lights: Lighting) -> lighting.LightingRows:
     known = _rows_of.get(id(lights))
     if known is None or known[0] is not lights:
-        if len(_rows_of) >= KNOWN_LIGHTINGS:
+        if len(_rows_of) >= MOST_KNOWN:
             _rows_of.clear()
         known = _rows_of[id(lights)] = (lights, lighting.lighting_rows(lights))
     return known[1]

@@ -30,8 +30,8 @@ from softshadow.programs.lighting import SMALLEST_SCALE
 # columns of a draw's row: matrices, constant attributes; the product and the inverse are written by `prepare_draws`
 MODELVIEW, PROJECTION, COLOR, NORMAL, PRODUCT, INVERSE, FLOATS = 0, 16, 32, 36, 40, 56, 72
 # columns of a draw's numbers: vertices and indices [start, end), how its modelview matrix is inverted; ACROSS: 1 if
-# all its quads are cut along the other diagonal, IN_STAGES if all are cut like clipped ones
-START, END, MODE, INDEX_START, INDEX_END, INDEXED, KIND, LIGHTING, ACROSS, NUMBERS = range(10)
+# all its quads are cut along the other diagonal, IN_STAGES if all are cut like clipped ones; VIEW: its viewport
+START, END, MODE, INDEX_START, INDEX_END, INDEXED, KIND, LIGHTING, ACROSS, VIEW, NUMBERS = range(11)
 IN_STAGES = 2
 # columns of a texture unit of a draw: its matrix, the constant coordinates, whether the matrix is the identity
 UNIT_MATRIX, UNIT_CONSTANT, UNIT_IS_IDENTITY, UNIT_COLUMNS = 0, 16, 20, 21
@@ -105,14 +105,14 @@ def transformed(m, i, x, y, z, w):
 @kernel
 def process_vertices(
     begin, end, layout, numbers, rows, lights, materials, flags, placed, generated, planes, user_planes, unit_rows,
-    positions, colors, normals, texcoords, scale, shift, clip, codes, window, values, back,
+    positions, colors, normals, texcoords, scales, shifts, clip, codes, window, values, back,
 ):  # fmt: skip
     """Write clip position, clip code, window position and varyings of the vertices [begin, end) of all draws."""
     for d in range(numbers.shape[0]):
         first, last = max(numbers[d, START], begin), min(numbers[d, END], end)
         if first >= last:
             continue
-        row = rows[d]
+        row, scale, shift = rows[d], scales[numbers[d, VIEW]], shifts[numbers[d, VIEW]]
         modelview, product = matrix_at(row, MODELVIEW), matrix_at(row, PRODUCT)
         for vertex in range(first, last):
             v = np.uint64(vertex)
