@@ -72,27 +72,26 @@ def interpolate_block(planes, spans, n_spans, flat, needed, room):
     """Write W, COLUMN, LINE and the columns whose bits are set in `needed`; planes (P, 3, k + 1) as `attribute_planes`.
 
     COLUMN and LINE are the pixel's column and row. The spans of one triangle, one after the other, get their values
-    over w together, in whole portions; then all values of the block are multiplied by w.
+    together, in whole portions.
     """
-    k, n_all = np.uint64(flat.shape[0]), np.uint64(n_spans)
-    wanted, s, end = needed | (np.int64(1) << np.int64(k)), np.uint64(0), np.uint64(spans[SPAN_START, n_all])
+    k, n_all, s = np.uint64(flat.shape[0]), np.uint64(n_spans), np.uint64(0)
     write_pixels(spans, n_all, room)
     while s < n_all:
-        place, first = spans[SPAN_PLACE, s], np.uint64(spans[SPAN_START, s])
-        while s < n_all and spans[SPAN_PLACE, s] == place:
-            s += NEXT
+        place, first, s = spans[SPAN_PLACE, s], np.uint64(spans[SPAN_START, s]), end_of_triangle(spans, s, n_all)
         p, count = np.uint64(place), whole_portions(np.uint64(spans[SPAN_START, s]) - first)
-        for c in range(k + NEXT):
-            if (wanted >> np.int64(c)) & 1:
-                is_flat = c < k and flat[c]
-                write_values(planes, p, c, is_flat, first, (W if c == k else c * ROW) + first, count, room)
-    for n in range(end):
-        room[W + n] = ONE / room[W + n]
-    for c in range(k):
-        if (needed >> np.int64(c)) & 1 and not flat[c]:
-            row = c * ROW
-            for n in range(end):
-                room[row + n] *= room[W + n]
+        write_w(planes, p, k, first, count, room)
+        for c in range(k):
+            if (needed >> np.int64(c)) & 1:
+                write_values(planes, p, c, flat[c], first, count, room)
+
+
+@copied_kernel
+def end_of_triangle(spans, s, n_spans):
+    """Return the end of the spans that belong to the triangle of span `s` and follow it."""
+    place = spans[SPAN_PLACE, s]
+    while s < n_spans and spans[SPAN_PLACE, s] == place:
+        s += NEXT
+    return s
 
 
 @kernel
@@ -106,12 +105,23 @@ def write_pixels(spans, n_spans, room):
 
 
 @copied_kernel
-def write_values(planes, p, c, is_flat, first, at, count, room):
-    """Write the values of column `c` over w of the fragments of one triangle, from `first` on, to the places `at`."""
+def write_w(planes, p, k, first, count, room):
+    """Write W of the fragments of one triangle, from `first` on; its plane is the last one."""
+    start, slope, slope_down = planes[p, 0, k], planes[p, 1, k], planes[p, 2, k]
+    for n in range(count):
+        over_w = (slope * room[COLUMN + first + n] + start) + slope_down * room[LINE + first + n]
+        room[W + first + n] = ONE / over_w
+
+
+@copied_kernel
+def write_values(planes, p, c, is_flat, first, count, room):
+    """Write the values of column `c` of the fragments of one triangle, from `first` on."""
     start, slope, slope_down = planes[p, 0, c], planes[p, 1, c], planes[p, 2, c]
+    at = c * ROW + first
     if is_flat:
         for n in range(count):
             room[at + n] = start
     else:
         for n in range(count):
-            room[at + n] = (slope * room[COLUMN + first + n] + start) + slope_down * room[LINE + first + n]
+            over_w = (slope * room[COLUMN + first + n] + start) + slope_down * room[LINE + first + n]
+            room[at + n] = over_w * room[W + first + n]

@@ -5,8 +5,10 @@ import numpy as np
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import (
+    COLUMN,
     FILTERED,
     FOUR_COLUMNS,
+    LINE,
     NEXT,
     PACKED,
     ROW,
@@ -15,7 +17,10 @@ from softshadow.pipeline.fast.fragment_block import (
     TEXEL,
     TEXEL_ALPHA,
     WEIGHT,
+    end_of_triangle,
     interpolate_block,
+    whole_portions,
+    write_pixels,
 )
 from softshadow.pipeline.fast.span_bytes import BYTE, filter_block
 from softshadow.pipeline.fast.span_combine import combine_block, keep_primary, swap_texels
@@ -68,8 +73,11 @@ def shade_block(planes, spans, n_spans, count, flat, switches, numbers, textures
     planes (P, 3, k + 1) are those of `shade.interpolate.attribute_planes`, `spans` and `count` say which fragments;
     `own_textures` (UNITS,) which of the textures the units have.
     """
-    if switches[NEEDED] == FOUR_COLUMNS and flat[0] and flat[1] and flat[2] and flat[3]:
-        write_constant_colors(planes, spans, n_spans, room, whole)
+    if switches[NEEDED] == FOUR_COLUMNS:  # nothing but the colours
+        if flat[0] and flat[1] and flat[2] and flat[3]:
+            write_constant_colors(planes, spans, n_spans, room, whole)
+        else:
+            write_smooth_colors(planes, spans, n_spans, flat, room, whole)
         return
     if copies_texels(planes, spans, n_spans, flat, switches, special):
         interpolate_block(planes, spans, n_spans, flat, switches[NEEDED] & ~FOUR_COLUMNS, room)
@@ -114,6 +122,37 @@ def write_constant_colors(planes, spans, n_spans, room, whole):
         packed = byte_of(red) | byte_of(green) << GREEN | byte_of(blue) << BLUE | byte_of(alpha) << UPPERMOST
         for n in range(np.uint64(start), np.uint64(end)):
             whole[PACKED + n], room[ALPHA_ROW + n] = packed, alpha
+
+
+@kernel
+def write_smooth_colors(planes, spans, n_spans, flat, room, whole):
+    """Write PACKED and alpha of interpolated colours, as `interpolate_block` and `pack_block` do."""
+    n_all, s, k = np.uint64(n_spans), np.uint64(0), np.uint64(flat.shape[0])
+    write_pixels(spans, n_all, room)
+    while s < n_all:
+        p, first, s = np.uint64(spans[SPAN_PLACE, s]), np.uint64(spans[SPAN_START, s]), end_of_triangle(spans, s, n_all)
+        count = whole_portions(np.uint64(spans[SPAN_START, s]) - first)
+        write_colors_of_triangle(planes[p], k, flat, first, count, room, whole)
+
+
+@kernel
+def write_colors_of_triangle(plane, k, flat, first, count, room, whole):
+    """Write PACKED and alpha of the fragments of one triangle with the planes (3, k + 1), from `first` on."""
+    w0, wx, wy = plane[0, k], plane[1, k], plane[2, k]
+    r0, rx, ry, is_red = plane[0, 0], plane[1, 0], plane[2, 0], flat[0]
+    g0, gx, gy, is_green = plane[0, 1], plane[1, 1], plane[2, 1], flat[1]
+    b0, bx, by, is_blue = plane[0, 2], plane[1, 2], plane[2, 2], flat[2]
+    a0, ax, ay, is_alpha = plane[0, 3], plane[1, 3], plane[2, 3], flat[3]
+    for n in range(count):
+        x, y = room[COLUMN + first + n], room[LINE + first + n]
+        w = ONE / ((wx * x + w0) + wy * y)
+        red = r0 if is_red else ((rx * x + r0) + ry * y) * w
+        green = g0 if is_green else ((gx * x + g0) + gy * y) * w
+        blue = b0 if is_blue else ((bx * x + b0) + by * y) * w
+        alpha = a0 if is_alpha else ((ax * x + a0) + ay * y) * w
+        low = byte_of(red) | byte_of(green) << GREEN
+        whole[PACKED + first + n] = low | byte_of(blue) << BLUE | byte_of(alpha) << UPPERMOST
+        room[ALPHA_ROW + first + n] = alpha
 
 
 @kernel

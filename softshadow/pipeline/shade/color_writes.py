@@ -11,7 +11,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.image import Format, Image
 from softshadow.jit import inlined, kernel
-from softshadow.pipeline.constants import ONE, ZERO
+from softshadow.pipeline.constants import ZERO
 from softshadow.pipeline.records import Spans
 from softshadow.pipeline.shade.blend import (
     ALPHA,
@@ -91,8 +91,10 @@ def colors_to_bytes(values: np.ndarray, format: Format) -> np.ndarray:
 @inlined
 def byte_of(value):
     """Return one number as a byte, see `colors_to_bytes`."""
-    v = value if value > ZERO and value * LARGEST_BYTE < INT32_END else ZERO
-    return np.int32(np.rint((v if v < ONE else ONE) * LARGEST_BYTE))
+    scaled = value * LARGEST_BYTE
+    scaled = scaled if scaled > ZERO else ZERO  # one minimum or maximum each: so the loops have few instructions
+    scaled = scaled if scaled < INT32_END else ZERO
+    return np.int32(np.rint(scaled if scaled < LARGEST_BYTE else LARGEST_BYTE))
 
 
 @kernel
