@@ -1,5 +1,8 @@
 """Points of Bézier curves and surfaces, and tangents of surfaces, in float32 and in Mesa's order of operations.
 
+All arrays end with an axis of the N points, so that NumPy's loops are long: control points of N points are (..., k, N),
+those of all points (..., k, 1).
+
 References: m_eval.c of Mesa 22.3.
 """
 
@@ -12,10 +15,10 @@ ONE = F32(1)
 
 
 def curve(points: np.ndarray, t: np.ndarray) -> np.ndarray:
-    """Return the points (N, k) at parameters t (N, 1) by Horner's scheme; `points` (order, N or 1, k)."""
+    """Return the points (k, N) at parameters t (N,) by Horner's scheme; `points` (order, k, N or 1)."""
     order = len(points)
     if order == 1:
-        return np.broadcast_to(points[0], (len(t), points.shape[-1])).copy()
+        return np.broadcast_to(points[0], (points.shape[1], len(t))).copy()
     factor, s = F32(order - 1), ONE - t
     result = s * points[0] + factor * t * points[1]
     power = t * t
@@ -28,22 +31,21 @@ def curve(points: np.ndarray, t: np.ndarray) -> np.ndarray:
 
 
 def surface(points: np.ndarray, u: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """Return the points (N, k) at parameters u, v (N, 1); `points` (u order, v order, k)."""
+    """Return the points (k, N) at parameters u, v (N,); `points` (u order, v order, k, 1)."""
     u_order, v_order = points.shape[:2]
-    net = points[:, :, None, :]
     if v_order > u_order:
         if u_order == 1:
-            return curve(net[0], v)
-        return curve(np.stack([curve(net[:, j], u) for j in range(v_order)]), v)
+            return curve(points[0], v)
+        return curve(np.stack([curve(points[:, j], u) for j in range(v_order)]), v)
     if v_order == 1:
-        return curve(net[:, 0], u)
-    return curve(np.stack([curve(net[i], v) for i in range(u_order)]), u)
+        return curve(points[:, 0], u)
+    return curve(np.stack([curve(points[i], v) for i in range(u_order)]), u)
 
 
 def surface_with_tangents(
     points: np.ndarray, u: np.ndarray, v: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the points (N, k) of a surface, and its tangents along u and v, not scaled, by de Casteljau's algorithm.
+    """Return the points (k, N) of a surface, and its tangents along u and v, not scaled, by de Casteljau's algorithm.
 
     A map with a single row has no tangent across it, Mesa reads what lies behind it; here it is 0.
     """
@@ -55,14 +57,9 @@ def surface_with_tangents(
     if u_order < v_order:
         return _along_v(points, u, v)
     if v_order < u_order:
-        point, dv, du = _along_v(points.transpose(1, 0, 2), v, u, u_first=False)
+        point, dv, du = _along_v(points.swapaxes(0, 1), v, u, u_first=False)
         return point, du, dv
     return _square(points, u, v)
-
-
-def _net(points: np.ndarray, n: int) -> np.ndarray:
-    """Return the control points of `n` points of a surface: (rows, columns, n, k)."""
-    return np.broadcast_to(points[:, :, None], (*points.shape[:2], n, points.shape[2]))
 
 
 def _bilinear(net: np.ndarray, u: np.ndarray, v: np.ndarray, steps: int, u_first: bool) -> np.ndarray:
@@ -80,7 +77,7 @@ def _bilinear(net: np.ndarray, u: np.ndarray, v: np.ndarray, steps: int, u_first
 
 def _square(points: np.ndarray, u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return point and tangents of a surface with equal orders."""
-    (a, b), (c, d) = _bilinear(_net(points, len(u)), u, v, len(points) - 2, u_first=True)
+    (a, b), (c, d) = _bilinear(points, u, v, len(points) - 2, u_first=True)
     us, vs = ONE - u, ONE - v
     du = vs * (c - a) + v * (d - b)
     dv = us * (b - a) + u * (d - c)
@@ -94,7 +91,7 @@ def _along_v(
 
     `u_first` tells whether the bilinear steps interpolate along u before v.
     """
-    first, second = _bilinear(_net(points, len(u)), u, v, len(points) - 2, u_first)
+    first, second = _bilinear(points, u, v, len(points) - 2, u_first)
     us, vs = ONE - u, ONE - v
     across, along = second - first, us * first + u * second
     while len(along) > 2:

@@ -41,10 +41,11 @@ def _values(a_map: Map, parameters: tuple[np.ndarray, ...], tangents: bool = Fal
     steps = []
     for number, parameter in enumerate(parameters):
         first, last = (F32(value) for value in a_map.domain[2 * number : 2 * number + 2])
-        steps.append(((parameter - first) * (F32(1) / (last - first)))[:, None])
+        steps.append((parameter - first) * (F32(1) / (last - first)))
+    points = a_map.points[..., np.newaxis]
     if tangents:
-        return surface_with_tangents(a_map.points, *steps)
-    return curve(a_map.points[:, None, :], *steps) if len(steps) == 1 else surface(a_map.points, *steps)
+        return [each.T for each in surface_with_tangents(points, *steps)]
+    return (curve if len(steps) == 1 else surface)(points, *steps).T
 
 
 class Evaluated(NamedTuple):
@@ -58,10 +59,10 @@ class Evaluated(NamedTuple):
     rows: dict[str, np.ndarray]
     points: np.ndarray | None
 
-    def part(self, start: int, end: int) -> Evaluated:
-        """Return what they have at some of the parameters."""
-        rows = {name: values[start:end] for name, values in self.rows.items()}
-        return Evaluated(self.sizes, rows, None if self.points is None else self.points[start:end])
+    def at(self, places: slice | np.ndarray) -> Evaluated:
+        """Return what they have at some of the parameters, by their places."""
+        rows = {name: values[places] for name, values in self.rows.items()}
+        return Evaluated(self.sizes, rows, None if self.points is None else self.points[places])
 
     def arrays(self, context: Context) -> dict[str, np.ndarray]:
         """Return the rows of attributes and positions, with all their components; none without positions."""
@@ -251,7 +252,8 @@ def glEvalMesh1(mode: int, i1: int, i2: int) -> None:
     if context is None or not is_one_of("glEvalMesh1", "mode", mode, modes, "GL_POINT or GL_LINE"):
         return
     if _enabled_map(context, 1, POSITIONS) is not None:
-        _draw(modes[mode], (_parameters(context.evaluators.grid1, i1, i2) if i1 <= i2 else np.empty(0, F32),))
+        parameters = _parameters(context.evaluators.grid1, i1, i2) if i1 <= i2 else np.empty(0, F32)
+        _draw(modes[mode], (parameters,), [np.arange(len(parameters))])
 
 
 @in_lists
@@ -267,22 +269,27 @@ def glEvalMesh2(mode: int, i1: int, i2: int, j1: int, j2: int) -> None:
         _parameters(grid, first, last)
         for grid, first, last in zip(context.evaluators.grid2, (i1, j1), (i2, j2), strict=True)
     )
+    grid, numbers = (np.tile(u, len(v)), np.repeat(v, len(u))), np.arange(len(u) * len(v)).reshape(len(v), len(u))
     if mode == gl.GL_POINT:
-        _draw(gl.GL_POINTS, (np.tile(u, len(v)), np.repeat(v, len(u))))
+        _draw(gl.GL_POINTS, grid, [numbers.reshape(-1)])
     elif mode == gl.GL_LINE:
-        across, along = ((u, np.full_like(u, each)) for each in v), ((np.full_like(v, each), v) for each in u)
-        _draw(gl.GL_LINE_STRIP, *across, *along)
+        _draw(gl.GL_LINE_STRIP, grid, [*numbers, *numbers.T])
     else:
-        strips = ((np.repeat(u, 2), np.tile(np.array(pair, F32), len(u))) for pair in pairwise(v))
-        _draw(gl.GL_TRIANGLE_STRIP, *strips)
+        _draw(gl.GL_TRIANGLE_STRIP, grid, [np.stack(pair, axis=1).reshape(-1) for pair in pairwise(numbers)])
 
 
-def _draw(mode: int, *strips: tuple[np.ndarray, ...]) -> None:
-    """Draw primitives of grid points, each given by its parameters; all are evaluated together."""
-    context, lengths = current(), [len(strip[0]) for strip in strips]
+def _draw(mode: int, grid: tuple[np.ndarray, ...], strips: list[np.ndarray]) -> None:
+    """Draw primitives of grid points.
+
+    Parameters
+    ----------
+    grid : the parameters (N,) of all points, which are evaluated together
+    strips : the numbers of the points of each primitive
+    """
+    context, lengths = current(), [len(strip) for strip in strips]
     if not strips:
         return
-    evaluated = _evaluated(context, tuple(map(np.concatenate, zip(*strips, strict=True))))
+    evaluated = _evaluated(context, grid).at(np.concatenate(strips))
     arrays, sizes = evaluated.arrays(context), dict(evaluated.sizes)
     if evaluated.points is not None:
         sizes["position"] = evaluated.points.shape[1]
@@ -294,7 +301,7 @@ def _draw(mode: int, *strips: tuple[np.ndarray, ...]) -> None:
         rows = {name: each[start:end] for name, each in arrays.items()}
         if similar is None or not similar.add(mode, PairVertices(rows)):
             glBegin(mode)
-            _add_vertices(context, evaluated.part(start, end), length)
+            _add_vertices(context, evaluated.at(slice(start, end)), length)
             glEnd()
         start = end
 
