@@ -191,7 +191,10 @@ class Context(CurrentValues):
         return array
 
     def packed(self, numbers: Sequence[float], *shape: int) -> np.ndarray:
-        """Return what `frozen` returns of plain numbers, one dimension by default, in a third of the time."""
+        """Return what `frozen` returns of plain numbers, one dimension by default, in a third of the time.
+
+        The array must belong to one draw: the recording counts its bytes without looking for others that share it.
+        """
         dtype, n = self._dtype, len(numbers)
         return np.ndarray(shape or n, dtype, _packer(n, dtype.char)(*numbers))
 
@@ -199,6 +202,11 @@ class Context(CurrentValues):
         """Return what `packed` returns of `count` equal rows."""
         dtype, width = self._dtype, len(row)
         return np.ndarray((count, width), dtype, _packer(width, dtype.char)(*row) * count)
+
+    def constant(self, row: Sequence[float], count: int) -> np.ndarray:
+        """Return a read-only view of `count` equal rows."""
+        dtype, width = self._dtype, len(row)
+        return np.ndarray((count, width), dtype, _packer(width, dtype.char)(*row), 0, (0, dtype.itemsize))
 
     # -- matrices and units --------------------------------------------------------------------------------------------
     def select_matrices(self, mode: int) -> None:

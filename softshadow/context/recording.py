@@ -26,13 +26,14 @@ class Contents:
     def __init__(self, before: Contents | None = None) -> None:
         self.commands = 0
         self.new_bytes = 0  # those that the part before does not hold, too
+        self._own_bytes = 0  # of arrays that belong to one draw (`Context.packed`)
         self._sizes: dict[int, int] = {}  # by id: the commands keep the arrays alive
         self._before = {} if before is None else before._sizes
 
     @property
     def bytes(self) -> int:
         """The bytes of all commands and arrays of this part."""
-        return self.commands * COMMAND_BYTES + sum(self._sizes.values())
+        return self.commands * COMMAND_BYTES + self._own_bytes + sum(self._sizes.values())
 
     def add(self, command: Command) -> None:
         """Count a command."""
@@ -69,6 +70,10 @@ class Contents:
 
     def _add_array(self, array: np.ndarray) -> None:
         sizes, base = self._sizes, array.base
+        if type(base) is bytes:
+            self._own_bytes += len(base)
+            self.new_bytes += len(base)
+            return
         while isinstance(base, np.ndarray):
             sizes[id(array)] = 0
             array, base = base, base.base

@@ -22,6 +22,7 @@ MOST_VIEWS = 1024  # of one value, by the number of vertices
 MOST_VALUES = 4096
 OPTIONAL = {"edge": True, "secondary": BLACK, "fog_coordinate": 0.0}  # the last fields of `Vertices`: initial values
 IS_OPTIONAL = frozenset(OPTIONAL)
+NO_UNITS: tuple[tuple[int, str], ...] = ()
 # 0 and -0 are different values, so values are compared by their bits
 PACK_3, PACK_4, PACK_COLOR_AND_NORMAL = (struct.Struct(f"{count}d").pack for count in (3, 4, 7))
 
@@ -105,77 +106,91 @@ class ConstantSet:
         return [self.color.rows(count), self.normal.rows(count), *self.texcoords.rows(count)]
 
 
+@dataclass(eq=False, slots=True)
+class LatestRows:
+    """The rows of the latest value of an attribute; nothing is kept of earlier ones: programs set many colours."""
+
+    value: tuple[float, ...] | None = None
+    rows: np.ndarray = field(default_factory=lambda: np.empty((0, 0)))
+
+    def of(self, context: Context, value: tuple[float, ...], count: int) -> np.ndarray:
+        """Return a read-only view of `count` equal rows."""
+        if value is not self.value or count != len(self.rows):
+            self.value, self.rows = value, context.constant(value, count)
+        return self.rows
+
+
 class ConstantAttributes:
-    """The current values as the last draw had them, and all sets of values; equal values have the same objects."""
+    """The current values as the last draw had them, and all sets of values; equal values have the same objects.
+
+    `latest_color` and `latest_normal` are for draws that need no set.
+    """
 
     def __init__(self) -> None:
         initial = CurrentVertex()
         self.color: tuple[float, ...] = initial.color
         self.normal: tuple[float, ...] = initial.normal
-        self.texcoords: tuple[tuple[float, ...], ...] = tuple(initial.texcoords)
+        self.latest_color, self.latest_normal = LatestRows(), LatestRows()
+        self.texcoords: tuple[tuple[float, float, float, float], ...] = ()
         self.texcoord_attributes = ConstantTexcoords(())
         self.known_texcoords: dict[tuple[bytes, ...], ConstantTexcoords] = {}
         self.known: dict[bytes, ConstantAttribute] = {}
         self.sets: dict[tuple[bytes, ConstantTexcoords], ConstantSet] = {}
         self.last: ConstantSet | None = None
 
-    def find(
-        self,
-        context: Context,
-        color: tuple[float, ...],
-        normal: tuple[float, ...],
-        texcoords: Sequence[tuple[float, ...]],
-    ) -> ConstantSet:
-        """Return the set of these values."""
-        if self.last is None or not all(map(is_, texcoords, self.texcoords)):
-            self.texcoords = tuple(texcoords)
-            self.texcoord_attributes = self._find_texcoords(context)
-        key = PACK_COLOR_AND_NORMAL(*color, *normal), self.texcoord_attributes
+    def find(self, context: Context) -> ConstantSet:
+        """Return the set of the current values."""
+        color, normal, last = context.current.color, context.current.normal, self.last
+        texcoords = self.find_texcoords(context, NO_UNITS)
+        if last is not None and texcoords is last.texcoords and color is self.color and normal is self.normal:
+            return last
+        key = PACK_COLOR_AND_NORMAL(*color, *normal), texcoords
         found = self.sets.get(key)
         if found is None:
             attributes = self._find(context, PACK_4(*color), color), self._find(context, PACK_3(*normal), normal)
-            found = self.sets[key] = ConstantSet(*attributes, self.texcoord_attributes)
+            found = self.sets[key] = ConstantSet(*attributes, texcoords)
         self.color, self.normal, self.last = color, normal, found
         return found
 
-    def _find_texcoords(self, context: Context) -> ConstantTexcoords:
-        bits = tuple([PACK_4(*value) for value in self.texcoords])
-        found = self.known_texcoords.get(bits)
-        if found is None:
-            attributes = tuple([self._find(context, *each) for each in zip(bits, self.texcoords, strict=True)])
-            found = self.known_texcoords[bits] = ConstantTexcoords(attributes)
-        return found
+    def find_texcoords(self, context: Context, carried: Sequence[tuple[int, str]]) -> ConstantTexcoords:
+        """Return the current texture coordinates.
+
+        Nobody asks for those of the units that are `carried`: they have values of an earlier draw, so that nothing is
+        made for new ones.
+        """
+        current, known = context.current.texcoords, self.texcoords
+        if carried and known:
+            current = current.copy()
+            for unit, _ in carried:
+                current[unit] = known[unit]
+        if not known or not all(map(is_, current, known)):
+            self.texcoords = tuple(current)
+            bits = tuple([PACK_4(*value) for value in current])
+            found = self.known_texcoords.get(bits)
+            if found is None:
+                attributes = tuple([self._find(context, *each) for each in zip(bits, current, strict=True)])
+                found = self.known_texcoords[bits] = ConstantTexcoords(attributes)
+            self.texcoord_attributes = found
+        return self.texcoord_attributes
 
     def _find(self, context: Context, bits: bytes, value: tuple[float, ...]) -> ConstantAttribute:
         attribute = self.known.get(bits)
         if attribute is None:
-            attribute = self.known[bits] = ConstantAttribute(context.packed(value))
+            attribute = self.known[bits] = ConstantAttribute(context.frozen(value))
         return attribute
 
 
-def constant_attributes(context: Context, carried: Carried | None = None) -> ConstantSet:
-    """Return colour, normal and texture coordinates of the context; the same object for the same bits.
-
-    Nobody asks for those that are carried: they have values of an earlier draw, so that no set is made for new ones.
-    """
-    current, kept = context.current, context.arrays.constants
+def kept_constants(context: Context) -> ConstantAttributes:
+    """Return what is kept of the attributes of earlier draws."""
+    kept: ConstantAttributes | None = context.arrays.constants
     if kept is None or len(kept.sets) >= MOST_VALUES or len(kept.known_texcoords) >= MOST_VALUES:
         kept = context.arrays.constants = ConstantAttributes()
-    color, normal, texcoords = current.color, current.normal, current.texcoords
-    if carried is not None:
-        if carried.color:
-            color = kept.color
-        if carried.normal:
-            normal = kept.normal
-        if carried.units:
-            texcoords = texcoords.copy()
-            for unit, _ in carried.units:
-                texcoords[unit] = kept.texcoords[unit]
-    found: ConstantSet | None = kept.last
-    is_last = found is not None and color is kept.color and normal is kept.normal
-    if found is None or not is_last or not all(map(is_, texcoords, kept.texcoords)):
-        found = kept.find(context, color, normal, texcoords)
-    return found
+    return kept
+
+
+def constant_attributes(context: Context) -> ConstantSet:
+    """Return colour, normal and texture coordinates of the context; the same object for the same bits."""
+    return kept_constants(context).find(context)
 
 
 def repeat_row(row: np.ndarray, count: int) -> np.ndarray:

@@ -103,14 +103,14 @@ class Strip:
         vertices = self._vertices.get(context.real)
         if vertices is None:
             n = len(self.positions)
-            arrays = {"position": context.packed(self.positions, n // 4, 4)}
+            arrays = {"position": context.frozen(self.positions).reshape(-1, 4)}
             for name, changes in self.changes.items():
                 starts = [0, *(start for start, _ in changes[1:])]  # rows before the first one are replaced
                 ends = [*starts[1:], n]
                 values = [value for _, value in changes]
                 repeated = zip(values, starts, ends, strict=True)
                 rows = [value for value, start, end in repeated for _ in range(start, end, 4)]
-                arrays[name] = context.packed([x for row in rows for x in row], n // 4, len(rows[0]))
+                arrays[name] = context.frozen(rows)
             vertices = self._vertices[context.real] = PairVertices(arrays, self.starts)
         return vertices
 

@@ -17,7 +17,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context, Primitive, VertexBuffer
 from softshadow.context.current_values import UNIT_OF
 from softshadow.frozen import create
-from softshadow.gl.constant_attributes import OPTIONAL, carried_of, constant_attributes
+from softshadow.gl.constant_attributes import OPTIONAL, carried_of, kept_constants
 from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
 from softshadow.state import BLACK
@@ -211,9 +211,8 @@ def _cut(primitive: Primitive, n: int) -> Cut:
 
 def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int | None = None) -> Vertices:
     """Return the vertices [start, end) of a primitive; attributes that they do not carry are repeats of one row."""
-    carried = carried_of(tuple(context.vertex_buffer.sizes))
-    constants = constant_attributes(context, carried)
-    positions = primitive.positions
+    carried, kept = carried_of(tuple(context.vertex_buffer.sizes)), kept_constants(context)
+    positions, current = primitive.positions, context.current
     if end is None:
         arrays, end = primitive.arrays, len(positions) // 4
     else:
@@ -223,11 +222,10 @@ def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int
     def rows(name: str) -> np.ndarray:
         return arrays[name] if name in arrays else _rows(context, primitive, name, start, count)
 
-    texcoords = constants.texcoords.rows(count)
+    texcoords = kept.find_texcoords(context, carried.units).rows(count)
     for unit, name in carried.units:
         texcoords = (*texcoords[:unit], rows(name), *texcoords[unit + 1 :])
     edges = secondary = fog_coordinates = None
-    current = context.current
     if carried.optional or not current.edge or current.secondary != BLACK or current.fog_coordinate:
         edges, secondary, fog_coordinates = [
             _optional_rows(context, primitive, name, rows, start, end) for name in OPTIONAL
@@ -235,8 +233,8 @@ def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int
     return create(
         Vertices,
         position=arrays["position"] if arrays else context.packed(positions, count, 4),
-        color=rows("color") if carried.color else constants.color.rows(count),
-        normal=rows("normal") if carried.normal else constants.normal.rows(count),
+        color=rows("color") if carried.color else kept.latest_color.of(context, current.color, count),
+        normal=rows("normal") if carried.normal else kept.latest_normal.of(context, current.normal, count),
         texcoords=texcoords,
         materials={name: rows(name) for name in primitive.materials} if primitive.materials else NONE,
         edges=edges,
