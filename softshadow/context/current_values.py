@@ -115,22 +115,26 @@ class CurrentValues(ChangingState):
         self.pending.reset_due = self.pending.has_vertices = False
 
     def _make_pending_current(self) -> None:
-        pending, color = self.pending, self.current.color
+        pending = self.pending
         pending.before_following = None
-        if not pending.old_values and not pending.hidden:
-            return
+        if pending.hidden:
+            self._make_hidden_current()
+        old_values = pending.old_values
+        if old_values:
+            for name, old_value in old_values.items():
+                if old_value != self.attribute(name):
+                    self.touched |= gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT
+            old_values.clear()
+            pending.settled = None
+
+    def _make_hidden_current(self) -> None:
+        pending, color = self.pending, self.current.color
         follows = self.groups["lighting"].fields["color_material"]
         followed = (self.state_groups.followed or pending.settled) if follows else None
-        if pending.hidden:
-            self._settle()
+        self._settle()
         for name, value in pending.hidden.items():
             pending.old_values.setdefault(name, self.attribute(name))
             self.set_attribute(name, value)
-        if pending.hidden and followed is not None and pending.old_values.get("color", color) != color:
+        if followed is not None and pending.old_values.get("color", color) != color:
             self.state_groups.followed = followed  # a new colour comes after the materials
-        for name, old_value in pending.old_values.items():
-            if old_value != self.attribute(name):
-                self.touched |= gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT
         pending.hidden.clear()
-        pending.old_values.clear()
-        pending.settled = None

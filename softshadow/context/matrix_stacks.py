@@ -67,7 +67,9 @@ class MatrixStack:
         self._is_single = real is np.float32
         self._carry_out: Any = products.carry_out_by_textbook
         self._computed = 0
-        self._levels = np.zeros((limit, 4, 4), real)
+        self._size = 16 * np.dtype(real).itemsize  # bytes of a matrix
+        self._matrices = bytearray(limit * self._size)
+        self._levels = np.frombuffer(self._matrices, real).reshape(limit, 4, 4)
         self._levels[0] = np.eye(4)
         self._identity = _read_only(self._levels[0])
         self.unresolved_kind = 0
@@ -148,9 +150,14 @@ class MatrixStack:
     @property
     def equals_pushed(self) -> bool:
         """Whether the current matrix has the same bytes as the one below it."""
-        self._compute()
-        level = len(self.below)
-        return self._levels[level].tobytes() == self._levels[level - 1].tobytes()
+        known = self.known
+        if known is not None and known is self.below[-1][1]:
+            return True
+        if self.end:
+            self._compute()
+        size, matrices = self._size, self._matrices
+        start = len(self.below) * size
+        return matrices[start : start + size] == matrices[start - size : start]
 
     # -- operations ----------------------------------------------------------------------------------------------------
     def translate(self, x: float, y: float, z: float) -> None:

@@ -134,11 +134,7 @@ class VertexBuffer:
     @property
     def room(self) -> int:
         """The number of vertices like the last one that fit behind the submitted ones."""
-        return (BYTES - self.used_bytes) // self._vertex_bytes
-
-    @property
-    def _vertex_bytes(self) -> int:
-        return 4 * sum(self.sizes.values())
+        return (BYTES - self.used_bytes) // (4 * sum(self.sizes.values()))
 
     def draw(self, command: Draw) -> None:
         """Draw at once; consecutive draws of one mode are one draw of the driver."""
@@ -186,9 +182,10 @@ class VertexBuffer:
         if self.joined_pairs is not None:
             self.draw_joined_pairs()
         self.driver_draw = NO_DRAW
-        self.pairs.clear()
+        if self.pairs.n_pairs:
+            self.pairs.clear()
         if self.n_vertices:
-            used = self.used_bytes + self.n_vertices * self._vertex_bytes
+            used = self.used_bytes + self.n_vertices * 4 * sum(self.sizes.values())
             self.used_bytes = used if used + LEAST_BYTES < BYTES else 0
             self.n_vertices = 0
 
