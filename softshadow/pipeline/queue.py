@@ -99,8 +99,9 @@ class DrawQueue:
         # by the identity of what they depend on; the latest by all but their tests and blending
         self._known: dict[tuple[int, ...], list[Kind]] = {}
         self._latest: dict[tuple[int, ...], Kind] = {}
-        # the latest, and a draw of it, by its mode and what of its state matters
+        # the latest, and a draw of it: by its mode and what of its state matters, and by mode and identity of the state
         self._of_states: dict[tuple[object, ...], tuple[Kind, Draw]] = {}
+        self._of_state: dict[tuple[int, int], tuple[Kind, Draw]] = {}
         self._batch_numbers: dict[Hashable, int] = {}  # by geometry key
         self._next_number = count()
         self._known_vertices = 0
@@ -146,6 +147,18 @@ class DrawQueue:
         """Return the kind of a draw, or None if it cannot wait."""
         if not may_wait(command) or not (self._compiles or BATCH_KERNELS.are_compiled()):
             return None
+        state = command.state
+        known = self._of_state.get((id(state), command.mode))
+        if known is not None and known[0].run.continues(command, known[1]):
+            return known[0]
+        kind = self._kind_of_equal_state(command)
+        if kind is not None:
+            if len(self._of_state) >= KNOWN_KINDS:
+                self._of_state.clear()
+            self._of_state[id(state), command.mode] = kind, command
+        return kind
+
+    def _kind_of_equal_state(self, command: Draw) -> Kind | None:
         key = key_of(command.state)
         place = *key, *structure_of(command.state.lighting), command.mode
         known = self._of_states.get(place)
@@ -191,6 +204,7 @@ class DrawQueue:
         self._known.clear()
         self._latest.clear()
         self._of_states.clear()
+        self._of_state.clear()
         self._batch_numbers.clear()
         self._known_vertices = 0
 
