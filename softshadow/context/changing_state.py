@@ -7,13 +7,21 @@ drawn draws them first.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Protocol
 
 from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.state_groups import Followed, Group, StateGroups, affects_draws
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.frozen import evolve
+from softshadow.pipeline.commands import Draw
 from softshadow.state import Lighting, State
+
+
+class CollectedText(Protocol):
+    """Bitmaps in a row, which are drawn together (`softshadow.gl.bitmaps`)."""
+
+    def command(self) -> Draw:
+        """Return the draw of all of them."""
 
 
 class ChangingState:
@@ -35,15 +43,16 @@ class ChangingState:
     pending: PendingAttributes
     primitive: Primitive | None  # between glBegin and glEnd
     vertex_buffer: VertexBuffer  # immediate mode
+    text: CollectedText | None  # bitmaps that are collected; they come before the collected vertices
 
     def flush(self) -> None:
-        """Draw the collected vertices."""
+        """Draw the collected bitmaps and vertices."""
         raise NotImplementedError
 
     @property
     def has_collected(self) -> bool:
-        """Whether vertices are collected, or attributes wait for the next change of the state."""
-        return bool(self.vertex_buffer.sizes or self.pending.reset_due)
+        """Whether vertices or bitmaps are collected, or attributes wait for the next change of the state."""
+        return bool(self.vertex_buffer.sizes or self.pending.reset_due or self.text is not None)
 
     @property
     def state(self) -> State:

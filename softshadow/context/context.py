@@ -122,6 +122,7 @@ class Context(CurrentValues):
         self.open_step: str | None = None  # title of a step that has begun
         self.primitive: Primitive | None = None  # between glBegin and glEnd
         self.vertex_buffer = VertexBuffer(self._carry_out, self.objects)  # immediate mode
+        self.text = None
         self.arrays = ClientArrays()
         self.client_stack: list[Any] = []
         unset: Any = None  # what `draw_command` sets, beside this
@@ -173,6 +174,8 @@ class Context(CurrentValues):
 
         Collected vertices of immediate mode are not drawn to it yet: `flush` first.
         """
+        if self.text is not None:
+            self._draw_text()
         self._waiting.carry_out()
         return self.objects
 
@@ -239,7 +242,14 @@ class Context(CurrentValues):
         self._carry_out(command)
 
     def flush(self) -> None:
-        """Draw the collected vertices: later pairs are not joined to them. Do nothing between glBegin and glEnd."""
+        """Draw what is collected: later pairs are not joined to it. Do nothing between glBegin and glEnd."""
+        if self.primitive is None:
+            if self.text is not None:
+                self._draw_text()
+            self.flush_vertices()
+
+    def flush_vertices(self) -> None:
+        """Draw the collected vertices; bitmaps can still be joined to those that are collected."""
         if self.primitive is None:
             buffer = self.vertex_buffer
             if buffer.sizes or buffer.n_vertices or buffer.joined_pairs is not None:
@@ -252,7 +262,14 @@ class Context(CurrentValues):
         self.flush()
         self._waiting.carry_out()
 
+    def _draw_text(self) -> None:
+        text, self.text = self.text, None
+        if text is not None:
+            self._carry_out(text.command())
+
     def _carry_out(self, command: Command) -> None:
+        if self.text is not None:
+            self._draw_text()
         if self.gate is not None and not self.gate(command):
             return
         if type(command) is Draw and command.state.lines.stippled:

@@ -1,7 +1,7 @@
 """glBitmap: a pattern of pixels at the raster position, as the text of GLUT draws it.
 
 A bitmap becomes a draw: a quad for each run of set bits in a row. So it goes through the same tests as any other
-fragment, and the history of a pixel shows it.
+fragment, and the history of a pixel shows it. The bitmaps of a text are one draw.
 
 References: GL 2.1, sec. 3.7; drawpix.c and st_cb_bitmap.c of Mesa 22.3.
 """
@@ -27,6 +27,7 @@ from softshadow.gl.raster_draws import (
     KEPT_VERTICES,
     attributes_of,
     draw_at,
+    indices_of,
     normalized,
     positions,
     raster_vertices,
@@ -47,16 +48,17 @@ class PixelQuads:
     Attributes
     ----------
     quads : (N, 4) int           left, bottom, right, top
+    is_small : bool              whether it may be a character
+    x, y : (4 N,) int            of the corners in Mesa's order; only of a small one
     """
 
-    __slots__ = ("_bounds", "_is_small", "_placed", "_x", "_y", "quads")
+    __slots__ = ("_bounds", "_placed", "is_small", "quads", "x", "y")
 
     def __init__(self, quads: np.ndarray) -> None:
         self.quads = quads
-        self._is_small = 0 < 4 * len(quads) <= KEPT_VERTICES
-        if self._is_small:
-            # of the corners in Mesa's order
-            self._x, self._y = (quads[:, EDGES[:, axis]].reshape(-1).astype(np.intp) for axis in (0, 1))
+        self.is_small = 0 < 4 * len(quads) <= KEPT_VERTICES
+        if self.is_small:
+            self.x, self.y = (quads[:, EDGES[:, axis]].reshape(-1).astype(np.intp) for axis in (0, 1))
             self._bounds = *quads[:, :2].min(axis=0).tolist(), *quads[:, 2:].max(axis=0).tolist()
         self._placed: dict[tuple[Any, ...], Vertices] = {}  # the latest, by place and size of the framebuffer
 
@@ -69,7 +71,7 @@ class PixelQuads:
             return before
         position = self._positions(left, bottom, size, real) if before is None else before.position
         vertices = raster_vertices(position, color, texcoords)
-        if self._is_small:
+        if self.is_small:
             if len(self._placed) >= KEPT_PLACES:
                 self._placed.clear()
             self._placed[place] = vertices
@@ -77,19 +79,56 @@ class PixelQuads:
 
     def _positions(self, left: int, bottom: int, size: tuple[int, int], real: Any) -> np.ndarray:
         """Return the corners (4 N, 4) in normalized device coordinates."""
-        if not (self._is_small and self._is_near(left, bottom, size)):
+        if not (self.is_small and self.is_near(left, bottom, size)):
             return positions(self.quads + np.array([left, bottom, left, bottom]), size, EDGES, real)
-        position = np.zeros((len(self._x), 4), real)
-        position[:, 0] = _coordinates(size[0], real)[self._x + (left + MARGIN)]
-        position[:, 1] = _coordinates(size[1], real)[self._y + (bottom + MARGIN)]
-        position[:, 3] = 1
-        return position
+        return _near_positions(self.x + left, self.y + bottom, size, real)
 
-    def _is_near(self, left: int, bottom: int, size: tuple[int, int]) -> bool:
+    def is_near(self, left: int, bottom: int, size: tuple[int, int]) -> bool:
         """Return whether the tables of coordinates reach far enough."""
         x0, y0, x1, y1 = self._bounds
         is_after_start = left + x0 >= -MARGIN and bottom + y0 >= -MARGIN
         return is_after_start and left + x1 <= size[0] + MARGIN and bottom + y1 <= size[1] + MARGIN
+
+
+class Text:
+    """Small bitmaps in a row, with nothing between them that a draw depends on, to be one draw.
+
+    Parameters
+    ----------
+    context : Context
+    pixels, left, bottom         the first one, and its place
+    """
+
+    def __init__(self, context: Context, pixels: PixelQuads, left: int, bottom: int) -> None:
+        self._first, self._real = draw_of_pixels(context, pixels, left, bottom), cast(Any, context.real)
+        self._raster, self._labels = context.current.raster, context.labels.copy()
+        self._size = context.objects.framebuffers[self._first.state.draw_framebuffer].size
+        self._parts, self._n_vertices = [(pixels, left, bottom)], 4 * len(pixels.quads)
+        self._are_near = pixels.is_near(left, bottom, self._size)
+
+    def add(self, context: Context, pixels: PixelQuads, left: int, bottom: int) -> bool:
+        """Add a bitmap; return False, and do nothing, if it must be a draw of its own."""
+        first, raster, n_vertices = self._raster, context.current.raster, self._n_vertices + 4 * len(pixels.quads)
+        is_alike = raster.color is first.color and raster.texcoords is first.texcoords
+        if not is_alike or raster.window[2] != first.window[2] or context.labels != self._labels:
+            return False
+        if n_vertices > KEPT_VERTICES or not (self._are_near and pixels.is_near(left, bottom, self._size)):
+            return False
+        self._parts.append((pixels, left, bottom))
+        self._n_vertices = n_vertices
+        return True
+
+    def command(self) -> Draw:
+        """Return the draw of all bitmaps."""
+        if len(self._parts) == 1:
+            return self._first
+        pixels, lefts, bottoms = zip(*self._parts, strict=True)
+        counts = [4 * len(each.quads) for each in pixels]
+        x = np.concatenate([each.x for each in pixels]) + np.repeat(lefts, counts)
+        y = np.concatenate([each.y for each in pixels]) + np.repeat(bottoms, counts)
+        position = _near_positions(x, y, self._size, self._real)
+        vertices = raster_vertices(position, *attributes_of(self._raster, len(position), self._real))
+        return evolve(self._first, vertices=vertices, indices=indices_of(len(position)))
 
 
 def draw_of_pixels(context: Context, pixels: PixelQuads, left: int, bottom: int) -> Draw:
@@ -151,9 +190,22 @@ def _bitmap(
     if is_rendered(context, gl.GL_BITMAP_TOKEN) and pixels is not None and len(pixels.quads):
         left = math.floor(x + ROUNDING - np.float32(xorig))
         bottom = math.floor(y + ROUNDING - np.float32(yorig))
-        context.execute(draw_of_pixels(context, pixels, left, bottom))
+        _draw(context, pixels, left, bottom)
     window = float(x + np.float32(xmove)), float(y + np.float32(ymove)), *rest
     context.current.raster = evolve(context.current.raster, window=window)
+
+
+def _draw(context: Context, pixels: PixelQuads, left: int, bottom: int) -> None:
+    """Draw a bitmap, a small one together with those that follow."""
+    text = context.text
+    has_vertices = context.vertex_buffer.n_vertices or context.vertex_buffer.joined_pairs is not None
+    if isinstance(text, Text) and not has_vertices and text.add(context, pixels, left, bottom):
+        return
+    context.flush()
+    if pixels.is_small and context.gate is None:
+        context.text, context.ready = Text(context, pixels, left, bottom), False
+    else:
+        context.execute(draw_of_pixels(context, pixels, left, bottom))
 
 
 def runs(bits: np.ndarray) -> np.ndarray:
@@ -170,6 +222,15 @@ def runs(bits: np.ndarray) -> np.ndarray:
     row, begin = np.nonzero(steps == 1)
     end = np.nonzero(steps == -1)[1]
     return np.stack([begin, row, end, row + 1], axis=1)
+
+
+def _near_positions(x: np.ndarray, y: np.ndarray, size: tuple[int, int], real: Any) -> np.ndarray:
+    """Return corners (N, 4) in normalized device coordinates, of x and y in pixels not far outside of the window."""
+    position = np.zeros((len(x), 4), real)
+    position[:, 0] = _coordinates(size[0], real)[x + MARGIN]
+    position[:, 1] = _coordinates(size[1], real)[y + MARGIN]
+    position[:, 3] = 1
+    return position
 
 
 @lru_cache(16)

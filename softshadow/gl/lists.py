@@ -125,7 +125,7 @@ def glCallLists(*arguments: Any) -> None:
 
 
 def _call(context: Context, name: int) -> None:
-    context.flush()
+    context.flush_vertices()
     compiled = context.lists.get(name)
     if compiled is None or context.list_depth == DEEPEST_LIST:
         return
@@ -134,7 +134,7 @@ def _call(context: Context, name: int) -> None:
         carry_out(compiled.calls)
     finally:
         context.list_depth -= 1
-        context.flush()
+        context.flush_vertices()
 
 
 @in_lists

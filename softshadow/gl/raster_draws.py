@@ -56,7 +56,7 @@ def draw_at(context: Context, state: State, size: tuple[int, int], vertices: Ver
         _blank_draw(real, len(vertices.texcoords)),
         state=_prepared(state, size, state.draw_framebuffer == DEFAULT, clamps),
         vertices=vertices,
-        indices=_for(n, _indices)(n // 4),
+        indices=indices_of(n),
         projection=_projection(context.current.raster.window[2], real),
         label="/".join(context.labels) if context.labels else "",
     )
@@ -137,6 +137,12 @@ def _repeated(value: Any, n: int, real: Any) -> np.ndarray:
     rows[:] = value
     rows.setflags(write=False)
     return rows
+
+
+def indices_of(n_vertices: int) -> np.ndarray:
+    """Return the indices of the triangles of quads."""
+    indices: np.ndarray = _for(n_vertices, _indices)(n_vertices // 4)
+    return indices
 
 
 @lru_cache(256)

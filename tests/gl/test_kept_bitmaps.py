@@ -1,6 +1,6 @@
 """What glBitmap keeps for characters: small bitmaps only, so that pictures of bits take no memory.
 
-What is kept gives the same vertices as before.
+What is kept gives the same vertices as before. The characters of a text are drawn together, and leave the same bits.
 """
 
 import numpy as np
@@ -8,6 +8,7 @@ import pytest
 
 from softshadow import gl
 from softshadow.gl import bitmaps, raster_draws
+from softshadow.pipeline.commands import Draw
 
 KEPT = (bitmaps._kept_pixels, raster_draws._attributes, raster_draws._normals, raster_draws._indices)
 
@@ -63,3 +64,119 @@ def test_few_places_of_a_character_are_kept() -> None:
         for left in range(3 * bitmaps.KEPT_PLACES):
             bitmaps.draw_of_pixels(context, character, left, 0)
     assert len(character._placed) <= bitmaps.KEPT_PLACES
+
+
+class RandomText:
+    """Characters between changes of the state, in a random order that depends on a seed."""
+
+    def __init__(self, seed: int) -> None:
+        self.rng = np.random.default_rng(seed)
+        self.characters = [self.rng.bytes(12) for _ in range(4)]
+
+    def draw(self) -> None:
+        gl.glPixelStorei(gl.GL_UNPACK_ALIGNMENT, 1)
+        gl.glEnable(gl.GL_DEPTH_TEST)
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 1, 1, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, bytes([255] * 4))
+        gl.glRasterPos2f(-0.9, 0)
+        gl.glPushAttrib(gl.GL_ALL_ATTRIB_BITS)
+        for _ in range(60):
+            self._step(int(self.rng.integers(24)))
+        gl.glFinish()
+
+    def _step(self, kind: int) -> None:
+        numbers = self.rng.uniform(-1, 1, 4).tolist()
+        if kind == 0:
+            gl.glColor4f(*numbers)
+        elif kind == 1:
+            gl.glRasterPos3f(numbers[0], numbers[1], numbers[2])
+        elif kind == 2:
+            (gl.glEnable if numbers[0] > 0 else gl.glDisable)(gl.GL_BLEND)
+            gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE)
+        elif kind == 3:
+            gl.glScissor(4, 2, 40 + int(9 * numbers[0]), 30)
+            gl.glEnable(gl.GL_SCISSOR_TEST)
+        elif kind == 4:
+            gl.glBegin(gl.GL_TRIANGLES)
+            for x, y in ((-1, -1), (1, -1), (0, 1)):
+                gl.glVertex3f(x * numbers[0], y * numbers[1], numbers[2])
+            gl.glEnd()
+        elif kind == 5:
+            gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, "text")
+        elif kind == 6:
+            gl.glPopDebugGroup()
+            gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, "other text")
+        elif kind == 7:
+            gl.glClear(gl.GL_DEPTH_BUFFER_BIT)
+        elif kind == 8:
+            gl.glLogicOp(gl.GL_XOR)
+            (gl.glEnable if numbers[0] > 0 else gl.glDisable)(gl.GL_COLOR_LOGIC_OP)
+        elif kind == 9:
+            (gl.glEnable if numbers[0] > 0 else gl.glDisable)(gl.GL_TEXTURE_2D)
+        elif kind == 10:
+            texel = self.rng.bytes(4)
+            gl.glTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 1, 1, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texel)
+        elif kind == 11:
+            gl.glPopAttrib()
+            gl.glPushAttrib(gl.GL_ALL_ATTRIB_BITS)
+        elif kind == 12:
+            gl.glColorMask(*[number > -0.5 for number in numbers])
+        elif kind == 13:
+            gl.glDrawPixels(2, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, bytes(range(6)))
+        elif kind == 14:
+            gl.glDepthFunc(gl.GL_LEQUAL if numbers[0] > 0 else gl.GL_GREATER)
+        else:
+            width = int(self.rng.integers(1, 9))
+            character = self.characters[int(self.rng.integers(4))]
+            gl.glBitmap(width, 12, numbers[0], numbers[1], width * numbers[2], numbers[3], character)
+
+
+def drawn_text(seed: int) -> tuple[list[Draw], list[bytes]]:
+    """Return the draws of a random text, and the buffers after it."""
+    text = RandomText(seed)
+    with gl.create_context(48, 32) as context:
+        gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, "first")
+        text.draw()
+        window = context.storage.window
+        draws = [command for command in context.frame.commands if isinstance(command, Draw)]
+        return draws, [window.color.view.tobytes(), window.depth.view.tobytes()]
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_characters_that_are_drawn_together_leave_the_bits_of_single_draws(seed, monkeypatch):
+    draws, buffers = drawn_text(seed)
+    monkeypatch.setattr(bitmaps.Text, "add", lambda *_: False)
+    singles, expected = drawn_text(seed)
+    assert buffers == expected
+    assert len(draws) < len(singles)
+    of_label = [
+        {label: sum(len(each.vertices.position) for each in some if each.label == label) for label in LABELS}
+        for some in (draws, singles)
+    ]
+    assert of_label[0] == of_label[1]
+
+
+LABELS = ("first", "first/text", "first/other text", "other text")
+
+
+def test_a_text_of_lists_is_one_draw_and_what_follows_comes_after_it() -> None:
+    with gl.create_context(64, 16) as context:
+        gl.glPixelStorei(gl.GL_UNPACK_ALIGNMENT, 1)
+        base = gl.glGenLists(2)
+        for n in range(2):
+            gl.glNewList(base + n, gl.GL_COMPILE)
+            gl.glBitmap(8, 4, 0, 0, 9, 0, bytes([0b10101010, 0xFF] * 2))
+            gl.glEndList()
+        gl.glListBase(base)
+        gl.glColor3f(1, 0, 0)
+        gl.glRasterPos2f(-1, -1)
+        gl.glCallLists(6, gl.GL_UNSIGNED_BYTE, bytes([0, 1, 1, 0, 1, 0]))
+        gl.glColor3f(0, 1, 0)
+        gl.glRectf(-1, -1, 0, 1)  # over the first half
+        gl.glBitmap(8, 4, 0, 0, 0, 0, bytes([0xFF] * 4))
+        pixels = np.array(gl.glReadPixels(0, 0, 64, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)).reshape(64, 3)
+        draws = [command for command in context.frame.commands if isinstance(command, Draw)]
+    assert [len(draw.vertices.position) // 4 for draw in draws] == [6 * 10, 1, 4]
+    assert (pixels[:32] == (0, 255, 0)).all()
+    assert [tuple(pixel) for pixel in pixels[36:44]] == [(255, 0, 0), (0, 0, 0)] * 4  # of the fifth character
+    assert (pixels[54:62] == (255, 0, 0)).all()  # what is drawn last
