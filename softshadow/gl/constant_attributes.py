@@ -138,10 +138,10 @@ class ConstantAttributes:
         self.sets: dict[tuple[bytes, ConstantTexcoords], ConstantSet] = {}
         self.last: ConstantSet | None = None
 
-    def find(self, context: Context) -> ConstantSet:
-        """Return the set of the current values."""
+    def find(self, context: Context, carried: Sequence[tuple[int, str]] = NO_UNITS) -> ConstantSet:
+        """Return the set of the current values; for `carried` see `find_texcoords`."""
         color, normal, last = context.current.color, context.current.normal, self.last
-        texcoords = self.find_texcoords(context, NO_UNITS)
+        texcoords = self.find_texcoords(context, carried)
         if last is not None and texcoords is last.texcoords and color is self.color and normal is self.normal:
             return last
         key = PACK_COLOR_AND_NORMAL(*color, *normal), texcoords
@@ -188,9 +188,12 @@ def kept_constants(context: Context) -> ConstantAttributes:
     return kept
 
 
-def constant_attributes(context: Context) -> ConstantSet:
-    """Return colour, normal and texture coordinates of the context; the same object for the same bits."""
-    return kept_constants(context).find(context)
+def constant_attributes(context: Context, carried: Sequence[tuple[int, str]] = NO_UNITS) -> ConstantSet:
+    """Return colour, normal and texture coordinates of the context; the same object for the same bits.
+
+    The texture coordinates of `carried` units (unit, name) may be those of an earlier draw.
+    """
+    return kept_constants(context).find(context, carried)
 
 
 def repeat_row(row: np.ndarray, count: int) -> np.ndarray:

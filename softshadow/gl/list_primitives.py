@@ -15,6 +15,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, current
+from softshadow.framebuffer import DEFAULT
 from softshadow.gl.array_snapshots import COLOR, NORMAL, POSITION, TEXCOORD
 from softshadow.gl.constant_attributes import ConstantAttribute, ConstantSet, constant_attributes
 from softshadow.gl.errors import GLError, fail
@@ -41,6 +42,7 @@ class ListPrimitive:
     sizes : dict                 name: components in the last call
     drawn : dict                 `Vertices` by the current values that they have
     latest : the set of current values of the latest draw, and its vertices
+    carried_units : (unit, name) of the texture coordinates that all vertices have from the list
     """
 
     calls: list[Callable[[], Any]]
@@ -52,6 +54,11 @@ class ListPrimitive:
     indices: np.ndarray
     drawn: dict[tuple[ConstantAttribute, ...], Vertices] = field(default_factory=dict)
     latest: tuple[ConstantSet, Vertices] | None = None
+
+    def __post_init__(self) -> None:
+        units = range(TEXTURE_UNITS)
+        self.carried_units = tuple([(unit, NAMES[TEXCOORD + unit]) for unit in units
+                                    if self.starts.get(TEXCOORD + unit) == 0])  # fmt: skip
 
     def __call__(self) -> None:
         """Draw the primitive, and make its last attributes current."""
@@ -68,7 +75,7 @@ class ListPrimitive:
         """Draw the primitive; return the draw, and the values of the attributes that the list does not set."""
         if context.pending.names:
             context.reset_attributes()
-        constants = constant_attributes(context)
+        constants = constant_attributes(context, self.carried_units)
         vertices = self.latest_vertices(constants)
         self.make_current(context)
         return context.draw(self.mode, vertices, self.indices), constants
@@ -167,7 +174,8 @@ def _is_between_primitives(context: Context) -> bool:
             return False
     elif buffer.n_vertices or buffer.joined_pairs is not None:
         return False
-    if framebuffer_status(context, context.state.draw_framebuffer) != gl.GL_FRAMEBUFFER_COMPLETE:
+    name = context.groups[""].fields["draw_framebuffer"]  # without settling colours that materials follow
+    if name != DEFAULT and framebuffer_status(context, name) != gl.GL_FRAMEBUFFER_COMPLETE:
         return False
     buffer.sizes.clear()
     return True
