@@ -16,6 +16,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context, current
 from softshadow.framebuffer import DEFAULT
+from softshadow.frozen import create
 from softshadow.gl.array_snapshots import COLOR, NORMAL, POSITION, TEXCOORD
 from softshadow.gl.constant_attributes import ConstantAttribute, ConstantSet, constant_attributes
 from softshadow.gl.errors import GLError, fail
@@ -117,7 +118,17 @@ class ListPrimitive:
                     rows[slot - 1].setflags(write=False)
             if len(self.drawn) >= MOST_DRAWN:
                 self.drawn.clear()
-            vertices = self.drawn[key] = Vertices(self.rows[POSITION], rows[0], rows[1], tuple(rows[2:]))
+            vertices = self.drawn[key] = create(
+                Vertices,
+                position=self.rows[POSITION],
+                color=rows[0],
+                normal=rows[1],
+                texcoords=tuple(rows[2:]),
+                materials={},
+                edges=None,
+                secondary=None,
+                fog_coordinates=None,
+            )
         return vertices
 
 
