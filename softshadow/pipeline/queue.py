@@ -99,7 +99,8 @@ class DrawQueue:
         # by the identity of what they depend on; the latest by all but their tests and blending
         self._known: dict[tuple[int, ...], list[Kind]] = {}
         self._latest: dict[tuple[int, ...], Kind] = {}
-        # the latest, and a draw of it: by its mode and what of its state matters, and by mode and identity of the state
+        # the latest, and a draw of it: by its mode and what of its state matters; by the identity of the state and the
+        # mode, if the draw is small, as nobody counts the vertices that are kept so
         self._of_states: dict[tuple[object, ...], tuple[Kind, Draw]] = {}
         self._of_state: dict[tuple[int, int], tuple[Kind, Draw]] = {}
         self._batch_numbers: dict[Hashable, int] = {}  # by geometry key
@@ -152,7 +153,7 @@ class DrawQueue:
         if known is not None and known[0].run.continues(command, known[1]):
             return known[0]
         kind = self._kind_of_equal_state(command)
-        if kind is not None:
+        if kind is not None and len(command.vertices.position) < WORTH_COMPARING:
             if len(self._of_state) >= KNOWN_KINDS:
                 self._of_state.clear()
             self._of_state[id(state), command.mode] = kind, command

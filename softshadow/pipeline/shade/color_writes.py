@@ -92,7 +92,7 @@ def colors_to_bytes(values: np.ndarray, format: Format) -> np.ndarray:
 def byte_of(value):
     """Return one number as a byte, see `colors_to_bytes`."""
     scaled = value * LARGEST_BYTE
-    scaled = scaled if scaled > ZERO else ZERO  # one minimum or maximum each: so the loops have few instructions
+    scaled = scaled if scaled > ZERO else ZERO  # a maximum, NaN becomes 0; the last line has a minimum
     scaled = scaled if scaled < INT32_END else ZERO
     return np.int32(np.rint(scaled if scaled < LARGEST_BYTE else LARGEST_BYTE))
 

@@ -84,13 +84,14 @@ class Views(NamedTuple):
 
 def views_of(draws: Sequence[Draw], target: Framebuffer) -> Views:
     """Return the viewport transforms of draws."""
-    rows: dict[int, int] = {}  # by the identity of viewports
-    of_draws = [rows.setdefault(id(draw.state.viewport), len(rows)) for draw in draws]
-    firsts = draws[:1] if len(rows) == 1 else [draws[of_draws.index(row)] for row in range(len(rows))]
-    transforms = [_transform(draw.state.viewport, target) for draw in firsts]
+    viewports = [draw.state.viewport for draw in draws]
+    distinct = {id(viewport): viewport for viewport in viewports}
+    rows = {name: row for row, name in enumerate(distinct)}
+    of_draws = [rows[id(viewport)] for viewport in viewports]
+    transforms = [_transform(viewport, target) for viewport in distinct.values()]
     if len(transforms) == 1:
         return Views(of_draws, *transforms[0])
-    return Views(of_draws, *map(np.concatenate, zip(*transforms, strict=True)))
+    return Views(of_draws, *map(read_only, map(np.concatenate, zip(*transforms, strict=True))))
 
 
 _transforms: dict[int, tuple[Viewport, tuple[int, bool], tuple[np.ndarray, np.ndarray]]] = {}  # the latest, by id
