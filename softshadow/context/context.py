@@ -5,10 +5,8 @@
 
 from __future__ import annotations
 
-import struct
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -23,6 +21,7 @@ from softshadow.context.kept_materials import with_kept_materials
 from softshadow.context.line_pattern import LinePattern
 from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.pending_attributes import PendingAttributes
+from softshadow.context.precision import Precision
 from softshadow.context.recording import Frame
 from softshadow.context.render_mode import RenderMode
 from softshadow.context.state_groups import StateGroups
@@ -57,7 +56,7 @@ SHAPE = ("format", "internal_format", "width", "height", "slices")  # of an imag
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
 
 
-class Context(CurrentValues):
+class Context(CurrentValues, Precision):
     """A GL context in its initial state, with a window of the given size.
 
     Parameters
@@ -102,8 +101,7 @@ class Context(CurrentValues):
         self.error = gl.GL_NO_ERROR
         viewport = evolve(State().viewport, width=width, height=height)
         scissor = evolve(State().scissor, width=width, height=height)
-        self.real: type[np.floating] = np.float64 if precision == "exact" else np.float32
-        self._dtype = np.dtype(self.real)
+        self.set_precision(precision)
         self.state_groups = StateGroups(evolve(State(), viewport=viewport, scissor=scissor), self.real is np.float32)
         self.groups, self.changed = self.state_groups.groups, self.state_groups.changed  # see `change`
         self.current = CurrentVertex()
@@ -184,32 +182,6 @@ class Context(CurrentValues):
         """The recording, after drawing everything that is still collected."""
         self.flush()
         return self._frame
-
-    # -- arrays --------------------------------------------------------------------------------------------------------
-    def frozen(self, values: Any) -> np.ndarray:
-        """Return the values as a read-only array in the context's precision; too large ones become infinite."""
-        with np.errstate(over="ignore"):
-            array = np.array(values, self.real)
-        array.setflags(write=False)
-        return array
-
-    def packed(self, numbers: Sequence[float], *shape: int) -> np.ndarray:
-        """Return what `frozen` returns of plain numbers, one dimension by default, in a third of the time.
-
-        The array must belong to one draw: the recording counts its bytes without looking for others that share it.
-        """
-        dtype, n = self._dtype, len(numbers)
-        return np.ndarray(shape or n, dtype, _packer(n, dtype.char)(*numbers))
-
-    def repeated(self, row: Sequence[float], count: int) -> np.ndarray:
-        """Return what `packed` returns of `count` equal rows."""
-        dtype, width = self._dtype, len(row)
-        return np.ndarray((count, width), dtype, _packer(width, dtype.char)(*row) * count)
-
-    def constant(self, row: Sequence[float], count: int) -> np.ndarray:
-        """Return a read-only view of `count` equal rows."""
-        dtype, width = self._dtype, len(row)
-        return np.ndarray((count, width), dtype, _packer(width, dtype.char)(*row), 0, (0, dtype.itemsize))
 
     # -- matrices and units --------------------------------------------------------------------------------------------
     def select_matrices(self, mode: int) -> None:
@@ -402,11 +374,6 @@ class Context(CurrentValues):
         if self.open_step is not None:
             self.end_step(self.open_step)
             self.open_step = None
-
-
-@lru_cache(maxsize=256)
-def _packer(count: int, kind: str) -> Callable[..., bytes]:
-    return struct.Struct(f"{count}{kind}").pack
 
 
 class _NoContext:

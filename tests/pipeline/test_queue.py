@@ -23,16 +23,22 @@ def planned(monkeypatch):
     return planned
 
 
-@pytest.mark.parametrize("polygon_mode", [gl.GL_FILL, gl.GL_LINE, gl.GL_POINT])
-def test_many_small_draws_are_one_run(monkeypatch, polygon_mode):
-    runs = []
+@pytest.fixture
+def batches(monkeypatch):
+    """Return a list that gets the number of draws of each batch that is set up."""
+    batches: list[int] = []
     geometry_of = queue.geometry_of
 
-    def count(run: Run, setting: Setting, draws: list[Draw], *rest: Any) -> Batch:
-        runs.append(len(draws))
+    def note_batch(run: Run, setting: Setting, draws: list[Draw], *rest: Any) -> Batch:
+        batches.append(len(draws))
         return geometry_of(run, setting, draws, *rest)
 
-    monkeypatch.setattr(queue, "geometry_of", count)
+    monkeypatch.setattr(queue, "geometry_of", note_batch)
+    return batches
+
+
+@pytest.mark.parametrize("polygon_mode", [gl.GL_FILL, gl.GL_LINE, gl.GL_POINT])
+def test_many_small_draws_are_one_run(batches, polygon_mode):
     gl.create_context(SIZE, SIZE)
     gl.glPolygonMode(gl.GL_FRONT_AND_BACK, polygon_mode)
     gl.glEnable(gl.GL_LIGHTING)
@@ -43,24 +49,18 @@ def test_many_small_draws_are_one_run(monkeypatch, polygon_mode):
         gl.glColor3f(n / 50, 0, 0)
         gl.glRotatef(n, 0, 1, 0)
         gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
-    assert not runs
+    assert not batches
     gl.glReadPixels(0, 0, 1, 1, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
-    assert runs == [50]
+    assert batches == [50]
 
 
-def test_small_draws_between_changes_of_tests_are_one_batch(monkeypatch):
-    batches, segments = [], []
-    geometry_of, draw_segment = queue.geometry_of, queue.DrawQueue._draw_segment
-
-    def note_batch(run: Run, setting: Setting, draws: list[Draw], *rest: Any) -> Batch:
-        batches.append(len(draws))
-        return geometry_of(run, setting, draws, *rest)
+def test_small_draws_between_changes_of_tests_are_one_batch(batches, monkeypatch):
+    segments, draw_segment = [], queue.DrawQueue._draw_segment
 
     def note_segment(waiting: queue.DrawQueue, segment: queue.Segment, part: Part, group: Any) -> Any:
         segments.append(part.end - part.first)
         return draw_segment(waiting, segment, part, group)
 
-    monkeypatch.setattr(queue, "geometry_of", note_batch)
     monkeypatch.setattr(queue.DrawQueue, "_draw_segment", note_segment)
     gl.create_context(SIZE, SIZE)
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
@@ -95,11 +95,7 @@ def test_draws_in_many_scissor_boxes_are_of_one_kind_and_fill_their_own_box(plan
 
 
 @pytest.mark.parametrize("mode", [gl.GL_QUADS, gl.GL_LINE_LOOP, gl.GL_POINTS])
-def test_draws_in_many_viewports_are_of_one_kind_and_fill_their_own_one(planned, monkeypatch, mode):
-    batches, geometry_of = [], queue.geometry_of
-    monkeypatch.setattr(
-        queue, "geometry_of", lambda *arguments: batches.append(len(arguments[2])) or geometry_of(*arguments)
-    )
+def test_draws_in_many_viewports_are_of_one_kind_and_fill_their_own_one(planned, batches, mode):
     gl.create_context(SIZE, SIZE)
     gl.glEnable(gl.GL_DEPTH_TEST)
     gl.glDepthFunc(gl.GL_ALWAYS)
@@ -136,11 +132,7 @@ def test_what_a_run_depends_on_is_known_when_its_state_returns(planned):
     assert len(planned) == 2
 
 
-def test_large_draws_of_one_kind_are_set_up_together(monkeypatch):
-    runs, geometry_of = [], queue.geometry_of
-    monkeypatch.setattr(
-        queue, "geometry_of", lambda *arguments: runs.append(len(arguments[2])) or geometry_of(*arguments)
-    )
+def test_large_draws_of_one_kind_are_set_up_together(batches):
     gl.create_context(SIZE, SIZE)
     gl.glEnable(gl.GL_LIGHTING)
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
@@ -149,7 +141,7 @@ def test_large_draws_of_one_kind_are_set_up_together(monkeypatch):
         gl.glMaterialfv(gl.GL_FRONT, gl.GL_DIFFUSE, [n / 5, 0, 0, 1])
         gl.glDrawArrays(gl.GL_TRIANGLES, 0, queue.WORTH_COMPARING)
     gl.glFinish()
-    assert runs == [5]
+    assert batches == [5]
 
 
 def test_what_a_run_depends_on_stays_known_when_texels_change(planned):
