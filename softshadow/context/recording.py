@@ -18,6 +18,9 @@ from softshadow.image import Image
 from softshadow.pipeline.commands import Command, DefineImage, Draw, UpdateImage, Vertices
 
 COMMAND_BYTES = 1300  # of a command without its arrays: about this much for a draw with two matrices and a new state
+# of a vertex at most: position, two colours, normal, eight texture coordinates, fog, materials, in float64; edge flag
+VERTEX_BYTES = 8 * (4 + 2 * 4 + 3 + 8 * 4 + 1 + 2 * 17) + 1
+INDEX_BYTES = 4
 
 
 class Contents:
@@ -112,11 +115,14 @@ class Frame:
 
     def __post_init__(self) -> None:
         self._older, self._newer = Contents(), Contents()  # before and after the mark
+        self._uncounted: list[Draw] = []  # draws that `_newer` does not contain yet
+        self._most_bytes = 0  # that it has at most with them
         self._mark: tuple[int, Storage] | None = None  # number of commands, and the storage after them
 
     @property
     def bytes(self) -> int:
         """The bytes of commands and arrays, if the recording is bounded; an array that several share counts once."""
+        self._count()
         return self._older.bytes + self._newer.new_bytes
 
     def append(self, command: Command) -> bool:
@@ -124,8 +130,25 @@ class Frame:
         self.commands.append(command)
         if self.history_bytes is None:
             return False
-        self._newer.add(command)
+        if type(command) is Draw and type(command.vertices.position.base) is bytes and command.joined_positions is None:
+            # its arrays are its own: they are counted when their bound does not suffice, in a fifth of the time
+            self._uncounted.append(command)
+            self._most_bytes += COMMAND_BYTES + (VERTEX_BYTES + INDEX_BYTES) * len(command.vertices.position)
+        else:
+            before = self._newer.new_bytes
+            self._newer.add(command)
+            self._most_bytes += self._newer.new_bytes - before
+        if self._most_bytes * 2 <= self.history_bytes:
+            return False
+        self._count()
         return self._newer.new_bytes * 2 > self.history_bytes
+
+    def _count(self) -> None:
+        """Count the draws that are not counted yet."""
+        for command in self._uncounted:
+            self._newer.add(command)
+        self._uncounted.clear()
+        self._most_bytes = self._newer.new_bytes
 
     def shorten(self, storage: Storage) -> None:
         """Drop the commands before the mark, and set it here; `storage` is as all commands left it."""
@@ -137,7 +160,7 @@ class Frame:
             self.dropped_steps += len(self.steps) - len(steps)
             self.steps[:] = steps
         self._mark = len(self.commands), copy_storage(storage)
-        self._older, self._newer = self._newer, Contents(self._newer)
+        self._older, self._newer, self._most_bytes = self._newer, Contents(self._newer), 0
 
     def begin(self, storage: Storage) -> None:
         """Begin with a copy of a storage: what has been recorded is its past, and no part of the recording."""
@@ -145,6 +168,8 @@ class Frame:
         self.steps.clear()
         self.start, self.dropped, self.dropped_steps = copy_storage(storage), 0, 0
         self._older, self._newer, self._mark = Contents(), Contents(), None
+        self._uncounted.clear()
+        self._most_bytes = 0
         self.answers.clear()
 
     def fresh_storage(self) -> Storage:
