@@ -18,6 +18,7 @@ import numpy as np
 from softshadow.context import matrix_products as products
 from softshadow.context.matrix_kinds import derived_kind
 from softshadow.context.matrix_products import IDENTITY, LOAD, LOOK_AT, MULTIPLY, PUSH, ROTATE, SCALE, SIZES, TRANSLATE
+from softshadow.kernel_cache import KernelGroup
 from softshadow.matrices import frustum, ortho, perspective_elements, sine_and_cosine
 from softshadow.programs.inverse import (
     GENERAL,
@@ -37,7 +38,9 @@ LAST = CAPACITY - NUMBER  # the last place for a push
 KNOWN = ~UNKNOWN
 SAME_SCALE = 1e-8  # a scale is uniform if its factors differ by less (Mesa, math/m_matrix.c)
 PACK_1, PACK_4, PACK_6, PACK_10, PACK_17 = (struct.Struct(f"={n}d").pack_into for n in (1, 4, 6, 10, 17))
-FEW = 1000 * NUMBER  # bytes computed before compiled code pays: a program that draws little need not load it
+# bytes computed before compiled code pays, by what has to be done for it first: a program that draws little needs none
+FEW_TO_LOAD, FEW_TO_COMPILE = 250 * NUMBER, 1000 * NUMBER
+MATRIX_KERNELS = KernelGroup("matrices")
 
 
 class MatrixStack:
@@ -291,9 +294,16 @@ class MatrixStack:
                 self._queue[push // NUMBER] = PUSH
             self.level = self._carry_out(self._queue, self.end // NUMBER, self._levels, self.level)
             self._computed, self.end = self._computed + self.end, 0
-            if self._computed >= FEW and self._is_single and hasattr(products.carry_out, "py_func"):
-                self._carry_out = products.carry_out
+            if self._computed >= FEW_TO_LOAD and self._carry_out is products.carry_out_by_textbook:
+                self._choose_code()
         return 0
+
+    def _choose_code(self) -> None:
+        """Let compiled code multiply from now on if it is on disk or compiling it pays; it computes in float32."""
+        pays = self._computed >= FEW_TO_COMPILE or MATRIX_KERNELS.are_compiled()
+        if pays and self._is_single and hasattr(products.carry_out, "py_func"):
+            self._carry_out = products.carry_out
+            MATRIX_KERNELS.note_compiled()
 
 
 @lru_cache(maxsize=64)

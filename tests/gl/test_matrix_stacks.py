@@ -1,5 +1,6 @@
 """Queued matrix operations have the bits of the functions of `softshadow.matrices`, carried out one by one."""
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -8,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from softshadow import gl, matrices
-from softshadow.context import MatrixStack, matrix_products
+from softshadow.context import MatrixStack, matrix_products, matrix_stacks
 from softshadow.context.matrix_kinds import derived_kind
 from softshadow.jit import read_only
 from softshadow.programs.inverse import known_kind
@@ -62,7 +63,8 @@ def is_same(a: np.ndarray, b: np.ndarray) -> bool:
 @pytest.mark.parametrize("seed", range(6))
 @np.errstate(all="ignore")
 def test_queued_operations_are_those_of_the_textbook(seed, real, monkeypatch):
-    monkeypatch.setattr("softshadow.context.matrix_stacks.FEW", 0)  # compiled from the second computation on
+    for few in ("FEW_TO_LOAD", "FEW_TO_COMPILE"):  # compiled from the second computation on
+        monkeypatch.setattr(f"softshadow.context.matrix_stacks.{few}", 0)
     rng = np.random.default_rng(seed)
     stack, expected = MatrixStack(LIMIT, real), [np.eye(4, dtype=real)]
     for _ in range(400):
@@ -159,3 +161,18 @@ def test_what_is_not_a_number_is_refused_at_once(call):
         with pytest.raises((TypeError, ValueError)):
             call(*["one"] * (4 if call is gl.glRotatef else 3))
         assert np.array_equal(gl.glGetFloatv(gl.GL_MODELVIEW_MATRIX), np.eye(4))
+
+
+@pytest.mark.parametrize(("is_on_disk", "few"), [(True, "FEW_TO_LOAD"), (False, "FEW_TO_COMPILE")])
+@pytest.mark.skipif(not hasattr(matrix_products.carry_out, "py_func"), reason="kernels are interpreted")
+def test_compiled_code_multiplies_as_soon_as_it_pays(is_on_disk, few, monkeypatch):
+    stack = MatrixStack(LIMIT, np.float32)
+    monkeypatch.setattr(
+        matrix_stacks, "MATRIX_KERNELS", SimpleNamespace(are_compiled=lambda: is_on_disk, note_compiled=list)
+    )
+    bytes_of_translation = 4 * matrix_stacks.NUMBER
+    for n in range(1, getattr(matrix_stacks, few) // bytes_of_translation + 2):
+        stack.translate(1.0, 0.0, 0.0)
+        assert stack.current[0, 3] == n
+        is_enough = n * bytes_of_translation >= getattr(matrix_stacks, few)
+        assert (stack._carry_out is matrix_products.carry_out) == is_enough
