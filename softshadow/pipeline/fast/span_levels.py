@@ -6,7 +6,7 @@ triangle, once for every block of pixels that a span meets; so fragments need no
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import copied_kernel, kernel
 from softshadow.pipeline.constants import HALF, ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import (
     LEVEL,
@@ -38,6 +38,7 @@ from softshadow.programs.level_of_detail import EXPONENT_BIAS, MANTISSA, MANTISS
 from softshadow.tokens import GL_LINEAR, GL_NONE
 
 ODD = np.uint64(1)
+BEYOND = 4  # blocks of pixels that two spans in the same blocks may have more than the longer one
 NO_LEVEL = np.int32(0)
 NOT_A_NUMBER = np.float32(np.nan)  # positive, as that of NumPy's maximum
 
@@ -50,15 +51,23 @@ def write_squared_steps(planes, spans, n_spans, column, is_flat, width, height, 
     """
     k, wide, high = np.uint64(planes.shape[2] - 1), np.float32(width), np.float32(height)
     c, d, e = np.uint64(column), np.uint64(column + 1), np.uint64(column + 3)
-    for m in range(np.uint64(n_spans)):
-        first, end = spans[SPAN_START, m], spans[SPAN_START, m + NEXT]
-        left, row = spans[SPAN_LEFT, m], spans[SPAN_ROW, m] & ~1
-        p, upper, lower = np.uint64(spans[SPAN_PLACE, m]), np.float32(row), np.float32(row + 1)
+    m, n_all = np.uint64(0), np.uint64(n_spans)
+    while m < n_all:
+        row, begin = spans[SPAN_ROW, m] & ~1, m
+        even, n_quads = quads_of(spans, m)
+        m += NEXT
+        if m < n_all and spans[SPAN_PLACE, m] == spans[SPAN_PLACE, begin] and spans[SPAN_ROW, m] & ~1 == row:
+            # the span in the other row of the same blocks of pixels
+            other_even, n_others = quads_of(spans, m)
+            left = min(even, other_even)
+            n_both = (max(even + 2 * n_quads, other_even + 2 * n_others) - left) >> 1
+            if n_both <= max(n_quads, n_others) + BEYOND:
+                even, n_quads, m = left, n_both, m + NEXT
+        p, upper, lower = np.uint64(spans[SPAN_PLACE, begin]), np.float32(row), np.float32(row + 1)
         w0, dw, w_upper, w_lower = planes[p, 0, k], planes[p, 1, k], planes[p, 2, k] * upper, planes[p, 2, k] * lower
         s0, ds, s_upper, s_lower = planes[p, 0, c], planes[p, 1, c], planes[p, 2, c] * upper, planes[p, 2, c] * lower
         t0, dt, t_upper, t_lower = planes[p, 0, d], planes[p, 1, d], planes[p, 2, d] * upper, planes[p, 2, d] * lower
         q0, dq, q_upper, q_lower = planes[p, 0, e], planes[p, 1, e], planes[p, 2, e] * upper, planes[p, 2, e] * lower
-        even, n_quads = left & ~1, ((left + end - first - 1) >> 1) - (left >> 1) + 1
         for b in range(whole_portions(n_quads)):
             if is_flat:
                 over_q = ONE / q0
@@ -82,9 +91,18 @@ def write_squared_steps(planes, spans, n_spans, column, is_flat, width, height, 
             a, b_squared = step_s * step_s + step_t * step_t, down_s * down_s + down_t * down_t
             larger = a if a > b_squared else b_squared
             room[QUADS + b] = larger if a == a else NOT_A_NUMBER  # whose sign decides about the level
-        odd = np.uint64(left & 1)
-        for n in range(whole_portions(end - first)):
-            room[SQUARED + np.uint64(first) + n] = room[QUADS + ((n + odd) >> ODD)]
+        for s in range(begin, m):
+            first, end = spans[SPAN_START, s], spans[SPAN_START, s + NEXT]
+            before = np.uint64(spans[SPAN_LEFT, s] - even)
+            for n in range(whole_portions(end - first)):
+                room[SQUARED + np.uint64(first) + n] = room[QUADS + ((n + before) >> ODD)]
+
+
+@copied_kernel
+def quads_of(spans, s):
+    """Return the first column of the blocks of pixels that a span meets, and how many they are."""
+    left, length = spans[SPAN_LEFT, s], spans[SPAN_START, s + NEXT] - spans[SPAN_START, s]
+    return left & ~1, ((left + length - 1) >> 1) - (left >> 1) + 1
 
 
 @kernel
