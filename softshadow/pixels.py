@@ -310,7 +310,9 @@ def pack_color_into(
     """Write what `pack_color` returns to client memory; bytes become floats there, without an array between."""
     names = COMPONENTS[pixel_format]
     of_bytes = format.kind == "unorm8" and format.base == gl.GL_RGBA and not format.encoding
-    if kind is not F32 or not of_bytes or "L" in names or transfer.through_floats or pixels.dtype != F32:
+    if kind is np.uint8 and of_bytes and names == "RGBA" and not transfer.through_floats:
+        pixels[...] = cells
+    elif kind is not F32 or not of_bytes or "L" in names or transfer.through_floats or pixels.dtype != F32:
         pixels[...] = pack_color(cells, format, pixel_format, kind, from_framebuffer, transfer)
     elif names == "RGBA":
         to_float(cells, pixels)

@@ -104,12 +104,10 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
 
 
 def _buffers(source: Framebuffer, kind: str) -> list[Image] | None:
-    wanted = {
-        "color": [source.read_color],
-        "depth": [source.depth],
-        "stencil": [source.stencil],
-        "depth-stencil": [source.depth, source.stencil],
-    }[kind]
+    if kind == "color":
+        wanted = [source.read_color]
+    else:
+        wanted = [source.depth] * ("depth" in kind) + [source.stencil] * ("stencil" in kind)
     buffers = [buffer for buffer in wanted if buffer is not None]
     return buffers if len(buffers) == len(wanted) else None
 

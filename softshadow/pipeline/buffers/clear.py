@@ -89,8 +89,12 @@ def _is_all_of(image: Image, region: Region) -> bool:
 
 def clear_depth(value: float, depth: Image) -> float:
     """Return the clear depth in buffer units: rounded in double precision for fixed-point formats."""
-    clamped = min(max(value, 0.0), 1.0)
-    return float(stored_units(np.rint(clamped * depth.format.largest))) if depth.format.largest else clamped
+    return _clear_units(min(max(value, 0.0), 1.0), depth.format.largest)
+
+
+@lru_cache(maxsize=64)
+def _clear_units(value: float, largest: int) -> float:
+    return float(stored_units(np.rint(value * largest))) if largest else value
 
 
 def clears_by_drawing(state: State, target: Framebuffer, mask: int) -> bool:
