@@ -38,7 +38,7 @@ from softshadow.programs.fixed_function import Unit, has_secondary, is_replaced,
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE, needs_normals, reflects_r
 from softshadow.programs.vertex_color_use import reads_primary_color
-from softshadow.state import Lighting, Points, State
+from softshadow.state import Lighting, Points, Polygon, State
 
 GENERATED = {
     gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR, gl.GL_SPHERE_MAP: SPHERE_MAP,
@@ -97,6 +97,7 @@ class Run:
         is_flat = writes_color and self.state.lighting.shade_model == gl.GL_FLAT
         self.generated, self.planes, in_eye_space = _generation(self)
         self.user_planes = user_planes(command)
+        self._has_user_planes, self._fills = len(self.user_planes) > 0, is_filled(self.state.polygon)
         self.layout = self._layout(in_eye_space)
         self.across = is_flat and (
             bool(self.layout.separate)
@@ -194,14 +195,17 @@ class Run:
 
     def continues_under(self, command: Draw, taken: Draw) -> bool:
         """Return what `continues` returns of a draw whose state has the groups and `structure_of` of the other's."""
+        mode = command.mode
+        if mode != taken.mode or command.modelview_kind & UNKNOWN or command.joined_positions is not None:
+            return False
         has_same_matrices = command.texture_matrices is taken.texture_matrices
         if not has_same_matrices and self._identities_of(command) != self.arrays.identities:
             return False
-        if command.mode != taken.mode or command.modelview_kind & UNKNOWN or command.joined_positions is not None:
+        if mode == gl.GL_TRIANGLES and leaves_out_triangles(command):
             return False
-        if leaves_out_triangles(command) or is_outlined_alone(command):
+        if not self._fills and is_outlined_alone(command):
             return False
-        if len(self.user_planes) and not self._has_same_clip_planes(command, taken.projection, taken.projection_kind):
+        if self._has_user_planes and not self._has_same_clip_planes(command, taken.projection, taken.projection_kind):
             return False
         one, other, numbers = command.vertices, taken.vertices, self._unit_numbers
         return one is other or (
@@ -248,13 +252,18 @@ def leaves_out_triangles(command: Draw) -> bool:
     return is_list and start_of_last_nine(len(command.vertices.position)) >= 0
 
 
+def is_filled(polygon: Polygon) -> bool:
+    """Return whether polygons are drawn whole: their edges do not matter."""
+    return polygon.mode_front == gl.GL_FILL and polygon.mode_back == gl.GL_FILL and not polygon.stippled
+
+
 def is_outlined_alone(command: Draw) -> bool:
     """Return whether a draw of unfilled or stippled polygons has edge flags, or is large.
 
     A large one is looked for on its own.
     """
-    polygon, vertices = command.state.polygon, command.vertices
-    if polygon.mode_front == gl.GL_FILL and polygon.mode_back == gl.GL_FILL and not polygon.stippled:
+    vertices = command.vertices
+    if is_filled(command.state.polygon):
         return False
     return vertices.edges is not None or len(vertices.position) >= WORTH_COMPARING
 
