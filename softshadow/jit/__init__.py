@@ -27,6 +27,14 @@ def kernel(function: Callable[..., Any]) -> Any:
     return _dispatcher_of(function, counts_references=False)
 
 
+def wide_kernel(function: Callable[..., Any]) -> Any:
+    """Compile a kernel whose loops, and those of all kernels in it, are mostly long (decorator), else as `kernel`.
+
+    They use the longest vectors that the processor has. Short loops would take longer with these.
+    """
+    return _dispatcher_of(function, counts_references=False, is_wide=True)
+
+
 def allocating_kernel(function: Callable[..., Any]) -> Any:
     """Compile a function that makes arrays (decorator), else as `kernel`; loops in it should call kernels."""
     return _dispatcher_of(function, counts_references=True)
@@ -40,13 +48,14 @@ def copied_kernel(function: Callable[..., Any]) -> Any:
     return _dispatcher_of(function, counts_references=False, forceinline=True)
 
 
-def _dispatcher_of(function: Callable[..., Any], *, counts_references: bool, **more: Any) -> Any:
+def _dispatcher_of(function: Callable[..., Any], *, counts_references: bool, is_wide: bool = False, **more: Any) -> Any:
     config: Any = numba.config  # type checkers do not see its settings, which Numba creates at import
     if config.DISABLE_JIT:
         return function
     as_in_njit = {"nopython": True, "boundscheck": None}
     options = {**as_in_njit, "_nrt": counts_references, **OPTIONS, **more}
     dispatcher = KernelDispatcher(function, targetoptions=options)
+    dispatcher.set_wide(is_wide)
     folder = cache_folder()
     if folder:
         users_folder = config.CACHE_DIR

@@ -256,6 +256,10 @@ class KernelDispatcher(NumbaDispatcher):
         self._compiler.for_kernels = False  # set by `get_call_template`
         self._former_parts: list[Any] = []  # the environments of which callers use
 
+    def set_wide(self, is_wide: bool) -> None:
+        """Set whether machine code may use the longest vectors (`parts.with_wide_vectors`)."""
+        self._compiler.is_wide = is_wide
+
     def enable_caching(self) -> None:
         """Store and find machine code in the folder that Numba's configuration names now."""
         self._cache = KernelCache(self.py_func)

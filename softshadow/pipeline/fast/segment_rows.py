@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from softshadow.jit import kernel
+from softshadow.jit import wide_kernel
 from softshadow.pipeline.fast.segment_tables import (
     DEPTH_AFTER,
     DEPTH_BEFORE,
@@ -31,7 +31,7 @@ from softshadow.pipeline.fast.span_state import WRITABLE
 from softshadow.pipeline.fast.span_tests import IS_TESTED, collect_passing_spans
 
 
-@kernel
+@wide_kernel
 def draw_segments(
     segments, ranges, order, first_row, end_row, downwards, corners, depth_planes, faces_front, planes, place, flats,
     tests, before, before_bytes, after, after_bytes, alphas, switches, numbers, specials, textures, pixels, depth,

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from softshadow.image import Image
-from softshadow.jit import kernel
+from softshadow.jit import wide_kernel
 from softshadow.pipeline.fast.any_state import CHUNK, CHUNK_LOG2
 from softshadow.pipeline.fast.fragment_numbers import (
     ALL,
@@ -149,7 +149,7 @@ def _fill_chunks(
 fill_small = small_fill_for(True, False)
 
 
-@kernel
+@wide_kernel
 def fill_in_tiles(
     ops, byte_ops, largest, corners, planes, faces, numbers, region, depth_range, lows, highs, width, pitch, columns,
     depth, stencil, pending, room, passed, covered, lefts, rights,
