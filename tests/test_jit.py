@@ -155,7 +155,8 @@ def test_the_hash_takes_in_whatever_kernels_are_made_of():
 def test_only_hashed_sources_have_kernels():
     hashed = {file for name in KERNEL_SOURCES for file in sources_of(name)}
     for file in set(PACKAGE.rglob("*.py")) - hashed:
-        assert not {"@kernel", "@copied_kernel", "@allocating_kernel", "@inlined"} & set(file.read_text().split()), file
+        decorators = {"@kernel", "@wide_kernel", "@copied_kernel", "@allocating_kernel", "@inlined"}
+        assert not decorators & set(file.read_text().split()), file
 
 
 MAKES_ARRAYS = {"empty", "zeros", "ones", "full", "arange", "array", "empty_like", "zeros_like", "concatenate"}
@@ -164,7 +165,7 @@ MAKES_ARRAYS = {"empty", "zeros", "ones", "full", "arange", "array", "empty_like
 def test_kernels_that_make_arrays_say_so():
     for file in PACKAGE.rglob("*.py"):
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-            if not isinstance(node, ast.FunctionDef) or not {"kernel", "copied_kernel"} & set(
+            if not isinstance(node, ast.FunctionDef) or not {"kernel", "wide_kernel", "copied_kernel"} & set(
                 map(ast.unparse, node.decorator_list)
             ):
                 continue

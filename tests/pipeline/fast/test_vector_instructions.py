@@ -8,13 +8,17 @@ loop over pixels has, and for those that widen.
 
 import platform
 import re
+from collections.abc import Callable
 from typing import Any
 
 import numba
 import numpy as np
 import pytest
+from llvmlite import binding as llvm
+from numba.core.caching import NullCache
 
 from softshadow import gl
+from softshadow.jit import kernel, parts, wide_kernel
 from softshadow.pipeline import use_short_cuts
 from softshadow.pipeline.fast import any_state, stencil_tiles
 from softshadow.pipeline.raster.fragment_ops import NO_ALPHA, FragmentOps, process_fragment
@@ -36,9 +40,10 @@ pytestmark = [
 ]
 
 
-def machine_code(function: Any, *signatures: Any) -> str:
+def machine_code(function: Any, *signatures: Any, decorator: Callable[..., Any] = kernel) -> str:
     """Return the assembly of a kernel; it is compiled again, since the cache has no text of it."""
-    compiled = numba.njit(nogil=True, error_model="numpy")(function)
+    compiled = decorator(function)
+    compiled._cache = NullCache()
     for signature in signatures:
         compiled.compile(signature)
     return "".join(compiled.inspect_asm().values())
@@ -80,7 +85,7 @@ def kernels() -> dict[str, str]:
     for name, fill in fills.items():
         in_float32 = [signature for signature in fill.signatures if "float64" not in str(signature)]
         assert in_float32
-        texts[name] = machine_code(fill.py_func, *in_float32)
+        texts[name] = machine_code(fill.py_func, *in_float32, decorator=wide_kernel if name == "tiles" else kernel)
     return texts
 
 
@@ -144,3 +149,37 @@ def test_the_search_for_masked_stores_finds_stores_only():
 def test_no_store_is_masked(kernels, name):
     """AMD processors take a dozen cycles for one."""
     assert not MASKED_STORE.search(kernels[name])
+
+
+def add(a, b):
+    """Add an array to another one."""
+    for n in range(len(a)):
+        a[n] += b[n]
+
+
+FLOATS = numba.types.float32[::1]
+
+
+@pytest.mark.skipif(
+    not llvm.get_host_cpu_features().get("avx512vl") or llvm.get_host_cpu_name() in parts.SLOWED_DOWN,
+    reason="the processor has no vectors of 64 bytes, or is slower with them",
+)
+def test_wide_kernels_use_vectors_of_64_bytes():
+    assert "%zmm" in machine_code(add, (FLOATS, FLOATS), decorator=wide_kernel)
+
+
+def test_wide_kernels_compute_the_same():
+    a, b = np.arange(100, dtype=np.float32), np.linspace(0, 1, 100, dtype=np.float32)
+    expected = a + b
+    wide_kernel(add)(a, b)
+    assert (a == expected).all()
+
+
+def test_processors_that_run_slower_with_wide_vectors_get_short_ones(monkeypatch):
+    module = llvm.parse_assembly("define i32 @one(i32 %x) {\n  ret i32 1\n}\ndeclare i32 @two(i32)\n")
+    monkeypatch.setattr(parts, "SLOWED_DOWN", {llvm.get_host_cpu_name()})
+    assert parts.with_wide_vectors(module) is module
+    monkeypatch.setattr(parts, "SLOWED_DOWN", set())
+    text = str(parts.with_wide_vectors(module))
+    assert text.count("attributes #") == text.count('"prefer-vector-width"="512"') == 1
+    assert re.search(r"define i32 @one\(i32 %x\) #0", text)
