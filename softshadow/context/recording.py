@@ -131,7 +131,7 @@ class Frame:
         if self.history_bytes is None:
             return False
         if type(command) is Draw and type(command.vertices.position.base) is bytes and command.joined_positions is None:
-            # its arrays are its own: they are counted when their bound does not suffice, in a fifth of the time
+            # its arrays are its own: they are counted when their bound no longer suffices, which is seldom
             self._uncounted.append(command)
             self._most_bytes += COMMAND_BYTES + (VERTEX_BYTES + INDEX_BYTES) * len(command.vertices.position)
         else:

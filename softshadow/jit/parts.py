@@ -25,7 +25,8 @@ FLAGS_HASH = hash(Flags())
 MANY_FUNCTIONS = 50  # in a kernel that is optimized twice: fills have 25 to 40, shading has 100
 OPERATORS = "_operator"  # the module of their functions
 SLOWED_DOWN = {"skylake-avx512", "cascadelake", "cooperlake", "cannonlake"}  # LLVM's names of processors
-DEFINITION = re.compile(r"^(define [^\n]*\))([^\n)]*\{)$", re.MULTILINE)  # up to the last parameter, and after it
+# of a function, cut where attributes may stand
+DEFINITION = re.compile(r"^(define [^\n]*\)(?: (?:local_)?unnamed_addr)?)([^\n)]*\{)$", re.MULTILINE)
 
 
 class KernelFlags(Flags):
@@ -95,7 +96,9 @@ def with_wide_vectors(module: Any) -> Any:
     """
     if llvm.get_host_cpu_name() in SLOWED_DOWN:
         return module
-    return llvm.parse_assembly(DEFINITION.sub(r'\1 "prefer-vector-width"="512"\2', str(module)))
+    wide = llvm.parse_assembly(DEFINITION.sub(r'\1 "prefer-vector-width"="512"\2', str(module)))
+    wide.name = module.name
+    return wide
 
 
 class WholeLibrary(JITCodeLibrary):

@@ -65,6 +65,20 @@ def test_random_programs_are_replayed_from_any_cut(family):
             assert_same_storage(context.storage, quietly(frame))
 
 
+@pytest.mark.parametrize("precision", ["mesa", "exact"])
+@pytest.mark.parametrize("family", FAMILIES)
+def test_draws_that_are_not_counted_yet_have_at_most_their_bound(family, precision):
+    for seed in (2, 3):
+        calls, size = random_program(family, seed)
+        with gl.create_context(*size, precision=precision, history_mb=1000) as context:
+            as_program(calls)(gl)
+            frame, exact = context.frame, Contents()
+            for command in frame.commands:
+                exact.add(command)
+            assert frame._most_bytes >= exact.new_bytes
+            assert frame.bytes == exact.bytes == frame._most_bytes
+
+
 def test_a_thousand_frames_keep_their_last_bytes_only():
     rng = np.random.default_rng(3)
     limit = 1 << 20

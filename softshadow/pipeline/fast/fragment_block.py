@@ -18,7 +18,7 @@ from softshadow.pipeline.constants import ONE
 
 SIZE = 192  # numbers in a row; 12 to 20 rows, which are in use by one step, fit into 32 KB
 PORTION = np.uint64(16)  # numbers in a vector: loops over whole portions leave no rest that is computed one by one
-FRAGMENTS = SIZE - 16  # at most: the last portion goes on behind them
+FRAGMENTS = SIZE - int(PORTION)  # at most: the last portion goes on behind them
 # interpolated at most: two colours, coordinates of four units, fog, the primary colour again, place in a smooth line
 COLUMNS = 33
 

@@ -176,10 +176,14 @@ def test_wide_kernels_compute_the_same():
 
 
 def test_processors_that_run_slower_with_wide_vectors_get_short_ones(monkeypatch):
-    module = llvm.parse_assembly("define i32 @one(i32 %x) {\n  ret i32 1\n}\ndeclare i32 @two(i32)\n")
+    module = llvm.parse_assembly(
+        "define i32 @one(i32 %x) {\n  ret i32 1\n}\ndeclare i32 @two(i32)\n"
+        "define i32 @three() unnamed_addr noinline {\n  ret i32 3\n}\n"
+    )
     monkeypatch.setattr(parts, "SLOWED_DOWN", {llvm.get_host_cpu_name()})
     assert parts.with_wide_vectors(module) is module
     monkeypatch.setattr(parts, "SLOWED_DOWN", set())
     text = str(parts.with_wide_vectors(module))
-    assert text.count("attributes #") == text.count('"prefer-vector-width"="512"') == 1
-    assert re.search(r"define i32 @one\(i32 %x\) #0", text)
+    assert text.count("attributes #") == text.count('"prefer-vector-width"="512"') == 2  # of one and of three
+    assert re.search(r"define i32 @one\(i32 %x\) #\d", text)
+    assert re.search(r"define i32 @three\(\) unnamed_addr #\d", text)
