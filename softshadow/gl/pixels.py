@@ -106,8 +106,10 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
 def _buffers(source: Framebuffer, kind: str) -> list[Image] | None:
     if kind == "color":
         wanted = [source.read_color]
+    elif kind == "depth-stencil":
+        wanted = [source.depth, source.stencil]
     else:
-        wanted = [source.depth] * ("depth" in kind) + [source.stencil] * ("stencil" in kind)
+        wanted = [source.depth if kind == "depth" else source.stencil]
     buffers = [buffer for buffer in wanted if buffer is not None]
     return buffers if len(buffers) == len(wanted) else None
 

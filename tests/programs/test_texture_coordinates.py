@@ -18,6 +18,7 @@ from softshadow.programs.texture_coordinates import (
     reflects_r,
     sphere_map,
     texture_coordinates,
+    transform,
 )
 from softshadow.state import Lighting, TexGen, TextureUnit
 
@@ -126,3 +127,20 @@ def test_only_units_that_ask_for_them_need_normals():
     s, t, r, q = TextureUnit().gen
     assert not needs_normals(TextureUnit(gen=(replace(s, mode=gl.GL_SPHERE_MAP), t, r, q)))
     assert needs_normals(TextureUnit(gen=(replace(s, mode=gl.GL_SPHERE_MAP, enabled=True), t, r, q)))
+
+
+@pytest.mark.interpreted
+@pytest.mark.parametrize("real", [np.float32, np.float64])
+@pytest.mark.parametrize(("rows", "columns"), [(4, 4), (3, 3), (3, 4), (4, 3)])
+def test_products_add_columns_from_x_to_w(rows, columns, real):
+    rng = np.random.default_rng(rows + columns)
+    matrix, vectors = rng.normal(0, 1, (rows, columns)).astype(real), rng.normal(0, 1, (50, columns)).astype(real)
+    vectors[:8] = rng.choice([0, -0.0, np.inf, 1e30], (8, columns))
+    with np.errstate(all="ignore"):
+        expected = vectors[:, :1] * matrix[:, 0]
+        for c in range(1, columns):
+            expected = expected + vectors[:, c : c + 1] * matrix[:, c]
+        result = transform(matrix, vectors)
+    assert result.dtype == real
+    assert np.array_equal(result, expected, equal_nan=True)
+    assert (np.signbit(result) == np.signbit(expected))[~np.isnan(expected)].all()
