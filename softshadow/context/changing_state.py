@@ -117,11 +117,6 @@ class ChangingState:
         """Return whether new values of fields would change how the collected vertices are drawn."""
         return self.has_collected and any(affects_draws(self.groups[name].fields, fields) for name in groups)
 
-    def material(self, side: str) -> dict[str, Any]:
-        """Return the fields of the "front" or "back" material."""
-        self._settle()
-        return self.groups[f"lighting.{side}"].fields
-
     def _settle(self) -> None:
         """Store the colour in the materials that follow it. Hidden materials still return before it."""
         if self.state_groups.followed is not None:

@@ -49,8 +49,8 @@ class CurrentValues(ChangingState):
             return current[name]
         if name in UNIT_OF:
             return current["texcoords"][UNIT_OF[name]]
-        side, _, material = name.partition(".")
-        return self.material(side)[material]
+        side, _, field = name.partition(".")
+        return self._material(side, field)[field]
 
     def set_attribute(self, name: str, value: Any) -> None:
         """Set a current value by its name, without drawing the collected vertices first."""
@@ -65,11 +65,18 @@ class CurrentValues(ChangingState):
 
     def set_material(self, side: str, field: str, value: Any) -> None:
         """Set a field of the "front" or "back" material, without drawing the collected vertices first."""
-        if self.state_groups.followed is not None:
+        self._material(side, field)[field] = value
+        self.changed.add(self.groups[MATERIALS[side]])
+
+    def _material(self, side: str, field: str) -> dict[str, Any]:
+        """Return the fields of the "front" or "back" material, of which `field` has its value.
+
+        Others may still follow a colour. As long as they do, draws that differ in this colour have the same state.
+        """
+        followed = self.state_groups.followed
+        if followed is not None and field in followed[1] and side in followed[0]:
             self._settle()
-        material = self.groups[MATERIALS[side]]
-        material.fields[field] = value
-        self.changed.add(material)
+        return self.groups[MATERIALS[side]].fields
 
     def follow(self, sides: tuple[str, ...], fields: tuple[str, ...]) -> None:
         """Copy the current colour to fields of the materials that follow it, without drawing the collected vertices."""
@@ -78,7 +85,7 @@ class CurrentValues(ChangingState):
             state.settle()
         if self.pending.before_following is None:
             self.pending.before_following = state.followed or {
-                f"{side}.{field}": self.material(side)[field] for side in sides for field in fields
+                f"{side}.{field}": self._material(side, field)[field] for side in sides for field in fields
             }
         state.followed = sides, fields, self.current.color
 
@@ -122,8 +129,9 @@ class CurrentValues(ChangingState):
         old_values = pending.old_values
         if old_values:
             for name, old_value in old_values.items():
-                if old_value != self.attribute(name):
-                    self.touched |= gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT
+                bit = gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT
+                if not self.touched & bit and old_value != self.attribute(name):
+                    self.touched |= bit
             old_values.clear()
             pending.settled = None
 

@@ -46,7 +46,7 @@ class Contents:
         if kind is Draw:
             if id(command.vertices) not in self._sizes:  # type: ignore[union-attr]
                 self._add_vertices(command.vertices)  # type: ignore[union-attr]
-            if command.indices is not None:  # type: ignore[union-attr]
+            if command.indices is not None and id(command.indices) not in self._sizes:  # type: ignore[union-attr]
                 self._add_array(command.indices)  # type: ignore[union-attr]
             if command.joined_positions is not None:  # type: ignore[union-attr]
                 self._add_array(command.joined_positions)  # type: ignore[union-attr]

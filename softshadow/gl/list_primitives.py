@@ -26,7 +26,9 @@ from softshadow.gl.materials import follow_color
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.state import TEXTURE_UNITS
 
-MOST_DRAWN = 16  # current values that a primitive was drawn with
+# sets of current values with which a primitive was drawn and its vertices are kept: of all primitives of a list
+# together, and at least of each
+MOST_KEPT, LEAST_KEPT = 256, 16
 NAMES = ("position", "color", "normal", *(f"texcoord{unit}" for unit in range(TEXTURE_UNITS)))  # by slot
 
 
@@ -42,7 +44,8 @@ class ListPrimitive:
     last : dict                  slot: the value after the pair
     sizes : dict                 name: components in the last call
     drawn : dict                 `Vertices` by the current values that they have
-    latest : the set of current values of the latest draw, and its vertices
+    known : dict                 the same by the set of all current values
+    most_kept : int              how many of them are kept
     carried_units : (unit, name) of the texture coordinates that all vertices have from the list
     """
 
@@ -54,7 +57,8 @@ class ListPrimitive:
     sizes: dict[str, int]
     indices: np.ndarray
     drawn: dict[tuple[ConstantAttribute, ...], Vertices] = field(default_factory=dict)
-    latest: tuple[ConstantSet, Vertices] | None = None
+    known: dict[ConstantSet, Vertices] = field(default_factory=dict)
+    most_kept: int = MOST_KEPT
 
     def __post_init__(self) -> None:
         units = range(TEXTURE_UNITS)
@@ -77,34 +81,45 @@ class ListPrimitive:
         if context.pending.names:
             context.reset_attributes()
         constants = constant_attributes(context, self.carried_units)
-        vertices = self.latest_vertices(constants)
+        vertices = self.vertices(constants)
         self.make_current(context)
         return context.draw(self.mode, vertices, self.indices), constants
 
-    def latest_vertices(self, constants: ConstantSet) -> Vertices:
-        """Return what `vertices` returns, sooner where the set of values is that of the latest draw."""
-        latest = self.latest
-        if latest is None or latest[0] is not constants:
-            latest = self.latest = constants, self.vertices(constants)
-        return latest[1]
-
     def make_current(self, context: Context) -> None:
-        """Make the last attributes of the primitive current, as its vertices do."""
-        values: Any = context.current
+        """Make the last attributes of the primitive current, as its vertices do; none are pending before.
+
+        Hidden materials return with the next flush. If there are any, the attributes are pending until then.
+        """
+        pending, values = context.pending, context.current
+        old_values = pending.old_values
         for slot, value in self.last.items():
-            context.remember_attribute(NAMES[slot])
             if slot == COLOR:
-                values.color = value
+                old_values["color"], values.color = values.color, value  # type: ignore[assignment]
             elif slot == NORMAL:
-                values.normal = value
+                old_values["normal"], values.normal = values.normal, value  # type: ignore[assignment]
             else:
-                values.texcoords[slot - TEXCOORD] = value
+                texcoords, unit = values.texcoords, slot - TEXCOORD
+                old_values[NAMES[slot]], texcoords[unit] = texcoords[unit], value  # type: ignore[assignment]
         context.vertex_buffer.active_sizes.update(self.sizes)
         follow_color(context)
-        context.pending.reset_due = context.pending.has_vertices = True
+        if pending.hidden:
+            pending.names.update(old_values)
+            for name in old_values:
+                pending.hidden.pop(name, None)
+            pending.reset_due = pending.has_vertices = True
+        else:
+            context.reset_attributes()
 
     def vertices(self, constants: ConstantSet) -> Vertices:
         """Return the vertices; the same object for the same current values."""
+        vertices = self.known.get(constants)
+        if vertices is None:
+            if len(self.known) >= self.most_kept:
+                self.known.clear()
+            vertices = self.known[constants] = self._vertices(constants)
+        return vertices
+
+    def _vertices(self, constants: ConstantSet) -> Vertices:
         count = len(self.rows[POSITION])
         key = tuple(each for slot, each in enumerate(constants.attributes, 1) if self.starts.get(slot, 1))
         vertices = self.drawn.get(key)
@@ -116,7 +131,7 @@ class ListPrimitive:
                     rows[slot - 1] = self.rows[slot].copy()
                     rows[slot - 1][:start] = constants.attributes[slot - 1].row
                     rows[slot - 1].setflags(write=False)
-            if len(self.drawn) >= MOST_DRAWN:
+            if len(self.drawn) >= self.most_kept:
                 self.drawn.clear()
             vertices = self.drawn[key] = create(
                 Vertices,
@@ -149,13 +164,16 @@ class SimilarPrimitives:
             return
         draw, constants = self.primitives[0].draw(context)
         for each in self.primitives[1:]:
-            draw = context.draw_like(draw, each.mode, each.latest_vertices(constants), each.indices)
+            draw = context.draw_like(draw, each.mode, each.vertices(constants), each.indices)
         self.primitives[-1].make_current(context)
         context.flush()
 
 
 def with_similar_joined(calls: list[Callable[[], Any]]) -> list[Callable[[], Any]]:
     """Return the calls of a list with primitives in a row that are similar as one call."""
+    primitives = [call for call in calls if isinstance(call, ListPrimitive)]
+    for primitive in primitives:
+        primitive.most_kept = max(MOST_KEPT // len(primitives), LEAST_KEPT)
     result: list[Callable[[], Any]] = []
     for key, part in groupby(calls, _similarity):
         similar: list[Any] = list(part)

@@ -75,7 +75,7 @@ def glMaterialf(face: int, pname: int, param: float) -> None:
         record(context, glMaterialf, face, pname, param)
     elif pname == gl.GL_SHININESS and face in SIDES and 0 <= param <= LARGEST_SHININESS:
         value, old_values, buffer = rounded_number(context, param), context.pending.old_values, context.vertex_buffer
-        if context.primitive is not None or context.state_groups.followed is not None:
+        if context.primitive is not None:
             set_material(context, face, {"shininess": value})
             return
         for group, name in SHININESS[face]:  # `set_material` in half the time: no shininess follows a colour
@@ -119,7 +119,7 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
                 carry_attribute(context, name, size)  # which does nothing else
             if primitive is not None:
                 primitive.materials |= {name}
-                primitive.change(name, context.material(side)[field], value)
+                primitive.change(name, context.attribute(name), value)
             context.set_material(side, field, value)
 
 

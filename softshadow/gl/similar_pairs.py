@@ -19,7 +19,7 @@ from softshadow.pipeline.mesa.driver_draws import CORNERS
 from softshadow.state import BLACK
 
 FEWEST = 4  # vertices: Mesa draws some pairs with fewer in another mode
-KEPT = 64  # constant values for which vertices are kept
+KEPT = 256  # constant values for which vertices are kept
 NO_STARTS: Mapping[str, int] = {}
 
 
