@@ -16,10 +16,12 @@ import numpy as np
 
 from softshadow.context import Context, CurrentVertex
 from softshadow.context.current_values import UNIT_OF
+from softshadow.pipeline.commands import Vertices
 from softshadow.state import BLACK
 
 MOST_VIEWS = 1024  # of one value, by the number of vertices
 MOST_VALUES = 4096
+MOST_DRAWN = 16384  # vertices that are kept for a set of values: some 600 bytes of each are not arrays
 OPTIONAL = {"edge": True, "secondary": BLACK, "fog_coordinate": 0.0}  # the last fields of `Vertices`: initial values
 IS_OPTIONAL = frozenset(OPTIONAL)
 NO_UNITS: tuple[tuple[int, str], ...] = ()
@@ -84,11 +86,12 @@ class ConstantTexcoords:
 
 @dataclass(eq=False, slots=True)
 class ConstantSet:
-    """Values of all attributes."""
+    """Values of all attributes; `among` are all sets that are kept."""
 
     color: ConstantAttribute
     normal: ConstantAttribute
     texcoords: ConstantTexcoords
+    among: ConstantAttributes
 
     @property
     def attributes(self) -> tuple[ConstantAttribute, ...]:
@@ -120,10 +123,36 @@ class LatestRows:
         return self.rows
 
 
+class DrawnVertices:
+    """The vertices with which a primitive was drawn, by the set of the current values.
+
+    A program calls a list or draws a sphere with as many colours in every frame as there are objects.
+    """
+
+    __slots__ = ("_among", "_by_set")
+
+    def __init__(self) -> None:
+        self._among: ConstantAttributes | None = None  # whose sets these are
+        self._by_set: dict[ConstantSet, Vertices] = {}
+
+    def get(self, constants: ConstantSet) -> Vertices | None:
+        """Return the vertices of an earlier draw with these values."""
+        return self._by_set.get(constants)
+
+    def keep(self, constants: ConstantSet, vertices: Vertices) -> Vertices:
+        """Keep the vertices, which are returned, as long as the set is kept."""
+        if self._among is not constants.among:
+            self._among = constants.among
+            self._by_set.clear()
+        self._by_set[constants] = vertices
+        constants.among.n_drawn += 1
+        return vertices
+
+
 class ConstantAttributes:
     """The current values as the last draw had them, and all sets of values; equal values have the same objects.
 
-    `latest_color` and `latest_normal` are for draws that need no set.
+    `latest_color` and `latest_normal` are for draws that need no set. `n_drawn` counts the `DrawnVertices`.
     """
 
     def __init__(self) -> None:
@@ -137,6 +166,7 @@ class ConstantAttributes:
         self.known: dict[bytes, ConstantAttribute] = {}
         self.sets: dict[tuple[bytes, ConstantTexcoords], ConstantSet] = {}
         self.last: ConstantSet | None = None
+        self.n_drawn = 0
 
     def find(self, context: Context, carried: Sequence[tuple[int, str]] = NO_UNITS) -> ConstantSet:
         """Return the set of the current values; for `carried` see `find_texcoords`."""
@@ -148,7 +178,7 @@ class ConstantAttributes:
         found = self.sets.get(key)
         if found is None:
             attributes = self._find(context, PACK_4(*color), color), self._find(context, PACK_3(*normal), normal)
-            found = self.sets[key] = ConstantSet(*attributes, texcoords)
+            found = self.sets[key] = ConstantSet(*attributes, texcoords, self)
         self.color, self.normal, self.last = color, normal, found
         return found
 
@@ -183,7 +213,7 @@ class ConstantAttributes:
 def kept_constants(context: Context) -> ConstantAttributes:
     """Return what is kept of the attributes of earlier draws."""
     kept: ConstantAttributes | None = context.arrays.constants
-    if kept is None or len(kept.sets) >= MOST_VALUES or len(kept.known_texcoords) >= MOST_VALUES:
+    if kept is None or kept.n_drawn >= MOST_DRAWN or max(len(kept.sets), len(kept.known_texcoords)) >= MOST_VALUES:
         kept = context.arrays.constants = ConstantAttributes()
     return kept
 

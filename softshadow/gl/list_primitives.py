@@ -18,7 +18,7 @@ from softshadow.context import Context, current
 from softshadow.framebuffer import DEFAULT
 from softshadow.frozen import create
 from softshadow.gl.array_snapshots import COLOR, NORMAL, POSITION, TEXCOORD
-from softshadow.gl.constant_attributes import ConstantAttribute, ConstantSet, constant_attributes
+from softshadow.gl.constant_attributes import ConstantAttribute, ConstantSet, DrawnVertices, constant_attributes
 from softshadow.gl.errors import GLError, fail
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.list_calls import Values
@@ -26,9 +26,7 @@ from softshadow.gl.materials import follow_color
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.state import TEXTURE_UNITS
 
-# sets of current values with which a primitive was drawn and its vertices are kept: of all primitives of a list
-# together, and at least of each
-MOST_KEPT, LEAST_KEPT = 256, 16
+MOST_DRAWN = 16  # current values that a primitive was drawn with
 NAMES = ("position", "color", "normal", *(f"texcoord{unit}" for unit in range(TEXTURE_UNITS)))  # by slot
 
 
@@ -43,9 +41,8 @@ class ListPrimitive:
     starts : dict                slot: the first vertex that has a value of the list; those before have the current one
     last : dict                  slot: the value after the pair
     sizes : dict                 name: components in the last call
-    drawn : dict                 `Vertices` by the current values that they have
-    known : dict                 the same by the set of all current values
-    most_kept : int              how many of them are kept
+    drawn : DrawnVertices        by all current values
+    made : dict                  the same by those that the vertices have
     carried_units : (unit, name) of the texture coordinates that all vertices have from the list
     """
 
@@ -56,9 +53,8 @@ class ListPrimitive:
     last: dict[int, Values]
     sizes: dict[str, int]
     indices: np.ndarray
-    drawn: dict[tuple[ConstantAttribute, ...], Vertices] = field(default_factory=dict)
-    known: dict[ConstantSet, Vertices] = field(default_factory=dict)
-    most_kept: int = MOST_KEPT
+    drawn: DrawnVertices = field(default_factory=DrawnVertices)
+    made: dict[tuple[ConstantAttribute, ...], Vertices] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         units = range(TEXTURE_UNITS)
@@ -112,17 +108,12 @@ class ListPrimitive:
 
     def vertices(self, constants: ConstantSet) -> Vertices:
         """Return the vertices; the same object for the same current values."""
-        vertices = self.known.get(constants)
-        if vertices is None:
-            if len(self.known) >= self.most_kept:
-                self.known.clear()
-            vertices = self.known[constants] = self._vertices(constants)
-        return vertices
+        return self.drawn.get(constants) or self.drawn.keep(constants, self._vertices(constants))
 
     def _vertices(self, constants: ConstantSet) -> Vertices:
         count = len(self.rows[POSITION])
         key = tuple(each for slot, each in enumerate(constants.attributes, 1) if self.starts.get(slot, 1))
-        vertices = self.drawn.get(key)
+        vertices = self.made.get(key)
         if vertices is None:
             rows = constants.rows(count)
             for slot, start in self.starts.items():
@@ -131,9 +122,9 @@ class ListPrimitive:
                     rows[slot - 1] = self.rows[slot].copy()
                     rows[slot - 1][:start] = constants.attributes[slot - 1].row
                     rows[slot - 1].setflags(write=False)
-            if len(self.drawn) >= self.most_kept:
-                self.drawn.clear()
-            vertices = self.drawn[key] = create(
+            if len(self.made) >= MOST_DRAWN:
+                self.made.clear()
+            vertices = self.made[key] = create(
                 Vertices,
                 position=self.rows[POSITION],
                 color=rows[0],
@@ -171,9 +162,6 @@ class SimilarPrimitives:
 
 def with_similar_joined(calls: list[Callable[[], Any]]) -> list[Callable[[], Any]]:
     """Return the calls of a list with primitives in a row that are similar as one call."""
-    primitives = [call for call in calls if isinstance(call, ListPrimitive)]
-    for primitive in primitives:
-        primitive.most_kept = max(MOST_KEPT // len(primitives), LEAST_KEPT)
     result: list[Callable[[], Any]] = []
     for key, part in groupby(calls, _similarity):
         similar: list[Any] = list(part)

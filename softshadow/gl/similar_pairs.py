@@ -12,14 +12,13 @@ import numpy as np
 
 from softshadow.context import Context
 from softshadow.frozen import create, evolve
-from softshadow.gl.constant_attributes import ConstantSet, carried_of, constant_attributes
+from softshadow.gl.constant_attributes import ConstantSet, DrawnVertices, carried_of, constant_attributes
 from softshadow.gl.vertex_format import TEXCOORDS
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.mesa.driver_draws import CORNERS
 from softshadow.state import BLACK
 
 FEWEST = 4  # vertices: Mesa draws some pairs with fewer in another mode
-KEPT = 256  # constant values for which vertices are kept
 NO_STARTS: Mapping[str, int] = {}
 
 
@@ -33,17 +32,17 @@ class PairVertices:
     count : int              N
     """
 
-    __slots__ = ("_made", "_starts", "arrays", "count", "has_late")
+    __slots__ = ("_drawn", "_starts", "arrays", "count", "has_late")
 
     def __init__(self, arrays: Mapping[str, np.ndarray], starts: Mapping[str, int] = NO_STARTS) -> None:
         self.arrays, self.count = arrays, len(arrays["position"])
         self._starts = {name: start for name, start in starts.items() if start}
         self.has_late = bool(self._starts)
-        self._made: dict[ConstantSet, Vertices] = {}
+        self._drawn = DrawnVertices()
 
     def with_constants(self, constants: ConstantSet) -> Vertices:
         """Return the vertices of a draw; attributes without an array are constant."""
-        vertices = self._made.get(constants)
+        vertices = self._drawn.get(constants)
         if vertices is None:
             arrays, count = self._complete(constants), self.count
             texcoords = constants.texcoords.rows(count)
@@ -61,9 +60,7 @@ class PairVertices:
                 secondary=None,
                 fog_coordinates=None,
             )
-            if len(self._made) >= KEPT:
-                self._made.clear()
-            self._made[constants] = vertices
+            self._drawn.keep(constants, vertices)
         return vertices
 
     def _complete(self, constants: ConstantSet) -> Mapping[str, np.ndarray]:
