@@ -189,9 +189,10 @@ class Storage:
             for attachment in target.attachments.values():
                 attachment.image.write_pending()
 
-    def note_passed(self, fragments: int) -> None:
-        """Add fragments that have passed to the count of the active query."""
-        self.queries[self.active_query] += fragments
+    def note_passed(self, query: int, fragments: int) -> None:
+        """Add fragments that have passed to the count of a query; 0 is none."""
+        if query:
+            self.queries[query] += fragments
 
     def reattach(self, texture: int, face: int, level: int, image: Image) -> None:
         """Attach the new image of a texture's level wherever the level is attached."""

@@ -251,7 +251,11 @@ class Context(CurrentValues, Precision):
                 self._line_pattern.find_place()
                 self._waiting.forget()
                 self.bound_samplers = None
-            execute(command, self.storage)
+            if type(command) is BeginQuery:  # draws that wait remember their query
+                self._waiting.begin_query(command.query)
+                execute(command, self.objects)
+            else:
+                execute(command, self.storage)
         elif not self._waiting.add(command):
             execute(command, self.objects)
         if self._frame.append(command):

@@ -414,6 +414,8 @@ def joins_others(plan: Plan, state: State, target: Framebuffer, part: Part) -> S
     if not plan.forward or not is_small:
         return None
     numbers = segment_state(state, plan.front, plan.back, target, part.batch, part.program.units, plan.numbers)
+    if plan.counting and numbers is not None and discards_some(numbers.special):  # some that pass are left out later
+        return None
     return numbers if SPAN_KERNELS.are_compiled() else None  # else a draw on its own pays for compiling them
 
 

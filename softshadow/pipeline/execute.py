@@ -26,7 +26,7 @@ def _draw(command: Draw, storage: Storage) -> None:
         return
     counts = FragmentCounts.zero(only_passed=True)
     pipeline.draw(command, storage, counts)
-    storage.note_passed(counts.passed)
+    storage.note_passed(storage.active_query, counts.passed)
 
 
 def _draw_depths(command: DrawDepths, storage: Storage) -> None:
@@ -36,7 +36,7 @@ def _draw_depths(command: DrawDepths, storage: Storage) -> None:
         return
     counts = FragmentCounts.zero()
     draw_depths(command, storage, counts)
-    storage.note_passed(counts.passed)
+    storage.note_passed(storage.active_query, counts.passed)
 
 
 def _begin_query(command: BeginQuery, storage: Storage) -> None:

@@ -50,31 +50,36 @@ KNOWN_VERTICES = 64 * MOST_VERTICES  # about, of the draws that kinds keep
 class Kind(NamedTuple):
     """A state of draws that wait, with all that depends on it: run and setting for their geometry, plan for the rest.
 
-    Kinds of one `batch` share batches: all that their geometry depends on is equal.
+    Kinds of one `batch` share batches: all that their geometry depends on is equal. `counting` keeps the plan of draws
+    whose fragments an occlusion query counts.
     """
 
     run: Run
     setting: Setting
     plan: Plan
     batch: int
+    counting: list[Plan]
 
 
 @dataclass(eq=False, slots=True)
 class Segment:
     """Consecutive draws of one kind with one viewport and one scissor box, which are those of `command`.
 
-    `first` and `end` are the places of the first one, and of the one after the last, in their batch.
+    `first` and `end` are the places of the first one, and of the one after the last, in their batch; `query` counts
+    their fragments, if it is not 0.
     """
 
     kind: Kind
     command: Draw
     first: int
     end: int
+    query: int
 
-    def continues_with(self, state: State) -> bool:
-        """Return whether a draw of the kind under a state has the same viewport and scissor box."""
+    def continues_with(self, state: State, query: int) -> bool:
+        """Return whether a draw of the kind has the same viewport, scissor box and query."""
         own = self.command.state
-        return own is state or (own.scissor is state.scissor and own.viewport is state.viewport)
+        is_in_place = own is state or (own.scissor is state.scissor and own.viewport is state.viewport)
+        return is_in_place and self.query == query
 
 
 def _key_without_tests(command: Draw) -> tuple[int, ...]:
@@ -133,10 +138,11 @@ class DrawQueue:
         batch.append(command)
         segments = self._segments
         last = segments[-1] if segments else None
-        if last is not None and last.kind is kind and last.continues_with(command.state):
+        query = self._storage.active_query
+        if last is not None and last.kind is kind and last.continues_with(command.state, query):
             last.end += 1
         else:
-            segments.append(Segment(kind, command, len(batch) - 1, len(batch)))
+            segments.append(Segment(kind, command, len(batch) - 1, len(batch), query))
         self._n_draws += 1
         self._n_vertices += n_vertices
         self._are_small = self._are_small and n_vertices < WORTH_COMPARING
@@ -188,7 +194,9 @@ class DrawQueue:
         if similar is None or run is None:
             return None
         same_tests = similar.run.has_tests_of(command.state)
-        return similar._replace(run=run, plan=similar.plan if same_tests else plan_draw(command, target))
+        if same_tests:
+            return similar._replace(run=run)
+        return similar._replace(run=run, plan=plan_draw(command, target), counting=[])
 
     def _new_kind(self, command: Draw, target: Framebuffer) -> Kind | None:
         run = begin_run(command, target, self._storage)
@@ -196,7 +204,7 @@ class DrawQueue:
             return None
         setting = setting_of(run, target, self._storage)
         batch = self._batch_numbers.setdefault(geometry_key(run, setting), next(self._next_number))
-        kind = Kind(run, setting, plan_draw(command, target), batch)
+        kind = Kind(run, setting, plan_draw(command, target), batch, [])
         self._latest[_key_without_tests(command)] = kind
         return kind
 
@@ -208,6 +216,11 @@ class DrawQueue:
         self._of_state.clear()
         self._batch_numbers.clear()
         self._known_vertices = 0
+
+    def begin_query(self, query: int) -> None:
+        """Make ready for the begin of an occlusion query; 0 ends one. Draws that it has counted before come first."""
+        if query and any(segment.query == query for segment in self._segments):
+            self.carry_out()
 
     def carry_out(self) -> None:
         """Carry out the draws that wait."""
@@ -229,29 +242,28 @@ class DrawQueue:
     def _draw_segment(self, segment: Segment, part: Part, group: Group | None) -> Group | None:
         """Draw the triangles of a segment, or add them to a group, which may be a new one; return the group.
 
-        The draws of a group that has been drawn, or could not take them, come first. Fragments that an occlusion query
-        counts belong to no group.
+        The draws of a group that has been drawn, or could not take them, come first.
         """
-        plan, command, storage = segment.kind.plan, segment.command, self._storage
+        plan, command, query, storage = segment.kind.plan, segment.command, segment.query, self._storage
         state, target = command.state, storage.framebuffers[command.state.draw_framebuffer]
-        if storage.active_query:
-            counts = FragmentCounts.zero(only_passed=True)
-            plan = plan_draw(command, target, counts)
-            pipeline.draw_geometry(plan, command, target, storage, part.geometry(), counts)
-            storage.note_passed(counts.passed)
-            return None
+        counts = FragmentCounts.zero(only_passed=True) if query else None
+        if counts is not None:
+            if not segment.kind.counting:
+                segment.kind.counting.append(plan_draw(command, target, counts))
+            (plan,) = segment.kind.counting
         numbers = joins_others(plan, state, target, part)
         if numbers is None:
             if group:
                 group.draw()
-            pipeline.draw_geometry(plan, command, target, storage, part.geometry())
+            pipeline.draw_geometry(plan, command, target, storage, part.geometry(), counts)
+            storage.note_passed(query, 0 if counts is None else counts.passed)
             return None
-        if group and group.takes(state, numbers, part, target):
+        if group and group.takes(state, numbers, part, target, query):
             return group
         if group:
             group.draw()
         group = Group(target, storage)
-        group.takes(state, numbers, part, target)
+        group.takes(state, numbers, part, target, query)
         return group
 
     def _parts(self, batches: dict[int, list[Draw]], segments: list[Segment]) -> list[Part]:

@@ -28,6 +28,7 @@ from softshadow.pipeline.shade.shading import LOOKED_UP, shade_in_parts
 from softshadow.state import State
 
 NO_RANGE, NO_ORDER, NO_COLUMNS = np.zeros((1, 2), np.float32), np.empty(0, np.int32), np.empty((2, 0), np.int32)
+NO_COUNT = np.zeros(1, np.int64)  # spans have passed the tests before
 
 # so many fragments, in draws that cover most of a small window, pay for compiling them
 SPAN_KERNELS = KernelGroup("spans", pays_after=250_000)
@@ -47,8 +48,8 @@ def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry)
         segment = np.array([[0, 0, OF_SPANS, len(spans.row), 0, 0, 0, 0, *IN_ORDER]], np.int32)
         draw_segments(
             segment, NO_RANGE, NO_ORDER, 0, 0, 0, triangles.corners, triangles.depth, triangles.front, planes.values,
-            planes.place, flats, *tables, textures, pixels, NO_DEPTH, NO_STENCIL, *spans, *NO_COLUMNS,
-            *block_memory.arrays,
+            planes.place, flats, *tables, textures, pixels, NO_DEPTH, NO_STENCIL, NO_COUNT, *spans,
+            *NO_COLUMNS, *block_memory.arrays,
         )  # fmt: skip
 
     return lambda spans: shade_in_parts(geometry, spans, shade_part, LOOKED_UP if geometry.program.units else 1)

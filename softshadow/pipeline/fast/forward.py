@@ -106,10 +106,11 @@ def draw_forward(
         planes = scratch((len(triangles.ids), 3, len(geometry.flat) + 1), np.float32)
         write_planes(geometry, triangles, planes)
         if segments.pay_bands:
-            n_passed += _draw_in_bands(segments, triangles, planes)
+            passed = _draw_in_bands(segments, triangles, planes)
         else:
             order = in_order[: len(triangles.ids)]
-            n_passed += draw_rows(segments, region.first_row, region.end_row, triangles, planes, order)
+            passed = draw_rows(segments, region.first_row, region.end_row, triangles, planes, order)
+        n_passed += int(passed[0])
     return n_passed
 
 
@@ -140,28 +141,29 @@ def write_planes(geometry: Geometry, triangles: Setup, planes: np.ndarray) -> No
         write_sprite_planes(part, geometry.sprites, AttributePlanes(planes, in_order[:count]))
 
 
-def _draw_in_bands(segments: Segments, triangles: Setup, planes: np.ndarray) -> int:
-    """Draw the triangles of one segment in bands of rows, which several threads share."""
+def _draw_in_bands(segments: Segments, triangles: Setup, planes: np.ndarray) -> np.ndarray:
+    """Draw the triangles of one segment in bands of rows, which several threads share; return what `draw_rows` does."""
     region = segments.region
     bands = triangles_in_bands(triangles.corners, [(0, len(triangles.ids))], region, few_bands(region))
 
-    def draw_band(n: int) -> int:
+    def draw_band(n: int) -> np.ndarray:
         return draw_rows(segments, bands[n].first_row, bands[n].end_row, triangles, planes, bands[n].numbers)
 
-    return sum(share(draw_band, len(bands)))
+    return np.sum(share(draw_band, len(bands)), axis=0)
 
 
 def draw_rows(
     segments: Segments, first_row: int, end_row: int, triangles: Setup, planes: np.ndarray, order: np.ndarray
-) -> int:
+) -> np.ndarray:
     """Draw the segments into the rows [first_row, end_row); they divide the numbers of triangles `order` (n,).
 
-    Return how many fragments have passed the tests before shading.
+    Return how many fragments of each have passed the tests before shading, (S,) int64.
     """
-    n_passed: int = draw_segments(
+    passed = np.zeros(len(segments.table), np.int64)
+    draw_segments(
         segments.table, segments.ranges, order, first_row, end_row, segments.region.downwards, triangles.corners,
         triangles.depth, triangles.front, planes, in_order, segments.flats, *segments.states, segments.textures,
-        segments.pixels, segments.depth, segments.stencil, *_lists.spans, *np.empty((2, end_row), np.int32),
+        segments.pixels, segments.depth, segments.stencil, passed, *_lists.spans, *np.empty((2, end_row), np.int32),
         *block_memory.arrays,
     )  # fmt: skip
-    return n_passed
+    return passed

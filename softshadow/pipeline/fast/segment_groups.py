@@ -69,6 +69,7 @@ class Group:
     def __init__(self, target: Framebuffer, storage: Storage) -> None:
         self._target, self._storage = target, storage
         self._rows: list[tuple[int, ...]] = []  # of the table of segments, with places in batches
+        self._queries: list[int] = []  # the occlusion query of each segment
         self._ranges: list[DepthRange] = []
         self._states: dict[int, tuple[int, SegmentState]] = {}  # with their places, by identity
         self._batches: dict[int, Triangles] = {}  # in use, by the identity of the batch
@@ -76,8 +77,8 @@ class Group:
         self._regions: dict[tuple[int, ...], Region] = {}  # by the identity of what they depend on
         self._n_triangles, self._work, self._columns = 0, 0, 0
 
-    def takes(self, state: State, numbers: SegmentState, part: Part, target: Framebuffer) -> bool:
-        """Add a draw and return True; return False where it belongs to another group."""
+    def takes(self, state: State, numbers: SegmentState, part: Part, target: Framebuffer, query: int) -> bool:
+        """Add a draw, whose fragments a query counts if it is not 0; return False where it belongs to another group."""
         count, units = part.end - part.first, part.program.units or []
         new = [unit for unit in units if id(unit.texture) not in self._textures]
         if self._rows and (
@@ -97,6 +98,7 @@ class Group:
         triangles.end = part.end
         region = self._region_of(state)
         self._rows.append((k, triangles.place, part.first, part.end, *region[:4], *used))
+        self._queries.append(query)
         self._ranges.append(depth_range_of(state, np.float32))
         self._n_triangles += count
         self._work += work_of(numbers, part.fragments, count)
@@ -117,23 +119,27 @@ class Group:
         """Draw them in their order."""
         lessens = all(numbers.only_lessens for _, numbers in self._states.values())
         watch = Watch(self._target, self._storage) if lessens else None
-        self._draw()
+        passed = self._draw()
+        if any(self._queries):
+            for query, count in zip(self._queries, passed.tolist(), strict=True):
+                self._storage.note_passed(query, count)
         if watch:
             watch.note_drawn()
 
-    def _draw(self) -> None:
+    def _draw(self) -> np.ndarray:
+        """Draw them; return how many fragments of each have passed the tests before shading."""
         triangles, planes = self._joined()
         segments = self._segments()
         region, order = segments.region, in_order[: self._n_triangles]
         if not segments.pay_bands:
-            draw_rows(segments, region.first_row, region.end_row, triangles, planes, order)
-            return
+            return draw_rows(segments, region.first_row, region.end_row, triangles, planes, order)
         rows_log2 = few_bands(region)
 
-        def draw_band(n: int) -> None:
-            draw_rows(segments, *rows_of_band(n, region, rows_log2), triangles, planes, order)
+        def draw_band(n: int) -> np.ndarray:
+            return draw_rows(segments, *rows_of_band(n, region, rows_log2), triangles, planes, order)
 
-        share(draw_band, bands_of(region, rows_log2))
+        passed: np.ndarray = np.sum(share(draw_band, bands_of(region, rows_log2)), axis=0)
+        return passed
 
     def _segments(self) -> Segments:
         batches, table = list(self._batches.values()), np.array(self._rows, np.int32)

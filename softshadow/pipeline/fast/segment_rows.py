@@ -35,9 +35,9 @@ from softshadow.pipeline.fast.span_tests import IS_TESTED, collect_passing_spans
 def draw_segments(
     segments, ranges, order, first_row, end_row, downwards, corners, depth_planes, faces_front, planes, place, flats,
     tests, before, before_bytes, after, after_bytes, alphas, switches, numbers, specials, textures, pixels, depth,
-    stencil, rows, lefts, triangles, starts, first_columns, end_columns, room, whole, spans, own_triangles,
+    stencil, passed, rows, lefts, triangles, starts, first_columns, end_columns, room, whole, spans, own_triangles,
 ):  # fmt: skip
-    """Draw the segments into the rows [first_row, end_row); return how many fragments pass the tests before shading.
+    """Draw the segments into the rows [first_row, end_row); count the fragments that pass the tests before shading.
 
     Fragments are shaded where a colour is written, or decides.
 
@@ -50,10 +50,10 @@ def draw_segments(
     flats (g, k) bool : which columns are not interpolated
     tests, ..., specials : of `segment_tables.state_tables`
     textures : of `segment_tables.padded_textures`
+    passed (S,) int64 : the fragments of each segment that pass are added
     rows, ..., starts : spans, or scratch for them (`records.Spans`)
     first_columns, end_columns (end_row,) int32 : scratch, as are the last four (`fragment_block.block_memory`)
     """
-    n_passed = np.int64(0)
     for n in range(segments.shape[0]):
         k, flat = segments[n, STATE], flats[segments[n, FLATS]]
         own_textures = segments[n, OWN_TEXTURES:]
@@ -70,7 +70,7 @@ def draw_segments(
                     tests[k, DEPTH_LARGEST], low, high, depth, stencil, rows, lefts, triangles, starts, room, whole,
                     first_columns, end_columns,
                 )  # fmt: skip
-                n_passed += starts[n_spans]
+                passed[n] += starts[n_spans]
                 if switches[k, WRITABLE] == 0 and not alphas[k, IS_TESTED]:
                     continue
             shade_spans(
@@ -80,4 +80,3 @@ def draw_segments(
                 high, depth, stencil, room, whole, spans, own_triangles,
             )  # fmt: skip
             is_spans = False
-    return n_passed

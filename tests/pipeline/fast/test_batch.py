@@ -249,18 +249,23 @@ def test_segments_of_a_batch_leave_the_bits_of_single_draws(seed):
 
 
 class CountedProgram(Program):
-    """A random program that counts the fragments of its draws, one or two at a time."""
+    """A random program that counts the fragments of most of its draws, one or two at a time, in three queries."""
 
     def __init__(self, seed: int) -> None:
         super().__init__(seed)
         self.counted: list[int] = []
 
     def draw_something(self) -> None:
-        gl.glBeginQuery(gl.GL_SAMPLES_PASSED, 1)
+        if self.chance(0.3):
+            super().draw_something()
+            return
+        query = int(self.rng.integers(1, 4))
+        gl.glBeginQuery(gl.GL_SAMPLES_PASSED, query)
         for _ in range(1 + self.chance()):
             super().draw_something()
         gl.glEndQuery(gl.GL_SAMPLES_PASSED)
-        self.counted.append(int(gl.glGetQueryObjectuiv(1, gl.GL_QUERY_RESULT)))
+        if self.chance(0.3):
+            self.counted.append(int(gl.glGetQueryObjectuiv(query, gl.GL_QUERY_RESULT)))
 
 
 @given(seeds)
@@ -269,8 +274,10 @@ def test_queries_count_the_fragments_of_draws_that_wait(seed):
     one, other = CountedProgram(seed), CountedProgram(seed)
     with use_short_cuts(False):
         expected = one.draw()
-    assert same_buffers(other.draw(), expected)
+    context = other.draw()
+    assert same_buffers(context, expected)
     assert other.counted == one.counted
+    assert context.storage.queries == expected.storage.queries
 
 
 @pytest.mark.parametrize("mode", [gl.GL_POINTS, gl.GL_LINES, gl.GL_TRIANGLES])

@@ -94,7 +94,7 @@ def change_something(rng, textures):
 
 
 def small_draws(seed, count=40, textures=20, size=SIZE):
-    """Return a context after many small draws, with a change of the state before each of them."""
+    """Return a context after many small draws, with a change of the state before each; queries count some of them."""
     rng = np.random.default_rng(seed)
     context = gl.create_context(size, size, depth_format=str(rng.choice(["d24", "d32f"])))
     make_textures(rng, textures)
@@ -108,11 +108,16 @@ def small_draws(seed, count=40, textures=20, size=SIZE):
         mode, corners = [(gl.GL_QUADS, 4), (gl.GL_TRIANGLES, 6), (gl.GL_LINE_LOOP, 3), (gl.GL_POINTS, 5)][
             int(rng.choice(4, p=(0.5, 0.3, 0.1, 0.1)))
         ]
+        is_counted = rng.random() < 0.4
+        if is_counted:
+            gl.glBeginQuery(gl.GL_SAMPLES_PASSED, int(rng.integers(1, 20)))
         gl.glBegin(mode)
         for _ in range(corners):
             gl.glTexCoord2f(*numbers(rng, 2, -1, 2))
             gl.glVertex3f(*numbers(rng, 3, -1.1, 1.1))
         gl.glEnd()
+        if is_counted:
+            gl.glEndQuery(gl.GL_SAMPLES_PASSED)
     gl.glFinish()
     return context
 
@@ -122,6 +127,7 @@ def assert_same_windows(seed, **options):
         expected = small_draws(seed, **options)
     window = small_draws(seed, **options)
     assert same_window(window, expected), seed
+    assert window.storage.queries == expected.storage.queries, seed
     images = [each.storage.framebuffers[1].attachments for each in (window, expected)]
     assert all(images[0][key].image.same_as(images[1][key].image) for key in images[0]), seed
 
@@ -134,6 +140,18 @@ def test_groups_of_draws_leave_the_bits_of_single_draws(seed):
 def test_most_of_these_draws_are_in_groups(groups):
     small_draws(7)
     assert sum(count for count, _ in groups if count > 1) > 20
+
+
+def test_draws_of_several_queries_are_in_one_group(groups):
+    with gl.create_context(SIZE, SIZE) as context:
+        for query in range(1, 6):
+            gl.glBeginQuery(gl.GL_SAMPLES_PASSED, query)
+            gl.glRecti(-1, -1, 1, 1)
+            gl.glEndQuery(gl.GL_SAMPLES_PASSED)
+            gl.glRecti(0, 0, 1, 1)
+        gl.glFinish()
+    assert [count for count, _ in groups] == [10]
+    assert context.storage.queries == dict.fromkeys(range(1, 6), SIZE * SIZE)
 
 
 @pytest.mark.parametrize(("limit", "most"), [("SEGMENTS", 3), ("TEXTURES", 3), ("TRIANGLES", 6)])
