@@ -117,7 +117,15 @@ def _switch_other(context: Context, cap: int, on: bool) -> None:
             context.color_indices = evolve(context.color_indices, logic_enabled=on)
     elif cap in UNIT_CAPABILITIES:
         context.change_field(UNITS[unit], UNIT_CAPABILITIES[cap], on)
-    elif is_on(context.state, cap, unit) != on:
+    elif cap in TEXTURE_GENERATION:
+        gen, index = context.groups[UNITS[unit]].fields["gen"], TEXTURE_GENERATION.index(cap)
+        if gen[index].enabled != on:
+            context.change_field(UNITS[unit], "gen", with_item(gen, index, evolve(gen[index], enabled=on)))
+    elif cap in CLIP_PLANES:
+        enabled, index = context.groups["clip_planes"].fields["enabled"], cap - gl.GL_CLIP_PLANE0
+        if enabled[index] != on:
+            context.change_field("clip_planes", "enabled", with_item(enabled, index, on))
+    elif is_on(context.drawn_state, cap, unit) != on:
         context.change_state(with_capability(context.state, cap, unit, on))
         if cap == gl.GL_COLOR_MATERIAL and on:
             start_to_follow(context)

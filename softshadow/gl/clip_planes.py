@@ -24,7 +24,7 @@ def glClipPlane(plane: int, equation: Any) -> None:
         return
     object_space = np.array(vector(equation, 4), np.float64)
     eye_space = tuple(eye_plane(context, object_space).tolist())
-    equations = with_item(context.state.clip_planes.equations, plane - gl.GL_CLIP_PLANE0, eye_space)
+    equations = with_item(context.groups["clip_planes"].fields["equations"], plane - gl.GL_CLIP_PLANE0, eye_space)
     context.change("clip_planes", equations=equations)
 
 
