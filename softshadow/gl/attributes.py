@@ -172,13 +172,11 @@ def glPopAttrib() -> None:
     mask &= changed
     if mask:
         saved = SavedAttributes(*entry)
-        if marked or not _is_simple(context, state, saved):
+        if _is_simple(context, state, saved):
+            _restore_at_once(context, _bits_in(mask), state, saved)
+        else:
             for bit in _bits_in(mask):
                 _restore(context, bit, saved)
-        else:
-            context.state = with_groups(_bits_in(mask), state, saved.state)
-            if mask & gl.GL_TEXTURE_BIT:
-                _restore_textures(context, saved)
         if mask & WITH_BUFFERS:
             _restore_buffers(context, mask, saved)
         state = context.drawn_state
@@ -188,20 +186,30 @@ def glPopAttrib() -> None:
 
 
 def _is_simple(context: Context, state: State, saved: SavedAttributes) -> bool:
-    """Return whether groups of `State` are all that a pop may have to restore, if no group was marked as changed.
+    """Return whether no vertices, attributes or materials wait, and materials follow colours as before.
 
-    Then they are restored together; otherwise one by one, with materials and vertices that wait.
+    Then all groups are restored together; otherwise one by one.
     """
-    before, after = saved.state.lighting, state.lighting
+    before, after, pending = saved.state.lighting, state.lighting, context.pending
     return (
         before.front is after.front
         and before.back is after.back
         and before.color_material == after.color_material
-        and saved.followed is None
-        and context.state_groups.followed is None
-        and not context.pending.names
+        and before.color_material_face == after.color_material_face
+        and before.color_material_mode == after.color_material_mode
+        and not (pending.names or pending.hidden)
         and not context.has_collected
     )
+
+
+def _restore_at_once(context: Context, bits: tuple[int, ...], state: State, saved: SavedAttributes) -> None:
+    """Restore several groups where `_is_simple`; the materials follow the colour that they followed at the push."""
+    context.state = with_groups(bits, state, saved.state)
+    for bit in bits:
+        if bit == gl.GL_LIGHTING_BIT:
+            context.state_groups.followed = saved.followed
+        elif bit in OTHERS:
+            OTHERS[bit](context, saved)
 
 
 def _restore(context: Context, bit: int, saved: SavedAttributes) -> None:
