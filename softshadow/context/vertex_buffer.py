@@ -7,7 +7,7 @@ driver (`softshadow.pipeline.mesa.driver_draws`), and so some bits of the image.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -19,6 +19,16 @@ from softshadow.pipeline.mesa.driver_draws import MAX_PAIRS, SEPARATE, Collected
 BYTES = 512 * 1024  # size of the vertex buffer (vbo_exec_draw.c)
 LEAST_BYTES = 1024  # Mesa takes a new buffer when no more than these are left
 NO_DRAW = DriverDraw()  # the driver has drawn all
+
+
+class Waiting(Protocol):
+    """Vertices of a primitive whose numbers are not computed yet (`softshadow.gl.evaluators`)."""
+
+    def add(self, context: Any, primitive: Primitive, parameters: tuple[float, ...]) -> bool:
+        """Add a vertex; return False, and do nothing, if it must be computed at once."""
+
+    def compute(self, context: Any, primitive: Primitive) -> None:
+        """Compute the numbers."""
 
 
 class Primitive:
@@ -39,6 +49,7 @@ class Primitive:
     position_size : int      the same for positions: such calls append to `positions`, up to `limit` numbers
     counted : int            vertices that `VertexBuffer.n_vertices` includes
     arrays : mapping         "position", "normal" ...: arrays of all vertices, where they exist already
+    waiting : Waiting        vertices whose numbers are not computed yet, or None
     """
 
     __slots__ = (
@@ -53,6 +64,7 @@ class Primitive:
         "position_size",
         "positions",
         "steady",
+        "waiting",
     )  # fmt: skip
 
     def __init__(self, mode: int, from_list: bool, materials: frozenset[str]) -> None:
@@ -61,6 +73,7 @@ class Primitive:
         self.changes: dict[str, list[tuple[int, Any]]] = {}
         self.steady: dict[str, int] = {}
         self.arrays: Mapping[str, np.ndarray] = {}
+        self.waiting: Waiting | None = None
         self.continued, self.position_size, self.limit, self.counted = False, 0, 0, 0
 
     def __len__(self) -> int:

@@ -91,11 +91,61 @@ def _evaluated(context: Context, parameters: tuple[np.ndarray, ...]) -> Evaluate
     return Evaluated(sizes, rows, points)
 
 
-def _evaluate(*parameters: np.ndarray) -> None:
-    """Add a vertex to the primitive for each set of parameters (N,) float32: (u) or (u, v)."""
-    context = current()
-    if context.primitive is not None:
-        _add_vertices(context, _evaluated(context, parameters), len(parameters[0]))
+class WaitingVertices:
+    """The last vertices of a primitive, whose numbers are computed together when they are needed.
+
+    They are in the primitive already, without their numbers: how many there are decides what Mesa draws, and when. No
+    map can change before glEnd.
+    """
+
+    def __init__(self, evaluated: Evaluated, points: np.ndarray) -> None:
+        self._sizes, self._names, self._position_size = evaluated.sizes, tuple(evaluated.rows), points.shape[1]
+        self._parameters: list[tuple[float, ...]] = []
+        self._places: list[int] = []  # in the positions of the primitive
+        self._changes: dict[str, list[int]] = {name: [] for name in self._names}  # the places of values in its changes
+
+    def add(self, context: Context, primitive: Primitive, parameters: tuple[float, ...]) -> bool:
+        """Add a vertex; return False, and do nothing, where that is more than to add numbers."""
+        if primitive.position_size != self._position_size or not _takes_all(context, primitive, self._sizes, 1):
+            return False
+        place = len(primitive.positions)
+        for name in self._names:
+            changes = primitive.changes[name]
+            self._changes[name].append(len(changes))
+            changes += [(place, None), (place + 4, context.attribute(name))]
+            primitive.steady.pop(name, None)
+        primitive.positions += REST
+        self._parameters.append(parameters)
+        self._places.append(place)
+        return True
+
+    def compute(self, context: Context, primitive: Primitive) -> None:
+        """Compute the numbers."""
+        if not self._parameters:
+            return
+        evaluated = _evaluated(context, tuple(np.array(column, F32) for column in zip(*self._parameters, strict=True)))
+        assert evaluated.points is not None
+        for place, position in zip(self._places, _padded(evaluated.points, 4), strict=True):
+            primitive.positions[place : place + 4] = position
+        for name, values in evaluated.rows.items():
+            changes, places = primitive.changes[name], self._changes[name]
+            for place, value in zip(places, _padded(values, len(context.attribute(name))), strict=True):
+                changes[place] = changes[place][0], value
+            places.clear()
+        self._parameters.clear()
+        self._places.clear()
+
+
+def _evaluate(*numbers: float | np.float32) -> None:
+    """Add a vertex to the primitive: (u) or (u, v)."""
+    context, parameters = current(), tuple(map(float, numbers))
+    primitive: Primitive | None = context.primitive
+    if primitive is None or (primitive.waiting is not None and primitive.waiting.add(context, primitive, parameters)):
+        return
+    evaluated = _evaluated(context, tuple(np.array([parameter], F32) for parameter in parameters))
+    _add_vertices(context, evaluated, 1)
+    if primitive.waiting is None and evaluated.points is not None:
+        primitive.waiting = WaitingVertices(evaluated, evaluated.points)
 
 
 def _add_vertices(context: Context, evaluated: Evaluated, count: int) -> None:
@@ -184,33 +234,28 @@ def _normals(points: np.ndarray, du: np.ndarray, dv: np.ndarray) -> np.ndarray:
     return scaled
 
 
-def _one(value: float | np.float32) -> np.ndarray:
-    return np.array([value], F32)
-
-
 @in_lists
 def glEvalCoord1f(u: float) -> None:
     """Add the vertex of the enabled curves at a parameter."""
-    _evaluate(_one(u))
+    _evaluate(u)
 
 
 @in_lists
 def glEvalCoord2f(u: float, v: float) -> None:
     """Add the vertex of the enabled surfaces at two parameters."""
-    _evaluate(_one(u), _one(v))
+    _evaluate(u, v)
 
 
 @in_lists
 def glEvalCoord1fv(u: Any) -> None:
     """Add the vertex of the enabled curves at a parameter given as a vector."""
-    _evaluate(_one(vector(u, 1)[0]))
+    _evaluate(vector(u, 1)[0])
 
 
 @in_lists
 def glEvalCoord2fv(u: Any) -> None:
     """Add the vertex of the enabled surfaces at two parameters given as a vector."""
-    first, second = vector(u, 2)
-    _evaluate(_one(first), _one(second))
+    _evaluate(*vector(u, 2))
 
 
 glEvalCoord1d, glEvalCoord2d, glEvalCoord1dv, glEvalCoord2dv = (
@@ -228,14 +273,14 @@ def _step(grid: tuple[int, float, float]) -> np.float32:
 def glEvalPoint1(i: int) -> None:
     """Add the vertex of a grid point."""
     grid = current().evaluators.grid1
-    _evaluate(_one(F32(i) * _step(grid) + F32(grid[1])))
+    _evaluate(F32(i) * _step(grid) + F32(grid[1]))
 
 
 @in_lists
 def glEvalPoint2(i: int, j: int) -> None:
     """Add the vertex of a grid point."""
     u, v = current().evaluators.grid2
-    _evaluate(_one(F32(i) * _step(u) + F32(u[1])), _one(F32(j) * _step(v) + F32(v[1])))
+    _evaluate(F32(i) * _step(u) + F32(u[1]), F32(j) * _step(v) + F32(v[1]))
 
 
 def _parameters(grid: tuple[int, float, float], first: int, last: int) -> np.ndarray:

@@ -168,6 +168,8 @@ def end(context: Context, primitive: Primitive) -> None:
 
     The strip ends at the first vertex of the loop.
     """
+    if primitive.waiting is not None:
+        primitive.waiting.compute(context, primitive)
     if not primitive.from_list:
         _count(context, primitive)
     if primitive.continued and primitive.mode == gl.GL_LINE_LOOP:
@@ -178,6 +180,8 @@ def end(context: Context, primitive: Primitive) -> None:
 
 def _wrap(context: Context, primitive: Primitive) -> None:
     """Draw the collected vertices, and keep those that the rest of the primitive needs."""
+    if primitive.waiting is not None:
+        primitive.waiting.compute(context, primitive)
     _count(context, primitive)
     n = len(primitive)
     alone = context.vertex_buffer.n_vertices == n

@@ -182,3 +182,71 @@ def test_meshes_of_evaluators_give_the_draws_of_single_vertices(n_bytes: int, mo
             patch.setattr(evaluators, "_takes_all", lambda *_: False)
             patch.setattr(evaluators, "similar_pairs", lambda *_: None)
             assert draws_of(partial(evaluate_meshes, seed)) == at_once, seed
+
+
+def add_vertices(rng: np.random.Generator) -> None:
+    """Add evaluated vertices, often, or another vertex, or set an attribute."""
+    what = int(rng.choice(6, p=(0.4, 0.2, 0.1, 0.1, 0.1, 0.1)))
+    if what == 0:
+        for _ in range(int(rng.integers(1, 9))):
+            gl.glEvalCoord2f(*rng.random(2).tolist())
+    elif what == 1:
+        gl.glEvalPoint2(*rng.integers(0, 4, 2).tolist())
+    elif what == 2:
+        gl.glVertex3f(*rng.normal(size=3).tolist())
+    elif what == 3:
+        gl.glVertex2f(*rng.normal(size=2).tolist())
+    elif what == 4:
+        gl.glColor3f(*rng.random(3).tolist())
+    else:
+        gl.glNormal3f(*rng.normal(size=3).tolist())
+
+
+def evaluate_vertices(seed: int) -> None:
+    """Draw primitives of random modes with evaluated and other vertices, some of them in a display list."""
+    rng = np.random.default_rng(seed)
+    gl.glMapGrid2f(4, 0, 1, 3, 0, 1)
+    for name, size, p in (("VERTEX_3", 3, 0.9), ("COLOR_4", 4, 0.5), ("NORMAL", 3, 0.3), ("TEXTURE_COORD_2", 2, 0.3)):
+        target = getattr(gl, f"GL_MAP2_{name}")
+        gl.glMap2f(target, 0, 1, 0, 1, rng.normal(size=(3, 2, size)).astype(np.float32))
+        if rng.random() < p:
+            gl.glEnable(target)
+    for switch in (gl.GL_AUTO_NORMAL, gl.GL_COLOR_MATERIAL):
+        if rng.random() < 0.5:
+            gl.glEnable(switch)
+    is_listed = rng.random() < 0.3
+    if is_listed:
+        gl.glNewList(1, int(rng.choice([gl.GL_COMPILE, gl.GL_COMPILE_AND_EXECUTE])))
+    for _ in range(4):
+        gl.glBegin(int(rng.integers(gl.GL_POINTS, gl.GL_POLYGON + 1)))
+        for _ in range(int(rng.integers(1, 20))):
+            add_vertices(rng)
+        gl.glEnd()
+    if is_listed:
+        gl.glEndList()
+        gl.glCallList(1)
+
+
+@pytest.mark.parametrize("n_bytes", [vertex_buffer.BYTES, 2048])
+def test_vertices_whose_numbers_wait_are_those_computed_at_once(n_bytes: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(vertex_buffer, "BYTES", n_bytes)
+    waited: list[bool] = []
+    add = evaluators.WaitingVertices.add
+    for seed in range(ROUNDS):
+        with monkeypatch.context() as patch:
+            patch.setattr(evaluators.WaitingVertices, "add", lambda *each: waited.append(add(*each)) or waited[-1])
+            waiting = draws_of(partial(evaluate_vertices, seed))
+            patch.setattr(evaluators.WaitingVertices, "add", lambda *_: False)
+            assert draws_of(partial(evaluate_vertices, seed)) == waiting, seed
+    assert waited.count(True) > 10 * ROUNDS
+
+
+def test_a_parameter_that_is_no_number_is_refused_where_it_is_given() -> None:
+    with gl.create_context(16, 12):
+        gl.glEnable(gl.GL_MAP1_VERTEX_3)
+        gl.glBegin(gl.GL_POINTS)
+        gl.glEvalCoord1f(0.5)
+        gl.glEvalCoord1f(0.5)
+        with pytest.raises(TypeError, match="glEvalCoord1f"):
+            gl.glEvalCoord1f("half")
+        gl.glEnd()
