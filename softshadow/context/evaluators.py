@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -22,6 +23,11 @@ class Map:
 
     points: np.ndarray
     domain: tuple[float, ...]
+
+    @cached_property
+    def content(self) -> tuple[object, ...]:
+        """What is equal for equal maps."""
+        return self.points.shape, self.points.tobytes(), self.domain
 
 
 @dataclass(frozen=True)

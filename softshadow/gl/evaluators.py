@@ -25,6 +25,7 @@ F32 = np.float32
 TEXTURE_MAPS = ("TEXTURE_COORD_4", "TEXTURE_COORD_3", "TEXTURE_COORD_2", "TEXTURE_COORD_1")
 ATTRIBUTES = (("normal", ("NORMAL",)), ("color", ("COLOR_4",)), ("texcoord0", TEXTURE_MAPS))  # in Mesa's order
 POSITIONS = ("VERTEX_4", "VERTEX_3")
+KEPT_MESHES, MOST_KEPT_POINTS = 64, 4096  # a teapot has 32 meshes with some hundred points
 
 
 def _enabled_map(context: Context, n: int, names: tuple[str, ...]) -> Map | None:
@@ -284,8 +285,10 @@ def glEvalPoint2(i: int, j: int) -> None:
 
 
 def _parameters(grid: tuple[int, float, float], first: int, last: int) -> np.ndarray:
-    """Return the parameters of the grid points [first, last], each the one before plus a step."""
+    """Return the parameters of the grid points [first, last], each the one before plus a step; they may be none."""
     step = _step(grid)
+    if first > last:
+        return np.empty(0, F32)
     return np.cumsum(np.array([F32(grid[1]) + F32(first) * step, *[step] * (last - first)], F32), dtype=F32)
 
 
@@ -297,58 +300,92 @@ def glEvalMesh1(mode: int, i1: int, i2: int) -> None:
     if context is None or not is_one_of("glEvalMesh1", "mode", mode, modes, "GL_POINT or GL_LINE"):
         return
     if _enabled_map(context, 1, POSITIONS) is not None:
-        parameters = _parameters(context.evaluators.grid1, i1, i2) if i1 <= i2 else np.empty(0, F32)
-        _draw(modes[mode], (parameters,), [np.arange(len(parameters))])
+        _draw(context, _kept_mesh(context, modes[mode], context.evaluators.grid1, (i1, i2)))
 
 
 @in_lists
 def glEvalMesh2(mode: int, i1: int, i2: int, j1: int, j2: int) -> None:
     """Draw grid points of the enabled surfaces: GL_POINT, GL_LINE or GL_FILL."""
     context = outside_begin("glEvalMesh2")
-    modes = (gl.GL_POINT, gl.GL_LINE, gl.GL_FILL)
+    modes = {gl.GL_POINT: gl.GL_POINTS, gl.GL_LINE: gl.GL_LINE_STRIP, gl.GL_FILL: gl.GL_TRIANGLE_STRIP}
     if context is None or not is_one_of("glEvalMesh2", "mode", mode, modes, "GL_POINT, GL_LINE or GL_FILL"):
         return
     if _enabled_map(context, 2, POSITIONS) is None or i1 > i2 or j1 > j2:
         return
-    u, v = (
-        _parameters(grid, first, last)
-        for grid, first, last in zip(context.evaluators.grid2, (i1, j1), (i2, j2), strict=True)
-    )
-    grid, numbers = (np.tile(u, len(v)), np.repeat(v, len(u))), np.arange(len(u) * len(v)).reshape(len(v), len(u))
-    if mode == gl.GL_POINT:
-        _draw(gl.GL_POINTS, grid, [numbers.reshape(-1)])
-    elif mode == gl.GL_LINE:
-        _draw(gl.GL_LINE_STRIP, grid, [*numbers, *numbers.T])
-    else:
-        _draw(gl.GL_TRIANGLE_STRIP, grid, [np.stack(pair, axis=1).reshape(-1) for pair in pairwise(numbers)])
+    _draw(context, _kept_mesh(context, modes[mode], context.evaluators.grid2, (i1, i2), (j1, j2)))
 
 
-def _draw(mode: int, grid: tuple[np.ndarray, ...], strips: list[np.ndarray]) -> None:
-    """Draw primitives of grid points.
+class Mesh(NamedTuple):
+    """Primitives of one mode between grid points.
 
-    Parameters
+    Attributes
     ----------
-    grid : the parameters (N,) of all points, which are evaluated together
-    strips : the numbers of the points of each primitive
+    evaluated : what the maps have at the points of all primitives, one after the other; `ends` of each of them
+    pairs : the primitives as `similar_pairs` draws them; none without positions
     """
-    context, lengths = current(), [len(strip) for strip in strips]
-    if not strips:
-        return
-    evaluated = _evaluated(context, grid).at(np.concatenate(strips))
-    arrays, sizes = evaluated.arrays(context), dict(evaluated.sizes)
-    if evaluated.points is not None:
-        sizes["position"] = evaluated.points.shape[1]
-    similar, start = None, 0
-    for number, length in enumerate(lengths):
-        end = start + length
-        if number == 1 and arrays:
-            similar = similar_pairs(context, sizes)
-        rows = {name: each[start:end] for name, each in arrays.items()}
-        if similar is None or not similar.add(mode, PairVertices(rows)):
-            glBegin(mode)
-            _add_vertices(context, evaluated.at(slice(start, end)), length)
+
+    mode: int
+    evaluated: Evaluated
+    ends: list[int]
+    pairs: list[PairVertices]
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Components of positions and attributes."""
+        points = self.evaluated.points
+        return self.evaluated.sizes | ({} if points is None else {"position": points.shape[1]})
+
+
+def _kept_mesh(context: Context, mode: int, grid: Any, *ranges: tuple[int, int]) -> Mesh:
+    """Return grid points of the enabled maps: those of an earlier call if all they depend on is the same.
+
+    A program draws the same surfaces in every frame.
+    """
+    n, enabled = len(ranges), context.evaluators.enabled
+    kinds = (*(kinds for _, kinds in ATTRIBUTES), POSITIONS)
+    maps = [None if a_map is None else a_map.content for a_map in (_enabled_map(context, n, each) for each in kinds)]
+    key = mode, grid, ranges, gl.GL_AUTO_NORMAL in enabled, *maps
+    mesh: Mesh | None = context.meshes.get(key)
+    if mesh is None:
+        mesh = _mesh(context, mode, grid, ranges)
+        if mesh.ends[-1] <= MOST_KEPT_POINTS:
+            if len(context.meshes) >= KEPT_MESHES:
+                context.meshes.clear()
+            context.meshes[key] = mesh
+    return mesh
+
+
+def _mesh(context: Context, mode: int, grid: Any, ranges: tuple[tuple[int, int], ...]) -> Mesh:
+    if len(ranges) == 1:
+        parameters: tuple[np.ndarray, ...] = (_parameters(grid, *ranges[0]),)
+        strips = [np.arange(len(parameters[0]))]
+    else:
+        u, v = (_parameters(each, *limits) for each, limits in zip(grid, ranges, strict=True))
+        parameters, numbers = (np.tile(u, len(v)), np.repeat(v, len(u))), np.arange(len(u) * len(v))
+        rows = numbers.reshape(len(v), len(u))
+        if mode == gl.GL_POINTS:
+            strips = [numbers]
+        elif mode == gl.GL_LINE_STRIP:
+            strips = [*rows, *rows.T]
+        else:
+            strips = [np.stack(pair, axis=1).reshape(-1) for pair in pairwise(rows)]
+    evaluated = _evaluated(context, parameters).at(np.concatenate([np.empty(0, np.int64), *strips]))
+    ends = np.cumsum([0, *map(len, strips)]).tolist()
+    arrays = evaluated.arrays(context)
+    pairs = [PairVertices({name: each[a:b] for name, each in arrays.items()}) for a, b in pairwise(ends) if arrays]
+    return Mesh(mode, evaluated, ends, pairs)
+
+
+def _draw(context: Context, mesh: Mesh) -> None:
+    """Draw the primitives of a mesh."""
+    similar = None
+    for number, (start, end) in enumerate(pairwise(mesh.ends)):
+        if number == 1 and mesh.pairs:
+            similar = similar_pairs(context, mesh.sizes)
+        if similar is None or not similar.add(mesh.mode, mesh.pairs[number]):
+            glBegin(mesh.mode)
+            _add_vertices(context, mesh.evaluated.at(slice(start, end)), end - start)
             glEnd()
-        start = end
 
 
 __all__ = spelled_like_gl(globals())

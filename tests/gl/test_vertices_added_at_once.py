@@ -250,3 +250,34 @@ def test_a_parameter_that_is_no_number_is_refused_where_it_is_given() -> None:
         with pytest.raises(TypeError, match="glEvalCoord1f"):
             gl.glEvalCoord1f("half")
         gl.glEnd()
+
+
+def test_meshes_are_kept_only_where_all_they_depend_on_is_equal() -> None:
+    """The positions of each draw are those of a new context, whose calls before set other maps and grids."""
+
+    def positions(calls: list[Callable[[], None]]) -> list[bytes]:
+        with gl.create_context(16, 12) as context:
+            gl.glEnable(gl.GL_MAP2_VERTEX_3)
+            gl.glMapGrid2f(3, 0, 1, 2, 0, 1)
+            for call in calls:
+                call()
+            gl.glEvalMesh2(gl.GL_FILL, 0, 3, 0, 2)
+            draws = [command for command in context.frame.commands if isinstance(command, Draw)]
+        return [draw.vertices.position.tobytes() + draw.vertices.normal.tobytes() for draw in draws[-2:]]
+
+    rng = np.random.default_rng(4)
+    maps = [rng.normal(size=(3, 4, 3)).astype(np.float32) for _ in range(2)]
+    settings: list[Callable[[], None]] = [
+        partial(gl.glMap2f, gl.GL_MAP2_VERTEX_3, 0, 1, 0, 1, maps[0]),
+        partial(gl.glMap2f, gl.GL_MAP2_VERTEX_3, 0, 1, 0, 1, maps[1]),
+        partial(gl.glMap2f, gl.GL_MAP2_VERTEX_3, 0, 1, 0, 2, maps[1]),
+        partial(gl.glMapGrid2f, 3, 0, 1, 2, 0.25, 1),
+        partial(gl.glEnable, gl.GL_AUTO_NORMAL),
+        partial(gl.glMap2f, gl.GL_MAP2_NORMAL, 0, 1, 0, 1, maps[0]),
+        partial(gl.glEnable, gl.GL_MAP2_NORMAL),
+        partial(gl.glDisable, gl.GL_AUTO_NORMAL),
+    ]
+    mesh = partial(gl.glEvalMesh2, gl.GL_FILL, 0, 3, 0, 2)
+    for end in range(1, len(settings) + 1):
+        drawn_between = [call for setting in settings[:end] for call in (setting, mesh)]
+        assert positions(drawn_between) == positions(settings[:end]), end
