@@ -21,7 +21,7 @@ from softshadow.state import BLACK
 
 MOST_VIEWS = 1024  # of one value, by the number of vertices
 MOST_VALUES = 4096
-MOST_DRAWN = 16384  # vertices that are kept for a set of values: some 600 bytes of each are not arrays
+MOST_DRAWN = 16384  # vertices that are kept besides one for each primitive: some 600 bytes of each are not arrays
 OPTIONAL = {"edge": True, "secondary": BLACK, "fog_coordinate": 0.0}  # the last fields of `Vertices`: initial values
 IS_OPTIONAL = frozenset(OPTIONAL)
 NO_UNITS: tuple[tuple[int, str], ...] = ()
@@ -144,15 +144,17 @@ class DrawnVertices:
         if self._among is not constants.among:
             self._among = constants.among
             self._by_set.clear()
+        if self._by_set:
+            constants.among.n_drawn += 1
         self._by_set[constants] = vertices
-        constants.among.n_drawn += 1
         return vertices
 
 
 class ConstantAttributes:
     """The current values as the last draw had them, and all sets of values; equal values have the same objects.
 
-    `latest_color` and `latest_normal` are for draws that need no set. `n_drawn` counts the `DrawnVertices`.
+    `latest_color` and `latest_normal` are for draws that need no set. `n_drawn` counts the `DrawnVertices`, but for
+    one of each primitive.
     """
 
     def __init__(self) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from softshadow import gl
-from softshadow.gl import list_compiling, list_primitives, lists
+from softshadow.gl import constant_attributes, list_compiling, list_primitives, lists
 from softshadow.gl.list_calls import CALLS, MAKE_OTHERS
 from softshadow.gl.list_compiling import with_primitives
 from softshadow.gl.list_primitives import ListPrimitive
@@ -301,6 +301,36 @@ def test_the_same_vertices_are_drawn_again(context):
     assert drawn[1] is drawn[3]
     assert len({id(vertices) for vertices in drawn}) == 3
     assert [float(np.copysign(1, vertices.color[0, 0])) for vertices in drawn] == [1, 1, -1, 1]
+
+
+def vertices_of_frames(context, frames, reds):
+    """Return the vertices of each draw of some frames that call list 1 with several colours, by frame."""
+    drawn = []
+    for _ in range(frames):
+        start = len(context.frame.commands)
+        for red in reds:
+            gl.glColor3f(red, 0, 0)
+            gl.glCallList(1)
+        drawn.append([command.vertices for command in context.frame.commands[start:]])
+    return drawn
+
+
+def test_vertices_are_kept_for_all_colours_of_a_frame(context):
+    compiled(("glNormal3f", (0, 1, 0)), *TRIANGLE)
+    first, second = vertices_of_frames(context, 2, np.linspace(0, 1, 100).tolist())
+    assert list(map(id, second)) == list(map(id, first))
+    assert len(set(map(id, first))) == 100
+
+
+def test_the_number_of_kept_vertices_is_bounded_but_for_one_of_each_primitive(context, monkeypatch):
+    monkeypatch.setattr(constant_attributes, "MOST_DRAWN", 20)
+    compiled(*[call for _ in range(30) for call in (("glTranslatef", (0, 0, 0)), *TRIANGLE)])
+    first, second = vertices_of_frames(context, 2, [0.5])
+    assert list(map(id, second)) == list(map(id, first))
+    vertices_of_frames(context, 2, np.linspace(0, 1, 10).tolist())
+    primitives = [call for call in context.lists[1].calls if isinstance(call, ListPrimitive)]
+    assert len(primitives) == 30
+    assert sum(len(primitive.drawn._by_set) for primitive in primitives) <= 20 + 2 * 30
 
 
 def test_equal_corners_are_one_vertex(context):
