@@ -1,11 +1,15 @@
-"""Fast copies of dataclasses with some fields changed."""
+"""Fast copies of dataclasses with some fields changed, and results of functions of such values."""
 
+from collections.abc import Callable
 from dataclasses import fields
+from functools import wraps
 from operator import is_
 from typing import Any, TypeVar
 
 Value = TypeVar("Value")
+Result = TypeVar("Result")
 NAMES: dict[type, tuple[str, ...]] = {}  # of the fields, by class
+MOST_RESULTS = 256  # of a function
 
 
 def evolve(before: Value, **values: Any) -> Value:
@@ -58,3 +62,24 @@ def create(kind: type[Value], **values: Any) -> Value:
         wrong = ", ".join(sorted(values.keys() ^ {*names}))
         raise TypeError(f"{kind.__name__}: missing or unknown fields {wrong}")
     return instance
+
+
+def remembered(function: Callable[..., Result]) -> Callable[..., Result]:
+    """Remember results by the identity of the arguments, which never change (decorator).
+
+    A program makes the same states in every frame.
+    """
+    results: dict[tuple[int, ...], tuple[Result, tuple[Any, ...]]] = {}
+
+    @wraps(function)
+    def call(*arguments: Any) -> Result:
+        key = tuple(map(id, arguments))
+        found = results.get(key)
+        if found is None:
+            if len(results) >= MOST_RESULTS:
+                results.clear()
+            # as long as the arguments are kept, no other object has their ids
+            found = results[key] = function(*arguments), arguments
+        return found[0]
+
+    return call

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from functools import wraps
-from typing import Any, TypeVar
+from collections.abc import Iterator
+from typing import Any
 
 from softshadow import tokens as gl
-from softshadow.frozen import evolve_to
+from softshadow.frozen import evolve_to, remembered
 from softshadow.gl.capabilities import (
     CAPABILITIES,
     CLIP_PLANES,
@@ -106,31 +105,6 @@ for _cap, (_group, _field) in CAPABILITIES.items():
     if _cap not in UNPUSHED:
         PUSHED.setdefault(_group, []).append((_cap, _field))
 PER_UNIT = (*UNIT_CAPABILITIES, *TEXTURE_GENERATION)
-
-
-Result = TypeVar("Result")
-MOST_RESULTS = 256
-
-
-def remembered(function: Callable[..., Result]) -> Callable[..., Result]:
-    """Remember results by the identity of the arguments, which never change (decorator).
-
-    A program pushes, changes and pops the same states in every frame.
-    """
-    results: dict[tuple[int, ...], tuple[Result, tuple[Any, ...]]] = {}
-
-    @wraps(function)
-    def call(*arguments: Any) -> Result:
-        key = tuple(map(id, arguments))
-        found = results.get(key)
-        if found is None:
-            if len(results) >= MOST_RESULTS:
-                results.clear()
-            # as long as the arguments are kept, no other object has their ids
-            found = results[key] = function(*arguments), arguments
-        return found[0]
-
-    return call
 
 
 @remembered

@@ -27,6 +27,7 @@ CORNERS_FROM_TOP = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
 EDGES, EDGES_FROM_TOP = (2 * corners + [0, 1] for corners in (CORNERS, CORNERS_FROM_TOP))
 TRIANGLES = np.array([0, 1, 2, 0, 2, 3])  # a fan, as in Mesa
 KEPT_VERTICES = 1024  # of a draw; a character has some hundred
+KEPT_STATES = 64
 
 
 def raster_vertices(position: np.ndarray, color: np.ndarray, texcoords: tuple[np.ndarray, ...]) -> Vertices:
@@ -171,25 +172,19 @@ def _projection(depth: float, real: Any) -> np.ndarray:
     return projection
 
 
-class _Prepared(NamedTuple):
-    """A state without its vertex stages, and what it was made from."""
-
-    made_from: tuple[State, tuple[int, int], bool, bool]
-    state: State
-
-
-_latest: list[_Prepared] = []  # at most one
+# what states became, with the states themselves: so no others have their ids
+_known: dict[tuple[int, tuple[int, int], bool, bool], tuple[State, State]] = {}
 
 
 def _prepared(state: State, size: tuple[int, int], in_window: bool, clamps: bool) -> State:
-    """Return what `_without_vertex_stages` returns, the same object while its arguments are the same."""
-    made_from = state, size, in_window, clamps
-    latest = _latest[:]
-    if latest and latest[0].made_from[0] is state and latest[0].made_from[1:] == made_from[1:]:
-        return latest[0].state
-    prepared = _without_vertex_stages(*made_from)
-    _latest[:] = [_Prepared(made_from, prepared)]
-    return prepared
+    """Return what `_without_vertex_stages` returns; the same object for the same arguments, if they are recent."""
+    key = id(state), size, in_window, clamps
+    known = _known.get(key)
+    if known is None:
+        if len(_known) >= KEPT_STATES:
+            _known.clear()
+        known = _known[key] = _without_vertex_stages(state, size, in_window, clamps), state
+    return known[0]
 
 
 def _without_vertex_stages(state: State, size: tuple[int, int], in_window: bool, clamps: bool) -> State:

@@ -9,7 +9,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.framebuffer import DEFAULT, LARGEST_SIDE
-from softshadow.frozen import evolve
+from softshadow.frozen import evolve, remembered
 from softshadow.gl.raster_draws import (
     CORNERS,
     CORNERS_FROM_TOP,
@@ -102,6 +102,7 @@ def rounded(coordinate: float) -> np.float32:
     return np.float32(np.trunc(coordinate + np.copysign(0.5, coordinate)))
 
 
+@remembered
 def _textured(state: State) -> State:
     """Return the state with the rectangle as its only texture."""
     first = TextureUnit(enabled_2d=True, bound_2d=TEXTURE, env_mode=gl.GL_REPLACE)

@@ -180,3 +180,14 @@ def test_a_text_of_lists_is_one_draw_and_what_follows_comes_after_it() -> None:
     assert (pixels[:32] == (0, 255, 0)).all()
     assert [tuple(pixel) for pixel in pixels[36:44]] == [(255, 0, 0), (0, 0, 0)] * 4  # of the fifth character
     assert (pixels[54:62] == (255, 0, 0)).all()  # what is drawn last
+
+
+def test_rectangles_of_pixels_have_the_same_state_until_calls_change_it() -> None:
+    """Then all that was derived from the state is found again."""
+    with gl.create_context(16, 12) as context:
+        for blend in (False, False, True, False):
+            (gl.glEnable if blend else gl.glDisable)(gl.GL_BLEND)
+            gl.glDrawPixels(1, 1, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, np.full(4, 99, np.uint8))
+        states = [command.state for command in context.frame.commands if isinstance(command, Draw)]
+    assert [state is states[0] for state in states] == [True, True, False, True]
+    assert [state.blend.enabled for state in states] == [False, False, True, False]
