@@ -77,7 +77,10 @@ def _get(operation: str, pname: int, params: Any, dtype: type[np.generic], conve
         return wrong_enum(operation, "pname", pname, "a state variable of this subset")
     if isinstance(value, tuple | np.ndarray):
         rows = np.asarray(value)
-        answer: Any = np.array([convert(v) for v in rows.ravel().tolist()], dtype).reshape(rows.shape)
+        if dtype is np.float32:  # what converting one by one gives, in a fifth of the time
+            answer: Any = rows.astype(dtype, order="C")
+        else:
+            answer = np.array([convert(v) for v in rows.ravel().tolist()], dtype).reshape(rows.shape)
     else:
         answer = convert(value)
     if params is not None:
