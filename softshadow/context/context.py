@@ -157,9 +157,7 @@ class Context(CurrentValues, Precision):
         self.renderbuffer = 0
         self.render_mode = RenderMode()
         self.maps, self.evaluators = initial_maps(), EvaluatorSettings()
-        self.meshes: dict[
-            tuple[Any, ...], Any
-        ] = {}  # of evaluators, which were drawn lately (`softshadow.gl.evaluators`)
+        self.meshes: dict[tuple[Any, ...], Any] = {}  # of evaluators, drawn lately (`softshadow.gl.evaluators`)
         self.query_targets: dict[int, int] = {}  # name: target of the queries that have been begun
 
     def __enter__(self) -> Context:

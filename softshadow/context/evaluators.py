@@ -26,8 +26,8 @@ class Map:
 
     @cached_property
     def content(self) -> tuple[object, ...]:
-        """What is equal for equal maps."""
-        return self.points.shape, self.points.tobytes(), self.domain
+        """What is equal for maps with the same bits; -0.0 equals 0.0, but is another number."""
+        return self.points.shape, self.points.tobytes(), repr(self.domain)
 
 
 @dataclass(frozen=True)

@@ -344,7 +344,7 @@ def _kept_mesh(context: Context, mode: int, grid: Any, *ranges: tuple[int, int])
     n, enabled = len(ranges), context.evaluators.enabled
     kinds = (*(kinds for _, kinds in ATTRIBUTES), POSITIONS)
     maps = [None if a_map is None else a_map.content for a_map in (_enabled_map(context, n, each) for each in kinds)]
-    key = mode, grid, ranges, gl.GL_AUTO_NORMAL in enabled, *maps
+    key = mode, repr(grid), ranges, gl.GL_AUTO_NORMAL in enabled, *maps
     mesh: Mesh | None = context.meshes.get(key)
     if mesh is None:
         mesh = _mesh(context, mode, grid, ranges)

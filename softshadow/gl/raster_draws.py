@@ -16,7 +16,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context, RasterPosition
 from softshadow.framebuffer import DEFAULT
-from softshadow.frozen import create, evolve
+from softshadow.frozen import create, evolve, remembered
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.state import ClipPlanes, Cull, Polygon, State, Viewport
 
@@ -27,7 +27,6 @@ CORNERS_FROM_TOP = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
 EDGES, EDGES_FROM_TOP = (2 * corners + [0, 1] for corners in (CORNERS, CORNERS_FROM_TOP))
 TRIANGLES = np.array([0, 1, 2, 0, 2, 3])  # a fan, as in Mesa
 KEPT_VERTICES = 1024  # of a draw; a character has some hundred
-KEPT_STATES = 64
 
 
 def raster_vertices(position: np.ndarray, color: np.ndarray, texcoords: tuple[np.ndarray, ...]) -> Vertices:
@@ -55,7 +54,7 @@ def draw_at(context: Context, state: State, size: tuple[int, int], vertices: Ver
     real, n = cast(Any, context.real), len(vertices.position)
     return evolve(
         _blank_draw(real, len(vertices.texcoords)),
-        state=_prepared(state, size, state.draw_framebuffer == DEFAULT, clamps),
+        state=_without_vertex_stages(state, _whole(size), state.draw_framebuffer == DEFAULT, clamps),
         vertices=vertices,
         indices=indices_of(n),
         projection=_projection(context.current.raster.window[2], real),
@@ -172,26 +171,18 @@ def _projection(depth: float, real: Any) -> np.ndarray:
     return projection
 
 
-# what states became, with the states themselves: so no others have their ids
-_known: dict[tuple[int, tuple[int, int], bool, bool], tuple[State, State]] = {}
+@lru_cache(16)
+def _whole(size: tuple[int, int]) -> Viewport:
+    """Return the viewport of a whole framebuffer; the same object for the same size."""
+    return Viewport(0, 0, *size)
 
 
-def _prepared(state: State, size: tuple[int, int], in_window: bool, clamps: bool) -> State:
-    """Return what `_without_vertex_stages` returns; the same object for the same arguments, if they are recent."""
-    key = id(state), size, in_window, clamps
-    known = _known.get(key)
-    if known is None:
-        if len(_known) >= KEPT_STATES:
-            _known.clear()
-        known = _known[key] = _without_vertex_stages(state, size, in_window, clamps), state
-    return known[0]
-
-
-def _without_vertex_stages(state: State, size: tuple[int, int], in_window: bool, clamps: bool) -> State:
+@remembered
+def _without_vertex_stages(state: State, viewport: Viewport, in_window: bool, clamps: bool) -> State:
     """Return the state with all that concerns vertices and triangles as in the initial state, except depth clamping."""
     return evolve(
         state,
-        viewport=Viewport(0, 0, *size),
+        viewport=viewport,
         cull=Cull(front_face=gl.GL_CW if in_window else gl.GL_CCW),  # as in Mesa, for the stencil test of two sides
         polygon=Polygon(),
         lighting=evolve(state.lighting, enabled=False),

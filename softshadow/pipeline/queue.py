@@ -115,6 +115,7 @@ class DrawQueue:
         self._like: Draw  # a draw of this kind
         self._batches: dict[int, list[Draw]] = {}  # by their numbers
         self._segments: list[Segment] = []  # in drawing order
+        self._queries: set[int] = set()  # that count fragments of these; 0 if some are not counted
         self._n_draws, self._n_vertices, self._are_small = 0, 0, True
 
     def add(self, command: Draw) -> bool:
@@ -143,6 +144,7 @@ class DrawQueue:
             last.end += 1
         else:
             segments.append(Segment(kind, command, len(batch) - 1, len(batch), query))
+            self._queries.add(query)
         self._n_draws += 1
         self._n_vertices += n_vertices
         self._are_small = self._are_small and n_vertices < WORTH_COMPARING
@@ -219,7 +221,7 @@ class DrawQueue:
 
     def begin_query(self, query: int) -> None:
         """Make ready for the begin of an occlusion query; 0 ends one. Draws that it has counted before come first."""
-        if query and any(segment.query == query for segment in self._segments):
+        if query and query in self._queries:
             self.carry_out()
 
     def carry_out(self) -> None:
@@ -227,7 +229,7 @@ class DrawQueue:
         batches, segments = self._batches, self._segments
         if not segments:
             return
-        self._kind, self._batches, self._segments = None, {}, []
+        self._kind, self._batches, self._segments, self._queries = None, {}, [], set()
         self._n_draws, self._n_vertices, self._are_small = 0, 0, True
         with np.errstate(all="ignore"):  # as in pipeline.draw
             parts = self._parts(batches, segments)
@@ -256,7 +258,8 @@ class DrawQueue:
             if group:
                 group.draw()
             pipeline.draw_geometry(plan, command, target, storage, part.geometry(), counts)
-            storage.note_passed(query, 0 if counts is None else counts.passed)
+            if counts is not None:
+                storage.note_passed(query, counts.passed)
             return None
         if group and group.takes(state, numbers, part, target, query):
             return group
