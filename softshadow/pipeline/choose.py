@@ -71,6 +71,8 @@ WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volu
 FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangle: finding their spans would cost more
 TRIANGLES_OF_QUAD = 2
 SPARSE = 0.3  # fragments for each pixel of their region: from fewer on, most of the search for spans finds nothing
+# fragments of a triangle, and for each pixel of their region: such triangles have long spans, of which few are hidden
+LARGE_TRIANGLE, FEW_LAYERS = 32, 1.3
 # draws of so many triangles are cheaper to fill, shading each visible pixel once, than to draw triangle by triangle
 MANY_TRIANGLES = 4096
 LARGE_DRAW = 50_000  # fragments of a draw that counts as such when the kernels of the fixed function are to be compiled
@@ -383,14 +385,12 @@ def choose_forward(
     It returns how many fragments have passed the tests before shading.
 
     It is for draws in order, for opaque ones of few fragments, and where finding visible spans would cost more than it
-    saves: for a quad, or few fragments in a large region; but not if such a draw is made again and again. `fragments`
-    is about how many they are; without a `storage`, only their number decides.
+    saves: for a quad, few fragments in a large region, or large triangles that hide little of each other; but not if
+    such a draw is made again and again. `fragments` is about how many they are; without a `storage`, only their number
+    decides.
     """
     is_small = fragments <= FEW_FRAGMENTS and _short_cuts.get() != "always"  # which wants its fill to be compiled
-    hides_little = storage is not None and (
-        len(geometry.triangles.ids) <= TRIANGLES_OF_QUAD
-        or fragments < SPARSE * (region.right - region.left) * (region.end_row - region.first_row)
-    )
+    hides_little = storage is not None and _hides_little(len(geometry.triangles.ids), fragments, region)
     must_test_in_order = plan.in_order or plan.counting
     if not plan.forward or not (must_test_in_order or is_small or (hides_little and _short_cuts.get() is True)):
         return None
@@ -406,6 +406,13 @@ def choose_forward(
             return None
     plan.path.fill, plan.path.shading = "span by span", "fixed-function kernel"
     return lambda: draw_forward(numbers, state, target, geometry, region, fragments)
+
+
+def _hides_little(n_triangles: int, fragments: int, region: Region) -> bool:
+    """Return whether finding the visible spans of an opaque draw would cost more than it saves."""
+    layers = fragments / ((region.right - region.left) * (region.end_row - region.first_row) or 1)
+    is_coarse = fragments >= LARGE_TRIANGLE * n_triangles and layers < FEW_LAYERS
+    return n_triangles <= TRIANGLES_OF_QUAD or layers < SPARSE or is_coarse
 
 
 def joins_others(plan: Plan, state: State, target: Framebuffer, part: Part) -> SegmentState | None:

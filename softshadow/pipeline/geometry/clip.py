@@ -63,7 +63,7 @@ def clip_triangles(
         return Clipped(clip, values, triangles, np.arange(len(triangles), dtype=np.int32), edges)
     sides = scratch(len(triangles), np.uint8)
     write_sides(triangles, codes, 0, len(triangles), sides)
-    n_inside, n_cut = np.count_nonzero(sides == INSIDE), np.count_nonzero(sides == CUT)
+    n_inside, n_cut = int(np.count_nonzero(sides == INSIDE)), int(np.count_nonzero(sides == CUT))
     planes = all_clip_planes(user_planes, clip.dtype)
     most_added = len(planes) * ADDED_PER_PLANE
     all_clip, all_values = clip, np.ascontiguousarray(values)  # always in C order: one compiled kernel

@@ -7,7 +7,6 @@ The pages of a large new array come from the operating system one by one, when t
 import math
 import sys
 import threading
-from typing import SupportsIndex
 
 import numpy as np
 
@@ -27,23 +26,23 @@ class _Blocks(threading.local):
 _thread_blocks = _Blocks()
 
 
-def scratch(shape: SupportsIndex | tuple[SupportsIndex, ...], dtype: np.typing.DTypeLike) -> np.ndarray:
+def scratch(shape: int | tuple[int, ...], dtype: np.typing.DTypeLike) -> np.ndarray:
     """Return an uninitialised array, like ``np.empty``, if possible in pooled memory.
 
     A block is reused once its last reference is gone.
     """
     kind = np.dtype(dtype)
-    size = math.prod(map(int, shape if isinstance(shape, tuple) else (shape,))) * kind.itemsize
+    size = int(math.prod(shape) if isinstance(shape, tuple) else shape) * kind.itemsize
     if not SMALLEST <= size <= POOLED // 2:
         return np.empty(shape, kind)
     whole = 1 << (size - 1).bit_length()  # pages that are never written take no memory
     blocks = _thread_blocks.of_size.setdefault(whole, [])
     for n in range(len(blocks)):  # no variable for the block: it would be one more reference
         if sys.getrefcount(blocks[n]) == UNUSED_REFERENCES:
-            return blocks[n][:size].view(kind).reshape(shape)
+            return np.ndarray(shape, kind, blocks[n])
     _make_room(whole)
     blocks.append(np.empty(whole, np.uint8))
-    return blocks[-1][:size].view(kind).reshape(shape)
+    return np.ndarray(shape, kind, blocks[-1])
 
 
 def _make_room(size: int) -> None:

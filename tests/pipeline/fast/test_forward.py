@@ -128,6 +128,36 @@ def test_a_large_quad_goes_forward_unless_it_was_drawn_before(monkeypatch):
         assert same_window(window, three_quads()[0])
 
 
+def layers_of_rectangles(columns, rows, n_layers):
+    """Return a window that layers of rectangles cover, those behind last, and the fill of their only draw."""
+    context = gl.create_context(64, 48)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    with explain_paths() as paths:
+        gl.glBegin(gl.GL_QUADS)
+        for layer in range(n_layers):
+            for j in range(rows):
+                for i in range(columns):
+                    gl.glColor3f(i / columns, j / rows, layer / n_layers)
+                    for x, y in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
+                        gl.glVertex3f(2 * x / columns - 1, 2 * y / rows - 1, 0.1 * layer + 0.3 * x / columns)
+        gl.glEnd()
+        gl.glFinish()
+    (path,) = paths
+    return context, path.fill
+
+
+@pytest.mark.parametrize(
+    ("columns", "rows", "n_layers", "goes_forward"),
+    [(4, 2, 1, True), (4, 2, 2, False), (20, 15, 1, False)],
+)
+def test_large_triangles_that_hide_little_go_forward(monkeypatch, columns, rows, n_layers, goes_forward):
+    monkeypatch.setattr(choose, "FEW_FRAGMENTS", -1)
+    window, fill = layers_of_rectangles(columns, rows, n_layers)
+    assert (fill == "span by span") == goes_forward
+    with use_short_cuts(False):
+        assert same_window(window, layers_of_rectangles(columns, rows, n_layers)[0])
+
+
 @pytest.mark.interpreted
 def test_the_interpreted_kernels_leave_the_bits_of_the_ordered_path():
     for seed in range(5):
