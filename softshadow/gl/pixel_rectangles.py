@@ -26,7 +26,7 @@ from softshadow.gl.window_quads import copied_rectangle, textured_rectangle
 from softshadow.image import Format, Image, storage_format
 from softshadow.packed_colors import PACKED_COLORS
 from softshadow.pipeline.buffers.copy import bottom_up, clipped
-from softshadow.pipeline.choose import needs_order
+from softshadow.pipeline.plan import needs_order
 from softshadow.pipeline.shade.color_writes import rounded_floats
 from softshadow.pixels import pack_color, unpack_color
 from softshadow.texel_codes import as_floats, resized

@@ -12,9 +12,9 @@ import numpy as np
 from softshadow.errors import StateError
 from softshadow.framebuffer import DEFAULT, Framebuffer, Storage
 from softshadow.inspection.step import Step, object_of
-from softshadow.pipeline.choose import tests_alpha
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.geometry import process_geometry
+from softshadow.pipeline.plan import tests_alpha
 from softshadow.pipeline.raster.fragment_ops import fragment_ops
 from softshadow.pipeline.raster.ordered import process_fragments
 from softshadow.pipeline.raster.region import buffer_cells, depth_range_of, region_of

@@ -16,9 +16,9 @@ from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.image import Image
 from softshadow.inspection.timeline import Event, Timeline
 from softshadow.pipeline.buffers.clear import clear
-from softshadow.pipeline.choose import tests_alpha
 from softshadow.pipeline.commands import Clear, Draw
 from softshadow.pipeline.geometry.facing import CULL_BACK, CULL_FRONT, culling
+from softshadow.pipeline.plan import tests_alpha
 from softshadow.pipeline.raster.coverage import triangles_at
 from softshadow.pipeline.raster.fragment_ops import FragmentOps, fragment_ops, process_fragment
 from softshadow.pipeline.raster.ordered import fragment_depth

@@ -12,8 +12,8 @@ An opaque draw is filled first; then each visible pixel is shaded once. A draw w
 fragments (alpha test, blending, logic op) lists them and tests them one by one; for the alpha test they are shaded
 before that. Rooms: `records` (what stages hand to each other), `geometry/`, `raster/`, `shade/`; `buffers/` (clears,
 copies, blits), `memory/` (scratch arrays, threads), `mesa/` (accidents of one driver), and `fast/`: short cuts that
-`choose` takes where they pay. Without them the buffers are the same (`use_short_cuts`); `draw_path` tells which way a
-draw went. `execute` carries out any recorded command (`commands`).
+`plan` and `choose` take where they pay. Without them the buffers are the same (`use_short_cuts`); `draw_path` tells
+which way a draw went. `execute` carries out any recorded command (`commands`).
 """
 
 from __future__ import annotations
@@ -26,20 +26,16 @@ from softshadow.errors import StateError
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.choose import (
     MANY_TRIANGLES,
-    Plan,
-    WithoutOverlaps,
     choose_fill,
     choose_forward,
     choose_geometry,
     choose_shading,
     fill_colorless,
-    plan_draw,
-    tests_alpha,
-    use_short_cuts,
 )
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.draw_path import DrawPath, explain_paths
 from softshadow.pipeline.memory.threads import set_threads, threads
+from softshadow.pipeline.plan import Plan, WithoutOverlaps, plan_draw, tests_alpha, use_short_cuts
 from softshadow.pipeline.raster.fill import OfRows, fill, fill_buffers, nothing
 from softshadow.pipeline.raster.ordered import process_fragments
 from softshadow.pipeline.raster.region import buffer_cells, covered, depth_range_of, padded_shape, region_of

@@ -1,33 +1,25 @@
-"""Which way a draw goes, and why: every decision between the textbook and its short cuts.
+"""Which way the triangles of a draw go, and why: every decision that depends on them.
 
-The textbook is in `geometry/`, `raster/` and `shade/`; the short cuts are in `fast/`. All ways leave the same buffers.
-What the state decides is decided before the geometry (`plan_draw`); what depends on the triangles, after it
-(`choose_fill`, `choose_shading`). `explain_paths` collects the decisions, `use_short_cuts` turns the short cuts off.
+`plan` has decided before what the state decides. All ways leave the same buffers. `explain_paths` collects the
+decisions.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
-import numpy as np
-
-from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.image import Image
 from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.commands import Draw, DrawDepths
-from softshadow.pipeline.draw_path import DrawPath, begin_path, is_explained
+from softshadow.pipeline.draw_path import begin_path
 from softshadow.pipeline.geometry.geometry import process_geometry
-from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.memory.threads import threads
-from softshadow.pipeline.mesa.polygon_rules import has_special_fragments, passes_stages
-from softshadow.pipeline.mesa.provoking_vertex import first_provokes
+from softshadow.pipeline.plan import Plan, short_cuts
 from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, few_bands
 from softshadow.pipeline.raster.fill import FillKernel, textbook_kernel
-from softshadow.pipeline.raster.fragment_ops import FragmentOps, fragment_ops
+from softshadow.pipeline.raster.fragment_ops import FragmentOps
 from softshadow.pipeline.raster.region import depth_range_of
 from softshadow.pipeline.records import FragmentCounts, Geometry, Region, Spans
 from softshadow.pipeline.shade.shading import shade_and_write
@@ -35,16 +27,8 @@ from softshadow.state import State
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS, any_state_kernel
-    from softshadow.pipeline.fast.batch.run import Run, can_begin_run
     from softshadow.pipeline.fast.batch.segments import Part
     from softshadow.pipeline.fast.depth_only import Chunk, chunks_of, fill_in_blocks, threads_of_blocks, window_mesh
-    from softshadow.pipeline.fast.drawn_surfaces import (
-        Watch,
-        leaves_nearest,
-        only_lessens_depths,
-        passing_spans,
-        remember_surface,
-    )
     from softshadow.pipeline.fast.fixed_function_spans import SPAN_KERNELS, fixed_function_shader
     from softshadow.pipeline.fast.forward import draw_forward
     from softshadow.pipeline.fast.geometry_cache import cached_geometry
@@ -53,15 +37,11 @@ try:
     from softshadow.pipeline.fast.segment_tables import SegmentState, segment_state
     from softshadow.pipeline.fast.shadow_map_kernel import shadow_map_shader
     from softshadow.pipeline.fast.shown_depths import draw_shown_depths, shows_depths
-    from softshadow.pipeline.fast.shown_rectangles import is_shown, show_rectangle
     from softshadow.pipeline.fast.special_fragments import discards_some
     from softshadow.pipeline.fast.stencil_tiles import shared_tiles_kernel, tiles_kernel
-    from softshadow.pipeline.fast.unordered_blend import triangles_without_overlaps
-    from softshadow.pipeline.fast.visibility_cache import FillInputs, cached_fill, is_repeated
-
-    SHORT_CUTS_EXIST = True
-except ModuleNotFoundError:  # the folder can be deleted: the textbook draws everything
-    SHORT_CUTS_EXIST = False
+    from softshadow.pipeline.fast.visibility_cache import FillInputs, is_repeated
+except ModuleNotFoundError:  # the folder can be deleted, see `plan`
+    pass
 
 WORTH_BANDS = 1_000_000  # fragments from which one thread draws layers in bands: sorting is small against the work
 WORTH_THREADS = 400_000  # fragments from which several threads share bands: these take some 800 us
@@ -79,191 +59,24 @@ LARGE_DRAW = 50_000  # fragments of a draw that counts as such when the kernels 
 SMALL_DRAW = 25  # what any other draw counts: ten thousand of them are some seconds, which compiling takes, too
 LAYERS = 4  # of fragments over each other, from which bands pay on one thread, too
 
-MOST_DRAWS = 4096  # of a run
-MOST_VERTICES = 1 << 16  # of a run of several draws: more in one table gain nothing
-LONG_DRAW = 1 << 14  # vertices from which a draw without colours goes in chunks (fast.depth_only)
-
-Policy = bool | Literal["always"]
-WithoutOverlaps = Callable[[Callable[[np.ndarray], None], Region, int], np.ndarray | None]
-
-_short_cuts: ContextVar[Policy] = ContextVar("short_cuts", default=SHORT_CUTS_EXIST)  # each thread has its own
-
-
-@contextmanager
-def use_short_cuts(policy: Policy) -> Iterator[None]:
-    """Inside, draws use the short cuts of `softshadow.pipeline.fast` or not; results are the same.
-
-    Parameters
-    ----------
-    policy : bool or "always"
-        False: only the textbook; True: where they pay, which is the default; "always": also those whose kernels are
-        not compiled yet, even where compiling takes longer than it saves.
-
-    Raises
-    ------
-    ValueError
-        `policy` is none of these, or the folder of short cuts was deleted.
-
-    Examples
-    --------
-    >>> import softshadow as ss
-    >>> with ss.use_short_cuts(False):
-    ...     textbook = ss.run("planar", "boxes", size=(64, 48))
-    >>> bool((textbook.image == ss.run("planar", "boxes", size=(64, 48)).image).all())
-    True
-    """
-    if policy is not True and policy is not False and policy != "always":
-        raise ValueError(f"use_short_cuts({policy!r}): expected True, False or 'always'")
-    if policy and not SHORT_CUTS_EXIST:
-        raise ValueError(f"use_short_cuts({policy!r}): softshadow.pipeline.fast is missing; expected False")
-    token = _short_cuts.set(policy)
-    try:
-        yield
-    finally:
-        _short_cuts.reset(token)
-
-
-class Plan(NamedTuple):
-    """What the state decides about a draw.
-
-    in_order: fragments are tested and written one by one; writes_color: colours may change; front, back: the
-    per-fragment operations of each facing; counting: whether fragments are counted. The short cuts to take, or None:
-    cached_fill looks for an equal fill, remember_surface keeps the visible spans, passing_spans looks for those of
-    earlier draws, without_overlaps finds out whether blended fragments overlap; watch: begun before a draw that makes
-    no depth larger; show_rectangle copies texels to pixels; in_chunks: whether some triangles are set up and filled at
-    a time; forward: whether the draw may go triangle by triangle from coverage to pixels, for which `numbers` keeps
-    what is computed from its state.
-    """
-
-    in_order: bool
-    writes_color: bool
-    front: FragmentOps
-    back: FragmentOps
-    path: DrawPath
-    numbers: list[SegmentState]
-    in_chunks: bool = False
-    cached_fill: Callable[..., tuple[Spans, bool]] | None = None
-    remember_surface: Callable[..., None] | None = None
-    passing_spans: Callable[..., list[Spans] | None] | None = None
-    without_overlaps: WithoutOverlaps | None = None
-    watch: Callable[[Framebuffer, Storage], Watch] | None = None
-    show_rectangle: Callable[[Draw, Framebuffer, Storage], None] | None = None
-    forward: bool = False
-    counting: bool = False
-
-
-def plan_draw(command: Draw, target: Framebuffer, counts: FragmentCounts | None = None) -> Plan:
-    """Return what the state decides about a draw; with `counts`, its fragments are counted: each is processed once."""
-    state, path = command.state, begin_path(command.label, command.mode)
-    front = fragment_ops(state, target.depth, target.stencil, True)
-    is_one_sided = state.stencil.front == state.stencil.back
-    back = front if is_one_sided else fragment_ops(state, target.depth, target.stencil, False)
-    is_special = has_special_fragments(state, command.mode)
-    in_order, writes_color = needs_order(state) or is_special, bool(target.colors) and any(state.color.mask)
-    plan = Plan(in_order, writes_color, front, back, path, [], counting=counts is not None)
-    path.way = "in order" if in_order else "opaque"
-    if is_special:
-        path.note("stipple, smoothing or point sprites decide about each fragment")
-    elif not in_order:
-        path.note("neither blending nor alpha test: fragments are tested before any is shaded")
-    else:
-        path.note("the alpha test reads colours" if tests_alpha(state) else "blending depends on the drawing order")
-    if not _short_cuts.get():
-        path.note("short cuts are off")
-        return plan
-    if counts is not None:
-        if not counts.only_passed or is_special or tests_alpha(state):
-            path.note("fragments are counted: no short cut")
-            return plan
-        path.note("fragments that pass are counted: they are tested in drawing order")
-        return plan._replace(forward=True, watch=Watch if only_lessens_depths(front, back) else None)
-    if is_special:  # its fragments are not those of its triangles, which surfaces drawn before are compared by
-        return plan._replace(forward=True)
-    if not in_order and writes_color and is_shown(command, target, front):
-        path.fill, path.shading = "rectangle", "copy of the texels"
-        path.note("each pixel shows its texel, and only the scissor box tests it")
-        return plan._replace(show_rectangle=show_rectangle)
-    plan = plan._replace(watch=Watch if only_lessens_depths(front, back) else None)
-    if in_order:
-        if writes_color and not tests_alpha(state) and keeps_depth_and_stencil(front, back):
-            plan = plan._replace(without_overlaps=triangles_without_overlaps, passing_spans=passing_spans)
-        return plan._replace(forward=True)
-    if writes_no_colors(command, target):
-        path.way, path.reasons = "depth and stencil only, in chunks", ["no colour is written or tested"]
-        return plan._replace(in_chunks=True)
-    if writes_color:
-        remembers = remember_surface if leaves_nearest(front, back) else None
-        return plan._replace(cached_fill=cached_fill, remember_surface=remembers, forward=True)
-    return plan
-
 
 def choose_depths(command: DrawDepths, target: Framebuffer) -> Callable[..., None] | None:
     """Return the function that draws a rectangle of depths without triangles, or None."""
-    if not _short_cuts.get() or not shows_depths(command.draw, target):
+    if not short_cuts.get() or not shows_depths(command.draw, target):
         return None
     path = begin_path(command.draw.label, command.draw.mode)
     path.way, path.fill = "rectangle of depths", "texel by texel"
     return draw_shown_depths
 
 
-def may_wait(command: Draw) -> bool:
-    """Return whether a draw may wait: short cuts are on, and nobody asks how draws went.
-
-    Rectangles that are copied do not wait: what follows is most often another one, which needs their texture.
-    """
-    return _short_cuts.get() is True and not is_explained() and command.shown_at is None
-
-
-def begin_run(command: Draw, target: Framebuffer, storage: Storage) -> Run | None:
-    """Return a run of draws that begins with this one: they wait, and are processed together. None: it cannot.
-
-    Only draws that cannot fail wait, and of those without colours only short ones (`fast.depth_only`).
-    """
-    if not can_begin_run(command, target):
-        return None
-    colorless = writes_no_colors(command, target) and not tests_alpha(command.state)
-    if colorless and len(command.vertices.position) >= LONG_DRAW:
-        return None
-    return Run(command, storage, not colorless)
-
-
 def choose_geometry(plan: Plan, command: Draw, target: Framebuffer, storage: Storage) -> Geometry:
     """Return the triangles of a draw; with short cuts, those of an equal earlier draw if they are cached."""
-    if (plan.counting and not plan.forward) or not _short_cuts.get():
+    if (plan.counting and not plan.forward) or not short_cuts.get():
         return process_geometry(command, target, storage)
     geometry, was_cached = cached_geometry(command, target, storage)
     if was_cached:
         plan.path.note("an equal draw has set up its triangles before")
     return geometry
-
-
-def needs_order(state: State) -> bool:
-    """Return whether a draw's colours depend on the order of its fragments, or its fragments on their colours."""
-    return tests_alpha(state) or state.blend.enabled or state.blend.logic_enabled
-
-
-def tests_alpha(state: State) -> bool:
-    """Return whether a fragment's colour decides if it passes."""
-    return state.alpha.enabled and state.alpha.func != gl.GL_ALWAYS
-
-
-def writes_no_colors(command: Draw, target: Framebuffer) -> bool:
-    """Return whether a draw is of filled triangles, and no colour is written or decides about a fragment."""
-    state = command.state
-    if command.mode in (gl.GL_POINTS, *LINES) or passes_stages(state) or (target.colors and any(state.color.mask)):
-        return False
-    # where Mesa shades all the same, with flat colours it may cut quads in another way, see `Varyings.flat_input`
-    is_shaded, is_flat = target.colors or state.alpha.enabled, state.lighting.shade_model == gl.GL_FLAT
-    return not first_provokes(state) and (not is_shaded or not (command.program_name or is_flat))
-
-
-def keeps_depth_and_stencil(front: FragmentOps, back: FragmentOps) -> bool:
-    """Return whether fragments change neither depth nor stencil, and are likely those of a surface drawn before."""
-    for ops in (front, back):
-        keeps_stencil = ops.write_mask == 0 or (ops.sfail, ops.zfail, ops.zpass) == (gl.GL_KEEP,) * 3
-        if not keeps_stencil or ops.depth_write or ops.depth_func not in (gl.GL_EQUAL, gl.GL_LEQUAL):
-            return False
-    return True
 
 
 class FillChoice(NamedTuple):
@@ -295,7 +108,7 @@ def choose_fill(
     """
     front, back, path = plan.front, plan.back, plan.path
     in_tiles, work = False, n_fragments + SMALL_TRIANGLE * n_triangles
-    if not _short_cuts.get() or counts is not None:
+    if not short_cuts.get() or counts is not None:
         path.fill, kernel = "textbook", textbook_kernel(int(front != back), writes_ids, counts)
     elif not _pays(FILL_KERNELS, work):
         path.fill, kernel = "textbook", textbook_kernel(int(front != back), writes_ids, None)
@@ -389,10 +202,10 @@ def choose_forward(
     such a draw is made again and again. `fragments` is about how many they are; without a `storage`, only their number
     decides.
     """
-    is_small = fragments <= FEW_FRAGMENTS and _short_cuts.get() != "always"  # which wants its fill to be compiled
+    is_small = fragments <= FEW_FRAGMENTS and short_cuts.get() != "always"  # which wants its fill to be compiled
     hides_little = storage is not None and _hides_little(len(geometry.triangles.ids), fragments, region)
     must_test_in_order = plan.in_order or plan.counting
-    if not plan.forward or not (must_test_in_order or is_small or (hides_little and _short_cuts.get() is True)):
+    if not plan.forward or not (must_test_in_order or is_small or (hides_little and short_cuts.get() is True)):
         return None
     numbers = segment_state(state, plan.front, plan.back, target, geometry, geometry.program.units, plan.numbers)
     if numbers is None or not _are_compiled(fragments):
@@ -428,7 +241,7 @@ def joins_others(plan: Plan, state: State, target: Framebuffer, part: Part) -> S
 
 def choose_shading(plan: Plan, state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None]:
     """Return the function that shades spans of a draw without overlaps and writes their colours."""
-    if _short_cuts.get():
+    if short_cuts.get():
         shader = shadow_map_shader(state, target, geometry)
         if shader is not None:
             plan.path.shading = "shadow-map kernel"
@@ -479,4 +292,4 @@ def _are_compiled(fragments: int) -> bool:
 
 def _pays(kernels: KernelGroup, work: int) -> bool:
     """Return whether to use kernels for so much work: they are compiled, compiling them pays now, or is asked for."""
-    return kernels.pay_for(work, at_once=_short_cuts.get() == "always")
+    return kernels.pay_for(work, at_once=short_cuts.get() == "always")

@@ -14,8 +14,9 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.frozen import evolve
-from softshadow.pipeline.choose import choose_depths, choose_geometry, plan_draw
+from softshadow.pipeline.choose import choose_depths, choose_geometry
 from softshadow.pipeline.commands import DrawDepths
+from softshadow.pipeline.plan import plan_draw
 from softshadow.pipeline.raster.fragment_ops import fragment_ops
 from softshadow.pipeline.raster.ordered import list_fragments, process_fragments
 from softshadow.pipeline.raster.region import buffer_cells, depth_range_of, region_of

@@ -2,7 +2,7 @@
 
 A thousand draws of twelve triangles cost a thousand times what Python needs for one. The triangles of all draws whose
 geometry depends on the same state are set up at once, as a batch; consecutive draws under one state, a segment, are
-filled and shaded at once. Draws wait only if they cannot fail (`choose.begin_run`), so errors appear at the calls that
+filled and shaded at once. Draws wait only if they cannot fail (`plan.begin_run`), so errors appear at the calls that
 make them.
 """
 
@@ -17,17 +17,17 @@ import numpy as np
 
 from softshadow import pipeline
 from softshadow.framebuffer import Framebuffer, Storage
-from softshadow.pipeline.choose import (
+from softshadow.pipeline.choose import joins_others
+from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.plan import (
     MOST_DRAWS,
     MOST_VERTICES,
     SHORT_CUTS_EXIST,
     Plan,
     begin_run,
-    joins_others,
     may_wait,
     plan_draw,
 )
-from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.records import FragmentCounts
 from softshadow.state import State
 

@@ -118,7 +118,7 @@ class WindowMesh(NamedTuple):
 
 
 def window_mesh(command: Draw, target: Framebuffer, storage: Storage | None = None) -> WindowMesh:
-    """Return the triangles of a draw without colours (`choose.writes_no_colors`).
+    """Return the triangles of a draw without colours (`plan.writes_no_colors`).
 
     With a `storage`, those of an equal draw before it, but for its culling and its scissor box, if they are recent.
     """

@@ -131,7 +131,7 @@ def passing_spans(
 
     Parameters
     ----------
-    front, back : the per-fragment operations, which change neither depth nor stencil (`choose.keeps_depth_and_stencil`)
+    front, back : the per-fragment operations, which change neither depth nor stencil (`plan.keeps_depth_and_stencil`)
     """
     image = target.depth
     if image is None or not (front.depth_test and back.depth_test) or storage.visibility_cache is None:

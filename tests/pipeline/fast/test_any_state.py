@@ -19,9 +19,9 @@ from softshadow.context import Context
 from softshadow.framebuffer import Attachment
 from softshadow.image import FORMATS, PITCH, Image
 from softshadow.pipeline import choose, set_threads, threads, use_short_cuts
-from softshadow.pipeline.choose import Policy
 from softshadow.pipeline.fast.any_state import any_state_kernel
 from softshadow.pipeline.geometry.triangle_setup import MAX_SLOPE, Offset, set_up
+from softshadow.pipeline.plan import Policy
 from softshadow.pipeline.raster import fill
 from softshadow.pipeline.raster.fill import FillKernel
 from softshadow.pipeline.raster.fragment_ops import FragmentOps

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from softshadow import gl
 from softshadow.context import Context
 from softshadow.framebuffer import Framebuffer, Storage
-from softshadow.pipeline import choose, queue, set_threads, threads, use_short_cuts
+from softshadow.pipeline import plan, queue, set_threads, threads, use_short_cuts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch import geometry
 from softshadow.pipeline.fast.batch.geometry import Batch, Setting
@@ -391,7 +391,7 @@ def test_a_long_run_is_cut(monkeypatch):
     with use_short_cuts(False):
         expected = Program(3).draw()
     assert same_buffers(Program(3).draw(), expected)
-    assert choose.MOST_VERTICES > 10
+    assert plan.MOST_VERTICES > 10
     assert not context.storage.active_query
 
 

@@ -12,7 +12,7 @@ from softshadow import gl as on
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.gl import create_context
-from softshadow.pipeline import choose, explain_paths, set_threads, threads, use_short_cuts
+from softshadow.pipeline import choose, explain_paths, plan, set_threads, threads, use_short_cuts
 from softshadow.pipeline.commands import Clear, Vertices
 from softshadow.pipeline.fast import drawn_surfaces
 from softshadow.pipeline.memory import threads as pool
@@ -204,7 +204,7 @@ def test_draws_that_are_joined_find_the_surfaces_of_each(surfaces, monkeypatch):
         found.append(0 if parts is None else len(parts))
         return parts
 
-    monkeypatch.setattr(choose, "passing_spans", noted)
+    monkeypatch.setattr(plan, "passing_spans", noted)
     for kernels in (choose.FILL_KERNELS, choose.SPAN_KERNELS):
         monkeypatch.setattr(kernels, "pays_after", 0)
     for policy in (True, False):
