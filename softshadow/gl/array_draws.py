@@ -18,7 +18,7 @@ from softshadow.context import Context, current, thread
 from softshadow.context.arrays import ArrayLayout, BufferObject, RowSnapshot, VertexArray
 from softshadow.context.current_values import UNIT_OF
 from softshadow.gl.array_snapshots import EDGE, FOG_COORDINATE, POSITION, SECONDARY, slice_of, snapshot_rows
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.calls import execute_listed, in_lists, spelled_like_gl
 from softshadow.gl.color_indices import set_index
 from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.gl.conversions import (
@@ -31,7 +31,17 @@ from softshadow.gl.conversions import (
 )
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
 from softshadow.gl.fog import set_fog_coordinate
-from softshadow.gl.immediate import A_MODE, MODES, add_vertex, can_draw, consecutive_indices, glVertex2f, glVertex3f
+from softshadow.gl.immediate import (
+    A_MODE,
+    MODES,
+    add_vertex,
+    can_draw,
+    consecutive_indices,
+    glBegin,
+    glEnd,
+    glVertex2f,
+    glVertex3f,
+)
 from softshadow.gl.index_snapshots import snapshot_indices
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.secondary_colors import set_secondary
@@ -243,14 +253,25 @@ def _draw(context: Context, mode: int, rows: Rows | None, indices: np.ndarray | 
     if rows is None:
         return
     compiled = context.compiled_list
-    if compiled is not None:
-        _, first, end = rows
-        compiled.calls.append(
-            partial(_draw_rows, mode, rows, consecutive_indices(end - first) if indices is None else indices)
-        )
-        if not compiled.executes:
-            return
-    context.draw(mode, _vertices(context, rows), indices)
+    if compiled is None:
+        context.draw(mode, _vertices(context, rows), indices)
+        return
+    _, first, end = rows
+    listed = consecutive_indices(end - first) if indices is None else indices
+    compiled.calls.append(partial(_draw_rows, mode, rows, listed))
+    if compiled.executes:
+        execute_listed(context, _draw_one_by_one, mode, (first + listed).tolist())
+
+
+def _draw_one_by_one(mode: int, vertices: Sequence[int]) -> None:
+    """Draw vertices of the enabled arrays as Mesa draws them while it compiles a list: with glArrayElement.
+
+    So the attributes of the last one become current.
+    """
+    glBegin(mode)
+    for vertex in vertices:
+        glArrayElement(vertex)
+    glEnd()
 
 
 def _draw_rows(mode: int, rows: Rows, indices: np.ndarray) -> None:

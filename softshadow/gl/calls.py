@@ -30,9 +30,13 @@ def record(context: Context, call: Callable[..., Any], *arguments: Any, **named:
     compiled = context.compiled_list
     assert compiled is not None
     compiled.calls.append(functools.partial(call, *map(_snapshot, arguments), **named))
-    if not compiled.executes:
-        return None
-    context.compiled_list, context.executes_list, context.ready = None, True, False  # calls made by this are part of it
+    return execute_listed(context, call, *arguments, **named) if compiled.executes else None
+
+
+def execute_listed(context: Context, call: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
+    """Carry out a call of a list that is compiled with GL_COMPILE_AND_EXECUTE; calls made by it are not recorded."""
+    compiled = context.compiled_list
+    context.compiled_list, context.executes_list, context.ready = None, True, False
     try:
         return call(*arguments, **named)
     finally:

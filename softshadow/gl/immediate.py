@@ -56,6 +56,10 @@ def glEnd() -> None:
         fail(gl.GL_INVALID_OPERATION, "glEnd", "there was no glBegin before it")
         return
     context.primitive, context.ready = None, False
+    if primitive.mode == gl.GL_LINE_LOOP and primitive.positions and context.executes_list:
+        # while Mesa compiles a list, it closes a loop by its first vertex, whose attributes become current
+        for name in primitive.changes:
+            context.set_attribute(name, primitive.values(name, None)[0])
     if context.groups["lighting"].fields["color_material"]:
         follow_color(context)
     if not primitive.positions:
