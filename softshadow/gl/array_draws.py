@@ -43,6 +43,7 @@ from softshadow.gl.immediate import (
     glVertex3f,
 )
 from softshadow.gl.index_snapshots import snapshot_indices
+from softshadow.gl.list_primitives import NAMES, ListPrimitive
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.secondary_colors import set_secondary
 from softshadow.gl.texture_coordinates import glTexCoord2f, set_coordinate
@@ -258,9 +259,21 @@ def _draw(context: Context, mode: int, rows: Rows | None, indices: np.ndarray | 
         return
     _, first, end = rows
     listed = consecutive_indices(end - first) if indices is None else indices
-    compiled.calls.append(partial(_draw_rows, mode, rows, listed))
+    compiled.calls.append(_listed(context, mode, rows, listed))
     if compiled.executes:
         execute_listed(context, _draw_one_by_one, mode, (first + listed).tolist())
+
+
+def _listed(context: Context, mode: int, rows: Rows, indices: np.ndarray) -> Callable[[], Any]:
+    """Return a draw as a display list keeps it: like the vertices of a pair, if glBegin ... glEnd could give them."""
+    snapshots, first, end = rows
+    call = partial(_draw_rows, mode, rows, indices)
+    if any(snapshot.slot in OPTIONAL for snapshot in snapshots):
+        return call
+    sizes = {NAMES[array.slot]: array.layout.size for array in _arrays_in_use(context)}
+    columns = {snapshot.slot: slice_of(snapshot, first, end) for snapshot in snapshots}
+    starts = dict.fromkeys(list(columns)[1:], 0)
+    return ListPrimitive([call], mode, columns, starts, {}, sizes, indices, leaves_values=False)
 
 
 def _draw_one_by_one(mode: int, vertices: Sequence[int]) -> None:

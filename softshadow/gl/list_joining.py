@@ -121,7 +121,8 @@ def _primitive(part: Part, first: int) -> ListPrimitive:
     for array in (*rows.values(), indices):
         array.setflags(write=False)
     calls = [call for member in members for call in member.calls]
-    return ListPrimitive(calls, part.mode, rows, members[0].starts, last.last, last.sizes, indices)
+    starts, leaves_values = members[0].starts, last.leaves_values
+    return ListPrimitive(calls, part.mode, rows, starts, last.last, last.sizes, indices, leaves_values=leaves_values)
 
 
 __all__ = ["completed", "joined"]

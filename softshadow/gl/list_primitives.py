@@ -32,7 +32,7 @@ NAMES = ("position", "color", "normal", *(f"texcoord{unit}" for unit in range(TE
 
 @dataclass(eq=False)
 class ListPrimitive:
-    """A glBegin ... glEnd pair of a list.
+    """A glBegin ... glEnd pair of a list, or a draw from arrays.
 
     Attributes
     ----------
@@ -43,6 +43,7 @@ class ListPrimitive:
     sizes : dict                 name: components in the last call
     drawn : DrawnVertices        by all current values
     made : dict                  the same by those that the vertices have
+    leaves_values : bool         whether its last values become current: not those of arrays
     carried_units : (unit, name) of the texture coordinates that all vertices have from the list
     """
 
@@ -55,6 +56,7 @@ class ListPrimitive:
     indices: np.ndarray
     drawn: DrawnVertices = field(default_factory=DrawnVertices)
     made: dict[tuple[ConstantAttribute, ...], Vertices] = field(default_factory=dict)
+    leaves_values: bool = True
 
     def __post_init__(self) -> None:
         units = range(TEXTURE_UNITS)
@@ -96,7 +98,8 @@ class ListPrimitive:
             else:
                 texcoords, unit = values.texcoords, slot - TEXCOORD
                 old_values[NAMES[slot]], texcoords[unit] = texcoords[unit], value  # type: ignore[assignment]
-        context.vertex_buffer.active_sizes.update(self.sizes)
+        if self.leaves_values:
+            context.vertex_buffer.active_sizes.update(self.sizes)
         follow_color(context)
         if pending.hidden:
             pending.names.update(old_values)
@@ -171,7 +174,7 @@ def with_similar_joined(calls: list[Callable[[], Any]]) -> list[Callable[[], Any
 
 def _similarity(call: Callable[[], Any]) -> tuple[object, ...] | None:
     """Return what similar primitives have in common, None for other calls."""
-    if not isinstance(call, ListPrimitive) or COLOR in call.last or any(call.starts.values()):
+    if not isinstance(call, ListPrimitive) or COLOR in call.starts or any(call.starts.values()):
         return None
     return tuple(call.sizes.items())
 
