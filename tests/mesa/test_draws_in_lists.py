@@ -1,5 +1,7 @@
 """Draws in display lists, from arrays and between glBegin and glEnd, leave the buffers and current values of Mesa."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,10 @@ CORNERS = np.array([(-0.9, -0.9), (-0.1, -0.8), (0.0, -0.1), (-0.8, -0.2), (-0.5
 COLORS = np.array([(i & 1, i / 5, 1 - i / 5, 1) for i in range(6)], np.float32)
 NORMALS = np.array([(0, 0, 1), (0.6, 0, 0.8), (0, 0.6, 0.8), (1, 0, 0), (0, 1, 0), (0, 0, -1)], np.float32)
 INDICES = np.array((0, 2, 1, 3, 1, 2, 1, 5), np.uint32)
+MODES = (
+    "GL_POINTS", "GL_LINES", "GL_LINE_LOOP", "GL_LINE_STRIP", "GL_TRIANGLES", "GL_TRIANGLE_STRIP", "GL_TRIANGLE_FAN",
+    "GL_QUADS", "GL_QUAD_STRIP", "GL_POLYGON",
+)  # fmt: skip
 ATTRIBUTES = ("GL_CURRENT_COLOR", "GL_CURRENT_NORMAL")
 
 
@@ -75,3 +81,36 @@ def test_a_pair_and_the_values_that_it_leaves(how, mode, count):
 
     comparison = compare(program, (33, 20))
     assert comparison, str(comparison)
+
+
+@pytest.mark.parametrize("elements", [False, True], ids=["arrays", "elements"])
+@pytest.mark.parametrize("mode", MODES)
+@pytest.mark.parametrize("after", [None, ("GL_TRIANGLES", 3), ("same", 2), ("same", 5)], ids=str)
+def test_vertices_that_are_left_over_and_a_pair_that_follows(after, mode, elements):
+    """The stencil buffer counts fragments, so the order of triangles does not hide that some are missing."""
+    corners = np.random.default_rng(5).uniform(-1, 1, (16, 3)).astype(np.float32)
+    indices = np.array([4, 14, 7, 8, 14, 12, 5, 13, 2, 3, 9, 11, 0, 11, 8, 12], np.uint32)
+
+    def program(gl, count):
+        gl.glEnable(gl.GL_STENCIL_TEST)
+        gl.glStencilFunc(gl.GL_ALWAYS, 0, 255)
+        gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR)
+        gl.glNewList(1, gl.GL_COMPILE)
+        gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+        gl.glVertexPointer(3, gl.GL_FLOAT, 0, corners)
+        if elements:
+            gl.glDrawElements(getattr(gl, mode), count, gl.GL_UNSIGNED_INT, indices)
+        else:
+            gl.glDrawArrays(getattr(gl, mode), 0, count)
+        if after is not None:
+            following, n = after
+            gl.glBegin(getattr(gl, mode if following == "same" else following))
+            for i in range(n):
+                gl.glVertex3f(*corners[i].tolist())
+            gl.glEnd()
+        gl.glEndList()
+        gl.glCallList(1)
+
+    for count in (1, 3, 7, 16):
+        comparison = compare(partial(program, count=count), (33, 20))
+        assert comparison, f"{count} vertices: {comparison}"
