@@ -43,6 +43,7 @@ from softshadow.gl.immediate import (
     glVertex3f,
 )
 from softshadow.gl.index_snapshots import snapshot_indices
+from softshadow.gl.list_compiling import shares_vertices, used_rows
 from softshadow.gl.list_primitives import NAMES, ListPrimitive
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.secondary_colors import set_secondary
@@ -272,6 +273,13 @@ def _listed(context: Context, mode: int, rows: Rows, indices: np.ndarray) -> Cal
         return call
     sizes = {NAMES[array.slot]: array.layout.size for array in _arrays_in_use(context)}
     columns = {snapshot.slot: slice_of(snapshot, first, end) for snapshot in snapshots}
+    if shares_vertices(mode, len(indices)):
+        columns, indices = used_rows(columns, indices)
+    else:
+        columns = {slot: column[indices] for slot, column in columns.items()}
+        indices = consecutive_indices(len(indices))
+        for column in columns.values():
+            column.setflags(write=False)
     starts = dict.fromkeys(list(columns)[1:], 0)
     return ListPrimitive([call], mode, columns, starts, {}, sizes, indices, leaves_values=False)
 

@@ -111,10 +111,17 @@ def _primitive(context: Context, calls: list[Any]) -> ListPrimitive | None:
         return None
     rows = {slot: context.frozen(column) for slot, column in columns.items()}
     mode, indices = int(begin.args[0]), consecutive_indices(len(positions))
-    # with vertices left over, the range of the indices would decide how quads are cut (`mesa.quad_cuts`)
-    if mode in CORNERS and len(positions) % CORNERS[mode] == 0 and not any(starts.values()):
+    if shares_vertices(mode, len(positions)) and not any(starts.values()):
         rows, indices = _with_equal_vertices_joined(rows, indices)
     return ListPrimitive(calls, mode, rows, starts, last, sizes, indices)
+
+
+def shares_vertices(mode: int, count: int) -> bool:
+    """Return whether a primitive of so many vertices may name a vertex several times.
+
+    With vertices left over, the range of the indices would decide how quads are cut (`mesa.quad_cuts`).
+    """
+    return mode in CORNERS and count % CORNERS[mode] == 0
 
 
 def _with_equal_vertices_joined(
@@ -126,18 +133,23 @@ def _with_equal_vertices_joined(
     _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
     if len(first) == len(keys):
         return rows, indices
-    order = np.argsort(first)  # of their first use
+    return used_rows({slot: array[first] for slot, array in rows.items()}, inverse)
+
+
+def used_rows(rows: dict[int, np.ndarray], indices: np.ndarray) -> tuple[dict[int, np.ndarray], np.ndarray]:
+    """Return the rows that indices name, in the order of their first use, and indices into these."""
+    names, first, inverse = np.unique(indices, return_index=True, return_inverse=True)
+    order = np.argsort(first)
     places = np.empty(len(order), np.int32)
     places[order] = np.arange(len(order))
-    joined = {slot: array[first[order]] for slot, array in rows.items()}
-    indices = places[inverse]
-    for array in (*joined.values(), indices):
+    used, indices = {slot: array[names[order]] for slot, array in rows.items()}, places[inverse]
+    for array in (*used.values(), indices):
         array.setflags(write=False)
-    return joined, indices
+    return used, indices
 
 
 def _has_names(call: partial[Any]) -> bool:
     return bool(call.keywords)
 
 
-__all__ = ["with_primitives"]
+__all__ = ["shares_vertices", "used_rows", "with_primitives"]
