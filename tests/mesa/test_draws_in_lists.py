@@ -20,6 +20,7 @@ MODES = (
 ATTRIBUTES = ("GL_CURRENT_COLOR", "GL_CURRENT_NORMAL")
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize("lit", [False, True], ids=["unlit", "lit"])
 @pytest.mark.parametrize("arrays", [(), ("color",), ("color", "normal")], ids=["positions", "colors", "normals"])
 @pytest.mark.parametrize("call", ["elements", "arrays", "two draws"])
@@ -83,6 +84,7 @@ def test_a_pair_and_the_values_that_it_leaves(how, mode, count):
     assert comparison, str(comparison)
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize("elements", [False, True], ids=["arrays", "elements"])
 @pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize("after", [None, ("GL_TRIANGLES", 3), ("same", 2), ("same", 5)], ids=str)
