@@ -1,6 +1,6 @@
 """Which way the triangles of a draw go, and why: every decision that depends on them.
 
-`plan` has decided before what the state decides. All ways leave the same buffers. `explain_paths` collects the
+What the state alone decides, `plan` has decided before. All ways leave the same buffers. `explain_paths` collects the
 decisions.
 """
 
