@@ -61,6 +61,9 @@ def _with_joined(calls: list[Callable[[], Any]]) -> list[Callable[[], Any]]:
         for number, run in enumerate(runs):
             if number in places:
                 run = joined(run, is_opening=number == places[0], is_closing=number == places[-1])
+                if not run[-1].leaves_values:  # the last one decides for all
+                    for primitive in run:
+                        primitive.leaves_values = False
             result += run
     return result
 

@@ -43,7 +43,7 @@ class ListPrimitive:
     sizes : dict                 name: components in the last call
     drawn : DrawnVertices        by all current values
     made : dict                  the same by those that the vertices have
-    leaves_values : bool         whether its last values become current: not those of arrays
+    leaves_values : bool         whether its last values become current: not those of arrays, nor of pairs right before
     carried_units : (unit, name) of the texture coordinates that all vertices have from the list
     """
 
@@ -84,21 +84,21 @@ class ListPrimitive:
         return context.draw(self.mode, vertices, self.indices), constants
 
     def make_current(self, context: Context) -> None:
-        """Make the last attributes of the primitive current, as its vertices do; none are pending before.
+        """Make the last attributes of the primitive current, if it leaves them; none are pending before.
 
         Hidden materials return with the next flush. If there are any, the attributes are pending until then.
         """
         pending, values = context.pending, context.current
         old_values = pending.old_values
-        for slot, value in self.last.items():
-            if slot == COLOR:
-                old_values["color"], values.color = values.color, value  # type: ignore[assignment]
-            elif slot == NORMAL:
-                old_values["normal"], values.normal = values.normal, value  # type: ignore[assignment]
-            else:
-                texcoords, unit = values.texcoords, slot - TEXCOORD
-                old_values[NAMES[slot]], texcoords[unit] = texcoords[unit], value  # type: ignore[assignment]
         if self.leaves_values:
+            for slot, value in self.last.items():
+                if slot == COLOR:
+                    old_values["color"], values.color = values.color, value  # type: ignore[assignment]
+                elif slot == NORMAL:
+                    old_values["normal"], values.normal = values.normal, value  # type: ignore[assignment]
+                else:
+                    texcoords, unit = values.texcoords, slot - TEXCOORD
+                    old_values[NAMES[slot]], texcoords[unit] = texcoords[unit], value  # type: ignore[assignment]
             context.vertex_buffer.active_sizes.update(self.sizes)
         follow_color(context)
         if pending.hidden:

@@ -123,3 +123,34 @@ def test_vertices_that_are_left_over_and_a_pair_that_follows(after, mode, elemen
     for count in (1, 3, 7, 16):
         comparison = compare(partial(program, count=count), (33, 20))
         assert comparison, f"{count} vertices: {comparison}"
+
+
+@pytest.mark.parametrize("mode", ["GL_QUADS", "GL_TRIANGLE_STRIP"])
+@pytest.mark.parametrize("order", ["pair arrays", "arrays pair", "pair pair arrays", "arrays pair arrays"])
+def test_the_last_of_consecutive_draws_decides_whether_values_become_current(order, mode):
+    def program(gl):
+        kind = getattr(gl, mode)
+        gl.glEnable(gl.GL_LIGHTING)
+        gl.glEnable(gl.GL_LIGHT0)
+        gl.glNormal3f(0.6, 0.0, 0.8)
+        gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+        gl.glVertexPointer(2, gl.GL_FLOAT, 0, CORNERS)
+        gl.glEnableClientState(gl.GL_NORMAL_ARRAY)
+        gl.glNormalPointer(gl.GL_FLOAT, 0, NORMALS)
+        gl.glNewList(1, gl.GL_COMPILE)
+        for part in order.split():
+            if part == "arrays":
+                gl.glDrawArrays(kind, 0, 4)
+                continue
+            gl.glBegin(kind)
+            for i in range(4):
+                gl.glNormal3f(*map(float, NORMALS[i + 1]))
+                gl.glVertex2f(*CORNERS[i].tolist())
+            gl.glEnd()
+        gl.glEndList()
+        gl.glCallList(1)
+        gl.glRectf(0.1, 0.1, 0.9, 0.9)
+        return [np.asarray(gl.glGetFloatv(getattr(gl, name))) for name in ATTRIBUTES]
+
+    comparison = compare(program, (33, 20))
+    assert comparison, str(comparison)
