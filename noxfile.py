@@ -108,7 +108,8 @@ def package(session: nox.Session) -> None:
             names = {name.partition("/")[2] for name in archive.getnames()}
         if missing := [name for name in IN_THE_SDIST if name not in names]:
             session.error(f"the sdist has no {', '.join(missing)}")
-        environment = {"VIRTUAL_ENV": f"{folder}/installed", "PYTHONPATH": "", "NUMBA_CACHE_DIR": f"{folder}/kernels"}
+        kernels = os.environ.get("NUMBA_CACHE_DIR", f"{folder}/kernels")
+        environment = {"VIRTUAL_ENV": f"{folder}/installed", "PYTHONPATH": "", "NUMBA_CACHE_DIR": kernels}
         session.run(uv, "venv", "--quiet", f"{folder}/installed")
         session.run(uv, "pip", "install", "--quiet", "-c", "constraints.txt", str(wheel), env=environment)
         bin = "Scripts" if os.name == "nt" else "bin"
