@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -39,8 +39,13 @@ def visibility(depths: np.ndarray, points: np.ndarray, places: np.ndarray) -> np
     return out[:, 3] == 1
 
 
+# a line that is tilted by less has coordinates without a tilt, and lies on the other side of some texels
+ANGLES = st.floats(0, 3.14).map(lambda angle: round(angle, 9))
+
+
 @settings(max_examples=20)
-@given(st.floats(0, 3.14), st.floats(-4, 4))
+@given(ANGLES, st.floats(-4, 4))
+@example(1e-9, 1.5)
 def test_a_straight_silhouette_across_the_map_is_exact(angle: float, shift: float) -> None:
     normal = np.array([np.cos(angle), np.sin(angle)])
     middle = np.full(2, SIDE / 2 - 0.5) + shift * normal
