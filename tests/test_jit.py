@@ -86,6 +86,14 @@ def test_code_is_kept_and_read_again(tmp_path):
     assert any(name.startswith("fragment_ops.process_fragment") for name in cached)
 
 
+def test_another_copy_of_the_same_version_finds_the_code(tmp_path):
+    ask = f"{COUNT_UP}print(sum(process_fragment.stats.cache_hits.values()))"
+    for name, hits in ("first", 0), ("second", 1):
+        copy = tmp_path / name / "softshadow"
+        shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"), copy_function=shutil.copy)
+        assert run_with(copy.parent, tmp_path / "cache", ask).splitlines() == ["8", str(hits)]
+
+
 @pytest.mark.slow
 def test_a_cache_folder_that_cannot_be_written_is_no_error(tmp_path):
     blocked = tmp_path / "a file where the folder should be"

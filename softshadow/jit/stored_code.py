@@ -28,6 +28,7 @@ from numba.core.sigutils import normalize_signature
 from numba.core.typing.typeof import Purpose, typeof
 from numba.np import numpy_support
 
+from softshadow.jit.kernel_place import KernelPlace
 from softshadow.jit.parts import PART, KernelCompiler, PartLibrary, as_part, is_part
 
 # what the parts of Numba that are used here raise where another version lacks them or builds them differently
@@ -63,7 +64,9 @@ class StoredLibrary(JITCodeLibrary):
 
 
 class StoredResults(CompileResultCacheImpl):
-    """What to store, and how to make it callable again."""
+    """What to store, where, and how to make it callable again."""
+
+    _locator_classes: Any = (KernelPlace, *CompileResultCacheImpl._locator_classes)
 
     def reduce(self, cres: Any) -> StoredResult:
         """Return the parts of a result that are stored."""
