@@ -7,12 +7,27 @@ there. The cache folder is named by a hash of all sources of kernels, so neither
 
 import os
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any, Self
 
 from softshadow.kernel_cache import cache_folder
 
 PACKAGE = Path(__file__).parent.parent
+
+
+@cache
+def folder_for(sources: str) -> Path | None:
+    """Make and return the folder for kernels whose sources are in a folder of this package; None if there is none."""
+    base, path = cache_folder(), Path(os.path.abspath(sources))
+    if base is None or not path.is_relative_to(PACKAGE):
+        return None
+    folder = base / (".".join(path.relative_to(PACKAGE).parts) or PACKAGE.name)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return None
+    return folder
 
 
 class KernelPlace:
@@ -30,25 +45,11 @@ class KernelPlace:
     @classmethod
     def from_function(cls, function: Callable[..., Any], file: str) -> Self | None:
         """Return the place; None for functions of other packages, and where nothing can be stored."""
-        folder, path = cache_folder(), Path(os.path.abspath(file))
-        if folder is None or PACKAGE not in path.parents:
-            return None
-        blocks = path.parent.relative_to(PACKAGE).parts
-        place = cls(folder / (".".join(blocks) or PACKAGE.name), function.__code__.co_firstlineno)
-        try:
-            place.ensure_cache_path()
-        except OSError:
-            return None
-        return place
+        folder = folder_for(os.path.dirname(file))
+        return None if folder is None else cls(folder, function.__code__.co_firstlineno)
 
     def ensure_cache_path(self) -> None:
-        """Make the folder.
-
-        Raises
-        ------
-        OSError            it cannot be made
-        """
-        self._folder.mkdir(parents=True, exist_ok=True)
+        """Do nothing: the folder is there."""
 
     def get_cache_path(self) -> str:
         """Return the path of the folder."""
