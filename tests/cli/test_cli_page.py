@@ -90,7 +90,10 @@ def test_printed_tables_and_sentences_are_what_is_printed() -> None:
 
 
 @pytest.mark.thin(2)
-@pytest.mark.parametrize("command", ASKED)
+@pytest.mark.parametrize(
+    "command",
+    [pytest.param(name, marks=pytest.mark.slow if name == "tour" else ()) for name in ASKED],  # all techniques
+)
 def test_keys_of_the_json_are_those_of_the_page(command: str) -> None:
     row = re.search(rf"\| `softshadow/{command}/1` \| (.*) \|", PAGE)[1]
     keys, _, keys_of_rows = row.partition(": ")
