@@ -124,7 +124,13 @@ def is_length_preserving(matrix: np.ndarray, kind: int = UNKNOWN) -> bool:
 def inverse(matrix: np.ndarray, kind: int = UNKNOWN) -> np.ndarray:
     """Return the inverse of a (4, 4) matrix in float32; the identity if the matrix is singular, as in Mesa."""
     m = np.asarray(matrix, np.float32)
-    kind = known_kind(m, kind)
+    return _inverse(m.tobytes(), known_kind(m, kind)).copy()
+
+
+@lru_cache(maxsize=256)  # programs set several planes under one matrix
+def _inverse(elements: bytes, kind: int) -> np.ndarray:
+    """Return the inverse of a (4, 4) float32 matrix of a known kind."""
+    m = np.frombuffer(elements, np.float32).reshape(4, 4)
     with np.errstate(all="ignore"):
         if kind & ~AFFINE:
             inverted = inverse_of_general(m)
