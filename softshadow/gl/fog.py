@@ -9,7 +9,7 @@ from softshadow import tokens as gl
 from softshadow.context import current
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import enum, first, from_int, vector
-from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
 from softshadow.gl.fragment_state import rounded, rounded_number
 from softshadow.gl.vertex_format import carry_attribute, set_attribute
 
@@ -17,6 +17,7 @@ NUMBERS = {gl.GL_FOG_DENSITY: "density", gl.GL_FOG_START: "start", gl.GL_FOG_END
 MODES = (gl.GL_LINEAR, gl.GL_EXP, gl.GL_EXP2)
 SOURCES = (gl.GL_FRAGMENT_DEPTH, gl.GL_FOG_COORD)
 A_NUMBER = "GL_FOG_MODE, GL_FOG_COORD_SRC, GL_FOG_DENSITY, GL_FOG_START or GL_FOG_END"
+SINGLE = (gl.GL_FOG_MODE, gl.GL_FOG_COORD_SRC, *NUMBERS)
 
 
 @in_lists
@@ -34,10 +35,10 @@ def glFogiv(pname: int, params: Any) -> None:
 @in_lists
 def glFogf(pname: int, param: float) -> None:
     """Set a fog parameter that is a single number."""
-    if outside_begin("glFogf") is None:
-        return
-    if is_one_of("glFogf", "pname", pname, (gl.GL_FOG_MODE, gl.GL_FOG_COORD_SRC, *NUMBERS), A_NUMBER):
+    if pname in SINGLE:
         _set("glFogf", pname, param, float)
+    elif outside_begin("glFogf") is not None:
+        wrong_enum("glFogf", "pname", pname, A_NUMBER)
 
 
 glFogi = glFogf
@@ -45,11 +46,13 @@ glFogi = glFogf
 
 def _set(operation: str, pname: int, params: Any, color: Callable[[Any], float]) -> None:
     context = outside_begin(operation)
-    allowed = (gl.GL_FOG_MODE, gl.GL_FOG_COORD_SRC, gl.GL_FOG_COLOR, *NUMBERS)
-    if context is None or not is_one_of(operation, "pname", pname, allowed, f"GL_FOG_COLOR, {A_NUMBER}"):
+    if context is None:
         return
     if pname == gl.GL_FOG_COLOR:
         context.change("fog", color=rounded(context, *vector(params, 4, color)))
+        return
+    if pname not in SINGLE:
+        wrong_enum(operation, "pname", pname, f"GL_FOG_COLOR, {A_NUMBER}")
         return
     value = first(params, int if color is from_int else float)
     if pname == gl.GL_FOG_MODE:

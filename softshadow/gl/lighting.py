@@ -30,6 +30,8 @@ NO_SPOT = 180.0
 LARGEST_CUTOFF = 90.0
 MODEL_SWITCHES = {gl.GL_LIGHT_MODEL_LOCAL_VIEWER: "local_viewer", gl.GL_LIGHT_MODEL_TWO_SIDE: "two_side"}
 MODEL_NUMBERS = (*MODEL_SWITCHES, gl.GL_LIGHT_MODEL_COLOR_CONTROL)
+MODEL_PARAMETERS = (gl.GL_LIGHT_MODEL_AMBIENT, *MODEL_NUMBERS)
+SHADE_MODELS = (gl.GL_FLAT, gl.GL_SMOOTH)
 COLOR_CONTROLS = (gl.GL_SINGLE_COLOR, gl.GL_SEPARATE_SPECULAR_COLOR)
 CONVENTIONS = (gl.GL_FIRST_VERTEX_CONVENTION, gl.GL_LAST_VERTEX_CONVENTION)
 A_CONVENTION = "GL_FIRST_VERTEX_CONVENTION or GL_LAST_VERTEX_CONVENTION"
@@ -152,13 +154,13 @@ def _set_model(operation: str, pname: int, params: Any, color: Callable[[Any], f
     context = outside_begin(operation)
     if context is None:
         return
-    allowed = (gl.GL_LIGHT_MODEL_AMBIENT, *MODEL_NUMBERS)
-    if not is_one_of(operation, "pname", pname, allowed, "a light model parameter (GL 2.1, table 2.11)"):
+    if not is_one_of(operation, "pname", pname, MODEL_PARAMETERS, "a light model parameter (GL 2.1, table 2.11)"):
         return
     plain = int if color is from_int else float
     if pname == gl.GL_LIGHT_MODEL_AMBIENT:
         ambient = rounded(context, *vector(params, 4, color))
-        if ambient != rounded(context, *context.state.lighting.model_ambient):  # initially 0.2, not rounded
+        before = context.groups["lighting"].fields["model_ambient"]
+        if ambient != rounded(context, *before):  # initially 0.2, not rounded
             context.change("lighting", model_ambient=ambient)
     elif pname in MODEL_SWITCHES:
         context.change("lighting", **{MODEL_SWITCHES[pname]: bool(first(params, plain))})
@@ -173,9 +175,8 @@ def _set_model(operation: str, pname: int, params: Any, color: Callable[[Any], f
 def glShadeModel(mode: int) -> None:
     """Set whether colours are interpolated or taken from the provoking vertex."""
     context = outside_begin("glShadeModel")
-    modes = (gl.GL_FLAT, gl.GL_SMOOTH)
-    if context is not None and is_one_of("glShadeModel", "mode", mode, modes, "GL_FLAT or GL_SMOOTH"):
-        context.change("lighting", shade_model=int(mode))
+    if context is not None and is_one_of("glShadeModel", "mode", mode, SHADE_MODELS, "GL_FLAT or GL_SMOOTH"):
+        context.change_field("lighting", "shade_model", int(mode))
 
 
 @in_lists

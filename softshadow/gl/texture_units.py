@@ -222,7 +222,7 @@ def _set_mode(operation: str, coord: int, pname: int, value: Any) -> None:
             operation,
             f"GL_TEXTURE_GEN_MODE={token_name(chosen)}: expected one of {expected} for {token_name(coord)}",
         )
-    _replace_generation(context, coord, mode=chosen)
+    _replace_generation(context, coord, "mode", chosen)
     return None
 
 
@@ -238,7 +238,7 @@ def _set_generation(
     plane = np.array(vector(params, 4, convert), np.float32)
     if pname == gl.GL_EYE_PLANE:
         plane = eye_plane(context, plane)
-    _replace_generation(context, coord, **{PLANES[pname]: tuple(float(p) for p in plane)})
+    _replace_generation(context, coord, PLANES[pname], tuple(plane.tolist()))
     return None
 
 
@@ -246,8 +246,8 @@ def eye_plane(context: Context, plane: np.ndarray) -> np.ndarray:
     """Return a plane (4,) in eye space: the row vector times the inverse of the current modelview matrix."""
     m = inverse(context.modelview_stack.current, context.modelview_stack.kind)
     with np.errstate(all="ignore"):
-        a, b, c, d = plane.astype(np.float32)
-        return np.asarray(a * m[0] + b * m[1] + c * m[2] + d * m[3], np.float32)
+        m *= plane.astype(np.float32)[:, None]
+        return np.asarray(m[0] + m[1] + m[2] + m[3])
 
 
 def _generation_problem(coord: int, pname: int, is_vector: bool) -> str | None:
@@ -259,11 +259,12 @@ def _generation_problem(coord: int, pname: int, is_vector: bool) -> str | None:
     return f"pname={token_name(pname)}: expected GL_TEXTURE_GEN_MODE, {planes}"
 
 
-def _replace_generation(context: Context, coord: int, **fields: Any) -> None:
-    gen: list[TexGen] = list(context.state.units[context.active_unit].gen)
-    index = COORDINATES.index(coord)
-    gen[index] = evolve(gen[index], **fields)
-    set_unit(context, context.active_unit, gen=tuple(gen))
+def _replace_generation(context: Context, coord: int, field: str, value: Any) -> None:
+    unit, index = f"units.{context.active_unit}", COORDINATES.index(coord)
+    gen: tuple[TexGen, ...] = context.groups[unit].fields["gen"]
+    if getattr(gen[index], field) != value:
+        changed = evolve(gen[index], **{field: value})
+        context.change_field(unit, "gen", (*gen[:index], changed, *gen[index + 1 :]))
 
 
 def glGetTexGeniv(coord: int, pname: int, params: Any = None) -> Any:

@@ -132,7 +132,7 @@ def object_target(target: int) -> int:
 def bound_name(context: Context, target: int) -> int:
     """Return the key in the storage of the texture bound to a target; the target may be a face of a cube map."""
     target = object_target(target)
-    return stored_name(target, int(getattr(context.state.units[context.active_unit], BINDINGS[target])))
+    return stored_name(target, int(context.groups[f"units.{context.active_unit}"].fields[BINDINGS[target]]))
 
 
 def bound_texture(context: Context, target: int) -> Texture:
@@ -207,7 +207,7 @@ def _set_border(operation: str, target: int, color: Sequence[float]) -> None:
         return None
     if problem := target_problem(target):
         return fail(problem[0], operation, problem[1])
-    _set_sampler(context, target, border_color=tuple(np.array(color, np.float32).tolist()))
+    _set_sampler(context, target, "border_color", tuple(np.array(color, np.float32).tolist()))
     return None
 
 
@@ -227,7 +227,7 @@ def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
                 operation,
                 f"{token_name(pname)}={token_name(chosen)}: expected one of {expected}",
             )
-        _set_sampler(context, target, **{field: chosen})
+        _set_sampler(context, target, field, chosen)
     elif pname in LEVELS:
         level = clamped_int(value)
         if level < 0:
@@ -236,9 +236,9 @@ def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
             code = gl.GL_INVALID_OPERATION if pname == gl.GL_TEXTURE_BASE_LEVEL else gl.GL_INVALID_VALUE
             reason = f"{token_name(pname)}={level}: expected 0, since a rectangle has only one level"
             return fail(code, operation, reason)
-        _set_sampler(context, target, **{LEVELS[pname]: level})
+        _set_sampler(context, target, LEVELS[pname], level)
     elif pname in BOOLEANS:
-        _set_sampler(context, target, **{BOOLEANS[pname]: bool(clamped_int(value))})
+        _set_sampler(context, target, BOOLEANS[pname], bool(clamped_int(value)))
     elif pname in NUMBERS:
         number = float(np.float32(value))
         if pname == gl.GL_TEXTURE_MAX_ANISOTROPY_EXT:
@@ -247,7 +247,7 @@ def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
             number = number if number < LARGEST_ANISOTROPY else LARGEST_ANISOTROPY  # also instead of NaN
         elif pname == gl.GL_TEXTURE_PRIORITY:
             number = clamped_priority(number)
-        _set_sampler(context, target, **{NUMBERS[pname]: number})
+        _set_sampler(context, target, NUMBERS[pname], number)
     else:
         return fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)}: expected a texture parameter")
     return None
@@ -267,14 +267,16 @@ def note_defined(context: Context, texture: Texture, level: int, depths_copied: 
         context.execute(SetSampler(texture.name, evolve(before, ignores_depth_mode=ignores)))
 
 
-def _set_sampler(context: Context, target: int, **fields: Any) -> None:
+def _set_sampler(context: Context, target: int, field: str, value: Any) -> None:
     texture = bound_texture(context, target)
-    changed = evolve(texture.sampler, **fields)
-    if (changed.depth_mode, changed.base_level) != (texture.sampler.depth_mode, texture.sampler.base_level):
+    before = texture.sampler
+    if getattr(before, field) == value:
+        return
+    changed = evolve(before, **{field: value})
+    if field in ("depth_mode", "base_level"):
         changed = evolve(changed, ignores_depth_mode=False)
-    if changed != texture.sampler:
-        context.touched |= gl.GL_TEXTURE_BIT
-        context.execute(SetSampler(texture.name, changed))
+    context.touched |= gl.GL_TEXTURE_BIT
+    context.execute(SetSampler(texture.name, changed))
 
 
 # -- queries -----------------------------------------------------------------------------------------------------------
