@@ -37,7 +37,8 @@ CAPACITY = 512 * NUMBER  # of the queue
 LAST = CAPACITY - NUMBER  # the last place for a push
 KNOWN = ~UNKNOWN
 SAME_SCALE = 1e-8  # a scale is uniform if its factors differ by less (Mesa, math/m_matrix.c)
-PACK_1, PACK_4, PACK_6, PACK_10, PACK_17 = (struct.Struct(f"={n}d").pack_into for n in (1, 4, 6, 10, 17))
+PACK_1, PACK_4, PACK_6, PACK_10 = (struct.Struct(f"={n}d").pack_into for n in (1, 4, 6, 10))
+MATRIX = struct.Struct("=17d")  # a code and 16 elements, column after column
 # bytes computed before compiled code pays, by what has to be done for it first: a program that draws little needs none
 FEW_TO_LOAD, FEW_TO_COMPILE = 250 * NUMBER, 1000 * NUMBER
 MATRIX_KERNELS = KernelGroup("matrices")
@@ -227,24 +228,17 @@ class MatrixStack:
 
     def multiply_packed(self, packed: bytes) -> None:
         """Multiply by a matrix of `packed_perspective`."""
-        end = self.end
-        if end + len(packed) > CAPACITY:
-            end = self._compute()
-        self._memory[end : end + len(packed)] = packed
-        self.end = end + len(packed)
-        self.known = None
+        self._append(packed)
         self.unresolved_kind |= GENERAL | UNKNOWN
 
     def frustum(self, *planes: float) -> None:
         """Multiply by glFrustum's matrix: left, right, bottom, top, near, far."""
-        self._enqueue(PACK_17, MULTIPLY, *_elements(frustum, tuple(map(float, planes)), self._is_single))
-        self.known = None
+        self._append(_packed(frustum, tuple(map(float, planes)), self._is_single))
         self.unresolved_kind |= GENERAL
 
     def ortho(self, *planes: float) -> None:
         """Multiply by glOrtho's matrix: left, right, bottom, top, near, far."""
-        self._enqueue(PACK_17, MULTIPLY, *_elements(ortho, tuple(map(float, planes)), self._is_single))
-        self.known = None
+        self._append(_packed(ortho, tuple(map(float, planes)), self._is_single))
         self.unresolved_kind |= GENERAL_SCALE | TRANSLATED
 
     def look_at(self, *places: float) -> None:
@@ -262,6 +256,15 @@ class MatrixStack:
             self._make_room(*numbers)
             pack(self._memory, self.end, *numbers)
         self.end += len(numbers) * NUMBER
+
+    def _append(self, packed: bytes) -> None:
+        """Append a product with a packed matrix."""
+        end = self.end
+        if end + len(packed) > CAPACITY:
+            end = self._compute()
+        self._memory[end : end + len(packed)] = packed
+        self.end = end + len(packed)
+        self.known = None
 
     def _enqueue_matrix(self, code: int, matrix: np.ndarray) -> None:
         if self.end + SIZES[code] * NUMBER > CAPACITY:
@@ -313,13 +316,14 @@ def packed_perspective(fov_y: float, aspect: float, near: float, far: float) -> 
     if far == near or sine == 0 or aspect == 0:
         return b""
     x, y, z, shift = perspective_elements(float(fov_y), float(aspect), float(near), float(far))
-    return struct.pack("=17d", MULTIPLY, x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, -1, 0, 0, shift, 0)
+    return MATRIX.pack(MULTIPLY, x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, -1, 0, 0, shift, 0)
 
 
 @lru_cache(maxsize=64)
-def _elements(make: Callable[..., np.ndarray], planes: tuple[float, ...], single: bool) -> tuple[float, ...]:
-    """Return a projection's 16 elements, column after column; programs make the same one in every frame."""
-    return tuple(make(*planes, real=np.float32 if single else np.float64).T.ravel().tolist())
+def _packed(make: Callable[..., np.ndarray], planes: tuple[float, ...], single: bool) -> bytes:
+    """Return the product with a projection as an operation of the queue; programs make the same one in every frame."""
+    matrix = make(*planes, real=np.float32 if single else np.float64)
+    return MATRIX.pack(MULTIPLY, *matrix.T.ravel().tolist())
 
 
 def _read_only(matrix: np.ndarray) -> np.ndarray:
