@@ -138,6 +138,7 @@ def _add_matrices(gl: Any, add: Callable[..., None]) -> None:
     add("glScalef", lambda: scale(1.0, 1.1, 1.0), **kept)
     add("gluLookAt", lambda: look_at(3.0, 2.0, 4.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0), **kept)
     add("gluPerspective", lambda: perspective(45.0, 1.3, 1.0, 10.0), **kept)
+    add("glOrtho", lambda: gl.glOrtho(-1.0, 1.0, -1.0, 1.0, -1.0, 1.0), **kept)
     add("glLoadIdentity", identity, **kept)
     add("glPushMatrix + glPopMatrix", lambda: (push(), pop()))
     add("push, translate, rotate, scale, pop", place)
@@ -148,6 +149,7 @@ def _add_state(gl: Any, add: Callable[..., None]) -> None:
     enable, disable, blend = gl.glEnable, gl.glDisable, gl.GL_BLEND
     push, pop, everything = gl.glPushAttrib, gl.glPopAttrib, gl.GL_ALL_ATTRIB_BITS
     light, diffuse, specular = gl.GL_LIGHT0, (0.9, 0.8, 0.7, 1.0), (0.5, 0.5, 0.5, 1.0)
+    planes, modes = ((1.0, 0.0, 0.0, 0.5), (0.0, 1.0, 0.0, 0.5)), (gl.GL_REPLACE, gl.GL_MODULATE)
     names = [int(name) for name in gl.glGenTextures(2)]
     add("glEnable + glDisable", lambda: (enable(blend), disable(blend)))
     for name, call, values in (
@@ -160,8 +162,19 @@ def _add_state(gl: Any, add: Callable[..., None]) -> None:
         ("glColorMask", lambda on: gl.glColorMask(on, on, on, on), (0, 1)),
         ("glPolygonOffset", lambda units: gl.glPolygonOffset(1.0, units), (2.0, 4.0)),
         ("glBindTexture", lambda texture: gl.glBindTexture(gl.GL_TEXTURE_2D, texture), (names[0], 0)),
+        ("glTexEnvi", lambda how: gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, how), modes),
+        ("glTexGenfv(GL_OBJECT_PLANE)", lambda plane: gl.glTexGenfv(gl.GL_S, gl.GL_OBJECT_PLANE, plane), planes),
+        ("glTexGenfv(GL_EYE_PLANE)", lambda plane: gl.glTexGenfv(gl.GL_S, gl.GL_EYE_PLANE, plane), planes),
+        ("glClipPlane", lambda plane: gl.glClipPlane(gl.GL_CLIP_PLANE0, plane), planes),
+        ("glFogf", lambda density: gl.glFogf(gl.GL_FOG_DENSITY, density), (0.5, 1.0)),
+        ("glLightModelfv", lambda color: gl.glLightModelfv(gl.GL_LIGHT_MODEL_AMBIENT, color), planes),
+        ("glShadeModel", gl.glShadeModel, (gl.GL_FLAT, gl.GL_SMOOTH)),
+        ("glLineWidth", gl.glLineWidth, (2.0, 1.0)),
+        ("glDepthRange", lambda far: gl.glDepthRange(0.0, far), (0.9, 1.0)),
     ):
         add(name, _alternating(call, values))
+    add("glTexParameteri", lambda: gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_LINEAR))
+    add("glRasterPos3f", lambda: gl.glRasterPos3f(0.0, 0.0, 0.0))
     add("glViewport", lambda: gl.glViewport(0, 0, *SIZE))
     add("glLightfv(GL_POSITION)", lambda: gl.glLightfv(light, gl.GL_POSITION, [2.0, 4.0, 3.0, 1.0]))
     add("glLightfv(GL_DIFFUSE)", lambda: gl.glLightfv(light, gl.GL_DIFFUSE, diffuse))

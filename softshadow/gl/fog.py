@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 from softshadow import tokens as gl
-from softshadow.context import current
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.context import current, thread
+from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.conversions import enum, first, from_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
 from softshadow.gl.fragment_state import rounded, rounded_number
@@ -32,12 +32,14 @@ def glFogiv(pname: int, params: Any) -> None:
     _set("glFogiv", pname, params, from_int)
 
 
-@in_lists
 def glFogf(pname: int, param: float) -> None:
     """Set a fog parameter that is a single number."""
+    context = thread.context
+    if not (context.ready or is_allowed(context, glFogf, pname, param)):
+        return
     if pname in SINGLE:
         _set("glFogf", pname, param, float)
-    elif outside_begin("glFogf") is not None:
+    else:
         wrong_enum("glFogf", "pname", pname, A_NUMBER)
 
 
@@ -64,7 +66,7 @@ def _set(operation: str, pname: int, params: Any, color: Callable[[Any], float])
     elif pname == gl.GL_FOG_DENSITY and value < 0:
         fail(gl.GL_INVALID_VALUE, operation, f"param={value:g}: expected 0 or more for GL_FOG_DENSITY")
     else:
-        context.change("fog", **{NUMBERS[pname]: rounded_number(context, value)})
+        context.change_field("fog", NUMBERS[pname], rounded_number(context, value))
 
 
 # -- coordinates of vertices -------------------------------------------------------------------------------------------

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from softshadow import tokens as gl
 from softshadow.context import thread
-from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
-from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.gl.calls import is_allowed, spelled_like_gl
+from softshadow.gl.errors import fail, is_one_of
 from softshadow.gl.fragment_state import A_FACE, FACES, clamp01, rounded_number, rounded_pair
 
 LARGEST_VIEWPORT = 16384
@@ -54,28 +54,26 @@ def glPolygonOffset(factor: float, units: float) -> None:
         context.change_fields("polygon", {"factor": factor, "units": units})
 
 
-@in_lists
 def glLineWidth(width: float) -> None:
     """Set the width of lines in pixels."""
-    context = outside_begin("glLineWidth")
-    if context is None:
+    context = thread.context
+    if not (context.ready or is_allowed(context, glLineWidth, width)):
         return
     if width <= 0:
         fail(gl.GL_INVALID_VALUE, "glLineWidth", f"width={width}: expected more than 0")
     else:
-        context.change("polygon", line_width=rounded_number(context, width))
+        context.change_field("polygon", "line_width", rounded_number(context, width))
 
 
-@in_lists
 def glPointSize(size: float) -> None:
     """Set the size of points in pixels."""
-    context = outside_begin("glPointSize")
-    if context is None:
+    context = thread.context
+    if not (context.ready or is_allowed(context, glPointSize, size)):
         return
     if size <= 0:
         fail(gl.GL_INVALID_VALUE, "glPointSize", f"size={size}: expected more than 0")
     else:
-        context.change("polygon", point_size=rounded_number(context, size))
+        context.change_field("polygon", "point_size", rounded_number(context, size))
 
 
 # -- viewport and scissor box ------------------------------------------------------------------------------------------
