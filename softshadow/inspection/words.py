@@ -23,9 +23,10 @@ def colors_in_words(image: np.ndarray, before: np.ndarray | None = None) -> str:
     >>> colors_in_words(picture, np.zeros((2, 5, 3), np.uint8))
     '2 colours, mean brightness 10 %, 1 of 10 pixels changed (x 1, y 0)'
     """
-    colors = np.unique(image.reshape(-1, image.shape[-1]), axis=0)
+    channels = image.shape[-1]
+    colors = np.unique(image @ (1 << np.arange(0, 8 * channels, 8)[::-1]))  # as numbers 0xrrggbb, which sort sooner
     if len(colors) == 1:
-        shown = f"all of one colour, #{''.join(f'{int(channel):02x}' for channel in colors[0])}"
+        shown = f"all of one colour, #{int(colors[0]):0{2 * channels}x}"
     else:
         shown = f"{len(colors):,} colours, mean brightness {image.mean() / 255:.0%}".replace("%", " %")
     if before is None:

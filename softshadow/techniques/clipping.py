@@ -34,6 +34,8 @@ def clip_with_sources(triangles: np.ndarray, plane: np.ndarray) -> tuple[np.ndar
     pieces, sources = [triangles[corners_inside == 3]], [np.flatnonzero(corners_inside == 3)]
     for number in (1, 2):
         cut = corners_inside == number
+        if not cut.any():
+            continue
         # rotate the corners so that the single one, inside or outside, comes first
         single = np.argmax(inside[cut] == (number == 1), axis=1)
         order = (single[:, None] + np.arange(3)) % 3
@@ -118,9 +120,10 @@ def pyramid_between(light: np.ndarray, polygon: np.ndarray) -> np.ndarray:
     center = polygon.mean(axis=0)
     position, w = light[:3], light[3]
     planes = []
-    for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
-        # the plane through a, b and the light; the direction to the light is position - w·a, for w = 0 as well
-        normal = np.cross(b - a, position - w * a)
+    # the planes through an edge and the light; the direction from a to the light is position - w·a, for w = 0 as well
+    for a, normal in zip(
+        polygon, np.cross(np.roll(polygon, -1, axis=0) - polygon, position - w * polygon), strict=True
+    ):
         normal *= 1.0 if normal @ (center - a) >= 0 else -1.0
         planes.append([*normal, -normal @ a])
     normal = np.cross(polygon[1] - polygon[0], polygon[2] - polygon[1])

@@ -25,6 +25,7 @@ which a wide penumbra shows bands.
 """
 
 import math
+from functools import cache
 from typing import Annotated, Any
 
 import numpy as np
@@ -116,6 +117,7 @@ def half_axes(light: Light, camera: LightCamera) -> tuple[np.ndarray, np.ndarray
     return camera.frame @ u, camera.frame @ v
 
 
+@cache
 def stride(side: int) -> int:
     """Return the number without a common divisor with `side` that is nearest to its golden section.
 

@@ -6,6 +6,7 @@ that takes too many polygons, as behind a fine mesh, rays to samples of the ligh
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal, get_args
 
 import numpy as np
@@ -155,10 +156,13 @@ def _result(visible: np.ndarray, exact: np.ndarray, samples: int, method: str = 
 def sample_sets(light: Light, samples: int, seed: int) -> np.ndarray:
     """Return sets (SETS, samples, 2) of stratified places on a light, in its coordinates from -1 to 1."""
     assert light.shape is not None
-    is_round = isinstance(light.shape, Disc | Sphere)
-    inside = np.random.default_rng(seed).random((SETS, samples, 2))
     columns = round(np.sqrt(samples)) if len(light.shape.corners) > 2 else samples  # those of a segment lie in a row
-    unit = [strata(samples, columns, each) for each in inside]
+    return _sample_sets(samples, columns, isinstance(light.shape, Disc | Sphere), seed)
+
+
+@lru_cache(maxsize=8)  # they are the same for all lights of a kind
+def _sample_sets(samples: int, columns: int, is_round: bool, seed: int) -> np.ndarray:
+    unit = [strata(samples, columns, each) for each in np.random.default_rng(seed).random((SETS, samples, 2))]
     return np.stack([in_halves(square_to_disc(each) if is_round else 2 * each - 1) for each in unit])
 
 
