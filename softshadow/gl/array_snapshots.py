@@ -6,8 +6,6 @@ the rows that it reads are compared with the copy, and equal rows are not copied
 
 from __future__ import annotations
 
-import ctypes
-import os
 from typing import Any
 
 import numpy as np
@@ -15,6 +13,7 @@ import numpy as np
 from softshadow.context import Context
 from softshadow.context.arrays import ArrayLayout, RowSnapshot, VertexArray
 from softshadow.gl.vertex_format import REST
+from softshadow.pipeline.memory.comparison import same_memory
 from softshadow.state import TEXTURE_UNITS
 
 LARGEST_FRACTION = (1 << 23) - 1  # llvmpipe fetches the upper 23 bits of an unsigned int
@@ -27,10 +26,6 @@ WIDTHS = {NORMAL: 3, FOG_COORDINATE: 1}  # numbers of a vertex, where they are n
 LARGEST_PART = 4  # a changed array is copied whole if a draw reads a fourth of it or more
 ALWAYS_WHOLE = 1 << 16  # bytes: up to here, a new array is copied whole
 MOST_SLICES = 4096  # of one snapshot
-
-_memcmp = ctypes.CDLL("msvcrt" if os.name == "nt" else None).memcmp
-_memcmp.argtypes = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t)
-_memcmp.restype = ctypes.c_int
 
 
 # -- arrays ------------------------------------------------------------------------------------------------------------
@@ -107,11 +102,6 @@ def is_unchanged(array: VertexArray, kept: RowSnapshot, first: int, end: int) ->
         np.array_equal(now[row : min(row + CHUNK, end)], past[row - kept.first : min(row + CHUNK, end) - kept.first])
         for row in range(first, end, CHUNK)
     )
-
-
-def same_memory(address: int, other: int, n_bytes: int) -> bool:
-    """Return whether two places in memory hold the same bytes."""
-    return bool(_memcmp(address, other, n_bytes) == 0)
 
 
 def _copied(array: VertexArray, first: int, end: int, context: Context) -> RowSnapshot:

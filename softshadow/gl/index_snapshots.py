@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 
 from softshadow.context import Context
-from softshadow.gl.array_snapshots import SMALL, is_immutable, owner_of, same_memory
+from softshadow.gl.array_snapshots import SMALL, is_immutable, owner_of
 from softshadow.gl.buffers import offset_of
+from softshadow.pipeline.memory.comparison import same_memory
 
 BYTES_BEFORE = 64  # at both ends of the content; arrays with equal ones are compared
 

@@ -51,8 +51,7 @@ def _clamped(color: np.ndarray, alpha: float) -> tuple[float, ...]:
 
 def transformed(matrix: np.ndarray, point: np.ndarray) -> np.ndarray:
     """Return the product of a matrix (4, 4) and a point (4,), summed from the left."""
-    columns = matrix * point
-    product: np.ndarray = ((columns[:, 0] + columns[:, 1]) + columns[:, 2]) + columns[:, 3]
+    product: np.ndarray = np.add.accumulate(matrix * point, axis=1)[:, 3]
     return product
 
 

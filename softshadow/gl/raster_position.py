@@ -5,6 +5,7 @@ References: GL 2.1, sec. 2.13 (current raster position); rastpos.c of Mesa 22.3.
 
 from __future__ import annotations
 
+from array import array
 from functools import lru_cache
 from operator import is_
 from typing import Any
@@ -23,6 +24,7 @@ from softshadow.pipeline.geometry.geometry import planes_in_clip_space
 from softshadow.state import Viewport
 
 F32 = np.float32
+NO_PLANES = np.empty((0, 4), F32)
 
 
 @in_lists
@@ -45,10 +47,12 @@ def _set(context: Context, point: np.ndarray) -> None:
     state, before = context.state, context.current.raster
     modelview, modelview_kind = context.modelview_stack.drawn()
     projection, projection_kind = context.projection_stack.drawn()
-    modelview, projection = modelview.astype(F32), projection.astype(F32)
+    modelview, projection = modelview.astype(F32, copy=False), projection.astype(F32, copy=False)
     eye = transformed(modelview, point)
     clip = transformed(projection, eye)
-    planes = planes_in_clip_space(state.clip_planes, projection, projection_kind)
+    planes = NO_PLANES
+    if any(state.clip_planes.enabled):
+        planes = planes_in_clip_space(state.clip_planes, projection, projection_kind)
     w = float(clip[3])
     if not _is_inside(clip, state.depth.clamp, planes):
         context.current.raster = evolve(before, valid=False)
@@ -107,7 +111,7 @@ def _texcoords(context: Context) -> tuple[tuple[float, ...], ...]:
 def _current_colors(context: Context) -> list[tuple[float, ...]]:
     """Return the current colour and secondary colour in single precision."""
     current = context.current
-    return [tuple(np.array(color, F32).tolist()) for color in (current.color, current.secondary)]
+    return [tuple(array("f", color)) for color in (current.color, current.secondary)]
 
 
 def _distance(context: Context, eye: np.ndarray) -> float:

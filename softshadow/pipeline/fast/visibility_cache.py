@@ -20,6 +20,7 @@ import numpy as np
 
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.image import Image
+from softshadow.pipeline.memory.comparison import same_bits
 from softshadow.pipeline.raster.fragment_ops import FragmentOps
 from softshadow.pipeline.records import DepthRange, Region, Setup, Spans
 
@@ -62,12 +63,6 @@ class FillInputs(NamedTuple):
         corners, depth = self.triangles.corners, self.triangles.depth
         ends = corners[0].tobytes(), corners[-1].tobytes(), depth[0].tobytes(), depth[-1].tobytes()
         return hash((self.front, self.back, self.region, self.depth_range, len(corners), *ends))
-
-
-def same_bits(a: np.ndarray, b: np.ndarray) -> bool:
-    """Return whether two arrays of a dtype have the same bits."""
-    as_bits = f"u{a.dtype.itemsize}"
-    return a is b or (a.dtype == b.dtype and np.array_equal(a.view(as_bits), b.view(as_bits)))
 
 
 @dataclass(eq=False)
