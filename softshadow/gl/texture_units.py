@@ -11,6 +11,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.capabilities import UNITS
 from softshadow.gl.conversions import NUMBERS, enum, first, from_int, numbers, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.texture_combiners import COMBINE_PARAMETERS, SCALES, parameter_of, with_parameter
@@ -19,7 +20,9 @@ from softshadow.programs.inverse import inverse
 from softshadow.state import TEXTURE_UNITS, TexGen
 from softshadow.tokens import token_name
 
-ENVIRONMENT_MODES = (gl.GL_MODULATE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_REPLACE, gl.GL_ADD, gl.GL_COMBINE)
+MODES = {  # of the environment; a number that equals one, such as 7681.0, stands for it
+    mode: mode for mode in (gl.GL_MODULATE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_REPLACE, gl.GL_ADD, gl.GL_COMBINE)
+}
 COORDINATES = (gl.GL_S, gl.GL_T, gl.GL_R, gl.GL_Q)
 GEN_MODES = {  # mode: the coordinates that can be generated this way
     gl.GL_OBJECT_LINEAR: COORDINATES,
@@ -80,7 +83,11 @@ def glTexEnviv(target: int, pname: int, params: Any) -> None:
 def _set_environment(operation: str, target: int, pname: int, value: Any, is_vector: bool = False) -> None:
     if (context := outside_begin(operation)) is None:
         return None
-    values = np.ravel(value) if is_vector or type(value) not in NUMBERS else (value,)
+    is_number = not is_vector and type(value) in NUMBERS
+    if pname == gl.GL_TEXTURE_ENV_MODE and target == gl.GL_TEXTURE_ENV and is_number and value in MODES:
+        context.change_field(UNITS[context.active_unit], "env_mode", MODES[value])
+        return None
+    values = (value,) if is_number else np.ravel(value)
     if problem := _environment_problem(target, pname, is_vector):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
     if target == gl.GL_POINT_SPRITE:
@@ -100,8 +107,8 @@ def _set_environment(operation: str, target: int, pname: int, value: Any, is_vec
         set_unit(context, context.active_unit, combine=combine)
         return None
     mode = enum(values[0])
-    if mode not in ENVIRONMENT_MODES:
-        expected = ", ".join(token_name(m, MODE_NAMES) for m in ENVIRONMENT_MODES)
+    if mode not in MODES:
+        expected = ", ".join(token_name(m, MODE_NAMES) for m in MODES)
         return fail(
             gl.GL_INVALID_ENUM, operation, f"GL_TEXTURE_ENV_MODE={token_name(mode)}: expected one of {expected}"
         )
