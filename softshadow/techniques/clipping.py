@@ -120,10 +120,9 @@ def pyramid_between(light: np.ndarray, polygon: np.ndarray) -> np.ndarray:
     center = polygon.mean(axis=0)
     position, w = light[:3], light[3]
     planes = []
-    # the planes through an edge and the light; the direction from a to the light is position - w·a, for w = 0 as well
-    for a, normal in zip(
-        polygon, np.cross(np.roll(polygon, -1, axis=0) - polygon, position - w * polygon), strict=True
-    ):
+    # of the planes through the edges and the light; the direction to it is position - w·a, for w = 0 as well
+    normals = np.cross(np.roll(polygon, -1, axis=0) - polygon, position - w * polygon)
+    for a, normal in zip(polygon, normals, strict=True):
         normal *= 1.0 if normal @ (center - a) >= 0 else -1.0
         planes.append([*normal, -normal @ a])
     normal = np.cross(polygon[1] - polygon[0], polygon[2] - polygon[1])

@@ -160,7 +160,7 @@ def sample_sets(light: Light, samples: int, seed: int) -> np.ndarray:
     return _sample_sets(samples, columns, isinstance(light.shape, Disc | Sphere), seed)
 
 
-@lru_cache(maxsize=8)  # they are the same for all lights of a kind
+@lru_cache(maxsize=2)  # they are the same for all lights of a kind
 def _sample_sets(samples: int, columns: int, is_round: bool, seed: int) -> np.ndarray:
     unit = [strata(samples, columns, each) for each in np.random.default_rng(seed).random((SETS, samples, 2))]
     return np.stack([in_halves(square_to_disc(each) if is_round else 2 * each - 1) for each in unit])
