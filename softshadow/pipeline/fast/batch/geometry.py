@@ -281,7 +281,7 @@ def _repeated_geometry(
     geometry = geometry._replace(triangles=known.setups[facing])
     if not run.writes_color:
         return geometry
-    table = table_of(run, draws, views)
+    table = table_of(run, draws, views, reads_indices=False)
     n = len(table.positions)
     outputs = _empty_outputs(n, table, setting)
     _write_outputs(table, _inputs(table), outputs)

@@ -108,8 +108,8 @@ def _transform(viewport: Viewport, target: Framebuffer) -> tuple[np.ndarray, np.
     return known[2]
 
 
-def table_of(run: Run, draws: Sequence[Draw], views: Views) -> Table:
-    """Return the draws of a run as arrays."""
+def table_of(run: Run, draws: Sequence[Draw], views: Views, *, reads_indices: bool = True) -> Table:
+    """Return the draws of a run as arrays; without their indices if nobody reads them."""
     arrays, vertices = run.arrays, [draw.vertices for draw in draws]
     rows = np.empty((len(draws), FLOATS), np.float32)
     rows[:, MODELVIEW:PROJECTION] = _matrices([draw.modelview for draw in draws])
@@ -132,7 +132,7 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views) -> Table:
         _joined([each.color for each in vertices], arrays.color),
         _joined([each.normal for each in vertices], arrays.normal and run.reads_normals),
         _texcoords(run, vertices, int(numbers[-1, END])),
-        _joined([draw.indices for draw in draws if draw.indices is not None], True, NO_INDICES),
+        _joined([draw.indices for draw in draws if draw.indices is not None], reads_indices, NO_INDICES),
         views.scales,
         views.shifts,
     )
