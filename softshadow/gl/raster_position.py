@@ -24,7 +24,6 @@ from softshadow.pipeline.geometry.geometry import planes_in_clip_space
 from softshadow.state import Viewport
 
 F32 = np.float32
-NO_PLANES = np.empty((0, 4), F32)
 
 
 @in_lists
@@ -50,9 +49,7 @@ def _set(context: Context, point: np.ndarray) -> None:
     modelview, projection = modelview.astype(F32, copy=False), projection.astype(F32, copy=False)
     eye = transformed(modelview, point)
     clip = transformed(projection, eye)
-    planes = NO_PLANES
-    if any(state.clip_planes.enabled):
-        planes = planes_in_clip_space(state.clip_planes, projection, projection_kind)
+    planes = planes_in_clip_space(state.clip_planes, projection, projection_kind)
     w = float(clip[3])
     if not _is_inside(clip, state.depth.clamp, planes):
         context.current.raster = evolve(before, valid=False)

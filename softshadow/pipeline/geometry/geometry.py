@@ -278,13 +278,14 @@ def user_planes(command: Draw) -> np.ndarray:
 
 def planes_in_clip_space(planes: ClipPlanes, projection: np.ndarray, projection_kind: int) -> np.ndarray:
     """Return the enabled planes (P, 4): those of eye space times the inverse projection."""
+    if not any(planes.enabled):
+        return np.empty((0, 4), np.float32)
     enabled = [equation for on, equation in zip(planes.enabled, planes.equations, strict=True) if on]
     in_clip_space = np.empty((len(enabled), 4), np.float32)
-    if enabled:
-        with np.errstate(all="ignore"):  # also where draws begin to wait, not only in pipeline.draw
-            m = inverse(projection, projection_kind)
-            for row, (a, b, c, d) in zip(in_clip_space, np.array(enabled, np.float32), strict=True):
-                row[:] = ((a * m[0] + b * m[1]) + c * m[2]) + d * m[3]
+    with np.errstate(all="ignore"):  # also where draws begin to wait, not only in pipeline.draw
+        m = inverse(projection, projection_kind)
+        for row, (a, b, c, d) in zip(in_clip_space, np.array(enabled, np.float32), strict=True):
+            row[:] = ((a * m[0] + b * m[1]) + c * m[2]) + d * m[3]
     return in_clip_space
 
 
