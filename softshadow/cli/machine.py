@@ -24,25 +24,17 @@ FEWER = {"samples": 9, "map_size": 64}  # still eight maps at once, and one alon
 @click.command(epilog=examples("softshadow warmup", "softshadow warmup --json"))
 @as_json
 def warmup(as_json: bool) -> None:
-    """Compile the kernels of all techniques and cache them."""
+    """Compile the kernels of all techniques and of ordinary GL programs, and cache them."""
     import warnings
 
-    from softshadow import techniques
     from softshadow.errors import Warning as SoftShadowWarning
     from softshadow.kernel_cache import cache_folder
-    from softshadow.pipeline import use_short_cuts
-    from softshadow.runs import run
-    from softshadow.scene import Scene
 
     start = time.perf_counter()
-    with warnings.catch_warnings(), use_short_cuts("always"), _without_collection():
+    with warnings.catch_warnings(), _without_collection():
         warnings.simplefilter("ignore", SoftShadowWarning)  # the images are not used
-        scene = Scene.named("boxes")
-        for name in techniques.names():
-            for options in _option_sets(name):
-                text = ", ".join(f"{key}={value}" for key, value in options.items() if key not in FEWER)
-                say(f"compiling {name}{f' ({text})' if text else ''} ...")
-                run(name, scene, WARM_SIZE, **options)
+        _draw_techniques()
+        _draw_programs()
     seconds = time.perf_counter() - start
     if as_json:
         print_json("warmup", seconds=seconds, cache_folder=cache_folder())
@@ -50,6 +42,39 @@ def warmup(as_json: bool) -> None:
         folder = cache_folder()
         where = f"compiled code is in {folder}" if folder else "not cached: no cache folder is writable"
         click.echo(f"ready in {seconds:.1f} s, {where}")
+
+
+def _draw_techniques() -> None:
+    """Run each technique with its default options, and with each other value of a choice or switch."""
+    from softshadow import techniques
+    from softshadow.pipeline import use_short_cuts
+    from softshadow.runs import run
+    from softshadow.scene import Scene
+
+    scene = Scene.named("boxes")
+    with use_short_cuts("always"):
+        for name in techniques.names():
+            for options in _option_sets(name):
+                text = ", ".join(f"{key}={value}" for key, value in options.items() if key not in FEWER)
+                say(f"compiling {name}{f' ({text})' if text else ''} ...")
+                run(name, scene, WARM_SIZE, **options)
+
+
+def _draw_programs() -> None:
+    """Draw the first two frames of each program of the corpus, whose small draws use other kernels than techniques.
+
+    The second frame draws some arrays again, which has kernels of its own.
+    """
+    from softshadow import gl
+    from softshadow.bench.corpus.programs import PROGRAMS
+
+    for program in PROGRAMS.values():
+        say(f"compiling what {program.name} draws with ...")
+        with gl.create_context(*WARM_SIZE):
+            frame = program.prepare(gl, WARM_SIZE)
+            for number in range(2):
+                frame(number)
+                gl.glFinish()
 
 
 @contextmanager

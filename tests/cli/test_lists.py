@@ -1,14 +1,21 @@
 """``softshadow techniques``, ``scenes``, ``doctor`` and ``warmup``."""
 
 import tomllib
+from dataclasses import replace
+from typing import Any
 
 import pytest
 
 from cli.invocation import invoke_ok, json_of
 from paths import ROOT
-from softshadow import techniques
+from softshadow import gl, techniques
+from softshadow.bench.corpus.program import DrawNumberedFrame, Program
+from softshadow.bench.corpus.programs import PROGRAMS
 from softshadow.cli import machine
+from softshadow.context import current
 from softshadow.course import explain_codes
+from softshadow.pipeline.fast.batch.table import BATCH_KERNELS
+from softshadow.pipeline.plan import short_cuts
 from softshadow.scene import scene_names
 
 
@@ -58,6 +65,7 @@ def test_doctor_tells_versions_threads_and_extras() -> None:
 def test_warmup_draws_every_choice_of_every_technique(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn = []
     monkeypatch.setattr("softshadow.runs.run", lambda name, *where, **options: drawn.append((name, options)))
+    monkeypatch.setattr("softshadow.bench.corpus.programs.PROGRAMS", {})
     answer = json_of("warmup")
     assert answer["seconds"] >= 0
     assert {name for name, *_ in drawn} == set(techniques.names())
@@ -70,3 +78,31 @@ def test_warmup_draws_every_choice_of_every_technique(monkeypatch: pytest.Monkey
                 )
                 assert set(options) <= {key, *machine.FEWER}
     assert "ready in" in invoke_ok("warmup").stdout
+
+
+def test_warmup_finishes_frames_of_every_program_under_the_usual_short_cuts(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: list[tuple[str, int]] = []
+
+    def recorded(program: Program) -> Program:
+        def prepare(on: Any, size: tuple[int, int]) -> DrawNumberedFrame:
+            assert size == machine.WARM_SIZE
+            frame = program.prepare(on, size)
+
+            def numbered(number: int) -> None:
+                assert short_cuts.get() is True  # else its draws would not wait for each other
+                drawn.append((program.name, number))
+                frame(number)
+
+            return numbered
+
+        return replace(program, prepare=prepare)
+
+    runs: list[None] = []
+    monkeypatch.setattr(BATCH_KERNELS, "note_compiled", lambda: runs.append(None))  # after each run of draws
+    before = gl.create_context(8, 8)
+    monkeypatch.setattr("softshadow.runs.run", lambda *_, **__: None)
+    monkeypatch.setattr("softshadow.bench.corpus.programs.PROGRAMS", {n: recorded(p) for n, p in PROGRAMS.items()})
+    assert json_of("warmup")["seconds"] > 0
+    assert drawn == [(name, number) for name in PROGRAMS for number in range(2)]
+    assert current() is before
+    assert len(runs) >= len(drawn) / 2  # a few programs draw nothing that can wait
