@@ -72,6 +72,13 @@ def is_empty(folder: Path) -> bool:
     return next(folder.rglob("*.nbi"), None) is None
 
 
+def announcement() -> str:
+    """Return what to tell people who wait for the compiler."""
+    if cache_folder() is None:
+        return "compiling kernels at every start, because no cache folder is writable (set NUMBA_CACHE_DIR) ..."
+    return "compiling kernels, only the first time ..."
+
+
 class KernelGroup:
     """Kernels that are compiled together and take seconds: one picture is finished earlier without them.
 

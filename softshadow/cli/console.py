@@ -164,13 +164,10 @@ def print_warnings_once() -> Iterator[None]:
 
 def say_if_compiling() -> bool:
     """Print a message if the kernel cache is empty; return whether compiled kernels will be cached now."""
-    from softshadow.kernel_cache import cache_folder, is_empty
+    from softshadow.kernel_cache import announcement, cache_folder, is_empty
 
     folder = cache_folder()
-    if folder is None:
-        say("compiling kernels at every start, because no cache folder is writable (set NUMBA_CACHE_DIR) ...")
+    if folder is not None and not is_empty(folder):
         return False
-    if not is_empty(folder):
-        return False
-    say("compiling kernels, only the first time ...")
-    return True
+    say(announcement())
+    return folder is not None

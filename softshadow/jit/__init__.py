@@ -1,6 +1,7 @@
 """The decorators that compile kernels."""
 
 import gc
+import logging
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -11,7 +12,7 @@ import numpy as np
 from numba.core import event
 
 from softshadow.jit.stored_code import KernelDispatcher
-from softshadow.kernel_cache import cache_folder
+from softshadow.kernel_cache import announcement, cache_folder
 
 # no kernel is called from C, and a wrapper for it would take a twentieth of the compile time
 OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
@@ -75,6 +76,14 @@ def inlined(function: Callable[..., Any]) -> Any:
     wrapper, a cache entry and machine code that are never used.
     """
     return numba.njit(inline="always", **OPTIONS)(function)
+
+
+def announce_compiling() -> None:
+    """Log that a program waits for its kernels, which takes up to a minute; without handlers, that is printed."""
+    config: Any = numba.config
+    if not config.DISABLE_JIT:
+        text = "softshadow: %s This may take a minute; `softshadow warmup` does it beforehand."
+        logging.getLogger("softshadow").warning(text, announcement())
 
 
 class _PauseCollection(event.Listener):

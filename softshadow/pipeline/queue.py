@@ -17,6 +17,7 @@ import numpy as np
 
 from softshadow import pipeline
 from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.jit import announce_compiling
 from softshadow.pipeline.choose import joins_others
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.plan import (
@@ -231,6 +232,8 @@ class DrawQueue:
             return
         self._kind, self._batches, self._segments, self._queries = None, {}, [], set()
         self._n_draws, self._n_vertices, self._are_small = 0, 0, True
+        if not BATCH_KERNELS.are_compiled():
+            announce_compiling()
         with np.errstate(all="ignore"):  # as in pipeline.draw
             parts = self._parts(batches, segments)
             BATCH_KERNELS.note_compiled()

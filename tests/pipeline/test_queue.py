@@ -1,5 +1,6 @@
 """Draws that wait: which of them form a batch, and what is kept of a state for the draws that follow."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -173,3 +174,20 @@ def test_what_a_run_depends_on_stays_known_when_texels_change(planned):
         gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
     gl.glFinish()
     assert len(planned) == 3
+
+
+def test_a_program_is_told_once_that_it_waits_for_its_kernels(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    for folder, said in ((tmp_path, "only the first time"), (None, "no cache folder is writable")):
+        monkeypatch.setattr(queue.BATCH_KERNELS, "_known", False)  # as if nothing were on disk
+        monkeypatch.setattr("softshadow.kernel_cache.cache_folder", lambda value=folder: value)
+        caplog.clear()
+        with gl.create_context(SIZE, SIZE):
+            for _ in range(2):
+                gl.glRectf(0, 0, 1, 1)
+                gl.glFinish()
+        (record,) = caplog.records
+        assert record.name == "softshadow"
+        assert said in record.getMessage()
+        assert "softshadow warmup" in record.getMessage()
