@@ -45,7 +45,10 @@ PACK_PAIR, UNPACK_PAIR = SINGLES[2]
 
 
 def clamp01(value: float) -> float:
-    return min(max(0.0, float(value)), 1.0)  # NaN becomes 0, as in Mesa
+    number = float(value)
+    if number > 0.0:
+        return number if number < 1.0 else 1.0
+    return 0.0  # also for NaN, as in Mesa
 
 
 def rounded_number(context: Context, value: float) -> float:
