@@ -76,7 +76,7 @@ def announcement() -> str:
     """Return what to tell people who wait for the compiler."""
     if cache_folder() is None:
         return "compiling kernels at every start, because no cache folder is writable (set NUMBA_CACHE_DIR) ..."
-    return "compiling kernels, only the first time ..."
+    return "compiling kernels, only the first time; `softshadow warmup` does it beforehand ..."
 
 
 class KernelGroup:

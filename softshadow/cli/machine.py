@@ -18,6 +18,7 @@ EXTRAS = {
     "trace": "cramjam", "sweep": "distributed", "video": "av",
 }  # fmt: skip
 WARM_SIZE = (64, 48)
+PROGRAM_SIZE = (160, 120)  # enough for bounds of depths over tiles
 FEWER = {"samples": 9, "map_size": 64}  # still eight maps at once, and one alone
 
 
@@ -70,8 +71,8 @@ def _draw_programs() -> None:
 
     for program in PROGRAMS.values():
         say(f"compiling what {program.name} draws with ...")
-        with gl.create_context(*WARM_SIZE):
-            frame = program.prepare(gl, WARM_SIZE)
+        with gl.create_context(*PROGRAM_SIZE):
+            frame = program.prepare(gl, PROGRAM_SIZE)
             for number in range(2):
                 frame(number)
                 gl.glFinish()

@@ -82,8 +82,7 @@ def announce_compiling() -> None:
     """Log that a program waits for its kernels, which takes up to a minute; without handlers, that is printed."""
     config: Any = numba.config
     if not config.DISABLE_JIT:
-        text = "softshadow: %s This may take a minute; `softshadow warmup` does it beforehand."
-        logging.getLogger("softshadow").warning(text, announcement())
+        logging.getLogger("softshadow").warning("softshadow: %s", announcement())
 
 
 class _PauseCollection(event.Listener):

@@ -115,7 +115,7 @@ def test_json_takes_numbers_arrays_and_paths(capsys: pytest.CaptureFixture) -> N
 def test_compiling_is_announced_when_nothing_is_in_the_cache(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
 ) -> None:
-    for folder, said in ((tmp_path, "compiling kernels, only the first time ...\n"), (None, "set NUMBA_CACHE_DIR")):
+    for folder, said in ((tmp_path, "compiling kernels, only the first time; "), (None, "set NUMBA_CACHE_DIR")):
         monkeypatch.setattr("softshadow.kernel_cache.cache_folder", lambda value=folder: value)
         console.say_if_compiling()
         assert said in capsys.readouterr().err

@@ -85,7 +85,7 @@ def test_warmup_finishes_frames_of_every_program_under_the_usual_short_cuts(monk
 
     def recorded(program: Program) -> Program:
         def prepare(on: Any, size: tuple[int, int]) -> DrawNumberedFrame:
-            assert size == machine.WARM_SIZE
+            assert size == machine.PROGRAM_SIZE
             frame = program.prepare(on, size)
 
             def numbered(number: int) -> None:
