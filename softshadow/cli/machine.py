@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -32,7 +33,7 @@ def warmup(as_json: bool) -> None:
     from softshadow.kernel_cache import cache_folder
 
     start = time.perf_counter()
-    with warnings.catch_warnings(), _without_collection():
+    with warnings.catch_warnings(), _without_collection(), _without_announcement():
         warnings.simplefilter("ignore", SoftShadowWarning)  # the images are not used
         _draw_techniques()
         _draw_programs()
@@ -90,6 +91,18 @@ def _without_collection() -> Iterator[None]:
     finally:
         if was_enabled:
             gc.enable()
+
+
+@contextmanager
+def _without_announcement() -> Iterator[None]:
+    """Do not let programs say that they wait for the compiler, and that `warmup` helps."""
+    logger = logging.getLogger("softshadow")
+    before = logger.level
+    logger.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
 
 
 def _option_sets(name: str) -> list[dict[str, Any]]:

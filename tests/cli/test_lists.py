@@ -1,5 +1,6 @@
 """``softshadow techniques``, ``scenes``, ``doctor`` and ``warmup``."""
 
+import logging
 import tomllib
 from dataclasses import replace
 from typing import Any
@@ -80,7 +81,9 @@ def test_warmup_draws_every_choice_of_every_technique(monkeypatch: pytest.Monkey
     assert "ready in" in invoke_ok("warmup").stdout
 
 
-def test_warmup_finishes_frames_of_every_program_under_the_usual_short_cuts(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_warmup_finishes_frames_of_every_program_under_the_usual_short_cuts(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
     drawn: list[tuple[str, int]] = []
 
     def recorded(program: Program) -> Program:
@@ -102,7 +105,10 @@ def test_warmup_finishes_frames_of_every_program_under_the_usual_short_cuts(monk
     before = gl.create_context(8, 8)
     monkeypatch.setattr("softshadow.runs.run", lambda *_, **__: None)
     monkeypatch.setattr("softshadow.bench.corpus.programs.PROGRAMS", {n: recorded(p) for n, p in PROGRAMS.items()})
+    monkeypatch.setattr(BATCH_KERNELS, "_known", False)  # as if nothing were on disk
     assert json_of("warmup")["seconds"] > 0
+    assert not caplog.records  # which would say that `warmup` helps
+    assert logging.getLogger("softshadow").level == logging.NOTSET
     assert drawn == [(name, number) for name in PROGRAMS for number in range(2)]
     assert current() is before
     assert len(runs) >= len(drawn) / 2  # a few programs draw nothing that can wait
