@@ -325,12 +325,6 @@ class Context(CurrentValues, Precision):
         self.vertex_buffer.draw_joined_pairs()
         self.vertex_buffer.draw(self.draw_command(mode, vertices))
 
-    def collect(self, mode: int, vertices: Vertices) -> None:
-        """Collect triangles or quads of immediate mode, to draw them together with pairs that follow."""
-        if not self.vertex_buffer.can_join(mode):
-            self.vertex_buffer.begin_joined_pairs(self.draw_command(mode, vertices))
-        self.vertex_buffer.join("/".join(self.labels) if self.labels else "", self.origin, vertices)
-
     # -- recording -----------------------------------------------------------------------------------------------------
     def draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
         """Return a draw under the current state."""

@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from softshadow.framebuffer import Storage
-from softshadow.pipeline.commands import Draw, Origin, Vertices
+from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.geometry import offset_mode_of
 from softshadow.pipeline.mesa.driver_draws import MAX_PAIRS, SEPARATE, CollectedPairs, DriverDraw, JoinedPairs
 
@@ -165,15 +165,11 @@ class VertexBuffer:
         joined = self.joined_pairs
         return joined is not None and joined.first.mode == mode and joined.takes_more
 
-    def begin_joined_pairs(self, first: Draw) -> None:
+    def begin_joined_pairs(self, first: Draw) -> JoinedPairs:
         """Draw the joined pairs, and begin new ones under the state of `first`."""
         self.draw_joined_pairs()
         self.joined_pairs = JoinedPairs(first)
-
-    def join(self, label: str, origin: Origin | None, vertices: Vertices) -> None:
-        """Add the vertices of a pair to the joined pairs; `label` names the debug groups they belong to."""
-        assert self.joined_pairs is not None
-        self.joined_pairs.add(label, origin, vertices)
+        return self.joined_pairs
 
     def end_pair(self, mode: int, vertices: int) -> None:
         """Count a glBegin ... glEnd pair; draw if it is empty and of another mode, or the 64th."""

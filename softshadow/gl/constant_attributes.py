@@ -32,7 +32,8 @@ PACK_3, PACK_4, PACK_COLOR_AND_NORMAL = (struct.Struct(f"{count}d").pack for cou
 class Carried(NamedTuple):
     """Which attributes the vertices carry: `units` are (unit, name) of texture coordinates, `materials` names.
 
-    `optional`: at least one that not every `Vertices` has, such as the edge flag.
+    `optional`: at least one that not every `Vertices` has, such as the edge flag. `columns` are the names of those that
+    every one has.
     """
 
     color: bool
@@ -40,6 +41,7 @@ class Carried(NamedTuple):
     units: tuple[tuple[int, str], ...]
     materials: frozenset[str]
     optional: bool
+    columns: tuple[str, ...]
 
 
 @lru_cache(maxsize=1024)
@@ -47,7 +49,8 @@ def carried_of(names: tuple[str, ...]) -> Carried:
     """Return which attributes these are; the same object for the same names."""
     units = tuple([(UNIT_OF[name], name) for name in names if name in UNIT_OF])
     materials = frozenset([name for name in names if "." in name])
-    return Carried("color" in names, "normal" in names, units, materials, not IS_OPTIONAL.isdisjoint(names))
+    columns = tuple([name for name in ("color", "normal", *UNIT_OF) if name in names])
+    return Carried("color" in names, "normal" in names, units, materials, not IS_OPTIONAL.isdisjoint(names), columns)
 
 
 @dataclass(eq=False, slots=True)

@@ -15,6 +15,7 @@ from softshadow.gl.conversions import vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.materials import follow_color
+from softshadow.gl.pair_numbers import collect_pair
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_format import add_vertex, begin, end, store_vertices, vertices_of
 from softshadow.pipeline.mesa.driver_draws import CORNERS
@@ -67,16 +68,16 @@ def glEnd() -> None:
         return
     context.pending.reset_due = context.pending.has_vertices = True
     end(context, primitive)
-    vertices, count = vertices_of(context, primitive), len(primitive)
+    count = len(primitive)
     if primitive.from_list and context.list_depth > 0:
-        context.draw(primitive.mode, vertices, consecutive_indices(count))
+        context.draw(primitive.mode, vertices_of(context, primitive), consecutive_indices(count))
         return
     one_triangle = primitive.mode in (gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN) and count == 3
     mode = gl.GL_TRIANGLES if one_triangle else primitive.mode  # as in Mesa (vbo_try_prim_conversion)
     if mode in CORNERS:
-        context.collect(mode, vertices)
+        collect_pair(context, mode, primitive)
     else:
-        context.draw_primitive(mode, vertices)
+        context.draw_primitive(mode, vertices_of(context, primitive))
     one_line = mode == gl.GL_LINE_STRIP and count == 2
     context.vertex_buffer.end_pair(gl.GL_LINES if one_line else mode, count)
 
@@ -205,9 +206,14 @@ def glRectf(x1: float, y1: float, x2: float, y2: float) -> None:
     if context is None or not can_draw(context, "glRectf"):
         return
     hypot(x1, y1, x2, y2)  # the quickest question whether these are numbers
-    glBegin(gl.GL_QUADS)
-    for x, y in ((x1, y1), (x2, y1), (x2, y2), (x1, y2)):
-        glVertex2f(x, y)
+    begin(context, gl.GL_QUADS)
+    primitive = context.primitive
+    assert primitive is not None
+    if primitive.position_size == 2 and primitive.limit > 16:
+        primitive.positions += (x1, y1, 0.0, 1.0, x2, y1, 0.0, 1.0, x2, y2, 0.0, 1.0, x1, y2, 0.0, 1.0)
+    else:
+        for x, y in ((x1, y1), (x2, y1), (x2, y2), (x1, y2)):
+            add_vertex(context, x, y)
     glEnd()
 
 

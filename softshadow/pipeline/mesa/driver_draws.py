@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
+from typing import Protocol
 
 import numpy as np
 
@@ -29,21 +30,36 @@ OPTIONAL = {"edges": True, "secondary": BLACK, "fog_coordinates": 0.0}  # the la
 MAX_PAIRS = 64  # with so many collected pairs, Mesa draws them (VBO_MAX_PRIM)
 
 
+Told = tuple[str, Origin | None]  # the debug groups that a pair belongs to ("outer/inner"), and its origin
+
+
+class LateVertices(Protocol):
+    """Vertices of pairs, whose arrays are made when they are drawn."""
+
+    def vertices(self) -> Vertices:
+        """Return them."""
+
+
 @dataclass(eq=False, slots=True)
 class JoinedPairs:
     """Joined pairs that are not drawn yet: `first` is the command of the first one, with the state of all.
 
-    `parts` holds the debug groups, the origin and the vertices of each pair, `n_vertices` the number of all.
+    `parts` holds the debug groups, the origin and the vertices of one or more pairs, `n_vertices` the number of all.
     """
 
     first: Draw
-    parts: list[tuple[tuple[str, Origin | None], Vertices]] = field(default_factory=list)
+    parts: list[tuple[Told, Vertices | LateVertices]] = field(default_factory=list)
     n_vertices: int = 0
 
-    def add(self, label: str, origin: Origin | None, vertices: Vertices) -> None:
-        """Add the vertices of a pair; `label` names the debug groups they belong to."""
-        self.parts.append(((label, origin), vertices))
-        self.n_vertices += len(vertices.position)
+    def add(self, told: Told, vertices: Vertices | LateVertices, count: int) -> None:
+        """Add a part of `count` vertices."""
+        self.parts.append((told, vertices))
+        self.n_vertices += count
+
+    def last(self, told: Told) -> Vertices | LateVertices | None:
+        """Return the vertices of the last part; None if it belongs to other debug groups or has another origin."""
+        told_before, vertices = self.parts[-1]
+        return vertices if told_before == told else None
 
     @property
     def takes_more(self) -> bool:
@@ -52,15 +68,15 @@ class JoinedPairs:
 
     def commands(self) -> list[Draw]:
         """Return the draws: one if debug groups and origins of all pairs are equal, else one for each change."""
-        if len(self.parts) == 1 and self.parts[0] == ((self.first.label, self.first.origin), self.first.vertices):
-            return [self.first]
-        groups = [(told, [part for _, part in parts]) for told, parts in groupby(self.parts, lambda part: part[0])]
+        parts = [(told, part if isinstance(part, Vertices) else part.vertices()) for told, part in self.parts]
+        groups = [(told, [part for _, part in group]) for told, group in groupby(parts, lambda part: part[0])]
         if len(groups) == 1:
-            return [evolve(self.first, vertices=join_vertices(groups[0][1]))]
-        whole = join_vertices([vertices for _, vertices in self.parts]).position
+            vertices = join_vertices(groups[0][1])
+            return [self.first if vertices is self.first.vertices else evolve(self.first, vertices=vertices)]
+        whole = join_vertices([vertices for _, vertices in parts]).position
         commands, start = [], 0
-        for (label, origin), parts in groups:
-            vertices, told = join_vertices(parts), {"label": label, "origin": origin}
+        for (label, origin), group in groups:
+            vertices, told = join_vertices(group), {"label": label, "origin": origin}
             commands.append(evolve(self.first, vertices=vertices, joined_positions=whole, joined_start=start, **told))
             start += len(vertices.position)
         return commands

@@ -1,0 +1,125 @@
+"""Vertices of joined pairs whose numbers wait are those of pairs whose arrays are made at once, bit for bit."""
+
+from random import Random
+
+import numpy as np
+import pytest
+
+from softshadow import gl
+from softshadow.gl import pair_numbers
+
+NUMBERS = (0.0, -0.0, 0.25, 1.0, -3.5, 1e30, float("nan"))
+ATTRIBUTES = (
+    ("glColor3f", 3), ("glColor4f", 4), ("glNormal3f", 3), ("glTexCoord2f", 2), ("glTexCoord4f", 4),
+)  # fmt: skip
+RARE = (
+    ("glEdgeFlag", False), ("glEdgeFlag", True), ("glSecondaryColor3f", 0.5, 0, 0), ("glSecondaryColor3f", 0, 0, 0),
+    ("glMaterialf", gl.GL_FRONT, gl.GL_SHININESS, 5.0), ("glMultiTexCoord2f", gl.GL_TEXTURE1, 0.5, 0.25),
+    ("glPushDebugGroup", gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, "group"), ("glPopDebugGroup",),
+    ("glEnable", gl.GL_COLOR_MATERIAL), ("glDisable", gl.GL_COLOR_MATERIAL), ("glFogCoordf", 0.5), ("glFogCoordf", 0),
+)  # fmt: skip
+SEEDS = range(120)
+
+
+def random_program(seed):
+    """Return calls, most of them pairs of quads with a change of one attribute between or inside."""
+    random = Random(seed)
+    program, attributes = [], random.sample(ATTRIBUTES, random.randint(1, 3))
+
+    def attribute():
+        name, count = random.choice(attributes)
+        return (name, *random.choices(NUMBERS, k=count))
+
+    for _ in range(12):
+        if random.random() < 0.5:
+            program.append(attribute())
+        if random.random() < 0.12:
+            program.append(random.choice(RARE))
+        if random.random() < 0.2:
+            program.append(("glRectf", *random.choices(NUMBERS, k=4)))
+            continue
+        program.append(("glBegin", random.choices((gl.GL_QUADS, gl.GL_TRIANGLES, gl.GL_LINES), (8, 2, 1))[0]))
+        for _ in range(random.choice((4, 4, 4, 6, 8))):
+            if random.random() < 0.2:
+                program.append(attribute())
+            program.append(("glVertex3f", *random.choices(NUMBERS, k=3)))
+        program.append(("glEnd",))
+    return program
+
+
+def drawn(program):
+    """Return the state and the arrays of all draws of a program."""
+    with gl.create_context(4, 4) as context:
+        for name, *arguments in program:
+            if name != "glPopDebugGroup" or context.labels:
+                getattr(gl, name)(*arguments)
+        return [described(command) for command in context.frame.commands]
+
+
+def described(command):
+    each = command.vertices
+    arrays = [each.position, each.color, each.normal, *each.texcoords, *each.materials.values()]
+    arrays += [each.edges, each.secondary, each.fog_coordinates, command.joined_positions]
+    values = [None if array is None else (array.dtype, array.shape, array.tobytes()) for array in arrays]
+    return command.mode, repr(command.state), command.label, command.joined_start, list(each.materials), values
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_numbers_that_wait_change_no_bit(seed, monkeypatch):
+    program = random_program(seed)
+    with np.errstate(all="ignore"):
+        waiting = drawn(program)
+        monkeypatch.setattr(pair_numbers, "FEW", 0)
+        assert drawn(program) == waiting
+
+
+@pytest.fixture
+def context():
+    with gl.create_context(8, 8) as context:
+        yield context
+
+
+def quad(left):
+    gl.glRectf(left, 0, left + 0.25, 0.25)
+
+
+def test_pairs_of_one_format_are_one_part(context):
+    gl.glColor3f(1, 0, 0)
+    for left in range(3):
+        quad(left)
+    (part,) = context.vertex_buffer.joined_pairs.parts
+    assert isinstance(part[1], pair_numbers.PairNumbers)
+    assert context.vertex_buffer.joined_pairs.n_vertices == 12
+    assert len(context.frame.commands[0].vertices.position) == 12
+
+
+def test_a_constant_colour_that_changes_begins_another_part(context):
+    quad(0)
+    gl.glColor3f(0, 1, 0)  # no vertex carries a colour yet
+    quad(1)
+    (command,) = context.frame.commands[-1:]
+    assert command.vertices.color[-1].tolist() == [0, 1, 0, 1]
+
+
+def test_a_large_pair_makes_its_arrays_at_once(context):
+    gl.glBegin(gl.GL_TRIANGLES)
+    for _ in range(pair_numbers.FEW // 3 * 3 + 3):
+        gl.glVertex2f(0, 0)
+    gl.glEnd()
+    (part,) = context.vertex_buffer.joined_pairs.parts
+    assert not isinstance(part[1], pair_numbers.PairNumbers)
+
+
+def test_a_pair_that_a_list_begins_may_carry_more_than_those_before(context):
+    listed = gl.glGenLists(1)
+    gl.glNewList(listed, gl.GL_COMPILE)
+    gl.glBegin(gl.GL_QUADS)
+    gl.glColor3f(1, 0, 0)
+    gl.glEndList()
+    quad(0)
+    gl.glCallList(listed)
+    for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)):
+        gl.glVertex2f(x, y)
+    gl.glEnd()
+    colors = np.concatenate([command.vertices.color for command in context.frame.commands])
+    assert colors.tolist() == [[1, 1, 1, 1]] * 4 + [[1, 0, 0, 1]] * 4
