@@ -124,10 +124,12 @@ def average_ellipses(
     `found` is scratch for the columns of a box.
     """
     width = sides[0]
+    a, b, c, half_width, half_height = ZERO, ZERO, ZERO, ZERO, ZERO
     for n in range(coordinates.shape[1]):
-        a, b, c, f, half_width, half_height = ellipse_of(footprints[n >> 2])
-        scale = SCALE / f
-        a, b, c = a * scale, b * scale, c * scale
+        if n & 3 == 0:  # the next block
+            a, b, c, f, half_width, half_height = ellipse_of(footprints[n >> 2])
+            scale = SCALE / f
+            a, b, c = a * scale, b * scale, c * scale
         u, v = coordinates[0, n] * scaled[0] - HALF, coordinates[1, n] * scaled[1] - HALF
         u0, u1 = to_integer(np.floor(u - half_width)), to_integer(np.ceil(u + half_width))
         v0, v1 = to_integer(np.floor(v - half_height)), to_integer(np.ceil(v + half_height))
