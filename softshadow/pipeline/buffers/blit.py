@@ -86,7 +86,8 @@ def blit(command: BlitFramebuffer, storage: Storage, draw: DrawFunction) -> None
 
 def _blit_color(source: Image, target: Image, rectangles: Rectangles, texture_filter: int, draw: DrawFunction) -> None:
     if texture_filter == gl.GL_LINEAR and rectangles.scaled:  # without scaling, the blitter does not filter
-        draw_image(source.copy(), target, rectangles, gl.GL_LINEAR, draw)  # it may draw to itself
+        texels = source if rectangles.in_texels else source.copy()  # it may draw to itself; padding makes a copy
+        draw_image(texels, target, rectangles, gl.GL_LINEAR, draw)
         return
     where, texels = nearest_texels(source, target, rectangles, draw)
     colors = convert_color(source.read_cells[texels], source, target)
@@ -289,7 +290,10 @@ def _padded(image: Image) -> Image:
     """
     width, height = (1 << (size - 1).bit_length() for size in (image.width, image.height))
     padded = Image.new(image.format, width, height, image.internal_format)
-    padded.view[...] = np.pad(image.view, ((0, height - image.height), (0, width - image.width), (0, 0)), "edge")
+    view = padded.view
+    view[: image.height, : image.width] = image.view
+    view[: image.height, image.width :] = image.view[:, -1:]
+    view[image.height :] = view[image.height - 1]
     return padded
 
 
