@@ -9,6 +9,7 @@ from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.image import Image
 from softshadow.jit import kernel
 from softshadow.pipeline.commands import CopyToTexture
+from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pixel_transfer import PixelTransfer
 from softshadow.pixels import (
     LARGEST_UINT,
@@ -19,6 +20,8 @@ from softshadow.pixels import (
     to_cells,
 )
 from softshadow.texel_codes import drawn_cells
+
+LARGEST_BYTE = np.float32(255)
 
 
 def bottom_up(target: Framebuffer, image: Image) -> np.ndarray:
@@ -125,5 +128,14 @@ def convert_color(cells: np.ndarray, source: Image, image: Image) -> np.ndarray:
         if image.format.kind == "float":
             cells = color_as_float(cells)
         else:
-            cells = np.rint(np.clip(cells, np.float32(0), np.float32(1)) * np.float32(255)).astype(np.uint8)
+            floats, cells = np.ascontiguousarray(cells), np.empty(cells.shape, np.uint8)
+            round_to_bytes(floats.reshape(-1), cells.reshape(-1))
     return to_base(cells, image.format.base)
+
+
+@kernel
+def round_to_bytes(floats, out):
+    """Write colours (n,) as bytes; what is not a number becomes 0."""
+    for i in range(len(out)):
+        value = floats[i] if floats[i] > ZERO else ZERO
+        out[i] = np.uint8(np.rint((value if value < ONE else ONE) * LARGEST_BYTE))

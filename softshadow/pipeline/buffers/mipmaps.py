@@ -18,9 +18,11 @@ from softshadow import tokens as gl
 from softshadow.color_values import color_as_float
 from softshadow.framebuffer import Storage
 from softshadow.image import Format, Image
+from softshadow.jit import kernel
 from softshadow.pipeline.commands import GenerateMipmaps
 from softshadow.pipeline.constants import HALF, ONE
 from softshadow.pixels import quantized_depth, sampled_depth
+from softshadow.programs.filtering import mix_fixed_point
 from softshadow.texel_codes import SRGB, cells_of, codes_of, drawn_cells, srgb_codes
 
 STEPS = 256  # of the filter weights in 8 bits
@@ -126,11 +128,26 @@ def centers(n: int, n_other: int, from_far_end: bool) -> np.ndarray:
 
 def halved_in_8_bits(texels: np.ndarray, width: int, height: int) -> np.ndarray:
     """Return texels (h, w, 4) uint8 filtered to (height, width, 4)."""
-    cells = texels.astype(np.int32)
-    first, second, weight = texels_and_weights_in_8_bits(centers(width, height, True), texels.shape[1])
-    rows = mix_in_8_bits(cells[:, first], cells[:, second], weight[:, np.newaxis])
-    first, second, weight = texels_and_weights_in_8_bits(centers(height, width, False), texels.shape[0])
-    return mix_in_8_bits(rows[first], rows[second], weight[:, np.newaxis, np.newaxis]).astype(np.uint8)
+    columns = texels_and_weights_in_8_bits(centers(width, height, True), texels.shape[1])
+    rows = texels_and_weights_in_8_bits(centers(height, width, False), texels.shape[0])
+    halved = np.empty((height, width, texels.shape[2]), np.uint8)
+    filter_bytes(np.ascontiguousarray(texels), *columns, *rows, halved)
+    return halved
+
+
+@kernel
+def filter_bytes(texels, left, right, weight_right, lower, upper, weight_upper, out):
+    """Write mixtures of four bytes each: along the columns first, then along the rows."""
+    for y in range(out.shape[0]):
+        for x in range(out.shape[1]):
+            for c in range(out.shape[2]):
+                below = mix_fixed_point(
+                    weight_right[x], np.int32(texels[lower[y], left[x], c]), np.int32(texels[lower[y], right[x], c])
+                )
+                above = mix_fixed_point(
+                    weight_right[x], np.int32(texels[upper[y], left[x], c]), np.int32(texels[upper[y], right[x], c])
+                )
+                out[y, x, c] = mix_fixed_point(weight_upper[y], below, above)
 
 
 def texels_and_weights_in_8_bits(coordinates: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
