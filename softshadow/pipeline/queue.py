@@ -85,7 +85,7 @@ class Segment:
 
 def _key_without_tests(command: Draw) -> tuple[int, ...]:
     """Return by what to look for a kind that may differ in tests and blending only."""
-    return *key_of(command.state, with_tests=False), width_of(command.mode)
+    return *key_of(command, with_tests=False), width_of(command.mode)
 
 
 class DrawQueue:
@@ -169,7 +169,7 @@ class DrawQueue:
         return kind
 
     def _kind_of_equal_state(self, command: Draw) -> Kind | None:
-        key = key_of(command.state)
+        key = key_of(command)
         place = *key, *structure_of(command.state.lighting), command.mode
         known = self._of_states.get(place)
         if known is not None and known[0].run.continues_under(command, known[1]):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from softshadow import gl
-from softshadow.pipeline import queue
+from softshadow.pipeline import queue, use_short_cuts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.geometry import Batch, Setting
 from softshadow.pipeline.fast.batch.run import Run
@@ -119,6 +119,36 @@ def test_draws_in_many_viewports_are_of_one_kind_and_fill_their_own_one(planned,
         assert set(image[y : y + 8, x : x + 8][own != 1, 0]) == {10 * n}
     assert len(planned) == 1
     assert batches == [16]
+
+
+@pytest.mark.parametrize("cap", [None, gl.GL_POINT_SMOOTH, gl.GL_POINT_SPRITE])
+@pytest.mark.parametrize("attenuation", [(1, 0, 0), (0.2, 0.1, 0)])
+@pytest.mark.parametrize("limits", [(0, 60), (3, 5)])
+def test_points_of_many_sizes_are_one_batch_with_the_bits_of_single_draws(planned, batches, cap, attenuation, limits):
+    def drawn() -> list[bytes]:
+        context = gl.create_context(SIZE, SIZE)
+        if cap:
+            gl.glEnable(cap)
+        gl.glEnable(gl.GL_BLEND)
+        gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
+        gl.glPointParameterfv(gl.GL_POINT_DISTANCE_ATTENUATION, attenuation)
+        gl.glPointParameterf(gl.GL_POINT_SIZE_MIN, limits[0])
+        gl.glPointParameterf(gl.GL_POINT_SIZE_MAX, limits[1])
+        for n in range(12):
+            gl.glPointSize(0.3 + 0.7 * n)
+            gl.glColor4f(n / 12, 0.5, 1 - n / 12, 0.6)
+            gl.glBegin(gl.GL_POINTS)
+            for k in range(1 + n % 2):
+                gl.glVertex3f(n % 4 / 2 - 0.7, n // 4 / 2 - 0.6, k / 2)
+            gl.glEnd()
+        gl.glFinish()
+        return [each.image.view.tobytes() for each in context.storage.window.attachments.values()]
+
+    with use_short_cuts(False):
+        expected = drawn()
+    assert drawn() == expected
+    assert batches == [12]
+    assert len(planned) == 1
 
 
 def test_what_a_run_depends_on_is_known_when_its_state_returns(planned):

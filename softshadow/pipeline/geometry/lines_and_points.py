@@ -70,17 +70,15 @@ def set_up_points_of(
 ) -> tuple[Geometry, Setup]:
     """Return the triangles of points (P,) int32, and the geometry with the vertices and values that they need.
 
-    `sizes` (V,) are those of the vertices if the vertex stage computes them, else None.
+    `sizes` (V,) are those of the vertices if the vertex stage computes them, or draws differ in it; else None.
     """
     real = geometry.window.dtype.type
-    size = state.polygon.point_size
-    limited = min(size, state.points.largest) if size > state.points.smallest else state.points.smallest
-    own_sizes = np.full(len(points), limited, real) if sizes is None else sizes[points]
+    own_sizes = np.full(len(points), size_of_points(state), real) if sizes is None else sizes[points]
     if points_are_smooth(state):
         places, corners = geometry.values.shape[1], _room_for_corners(geometry, len(points), INSIDE_POINT)
         room = (rows[len(geometry.window) :] for rows in corners)
         points = np.ascontiguousarray(points)
-        smooth_points(geometry.window, geometry.values, points, own_sizes, sizes is not None, *room)
+        smooth_points(geometry.window, geometry.values, points, own_sizes, *room)
         geometry, triangles = _with_rectangles(geometry, *corners, POINT_TRIANGLES, ids, "point", flipped)
         discards = (geometry.discards or Discards())._replace(places=places, outside=is_outside_point)
         return geometry._replace(discards=discards), triangles
@@ -91,6 +89,13 @@ def set_up_points_of(
     of_vertices[points] = widths
     upwards = (state.points.origin == gl.GL_UPPER_LEFT) == flipped
     return geometry._replace(sprites=Sprites(_replaced_columns(geometry, state), of_vertices, upwards)), triangles
+
+
+def size_of_points(state: State) -> float:
+    """Return the size in pixels of all points of a draw; that of smooth ones is at least 2."""
+    size, points = state.polygon.point_size, state.points
+    limited = min(size, points.largest) if size > points.smallest else points.smallest
+    return max(limited, 2.0) if points_are_smooth(state) else limited
 
 
 def _replaced_columns(geometry: Geometry, state: State) -> tuple[int, ...]:

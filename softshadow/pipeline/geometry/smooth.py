@@ -84,16 +84,11 @@ def smooth_points(
     values: np.ndarray,
     points: np.ndarray,
     sizes: np.ndarray,
-    per_vertex: bool,
     corners: np.ndarray,
     corner_values: np.ndarray,
 ) -> None:
-    """Write the squares of points (P,) int32 with `sizes` (P,), as `smooth_lines`; triangles are `POINT_TRIANGLES`.
-
-    A size that all points share is at least 2, one of the vertex stage is not (`per_vertex`).
-    """
-    real = window.dtype.type
-    radius = real(0.5) * (sizes if per_vertex else np.maximum(sizes, real(2)))
+    """Write the squares of points (P,) int32 with `sizes` (P,), as `smooth_lines`; triangles are `POINT_TRIANGLES`."""
+    radius = window.dtype.type(0.5) * sizes
     write_point_corners(window, values, points, radius, corners, corner_values)
 
 

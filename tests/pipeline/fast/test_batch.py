@@ -107,7 +107,7 @@ class Program:
 
     def set_tests(self) -> None:
         """Change a few of the settings that many small draws of ordinary programs change in between."""
-        kind = int(self.rng.integers(9))
+        kind = int(self.rng.integers(10))
         if kind == 0:
             self.switch(gl.GL_SCISSOR_TEST)
             gl.glScissor(*self.rng.integers(0, SIZE, 4).tolist())
@@ -129,6 +129,8 @@ class Program:
             self.switch(gl.GL_TEXTURE_2D)
         elif kind == 7:
             self.switch(gl.GL_LIGHTING)
+        elif kind == 8:
+            gl.glPointSize(self.rng.uniform(0.1, 6))
         else:
             gl.glViewport(*self.rng.integers(-4, SIZE, 2).tolist(), *self.rng.integers(1, SIZE, 2).tolist())
             gl.glDepthRange(*self.rng.random(2).tolist())

@@ -36,6 +36,7 @@ from softshadow.pipeline.geometry.geometry import (
 )
 from softshadow.pipeline.geometry.line_stipple import CONTINUES
 from softshadow.pipeline.geometry.lines import clip_lines
+from softshadow.pipeline.geometry.lines_and_points import size_of_points
 from softshadow.pipeline.geometry.points import clip_points
 from softshadow.pipeline.geometry.program import program_of
 from softshadow.pipeline.geometry.triangle_setup import NO_TRIANGLES, Offset, empty_setup, stored_culling
@@ -232,11 +233,15 @@ def _with_pieces(geometry: Geometry, clipped: Clipped, setting: Setting, table: 
 
 
 def _point_sizes(run: Run, draws: Sequence[Draw]) -> np.ndarray | None:
-    """Return the sizes of points (V,) where they depend on the distance, else None."""
-    if run.state.points.attenuation == PLAIN_POINTS.attenuation:
+    """Return the sizes of points (V,) where they depend on the distance or differ between draws, else None."""
+    if run.state.points.attenuation != PLAIN_POINTS.attenuation:
+        sizes = [point_sizes(draw.state, vertex_inputs(draw, NO_UNIFORMS)) for draw in draws]
+        return np.concatenate([each for each in sizes if each is not None])
+    polygon = run.state.polygon
+    if all(draw.state.polygon is polygon for draw in draws):
         return None
-    sizes = [point_sizes(draw.state, vertex_inputs(draw, NO_UNIFORMS)) for draw in draws]
-    return np.concatenate([each for each in sizes if each is not None])
+    counts = [len(draw.vertices.position) for draw in draws]
+    return np.repeat(np.array([size_of_points(draw.state) for draw in draws], REAL), counts)
 
 
 def _stipple_places(draws: Sequence[Draw], source: np.ndarray) -> np.ndarray:

@@ -2,7 +2,7 @@
 
 The draws of a run are processed together. They have the same state but for their lighting, viewport and scissor box, so
 they share a program of the fixed function and nearly all that happens to fragments. Their matrices, vertices, current
-attributes, viewports and lights differ.
+attributes, viewports and lights differ, and the sizes of points.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Hashable
 from copy import copy
 from dataclasses import fields
+from functools import lru_cache
 from operator import attrgetter
 from typing import NamedTuple
 
@@ -17,6 +18,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.frozen import evolve, remembered
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.assembly import MODES, POLYGONS
 from softshadow.pipeline.fast.batch.vertices import (
@@ -47,10 +49,11 @@ GENERATED = {
 # lights and materials differ between the draws of a run; other viewports and scissor boxes begin a segment
 DIFFERENT = ("lighting", "viewport", "scissor", "read_framebuffer")
 GROUPS = tuple(group.name for group in fields(State) if group.name not in DIFFERENT)
-groups_of = attrgetter(*GROUPS)
+_groups_of = attrgetter(*GROUPS)
+POLYGON = GROUPS.index("polygon")
 # groups that concern fragments only, but for whether depths are clamped; alpha test and colour mask decide more
 OF_TESTS = ("stencil", "depth", "blend")
-other_groups_of = attrgetter(*(group for group in GROUPS if group not in OF_TESTS))
+OTHERS = tuple(number for number, group in enumerate(GROUPS) if group not in OF_TESTS)
 PLAIN_POINTS = Points()
 WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recent ones
 IDENTITY = np.eye(4, dtype=np.float32)
@@ -159,13 +162,15 @@ class Run:
 
     def takes(self, command: Draw) -> bool:
         """Return whether a draw of the same kind as the others continues the run."""
-        has_state = command.state is self.state or groups_of(command.state) == groups_of(self.state)
+        has_state = command.state is self.state or groups_of(command) == groups_of(self.command)
         return has_state and self._is_alike(command)
 
     def under(self, command: Draw) -> Run | None:
         """Return the run that begins with a draw whose state has other tests or blending; None if more differs."""
         state, first = command.state, self.state
-        if other_groups_of(state) != other_groups_of(first) or state.depth.clamp != first.depth.clamp:
+        if _without_tests(groups_of(command)) != _without_tests(groups_of(self.command)):
+            return None
+        if state.depth.clamp != first.depth.clamp:
             return None
         if not self._is_alike(command):
             return None
@@ -224,9 +229,33 @@ def width_of(mode: int) -> int:
     return WIDTH_OF_POLYGONS if mode in POLYGONS else 1 if mode == gl.GL_POINTS else WIDTH_OF_LINES
 
 
-def key_of(state: State, *, with_tests: bool = True) -> tuple[int, ...]:
-    """Return by what to look for a run that may take draws of a state: the identities of its groups."""
-    return tuple(map(id, groups_of(state) if with_tests else other_groups_of(state)))
+def groups_of(command: Draw) -> tuple[object, ...]:
+    """Return the groups of a draw's state that are those of the run; points have a size of their own."""
+    groups: tuple[object, ...] = _groups_of(command.state)
+    if command.mode == gl.GL_POINTS:
+        return *groups[:POLYGON], without_size(command.state.polygon), *groups[POLYGON + 1 :]
+    return groups
+
+
+def _without_tests(groups: tuple[object, ...]) -> tuple[object, ...]:
+    return tuple([groups[number] for number in OTHERS])
+
+
+@remembered
+def without_size(polygon: Polygon) -> Polygon:
+    """Return a group with the initial size of points; equal ones are the same object."""
+    return _the_same(evolve(polygon, point_size=Polygon.point_size))
+
+
+@lru_cache(maxsize=1024)
+def _the_same(polygon: Polygon) -> Polygon:
+    return polygon
+
+
+def key_of(command: Draw, *, with_tests: bool = True) -> tuple[int, ...]:
+    """Return by what to look for a run that may take a draw: the identities of its state's groups."""
+    groups = groups_of(command)
+    return tuple(map(id, groups if with_tests else _without_tests(groups)))
 
 
 def structure_of(lights: Lighting) -> tuple[object, ...]:
@@ -239,7 +268,7 @@ def geometry_structure(run: Run) -> tuple[Hashable, ...]:
     """Return what the geometry of a run's draws depends on in their state and in which arrays they have."""
     state = run.state
     return (
-        state.draw_framebuffer, state.polygon, state.depth.clamp, *structure_of(state.lighting),
+        state.draw_framebuffer, groups_of(run.command)[POLYGON], state.depth.clamp, *structure_of(state.lighting),
         run.layout, run.arrays, run.generated.tobytes(), run.planes.tobytes(), run.user_planes.tobytes(), run.across,
         run.writes_color, effective_modes(state), state.lines, state.points,
         tuple([unit.index for unit in run.units]), width_of(run.command.mode),
