@@ -126,7 +126,7 @@ class VertexBuffer:
     active_sizes : dict      attribute: number of components in the last call (Mesa's active_size)
     n_vertices : int         number of vertices collected since the last submission
     used_bytes : int         bytes of the buffer before these vertices
-    joined_pairs : JoinedPairs or None    triangles or quads that are not drawn yet, since more may follow
+    joined_pairs : JoinedPairs or None    separate primitives that are not drawn yet, since more may follow
     pairs : CollectedPairs   glBegin ... glEnd pairs since the last submission
     driver_draw : DriverDraw the driver's draw that the next pair of the same mode belongs to
 

@@ -79,7 +79,7 @@ class PairNumbers:
 
 
 def collect_pair(context: Context, mode: int, primitive: Primitive) -> None:
-    """Collect a pair of triangles or quads, to draw it together with pairs that follow."""
+    """Collect a pair of separate primitives, to draw it together with pairs that follow."""
     buffer, count = context.vertex_buffer, len(primitive.positions) // 4
     told = "/".join(context.labels) if context.labels else "", context.origin
     joined = buffer.joined_pairs if buffer.can_join(mode) else None
@@ -108,7 +108,7 @@ def _is_plain(context: Context, carried: Carried, primitive: Primitive) -> bool:
         or primitive.materials
         or primitive.arrays
         or context.groups["lighting"].fields["color_material"]
-        or False
+        or not current.edge
         or current.secondary != BLACK
         or current.fog_coordinate
     )

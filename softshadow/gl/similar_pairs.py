@@ -15,7 +15,7 @@ from softshadow.frozen import create, evolve
 from softshadow.gl.constant_attributes import ConstantSet, DrawnVertices, carried_of, constant_attributes
 from softshadow.gl.vertex_format import TEXCOORDS
 from softshadow.pipeline.commands import Draw, Vertices
-from softshadow.pipeline.mesa.driver_draws import CORNERS
+from softshadow.pipeline.mesa.driver_draws import SEPARATE
 from softshadow.state import BLACK
 
 FEWEST = 4  # vertices: Mesa draws some pairs with fewer in another mode
@@ -95,7 +95,7 @@ class SimilarPairs:
         context, count = self._context, pair.count
         buffer = context.vertex_buffer
         n_vertices = buffer.n_vertices + count
-        if count < FEWEST or mode in CORNERS or n_vertices >= buffer.room - 1:
+        if count < FEWEST or mode in SEPARATE or n_vertices >= buffer.room - 1:
             return False
         buffer.n_vertices = n_vertices
         constants = constant_attributes(context) if pair.has_late else self._constants

@@ -1,9 +1,9 @@
 """Which glBegin ... glEnd pairs Mesa hands to the driver as one draw.
 
-Consecutive pairs of triangles or quads with nothing between them are joined to one list of primitives (`JoinedPairs`).
-How llvmpipe cuts a quad into triangles depends on whether any vertex of the joined pairs is clipped, so all pairs must
-be known before the first one is drawn (`softshadow.pipeline.mesa.quad_cuts`). Which triangles it draws depends on their
-number (`softshadow.pipeline.mesa.rectangles`).
+Consecutive pairs of points, lines, triangles or quads with nothing between them are joined to one list of primitives
+(`JoinedPairs`). How llvmpipe cuts a quad into triangles depends on whether any vertex of the joined pairs is clipped,
+so all pairs must be known before the first one is drawn (`softshadow.pipeline.mesa.quad_cuts`). Which triangles it
+draws depends on their number (`softshadow.pipeline.mesa.rectangles`).
 
 Pairs of other modes are not joined, but those of one mode in a row are still one draw of the driver (`DriverDraw`), in
 which the first triangle decides the polygon offset of all.
@@ -24,8 +24,8 @@ from softshadow.pipeline.commands import Draw, Origin, Vertices
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, offset_is_on
 from softshadow.state import BLACK
 
-CORNERS = {gl.GL_TRIANGLES: 3, gl.GL_QUADS: 4}  # vertices per primitive, for the modes whose pairs are joined
-SEPARATE = {gl.GL_POINTS: 1, gl.GL_LINES: 2, **CORNERS}  # vertices per primitive, for the modes that share none
+CORNERS = {gl.GL_TRIANGLES: 3, gl.GL_QUADS: 4}  # vertices per primitive, where the number of all decides what is drawn
+SEPARATE = {gl.GL_POINTS: 1, gl.GL_LINES: 2, **CORNERS}  # vertices per primitive, for the modes whose pairs are joined
 OPTIONAL = {"edges": True, "secondary": BLACK, "fog_coordinates": 0.0}  # the last fields of `Vertices`: initial values
 MAX_PAIRS = 64  # with so many collected pairs, Mesa draws them (VBO_MAX_PRIM)
 
@@ -64,7 +64,7 @@ class JoinedPairs:
     @property
     def takes_more(self) -> bool:
         """Whether another pair can be joined: only after complete primitives."""
-        return self.n_vertices % CORNERS[self.first.mode] == 0
+        return self.n_vertices % SEPARATE[self.first.mode] == 0
 
     def commands(self) -> list[Draw]:
         """Return the draws: one if debug groups and origins of all pairs are equal, else one for each change."""
@@ -76,8 +76,11 @@ class JoinedPairs:
         whole = join_vertices([vertices for _, vertices in parts]).position
         commands, start = [], 0
         for (label, origin), group in groups:
-            vertices, told = join_vertices(group), {"label": label, "origin": origin}
-            commands.append(evolve(self.first, vertices=vertices, joined_positions=whole, joined_start=start, **told))
+            vertices = join_vertices(group)
+            command = evolve(self.first, vertices=vertices, label=label, origin=origin)
+            if command.mode in CORNERS:
+                command = evolve(command, joined_positions=whole, joined_start=start)
+            commands.append(command)
             start += len(vertices.position)
         return commands
 
