@@ -165,11 +165,10 @@ class VertexBuffer:
         joined = self.joined_pairs
         return joined is not None and joined.first.mode == mode and joined.takes_more
 
-    def begin_joined_pairs(self, first: Draw) -> JoinedPairs:
-        """Draw the joined pairs, and begin new ones under the state of `first`."""
+    def begin_joined_pairs(self, first: Draw, n_vertices: int) -> None:
+        """Draw the joined pairs, and begin new ones with a draw of so many vertices."""
         self.draw_joined_pairs()
-        self.joined_pairs = JoinedPairs(first)
-        return self.joined_pairs
+        self.joined_pairs = JoinedPairs(first, n_vertices)
 
     def end_pair(self, mode: int, vertices: int) -> None:
         """Count a glBegin ... glEnd pair; draw if it is empty and of another mode, or the 64th."""

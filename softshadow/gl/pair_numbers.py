@@ -15,7 +15,6 @@ from softshadow.pipeline.commands import Vertices
 from softshadow.state import BLACK
 
 FEW = 16  # vertices of a pair whose numbers wait; arrays for more cost little in comparison
-NO_VERTICES = Vertices(np.empty((0, 4)), np.empty((0, 4)), np.empty((0, 3)), ())  # until the numbers are arrays
 
 
 class PairNumbers:
@@ -23,26 +22,21 @@ class PairNumbers:
 
     Parameters
     ----------
-    context : Context                its current values are those of the first pair
-    primitive : Primitive            the first pair, whose lists grow
-    carried : Carried                which attributes the vertices carry
+    context : Context
+    first : Vertices             the vertices of the first pair
+    carried : Carried            which attributes all vertices carry; the others are the current values
     """
 
     __slots__ = ("_carried", "_color", "_columns", "_context", "_normal", "_positions", "_texcoords")
 
-    def __init__(self, context: Context, primitive: Primitive, carried: Carried) -> None:
+    def __init__(self, context: Context, first: Vertices, carried: Carried) -> None:
         self._context, self._carried = context, carried
         self._color, self._normal = context.current.color, context.current.normal
         self._texcoords = kept_constants(context).find_texcoords(context, carried.units)
-        self._positions = primitive.positions
-        self._columns = {name: primitive.components(name, context.attribute(name)) for name in carried.columns}
-
-    def takes(self, carried: Carried) -> bool:
-        """Return whether a pair with these attributes can be added.
-
-        The others have not changed: their first change submits the collected vertices.
-        """
-        return carried is self._carried
+        self._positions: list[float] = first.position.reshape(-1).tolist()
+        rows = {name: first.texcoords[unit] for unit, name in carried.units}
+        rows.update(color=first.color, normal=first.normal)
+        self._columns: dict[str, list[float]] = {name: rows[name].reshape(-1).tolist() for name in carried.columns}
 
     def add(self, primitive: Primitive) -> None:
         """Add the numbers of another pair."""
@@ -81,34 +75,45 @@ class PairNumbers:
 def collect_pair(context: Context, mode: int, primitive: Primitive) -> None:
     """Collect a pair of separate primitives, to draw it together with pairs that follow."""
     buffer, count = context.vertex_buffer, len(primitive.positions) // 4
+    if not buffer.can_join(mode):
+        buffer.begin_joined_pairs(context.draw_command(mode, vertices_of(context, primitive)), count)
+        return
+    joined = buffer.joined_pairs
+    assert joined is not None
     told = "/".join(context.labels) if context.labels else "", context.origin
-    joined = buffer.joined_pairs if buffer.can_join(mode) else None
-    carried = carried_of(tuple(buffer.sizes))
-    if count > FEW or not _is_plain(context, carried, primitive):
-        vertices = vertices_of(context, primitive)
-        if joined is None:
-            joined = buffer.begin_joined_pairs(context.draw_command(mode, vertices))
-        joined.add(told, vertices, count)
+    last, carried = joined.last(told), carried_of(tuple(buffer.sizes))
+    if last is None or count > FEW or not _is_plain(context, carried, primitive):
+        joined.add(told, vertices_of(context, primitive), count)
         return
-    last = joined.last(told) if joined is not None else None
-    if joined is not None and isinstance(last, PairNumbers) and last.takes(carried):
-        joined.n_vertices += count
-        last.add(primitive)
-        return
-    if joined is None:
-        joined = buffer.begin_joined_pairs(context.draw_command(mode, NO_VERTICES))
-    joined.add(told, PairNumbers(context, primitive, carried), count)
+    if isinstance(last, Vertices):
+        if not _are_few_and_plain(last):
+            joined.add(told, vertices_of(context, primitive), count)
+            return
+        last = PairNumbers(context, last, carried)
+        joined.replace_last(last)
+    assert isinstance(last, PairNumbers)
+    last.add(primitive)
+    joined.n_vertices += count
 
 
 def _is_plain(context: Context, carried: Carried, primitive: Primitive) -> bool:
-    """Return whether vertices have no more than colours, normals and texture coordinates, and materials follow none."""
+    """Return whether a pair has the attributes of the one before, no more than every `Vertices`, and no materials.
+
+    Only a pair that a display list begins may carry more than the one before: all others submit that first.
+    """
     current = context.current
     return not (
         carried.optional
+        or primitive.from_list
         or primitive.materials
         or primitive.arrays
-        or context.groups["lighting"].fields["color_material"]
         or not current.edge
         or current.secondary != BLACK
         or current.fog_coordinate
     )
+
+
+def _are_few_and_plain(vertices: Vertices) -> bool:
+    """Return whether vertices of a pair are few, and have no attributes that not every pair has."""
+    optional = vertices.edges, vertices.secondary, vertices.fog_coordinates
+    return len(vertices.position) <= FEW and not vertices.materials and optional == (None, None, None)

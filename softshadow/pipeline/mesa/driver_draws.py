@@ -12,7 +12,7 @@ which the first triangle decides the polygon offset of all.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import groupby
 from typing import Protocol
 
@@ -40,19 +40,24 @@ class LateVertices(Protocol):
         """Return them."""
 
 
-@dataclass(eq=False, slots=True)
 class JoinedPairs:
-    """Joined pairs that are not drawn yet: `first` is the command of the first one, with the state of all.
+    """Joined pairs that are not drawn yet.
 
-    `parts` holds the debug groups, the origin and the vertices of one or more pairs, `n_vertices` the number of all.
+    Attributes
+    ----------
+    first : Draw             the command of the first one, with the state of all
+    n_vertices : int         of all pairs
+    parts : list             the debug groups, the origin and the vertices of one or more pairs
     """
 
-    first: Draw
-    parts: list[tuple[Told, Vertices | LateVertices]] = field(default_factory=list)
-    n_vertices: int = 0
+    __slots__ = ("first", "n_vertices", "parts")
 
-    def add(self, told: Told, vertices: Vertices | LateVertices, count: int) -> None:
-        """Add a part of `count` vertices."""
+    def __init__(self, first: Draw, n_vertices: int) -> None:
+        self.first, self.n_vertices = first, n_vertices
+        self.parts: list[tuple[Told, Vertices | LateVertices]] = [((first.label, first.origin), first.vertices)]
+
+    def add(self, told: Told, vertices: Vertices, count: int) -> None:
+        """Add a pair of `count` vertices."""
         self.parts.append((told, vertices))
         self.n_vertices += count
 
@@ -61,6 +66,10 @@ class JoinedPairs:
         told_before, vertices = self.parts[-1]
         return vertices if told_before == told else None
 
+    def replace_last(self, vertices: LateVertices) -> None:
+        """Replace the last part by one to which pairs can be added."""
+        self.parts[-1] = self.parts[-1][0], vertices
+
     @property
     def takes_more(self) -> bool:
         """Whether another pair can be joined: only after complete primitives."""
@@ -68,11 +77,12 @@ class JoinedPairs:
 
     def commands(self) -> list[Draw]:
         """Return the draws: one if debug groups and origins of all pairs are equal, else one for each change."""
+        if len(self.parts) == 1 and self.parts[0][1] is self.first.vertices:
+            return [self.first]
         parts = [(told, part if isinstance(part, Vertices) else part.vertices()) for told, part in self.parts]
         groups = [(told, [part for _, part in group]) for told, group in groupby(parts, lambda part: part[0])]
         if len(groups) == 1:
-            vertices = join_vertices(groups[0][1])
-            return [self.first if vertices is self.first.vertices else evolve(self.first, vertices=vertices)]
+            return [evolve(self.first, vertices=join_vertices(groups[0][1]))]
         whole = join_vertices([vertices for _, vertices in parts]).position
         commands, start = [], 0
         for (label, origin), group in groups:
