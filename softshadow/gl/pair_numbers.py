@@ -82,13 +82,11 @@ def collect_pair(context: Context, mode: int, primitive: Primitive) -> None:
     assert joined is not None
     told = "/".join(context.labels) if context.labels else "", context.origin
     last, carried = joined.last(told), carried_of(tuple(buffer.sizes))
-    if last is None or count > FEW or not _is_plain(context, carried, primitive):
+    are_many = count > FEW or (isinstance(last, Vertices) and len(last.position) > FEW)
+    if last is None or are_many or not _is_plain(context, carried, primitive):
         joined.add(told, vertices_of(context, primitive), count)
         return
     if isinstance(last, Vertices):
-        if not _are_few_and_plain(last):
-            joined.add(told, vertices_of(context, primitive), count)
-            return
         last = PairNumbers(context, last, carried)
         joined.replace_last(last)
     assert isinstance(last, PairNumbers)
@@ -97,23 +95,16 @@ def collect_pair(context: Context, mode: int, primitive: Primitive) -> None:
 
 
 def _is_plain(context: Context, carried: Carried, primitive: Primitive) -> bool:
-    """Return whether a pair has the attributes of the one before, no more than every `Vertices`, and no materials.
+    """Return whether vertices have no more attributes than all `Vertices` have.
 
-    Only a pair that a display list begins may carry more than the one before: all others submit that first.
+    Those of the pair before then have the same ones: a change of which attributes vertices carry, or of one that they
+    do not carry, submits what is collected.
     """
     current = context.current
     return not (
         carried.optional
-        or primitive.from_list
         or primitive.materials
-        or primitive.arrays
         or not current.edge
         or current.secondary != BLACK
         or current.fog_coordinate
     )
-
-
-def _are_few_and_plain(vertices: Vertices) -> bool:
-    """Return whether vertices of a pair are few, and have no attributes that not every pair has."""
-    optional = vertices.edges, vertices.secondary, vertices.fog_coordinates
-    return len(vertices.position) <= FEW and not vertices.materials and optional == (None, None, None)

@@ -110,16 +110,28 @@ def test_a_large_pair_makes_its_arrays_at_once(context):
     assert not isinstance(part[1], pair_numbers.PairNumbers)
 
 
-def test_a_pair_that_a_list_begins_may_carry_more_than_those_before(context):
-    listed = gl.glGenLists(1)
-    gl.glNewList(listed, gl.GL_COMPILE)
-    gl.glBegin(gl.GL_QUADS)
-    gl.glColor3f(1, 0, 0)
-    gl.glEndList()
-    quad(0)
-    gl.glCallList(listed)
-    for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)):
-        gl.glVertex2f(x, y)
-    gl.glEnd()
+@pytest.mark.parametrize("mode", [gl.GL_QUADS, gl.GL_POINTS])
+def test_evaluated_vertices_are_those_of_the_map(context, mode):
+    gl.glMap1f(gl.GL_MAP1_VERTEX_3, 0, 1, [(0, 0, 0), (1, 2, 4)])
+    gl.glEnable(gl.GL_MAP1_VERTEX_3)
+    for pair in range(3):
+        gl.glBegin(mode)
+        for k in range(4):
+            gl.glEvalCoord1f((4 * pair + k) / 16)
+        gl.glEnd()
+    positions = np.concatenate([command.vertices.position for command in context.frame.commands])
+    assert positions.tolist() == [[n / 16, n / 8, n / 4, 1] for n in range(12)]
+
+
+@pytest.mark.parametrize("few", [0, 16])
+def test_meshes_of_points_have_the_colours_of_their_maps(context, monkeypatch, few):
+    monkeypatch.setattr(pair_numbers, "FEW", few)
+    gl.glMap1f(gl.GL_MAP1_VERTEX_3, 0, 1, [(0, 0, 0), (1, 2, 4)])
+    gl.glMap1f(gl.GL_MAP1_COLOR_4, 0, 1, [(0, 0, 0, 1), (1, 0.5, 0, 1)])
+    gl.glEnable(gl.GL_MAP1_VERTEX_3)
+    gl.glEnable(gl.GL_MAP1_COLOR_4)
+    gl.glMapGrid1f(4, 0, 1)
+    for _ in range(3):
+        gl.glEvalMesh1(gl.GL_POINT, 0, 4)
     colors = np.concatenate([command.vertices.color for command in context.frame.commands])
-    assert colors.tolist() == [[1, 1, 1, 1]] * 4 + [[1, 0, 0, 1]] * 4
+    assert colors.tolist() == [[n / 4, n / 8, 0, 1] for n in range(5)] * 3
