@@ -256,13 +256,64 @@ def watched_cubes(gl: Any, size: tuple[int, int]) -> DrawNumberedFrame:
     return frame
 
 
+def sized_points(gl: Any, size: tuple[int, int]) -> DrawNumberedFrame:
+    """A chart of 600 smooth points, each in its size and colour, between lines of a grid, one by one."""
+    points = np.random.default_rng(6).uniform(0, 1, (600, 3)).tolist()
+
+    def frame(number: int) -> None:
+        flat_view(gl, size, 1.0, 1.0)
+        clear(gl)
+        gl.glEnable(gl.GL_POINT_SMOOTH)
+        gl.glEnable(gl.GL_BLEND)
+        gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
+        for i in range(1, 40):
+            for a, b in ((i / 40, 0.0), (0.0, i / 40)):
+                gl.glBegin(gl.GL_LINES)
+                gl.glVertex2f(a, b)
+                gl.glVertex2f(a or 1.0, b or 1.0)
+                gl.glEnd()
+        for x, y, weight in points:
+            gl.glPointSize(1 + 8 * weight)
+            gl.glColor4f(x, y, 1 - weight, 0.7)
+            gl.glBegin(gl.GL_POINTS)
+            gl.glVertex2f((x + 0.003 * number * weight) % 1, y)
+            gl.glEnd()
+
+    return frame
+
+
+def wall_of_bricks(gl: Any, size: tuple[int, int]) -> DrawNumberedFrame:
+    """A game: 240 bricks by glRectf, each in its colour, and boxes whose faces are drawn one by one, with outlines."""
+
+    def frame(number: int) -> None:
+        flat_view(gl, size, 640.0, 480.0)
+        clear(gl)
+        for i in range(240):
+            if (i + number) % 7:
+                gl.glColor3ub(i, 250 - i, 120)
+                gl.glRectf(i % 16 * 40 + 2, 150 + i // 16 * 20, i % 16 * 40 + 38, 168 + i // 16 * 20)
+        for i in range(20):
+            gl.glPushMatrix()
+            gl.glTranslatef(32 * i + 16, 60 + 40 * math.sin(0.1 * number + i), 0)
+            for mode in (gl.GL_QUADS, gl.GL_LINE_LOOP):
+                for face in range(4):
+                    gl.glColor3f(0.25 * face, 0.5, 1.0 if mode == gl.GL_QUADS else 0.0)
+                    gl.glBegin(mode)
+                    for a, b in CORNERS:
+                        gl.glVertex2f(12 * (a + face % 2) - 12, 12 * (b + face // 2) - 12)
+                    gl.glEnd()
+            gl.glPopMatrix()
+
+    return frame
+
+
 PROGRAMS = tuple(
     replace(each, name=f"{FAMILY}/{each.name}")
     for each in map(
         program,
         (
             pencil_sketch, dashed_boxes, widgets, leaves, stars, four_views, depth_of_field, surface_plot,
-            watched_cubes,
+            watched_cubes, sized_points, wall_of_bricks,
         ),
     )
 )  # fmt: skip
