@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Hashable
 from copy import copy
 from dataclasses import fields
-from functools import lru_cache
 from operator import attrgetter
 from typing import NamedTuple
 
@@ -18,7 +17,6 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
-from softshadow.frozen import evolve, remembered
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.assembly import MODES, POLYGONS
 from softshadow.pipeline.fast.batch.vertices import (
@@ -54,7 +52,7 @@ POLYGON = GROUPS.index("polygon")
 # groups that concern fragments only, but for whether depths are clamped; alpha test and colour mask decide more
 OF_TESTS = ("stencil", "depth", "blend")
 OTHERS = tuple(number for number, group in enumerate(GROUPS) if group not in OF_TESTS)
-PLAIN_POINTS = Points()
+PLAIN_POINTS, PLAIN_POLYGON = Points(), Polygon()
 WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recent ones
 IDENTITY = np.eye(4, dtype=np.float32)
 IDENTITY_BYTES = IDENTITY.tobytes()
@@ -230,26 +228,13 @@ def width_of(mode: int) -> int:
 
 
 def groups_of(command: Draw) -> tuple[object, ...]:
-    """Return the groups of a draw's state that are those of the run; points have a size of their own."""
+    """Return the groups of a draw's state that are those of the run: of `Polygon`, points use only their size."""
     groups: tuple[object, ...] = _groups_of(command.state)
-    if command.mode == gl.GL_POINTS:
-        return *groups[:POLYGON], without_size(command.state.polygon), *groups[POLYGON + 1 :]
-    return groups
+    return (*groups[:POLYGON], PLAIN_POLYGON, *groups[POLYGON + 1 :]) if command.mode == gl.GL_POINTS else groups
 
 
 def _without_tests(groups: tuple[object, ...]) -> tuple[object, ...]:
     return tuple([groups[number] for number in OTHERS])
-
-
-@remembered
-def without_size(polygon: Polygon) -> Polygon:
-    """Return a group with the initial size of points; equal ones are the same object."""
-    return _the_same(evolve(polygon, point_size=Polygon.point_size))
-
-
-@lru_cache(maxsize=1024)
-def _the_same(polygon: Polygon) -> Polygon:
-    return polygon
 
 
 def key_of(command: Draw, *, with_tests: bool = True) -> tuple[int, ...]:
