@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from softshadow import gl
+from softshadow.context import vertex_buffer
 from softshadow.gl import pair_numbers
 
 NUMBERS = (0.0, -0.0, 0.25, 1.0, -3.5, 1e30, float("nan"))
@@ -135,3 +136,34 @@ def test_meshes_of_points_have_the_colours_of_their_maps(context, monkeypatch, f
         gl.glEvalMesh1(gl.GL_POINT, 0, 4)
     colors = np.concatenate([command.vertices.color for command in context.frame.commands])
     assert colors.tolist() == [[n / 4, n / 8, 0, 1] for n in range(5)] * 3
+
+
+@pytest.mark.parametrize("list_mode", [None, gl.GL_COMPILE, gl.GL_COMPILE_AND_EXECUTE])
+def test_rectangles_are_quads_also_where_the_buffer_is_full(monkeypatch, list_mode):
+    monkeypatch.setattr(vertex_buffer, "BYTES", 4096)
+
+    def rectangle(x):
+        gl.glRectf(x, 0, x + 1, 2)
+
+    def pair(x):
+        gl.glBegin(gl.GL_QUADS)
+        for corner in ((x, 0), (x + 1, 0), (x + 1, 2), (x, 2)):
+            gl.glVertex2f(*corner)
+        gl.glEnd()
+
+    def draws(draw_one):
+        with gl.create_context(4, 4) as context:
+            if list_mode:
+                gl.glNewList(1, list_mode)
+            for x in range(300):
+                if x in (1, 2, 150):
+                    gl.glColor3f(x / 300, 0, 1)
+                draw_one(x)
+            if list_mode:
+                gl.glEndList()
+                gl.glCallList(1)
+            return [described(command) for command in context.frame.commands]
+
+    of_pairs = draws(pair)
+    assert draws(rectangle) == of_pairs
+    assert len(of_pairs) > 3  # more than the colours would make

@@ -266,6 +266,7 @@ def sized_points(gl: Any, size: tuple[int, int]) -> DrawNumberedFrame:
         gl.glEnable(gl.GL_POINT_SMOOTH)
         gl.glEnable(gl.GL_BLEND)
         gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
+        gl.glColor3f(0.4, 0.4, 0.5)
         for i in range(1, 40):
             for a, b in ((i / 40, 0.0), (0.0, i / 40)):
                 gl.glBegin(gl.GL_LINES)
