@@ -298,6 +298,6 @@ def _fill(
     buffers = fill_buffers(*buffer_cells(target, real, writes_depth=writes_depth), real, region, ids)
     fill(
         choice.kernel, plan.front, plan.back, triangles, region, depth_range_of(state, real.type), buffers,
-        writes_ids=bool(writes_ids), band_rows_log2=choice.band_rows_log2, ranges=ranges, before=before,
+        writes_ids=bool(writes_ids), band_rows=choice.band_rows, ranges=ranges, before=before,
         after=after,
     )  # fmt: skip

@@ -6,6 +6,7 @@ decisions.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
@@ -17,7 +18,7 @@ from softshadow.pipeline.draw_path import begin_path
 from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.memory.threads import threads
 from softshadow.pipeline.plan import Plan, short_cuts
-from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, few_bands
+from softshadow.pipeline.raster.bins import BAND_ROWS, rows_of_few_bands
 from softshadow.pipeline.raster.fill import FillKernel, textbook_kernel
 from softshadow.pipeline.raster.fragment_ops import FragmentOps
 from softshadow.pipeline.raster.region import depth_range_of
@@ -80,10 +81,10 @@ def choose_geometry(plan: Plan, command: Draw, target: Framebuffer, storage: Sto
 
 
 class FillChoice(NamedTuple):
-    """The kernel that fills, and the binary logarithm of how many rows a band has (0: no bands)."""
+    """The kernel that fills, and how many rows a band has (0: no bands)."""
 
     kernel: FillKernel
-    band_rows_log2: int
+    band_rows: int
 
 
 def choose_fill(
@@ -130,7 +131,7 @@ def choose_fill(
     if counts is not None or not bands_pay or not _bands_pay(region, n_fragments):
         return FillChoice(kernel, 0)
     path.fill += " in bands"
-    return FillChoice(kernel, _band_rows_log2(region, n_fragments))
+    return FillChoice(kernel, _band_rows(region, n_fragments))
 
 
 def _shares_triangles(front: FragmentOps, back: FragmentOps, n_triangles: int, n_fragments: int) -> bool:
@@ -148,16 +149,16 @@ def _bands_pay(region: Region, fragments: int) -> bool:
     They pay for several threads, and for one where many layers lie on each other: the rows of a band stay in the cache
     while all layers are drawn.
     """
-    return region.end_row - region.first_row > 1 << BAND_ROWS_LOG2 and (threads() > 1 or _has_layers(region, fragments))
+    return region.end_row - region.first_row > BAND_ROWS and (threads() > 1 or _has_layers(region, fragments))
 
 
 def _has_layers(region: Region, fragments: int) -> bool:
     return fragments > LAYERS * (region.right - region.left) * (region.end_row - region.first_row)
 
 
-def _band_rows_log2(region: Region, fragments: int) -> int:
-    """Return the binary logarithm of how many rows a band has: few bands where each has little to do."""
-    return BAND_ROWS_LOG2 if _has_layers(region, fragments) else few_bands(region)
+def _band_rows(region: Region, fragments: int) -> int:
+    """Return how many rows a band has: few bands where each has little to do."""
+    return BAND_ROWS if _has_layers(region, fragments) else rows_of_few_bands(region, fragments)
 
 
 def fill_colorless(plan: Plan, command: Draw, target: Framebuffer, storage: Storage) -> Iterator[Chunk]:
@@ -229,9 +230,12 @@ def _hides_little(n_triangles: int, fragments: int, region: Region) -> bool:
 
 
 def joins_others(plan: Plan, state: State, target: Framebuffer, part: Part) -> SegmentState | None:
-    """Return the fragment state of a small segment that is drawn with others (`fast.segment_groups`), or None."""
-    is_small = 0 <= part.fragments <= FEW_FRAGMENTS and part.end - part.first < MANY_TRIANGLES
-    if not plan.forward or not is_small:
+    """Return the fragment state of a segment that is drawn with others (`fast.segment_groups`), or None.
+
+    It is one of few fragments, or one that is drawn in order in any case.
+    """
+    most = sys.maxsize if plan.in_order and not plan.passing_spans else FEW_FRAGMENTS
+    if not plan.forward or not 0 <= part.fragments <= most or part.end - part.first >= MANY_TRIANGLES:
         return None
     numbers = segment_state(state, plan.front, plan.back, target, part.batch, part.program.units, plan.numbers)
     if plan.counting and numbers is not None and discards_some(numbers.special):  # some that pass are left out later

@@ -25,7 +25,7 @@ from softshadow.pipeline.fast.segment_tables import (
 )
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import share, threads
-from softshadow.pipeline.raster.bins import BAND_ROWS_LOG2, few_bands, triangles_in_bands
+from softshadow.pipeline.raster.bins import BAND_ROWS, rows_of_few_bands, triangles_in_bands
 from softshadow.pipeline.raster.region import depth_range_of
 from softshadow.pipeline.records import Geometry, Region, Setup, Spans
 from softshadow.pipeline.shade.interpolate import AttributePlanes, attribute_planes
@@ -35,7 +35,7 @@ from softshadow.state import State
 TRIANGLES = 1 << 12  # whose planes are computed at a time
 SPANS = 1 << 14  # collected at a time; a row of the widest buffer has at most half as many
 WORTH_BANDS = 30_000  # fragments from which bands of rows pay for several threads: they take some 250 us
-SORTED_TRIANGLE = 10  # fragments that are drawn in the time in which a triangle is sorted into bands
+SET_UP = 8  # fragments for which bands pay as much as for the beginning of a triangle, whose planes are in one cache
 STENCIL_TESTED = 8  # if the stencil test can fail: fragments that fail take an eighth of the time
 
 
@@ -74,7 +74,7 @@ class Segments(NamedTuple):
     def pay_bands(self) -> bool:
         """Whether several threads share bands of rows."""
         rows = self.region.end_row - self.region.first_row
-        return threads() > 1 and self.work >= WORTH_BANDS and rows > 1 << BAND_ROWS_LOG2
+        return threads() > 1 and self.work >= WORTH_BANDS and rows > BAND_ROWS
 
 
 def draw_forward(
@@ -125,8 +125,8 @@ def buffers_of(target: Framebuffer, writes_depth: bool) -> tuple[np.ndarray, np.
 
 
 def work_of(numbers: SegmentState, fragments: int, n_triangles: int) -> int:
-    """Return by how many fragments, about, bands of rows pay: what sorting the triangles costs is taken off."""
-    return max(fragments // (STENCIL_TESTED if numbers.tests_stencil else 1) - SORTED_TRIANGLE * n_triangles, 0)
+    """Return how many fragments without a stencil test, about, take as long as these and their triangles."""
+    return fragments // (STENCIL_TESTED if numbers.tests_stencil else 1) + SET_UP * n_triangles
 
 
 def write_planes(geometry: Geometry, triangles: Setup, planes: np.ndarray) -> None:
@@ -144,7 +144,8 @@ def write_planes(geometry: Geometry, triangles: Setup, planes: np.ndarray) -> No
 def _draw_in_bands(segments: Segments, triangles: Setup, planes: np.ndarray) -> np.ndarray:
     """Draw the triangles of one segment in bands of rows, which several threads share; return what `draw_rows` does."""
     region = segments.region
-    bands = triangles_in_bands(triangles.corners, [(0, len(triangles.ids))], region, few_bands(region))
+    band_rows = rows_of_few_bands(region, segments.work)
+    bands = triangles_in_bands(triangles.corners, [(0, len(triangles.ids))], region, band_rows)
 
     def draw_band(n: int) -> np.ndarray:
         return draw_rows(segments, bands[n].first_row, bands[n].end_row, triangles, planes, bands[n].numbers)

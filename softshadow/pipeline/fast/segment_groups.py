@@ -1,7 +1,8 @@
-"""Consecutive small draws, drawn together; equals `raster.ordered.process_fragments`, see fast/test_segments.py.
+"""Consecutive draws, drawn together; equals `raster.ordered.process_fragments`, see fast/test_segments.py.
 
 A program that binds a texture or moves the scissor box between small draws makes segments of a few triangles. To begin
-one costs more than its fragments, so consecutive ones are drawn by one call of a kernel.
+one costs more than its fragments, so consecutive ones are drawn by one call of a kernel. Large draws in order are added
+to them: threads share the rows of all of them at once.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ from softshadow.pipeline.fast.span_state import UNITS
 from softshadow.pipeline.fast.span_texels import texels_of
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import share
-from softshadow.pipeline.raster.bins import bands_of, few_bands, rows_of_band
+from softshadow.pipeline.raster.bins import bands_of, rows_of_band, rows_of_few_bands
 from softshadow.pipeline.raster.region import depth_range_of, region_of
 from softshadow.pipeline.records import DepthRange, Geometry, Region, Setup
 from softshadow.state import State
@@ -59,7 +60,7 @@ class Triangles:
 
 
 class Group:
-    """Consecutive small draws to one framebuffer.
+    """Consecutive draws to one framebuffer.
 
     Parameters
     ----------
@@ -133,12 +134,12 @@ class Group:
         region, order = segments.region, in_order[: self._n_triangles]
         if not segments.pay_bands:
             return draw_rows(segments, region.first_row, region.end_row, triangles, planes, order)
-        rows_log2 = few_bands(region)
+        band_rows = rows_of_few_bands(region, segments.work)
 
         def draw_band(n: int) -> np.ndarray:
-            return draw_rows(segments, *rows_of_band(n, region, rows_log2), triangles, planes, order)
+            return draw_rows(segments, *rows_of_band(n, region, band_rows), triangles, planes, order)
 
-        passed: np.ndarray = np.sum(share(draw_band, bands_of(region, rows_log2)), axis=0)
+        passed: np.ndarray = np.sum(share(draw_band, bands_of(region, band_rows)), axis=0)
         return passed
 
     def _segments(self) -> Segments:

@@ -139,6 +139,9 @@ def collect_passing_spans(
         t = np.uint64(order[m])
         first, end = bounds(corners, t)
         row, end, f = max(row, max(first, first_row)), min(end, end_row), np.uint64(faces_front[t])
+        if row >= end:  # in other bands of rows, or between the samples
+            m, row = m + 1, first_row
+            continue
         row_spans(corners, t, row, end, downwards, region_left, region_right, first_columns, end_columns)
         while row < end:
             j = np.uint64(row)

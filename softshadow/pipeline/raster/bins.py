@@ -14,9 +14,10 @@ from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.coverage import bounds
 from softshadow.pipeline.records import Region
 
-BAND_ROWS_LOG2 = 5  # 32 rows: layers drawn over each other in a band stay in the cache
-BANDS_PER_THREAD = 2  # more would balance the threads better, but a triangle is set up again in each band that it meets
-FEW_VISITS = 1 << 14  # of triangles in bands: up to these, a look at each triangle takes less time than sorting
+BAND_ROWS = 32  # layers drawn over each other in a band stay in the cache
+BANDS_PER_THREAD = 2  # of much work: more would balance the threads better, but triangles are set up again in each
+MUCH_WORK = 500_000  # fragments; with less to do, to begin a second band costs a thread more than the balance gains
+FEW_VISITS = 1 << 15  # of triangles in bands: up to these, a look at each triangle takes less time than sorting
 
 
 class Band(NamedTuple):
@@ -38,29 +39,31 @@ class Bins(NamedTuple):
         return self.numbers[self.starts[band] : self.starts[band + 1]]
 
 
-def few_bands(region: Region) -> int:
-    """Return the binary logarithm of the rows of a band, for a few bands for each thread."""
-    rows = int(region.end_row - region.first_row) // (BANDS_PER_THREAD * threads())
-    return max(BAND_ROWS_LOG2, (rows + rows // 2).bit_length() - 1)
+def rows_of_few_bands(region: Region, work: int) -> int:
+    """Return how many rows a band has where each thread gets one band, or a few with so many fragments to draw."""
+    n_bands = threads() * (BANDS_PER_THREAD if work >= MUCH_WORK else 1)
+    return -(-int(region.end_row - _first_row(region)) // (n_bands * BAND_ROWS)) * BAND_ROWS
 
 
-def bands_of(region: Region, rows_log2: int = BAND_ROWS_LOG2) -> int:
+def bands_of(region: Region, band_rows: int = BAND_ROWS) -> int:
     """Return the number of bands of a region."""
-    return ((region.end_row - 1) >> rows_log2) - (region.first_row >> rows_log2) + 1
+    return (int(region.end_row) - 1 - _first_row(region)) // band_rows + 1
 
 
-def rows_of_band(band: int, region: Region, rows_log2: int) -> tuple[int, int]:
-    """Return first and end row of a band.
+def rows_of_band(band: int, region: Region, band_rows: int) -> tuple[int, int]:
+    """Return first and end row of a band, which has `band_rows`, a multiple of `BAND_ROWS`, or fewer at the ends."""
+    first = _first_row(region) + band * band_rows
+    return max(first, region.first_row), min(first + band_rows, region.end_row)
 
-    A band has 2**rows_log2 rows, the first one begins with a multiple of that: bands do not cut the tiles of
-    `fast/hierarchical_z.py`.
-    """
-    first = ((region.first_row >> rows_log2) + band) << rows_log2
-    return max(first, region.first_row), min(first + (1 << rows_log2), region.end_row)
+
+@inlined
+def _first_row(region):
+    """Return the row that the first band begins with: bands do not cut the tiles of `fast/hierarchical_z.py`."""
+    return region.first_row // BAND_ROWS * BAND_ROWS
 
 
 def triangles_in_bands(
-    corners: np.ndarray, parts: Sequence[tuple[int, int]], region: Region, rows_log2: int
+    corners: np.ndarray, parts: Sequence[tuple[int, int]], region: Region, band_rows: int
 ) -> list[Band]:
     """Return the bands of a region, each with the triangles in `parts` that meet it.
 
@@ -71,21 +74,21 @@ def triangles_in_bands(
     corners : (T, 6) int32, of `Setup`
     parts : first and end numbers of triangles, in order
     """
-    n_bands = bands_of(region, rows_log2)
+    n_bands = bands_of(region, band_rows)
     if sum(end - first for first, end in parts) * n_bands <= FEW_VISITS:
         numbers = np.concatenate([np.arange(first, end, dtype=np.int32) for first, end in parts])
-        return [Band(numbers, *rows_of_band(band, region, rows_log2)) for band in range(n_bands)]
-    bins = sort_into_bands(corners, parts, region, rows_log2)
-    return [Band(bins.of(band), *rows_of_band(band, region, rows_log2)) for band in range(n_bands)]
+        return [Band(numbers, *rows_of_band(band, region, band_rows)) for band in range(n_bands)]
+    bins = sort_into_bands(corners, parts, region, band_rows)
+    return [Band(bins.of(band), *rows_of_band(band, region, band_rows)) for band in range(n_bands)]
 
 
 def sort_into_bands(
-    corners: np.ndarray, parts: Sequence[tuple[int, int]], region: Region, rows_log2: int = BAND_ROWS_LOG2
+    corners: np.ndarray, parts: Sequence[tuple[int, int]], region: Region, band_rows: int = BAND_ROWS
 ) -> Bins:
     """Return the bins of the triangles in `parts`, their first and end numbers in order, for the bands of a region."""
-    base, end, bands = parts[0][0], parts[-1][1], bands_of(region, rows_log2)
+    base, end, bands = parts[0][0], parts[-1][1], bands_of(region, band_rows)
     band_ranges, marks = np.empty((end - base, 2), np.uint16), np.zeros((len(parts), 2, bands + 1), np.int64)
-    share(lambda n: write_band_ranges(corners, *parts[n], region, rows_log2, base, band_ranges, marks[n]), len(parts))
+    share(lambda n: write_band_ranges(corners, *parts[n], region, band_rows, base, band_ranges, marks[n]), len(parts))
     counts = np.cumsum(marks[:, 0] - marks[:, 1], axis=1)[:, :-1]
     # sums over bands, and in a band over parts: so a band keeps the drawing order
     end_places = np.cumsum(counts.T).reshape(counts.T.shape).T
@@ -97,18 +100,18 @@ def sort_into_bands(
 
 
 @inlined
-def band_range(corners, t, region, rows_log2):
+def band_range(corners, t, region, band_rows):
     """Return first and end band of a triangle (end exclusive); the range is empty where it meets none."""
     first, end = bounds(corners, t)
     first, end = max(first, region.first_row), min(end, region.end_row)
     if first >= end:
         return 0, 0
-    base = region.first_row >> rows_log2
-    return (first >> rows_log2) - base, ((end - 1) >> rows_log2) + 1 - base
+    first, end = first - _first_row(region), end - _first_row(region)
+    return first // band_rows, (end - 1) // band_rows + 1
 
 
 @kernel
-def write_band_ranges(corners, begin, end, region, rows_log2, base, band_ranges, marks):
+def write_band_ranges(corners, begin, end, region, band_rows, base, band_ranges, marks):
     """Write first and end band of each triangle to `band_ranges`, with `base` in row 0; count both in `marks`.
 
     marks (2, bands + 1): how many triangles begin with a band, and how many end before it. So no loop over the bands of
@@ -116,7 +119,7 @@ def write_band_ranges(corners, begin, end, region, rows_log2, base, band_ranges,
     """
     for number in range(begin, end):
         t = np.uint64(number)  # unsigned: no wrap-around of negative indices is compiled in
-        first_band, end_band = band_range(corners, t, region, rows_log2)
+        first_band, end_band = band_range(corners, t, region, band_rows)
         row = np.uint64(number - base)
         band_ranges[row, 0], band_ranges[row, 1] = first_band, end_band
         marks[0, np.uint64(first_band)] += 1

@@ -54,7 +54,7 @@ def fill(
     buffers: FillBuffers,
     *,
     writes_ids: bool = False,
-    band_rows_log2: int = 0,
+    band_rows: int = 0,
     ranges: Sequence[tuple[int, int]] | None = None,
     before: OfRows = nothing,
     after: OfRows = nothing,
@@ -65,7 +65,7 @@ def fill(
     ----------
     fill_kernel : `textbook_kernel`, or a kernel of `fast/`
     writes_ids : whether the ids of `buffers` are written
-    band_rows_log2 : the binary logarithm of how many rows a band has, 0 for no bands
+    band_rows : how many rows a band has, 0 for no bands
     ranges : the rows [first, end) of `triangles` to draw, all by default
     before, after : called with first and end row of each band before and after it is filled, by the same thread
     """
@@ -75,7 +75,7 @@ def fill(
         rows = buffers._replace(ids=buffers.ids[first_row - region.first_row :]) if writes_ids else buffers
         fill_kernel(front, back, triangles, numbers, part, depth_range, rows)
 
-    if not band_rows_log2:
+    if not band_rows:
         before(region.first_row, region.end_row)
         for first, end in [(0, len(triangles.ids))] if ranges is None else ranges:
             fill_part(np.arange(first, end, dtype=np.int32), region.first_row, region.end_row)
@@ -83,7 +83,7 @@ def fill(
         return
     chunks = _chunks(len(triangles.ids)) if ranges is None else [ranges]
     for number, parts in enumerate(chunks):
-        bands = triangles_in_bands(triangles.corners, parts, region, band_rows_log2)
+        bands = triangles_in_bands(triangles.corners, parts, region, band_rows)
         is_first, is_last = number == 0, number == len(chunks) - 1
 
         def fill_band(n: int, bands: list[Band] = bands, is_first: bool = is_first, is_last: bool = is_last) -> None:

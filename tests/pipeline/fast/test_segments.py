@@ -154,6 +154,36 @@ def test_draws_of_several_queries_are_in_one_group(groups):
     assert context.storage.queries == dict.fromkeys(range(1, 6), SIZE * SIZE)
 
 
+def large_draws(blended: bool) -> Context:
+    """Return a window after three rectangles with scissor boxes of their own."""
+    context = gl.create_context(SIZE, SIZE)
+    (gl.glEnable if blended else gl.glDisable)(gl.GL_BLEND)
+    gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
+    gl.glEnable(gl.GL_SCISSOR_TEST)
+    for n in range(3):
+        gl.glScissor(n, 0, SIZE - 3 * n, SIZE)
+        gl.glColor4f(n / 3, 0.5, 1 - n / 4, 0.4)
+        gl.glRectf(-1, -1 + n / 5, 1, 1)
+    gl.glFinish()
+    return context
+
+
+def test_large_draws_in_order_are_in_one_group_but_opaque_ones_are_not(monkeypatch, groups):
+    monkeypatch.setattr(choose, "FEW_FRAGMENTS", SIZE)
+    for blended in (True, False):
+        with use_short_cuts(False):
+            expected = large_draws(blended)
+        assert same_window(large_draws(blended), expected)
+    assert groups == [(3, 6)]
+
+
+def test_groups_with_large_draws_leave_the_bits_of_single_draws(monkeypatch, groups):
+    monkeypatch.setattr(choose, "FEW_FRAGMENTS", 300)
+    for seed in range(20):
+        assert_same_windows(seed)
+    assert max(count for count, _ in groups) > 3
+
+
 @pytest.mark.parametrize(("limit", "most"), [("SEGMENTS", 3), ("TEXTURES", 3), ("TRIANGLES", 6)])
 def test_a_group_ends_where_its_tables_are_full(monkeypatch, groups, limit, most):
     monkeypatch.setattr(segment_groups, limit, most)

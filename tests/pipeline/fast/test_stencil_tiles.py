@@ -105,7 +105,7 @@ def buffers_after(seed: int, depth_format: str) -> tuple[np.ndarray, np.ndarray]
     choice = choose_fill(plan, len(triangles.ids), 10**6, region)
     depth_range, cells = DepthRange(real(0), real(1)), fill_buffers(depth, stencil, triangles.depth.dtype, region)
     with np.errstate(all="ignore"):  # as in pipeline.draw: interpreted bytes wrap with a warning
-        fill(choice.kernel, front, back, triangles, region, depth_range, cells, band_rows_log2=choice.band_rows_log2)
+        fill(choice.kernel, front, back, triangles, region, depth_range, cells, band_rows=choice.band_rows)
     return depth, stencil
 
 
