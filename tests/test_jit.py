@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -180,3 +181,36 @@ def test_kernels_that_make_arrays_say_so():
             calls = [ast.unparse(call.func) for call in ast.walk(node) if isinstance(call, ast.Call)]
             made = MAKES_ARRAYS & {call.removeprefix("np.") for call in calls if call.startswith("np.")}
             assert not made, f"{file.name}: {node.name} must be an allocating_kernel, which np.{made} needs"
+
+
+def decorators(node: ast.AST) -> set[str]:
+    return set(map(ast.unparse, node.decorator_list)) if isinstance(node, ast.FunctionDef) else set()
+
+
+def calls_from_python(node: ast.AST) -> Iterator[str]:
+    """Yield the names of the functions that are called outside of kernels."""
+    for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.FunctionDef) and any(
+            name.endswith(("kernel", "inlined")) for name in decorators(child)
+        ):
+            continue
+        if isinstance(child, ast.Call):
+            yield ast.unparse(child.func)
+        yield from calls_from_python(child)
+
+
+def test_only_kernels_call_inlined_functions():
+    # they are not cached: a call from Python would compile them in each process, which takes 200 ms
+    trees = {file: ast.parse(file.read_text(encoding="utf-8")) for file in PACKAGE.rglob("*.py")}
+    inlined: dict[str, set[str]] = {}
+    for file, tree in trees.items():
+        module = ".".join(file.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
+        functions = (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))
+        inlined[module] = {node.name for node in functions if "inlined" in decorators(node)}
+    assert "band_range" in inlined["softshadow.pipeline.raster.bins"]
+    for module, (file, tree) in zip(inlined, trees.items(), strict=True):
+        names = set(inlined[module])
+        for node in ast.walk(tree):
+            if isinstance(node, ast.ImportFrom):
+                names |= {each.asname or each.name for each in node.names} & inlined.get(node.module or "", set())
+        assert not names & set(calls_from_python(tree)), file

@@ -42,24 +42,23 @@ class Bins(NamedTuple):
 def rows_of_few_bands(region: Region, work: int) -> int:
     """Return how many rows a band has where each thread gets one band, or a few with so many fragments to draw."""
     n_bands = threads() * (BANDS_PER_THREAD if work >= MUCH_WORK else 1)
-    return -(-int(region.end_row - _first_row(region)) // (n_bands * BAND_ROWS)) * BAND_ROWS
+    return -(-(region.end_row - first_row_of_bands(region)) // (n_bands * BAND_ROWS)) * BAND_ROWS
 
 
 def bands_of(region: Region, band_rows: int = BAND_ROWS) -> int:
     """Return the number of bands of a region."""
-    return (int(region.end_row) - 1 - _first_row(region)) // band_rows + 1
+    return (region.end_row - 1 - first_row_of_bands(region)) // band_rows + 1
 
 
 def rows_of_band(band: int, region: Region, band_rows: int) -> tuple[int, int]:
     """Return first and end row of a band, which has `band_rows`, a multiple of `BAND_ROWS`, or fewer at the ends."""
-    first = _first_row(region) + band * band_rows
+    first = first_row_of_bands(region) + band * band_rows
     return max(first, region.first_row), min(first + band_rows, region.end_row)
 
 
-@inlined
-def _first_row(region):
-    """Return the row that the first band begins with: bands do not cut the tiles of `fast/hierarchical_z.py`."""
-    return region.first_row // BAND_ROWS * BAND_ROWS
+def first_row_of_bands(region: Region) -> int:
+    """Return where the first band begins, maybe above the region: bands do not cut tiles (`fast/hierarchical_z.py`)."""
+    return int(region.first_row) // BAND_ROWS * BAND_ROWS
 
 
 def triangles_in_bands(
@@ -88,7 +87,8 @@ def sort_into_bands(
     """Return the bins of the triangles in `parts`, their first and end numbers in order, for the bands of a region."""
     base, end, bands = parts[0][0], parts[-1][1], bands_of(region, band_rows)
     band_ranges, marks = np.empty((end - base, 2), np.uint16), np.zeros((len(parts), 2, bands + 1), np.int64)
-    share(lambda n: write_band_ranges(corners, *parts[n], region, band_rows, base, band_ranges, marks[n]), len(parts))
+    rows = region, first_row_of_bands(region), band_rows
+    share(lambda n: write_band_ranges(corners, *parts[n], *rows, base, band_ranges, marks[n]), len(parts))
     counts = np.cumsum(marks[:, 0] - marks[:, 1], axis=1)[:, :-1]
     # sums over bands, and in a band over parts: so a band keeps the drawing order
     end_places = np.cumsum(counts.T).reshape(counts.T.shape).T
@@ -100,18 +100,17 @@ def sort_into_bands(
 
 
 @inlined
-def band_range(corners, t, region, band_rows):
+def band_range(corners, t, region, first_row, band_rows):
     """Return first and end band of a triangle (end exclusive); the range is empty where it meets none."""
     first, end = bounds(corners, t)
     first, end = max(first, region.first_row), min(end, region.end_row)
     if first >= end:
         return 0, 0
-    first, end = first - _first_row(region), end - _first_row(region)
-    return first // band_rows, (end - 1) // band_rows + 1
+    return (first - first_row) // band_rows, (end - 1 - first_row) // band_rows + 1
 
 
 @kernel
-def write_band_ranges(corners, begin, end, region, band_rows, base, band_ranges, marks):
+def write_band_ranges(corners, begin, end, region, first_row, band_rows, base, band_ranges, marks):
     """Write first and end band of each triangle to `band_ranges`, with `base` in row 0; count both in `marks`.
 
     marks (2, bands + 1): how many triangles begin with a band, and how many end before it. So no loop over the bands of
@@ -119,7 +118,7 @@ def write_band_ranges(corners, begin, end, region, band_rows, base, band_ranges,
     """
     for number in range(begin, end):
         t = np.uint64(number)  # unsigned: no wrap-around of negative indices is compiled in
-        first_band, end_band = band_range(corners, t, region, band_rows)
+        first_band, end_band = band_range(corners, t, region, first_row, band_rows)
         row = np.uint64(number - base)
         band_ranges[row, 0], band_ranges[row, 1] = first_band, end_band
         marks[0, np.uint64(first_band)] += 1
