@@ -35,7 +35,7 @@ from softshadow.state import State
 TRIANGLES = 1 << 12  # whose planes are computed at a time
 SPANS = 1 << 14  # collected at a time; a row of the widest buffer has at most half as many
 WORTH_BANDS = 30_000  # fragments from which bands of rows pay for several threads: they take some 250 us
-SET_UP = 8  # fragments for which bands pay as much as for the beginning of a triangle, whose planes are in one cache
+SET_UP = 8  # fragments for which bands save as much as for a triangle: its planes must go to the other core first
 STENCIL_TESTED = 8  # if the stencil test can fail: fragments that fail take an eighth of the time
 
 
@@ -125,7 +125,7 @@ def buffers_of(target: Framebuffer, writes_depth: bool) -> tuple[np.ndarray, np.
 
 
 def work_of(numbers: SegmentState, fragments: int, n_triangles: int) -> int:
-    """Return how many fragments without a stencil test, about, take as long as these and their triangles."""
+    """Return for how many fragments without a stencil test bands save as much as for these and their triangles."""
     return fragments // (STENCIL_TESTED if numbers.tests_stencil else 1) + SET_UP * n_triangles
 
 

@@ -15,8 +15,8 @@ from softshadow.pipeline.raster.coverage import bounds
 from softshadow.pipeline.records import Region
 
 BAND_ROWS = 32  # layers drawn over each other in a band stay in the cache
-BANDS_PER_THREAD = 2  # of much work: more would balance the threads better, but triangles are set up again in each
-MUCH_WORK = 500_000  # fragments; with less to do, to begin a second band costs a thread more than the balance gains
+BANDS_PER_THREAD = 2  # more would balance the threads better, but a triangle is set up again in each band that it meets
+MUCH_WORK = 500_000  # fragments; with fewer, a thread gets one band: to begin a second costs more than balance gains
 FEW_VISITS = 1 << 15  # of triangles in bands: up to these, a look at each triangle takes less time than sorting
 
 
@@ -40,7 +40,7 @@ class Bins(NamedTuple):
 
 
 def rows_of_few_bands(region: Region, work: int) -> int:
-    """Return how many rows a band has where each thread gets one band, or a few with so many fragments to draw."""
+    """Return how many rows a band has where each thread gets one band, or two if `work`, in fragments, is much."""
     n_bands = threads() * (BANDS_PER_THREAD if work >= MUCH_WORK else 1)
     return -(-(region.end_row - first_row_of_bands(region)) // (n_bands * BAND_ROWS)) * BAND_ROWS
 
