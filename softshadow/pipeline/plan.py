@@ -134,6 +134,8 @@ def plan_draw(command: Draw, target: Framebuffer, counts: FragmentCounts | None 
     if not short_cuts.get():
         path.note("short cuts are off")
         return plan
+    front, back = without_equal_writes(front), without_equal_writes(back)
+    plan = plan._replace(front=front, back=back)
     if counts is not None:
         if not counts.only_passed or is_special or tests_alpha(state):
             path.note("fragments are counted: no short cut")
@@ -199,6 +201,11 @@ def writes_no_colors(command: Draw, target: Framebuffer) -> bool:
     # where Mesa shades all the same, with flat colours it may cut quads in another way, see `Varyings.flat_input`
     is_shaded, is_flat = target.colors or state.alpha.enabled, state.lighting.shade_model == gl.GL_FLAT
     return not first_provokes(state) and (not is_shaded or not (command.program_name or is_flat))
+
+
+def without_equal_writes(ops: FragmentOps) -> FragmentOps:
+    """Return operations that write no depth under GL_EQUAL, where it is stored already; of floats, 0 may be -0."""
+    return ops._replace(depth_write=0) if ops.depth_func == gl.GL_EQUAL and ops.depth_largest else ops
 
 
 def keeps_depth_and_stencil(front: FragmentOps, back: FragmentOps) -> bool:

@@ -128,7 +128,8 @@ def passing_spans(
     """Return the spans of the fragments that pass, if the triangles are those of surfaces that are known, else None.
 
     Draws under equal states are drawn together, as of the objects of a scene or for several lights. Each of the lists
-    has the spans of one surface; they are in drawing order.
+    has the spans of one surface; they are in drawing order. A light may be limited by a scissor box: of spans that its
+    region cuts, the parts in it are left.
 
     Parameters
     ----------
@@ -142,7 +143,7 @@ def passing_spans(
         for surface in storage.visibility_cache.surfaces
         if surface.image is image
         and surface.now is image.version
-        and surface.region == region
+        and _is_within(region, surface.region)
         and repr(surface.depth_range) == repr(depth_range)  # 0 is not -0
     ]
     found: list[tuple[int, DrawnSurface]] = []  # the number of the first triangle, and the surface
@@ -153,11 +154,18 @@ def passing_spans(
             return None
         found.append((first, surface))
         first += len(surface.triangles.ids)
-    parts = [_tested(surface, front, back, depth_range, target) for _, surface in found]
+    parts = [_tested(surface, region, front, back, depth_range, target) for _, surface in found]
     return [
         spans._replace(triangle=spans.triangle + np.int32(first)) if first else spans
         for (first, _), spans in zip(found, parts, strict=True)
     ]
+
+
+def _is_within(region: Region, other: Region) -> bool:
+    """Return whether a region contains no pixel outside another one."""
+    columns_are = other.left <= region.left and region.right <= other.right
+    rows_are = other.first_row <= region.first_row and region.end_row <= other.end_row
+    return columns_are and rows_are and region.downwards == other.downwards
 
 
 def _begin_with(triangles: Setup, first: int, others: Setup) -> bool:
@@ -173,11 +181,16 @@ def _are_equal(a: Setup, b: Setup) -> bool:
 
 
 def _tested(
-    surface: DrawnSurface, front: FragmentOps, back: FragmentOps, depth_range: DepthRange, target: Framebuffer
+    surface: DrawnSurface,
+    region: Region,
+    front: FragmentOps,
+    back: FragmentOps,
+    depth_range: DepthRange,
+    target: Framebuffer,
 ) -> Spans:
     tests_depth, tests_stencil = surface.then is not surface.now, bool(front.stencil_test or back.stencil_test)
     spans, triangles = surface.spans, surface.triangles
-    if not (tests_depth or tests_stencil):
+    if not (tests_depth or tests_stencil) and region == surface.region:
         return spans
     depth, stencil = surface.image.read_cells, NO_STENCIL if target.stencil is None else target.stencil.read_cells
     parts = parts_of(len(spans.row))
@@ -189,7 +202,7 @@ def _tested(
         start = scratch(most + 1, np.int64)
         count = collect_passing(
             *part, int(tests_depth), int(tests_stencil), *numbers_of(front, back), front.depth_largest,
-            triangles.depth, triangles.front, depth_range, depth, stencil, np.empty(BLOCK, np.uint8), row, left,
+            triangles.depth, triangles.front, depth_range, region, depth, stencil, np.empty(BLOCK, np.uint8), row, left,
             triangle, start,
         )  # fmt: skip
         return Spans(row[:count], left[:count], triangle[:count], start[: count + 1])
@@ -212,15 +225,18 @@ def _joined(parts: list[Spans]) -> Spans:
 @kernel
 def collect_passing(
     rows, lefts, triangles, starts, tests_depth, tests_stencil, numbers, byte_numbers, largest, planes, faces_front,
-    depth_range, depth, stencil, hits, out_rows, out_lefts, out_triangles, out_starts,
+    depth_range, region, depth, stencil, hits, out_rows, out_lefts, out_triangles, out_starts,
 ):  # fmt: skip
-    """Write the parts of spans whose fragments pass the tests that there are; return how many they are.
+    """Write the parts of spans in a region whose fragments pass the tests that there are; return how many they are.
 
     `numbers` are those of `fragment_numbers.numbers_of`; `hits` (BLOCK,) uint8 is scratch.
     """
     n, fragments = np.int64(0), np.int64(0)
     out_starts[0] = 0
     for r in range(rows.shape[0]):
+        at, end = max(np.int64(lefts[r]), region.left), min(lefts[r] + (starts[r + 1] - starts[r]), region.right)
+        if at >= end or not region.first_row <= rows[r] < region.end_row:
+            continue
         t, j = np.uint64(triangles[r]), np.uint64(rows[r])
         f, row_at = np.uint64(faces_front[t]), np.float32(rows[r])
         depth_test, stencil_test = depth_test_of(numbers, f), stencil_test_of(byte_numbers, f)
@@ -228,8 +244,9 @@ def collect_passing(
         z0 = dz = dz_row = offset = depth[0, 0]
         if tests_depth:
             z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
-        at = np.int64(lefts[r])
-        end, begin = at + (starts[r + 1] - starts[r]), np.int64(-1)  # `begin`: of the part that is not finished
+        begin = np.int64(-1)  # of the part that is not finished
+        if not (tests_depth or tests_stencil):
+            at, begin = end, at
         while at < end:
             length = min(end - at, BLOCK)
             every, some = np.uint8(0), np.uint8(0)

@@ -21,6 +21,7 @@ from softshadow.state import Blend, State
 HIT = "earlier draws left these surfaces in the depth buffer: only their fragments are tested"
 CACHED = "an equal draw over the same depths was filled before: only shaded"
 SQUARE = [[-1, -1, 0, 1], [1, -1, 0, 1], [1, 1, 0, 1], [-1, -1, 0, 1], [1, 1, 0, 1], [-1, 1, 0, 1]]
+BOX = ("x", "y", "width", "height")
 seeds = st.integers(0, 2**32 - 1)
 
 
@@ -56,7 +57,12 @@ class Frame:
         if kind == 1:
             faces = replace(counted.stencil.front, sfail=gl.GL_KEEP, zfail=gl.GL_KEEP, zpass=gl.GL_KEEP)
             stencil = replace(counted.stencil, front=faces, back=faces)
-            depth = replace(depth, func=int(rng.choice([gl.GL_EQUAL, gl.GL_LEQUAL])), write=False)
+            func = int(rng.choice([gl.GL_EQUAL, gl.GL_LEQUAL]))
+            depth = replace(depth, func=func, write=bool(func == gl.GL_EQUAL and rng.random() < 0.5))
+            if rng.random() < 0.4:
+                x, y, width, height = rng.integers(0, [40, 30, 48, 40]).tolist()
+                scissor = replace(state.scissor, enabled=True, x=x, y=y, width=width, height=height)
+                state = replace(state, scissor=scissor)
             return replace(state, depth=depth, stencil=stencil, blend=ADDING)
         if kind == 2:
             depth, color = replace(depth, write=False), replace(state.color, mask=(False,) * 4)
@@ -132,6 +138,43 @@ def lit_after(*between: Vertices, func: int = gl.GL_LESS, surface: Vertices | No
         hits += HIT in paths[-1].reasons
     assert same_window(*contexts)
     return hits == 1
+
+
+def lit_in_boxes(opaque_box, light_box, *, func=gl.GL_EQUAL, write=False, depth_format="d24") -> bool:
+    """Return whether the surface is known that is lit, each draw in a scissor box (x, y, width, height) or None."""
+    contexts, hits = [], 0
+    for policy in ("always", False):
+        context = Context(40, 32, depth_format)
+        plain, depth = context.state, replace(context.state.depth, enabled=True)
+        boxes = [
+            plain.scissor if box is None else replace(plain.scissor, **dict(zip(BOX, box, strict=True)), enabled=True)
+            for box in (opaque_box, light_box)
+        ]
+        light = replace(plain, depth=replace(depth, func=func, write=write), blend=ADDING, scissor=boxes[1])
+        with use_short_cuts(policy), explain_paths() as paths:
+            draw(context, replace(plain, depth=depth, scissor=boxes[0]), vertices(SQUARE))
+            draw(context, light, vertices(SQUARE))
+        contexts.append(context)
+        hits += HIT in paths[-1].reasons
+    assert same_window(*contexts)
+    return hits == 1
+
+
+@pytest.mark.parametrize("box", [(0, 0, 40, 32), (3, 5, 17, 9), (39, 31, 9, 9), (7, 0, 40, 32), (0, 9, 40, 1)])
+def test_a_light_within_the_region_of_a_surface_finds_it(box):
+    assert lit_in_boxes(None, box)
+    assert lit_in_boxes(box, box)
+
+
+@pytest.mark.parametrize("box", [None, (2, 5, 17, 9), (3, 4, 17, 9), (4, 5, 17, 9), (3, 6, 17, 9)])
+def test_a_light_that_leaves_the_region_of_a_surface_is_tested_anew(box):
+    assert not lit_in_boxes((3, 5, 17, 9), box)
+
+
+def test_equal_depths_that_are_written_again_change_nothing():
+    assert lit_in_boxes(None, None, write=True)
+    assert not lit_in_boxes(None, None, write=True, depth_format="d32f")  # it may be 0 in place of -0
+    assert not lit_in_boxes(None, None, func=gl.GL_LEQUAL, write=True)
 
 
 def test_nearer_surfaces_between_keep_what_is_known():
