@@ -116,7 +116,7 @@ def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:
             n += 1
             first, end = bounds(corners, t)
             first, end = max(first, region.first_row), min(end, region.end_row)
-            if first >= end:
+            if first >= end:  # in other bands of rows, or between the samples
                 continue
             row_spans(corners, t, first, end, region.downwards, region.left, region.right, lefts, rights)
             z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]

@@ -163,9 +163,9 @@ def passing_spans(
 
 def _is_within(region: Region, other: Region) -> bool:
     """Return whether a region contains no pixel outside another one."""
-    columns_are = other.left <= region.left and region.right <= other.right
-    rows_are = other.first_row <= region.first_row and region.end_row <= other.end_row
-    return columns_are and rows_are and region.downwards == other.downwards
+    in_columns = other.left <= region.left and region.right <= other.right
+    in_rows = other.first_row <= region.first_row and region.end_row <= other.end_row
+    return in_columns and in_rows and region.downwards == other.downwards
 
 
 def _begin_with(triangles: Setup, first: int, others: Setup) -> bool:
@@ -245,7 +245,7 @@ def collect_passing(
         if tests_depth:
             z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
         begin = np.int64(-1)  # of the part that is not finished
-        if not (tests_depth or tests_stencil):
+        if not (tests_depth or tests_stencil):  # all of it passes
             at, begin = end, at
         while at < end:
             length = min(end - at, BLOCK)
