@@ -20,7 +20,6 @@ from softshadow.pipeline.commands import Command, DefineImage, Draw, UpdateImage
 COMMAND_BYTES = 1300  # of a command without its arrays: about this much for a draw with two matrices and a new state
 # of a vertex at most: position, two colours, normal, eight texture coordinates, fog, materials, in float64; edge flag
 VERTEX_BYTES = 8 * (4 + 2 * 4 + 3 + 8 * 4 + 1 + 2 * 17) + 1
-INDEX_BYTES = 4
 
 
 class Contents:
@@ -133,7 +132,9 @@ class Frame:
         if type(command) is Draw and type(command.vertices.position.base) is bytes and command.joined_positions is None:
             # its arrays are its own: they are counted when their bound no longer suffices, which is seldom
             self._uncounted.append(command)
-            self._most_bytes += COMMAND_BYTES + (VERTEX_BYTES + INDEX_BYTES) * len(command.vertices.position)
+            self._most_bytes += COMMAND_BYTES + VERTEX_BYTES * len(command.vertices.position)
+            if command.indices is not None:
+                self._most_bytes += command.indices.nbytes
         else:
             before = self._newer.new_bytes
             self._newer.add(command)

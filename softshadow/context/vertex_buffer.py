@@ -11,10 +11,11 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from softshadow.context.joined_pairs import JoinedPairs
 from softshadow.framebuffer import Storage
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.geometry import offset_mode_of
-from softshadow.pipeline.mesa.driver_draws import MAX_PAIRS, SEPARATE, CollectedPairs, DriverDraw, JoinedPairs
+from softshadow.pipeline.mesa.driver_draws import MAX_PAIRS, SEPARATE, CollectedPairs, DriverDraw
 
 BYTES = 512 * 1024  # size of the vertex buffer (vbo_exec_draw.c)
 LEAST_BYTES = 1024  # Mesa takes a new buffer when no more than these are left
@@ -126,7 +127,7 @@ class VertexBuffer:
     active_sizes : dict      attribute: number of components in the last call (Mesa's active_size)
     n_vertices : int         number of vertices collected since the last submission
     used_bytes : int         bytes of the buffer before these vertices
-    joined_pairs : JoinedPairs or None    separate primitives that are not drawn yet, since more may follow
+    joined_pairs : JoinedPairs or None    those that are not drawn yet, since more may follow
     pairs : CollectedPairs   glBegin ... glEnd pairs since the last submission
     driver_draw : DriverDraw the driver's draw that the next pair of the same mode belongs to
 
@@ -152,8 +153,9 @@ class VertexBuffer:
     def draw(self, command: Draw) -> None:
         """Draw at once; consecutive draws of one mode are one draw of the driver."""
         driver_draw = self.driver_draw
-        if command.mode != driver_draw.mode:
-            driver_draw = self.driver_draw = DriverDraw(command.mode)
+        mode = command.pairs_mode or command.mode
+        if mode != driver_draw.mode:
+            driver_draw = self.driver_draw = DriverDraw(mode)
         if not driver_draw.is_lost:
             self._carry_out(driver_draw.part(command, self._offset_mode_of))
 

@@ -18,6 +18,7 @@ from softshadow.gl.materials import follow_color
 from softshadow.gl.pair_numbers import collect_pair
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_format import add_vertex, begin, end, store_vertices, vertices_of
+from softshadow.pipeline.geometry.separate import SEPARABLE
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
 
 MODES = frozenset(range(gl.GL_POINTS, gl.GL_POLYGON + 1))
@@ -74,7 +75,8 @@ def glEnd() -> None:
         return
     one_triangle = primitive.mode in (gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN) and count == 3
     mode = gl.GL_TRIANGLES if one_triangle else primitive.mode  # as in Mesa (vbo_try_prim_conversion)
-    if mode in SEPARATE:
+    may_be_separated = mode in SEPARABLE and not primitive.arrays and context.render_mode.mode == gl.GL_RENDER
+    if may_be_separated or mode in SEPARATE:
         collect_pair(context, mode, primitive)
     else:
         context.draw_primitive(mode, vertices_of(context, primitive))

@@ -14,7 +14,7 @@ from softshadow.gl.vertex_format import NONE, vertices_of
 from softshadow.pipeline.commands import Vertices
 from softshadow.state import BLACK
 
-FEW = 16  # vertices of a pair whose numbers wait; arrays for more cost little in comparison
+FEW = 64  # vertices of a pair whose numbers wait; arrays for more cost little in comparison
 
 
 class PairNumbers:
@@ -73,7 +73,7 @@ class PairNumbers:
 
 
 def collect_pair(context: Context, mode: int, primitive: Primitive) -> None:
-    """Collect a pair of separate primitives, to draw it together with pairs that follow."""
+    """Collect a pair, to draw it together with pairs that follow."""
     buffer, count = context.vertex_buffer, len(primitive.positions) // 4
     if not buffer.can_join(mode):
         buffer.begin_joined_pairs(context.draw_command(mode, vertices_of(context, primitive)), count)
@@ -91,7 +91,7 @@ def collect_pair(context: Context, mode: int, primitive: Primitive) -> None:
         joined.replace_last(last)
     assert isinstance(last, PairNumbers)
     last.add(primitive)
-    joined.n_vertices += count
+    joined.count(count)
 
 
 def _is_plain(context: Context, carried: Carried, primitive: Primitive) -> bool:

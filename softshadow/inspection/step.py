@@ -22,9 +22,8 @@ from softshadow.inspection.words import (
     maps_in_words,
     visibility_in_words,
 )
-from softshadow.pipeline.commands import PRIMITIVES, Clear, Command, Draw
+from softshadow.pipeline.commands import Clear, Command, Draw
 from softshadow.pipeline.geometry.draw_primitives import primitive_count
-from softshadow.tokens import token_name
 
 
 @dataclass(frozen=True)
@@ -107,7 +106,7 @@ class Step:
             DrawSummary(
                 first + i,
                 object_of(command),
-                token_name(command.mode, PRIMITIVES),
+                command.mode_name,
                 primitive_count(command),
                 command.state.draw_framebuffer,
             )

@@ -73,9 +73,10 @@ class Draw:
     clipping interpolates values without perspective. `offset_mode` is the polygon mode whose offset unfilled
     polygons get if an earlier draw has decided it, else 0. `stipple_place` is the place in the line stipple before the
     draw: Mesa does not begin it anew where the first line of a strip is clipped away. `origin` tells what the
-    primitives were made from. `shown_at` is (x, y, zoom x, zoom y) of a rectangle that shows each texel of the only
-    texture as so many whole pixels, from the corner (x, y) on, to the left or downwards for a negative zoom; None where
-    that is not known, as in recordings read from files.
+    primitives were made from. Where several strips, fans, loops or polygons are drawn as separate triangles or lines,
+    `pairs_mode` is the mode of the glBegin ... glEnd pairs that they come from, else 0. `shown_at` is (x, y, zoom x,
+    zoom y) of a rectangle that shows each texel of the only texture as so many whole pixels, from the corner (x, y) on,
+    to the left or downwards for a negative zoom; None where that is not known, as in recordings read from files.
     """
 
     state: State
@@ -98,13 +99,24 @@ class Draw:
     offset_mode: int = 0
     stipple_place: int = 0
     origin: Origin | None = None
+    pairs_mode: int = 0
     shown_at: tuple[int, int, int, int] | None = field(
         default_factory=lambda: None, init=False
     )  # a factory: `evolve` knows it
 
     def __repr__(self) -> str:
-        number = len(self.vertices.position) if self.indices is None else len(self.indices)
-        return f"Draw({token_name(self.mode, PRIMITIVES)}, {number} vertices, label {self.label!r})"
+        number = len(self.vertices.position) if self.indices is None or self.pairs_mode else len(self.indices)
+        return f"Draw({self.mode_name}, {number} vertices, label {self.label!r})"
+
+    @property
+    def called_mode(self) -> int:
+        """The mode that the program called glBegin or glDrawArrays with."""
+        return self.pairs_mode or self.mode
+
+    @property
+    def mode_name(self) -> str:
+        """The name of this mode, "GL_TRIANGLES" ..."""
+        return token_name(self.called_mode, PRIMITIVES)
 
 
 @dataclass(frozen=True, eq=False)

@@ -117,7 +117,7 @@ class Plan(NamedTuple):
 
 def plan_draw(command: Draw, target: Framebuffer, counts: FragmentCounts | None = None) -> Plan:
     """Return what the state decides about a draw; with `counts`, its fragments are counted: each is processed once."""
-    state, path = command.state, begin_path(command.label, command.mode)
+    state, path = command.state, begin_path(command.label, command.called_mode)
     front = fragment_ops(state, target.depth, target.stencil, True)
     is_one_sided = state.stencil.front == state.stencil.back
     back = front if is_one_sided else fragment_ops(state, target.depth, target.stencil, False)

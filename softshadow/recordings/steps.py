@@ -10,7 +10,6 @@ from softshadow.context import Frame
 from softshadow.errors import nearest
 from softshadow.framebuffer import DEFAULT
 from softshadow.pipeline.commands import (
-    PRIMITIVES,
     Accumulate,
     BlitFramebuffer,
     Clear,
@@ -19,7 +18,6 @@ from softshadow.pipeline.commands import (
     Draw,
     DrawDepths,
 )
-from softshadow.tokens import token_name
 
 WAYS = ("auto", "groups", "draws", "clears")
 MOST_STEPS = 40  # of "auto": a report with more is hard to read
@@ -92,7 +90,7 @@ def title_of(command: Command, number: int) -> str:
         names = [name for bit, name in BUFFERS.items() if command.mask & bit]
         return f"clear {', '.join(names) or 'nothing'}{_target(command)}"
     if isinstance(command, Draw):
-        return f"{call_of(command) or f'draw {number}'}: {token_name(command.mode, PRIMITIVES)}{_target(command)}"
+        return f"{call_of(command) or f'draw {number}'}: {command.mode_name}{_target(command)}"
     if isinstance(command, DrawDepths):
         return f"rectangle of {'depths' if command.has_depth else 'stencil values'}{_target(command.draw)}"
     if isinstance(command, CopyToTexture):
@@ -190,7 +188,7 @@ def _of_draws(draws: list[Draw], number: int) -> str:
         where = first if first == last else f"{place}s {first.partition(' ')[2]} to {last_number}"
     else:
         where = f"draw {number}" if len(draws) == 1 else f"draws {number} to {number + len(draws) - 1}"
-    modes = ", ".join(dict.fromkeys(token_name(draw.mode, PRIMITIVES) for draw in draws))
+    modes = ", ".join(dict.fromkeys(draw.mode_name for draw in draws))
     return f"{where}: {modes}{_target(draws[0])}"
 
 

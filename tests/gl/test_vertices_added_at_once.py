@@ -9,11 +9,17 @@ import pytest
 
 from softshadow import gl
 from softshadow.context import vertex_buffer
-from softshadow.gl import evaluators
+from softshadow.gl import evaluators, immediate
 from softshadow.gl.shape_calls import Calls, Strip
 from softshadow.pipeline.commands import Draw
 
 ROUNDS = 60
+
+
+@pytest.fixture(autouse=True)
+def _pairs_are_drawn_one_by_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Strips that come from calls become one draw (test_separate_primitives.py); those added at once do not."""
+    monkeypatch.setattr(immediate, "SEPARABLE", {})
 
 
 def draws_of(program: Callable[[], None]) -> list[tuple[Any, ...]]:

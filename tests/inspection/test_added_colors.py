@@ -18,8 +18,8 @@ def test_last_row_equals_the_buffers_with_attributes_of_all_kinds(family: str, s
     calls, size = random_program(family, seed)
     with gl.create_context(*size) as context:
         as_program(calls)(gl)
+        frame = context.frame  # draws collected pairs
         window = copy_window(context.storage.window).buffers()
-        frame = context.frame
     covered = np.argwhere(window.depth < window.depth.max())
     rng = np.random.default_rng(seed)
     pixels = rng.permutation(covered if len(covered) else np.argwhere(window.depth >= 0))[:N_PIXELS]

@@ -101,6 +101,13 @@ def edge_flags(mode: int, n_triangles: int, first_provokes: bool = False) -> np.
     return np.ascontiguousarray(np.roll(edges, 1, axis=1)) if first_provokes else edges
 
 
+def edges_of_joined_polygons(corners: np.ndarray) -> np.ndarray:
+    """Return what `edge_flags` returns of each polygon, for the triangles (T, 3) of polygons in a row."""
+    first = corners[:, 2]
+    is_last = np.append(first[1:] != first[:-1], True)[: len(corners)]
+    return np.stack([np.ones(len(corners), bool), is_last, corners[:, 0] == first + 1], axis=1).view(np.uint8)
+
+
 def begins_stipple(mode: int, n_triangles: int) -> np.ndarray:
     """Return which of the assembled triangles (T,) begin a primitive: there the line stipple begins anew."""
     begins = np.ones(n_triangles, bool)

@@ -8,7 +8,14 @@ from softshadow import matrices
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.geometry.assembly import Triangles, assemble, edge_flags, separate_triangles, through_indices
+from softshadow.pipeline.geometry.assembly import (
+    Triangles,
+    assemble,
+    edge_flags,
+    edges_of_joined_polygons,
+    separate_triangles,
+    through_indices,
+)
 from softshadow.pipeline.geometry.clip import outcodes
 from softshadow.pipeline.geometry.lines import LINES, assemble_lines
 from softshadow.pipeline.geometry.vertex import to_clip, to_window
@@ -90,7 +97,11 @@ def _as_rectangle(command: Draw, needs_clipping: np.ndarray) -> bool:
 
 def drawn_edges(command: Draw, corners: np.ndarray) -> np.ndarray:
     """Return which edges of triangles (T, 3) glPolygonMode draws, (T, 3) uint8: from corner i to corner i + 1."""
-    edges, flags = edge_flags(command.mode, len(corners), first_provokes(command.state)), command.vertices.edges
+    flags = command.vertices.edges
+    if command.pairs_mode == gl.GL_POLYGON:
+        edges = edges_of_joined_polygons(corners)
+    else:
+        edges = edge_flags(command.mode, len(corners), first_provokes(command.state))
     return edges if flags is None else np.ascontiguousarray(edges & flags[corners].astype(np.uint8))
 
 

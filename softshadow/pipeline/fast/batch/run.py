@@ -279,7 +279,8 @@ def is_outlined_alone(command: Draw) -> bool:
     vertices = command.vertices
     if is_filled(command.state.polygon):
         return False
-    return vertices.edges is not None or len(vertices.position) >= WORTH_COMPARING
+    is_large = len(vertices.position) >= WORTH_COMPARING and not command.pairs_mode
+    return vertices.edges is not None or is_large
 
 
 def can_run(command: Draw) -> bool:

@@ -1,0 +1,144 @@
+"""glBegin ... glEnd pairs that are not drawn yet: those in a row between which nothing changes are one draw.
+
+Mesa joins points, lines, triangles and quads (`softshadow.pipeline.mesa.driver_draws`). Strips, fans, loops and
+polygons it draws one by one; here they become one draw of separate triangles or lines, which has the same pixels and
+costs less (`softshadow.pipeline.geometry.separate`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import groupby
+from typing import Protocol
+
+import numpy as np
+
+from softshadow.frozen import evolve
+from softshadow.pipeline.commands import Draw, Origin, Vertices
+from softshadow.pipeline.geometry.separate import can_be_separated, separated
+from softshadow.pipeline.mesa.driver_draws import CORNERS, SEPARATE
+from softshadow.state import BLACK
+
+OPTIONAL = {"edges": True, "secondary": BLACK, "fog_coordinates": 0.0}  # the last fields of `Vertices`: initial values
+
+Told = tuple[str, Origin | None]  # the debug groups that a pair belongs to ("outer/inner"), and its origin
+
+
+class LateVertices(Protocol):
+    """Vertices of pairs, whose arrays are made when they are drawn."""
+
+    def vertices(self) -> Vertices:
+        """Return them."""
+
+
+class JoinedPairs:
+    """Joined pairs that are not drawn yet.
+
+    Attributes
+    ----------
+    first : Draw             the command of the first one, with the state of all
+    n_vertices : int         of all pairs
+    parts : list             the debug groups, the origin and the vertices of one or more pairs
+    """
+
+    __slots__ = ("_can_be_separated", "_counts", "first", "n_vertices", "parts")
+
+    def __init__(self, first: Draw, n_vertices: int) -> None:
+        self.first, self.n_vertices = first, n_vertices
+        self.parts: list[tuple[Told, Vertices | LateVertices]] = [((first.label, first.origin), first.vertices)]
+        self._counts = [n_vertices]  # of each pair
+        self._can_be_separated: bool | None = None  # not known before the second pair
+
+    def add(self, told: Told, vertices: Vertices, count: int) -> None:
+        """Add a pair of `count` vertices."""
+        self.parts.append((told, vertices))
+        self.count(count)
+
+    def count(self, count: int) -> None:
+        """Count the vertices of a pair."""
+        self._counts.append(count)
+        self.n_vertices += count
+
+    def last(self, told: Told) -> Vertices | LateVertices | None:
+        """Return the vertices of the last part; None if it belongs to other debug groups or has another origin."""
+        told_before, vertices = self.parts[-1]
+        return vertices if told_before == told else None
+
+    def replace_last(self, vertices: LateVertices) -> None:
+        """Replace the last part by one to which pairs can be added."""
+        self.parts[-1] = self.parts[-1][0], vertices
+
+    @property
+    def takes_more(self) -> bool:
+        """Whether another pair can be joined: only after complete primitives."""
+        corners = SEPARATE.get(self.first.mode)
+        if corners is not None:
+            return self.n_vertices % corners == 0
+        if self._can_be_separated is None:
+            self._can_be_separated = can_be_separated(self.first)
+        return self._can_be_separated
+
+    def commands(self) -> list[Draw]:
+        """Return the draws: one if debug groups and origins of all pairs are equal, else one for each change."""
+        if len(self.parts) == 1 and self.parts[0][1] is self.first.vertices:
+            return [self.first]
+        parts = [(told, part if isinstance(part, Vertices) else part.vertices()) for told, part in self.parts]
+        groups = [(told, [part for _, part in group]) for told, group in groupby(parts, lambda part: part[0])]
+        commands, start, counts = [], 0, iter(self._counts)
+        whole = join_vertices([vertices for _, vertices in parts]).position if len(groups) > 1 else None
+        for (label, origin), group in groups:
+            command = evolve(self.first, vertices=join_vertices(group), label=label, origin=origin)
+            end = start + len(command.vertices.position)
+            if command.mode not in SEPARATE:
+                command = separated(command, tuple(_counts_until(end - start, counts)))
+            elif command.mode in CORNERS and whole is not None:
+                command = evolve(command, joined_positions=whole, joined_start=start)
+            commands.append(command)
+            start = end
+        return commands
+
+
+def _counts_until(sum_of_all: int, counts: Iterator[int]) -> Iterator[int]:
+    """Take counts until their sum is reached."""
+    while sum_of_all > 0:
+        count = next(counts)
+        sum_of_all -= count
+        yield count
+
+
+def join_vertices(parts: Sequence[Vertices]) -> Vertices:
+    """Return the vertices of all parts, which have the same attributes; a constant attribute stays broadcast."""
+    if len(parts) == 1:
+        return parts[0]
+    units = range(len(parts[0].texcoords))
+    return Vertices(
+        _concatenated([part.position for part in parts]),
+        _concatenated([part.color for part in parts]),
+        _concatenated([part.normal for part in parts]),
+        tuple(_concatenated([part.texcoords[unit] for part in parts]) for unit in units),
+        {name: _concatenated([part.materials[name] for part in parts]) for name in parts[0].materials},
+        *(_optional(parts, name) for name in OPTIONAL),
+    )
+
+
+def _optional(parts: Sequence[Vertices], name: str) -> np.ndarray | None:
+    """Return an attribute of all parts; None if all have its initial value."""
+    rows = [getattr(part, name) for part in parts]
+    known = next((each for each in rows if each is not None), None)
+    if known is None:
+        return None
+    initial = np.array(OPTIONAL[name], known.dtype)
+    return _concatenated(
+        [
+            np.broadcast_to(initial, (len(part.position), *initial.shape)) if each is None else each
+            for part, each in zip(parts, rows, strict=True)
+        ]
+    )
+
+
+def _concatenated(rows: Sequence[np.ndarray]) -> np.ndarray:
+    if all(part.strides[0] == 0 for part in rows) and len({part[:1].tobytes() for part in rows}) == 1:
+        return np.broadcast_to(rows[0][0], (sum(map(len, rows)), *rows[0].shape[1:]))
+    whole = np.concatenate(rows)
+    whole.setflags(write=False)
+    return whole

@@ -1,0 +1,65 @@
+"""Strips, fans, loops and polygons as separate triangles or lines: many of them are one draw then.
+
+The primitives of a draw reach the setup as triangles or lines in any case. Those of a draw with these indices are the
+same, with the same corners in the same order, which decides the last bits of interpolated values.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.frozen import evolve
+from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.geometry.assembly import assemble
+from softshadow.pipeline.geometry.lines import LINES, assemble_lines
+from softshadow.pipeline.mesa.polygon_rules import effective_modes, is_stippled
+from softshadow.pipeline.mesa.provoking_vertex import first_provokes
+
+SEPARABLE = {
+    gl.GL_TRIANGLE_STRIP: gl.GL_TRIANGLES, gl.GL_TRIANGLE_FAN: gl.GL_TRIANGLES, gl.GL_POLYGON: gl.GL_TRIANGLES,
+    gl.GL_LINE_STRIP: gl.GL_LINES, gl.GL_LINE_LOOP: gl.GL_LINES,
+}  # fmt: skip
+MOST_KNOWN = 64  # arrays of indices that are kept: a program draws the same primitives in every frame
+
+
+def can_be_separated(command: Draw) -> bool:
+    """Return whether a draw of a mode in `SEPARABLE` has the same pixels with separate primitives.
+
+    Not where lines may be stippled, as separate ones begin the pattern anew, nor where the first vertex gives flat
+    colours, as that is another one then. Of polygons that are filled on one side only, Mesa treats a draw as a whole.
+    """
+    state = command.state
+    if is_stippled(state.lines) or first_provokes(state):
+        return False
+    front, back = effective_modes(state)
+    return command.mode in LINES or front == back
+
+
+def separated(command: Draw, counts: tuple[int, ...]) -> Draw:
+    """Return a draw of separate primitives, for one of several primitives of a mode in `SEPARABLE`.
+
+    `counts` are the numbers of vertices of these, one after the other; a single primitive is left as it is.
+    """
+    if len(counts) == 1:
+        return command
+    return evolve(
+        command, mode=SEPARABLE[command.mode], indices=separate_indices(command.mode, counts), pairs_mode=command.mode
+    )
+
+
+@lru_cache(MOST_KNOWN)
+def separate_indices(mode: int, counts: tuple[int, ...]) -> np.ndarray:
+    """Return the indices (N,) int32 of separate triangles or lines, read-only, for primitives of a mode."""
+    primitives = [_indices_of_one(mode, count) for count in counts]
+    starts = np.cumsum((0, *counts[:-1]), dtype=np.int32)
+    indices = np.concatenate(primitives) + np.repeat(starts, [len(each) for each in primitives])
+    indices.setflags(write=False)
+    return indices
+
+
+@lru_cache(MOST_KNOWN)
+def _indices_of_one(mode: int, count: int) -> np.ndarray:
+    return (assemble_lines(mode, count) if mode in LINES else assemble(mode, count).corners).reshape(-1)
