@@ -12,7 +12,7 @@ from operator import is_
 from typing import Any
 
 from softshadow.frozen import evolve
-from softshadow.state import Color, Lighting, State
+from softshadow.state import TEXTURE_UNITS, Color, Lighting, State
 
 # parts of groups that are groups themselves: (group, field)
 PARTS = (
@@ -22,6 +22,7 @@ TUPLES: tuple[tuple[str, str], ...] = (
     ("lighting", "lights"),
     ("", "units"),
 )  # fields of a group or of the state itself that are tuples of groups
+UNITS = tuple(f"units.{index}" for index in range(TEXTURE_UNITS))  # names of the groups of the texture units
 # fields that draws do not use: clear values, and the face that glStencilFunc sets
 UNDRAWN = frozenset(("clear", "clear_accum", "active_back"))
 PACK = struct.Struct("4d").pack

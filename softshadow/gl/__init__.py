@@ -86,7 +86,8 @@ FREQUENT = (
     "glBegin", "glEnd", "glVertex2f", "glVertex2fv", "glVertex3f", "glVertex3fv", "glVertex4f", "glVertex4fv",
     "glColor3f", "glColor3fv", "glColor4f", "glColor4fv", "glNormal3f", "glNormal3fv", "glTexCoord2f", "glTexCoord2fv",
     "glArrayElement", "glEnable", "glDisable", "glMatrixMode", "glPushMatrix", "glPopMatrix", "glLoadIdentity",
-    "glTranslatef", "glScalef", "glRotatef", "glPushAttrib", "glPopAttrib", "glCallList", "glGetError",
+    "glTranslatef", "glScalef", "glRotatef", "glOrtho", "glPushAttrib", "glPopAttrib", "glCallList", "glGetError",
+    "glStencilFunc", "glTexParameteri", "glPolygonOffset", "glLineWidth", "glDepthRange", "glShadeModel", "glFogf",
 )  # fmt: skip
 globals().update(all_naming_arguments(globals(), FREQUENT))
 

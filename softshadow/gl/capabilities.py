@@ -7,6 +7,7 @@ from typing import Any
 from softshadow import tokens as gl
 from softshadow.context import Context, thread
 from softshadow.context.evaluators import COMPONENTS
+from softshadow.context.state_groups import UNITS
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.errors import is_one_of, outside_begin
@@ -14,7 +15,7 @@ from softshadow.gl.evaluator_maps import switch_map
 from softshadow.gl.materials import start_to_follow
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_arrays import CLIENT_STATES, is_array_enabled, switch_array
-from softshadow.state import TEXTURE_UNITS, State
+from softshadow.state import State
 from softshadow.state.texturing import SWITCHES
 
 # capability: (group of the state, field)
@@ -68,7 +69,6 @@ KNOWN = {
 # those that only set one field of a group: (group in `Context.groups`, field)
 PLACES = CAPABILITIES | {light: (f"lighting.lights.{index}", "enabled") for index, light in enumerate(LIGHTS)}
 del PLACES[gl.GL_STENCIL_TEST_TWO_SIDE_EXT], PLACES[gl.GL_COLOR_MATERIAL]
-UNITS = tuple(f"units.{index}" for index in range(TEXTURE_UNITS))
 A_CAPABILITY = "a capability of this subset"
 HINTS = (
     gl.GL_PERSPECTIVE_CORRECTION_HINT, gl.GL_POINT_SMOOTH_HINT, gl.GL_LINE_SMOOTH_HINT, gl.GL_POLYGON_SMOOTH_HINT,

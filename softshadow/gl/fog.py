@@ -11,6 +11,7 @@ from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.conversions import enum, first, from_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
 from softshadow.gl.fragment_state import rounded, rounded_number
+from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_format import carry_attribute, set_attribute
 
 NUMBERS = {gl.GL_FOG_DENSITY: "density", gl.GL_FOG_START: "start", gl.GL_FOG_END: "end"}
@@ -35,12 +36,17 @@ def glFogiv(pname: int, params: Any) -> None:
 def glFogf(pname: int, param: float) -> None:
     """Set a fog parameter that is a single number."""
     context = thread.context
-    if not (context.ready or is_allowed(context, glFogf, pname, param)):
-        return
-    if pname in SINGLE:
-        _set("glFogf", pname, param, float)
-    else:
-        wrong_enum("glFogf", "pname", pname, A_NUMBER)
+    try:
+        if not (context.ready or is_allowed(context, glFogf, pname, param)):
+            return
+        if pname in NUMBERS and param >= 0:
+            context.change_field("fog", NUMBERS[pname], rounded_number(context, param))
+        elif pname in SINGLE:
+            _set("glFogf", pname, param, float)
+        else:
+            wrong_enum("glFogf", "pname", pname, A_NUMBER)
+    except CONVERTING as error:
+        raise refusal(glFogf, error, pname, param) from error
 
 
 glFogi = glFogf

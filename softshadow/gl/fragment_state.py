@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from ctypes import c_float, c_int
 from functools import lru_cache
 from itertools import product
+from math import hypot
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from softshadow.context import Context, thread
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.conversions import LARGEST_INT, SMALLEST_INT
 from softshadow.gl.errors import is_one_of, outside_begin
+from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.state import STENCIL_OPS, Stencil
 
 # allowed values and what is stored: the same numbers as int
@@ -113,8 +115,20 @@ def glAlphaFunc(func: int, ref: float) -> None:
 def glStencilFunc(func: int, ref: int, mask: int) -> None:
     """Set the stencil comparison of both facings: (ref & mask) func (stencil & mask)."""
     context = thread.context
-    if context.ready or is_allowed(context, glStencilFunc, func, ref, mask):
-        _stencil_func(context, "glStencilFunc", _active_faces(context), func, ref, mask)
+    try:
+        hypot(ref, mask)  # the quickest question whether these are numbers
+        if context.ready or is_allowed(context, glStencilFunc, func, ref, mask):
+            faces = _active_faces(context)
+            if not (context.ready and func in FUNCTIONS and type(ref) is type(mask) is int):
+                _stencil_func(context, "glStencilFunc", faces, func, ref, mask)
+                return
+            fields = _fields_of_func(func, ref, mask)
+            for name in faces:  # `_stencil_func` in three quarters of the time
+                face = context.groups[name]
+                face.fields.update(fields)
+                context.changed.add(face)
+    except CONVERTING as error:
+        raise refusal(glStencilFunc, error, func, ref, mask) from error
 
 
 def glStencilFuncSeparate(face: int, func: int, ref: int, mask: int) -> None:

@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.context import Context, thread
+from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.capabilities import LIGHTS
 from softshadow.gl.conversions import as_floats, as_ints, enum, first, from_int, to_int, truncated_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.fragment_state import rounded, rounded_number
+from softshadow.gl.refusals import CONVERTING, refusal
 
 COLORS = {gl.GL_AMBIENT: "ambient", gl.GL_DIFFUSE: "diffuse", gl.GL_SPECULAR: "specular"}
 PLACES = {gl.GL_POSITION: "position", gl.GL_SPOT_DIRECTION: "spot_direction"}
@@ -171,12 +172,16 @@ def _set_model(operation: str, pname: int, params: Any, color: Callable[[Any], f
             context.change("lighting", color_control=control)
 
 
-@in_lists
 def glShadeModel(mode: int) -> None:
     """Set whether colours are interpolated or taken from the provoking vertex."""
-    context = outside_begin("glShadeModel")
-    if context is not None and is_one_of("glShadeModel", "mode", mode, SHADE_MODELS, "GL_FLAT or GL_SMOOTH"):
-        context.change_field("lighting", "shade_model", int(mode))
+    context = thread.context
+    try:
+        if not (context.ready or is_allowed(context, glShadeModel, mode)):
+            return
+        if mode in SHADE_MODELS or is_one_of("glShadeModel", "mode", mode, SHADE_MODELS, "GL_FLAT or GL_SMOOTH"):
+            context.change_field("lighting", "shade_model", int(mode))
+    except CONVERTING as error:
+        raise refusal(glShadeModel, error, mode) from error
 
 
 @in_lists

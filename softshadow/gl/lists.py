@@ -127,7 +127,7 @@ def glCallLists(*arguments: Any) -> None:
 def _call(context: Context, name: int) -> None:
     context.flush_vertices()
     compiled = context.lists.get(name)
-    if compiled is None or context.list_depth == DEEPEST_LIST:
+    if compiled is None or not compiled.calls or context.list_depth == DEEPEST_LIST:
         return
     context.list_depth += 1
     try:

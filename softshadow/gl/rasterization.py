@@ -7,6 +7,7 @@ from softshadow.context import thread
 from softshadow.gl.calls import is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of
 from softshadow.gl.fragment_state import A_FACE, FACES, clamp01, rounded_number, rounded_pair
+from softshadow.gl.refusals import CONVERTING, refusal
 
 LARGEST_VIEWPORT = 16384
 FARTHEST_CORNER = 32768  # Mesa clamps the corner of a viewport to this
@@ -49,20 +50,26 @@ def glPolygonMode(face: int, mode: int) -> None:
 def glPolygonOffset(factor: float, units: float) -> None:
     """Set the depth offset of polygons: `factor` times the slope, plus `units` times the smallest depth step."""
     context = thread.context
-    if context.ready or is_allowed(context, glPolygonOffset, factor, units):
-        factor, units = rounded_pair(context, factor, units)
-        context.change_fields("polygon", {"factor": factor, "units": units})
+    try:
+        if context.ready or is_allowed(context, glPolygonOffset, factor, units):
+            slope, steps = rounded_pair(context, factor, units)
+            context.change_fields("polygon", {"factor": slope, "units": steps})
+    except CONVERTING as error:
+        raise refusal(glPolygonOffset, error, factor, units) from error
 
 
 def glLineWidth(width: float) -> None:
     """Set the width of lines in pixels."""
     context = thread.context
-    if not (context.ready or is_allowed(context, glLineWidth, width)):
-        return
-    if width <= 0:
-        fail(gl.GL_INVALID_VALUE, "glLineWidth", f"width={width}: expected more than 0")
-    else:
-        context.change_field("polygon", "line_width", rounded_number(context, width))
+    try:
+        if not (context.ready or is_allowed(context, glLineWidth, width)):
+            return
+        if width <= 0:
+            fail(gl.GL_INVALID_VALUE, "glLineWidth", f"width={width}: expected more than 0")
+        else:
+            context.change_field("polygon", "line_width", rounded_number(context, width))
+    except CONVERTING as error:
+        raise refusal(glLineWidth, error, width) from error
 
 
 def glPointSize(size: float) -> None:
@@ -114,9 +121,12 @@ def _box_is_valid(operation: str, width: int, height: int) -> bool:
 def glDepthRange(zNear: float, zFar: float) -> None:
     """Set the depths of the near and far plane, clamped to [0, 1]."""
     context = thread.context
-    if context.ready or is_allowed(context, glDepthRange, zNear, zFar):
-        near, far = rounded_pair(context, clamp01(zNear), clamp01(zFar))
-        context.change_fields("viewport", {"near": near, "far": far})
+    try:
+        if context.ready or is_allowed(context, glDepthRange, zNear, zFar):
+            near, far = rounded_pair(context, clamp01(zNear), clamp01(zFar))
+            context.change_fields("viewport", {"near": near, "far": far})
+    except CONVERTING as error:
+        raise refusal(glDepthRange, error, zNear, zFar) from error
 
 
 glDepthRangef = glDepthRange

@@ -9,9 +9,9 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context
+from softshadow.context.state_groups import UNITS
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.capabilities import UNITS
 from softshadow.gl.conversions import NUMBERS, enum, first, from_int, numbers, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.texture_combiners import COMBINE_PARAMETERS, SCALES, parameter_of, with_parameter
@@ -267,7 +267,7 @@ def _generation_problem(coord: int, pname: int, is_vector: bool) -> str | None:
 
 
 def _replace_generation(context: Context, coord: int, field: str, value: Any) -> None:
-    unit, index = f"units.{context.active_unit}", COORDINATES.index(coord)
+    unit, index = UNITS[context.active_unit], COORDINATES.index(coord)
     gen: tuple[TexGen, ...] = context.groups[unit].fields["gen"]
     if getattr(gen[index], field) != value:
         changed = evolve(gen[index], **{field: value})

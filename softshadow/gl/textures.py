@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import hypot
 from typing import Any
 
 import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, thread
+from softshadow.context.state_groups import UNITS
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.conversions import clamped_int, enum, first, from_int, to_int, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.names import generate, names_argument, reserve
+from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.image import Image
 from softshadow.pipeline.commands import AttachTexture, CreateTexture, DeleteTextures, SetSampler
 from softshadow.state.texturing import BINDINGS
@@ -88,7 +91,7 @@ def glBindTexture(target: int, texture: int) -> None:
                 "glBindTexture",
                 f"texture={name}: expected a {token_name(target)}, it is a {token_name(texture_object.target)}",
             )
-    context.change_field(f"units.{context.active_unit}", BINDINGS[target], name)
+    context.change_field(UNITS[context.active_unit], BINDINGS[target], name)
     return None
 
 
@@ -121,7 +124,7 @@ def glIsTexture(texture: int) -> bool:
 
 def set_unit(context: Context, index: int, **fields: Any) -> None:
     """Replace fields of a texture unit's state."""
-    context.change(f"units.{index}", **fields)
+    context.change(UNITS[index], **fields)
 
 
 def object_target(target: int) -> int:
@@ -132,7 +135,7 @@ def object_target(target: int) -> int:
 def bound_name(context: Context, target: int) -> int:
     """Return the key in the storage of the texture bound to a target; the target may be a face of a cube map."""
     target = object_target(target)
-    return stored_name(target, int(context.groups[f"units.{context.active_unit}"].fields[BINDINGS[target]]))
+    return stored_name(target, int(context.groups[UNITS[context.active_unit]].fields[BINDINGS[target]]))
 
 
 def bound_texture(context: Context, target: int) -> Texture:
@@ -172,10 +175,15 @@ def image_target_problem(target: int, dimensions: int = 0) -> tuple[int, str] | 
 
 
 # -- parameters --------------------------------------------------------------------------------------------------------
-@in_lists
 def glTexParameteri(target: int, pname: int, param: int) -> None:
     """Set one parameter of the bound texture."""
-    _set_parameter("glTexParameteri", target, pname, param)
+    context = thread.context
+    try:
+        hypot(param)  # the quickest question whether this is a number
+        if context.ready or is_allowed(context, glTexParameteri, target, pname, param):
+            _set_parameter("glTexParameteri", target, pname, param)
+    except CONVERTING as error:
+        raise refusal(glTexParameteri, error, target, pname, param) from error
 
 
 @in_lists
@@ -217,7 +225,7 @@ def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
     if problem := target_problem(target):
         return fail(problem[0], operation, problem[1])
     if pname in CHOICES:
-        (field, choices), chosen = CHOICES[pname], enum(value)
+        (field, choices), chosen = CHOICES[pname], value if type(value) is int else enum(value)
         if target == gl.GL_TEXTURE_RECTANGLE:
             choices = tuple(choice for choice in choices if choice not in NOT_OF_RECTANGLES)
         if chosen not in choices:

@@ -160,18 +160,22 @@ def glFrustum(left: float, right: float, bottom: float, top: float, zNear: float
         context.matrix_stack.frustum(left, right, bottom, top, zNear, zFar)
 
 
-@in_lists
 def glOrtho(left: float, right: float, bottom: float, top: float, zNear: float, zFar: float) -> None:
     """Multiply the current matrix by an orthographic projection."""
-    context = outside_begin("glOrtho")
-    if context is None:
-        return
-    if left == right or bottom == top or zNear == zFar:
-        expected = "expected left ≠ right, bottom ≠ top and near ≠ far"
-        fail(gl.GL_INVALID_VALUE, "glOrtho", f"left={left}, right={right}: {expected}")
-    else:
-        context.flush()
-        context.matrix_stack.ortho(left, right, bottom, top, zNear, zFar)
+    context = thread.context
+    try:
+        hypot(left, right, bottom, top, zNear, zFar)  # the quickest question whether these are numbers
+        if not (context.ready or is_allowed(context, glOrtho, left, right, bottom, top, zNear, zFar)):
+            return
+        if left == right or bottom == top or zNear == zFar:
+            expected = "expected left ≠ right, bottom ≠ top and near ≠ far"
+            fail(gl.GL_INVALID_VALUE, "glOrtho", f"left={left}, right={right}: {expected}")
+        else:
+            if not context.ready:
+                context.flush()
+            context.matrix_stack.ortho(left, right, bottom, top, zNear, zFar)
+    except CONVERTING as error:
+        raise refusal(glOrtho, error, left, right, bottom, top, zNear, zFar) from error
 
 
 glLoadMatrixd, glMultMatrixd = glLoadMatrixf, glMultMatrixf

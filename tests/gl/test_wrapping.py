@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from softshadow import gl
-from softshadow.gl.fragment_state import glStencilFunc
+from softshadow.gl.fragment_state import glBlendFunc
 from softshadow.gl.wrapping import Wrapping
 
 TWICE = Wrapping("twice", "first = call({parameters})\nreturn first, call({parameters}), {has_text}")
@@ -61,10 +61,10 @@ def test_a_wrong_number_of_arguments_is_an_error_of_the_call() -> None:
 
 
 def test_tracebacks_show_the_line_that_calls() -> None:
-    assert gl.glStencilFunc is not glStencilFunc
+    assert gl.glBlendFunc is not glBlendFunc
     with gl.create_context(4, 3), pytest.raises(gl.GLError) as caught:
-        gl.glStencilFunc(77, 0, 0)
+        gl.glBlendFunc(77, 0)
     around = traceback.extract_tb(caught.value.__traceback__)[1]
-    assert (around.name, around.line) == ("glStencilFunc", "return call(_0, _1, _2)")
+    assert (around.name, around.line) == ("glBlendFunc", "return call(_0, _1)")
     linecache.checkcache()
     assert linecache.getline(around.filename, around.lineno or 0).strip() == around.line
