@@ -8,6 +8,7 @@ to them: threads share the rows of all of them at once.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 
@@ -25,12 +26,8 @@ from softshadow.pipeline.fast.forward import (
 )
 from softshadow.pipeline.fast.segment_tables import (
     END,
-    END_ROW,
     FIRST,
-    FIRST_ROW,
     FLATS,
-    LEFT,
-    RIGHT,
     TEXTURES,
     SegmentState,
     padded_textures,
@@ -144,15 +141,16 @@ class Group:
 
     def _segments(self) -> Segments:
         batches, table = list(self._batches.values()), np.array(self._rows, np.int32)
-        starts = np.cumsum([0, *[each.end - each.first for each in batches]])
-        shifts = np.array([start - each.first for start, each in zip(starts, batches, strict=False)], np.int32)
-        table[:, FIRST : END + 1] += shifts[table[:, FLATS], None]
+        starts = accumulate([each.end - each.first for each in batches], initial=0)
+        shifts = [start - each.first for start, each in zip(starts, batches, strict=False)]
+        if any(shifts):
+            table[:, FIRST : END + 1] += np.array(shifts, np.int32)[table[:, FLATS], None]
         states = [numbers for _, numbers in self._states.values()]
         textures = [texels for _, texels in self._textures.values()]
         flats = [_widened(each.batch.flat, self._columns, True) for each in batches]
         buffers = buffers_of(self._target, any(numbers.writes_depth for numbers in states))
-        rows = int(table[:, FIRST_ROW].min()), int(table[:, END_ROW].max())
-        region = Region(int(table[:, LEFT].min()), int(table[:, RIGHT].max()), *rows, int(self._target.flipped))
+        lefts, rights, firsts, ends, _ = zip(*self._regions.values(), strict=True)
+        region = Region(min(lefts), max(rights), min(firsts), max(ends), int(self._target.flipped))
         return Segments(
             table, np.array(self._ranges, np.float32), np.array(flats),
             state_tables(states), padded_textures(textures), *buffers, region, self._work,
