@@ -31,7 +31,9 @@ from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import evolve
 from softshadow.image import Image
 from softshadow.pipeline.commands import (
+    Accumulate,
     BeginQuery,
+    BlitFramebuffer,
     Clear,
     Command,
     CopyToTexture,
@@ -50,7 +52,7 @@ from softshadow.state import BLACK, TEXTURE_UNITS, State
 
 NO_UNIFORMS: Mapping[str, Any] = {}
 PIXELS_ONLY = frozenset(
-    (Clear, UpdateImage, CopyToTexture, BeginQuery)
+    (Clear, Accumulate, BlitFramebuffer, UpdateImage, CopyToTexture, BeginQuery)
 )  # commands that change no size, format or sampler
 SHAPE = ("format", "internal_format", "width", "height", "slices")  # of an image
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}

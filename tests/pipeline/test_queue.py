@@ -1,5 +1,6 @@
 """Draws that wait: which of them form a batch, and what is kept of a state for the draws that follow."""
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -161,6 +162,22 @@ def test_what_a_run_depends_on_is_known_when_its_state_returns(planned):
         gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
     gl.glFinish()
     assert len(planned) == 2
+
+
+def test_what_a_run_depends_on_stays_known_when_only_pixels_change(planned):
+    gl.create_context(SIZE, SIZE)
+    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.eye(3, dtype=np.float32))
+    changes = (
+        partial(gl.glAccum, gl.GL_LOAD, 1.0),
+        partial(gl.glAccum, gl.GL_RETURN, 0.5),
+        partial(gl.glBlitFramebuffer, 0, 0, 1, 1, 1, 1, 2, 2, gl.GL_COLOR_BUFFER_BIT, gl.GL_NEAREST),
+        gl.glFinish,
+    )
+    for change in changes:
+        gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
+        change()
+    assert len(planned) == 1
 
 
 def test_large_draws_of_one_kind_are_set_up_together(batches):
