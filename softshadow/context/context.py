@@ -29,7 +29,7 @@ from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import evolve
-from softshadow.image import Image
+from softshadow.image import Format, Image
 from softshadow.pipeline.commands import (
     Accumulate,
     BeginQuery,
@@ -142,6 +142,8 @@ class Context(CurrentValues, Precision):
         self.pending = PendingAttributes()
         # texture matrices and coordinates, and their products at the last raster position
         self.raster_texcoords: tuple[Any, Any, tuple[tuple[float, ...], ...]] | None = None
+        # textures that show rectangles of pixels, by format, width and height; the latest one comes last
+        self.rectangle_textures: dict[tuple[Format, int, int], int] = {}
         self.lists: dict[int, DisplayList] = {}
         self.compiled_list: DisplayList | None = None  # between glNewList and glEndList; whoever sets it clears `ready`
         self.executes_list = False  # while a compiled call is also being executed

@@ -27,7 +27,8 @@ from softshadow.state.texturing import SWITCHES
 from softshadow.texture import DEFAULTS, Sampler
 
 LARGEST_ZOOM = 16
-TEXTURE = min(DEFAULTS.values()) - 1  # key in the storage of the texture that holds the rectangle
+# keys in the storage of the textures that hold rectangles: a program may draw some of different sizes in each frame
+TEXTURES = tuple(min(DEFAULTS.values()) - n for n in range(1, 9))
 SAMPLER = Sampler(
     min_filter=gl.GL_NEAREST, mag_filter=gl.GL_NEAREST, wrap_s=gl.GL_CLAMP_TO_EDGE, wrap_t=gl.GL_CLAMP_TO_EDGE
 )
@@ -41,11 +42,12 @@ def textured_rectangle(
     `left` and `bottom` are counted before the zoom.
     """
     height, width = cells.shape[:2]
-    if _has_texture(context, stored, width, height):
-        context.execute(UpdateImage(TEXTURE, 0, 0, 0, 0, cells))
+    texture, is_defined = _find_texture(context, stored, width, height)
+    if is_defined:
+        context.execute(UpdateImage(texture, 0, 0, 0, 0, cells))
     else:
-        context.execute(DefineImage(TEXTURE, 0, 0, stored, internal_format, width, height, cells))
-    return _draw_of_texture(context, width, height, left, bottom)
+        context.execute(DefineImage(texture, 0, 0, stored, internal_format, width, height, cells))
+    return _draw_of_texture(context, texture, width, height, left, bottom)
 
 
 def copied_rectangle(
@@ -53,25 +55,29 @@ def copied_rectangle(
 ) -> Draw:
     """Return the draw of `textured_rectangle` for bytes of a framebuffer: its rectangle (x, y, width, height)."""
     width, height = rectangle[2:]
-    if not _has_texture(context, FORMATS[gl.GL_RGBA8], width, height):
-        context.execute(DefineImage(TEXTURE, 0, 0, FORMATS[gl.GL_RGBA8], gl.GL_RGBA8, width, height))
-    context.execute(CopyToTexture(framebuffer, TEXTURE, 0, 0, 0, 0, *rectangle))
-    return _draw_of_texture(context, width, height, left, bottom)
+    texture, is_defined = _find_texture(context, FORMATS[gl.GL_RGBA8], width, height)
+    if not is_defined:
+        context.execute(DefineImage(texture, 0, 0, FORMATS[gl.GL_RGBA8], gl.GL_RGBA8, width, height))
+    context.execute(CopyToTexture(framebuffer, texture, 0, 0, 0, 0, *rectangle))
+    return _draw_of_texture(context, texture, width, height, left, bottom)
 
 
-def _has_texture(context: Context, stored: Format, width: int, height: int) -> bool:
-    """Return whether the texture of the last rectangle has this format and size; create one if there was none."""
-    texture = context.objects.textures.get(TEXTURE)
+def _find_texture(context: Context, stored: Format, width: int, height: int) -> tuple[int, bool]:
+    """Return the texture for a rectangle, and whether it has this format and size; else it is the oldest one."""
+    recent, layout = context.rectangle_textures, (stored, width, height)
+    texture = recent.pop(layout, None)
+    is_defined = texture is not None
     if texture is None:
-        context.execute(CreateTexture(TEXTURE, gl.GL_TEXTURE_2D))
-        context.execute(SetSampler(TEXTURE, SAMPLER))
-        return False
-    before = texture.images.get((0, 0))
-    return before is not None and (before.format, before.width, before.height) == (stored, width, height)
+        texture = TEXTURES[len(recent)] if len(recent) < len(TEXTURES) else recent.pop(next(iter(recent)))
+    recent[layout] = texture
+    if texture not in context.objects.textures:
+        context.execute(CreateTexture(texture, gl.GL_TEXTURE_2D))
+        context.execute(SetSampler(texture, SAMPLER))
+    return texture, is_defined
 
 
-def _draw_of_texture(context: Context, width: int, height: int, left: int, bottom: int) -> Draw:
-    """Return the draw that shows the texture of the rectangle so many pixels from the raster position."""
+def _draw_of_texture(context: Context, texture: int, width: int, height: int, left: int, bottom: int) -> Draw:
+    """Return the draw that shows the texture of a rectangle so many pixels from the raster position."""
     zoom_x, zoom_y = np.array(context.pixel_zoom, np.float32)
     x, y, *_ = context.current.raster.window
     x0, y0 = rounded(x) + np.float32(left) * zoom_x, rounded(y) + np.float32(bottom) * zoom_y
@@ -80,7 +86,7 @@ def _draw_of_texture(context: Context, width: int, height: int, left: int, botto
         y1 = np.trunc(y1)
         y0 = y1 - np.float32(height) * zoom_y
     quad = np.array([[x0, y0, x1, y1]], np.float32)
-    draw = _draw_of_quad(context, quad, _textured(context.state))
+    draw = _draw_of_quad(context, quad, _textured(context.state, UNITS[texture]))
     return evolve(draw, shown_at=_shown_at(context, float(x0), float(y0), width, height))
 
 
@@ -102,10 +108,12 @@ def rounded(coordinate: float) -> np.float32:
     return np.float32(np.trunc(coordinate + np.copysign(0.5, coordinate)))
 
 
+UNITS = {name: TextureUnit(enabled_2d=True, bound_2d=name, env_mode=gl.GL_REPLACE) for name in TEXTURES}
+
+
 @remembered
-def _textured(state: State) -> State:
-    """Return the state with the rectangle as its only texture."""
-    first = TextureUnit(enabled_2d=True, bound_2d=TEXTURE, env_mode=gl.GL_REPLACE)
+def _textured(state: State, first: TextureUnit) -> State:
+    """Return the state with the rectangle of the first unit as its only texture."""
     others = tuple(evolve(unit, **dict.fromkeys(SWITCHES.values(), False)) for unit in state.units[1:])
     return evolve(state, units=(first, *others))
 
