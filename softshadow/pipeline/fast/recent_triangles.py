@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from softshadow.framebuffer import Framebuffer
+from softshadow.frozen import remembered
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.state.common import in_full
@@ -61,11 +62,14 @@ def triangles_key(command: Draw) -> tuple[Hashable, ...]:
     )  # fmt: skip
 
 
+_text_of = remembered(in_full)
+
+
 def window_key(command: Draw, target: Framebuffer) -> tuple[Hashable, ...]:
     """Return what the clipped triangles in a window depend on besides vertices and matrices; text, as 0 is not -0.
 
     For draws that do not pass the stages of `polygon_rules.passes_stages`.
     """
     state = command.state
-    text = in_full(state.viewport, state.clip_planes, state.polygon)
+    text = _text_of(state.viewport, state.clip_planes, state.polygon)
     return text, state.depth.clamp, first_provokes(state), target.size, target.flipped

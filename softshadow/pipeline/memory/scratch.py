@@ -11,6 +11,7 @@ import threading
 import numpy as np
 
 SMALLEST = 1 << 16  # bytes; below, the allocator reuses memory by itself
+LARGEST_NUMBER = 16  # bytes of any dtype here
 POOLED = 128 << 20  # bytes in the pool of each thread that draws
 _unused = [np.empty(0, np.uint8)]
 UNUSED_REFERENCES = sys.getrefcount(_unused[0])  # to a block that is not in use: the list, and this call
@@ -31,8 +32,11 @@ def scratch(shape: int | tuple[int, ...], dtype: np.typing.DTypeLike) -> np.ndar
 
     A block is reused once its last reference is gone.
     """
+    numbers = math.prod(shape) if isinstance(shape, tuple) else shape
+    if numbers * LARGEST_NUMBER < SMALLEST:
+        return np.empty(shape, dtype)
     kind = np.dtype(dtype)
-    size = int(math.prod(shape) if isinstance(shape, tuple) else shape) * kind.itemsize
+    size = int(numbers) * kind.itemsize
     if not SMALLEST <= size <= POOLED // 2:
         return np.empty(shape, kind)
     whole = 1 << (size - 1).bit_length()  # pages that are never written take no memory

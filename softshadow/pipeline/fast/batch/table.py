@@ -85,6 +85,8 @@ class Views(NamedTuple):
 def views_of(draws: Sequence[Draw], target: Framebuffer) -> Views:
     """Return the viewport transforms of draws."""
     viewports = [draw.state.viewport for draw in draws]
+    if len(draws) == 1:
+        return Views([0], *_transform(viewports[0], target))
     distinct = {id(viewport): viewport for viewport in viewports}
     rows = {name: row for row, name in enumerate(distinct)}
     of_draws = [rows[id(viewport)] for viewport in viewports]
@@ -115,9 +117,9 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, *, reads_indices: bo
     rows[:, MODELVIEW:PROJECTION] = _matrices([draw.modelview for draw in draws])
     rows[:, PROJECTION:COLOR] = _matrices([draw.projection for draw in draws])
     if not arrays.color:
-        rows[:, COLOR:NORMAL] = np.concatenate([each.color[:1] for each in vertices])
+        rows[:, COLOR:NORMAL] = _first_rows([each.color for each in vertices])
     if not arrays.normal:
-        rows[:, NORMAL : NORMAL + 3] = np.concatenate([each.normal[:1] for each in vertices])
+        rows[:, NORMAL : NORMAL + 3] = _first_rows([each.normal for each in vertices])
     numbers, lightings = _numbers(draws, run, views)
     return Table(
         run.layout,
@@ -136,6 +138,11 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, *, reads_indices: bo
         views.scales,
         views.shifts,
     )
+
+
+def _first_rows(arrays: Sequence[np.ndarray]) -> np.ndarray:
+    """Return the first row of each array."""
+    return arrays[0][:1] if len(arrays) == 1 else np.concatenate([array[:1] for array in arrays])
 
 
 def _matrices(matrices: Sequence[np.ndarray]) -> np.ndarray:
