@@ -18,6 +18,7 @@ NUMBERS = {gl.GL_FOG_DENSITY: "density", gl.GL_FOG_START: "start", gl.GL_FOG_END
 MODES = (gl.GL_LINEAR, gl.GL_EXP, gl.GL_EXP2)
 SOURCES = (gl.GL_FRAGMENT_DEPTH, gl.GL_FOG_COORD)
 A_NUMBER = "GL_FOG_MODE, GL_FOG_COORD_SRC, GL_FOG_DENSITY, GL_FOG_START or GL_FOG_END"
+PLAIN = (float, int)  # types of numbers that need no other question
 SINGLE = (gl.GL_FOG_MODE, gl.GL_FOG_COORD_SRC, *NUMBERS)
 
 
@@ -39,7 +40,7 @@ def glFogf(pname: int, param: float) -> None:
     try:
         if not (context.ready or is_allowed(context, glFogf, pname, param)):
             return
-        if pname in NUMBERS and param >= 0:
+        if pname in NUMBERS and type(param) in PLAIN and param >= 0:
             context.change_field("fog", NUMBERS[pname], rounded_number(context, param))
         elif pname in SINGLE:
             _set("glFogf", pname, param, float)

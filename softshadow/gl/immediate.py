@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, current, thread
+from softshadow.context import Context, Primitive, current, thread
 from softshadow.framebuffer import DEFAULT
 from softshadow.gl.calls import in_lists, is_allowed, record, spelled_like_gl
 from softshadow.gl.conversions import vector
@@ -75,13 +75,20 @@ def glEnd() -> None:
         return
     one_triangle = primitive.mode in (gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN) and count == 3
     mode = gl.GL_TRIANGLES if one_triangle else primitive.mode  # as in Mesa (vbo_try_prim_conversion)
-    may_be_separated = mode in SEPARABLE and not primitive.arrays and context.render_mode.mode == gl.GL_RENDER
-    if may_be_separated or mode in SEPARATE:
+    if mode in SEPARATE or (mode in SEPARABLE and _joins_others(context, primitive)):
         collect_pair(context, mode, primitive)
     else:
         context.draw_primitive(mode, vertices_of(context, primitive))
     one_line = mode == gl.GL_LINE_STRIP and count == 2
     context.vertex_buffer.end_pair(gl.GL_LINES if one_line else mode, count)
+
+
+def _joins_others(context: Context, primitive: Primitive) -> bool:
+    """Return whether a strip, fan, loop or polygon may become a part of a draw of several ones.
+
+    Those with arrays are drawn again with the same ones; feedback, selection and origins tell them apart.
+    """
+    return not primitive.arrays and context.origin is None and context.render_mode.mode == gl.GL_RENDER
 
 
 def consecutive_indices(count: int) -> np.ndarray:

@@ -28,7 +28,7 @@ from softshadow.texture import DEFAULTS, Sampler
 
 LARGEST_ZOOM = 16
 # keys in the storage of the textures that hold rectangles: a program may draw some of different sizes in each frame
-TEXTURES = tuple(min(DEFAULTS.values()) - n for n in range(1, 9))
+TEXTURES = tuple(min(DEFAULTS.values()) - n for n in range(1, 5))
 SAMPLER = Sampler(
     min_filter=gl.GL_NEAREST, mag_filter=gl.GL_NEAREST, wrap_s=gl.GL_CLAMP_TO_EDGE, wrap_t=gl.GL_CLAMP_TO_EDGE
 )
@@ -86,7 +86,7 @@ def _draw_of_texture(context: Context, texture: int, width: int, height: int, le
         y1 = np.trunc(y1)
         y0 = y1 - np.float32(height) * zoom_y
     quad = np.array([[x0, y0, x1, y1]], np.float32)
-    draw = _draw_of_quad(context, quad, _textured(context.state, UNITS[texture]))
+    draw = _draw_of_quad(context, quad, _textured(context.state, FIRST_UNITS[texture]))
     return evolve(draw, shown_at=_shown_at(context, float(x0), float(y0), width, height))
 
 
@@ -108,7 +108,7 @@ def rounded(coordinate: float) -> np.float32:
     return np.float32(np.trunc(coordinate + np.copysign(0.5, coordinate)))
 
 
-UNITS = {name: TextureUnit(enabled_2d=True, bound_2d=name, env_mode=gl.GL_REPLACE) for name in TEXTURES}
+FIRST_UNITS = {name: TextureUnit(enabled_2d=True, bound_2d=name, env_mode=gl.GL_REPLACE) for name in TEXTURES}
 
 
 @remembered

@@ -150,6 +150,15 @@ def test_loops_of_two_debug_groups_are_two_draws() -> None:
     assert (single.label, single.mode, single.indices) == ("inner", gl.GL_LINE_LOOP, None)
 
 
+def test_described_polygons_stay_draws_of_their_own() -> None:
+    """The description numbers the triangles of each draw."""
+    with gl.create_context(8, 8) as context:
+        gl.describe_primitives("cap", "face", np.array([5, 6]))
+        loops(2)
+        gl.describe_primitives("")
+        assert [(draw.mode, draw.origin.part) for draw in context.frame.commands] == 2 * [(gl.GL_LINE_LOOP, "cap")]
+
+
 def test_feedback_names_each_polygon() -> None:
     """The outline of each polygon begins with GL_LINE_RESET_TOKEN."""
     with gl.create_context(8, 8):
