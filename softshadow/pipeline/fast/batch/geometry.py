@@ -91,8 +91,10 @@ class Outputs(NamedTuple):
 
     @property
     def columns(self) -> np.ndarray:
-        """All values that clipping interpolates."""
-        return self.values if self.back is None else np.hstack([self.values, self.back])
+        """All values that clipping interpolates: none of back faces if it makes no new vertices."""
+        if self.back is None or not self.codes.any():
+            return self.values
+        return np.hstack([self.values, self.back])
 
 
 class Batch(NamedTuple):
@@ -160,7 +162,8 @@ def geometry_of(
         clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, run.user_planes, edges)
         if is_small and not recent:
             geometry = unset._replace(source=clipped.source, provoking=provoking[clipped.source])
-            return _batch(*_with_pieces(_with_values(geometry, clipped.values, setting), clipped, setting, table))
+            geometry = _with_values(geometry, clipped.values, outputs)
+            return _batch(*_with_pieces(geometry, clipped, setting, table))
     else:
         primitives, clip_primitives = _lines_or_points(table, most, width), clip_points if width == 1 else clip_lines
         sizes = _point_sizes(run, draws) if width == 1 else None
@@ -172,7 +175,7 @@ def geometry_of(
         place_new(clipped.clip[n:], _views_of_new(clipped, of_pieces, table), table.scales, table.shifts, new)
         window = append_rows(window, new)
     geometry = unset._replace(window=window, source=clipped.source, provoking=of_pieces)
-    geometry = _with_values(geometry, clipped.values[:, : columns.shape[1]], setting)
+    geometry = _with_values(geometry, clipped.values[:, : columns.shape[1]], outputs)
     if not is_polygons:
         sizes = None if sizes is None else clipped.values[:, -1]
         places = _stipple_places(draws, clipped.source) if run.stippled else None
@@ -302,13 +305,13 @@ def _repeated_geometry(
         pieces = clip_triangles(clip[cut], columns[cut], own, codes[cut], run.user_planes)
         columns = np.concatenate([columns, pieces.values[len(cut) :]])
     geometry = geometry._replace(flat=setting.flat, program=setting.program, uniforms=setting.uniforms)
-    return _with_values(geometry, columns, setting)
+    return _with_values(geometry, columns, outputs)
 
 
-def _with_values(geometry: Geometry, columns: np.ndarray, setting: Setting) -> Geometry:
-    """Return the geometry with the values of all vertices, those of front faces in the first columns."""
-    k = len(setting.flat)
-    back = np.ascontiguousarray(columns[:, k:]) if columns.shape[1] > k else None
+def _with_values(geometry: Geometry, columns: np.ndarray, outputs: Outputs) -> Geometry:
+    """Return the geometry with the values of all vertices; `columns` are `Outputs.columns`, with those of new ones."""
+    k = outputs.values.shape[1]
+    back = np.ascontiguousarray(columns[:, k:]) if columns.shape[1] > k else outputs.back
     return geometry._replace(values=np.ascontiguousarray(columns[:, :k]), back=back)
 
 
