@@ -18,6 +18,7 @@ from softshadow.framebuffer import DEPTH_FORMATS, LARGEST_SIDE, NOTHING
 from softshadow.image import EXACT_DEPTH, FORMATS, STENCIL8, Image, zeroed_cells
 from softshadow.inspection.replay import Buffers
 from softshadow.pipeline import commands
+from softshadow.pipeline.geometry.separate import is_separated
 from softshadow.state import Polygon, State
 from softshadow.state.rasterization import SOLID
 
@@ -174,6 +175,8 @@ def _validate_draw(draw: commands.Draw) -> None:
         _validate_array("indices", draw.indices, np.int32, None)
         if draw.indices.size and not (draw.indices.min() >= 0 and draw.indices.max() < n):
             raise ValueError(f"indices: expected 0 to {n - 1}")
+    if draw.pairs_mode and not is_separated(draw):
+        raise ValueError(f"a draw of pairs of mode {draw.pairs_mode}: expected indices of separate triangles or lines")
     for matrix in (draw.modelview, draw.projection, *draw.texture_matrices):
         _validate_array("a matrix", matrix, matrix.dtype if matrix.dtype.kind == "f" else np.float64, 4, 4)
     if draw.joined_positions is not None:

@@ -24,7 +24,7 @@ from softshadow.inspection.validate_recording import validate_buffers, validate_
 from softshadow.runs.members import read_members, write_members
 from softshadow.scene import Scene
 
-SCHEMA = 3
+SCHEMA = 4
 # the exceptions that reading a damaged file may raise: as an archive, and where its contents are those of another file
 DAMAGED = (
     OSError, ValueError, KeyError, TypeError, IndexError, AttributeError, ArithmeticError, EOFError, RuntimeError,

@@ -1,12 +1,15 @@
 """Strips, fans, loops and polygons in a row become one draw of separate triangles or lines, with the same pixels."""
 
 from random import Random
+from typing import Any
 
 import numpy as np
 import pytest
 
 from softshadow import gl
+from softshadow.frozen import evolve
 from softshadow.gl import immediate
+from softshadow.inspection.validate_recording import validate_frame
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.assembly import assemble, edge_flags, edges_of_joined_polygons
 from softshadow.pipeline.geometry.lines import LINES, assemble_lines
@@ -157,6 +160,27 @@ def test_described_polygons_stay_draws_of_their_own() -> None:
         loops(2)
         gl.describe_primitives("")
         assert [(draw.mode, draw.origin.part) for draw in context.frame.commands] == 2 * [(gl.GL_LINE_LOOP, "cap")]
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"indices": None},
+        {"mode": gl.GL_TRIANGLES},
+        {"pairs_mode": gl.GL_QUADS},
+        {"indices": np.arange(5, dtype=np.int32)},
+    ],
+    ids=["no indices", "other primitives", "another mode", "half a line"],
+)
+def test_a_file_with_other_indices_is_refused(wrong: dict[str, Any]) -> None:
+    """Kernels rely on them: they check no index."""
+    with gl.create_context(8, 8) as context:
+        loops(2)
+        frame = context.frame
+    validate_frame(frame)
+    frame.commands[0] = evolve(frame.commands[0], **wrong)
+    with pytest.raises(ValueError, match="a draw of pairs of mode"):
+        validate_frame(frame)
 
 
 def test_feedback_names_each_polygon() -> None:

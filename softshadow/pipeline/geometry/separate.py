@@ -15,6 +15,7 @@ from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.assembly import assemble
 from softshadow.pipeline.geometry.lines import LINES, assemble_lines
+from softshadow.pipeline.mesa.driver_draws import SEPARATE
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, is_stippled
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 
@@ -48,6 +49,13 @@ def separated(command: Draw, counts: tuple[int, ...]) -> Draw:
     return evolve(
         command, mode=SEPARABLE[command.mode], indices=separate_indices(command.mode, counts), pairs_mode=command.mode
     )
+
+
+def is_separated(command: Draw) -> bool:
+    """Return whether a draw has a mode and indices as `separated` gives them."""
+    corners = SEPARATE.get(command.mode, 0)
+    has_mode = SEPARABLE.get(command.pairs_mode) == command.mode
+    return has_mode and command.indices is not None and len(command.indices) % corners == 0
 
 
 @lru_cache(MOST_KNOWN)
