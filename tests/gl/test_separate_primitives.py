@@ -9,7 +9,9 @@ import pytest
 from softshadow import gl
 from softshadow.frozen import evolve
 from softshadow.gl import immediate
+from softshadow.gl.shape_calls import Calls
 from softshadow.inspection.validate_recording import validate_frame
+from softshadow.pipeline import use_short_cuts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.assembly import assemble, edge_flags, edges_of_joined_polygons
 from softshadow.pipeline.geometry.lines import LINES, assemble_lines
@@ -96,6 +98,29 @@ def test_joined_primitives_have_the_pixels_of_single_ones(seeds: range, monkeypa
         assert buffers == joined[seed][0], seed
 
 
+def outlined_polygons(mode: int) -> bytes:
+    """Return the colours after some polygons, by their edges or corners, have been drawn."""
+    with gl.create_context(24, 18) as context:
+        gl.glPolygonMode(gl.GL_FRONT_AND_BACK, mode)
+        for polygon in range(5):
+            gl.glBegin(gl.GL_POLYGON)
+            for corner in range(3 + polygon):
+                angle = 6.28 * corner / (3 + polygon)
+                gl.glVertex2f(0.4 * polygon - 0.8 + 0.3 * np.cos(angle), 0.7 * np.sin(angle))
+            gl.glEnd()
+        gl.glFinish()
+        return context.storage.window.color.view.tobytes()
+
+
+@pytest.mark.parametrize("short_cuts", [True, False])
+@pytest.mark.parametrize("mode", [gl.GL_LINE, gl.GL_POINT])
+def test_joined_polygons_have_no_diagonals(mode: int, short_cuts: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    with use_short_cuts(short_cuts):
+        joined = outlined_polygons(mode)
+        monkeypatch.setattr(immediate, "SEPARABLE", {})
+        assert outlined_polygons(mode) == joined
+
+
 @pytest.mark.parametrize("mode", SEPARABLE)
 def test_indices_are_those_of_each_primitive(mode: int) -> None:
     counts = (4, 3, 1, 7)
@@ -151,6 +176,20 @@ def test_loops_of_two_debug_groups_are_two_draws() -> None:
         both, single = context.frame.commands
     assert (both.label, both.called_mode, len(both.vertices.position)) == ("", gl.GL_LINE_LOOP, 6)
     assert (single.label, single.mode, single.indices) == ("inner", gl.GL_LINE_LOOP, None)
+
+
+def test_shapes_keep_the_arrays_of_their_strips() -> None:
+    """What is derived from the same arrays is found again."""
+    shape = Calls()
+    shape.begin(gl.GL_TRIANGLE_STRIP)
+    for n in range(5):
+        shape.vertex(float(n), 0.0, 0.0)
+    shape.end()
+    with gl.create_context(8, 8) as context:
+        shape.make()
+        shape.make()
+        first, second = context.frame.commands
+    assert first.vertices.position is second.vertices.position
 
 
 def test_described_polygons_stay_draws_of_their_own() -> None:
