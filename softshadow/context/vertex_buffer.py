@@ -153,7 +153,7 @@ class VertexBuffer:
     def draw(self, command: Draw) -> None:
         """Draw at once; consecutive draws of one mode are one draw of the driver."""
         driver_draw = self.driver_draw
-        mode = command.pairs_mode or command.mode
+        mode = command.called_mode
         if mode != driver_draw.mode:
             driver_draw = self.driver_draw = DriverDraw(mode)
         if not driver_draw.is_lost:

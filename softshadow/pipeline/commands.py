@@ -110,7 +110,7 @@ class Draw:
 
     @property
     def called_mode(self) -> int:
-        """The mode that the program called glBegin or glDrawArrays with."""
+        """The mode that the program gave to glBegin, glDrawArrays ..."""
         return self.pairs_mode or self.mode
 
     @property

@@ -274,7 +274,7 @@ def is_filled(polygon: Polygon) -> bool:
 def is_outlined_alone(command: Draw) -> bool:
     """Return whether a draw of unfilled or stippled polygons has edge flags, or is large.
 
-    A large one is looked for on its own.
+    A large one is looked for on its own, but for joined pairs, whose arrays are new in each frame.
     """
     vertices = command.vertices
     if is_filled(command.state.polygon):
