@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from softshadow.framebuffer import Framebuffer
+from softshadow.jit import kernel
 from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.fast.fragment_block import block_memory
 from softshadow.pipeline.fast.segment_rows import draw_segments
@@ -22,6 +23,7 @@ from softshadow.pipeline.fast.segment_tables import (
 )
 from softshadow.pipeline.fast.span_tests import NO_OPS
 from softshadow.pipeline.fast.special_fragments import NO_SPECIAL
+from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.records import Geometry, Spans
 from softshadow.pipeline.shade.interpolate import AttributePlanes
 from softshadow.pipeline.shade.shading import LOOKED_UP, shade_in_parts
@@ -32,6 +34,7 @@ NO_COUNT = np.zeros(1, np.int64)  # spans have passed the tests before
 
 # so many fragments, in draws that cover most of a small window, pay for compiling them
 SPAN_KERNELS = KernelGroup("spans", pays_after=250_000)
+LONG_SPAN = 64  # fragments; spans of this length take no longer in any order
 
 
 def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry) -> Callable[[Spans], None] | None:
@@ -45,6 +48,7 @@ def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry)
     flats = np.array([geometry.flat])
 
     def shade_part(spans: Spans, planes: AttributePlanes) -> None:
+        spans = spans_by_triangle(spans, planes)
         segment = np.array([[0, 0, OF_SPANS, len(spans.row), 0, 0, 0, 0, *IN_ORDER]], np.int32)
         draw_segments(
             segment, NO_RANGE, NO_ORDER, 0, 0, 0, triangles.corners, triangles.depth, triangles.front, planes.values,
@@ -53,3 +57,37 @@ def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry)
         )  # fmt: skip
 
     return lambda spans: shade_in_parts(geometry, spans, shade_part, LOOKED_UP if geometry.program.units else 1)
+
+
+def spans_by_triangle(spans: Spans, planes: AttributePlanes) -> Spans:
+    """Return spans that do not overlap in the order of their triangles, where shading them takes less time then.
+
+    A vector holds the fragments of one triangle. In the order of rows, a span of three fragments has one of its own.
+    """
+    n_spans, n_triangles = len(spans.row), len(planes.values)
+    if n_spans < 2 * n_triangles or spans.fragments >= LONG_SPAN * n_spans:
+        return spans
+    row, left, triangle = scratch((3, n_spans), np.int32)
+    start, next_place = scratch(n_spans + 1, np.int64), scratch(n_triangles, np.int32)
+    sort_by_triangle(planes.place, *spans, next_place, row, left, triangle, start)
+    return Spans(row, left, triangle, start)
+
+
+@kernel
+def sort_by_triangle(place, rows, lefts, triangles, starts, next_place, out_rows, out_lefts, out_triangles, out_starts):
+    """Sort spans by the `place` of their triangle, keeping the order of those of one; `next_place` (P,) is scratch."""
+    next_place[:] = 0
+    for t in triangles:
+        next_place[place[t]] += 1
+    n = np.int32(0)
+    for p in range(next_place.shape[0]):
+        n, next_place[p] = n + next_place[p], n
+    for r in range(rows.shape[0]):
+        p = place[triangles[r]]
+        n = next_place[p]
+        next_place[p] = n + 1
+        out_rows[n], out_lefts[n], out_triangles[n] = rows[r], lefts[r], triangles[r]
+        out_starts[n + 1] = starts[r + 1] - starts[r]
+    out_starts[0] = 0
+    for r in range(rows.shape[0]):
+        out_starts[r + 1] += out_starts[r]
