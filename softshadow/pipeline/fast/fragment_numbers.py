@@ -97,10 +97,11 @@ def numbers_of(front: FragmentOps, back: FragmentOps) -> tuple[np.ndarray, np.nd
         depth_func = ops.depth_func if ops.depth_test else ALWAYS
         stencil_func = ops.stencil_func if ops.stencil_test else ALWAYS
         stencil_ops = (ops.sfail, ops.zfail, ops.zpass) if ops.stencil_test else (KEEP, KEEP, KEEP)
+        write_mask = 0 if set(stencil_ops) == {KEEP} else ops.write_mask  # 0 also says that no stencil value changes
         numbers[facing] = (
             *(-int(says(depth_func, *pair)) for pair in pairs), ops.depth_write,
             *(255 * says(stencil_func, *pair) for pair in pairs[:3]),
-            ref & ops.read_mask, ops.read_mask, ops.write_mask, largest,
+            ref & ops.read_mask, ops.read_mask, write_mask, largest,
             *(number for op in stencil_ops for number in updates(op, 1, ref, largest)),
             depth_func, *stencil_ops[1:], ref,
         )  # fmt: skip

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from softshadow.jit import inlined, kernel, read_only
+from softshadow.jit import copied_kernel, inlined, kernel, read_only
 from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import (
     DEPTH,
@@ -23,6 +23,7 @@ from softshadow.pipeline.fast.fragment_block import (
     SPAN_ROW,
     SPAN_START,
     W,
+    whole_portions,
 )
 from softshadow.pipeline.fast.fragment_numbers import (
     DEPTH_WRITE,
@@ -61,7 +62,6 @@ LARGEST_BYTE, START = np.float32(255), np.uint64(0)
 NO_OPS = FragmentOps(0, ALWAYS, 0, ALWAYS, KEEP, KEEP, KEEP, 0, 0, ALWAYS, 0, 0, 0, 0, 0, 0)
 # depth tests that a fragment, once it has failed, fails for ever: what passes moves the stored depth away from it
 LASTING = (NEVER, LESS, EQUAL, LEQUAL, GREATER, GEQUAL)
-SHORT = 32  # fragments of a short span: a loop over half as many is unrolled, and has no vectors
 IS_TESTED, IF_LESS, IF_EQUAL, IF_GREATER, ALPHA_REF = range(5)  # of `AlphaTests.alpha`
 
 
@@ -134,6 +134,8 @@ def collect_passing_spans(
     m, row, n_spans : where to go on, since the arrays were full, and how many spans there are
     """
     depth_range, n_spans, fragments = DepthRange(low, high), 0, np.int64(0)
+    pitch = depth.shape[1] if tests_depth else stencil.shape[1]
+    pitch = min(pitch, stencil.shape[1]) if tests_stencil else pitch
     starts[0] = 0
     while m < order.shape[0]:
         t = np.uint64(order[m])
@@ -156,10 +158,17 @@ def collect_passing_spans(
                 left = right
             while left < right:
                 length = np.uint64(min(right - left, SIZE))
-                if length <= SHORT and left + SHORT <= depth.shape[1] and tests_depth and not tests_stencil:
-                    every, some = test_short_span(
+                fits = left + np.int64(whole_portions(length)) <= pitch
+                if fits and not tests_stencil:
+                    every, some = test_depths(
                         numbers, largest, f, planes, t, depth_range, j, left, length, depth, START, False, whole
                     )
+                elif fits and not byte_numbers[f, WRITE]:
+                    every, some = test_stencil(byte_numbers, f, j, left, length, stencil, whole)
+                    if tests_depth and some:
+                        every, some = test_depths(
+                            numbers, largest, f, planes, t, depth_range, j, left, length, depth, START, True, whole
+                        )
                 else:
                     every, some = test_span(
                         tests_depth, tests_stencil, numbers, byte_numbers, largest, f, planes, t, depth_range, j, left,
@@ -183,20 +192,20 @@ def collect_passing_spans(
     return m, row, n_spans
 
 
-@kernel
-def test_short_span(numbers, largest, f, planes, t, depth_range, j, left, length, depth, at, is_masked, whole):
-    """Do what `test_span` does for up to SHORT fragments that are tested for depth only, in one loop of fixed length.
+@copied_kernel
+def test_depths(numbers, largest, f, planes, t, depth_range, j, left, length, depth, at, is_masked, whole):
+    """Do what `test_span` does for fragments that are tested for depth only, in one loop over whole portions.
 
-    A loop of any length over a few fragments takes them one by one. The buffer has SHORT columns from `left` on. If
-    `is_masked`, fragments whose MASK is not set fail.
+    A loop of any length over a few fragments takes them one by one. So the buffer must have as many columns from `left`
+    on as `whole_portions` says. If `is_masked`, fragments whose MASK is not set fail.
     """
     first, mask, count, depth_test = np.uint64(left), MASK + at, np.int32(length), depth_test_of(numbers, f)
     z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
     row_at, start_at = np.float32(np.int32(j)), np.float32(np.int32(left))
     writes, unmasked = np.int32(-1 if numbers[f, DEPTH_WRITE] else 0), np.int32(0 if is_masked else -1)
     every, some = np.int32(-1), np.int32(0)
-    for k in range(SHORT):
-        n, place = np.uint64(k), np.int32(k)
+    for n in range(whole_portions(length)):
+        place = np.int32(n)
         z = depth_of(z0, dz, dz_row, offset, start_at + np.float32(place), row_at, depth_range, largest)
         inside, stored, before = np.int32(-1 if place < count else 0), depth[j, first + n], whole[mask + n]
         passes = np.int32(depth_passes(depth_test, z, stored) & np.int32(inside & np.int32(before | unmasked)))
@@ -204,6 +213,23 @@ def test_short_span(numbers, largest, f, planes, t, depth_range, j, left, length
         whole[mask + n] = np.int32(passes | np.int32(before & outside))
         every, some = np.int32(every & np.int32(passes | outside)), np.int32(some | passes)
         depth[j, first + n] = z if np.int32(passes & writes) else stored
+    return every != 0, some != 0
+
+
+@copied_kernel
+def test_stencil(numbers, f, j, left, length, stencil, whole):
+    """Write MASK: which fragments pass a stencil test that changes no value; return whether all and whether some do.
+
+    In one loop over whole portions, as `test_depths`.
+    """
+    test, ref, read = stencil_test_of(numbers, f), numbers[f, REF], numbers[f, READ]
+    first, count, every, some = np.uint64(left), np.int32(length), np.int32(-1), np.int32(0)
+    for n in range(whole_portions(length)):
+        inside = np.int32(-1 if np.int32(n) < count else 0)
+        allowed = stencil_passes(test, ref, np.uint8(stencil[j, first + n] & read))
+        passes = np.int32(inside & np.int32(np.int8(allowed)))  # 255 as int8 is -1
+        whole[MASK + n] = passes
+        every, some = np.int32(every & np.int32(passes | ~inside)), np.int32(some | passes)
     return every != 0, some != 0
 
 
@@ -296,8 +322,8 @@ def test_depths_of_block(
         t, j, left = np.uint64(triangles[s]), np.uint64(spans[SPAN_ROW, s]), int(spans[SPAN_LEFT, s])
         start, f = np.uint64(spans[SPAN_START, s]), np.uint64(faces_front[t])
         length, first = np.uint64(spans[SPAN_START, s + NEXT]) - start, np.uint64(left)
-        if length <= SHORT and left + SHORT <= depth.shape[1]:
-            test_short_span(numbers, largest, f, planes, t, depth_range, j, left, length, depth, start, True, whole)
+        if left + np.int64(whole_portions(length)) <= depth.shape[1]:
+            test_depths(numbers, largest, f, planes, t, depth_range, j, left, length, depth, start, True, whole)
             continue
         mask, z = MASK + start, DEPTH + start
         write_depths(planes, t, depth_range, largest, j, left, length, z, room)
