@@ -55,5 +55,6 @@ def test_long_spans_keep_their_order(width, is_sorted):
 
 
 def test_triangles_of_one_span_each_keep_their_order():
-    spans = Spans(*np.array([[0, 1, 2], [0, 0, 0], [2, 1, 0]], np.int32), np.array([0, 1, 2, 3]))
+    row, left, triangle = np.array([[0, 1, 2], [0, 0, 0], [2, 1, 0]], np.int32)
+    spans = Spans(row, left, triangle, np.array([0, 1, 2, 3]))
     assert spans_by_triangle(spans, planes_for(spans, 3)) is spans
