@@ -43,21 +43,18 @@ def shade_spans(
     that only. The last ones are those of `fragment_block.block_memory`.
     """
     whole[MASK : MASK + np.uint64(SIZE)] = -1
-    r, done = 0, np.int64(0)  # the next span, and how many of its fragments are done
-    while r < n_all:
+    r, end, done = np.uint64(0), np.uint64(n_all), np.int64(0)  # the next span, and how many of its fragments are done
+    while r < end:
         n_spans, n = 0, np.int64(0)
-        while r < n_all and n < FRAGMENTS:  # the last span may go on in the next block
-            length, s = min(starts[r + 1] - starts[r] - done, FRAGMENTS - n), np.uint64(n_spans)
-            own_triangles[s] = triangles[r]
-            spans[SPAN_ROW, s], spans[SPAN_LEFT, s], spans[SPAN_PLACE, s] = (
-                rows[r],
-                lefts[r] + done,
-                place[triangles[r]],
-            )
+        while r < end and n < FRAGMENTS:  # the last span may go on in the next block
+            t, s, rest = np.uint64(triangles[r]), np.uint64(n_spans), starts[r + NEXT] - starts[r] - done
+            length = min(rest, FRAGMENTS - n)
+            own_triangles[s], spans[SPAN_PLACE, s] = t, place[t]
+            spans[SPAN_ROW, s], spans[SPAN_LEFT, s] = rows[r], lefts[r] + done
             done, n, n_spans = done + length, n + length, n_spans + 1
             spans[SPAN_START, s + NEXT] = n
-            if done == starts[r + 1] - starts[r]:
-                r, done = r + 1, np.int64(0)
+            if length == rest:
+                r, done = r + NEXT, np.int64(0)
         shade_block(planes, spans, n_spans, n, flat, switches, numbers, textures, own_textures, special, room, whole)
         if alpha_test[IS_TESTED]:
             test_alpha_of_block(alpha_test, n, ALPHA_ROW, room, whole)
