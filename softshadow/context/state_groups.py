@@ -231,10 +231,14 @@ class StateGroups:
     def _rounded(self, color: Color) -> Color:
         return COLOR.unpack(COLOR.pack(*color)) if self._single else color
 
-    def restore(self, state: State) -> None:
-        """Replace the state by an immutable one; materials that follow a colour still follow it."""
+    def undo(self) -> None:
+        """Take back the changes of which no state was made."""
         for group in self.changed:
             group.fields = dict(vars(group.value))
         self.changed.clear()
+
+    def restore(self, state: State) -> None:
+        """Replace the state by an immutable one; materials that follow a colour still follow it."""
+        self.undo()
         if state is not self.root.value:
             self.root.replace(state)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import is_dataclass
 from typing import Any
 
 from softshadow import tokens as gl
@@ -105,6 +106,25 @@ for _cap, (_group, _field) in CAPABILITIES.items():
     if _cap not in UNPUSHED:
         PUSHED.setdefault(_group, []).append((_cap, _field))
 PER_UNIT = (*UNIT_CAPABILITIES, *TEXTURE_GENERATION)
+
+
+def _bits_of_fields(group: str, value: Any) -> dict[str, int]:
+    """Return the bits of which each restores a field, for all fields that bits restore."""
+    bits: dict[str, int] = {}
+    for bit, fields in BITS[group]:
+        for field in fields or vars(value):
+            bits[field] = bits.get(field, 0) | bit
+    for _, field in PUSHED.get(group, ()):
+        bits[field] = bits.get(field, 0) | gl.GL_ENABLE_BIT
+    return bits
+
+
+# the same for the groups without other groups in them: restoring these has no side effects
+BITS_OF_FIELDS = {
+    group: _bits_of_fields(group, value)
+    for group, value in vars(State()).items()
+    if group in BITS and is_dataclass(value) and not any(map(is_dataclass, vars(value).values()))
+}
 
 
 @remembered

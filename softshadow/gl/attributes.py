@@ -20,7 +20,7 @@ from softshadow.context.color_indices import ColorIndices
 from softshadow.context.evaluators import EvaluatorSettings
 from softshadow.context.state_groups import Followed
 from softshadow.frozen import evolve, evolve_to
-from softshadow.gl.attribute_groups import GROUPS, changed_groups, needs_calls, with_group, with_groups
+from softshadow.gl.attribute_groups import BITS_OF_FIELDS, GROUPS, changed_groups, needs_calls, with_group, with_groups
 from softshadow.gl.calls import is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail
 from softshadow.gl.framebuffers import glDrawBuffer, glDrawBuffers, glReadBuffer
@@ -163,6 +163,9 @@ def glPopAttrib() -> None:
         context.flush()
     entry = context.attribute_stack.pop()
     mask, touched = entry[0], entry[1]
+    if _is_undone(context, mask):
+        context.touched_before = touched
+        return
     if mask & gl.GL_CURRENT_BIT and context.pending.old_values:
         context.update_current()
     state = context.drawn_state if context.changed else context.groups[""].value
@@ -183,6 +186,27 @@ def glPopAttrib() -> None:
     if marked or state is not entry[2]:
         context.others_at_push = None
     context.touched, context.touched_before, context.state_at_push = 0, touched, state
+
+
+def _is_undone(context: Context, mask: int) -> bool:
+    """Undo the changes since the push if no state was made of them, and the bits of `mask` restore all of them.
+
+    Return whether they are undone; otherwise nothing has changed.
+    """
+    pending, groups = context.pending, context.state_groups
+    if groups.root.value is not context.state_at_push or context.touched or context.touched_before:
+        return False
+    if pending.names or pending.hidden or pending.old_values or context.has_collected:
+        return False
+    for group in groups.changed:
+        bits, before = BITS_OF_FIELDS.get(group.field), group.value.__dict__
+        if bits is None or group.parent is not groups.root:
+            return False
+        for field, value in group.fields.items():
+            if value is not before[field] and not bits.get(field, 0) & mask:
+                return False
+    groups.undo()
+    return True
 
 
 def _is_simple(context: Context, state: State, saved: SavedAttributes) -> bool:
