@@ -9,7 +9,7 @@ import numpy as np
 from softshadow.framebuffer import Framebuffer
 from softshadow.jit import kernel
 from softshadow.kernel_cache import KernelGroup
-from softshadow.pipeline.fast.fragment_block import block_memory
+from softshadow.pipeline.fast.fragment_block import NEXT, block_memory
 from softshadow.pipeline.fast.segment_rows import draw_segments
 from softshadow.pipeline.fast.segment_tables import (
     IN_ORDER,
@@ -76,18 +76,20 @@ def spans_by_triangle(spans: Spans, planes: AttributePlanes) -> Spans:
 @kernel
 def sort_by_triangle(place, rows, lefts, triangles, starts, next_place, out_rows, out_lefts, out_triangles, out_starts):
     """Sort spans by the `place` of their triangle, keeping the order of those of one; `next_place` (P,) is scratch."""
+    n_spans = np.uint64(rows.shape[0])  # unsigned numbers: no wrap-around of negative indices is compiled in
     next_place[:] = 0
-    for t in triangles:
-        next_place[place[t]] += 1
+    for r in range(n_spans):
+        next_place[np.uint64(place[np.uint64(triangles[r])])] += np.int32(1)
     n = np.int32(0)
-    for p in range(next_place.shape[0]):
-        n, next_place[p] = n + next_place[p], n
-    for r in range(rows.shape[0]):
-        p = place[triangles[r]]
-        n = next_place[p]
-        next_place[p] = n + 1
-        out_rows[n], out_lefts[n], out_triangles[n] = rows[r], lefts[r], triangles[r]
-        out_starts[n + 1] = starts[r + 1] - starts[r]
+    for p in range(np.uint64(next_place.shape[0])):
+        n, next_place[p] = np.int32(n + next_place[p]), n
+    for r in range(n_spans):
+        t = np.uint64(triangles[r])
+        p = np.uint64(place[t])
+        k = np.uint64(next_place[p])
+        next_place[p] += np.int32(1)
+        out_rows[k], out_lefts[k], out_triangles[k] = rows[r], lefts[r], t
+        out_starts[k + NEXT] = starts[r + NEXT] - starts[r]
     out_starts[0] = 0
-    for r in range(rows.shape[0]):
-        out_starts[r + 1] += out_starts[r]
+    for r in range(n_spans):
+        out_starts[r + NEXT] += out_starts[r]

@@ -159,11 +159,12 @@ def number_in_order(triangles, place, needed):
 
     `place` (T,) holds -1s and receives the numbers, `needed` the triangles.
     """
-    n = 0
-    for t in triangles:
+    n = np.uint64(0)
+    for r in range(triangles.shape[0]):
+        t = np.uint64(triangles[r])
         if place[t] < 0:
             place[t], needed[n] = n, t
-            n += 1
+            n += np.uint64(1)
     return n
 
 

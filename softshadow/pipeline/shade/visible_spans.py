@@ -14,7 +14,7 @@ from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.records import NO_TRIANGLE, Fragments, Region, Spans
 
-STRIDE = 16  # pixels of a long span that are compared together
+STRIDE, NEXT = np.uint64(16), np.uint64(1)  # pixels that are compared together: in a long span, they are equal
 PIXELS_PER_PART = 1 << 16
 WORTH_SHARING = 1 << 20  # pixels from which several threads count their spans
 WORTH_COLLECTING = 20_000  # spans; one takes as long as 32 pixels
@@ -136,18 +136,25 @@ def count_visible(ids, left, right):
 @kernel
 def collect_visible(ids, first_column, end_column, first_row, fragment, rows, lefts, triangles, starts):
     """Write row, first column, triangle and first fragment of all spans; `fragment` is the number of the first one."""
-    n = 0
+    n = np.uint64(0)
     for row in range(ids.shape[0]):
-        row_ids, column = ids[row, first_column:end_column], 0
-        while column < row_ids.shape[0]:
-            triangle, left = row_ids[column], column
-            differs = np.int32(0)
-            while column + STRIDE <= row_ids.shape[0] and differs == 0:
-                for i in range(STRIDE):  # without a branch: one or two vectors
-                    differs |= row_ids[np.uint64(column + i)] ^ triangle
-                column += STRIDE if differs == 0 else 0
-            while column < row_ids.shape[0] and row_ids[np.uint64(column)] == triangle:
-                column += 1
-            if triangle >= 0:
-                rows[n], lefts[n], triangles[n], starts[n] = row + first_row, left + first_column, triangle, fragment
-                n, fragment = n + 1, fragment + column - left
+        j, column, end, last = np.uint64(row), np.uint64(first_column), np.uint64(end_column), np.int32(NO_TRIANGLE)
+        while column < end:
+            stop = min(column + STRIDE, end)
+            if column + STRIDE <= end and ids[j, stop - NEXT] == last:
+                differs = np.int32(0)
+                for k in range(STRIDE):  # without a branch: one or two vectors
+                    differs |= ids[j, column + k] ^ last
+                if differs == 0:
+                    fragment += np.int64(STRIDE) if last >= 0 else 0
+                    column = stop
+                    continue
+            while column < stop:
+                triangle = ids[j, column]
+                if triangle != last:
+                    last = triangle
+                    if triangle >= 0:
+                        rows[n], lefts[n], triangles[n], starts[n] = row + first_row, column, triangle, fragment
+                        n += NEXT
+                fragment += 1 if triangle >= 0 else 0
+                column += NEXT
