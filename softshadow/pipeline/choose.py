@@ -53,7 +53,7 @@ FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangl
 TRIANGLES_OF_QUAD = 2
 SPARSE = 0.3  # fragments for each pixel of their region: from fewer on, most of the search for spans finds nothing
 # fragments of a triangle, and for each pixel of their region: such triangles have long spans, of which few are hidden
-LARGE_TRIANGLE, FEW_LAYERS = 32, 1.3
+LARGE_TRIANGLE, FEW_LAYERS = 80, 1.3
 # draws of so many triangles are cheaper to fill, shading each visible pixel once, than to draw triangle by triangle
 MANY_TRIANGLES = 4096
 LARGE_DRAW = 50_000  # fragments of a draw that counts as such when the kernels of the fixed function are to be compiled
@@ -203,8 +203,10 @@ def choose_forward(
     such a draw is made again and again. `fragments` is about how many they are; without a `storage`, only their number
     decides.
     """
-    is_small = fragments <= FEW_FRAGMENTS and short_cuts.get() != "always"  # which wants its fill to be compiled
-    hides_little = storage is not None and _hides_little(len(geometry.triangles.ids), fragments, region)
+    n_triangles = len(geometry.triangles.ids)
+    is_small = fragments <= FEW_FRAGMENTS and n_triangles < MANY_TRIANGLES
+    is_small = is_small and short_cuts.get() != "always"  # which wants its fill to be compiled
+    hides_little = storage is not None and _hides_little(n_triangles, fragments, region)
     must_test_in_order = plan.in_order or plan.counting
     if not plan.forward or not (must_test_in_order or is_small or (hides_little and short_cuts.get() is True)):
         return None
