@@ -17,6 +17,7 @@ from softshadow.pipeline.fast.fragment_block import (
     LEVEL,
     LINEAR,
     LOWER,
+    NEXT,
     OFFSET,
     PITCH,
     R_AXIS,
@@ -60,6 +61,8 @@ from softshadow.programs.filtering import UNORM8_STEP
 BYTE = np.int32(255)
 EVEN, HALVES = np.int32(0x00FF00FF), np.int32(0x00800080)  # two bytes of a pixel, and the rounding of both
 WEIGHT_STEPS = np.float32(256.0)
+# rows of pairs of texels, 64 bits each, in the place of two rows of `whole`
+UPPER_PAIRS, LOWER_PAIRS, HALF_OF_PAIR = CORNER_00 >> np.uint64(1), CORNER_01 >> np.uint64(1), np.uint64(32)
 
 
 @kernel
@@ -133,6 +136,9 @@ def take_nearest(axis, nearest, count, whole):
 @kernel
 def mix_corners(count, texels, whole):
     """Write FILTERED: the mixture of the texels at FIRST and SECOND of s and t."""
+    if are_side_by_side(count, whole):
+        mix_pairs(count, texels, whole)
+        return
     write_corners(count, whole)
     gather(texels, CORNER_00, count, whole)
     gather(texels, CORNER_10, count, whole)
@@ -142,6 +148,42 @@ def mix_corners(count, texels, whole):
         x, y = whole[FRACTION + n], whole[T_AXIS + FRACTION + n]
         first = mix_bytes_of(x, whole[CORNER_00 + n], whole[CORNER_10 + n])
         whole[FILTERED + n] = mix_bytes_of(y, first, mix_bytes_of(x, whole[CORNER_01 + n], whole[CORNER_11 + n]))
+
+
+@kernel
+def are_side_by_side(count, whole):
+    """Return whether SECOND of s is the texel after FIRST for all fragments: no coordinate is wrapped or clamped."""
+    differs = NOTHING
+    for n in range(np.uint64(count)):
+        differs |= np.int32(np.int32(whole[SECOND + n] - whole[FIRST + n]) ^ ONE_TEXEL)
+    return differs == NOTHING
+
+
+@kernel
+def mix_pairs(count, texels, whole):
+    """Do what `mix_corners` does where the two texels of a row lie side by side: they are loaded together."""
+    pairs = whole.view(np.uint64)
+    gather_pairs(texels, T_AXIS + FIRST, UPPER_PAIRS, count, whole, pairs)
+    gather_pairs(texels, T_AXIS + SECOND, LOWER_PAIRS, count, whole, pairs)
+    for n in range(np.uint64(count)):
+        x, y = whole[FRACTION + n], whole[T_AXIS + FRACTION + n]
+        upper, lower = pairs[UPPER_PAIRS + n], pairs[LOWER_PAIRS + n]
+        first = mix_bytes_of(x, np.int32(upper), np.int32(upper >> HALF_OF_PAIR))
+        second = mix_bytes_of(x, np.int32(lower), np.int32(lower >> HALF_OF_PAIR))
+        whole[FILTERED + n] = mix_bytes_of(y, first, second)
+
+
+@kernel
+def gather_pairs(texels, row, target, count, whole, pairs):
+    """Write the texels at FIRST and SECOND of s, and at `row` of t, to `pairs` (uint64, the memory of `whole`)."""
+    largest = np.uint32(len(texels) - 2)
+    for n in range(np.uint64(count)):  # a loop of its own, see `gather`; FILTERED is not in use yet
+        place = np.int32(np.int32(whole[OFFSET + n] + np.int32(whole[row + n] * whole[PITCH + n])) + whole[FIRST + n])
+        whole[FILTERED + n] = np.int32(min(np.uint32(place), largest))
+    for n in range(np.uint64(count)):
+        place = np.uint64(np.uint32(whole[FILTERED + n]))
+        left, right = np.uint64(np.uint32(texels[place])), np.uint64(np.uint32(texels[place + NEXT]))
+        pairs[target + n] = left | right << HALF_OF_PAIR
 
 
 @kernel
