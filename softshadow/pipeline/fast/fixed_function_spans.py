@@ -85,9 +85,9 @@ def sort_by_triangle(place, rows, lefts, triangles, starts, next_place, out_rows
         n, next_place[p] = np.int32(n + next_place[p]), n
     for r in range(n_spans):
         t = np.uint64(triangles[r])
-        p = np.uint64(place[t])
-        k = np.uint64(next_place[p])
-        next_place[p] += np.int32(1)
+        own = np.uint64(place[t])
+        k = np.uint64(next_place[own])
+        next_place[own] += np.int32(1)
         out_rows[k], out_lefts[k], out_triangles[k] = rows[r], lefts[r], t
         out_starts[k + NEXT] = starts[r + NEXT] - starts[r]
     out_starts[0] = 0

@@ -181,8 +181,8 @@ def gather_pairs(texels, row, target, count, whole, pairs):
         place = np.int32(np.int32(whole[OFFSET + n] + np.int32(whole[row + n] * whole[PITCH + n])) + whole[FIRST + n])
         whole[FILTERED + n] = np.int32(min(np.uint32(place), largest))
     for n in range(np.uint64(count)):
-        place = np.uint64(np.uint32(whole[FILTERED + n]))
-        left, right = np.uint64(np.uint32(texels[place])), np.uint64(np.uint32(texels[place + NEXT]))
+        at = np.uint64(np.uint32(whole[FILTERED + n]))
+        left, right = np.uint64(np.uint32(texels[at])), np.uint64(np.uint32(texels[at + NEXT]))
         pairs[target + n] = left | right << HALF_OF_PAIR
 
 
