@@ -41,9 +41,10 @@ def test_the_mixture_is_that_of_four_texels(seed, wraps):
     whole[row(T_AXIS + FIRST)], whole[row(T_AXIS + SECOND)], whole[row(T_AXIS + FRACTION)] = t, below, y
     whole[row(OFFSET)], whole[row(PITCH)] = 0, WIDTH
     assert are_side_by_side(COUNT, whole) != wraps
-    mix_corners(COUNT, texels, whole)
-    upper, lower = (
-        [mix_bytes_of(x[n], texels[j[n] * WIDTH + s[n]], texels[j[n] * WIDTH + after[n]]) for n in range(COUNT)]
-        for j in (t, below)
-    )
-    assert whole[row(FILTERED)].tolist() == [mix_bytes_of(y[n], upper[n], lower[n]) for n in range(COUNT)]
+    with np.errstate(over="ignore"):  # as the kernels do: 32 bits are all that is kept
+        mix_corners(COUNT, texels, whole)
+        upper, lower = (
+            [mix_bytes_of(x[n], texels[j[n] * WIDTH + s[n]], texels[j[n] * WIDTH + after[n]]) for n in range(COUNT)]
+            for j in (t, below)
+        )
+        assert whole[row(FILTERED)].tolist() == [mix_bytes_of(y[n], upper[n], lower[n]) for n in range(COUNT)]
