@@ -159,11 +159,11 @@ def glPopAttrib() -> None:
     if not context.attribute_stack:
         fail(gl.GL_STACK_UNDERFLOW, "glPopAttrib", "there was no glPushAttrib before it")
         return
-    if not context.ready:
-        context.flush()
     entry = context.attribute_stack.pop()
     mask, touched = entry[0], entry[1]
-    if _is_undone(context, mask):
+    if not context.ready:
+        context.flush()
+    elif _is_undone(context, mask):
         context.touched_before = touched
         return
     if mask & gl.GL_CURRENT_BIT and context.pending.old_values:
@@ -191,21 +191,22 @@ def glPopAttrib() -> None:
 def _is_undone(context: Context, mask: int) -> bool:
     """Undo the changes since the push if no state was made of them, and the bits of `mask` restore all of them.
 
-    Return whether they are undone; otherwise nothing has changed.
+    Return whether they are undone; otherwise nothing has changed. No vertices are collected.
     """
     pending, groups = context.pending, context.state_groups
     if groups.root.value is not context.state_at_push or context.touched or context.touched_before:
         return False
-    if pending.names or pending.hidden or pending.old_values or context.has_collected:
+    if pending.names or pending.hidden or pending.old_values:
         return False
-    for group in groups.changed:
-        bits, before = BITS_OF_FIELDS.get(group.field), group.value.__dict__
-        if bits is None or group.parent is not groups.root:
-            return False
-        for field, value in group.fields.items():
-            if value is not before[field] and not bits.get(field, 0) & mask:
+    if groups.changed:
+        for group in groups.changed:
+            bits, before = BITS_OF_FIELDS.get(group.field), group.value.__dict__
+            if bits is None or group.parent is not groups.root:
                 return False
-    groups.undo()
+            for field, value in group.fields.items():
+                if value is not before[field] and not bits.get(field, 0) & mask:
+                    return False
+        groups.undo()
     return True
 
 

@@ -181,7 +181,7 @@ def glTexParameteri(target: int, pname: int, param: int) -> None:
     try:
         hypot(param)  # the quickest question whether this is a number
         if context.ready or is_allowed(context, glTexParameteri, target, pname, param):
-            _set_parameter("glTexParameteri", target, pname, param)
+            _set_parameter(context, "glTexParameteri", target, pname, param)
     except CONVERTING as error:
         raise refusal(glTexParameteri, error, target, pname, param) from error
 
@@ -189,7 +189,7 @@ def glTexParameteri(target: int, pname: int, param: int) -> None:
 @in_lists
 def glTexParameterf(target: int, pname: int, param: float) -> None:
     """Set one parameter of the bound texture."""
-    _set_parameter("glTexParameterf", target, pname, param)
+    _set_parameter(outside_begin("glTexParameterf"), "glTexParameterf", target, pname, param)
 
 
 @in_lists
@@ -198,7 +198,7 @@ def glTexParameterfv(target: int, pname: int, params: Any) -> None:
     if pname == gl.GL_TEXTURE_BORDER_COLOR:
         _set_border("glTexParameterfv", target, vector(params, 4))
     else:
-        _set_parameter("glTexParameterfv", target, pname, first(params))
+        _set_parameter(outside_begin("glTexParameterfv"), "glTexParameterfv", target, pname, first(params))
 
 
 @in_lists
@@ -207,7 +207,7 @@ def glTexParameteriv(target: int, pname: int, params: Any) -> None:
     if pname == gl.GL_TEXTURE_BORDER_COLOR:
         _set_border("glTexParameteriv", target, vector(params, 4, from_int))
     else:
-        _set_parameter("glTexParameteriv", target, pname, first(params, int))
+        _set_parameter(outside_begin("glTexParameteriv"), "glTexParameteriv", target, pname, first(params, int))
 
 
 def _set_border(operation: str, target: int, color: Sequence[float]) -> None:
@@ -219,8 +219,8 @@ def _set_border(operation: str, target: int, color: Sequence[float]) -> None:
     return None
 
 
-def _set_parameter(operation: str, target: int, pname: int, value: Any) -> None:
-    if (context := outside_begin(operation)) is None:
+def _set_parameter(context: Context | None, operation: str, target: int, pname: int, value: Any) -> None:
+    if context is None:  # between glBegin and glEnd
         return None
     if problem := target_problem(target):
         return fail(problem[0], operation, problem[1])
