@@ -159,11 +159,11 @@ def glPopAttrib() -> None:
     if not context.attribute_stack:
         fail(gl.GL_STACK_UNDERFLOW, "glPopAttrib", "there was no glPushAttrib before it")
         return
-    entry = context.attribute_stack.pop()
-    mask, touched = entry[0], entry[1]
     if not context.ready:
         context.flush()
-    elif _is_undone(context, mask):
+    entry = context.attribute_stack.pop()
+    mask, touched = entry[0], entry[1]
+    if _is_undone(context, mask):
         context.touched_before = touched
         return
     if mask & gl.GL_CURRENT_BIT and context.pending.old_values:
