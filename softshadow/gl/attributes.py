@@ -163,7 +163,7 @@ def glPopAttrib() -> None:
         context.flush()
     entry = context.attribute_stack.pop()
     mask, touched = entry[0], entry[1]
-    if _is_undone(context, mask):
+    if _undo_unused(context, mask):
         context.touched_before = touched
         return
     if mask & gl.GL_CURRENT_BIT and context.pending.old_values:
@@ -188,10 +188,10 @@ def glPopAttrib() -> None:
     context.touched, context.touched_before, context.state_at_push = 0, touched, state
 
 
-def _is_undone(context: Context, mask: int) -> bool:
-    """Undo the changes since the push if no state was made of them, and the bits of `mask` restore all of them.
+def _undo_unused(context: Context, mask: int) -> bool:
+    """Undo all changes since the push, if no draw has used them and the bits of `mask` restore each of them.
 
-    Return whether they are undone; otherwise nothing has changed. No vertices are collected.
+    Return whether that is so; otherwise nothing is undone. No vertices may be collected.
     """
     pending, groups = context.pending, context.state_groups
     if groups.root.value is not context.state_at_push or context.touched or context.touched_before:
