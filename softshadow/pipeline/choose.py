@@ -198,10 +198,10 @@ def choose_forward(
 
     It returns how many fragments have passed the tests before shading.
 
-    It is for draws in order, for opaque ones of few fragments, and where finding visible spans would cost more than it
-    saves: for a quad, few fragments in a large region, or large triangles that hide little of each other; but not if
-    such a draw is made again and again. `fragments` is about how many they are; without a `storage`, only their number
-    decides.
+    It is for draws in order, for opaque ones of few fragments and triangles, and where finding visible spans would cost
+    more than it saves: for a quad, few fragments in a large region, or large triangles that hide little of each other;
+    but not if such a draw is made again and again. `fragments` is about how many they are; without a `storage`, only
+    their number and that of the triangles decide.
     """
     n_triangles = len(geometry.triangles.ids)
     is_small = fragments <= FEW_FRAGMENTS and n_triangles < MANY_TRIANGLES
